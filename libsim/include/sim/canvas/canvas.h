@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/colour.h"
+#include "sim/core/hash.h"
+#include "sim/world/description.h"
+
+namespace sim {
+
+/// The grid-map raster that robots draw on.
+///
+/// Cells are square; column 0 is the left, row 0 the top of the picture:
+/// column = floor((x - origin_x) / cell), row = height - 1 - floor((y - origin_y) / cell).
+/// Row-major RGBA, 4 bytes a cell. A fresh canvas is transparent black (0, 0, 0, 0).
+/// Not thread-safe: its owner serialises.
+class Canvas {
+ public:
+  explicit Canvas(const CanvasDescription& description);
+
+  [[nodiscard]] int width() const noexcept { return width_; }
+  [[nodiscard]] int height() const noexcept { return height_; }
+  [[nodiscard]] double cell_size_m() const noexcept { return cell_size_m_; }
+  [[nodiscard]] Vec2 origin() const noexcept { return origin_; }
+
+  /// Column of a W position; may lie outside [0, width). Saturates at +-2^30.
+  [[nodiscard]] int column(double x_m) const noexcept;
+  /// Row of a W position, counted from the top; may lie outside [0, height).
+  [[nodiscard]] int row(double y_m) const noexcept;
+  [[nodiscard]] bool contains(int column, int row) const noexcept {
+    return column >= 0 && row >= 0 && column < width_ && row < height_;
+  }
+
+  /// Sets one cell; outside the canvas nothing happens. Alpha below 255 blends over what is there
+  /// (source-over, Porter and Duff 1984); 255 replaces.
+  void set_pixel(int column, int row, Colour colour) noexcept;
+  /// Colour of a cell; nullopt outside.
+  [[nodiscard]] std::optional<Colour> pixel(int column, int row) const noexcept;
+  /// Line by Bresenham's algorithm (IBM Systems Journal 4(1), 1965), both ends drawn, each cell
+  /// once, clipped exactly (the cells inside are those of the unclipped line); the same cells
+  /// whichever end is named first. Any int coordinates; cost grows with the cells inside.
+  void draw_line(int column0, int row0, int column1, int row1, Colour colour) noexcept;
+  void clear(Colour colour = {0, 0, 0, 0}) noexcept;
+
+  /// Cells as RGBA bytes, row-major from the top; width * height * 4 of them.
+  [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return data_; }
+
+  void hash(StateHash& hash) const noexcept;
+
+ private:
+  int width_;
+  int height_;
+  double cell_size_m_;
+  Vec2 origin_;
+  std::vector<std::uint8_t> data_;
+};
+
+}  // namespace sim

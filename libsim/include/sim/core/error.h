@@ -1,0 +1,41 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sim {
+
+/// One thing that is wrong with input from outside, in words a student understands at once.
+struct ConfigIssue {
+  std::string id;        ///< stable, listed in docs/errors.md, e.g. "world/unknown-key"
+  std::string file;      ///< path as the user gave it; "<memory>" for text
+  std::string pointer;   ///< JSON pointer of the place, e.g. "/robots/0/pose/x"; "" is the root
+  std::string expected;  ///< e.g. "a number in (0, 100] m"
+  std::string found;     ///< e.g. "-3"
+  std::string hint;      ///< optional: what to do, e.g. "did you mean \"yaw_deg\"?"
+
+  /// "file:pointer: expected X, found Y (hint) [id]" on one line.
+  [[nodiscard]] std::string message() const;
+};
+
+/// Bad input from outside: a world file, a map, an argument. Holds every issue found, not just
+/// the first; what() is their messages, one a line.
+class ConfigError : public std::runtime_error {
+ public:
+  explicit ConfigError(std::vector<ConfigIssue> issues);
+  explicit ConfigError(ConfigIssue issue);
+
+  [[nodiscard]] const std::vector<ConfigIssue>& issues() const noexcept { return issues_; }
+
+ private:
+  std::vector<ConfigIssue> issues_;
+};
+
+/// Of `known`, the word nearest to `word` by edit distance (Damerau-Levenshtein, restricted:
+/// adjacent swaps count one), or "" when none is within a third of the word's length (at least 2).
+[[nodiscard]] std::string nearest_word(const std::string& word,
+                                       const std::vector<std::string>& known);
+
+}  // namespace sim

@@ -1,0 +1,48 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+namespace sim {
+
+/// Running 64-bit FNV-1a hash of a simulation's state, over 8-byte words
+/// (http://www.isthe.com/chongo/tech/comp/fnv/, with words in place of bytes).
+///
+/// For comparing runs, not against an adversary. -0.0 and 0.0 hash alike; NaNs do not occur.
+class StateHash {
+ public:
+  void add(std::uint64_t word) noexcept {
+    value_ = (value_ ^ word) * 0x100000001b3ULL;
+    value_ ^= value_ >> 29;
+  }
+  template <std::integral T>
+  void add(T number) noexcept {
+    add(static_cast<std::uint64_t>(number));
+  }
+  void add(double number) noexcept { add(std::bit_cast<std::uint64_t>(number + 0.0)); }
+  void add(std::string_view text) noexcept { add_bytes(text.data(), text.size()); }
+  void add_bytes(const void* data, std::size_t size) noexcept {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    add(static_cast<std::uint64_t>(size));
+    for (; size >= 8; bytes += 8, size -= 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes, 8);
+      add(word);
+    }
+    std::uint64_t tail = 0;
+    std::memcpy(&tail, bytes, size);
+    add(tail);
+  }
+
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace sim

@@ -1,0 +1,66 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+
+namespace sim {
+
+using Vec2 = Eigen::Vector2d;
+
+/// The same direction as `angle_rad`, in (-pi, pi].
+/// @param angle_rad  any finite angle [rad].
+[[nodiscard]] inline double normalize_angle(double angle_rad) {
+  if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;
+  const double wrapped = std::remainder(angle_rad, 2.0 * std::numbers::pi);
+  return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
+}
+
+/// Pose of a frame B in a frame A: where B's origin lies in A and how far B is turned against A.
+///
+/// Written X_AB (frames as in docs/conventions.md: W world, B body, L laser); p_AQ = X_AB * p_BQ.
+/// Axes: x forward, y left; yaw counter-clockwise.
+struct Pose {
+  double x_m = 0.0;      ///< position of B's origin along A's x axis [m]
+  double y_m = 0.0;      ///< position of B's origin along A's y axis [m]
+  double yaw_rad = 0.0;  ///< turn from A's to B's x axis, counter-clockwise [rad], (-pi, pi]
+
+  [[nodiscard]] Vec2 position() const { return {x_m, y_m}; }
+
+  /// X_AC = X_AB * X_BC.
+  [[nodiscard]] friend Pose operator*(const Pose& X_AB, const Pose& X_BC) {
+    const double c = std::cos(X_AB.yaw_rad);
+    const double s = std::sin(X_AB.yaw_rad);
+    return {X_AB.x_m + c * X_BC.x_m - s * X_BC.y_m, X_AB.y_m + s * X_BC.x_m + c * X_BC.y_m,
+            normalize_angle(X_AB.yaw_rad + X_BC.yaw_rad)};
+  }
+
+  /// p_AQ = X_AB * p_BQ: a point given in B, expressed in A [m].
+  [[nodiscard]] friend Vec2 operator*(const Pose& X_AB, const Vec2& p_BQ) {
+    const double c = std::cos(X_AB.yaw_rad);
+    const double s = std::sin(X_AB.yaw_rad);
+    return {X_AB.x_m + c * p_BQ.x() - s * p_BQ.y(), X_AB.y_m + s * p_BQ.x() + c * p_BQ.y()};
+  }
+
+  /// X_BA, the pose of A in B.
+  [[nodiscard]] Pose inverse() const {
+    const double c = std::cos(yaw_rad);
+    const double s = std::sin(yaw_rad);
+    return {-c * x_m - s * y_m, s * x_m - c * y_m, normalize_angle(-yaw_rad)};
+  }
+
+  friend bool operator==(const Pose&, const Pose&) = default;
+};
+
+/// Planar velocity of a body, in its own frame.
+struct Twist {
+  double v_mps = 0.0;        ///< forward speed, along the body's x axis [m/s]
+  double omega_radps = 0.0;  ///< turning rate, counter-clockwise [rad/s]
+  double lateral_mps =
+      0.0;  ///< speed along the body's y axis (left) [m/s]; 0 for a differential drive
+
+  friend bool operator==(const Twist&, const Twist&) = default;
+};
+
+}  // namespace sim

@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "sim/devices/device.h"
+#include "sim/scan/scan_kernel.h"
+
+namespace sim {
+
+/// Settings of a scanning laser rangefinder; the defaults are the S1R's Hokuyo.
+struct LaserParams {
+  double frequency_hz = 10.0;  ///< (0, 1000]
+  double noise_m = 0.0;        ///< standard deviation of a range [m], >= 0
+  int beam_count = 682;        ///< 1..8192
+  double resolution_rad = 0.39589 * std::numbers::pi / 180.0;  ///< between neighbouring beams
+  double range_max_m = 5.0;                                    ///< (0, 1000] [m]
+  Pose X_BL{0.035, 0.0, 0.0};                                  ///< mounting on the body
+  double height_m = 0.125;  ///< above the floor [m]; lower obstacles are not seen
+};
+
+/// One scan. Beam i looks at angle_min_rad + i * resolution_rad from L's x axis.
+struct LaserReading final : Reading {
+  std::vector<double> ranges_m;  ///< one a beam, in [0, range_max_m]; range_max_m: nothing met
+  double angle_min_rad = 0.0;    ///< of beam 0, the rightmost
+  double resolution_rad = 0.0;
+  double range_max_m = 0.0;
+  double least_range_m = 0.0;    ///< the least of ranges_m
+  double least_angle_rad = 0.0;  ///< angle of (the first of) the beams that have it
+  Pose X_WB;                     ///< where the robot was (for pictures; not told to clients)
+};
+
+class Laser final : public Sensor {
+ public:
+  Laser(std::string name, const LaserParams& params, RandomStream noise);
+
+  [[nodiscard]] const LaserReading& reading() const noexcept override { return reading_; }
+  [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  LaserParams params_;
+  RandomStream noise_;
+  scan::ScanKernel kernel_;
+  scan::EdgeBuffer edges_;
+  LaserReading reading_;
+};
+
+}  // namespace sim

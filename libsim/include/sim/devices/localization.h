@@ -1,0 +1,83 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sim/devices/device.h"
+
+namespace sim {
+
+/// Settings of the arena's localisation (the pose sensor).
+struct PoseParams {
+  double frequency_hz = 10.0;  ///< (0, 1000]
+  double noise_m = 0.0;        ///< standard deviation of x and of y [m], >= 0
+  double noise_yaw_rad = 0.0;  ///< standard deviation of yaw [rad], >= 0
+};
+
+/// Settings of the wheel odometry.
+struct OdometryParams {
+  double frequency_hz = 10.0;  ///< (0, 1000]
+  double noise = 0.0;          ///< deviation of a wheel's path [m] after 1 m of it; grows with
+                               ///< the root of the path (see Odometry)
+};
+
+/// Where a localisation device thinks its robot is, and how it moves.
+struct PoseReading final : Reading {
+  Pose pose;             ///< pose device: X_WB; odometry: X_SB, S the robot's start (or as set)
+  Twist twist;           ///< in B, as achieved over the last step
+  bool stalled = false;  ///< see BodyState
+};
+
+/// The arena's localisation: the true pose, with noise if asked for.
+/// SetPoseCommand moves the frame it reports in, so that the robot's present pose reads as given.
+class PoseSensor final : public Sensor {
+ public:
+  PoseSensor(std::string name, const PoseParams& params, RandomStream noise);
+
+  std::optional<std::string> apply(const Command& command) override;
+  void integrate(const StepContext& context) override;
+  [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  PoseParams params_;
+  RandomStream noise_;
+  Pose X_WB_;                    ///< true, at the last step
+  bool known_ = false;           ///< X_WB_ has been seen
+  bool moved_ = false;           ///< a SetPoseCommand has been carried out
+  Pose X_FW_;                    ///< frame that is reported in; identity until set
+  std::optional<Pose> pending_;  ///< set before the first step
+  PoseReading reading_;
+};
+
+/// Wheel odometry: integrates the true motion of the wheels from the robot's start.
+///
+/// Model: per step the wheels' midpoint moves ds forward and turns dyaw; the pose follows the arc,
+/// x += ds sinc(dyaw/2) cos(yaw + dyaw/2), and so y (Siegwart, Nourbakhsh, Scaramuzza, Introduction
+/// to Autonomous Mobile Robots, 2nd ed., sec. 5.2.4, with the exact chord). A robot that is shoved
+/// sideways does not notice. With noise, each wheel's path in a step gets Gaussian noise of
+/// variance noise^2 |path| (Chong and Kleeman, "Accurate odometry and error modelling for a mobile
+/// robot", ICRA 1997).
+class Odometry final : public Sensor {
+ public:
+  Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
+           RandomStream noise);
+
+  std::optional<std::string> apply(const Command& command) override;
+  void integrate(const StepContext& context) override;
+  [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  OdometryParams params_;
+  double wheel_separation_m_;
+  RandomStream noise_;
+  Pose X_SB_;
+  PoseReading reading_;
+};
+
+}  // namespace sim

@@ -1,0 +1,45 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "sim/canvas/canvas.h"
+#include "sim/devices/device.h"
+
+namespace sim {
+
+/// Settings of a pen.
+struct PenParams {
+  Colour colour{0x00, 0xc8, 0x00, 0xff};  ///< of the trail
+  bool trail = false;                     ///< draw where the robot drives, without being told
+};
+
+/// One drawing on the canvas, in cells (column, row from the top).
+struct CanvasOperation {
+  enum class Kind : std::uint8_t { kPixel, kLine, kClear };
+  Kind kind = Kind::kPixel;
+  int x0 = 0, y0 = 0;
+  int x1 = 0, y1 = 0;  ///< line only
+  Colour colour;
+
+  /// Draws it; what lies outside the canvas is clipped.
+  void draw(Canvas& canvas) const noexcept;
+};
+
+/// The pen by which a robot draws on the canvas. Clients draw what they like with it; with
+/// `trail` on it also marks the robot's way by itself.
+class Pen final : public Actuator {
+ public:
+  Pen(std::string name, const PenParams& params);
+
+  [[nodiscard]] const PenParams& params() const noexcept { return params_; }
+  /// Marks the way from the last position to this one, if the trail is on.
+  void mark_trail(const Pose& X_WB, Canvas& canvas);
+  void hash(StateHash& hash) const override;
+
+ private:
+  PenParams params_;
+  bool has_last_ = false;
+  int last_column_ = 0;
+  int last_row_ = 0;
+};
+
+}  // namespace sim

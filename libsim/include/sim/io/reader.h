@@ -1,0 +1,89 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/core/colour.h"
+#include "sim/core/error.h"
+#include "sim/core/pose.h"
+
+namespace sim::io {
+
+/// Bounds of a number; the text says them as a person would.
+struct NumberRange {
+  double min = -1e9;
+  double max = 1e9;
+  bool min_exclusive = false;
+  const char* unit = "";  ///< for messages, e.g. "m"
+};
+
+/// A view of one JSON value of a file, with the place it stands at.
+///
+/// Every getter that finds something wrong records a ConfigIssue and gives back the default, so
+/// that one pass reports all errors of a file. An object's Reader remembers which keys were
+/// asked for; finish() records each key that nobody asked for, naming the nearest known one.
+/// Cheap to copy: a handle on a document that outlives it. Not thread-safe.
+class Reader {
+ public:
+  /// What all readers of one document share: the parsed value and the issues so far.
+  struct Document;
+
+  Reader(Document& document, const void* value, std::string pointer);
+  ~Reader();
+  Reader(Reader&&) noexcept;
+  Reader& operator=(Reader&&) noexcept;
+
+  [[nodiscard]] bool has(std::string_view key);  ///< also marks the key as known
+  [[nodiscard]] bool is_object() const;
+  [[nodiscard]] bool is_array() const;
+  [[nodiscard]] bool is_string() const;
+  [[nodiscard]] bool is_boolean() const;
+  [[nodiscard]] bool is_null() const;
+  [[nodiscard]] const std::string& pointer() const;  ///< JSON pointer of this value
+  [[nodiscard]] std::string file() const;
+
+  /// The member of that name; a missing one gives nullopt and no issue.
+  [[nodiscard]] std::optional<Reader> child(std::string_view key);
+  /// As child(), but the member must be an object (or array); otherwise an issue and nullopt.
+  [[nodiscard]] std::optional<Reader> object(std::string_view key);
+  [[nodiscard]] std::vector<Reader> array(std::string_view key);
+  [[nodiscard]] std::vector<Reader> elements() const;   ///< of an array
+  [[nodiscard]] std::vector<std::string> keys() const;  ///< of an object, in the file's order
+
+  [[nodiscard]] double number(std::string_view key, double fallback, NumberRange range = {});
+  [[nodiscard]] std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t min,
+                                     std::int64_t max);
+  [[nodiscard]] std::uint64_t unsigned_integer(std::string_view key, std::uint64_t fallback);
+  [[nodiscard]] bool boolean(std::string_view key, bool fallback);
+  [[nodiscard]] std::string string(std::string_view key, std::string fallback);
+  /// One of `choices`; a wrong word names the nearest.
+  [[nodiscard]] std::string choice(std::string_view key, std::string fallback,
+                                   const std::vector<std::string>& choices);
+  [[nodiscard]] Colour colour(std::string_view key, Colour fallback);
+  /// [x, y] in metres, each in `range`.
+  [[nodiscard]] Vec2 vec2(std::string_view key, Vec2 fallback, NumberRange range = {});
+  /// Degrees in the file (the key ends in _deg), radians out.
+  [[nodiscard]] double angle_deg(std::string_view key, double fallback_rad,
+                                 NumberRange range_deg = {-3600.0, 3600.0, false, "degrees"});
+  /// {"x", "y", "yaw_deg"}, all optional.
+  [[nodiscard]] Pose pose(std::string_view key, const Pose& fallback);
+
+  /// Records an issue at this value (or at its member `key`).
+  void issue(std::string id, std::string expected, std::string found, std::string hint = "",
+             std::string_view key = "");
+
+  /// Records every key of this object that nobody asked for.
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace sim::io

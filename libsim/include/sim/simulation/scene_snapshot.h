@@ -1,0 +1,35 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/canvas/canvas.h"
+#include "sim/devices/laser.h"
+#include "sim/world/description.h"
+
+namespace sim {
+
+/// How a robot looks at one moment.
+struct RobotSnapshot {
+  std::string name;
+  Colour colour;
+  Pose X_WB;
+  Polygon footprint;                ///< in B [m]
+  std::vector<Vec2> trail;          ///< where it has been, oldest first, in W [m]
+  std::vector<Vec2> scan_points;    ///< hits of its newest laser scan in W [m], beam by beam
+  Vec2 scan_origin = Vec2::Zero();  ///< where that laser stood, in W [m]
+  bool stalled = false;
+};
+
+/// All that a picture of a simulation needs. Plain data: may be drawn on another thread.
+struct SceneSnapshot {
+  std::string world_name;
+  ArenaDescription arena;  ///< obstacles with their present state
+  CanvasDescription canvas_description;
+  std::vector<std::uint8_t> canvas;  ///< RGBA as Canvas::data(); empty: no canvas
+  std::vector<RobotSnapshot> robots;
+  double time_s = 0.0;
+};
+
+}  // namespace sim

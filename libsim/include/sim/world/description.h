@@ -1,0 +1,128 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <any>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/colour.h"
+#include "sim/core/pose.h"
+#include "sim/core/time.h"
+
+/// What a world is: plain structs, no behaviour. io fills them from a file, a program may fill
+/// them by hand; Simulation takes them as they are (check them with sim::check_world first).
+namespace sim {
+
+/// Outline of a solid, a polygon in its own frame, counter-clockwise [m].
+using Polygon = std::vector<Vec2>;
+
+enum class ObstacleType {
+  kStatic,   ///< always there (light grey in pictures)
+  kDynamic,  ///< can be extended from the floor and retracted into it while running (red)
+};
+
+enum class ObstacleState { kExtended, kRetracted };
+
+/// A block of the arena: a box standing on the floor.
+struct ObstacleDescription {
+  std::string name;  ///< unique in the world
+  ObstacleType type = ObstacleType::kStatic;
+  Vec2 center = Vec2::Zero();  ///< in W [m]
+  Vec2 size = {0.2, 0.2};      ///< along its own x and y axes [m], each > 0
+  double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
+  double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
+  ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
+};
+
+/// A charging dock: a marked place on the floor, no obstacle.
+struct DockDescription {
+  std::string name;          ///< unique among docks
+  Pose pose;                 ///< X_WD: centre; a docked robot faces along its x axis
+  Vec2 size = {0.24, 0.24};  ///< along its own axes [m]
+};
+
+/// A wall that came from a map: a closed outline, solid on its left, as vertices in W [m].
+/// The outer ring of a solid region runs counter-clockwise, the ring of a hole in it clockwise.
+struct WallLoop {
+  std::vector<Vec2> vertices;
+};
+
+/// Where the walls of an arena drawn as a picture came from (the loops are in ArenaDescription).
+struct MapDescription {
+  std::string image;                ///< file, relative to the world file
+  double resolution_m = 0.05;       ///< side of a pixel [m]
+  Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
+  double occupied_threshold = 0.5;  ///< pixels darker than this share of white are walls, (0, 1)
+};
+
+/// The room: floor from `origin` to `origin + size`, borders round it unless turned off.
+struct ArenaDescription {
+  std::string preset;             ///< "syrotek", or "" for an arena described in full
+  Vec2 origin = Vec2::Zero();     ///< bottom left corner of the floor in W [m]
+  Vec2 size = {3.42, 3.72};       ///< [m]
+  bool border = true;             ///< walls round the floor
+  double border_height_m = 0.16;  ///< [m]
+  std::vector<ObstacleDescription> obstacles;
+  std::vector<DockDescription> docks;
+  std::vector<ObstacleDescription> dock_separators;  ///< static boxes beside docks (brown)
+  std::optional<MapDescription> map;
+  std::vector<WallLoop> walls;  ///< of the map, merged into few edges
+};
+
+enum class TimeMode { kLockstep, kPaced };
+
+struct SimulationDescription {
+  SimTime step_ns = 10'000'000;  ///< length of a step [ns], > 0
+  std::uint64_t seed = 1;
+  std::optional<SimTime> duration_ns;  ///< the run ends then; none: it goes on
+  TimeMode time_mode = TimeMode::kLockstep;
+  double time_factor = 1.0;    ///< paced: simulated seconds a wall second, > 0
+  int start_gate_clients = 1;  ///< the clock waits until so many clients have joined, >= 1
+};
+
+/// A sensor or actuator of a robot.
+struct DeviceDescription {
+  std::string name;  ///< unique in its robot, e.g. "laser"; path is ROBOT.NAME
+  std::string type;  ///< a name in the device table (sim/devices/builtin.h), e.g. "laser"
+  std::any params;   ///< that type's params struct, e.g. LaserParams
+};
+
+/// A driver of the client side (e.g. SND) that a host runs for a robot; settings as text, which
+/// libsim carries but does not read.
+struct DriverDescription {
+  std::string type;
+  std::map<std::string, std::string> settings;
+};
+
+struct RobotDescription {
+  std::string name;  ///< unique in the world; letters, digits, _ and -
+  std::string model = "s1r";
+  Pose pose;  ///< X_WB at the start
+  Colour colour{0xff, 0x88, 0x00, 0xff};
+  int port = 0;  ///< Player port; the reader gives 6665, 6666, ... by default
+  std::vector<DeviceDescription> devices;  ///< in order of name
+  std::map<std::string, int> proxies;      ///< interface name -> index on port 4000
+  std::vector<DriverDescription> drivers;
+};
+
+/// The grid-map that robots draw on with their pens.
+struct CanvasDescription {
+  int width = 172;             ///< cells, 1..8192
+  int height = 186;            ///< cells, 1..8192
+  double cell_size_m = 0.02;   ///< [m]
+  Vec2 origin = Vec2::Zero();  ///< W position of the canvas's bottom left corner [m]
+};
+
+struct WorldDescription {
+  std::string name = "unnamed";
+  std::string file;  ///< where it was read from, "" if nowhere
+  ArenaDescription arena;
+  SimulationDescription simulation;
+  std::vector<RobotDescription> robots;
+  CanvasDescription canvas;
+};
+
+}  // namespace sim
