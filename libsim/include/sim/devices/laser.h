@@ -36,6 +36,7 @@ struct LaserReading final : Reading {
   }
 };
 
+/// The Hokuyo-like laser scanner: LaserParams says what it is, LaserReading what it tells.
 class Laser final : public Sensor {
  public:
   Laser(std::string name, const LaserParams& params, RandomStream noise);
