@@ -654,16 +654,22 @@ double PhysicsWorld::clearance_m(int robot, double limit_m) const {
 
 namespace {
 
-// Appends the edges of list[first, last) that may matter, relative to the sensor.
+// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
+  const std::size_t begin = out.size();
   const bool all_high_enough = list.least_height_m > sensor_height_m;
+  scan::Edge* target = out.append(last - first);
+  const double x = p_WL.x();
+  const double y = p_WL.y();
+  std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
     if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
     const Edge& e = list.edges[i];
-    out.add(static_cast<float>(e.x0 - p_WL.x()), static_cast<float>(e.y0 - p_WL.y()),
-            static_cast<float>(e.x1 - p_WL.x()), static_cast<float>(e.y1 - p_WL.y()));
+    target[count++] = {static_cast<float>(e.x0 - x), static_cast<float>(e.y0 - y),
+                       static_cast<float>(e.x1 - x), static_cast<float>(e.y1 - y)};
   }
+  out.truncate(begin + count);
 }
 
 // Calls visit(fixture) for every fixture whose fat box meets the box.
