@@ -250,9 +250,7 @@ std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuf
 
 }  // namespace
 
-void EdgeBuffer::grow() {
-  storage_.resize(std::max(2 * storage_.size(), size_ + kPadding));
-}
+void EdgeBuffer::grow() { storage_.resize(std::max(2 * storage_.size(), size_ + kPadding)); }
 
 /// What depends on the geometry alone, shared by copies of a kernel.
 struct ScanKernel::Tables {
@@ -275,10 +273,10 @@ struct ScanKernel::Tables {
   }
 
   double resolution_rad;
-  int reach;                    ///< the greatest k in the tables of cos(k q) and sin(k q)
-  std::vector<double> beams;    ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
-  std::vector<float> cosines;   ///< cos(k q) for k from -reach to reach
-  std::vector<float> sines;     ///< sin(k q), likewise
+  int reach;                   ///< the greatest k in the tables of cos(k q) and sin(k q)
+  std::vector<double> beams;   ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
+  std::vector<float> cosines;  ///< cos(k q) for k from -reach to reach
+  std::vector<float> sines;    ///< sin(k q), likewise
 };
 
 ScanKernel::ScanKernel(const ScanGeometry& geometry)
@@ -357,8 +355,7 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
       .beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0),
       // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
       // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
-      .doubt_beams =
-          static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
+      .doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
       .behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad),
       .candidate_edge = integers_.data(),
       .candidate_first = integers_.data() + step,

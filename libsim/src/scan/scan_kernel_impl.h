@@ -43,13 +43,13 @@ struct ScanJob {
   std::int32_t beam_count;
   double range_max_m;
   double resolution_rad;
-  const double* beams;      ///< (x, y) of each beam in the sensor's frame; also of -1 and beam_count
-  const float* cos_table;   ///< cos(k q), for k from -(beam_count + padding) on
-  const float* sin_table;   ///< sin(k q), likewise
-  float beams_per_rad;      ///< 1 / q
-  float beam_offset;        ///< beam coordinate of straight ahead, plus 1
-  float doubt_beams;        ///< error bound of a beam coordinate
-  float behind_beams;       ///< a quarter turn: an edge across the cut behind spans "minus" more
+  const double* beams;     ///< (x, y) of each beam in the sensor's frame; also of -1 and beam_count
+  const float* cos_table;  ///< cos(k q), for k from -(beam_count + padding) on
+  const float* sin_table;  ///< sin(k q), likewise
+  float beams_per_rad;     ///< 1 / q
+  float beam_offset;       ///< beam coordinate of straight ahead, plus 1
+  float doubt_beams;       ///< error bound of a beam coordinate
+  float behind_beams;      ///< a quarter turn: an edge across the cut behind spans "minus" more
 
   // Scratch. A candidate is an edge with the span of beams it may be seen by.
   std::int32_t* candidate_edge;   ///< index of its edge
@@ -61,18 +61,18 @@ struct ScanJob {
   std::int32_t* medium;           ///< candidates with a medium span
   std::int32_t* wide;             ///< candidates with a wider span
   // Scratch. Spans to sweep, in the order of a list of candidates.
-  std::int32_t* first;   ///< first beam
-  std::int32_t* last;    ///< last beam
-  std::int32_t* anchor;  ///< beam about which 1/r is expanded
-  float* a;              ///< coefficient A [1/m]
-  float* b;              ///< coefficient B [1/m]
+  std::int32_t* first;    ///< first beam
+  std::int32_t* last;     ///< last beam
+  std::int32_t* anchor;   ///< beam about which 1/r is expanded
+  float* a;               ///< coefficient A [1/m]
+  float* b;               ///< coefficient B [1/m]
   float* inverse_ranges;  ///< greatest 1/r so far of every beam, at a multiple of 32 bytes [1/m]
 
   double* ranges_m;  ///< out, beam_count
 };
 
-/// Adds as candidates, at `index` and after, the nonempty spans (none, one or two) of an edge with a
-/// corner so near a beam that single precision cannot tell on which side; decides in double
+/// Adds as candidates, at `index` and after, the nonempty spans (none, one or two) of an edge with
+/// a corner so near a beam that single precision cannot tell on which side; decides in double
 /// precision. Returns the next free index.
 std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int32_t index);
 
@@ -163,10 +163,10 @@ void find_corners(const ScanJob& job, std::int32_t candidate_count) {
     Float x0, y0, x1, y1;
     V::gather_edges(job.edges, job.candidate_edge + base, x0, y0, x1, y1);
     // The first corner of an edge that faces the sensor is the one further counter-clockwise.
-    V::store(job.candidate_low + base, beam_coordinate<V>(job, cos_yaw * x1 + sin_yaw * y1,
-                                                          cos_yaw * y1 - sin_yaw * x1));
-    V::store(job.candidate_high + base, beam_coordinate<V>(job, cos_yaw * x0 + sin_yaw * y0,
-                                                           cos_yaw * y0 - sin_yaw * x0));
+    V::store(job.candidate_low + base,
+             beam_coordinate<V>(job, cos_yaw * x1 + sin_yaw * y1, cos_yaw * y1 - sin_yaw * x1));
+    V::store(job.candidate_high + base,
+             beam_coordinate<V>(job, cos_yaw * x0 + sin_yaw * y0, cos_yaw * y0 - sin_yaw * x0));
   }
 }
 
