@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "device_table.h"
@@ -177,6 +179,29 @@ TEST(ReadWorld, TheSyrotekFileIsTheDefaultWorld) {
   EXPECT_EQ(file.robots[0].pose, none.robots[0].pose);
   EXPECT_EQ(file.robots[0].colour, none.robots[0].colour);
   EXPECT_EQ(file.robots[0].port, none.robots[0].port);
+}
+
+TEST(ReadWorld, ExamplesOfTheFormatsPageAreSound) {
+  std::ifstream stream(std::string(PLAYPEN_SOURCE_DIR) + "/docs/world_format.md");
+  int examples = 0;
+  std::optional<std::string> example;
+  for (std::string line; std::getline(stream, line);) {
+    if (line == "```json") {
+      example = "";
+    } else if (line == "```" && example) {
+      // The map of the one example with a picture is the reader's own.
+      if (example->find("plan.png") == std::string::npos) {
+        ++examples;
+        for (const ConfigIssue& issue : issues_of(*example)) {
+          ADD_FAILURE() << *example << issue.message();
+        }
+      }
+      example.reset();
+    } else if (example) {
+      *example += line + '\n';
+    }
+  }
+  EXPECT_GE(examples, 6);
 }
 
 TEST(ReadWorld, AllErrorsComeAtOnceInTheOrderOfTheirLines) {
