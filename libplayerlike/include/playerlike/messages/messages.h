@@ -18,6 +18,7 @@
 /// Readings and commands are libsim's own (sim::Reading and those derived from it, sim::Command).
 namespace playerlike {
 
+/// A device of a simulation, by the indices of its robot and of itself.
 using DeviceId = sim::Simulation::DeviceId;
 
 /// The port on which all robots of a world are visible (MORSE's).
@@ -104,13 +105,14 @@ struct InterfaceBinding {
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                               std::string_view interface, int index);
 
-/// All addresses of a port, for lists and messages.
+/// One address of a port, for lists and messages.
 struct InterfaceAddress {
   std::string interface;
   int index = 0;
   std::string robot;
   std::string device;
 };
+/// All addresses of a port.
 [[nodiscard]] std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robots,
                                                             int port);
 

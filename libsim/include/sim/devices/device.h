@@ -56,6 +56,7 @@ struct MotorEnableCommand {
 struct SetPoseCommand {
   Pose pose;
 };
+/// Whatever a device can be told to do.
 using Command = std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand>;
 
 /// A part of a robot that clients address by name. Owned by a Simulation; not thread-safe.

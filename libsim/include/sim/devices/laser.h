@@ -31,6 +31,7 @@ struct LaserReading final : Reading {
   Pose X_WB;                     ///< where the robot was (for pictures; not told to clients)
 };
 
+/// The Hokuyo-like laser scanner: LaserParams says what it is, LaserReading what it tells.
 class Laser final : public Sensor {
  public:
   Laser(std::string name, const LaserParams& params, RandomStream noise);
