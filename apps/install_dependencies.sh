@@ -128,7 +128,7 @@ if ((${#missing[@]} == 0)) && ! $need_runtime; then exit 0; fi
 
 as_root=()
 if ((EUID != 0)); then
-  by_hand="apt-get install --no-install-recommends ${missing[*]}"
+  by_hand="$0 ${groups[*]}"
   command -v sudo >/dev/null 2>&1 ||
     fail "installing packages needs root, and there is no sudo. As root, run:" "  $by_hand"
   if ! sudo -n true 2>/dev/null; then

@@ -71,6 +71,33 @@ PenParams parse_pen(io::Reader& settings, PenParams p) {
   return p;
 }
 
+using Properties = std::map<std::string, double>;
+
+Properties describe(const LaserParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"noise", p.noise_m},
+          {"beams", static_cast<double>(p.beam_count)},
+          {"resolution", p.resolution_rad},
+          {"range_max", p.range_max_m},
+          {"mount_x", p.X_BL.x_m},
+          {"mount_y", p.X_BL.y_m},
+          {"mount_yaw", p.X_BL.yaw_rad},
+          {"height", p.height_m}};
+}
+Properties describe(const MotionParams& p) {
+  return {{"max_speed", p.max_speed_mps},
+          {"max_turn_rate", p.max_turn_rate_radps},
+          {"max_acceleration", p.max_acceleration_mps2},
+          {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
+}
+Properties describe(const OdometryParams& p) {
+  return {{"frequency", p.frequency_hz}, {"noise", p.noise}};
+}
+Properties describe(const PenParams& p) { return {{"trail", p.trail ? 1.0 : 0.0}}; }
+Properties describe(const PoseParams& p) {
+  return {{"frequency", p.frequency_hz}, {"noise", p.noise_m}, {"noise_yaw", p.noise_yaw_rad}};
+}
+
 // A row of the table: `parse` reads Params, `make` builds the device from them.
 template <typename Params, typename Parse, typename Make>
 DeviceKind kind(std::string name, Parse parse, Make make) {
@@ -85,6 +112,9 @@ DeviceKind kind(std::string name, Parse parse, Make make) {
     const Params params =
         device.params.has_value() ? std::any_cast<const Params&>(device.params) : Params{};
     return make(device, params, robot, model, noise_stream(device, robot, seed));
+  };
+  row.properties = [](const std::any& params) {
+    return describe(params.has_value() ? std::any_cast<const Params&>(params) : Params{});
   };
   return row;
 }

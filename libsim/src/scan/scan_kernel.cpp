@@ -1,1 +1,383 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/scan/scan_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scan/scan_kernel_impl.h"
+#include "sim/core/assert.h"
+
+#if defined(__x86_64__)
+#include <emmintrin.h>
+#endif
+
+namespace sim::scan {
+
+namespace detail {
+namespace {
+
+/// One lane of plain C++.
+struct Scalar {
+  static constexpr int kLanes = 1;
+  static constexpr int kHalves = 1;
+  using Float = float;
+  using Mask = bool;
+  using Double = double;
+  using DoubleMask = bool;
+
+  static float broadcast(float value) { return value; }
+  static double broadcast(double value) { return value; }
+  static float load(const float* from) { return *from; }
+  static float load_aligned(const float* from) { return *from; }
+  static void store(float* to, float value) { *to = value; }
+  static void store_integers(std::int32_t* to, float value) {
+    *to = static_cast<std::int32_t>(value);
+  }
+  static void store_ranges(double* to, float value, double greatest) {
+    *to = std::min(static_cast<double>(value), greatest);
+  }
+
+  static float abs(float value) { return std::fabs(value); }
+  static float copy_sign(float magnitude, float sign) { return std::copysign(magnitude, sign); }
+  // As the processor's vector instructions do: the second one where either is not a number.
+  static float min(float a, float b) { return a < b ? a : b; }
+  static float max(float a, float b) { return a > b ? a : b; }
+  static float truncate(float value) { return static_cast<float>(static_cast<int>(value)); }
+
+  static bool less(float a, float b) { return a < b; }
+  static bool less_equal(float a, float b) { return a <= b; }
+  static bool less(double a, double b) { return a < b; }
+  static bool less_equal(double a, double b) { return a <= b; }
+  static unsigned bits(bool mask) { return mask ? 1U : 0U; }
+  static float select(bool mask, float yes, float no) { return mask ? yes : no; }
+  static double select(bool mask, double yes, double no) { return mask ? yes : no; }
+  static float keep(bool mask, float value) { return mask ? value : 0.0F; }
+  static bool lanes_between(std::int32_t base, std::int32_t first, std::int32_t end) {
+    return base >= first && base < end;
+  }
+
+  static double widen(float value, int /*half*/) { return static_cast<double>(value); }
+  static float narrow(const double (&halves)[1]) { return static_cast<float>(halves[0]); }
+  static bool narrow_mask(const bool (&halves)[1]) { return halves[0]; }
+
+  static void load_edges(const Edge* edges, float& x0, float& y0, float& x1, float& y1) {
+    x0 = edges->x0_m;
+    y0 = edges->y0_m;
+    x1 = edges->x1_m;
+    y1 = edges->y1_m;
+  }
+  static void gather_edges(const Edge* edges, const std::int32_t* index, float& x0, float& y0,
+                           float& x1, float& y1) {
+    load_edges(edges + *index, x0, y0, x1, y1);
+  }
+  static void gather_beams(const double* beams, const std::int32_t* index, double& x, double& y) {
+    x = beams[2 * *index];
+    y = beams[2 * *index + 1];
+  }
+};
+
+#if defined(__x86_64__)
+
+/// Four lanes; doubles come as two halves of two.
+struct Sse2 {
+  static constexpr int kLanes = 4;
+  static constexpr int kHalves = 2;
+  using Float = __m128;
+  using Mask = __m128;
+  using Double = __m128d;
+  using DoubleMask = __m128d;
+
+  static Float broadcast(float value) { return _mm_set1_ps(value); }
+  static Double broadcast(double value) { return _mm_set1_pd(value); }
+  static Float load(const float* from) { return _mm_loadu_ps(from); }
+  static Float load_aligned(const float* from) { return _mm_load_ps(from); }
+  static void store(float* to, Float value) { _mm_storeu_ps(to, value); }
+  static void store_integers(std::int32_t* to, Float value) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_cvttps_epi32(value));
+  }
+  static void store_ranges(double* to, Float value, double greatest) {
+    const Double limit = broadcast(greatest);
+    _mm_storeu_pd(to, _mm_min_pd(widen(value, 0), limit));
+    _mm_storeu_pd(to + 2, _mm_min_pd(widen(value, 1), limit));
+  }
+
+  static Float abs(Float value) { return _mm_andnot_ps(broadcast(-0.0F), value); }
+  static Float copy_sign(Float magnitude, Float sign) {
+    return _mm_or_ps(magnitude, _mm_and_ps(broadcast(-0.0F), sign));
+  }
+  static Float min(Float a, Float b) { return _mm_min_ps(a, b); }
+  static Float max(Float a, Float b) { return _mm_max_ps(a, b); }
+  static Float truncate(Float value) { return _mm_cvtepi32_ps(_mm_cvttps_epi32(value)); }
+
+  static Mask less(Float a, Float b) { return _mm_cmplt_ps(a, b); }
+  static Mask less_equal(Float a, Float b) { return _mm_cmple_ps(a, b); }
+  static DoubleMask less(Double a, Double b) { return _mm_cmplt_pd(a, b); }
+  static DoubleMask less_equal(Double a, Double b) { return _mm_cmple_pd(a, b); }
+  static unsigned bits(Mask mask) { return static_cast<unsigned>(_mm_movemask_ps(mask)); }
+  static Float select(Mask mask, Float yes, Float no) {
+    return _mm_or_ps(_mm_and_ps(mask, yes), _mm_andnot_ps(mask, no));
+  }
+  static Double select(DoubleMask mask, Double yes, Double no) {
+    return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
+  }
+  static Float keep(Mask mask, Float value) { return _mm_and_ps(mask, value); }
+  static Mask lanes_between(std::int32_t base, std::int32_t first, std::int32_t end) {
+    const __m128i lane = _mm_setr_epi32(0, 1, 2, 3);
+    const __m128i not_before = _mm_cmpgt_epi32(lane, _mm_set1_epi32(first - base - 1));
+    const __m128i before_end = _mm_cmpgt_epi32(_mm_set1_epi32(end - base), lane);
+    return _mm_castsi128_ps(_mm_and_si128(not_before, before_end));
+  }
+
+  static Double widen(Float value, int half) {
+    return _mm_cvtps_pd(half == 0 ? value : _mm_movehl_ps(value, value));
+  }
+  static Float narrow(const Double (&halves)[kHalves]) {
+    return _mm_movelh_ps(_mm_cvtpd_ps(halves[0]), _mm_cvtpd_ps(halves[1]));
+  }
+  static Mask narrow_mask(const DoubleMask (&halves)[kHalves]) {
+    return _mm_shuffle_ps(_mm_castpd_ps(halves[0]), _mm_castpd_ps(halves[1]), 0x88);
+  }
+
+  static void load_edges(const Edge* edges, Float& x0, Float& y0, Float& x1, Float& y1) {
+    transpose(edges, edges + 1, edges + 2, edges + 3, x0, y0, x1, y1);
+  }
+  static void gather_edges(const Edge* edges, const std::int32_t* index, Float& x0, Float& y0,
+                           Float& x1, Float& y1) {
+    transpose(edges + index[0], edges + index[1], edges + index[2], edges + index[3], x0, y0, x1,
+              y1);
+  }
+  static void gather_beams(const double* beams, const std::int32_t* index, Double& x, Double& y) {
+    const Double even = _mm_loadu_pd(beams + 2 * index[0]);
+    const Double odd = _mm_loadu_pd(beams + 2 * index[1]);
+    x = _mm_unpacklo_pd(even, odd);
+    y = _mm_unpackhi_pd(even, odd);
+  }
+
+ private:
+  static void transpose(const Edge* e0, const Edge* e1, const Edge* e2, const Edge* e3, Float& x0,
+                        Float& y0, Float& x1, Float& y1) {
+    x0 = _mm_load_ps(&e0->x0_m);
+    y0 = _mm_load_ps(&e1->x0_m);
+    x1 = _mm_load_ps(&e2->x0_m);
+    y1 = _mm_load_ps(&e3->x0_m);
+    _MM_TRANSPOSE4_PS(x0, y0, x1, y1);
+  }
+};
+
+#endif  // __x86_64__
+
+/// A point of the plane, relative to the sensor.
+struct Point {
+  double x;
+  double y;
+};
+
+/// A point given W-aligned, in the sensor's frame.
+Point turned(const ScanJob& job, double x, double y) {
+  return {job.cos_yaw * x + job.sin_yaw * y, job.cos_yaw * y - job.sin_yaw * x};
+}
+
+/// Positive where `beam` points to the left (counter-clockwise) of the direction of `point`.
+double left_of(const ScanJob& job, const Point& point, std::int32_t beam) {
+  const double* const direction = job.beams + 2 * static_cast<std::ptrdiff_t>(beam);
+  return point.x * direction[1] - point.y * direction[0];
+}
+
+}  // namespace
+
+std::int32_t append_span(const ScanJob& job, const Edge& edge, std::int32_t first,
+                         std::int32_t end, std::int32_t index) {
+  const double px = static_cast<double>(edge.x0_m);
+  const double py = static_cast<double>(edge.y0_m);
+  const double dx = static_cast<double>(edge.x1_m) - px;
+  const double dy = static_cast<double>(edge.y1_m) - py;
+  const double c = dx * py - dy * px;
+  if (!(c > 0.0) || first >= end) return index;
+  const Point along = turned(job, dx, dy);
+  // d x b is how far d lies to the right of b: the direction of d has b on its left.
+  const double at_first = left_of(job, along, first);
+  const double at_last = left_of(job, along, end - 1);
+  const std::int32_t anchor = at_first <= at_last ? first : end - 1;
+  const double* const direction = job.beams + 2 * static_cast<std::ptrdiff_t>(anchor);
+  job.a[index] = static_cast<float>(std::min(at_first, at_last) / c);
+  job.b[index] = static_cast<float>((along.x * direction[0] + along.y * direction[1]) / c);
+  job.anchor[index] = anchor;
+  job.first[index] = first;
+  job.end[index] = end;
+  return index + 1;
+}
+
+std::int32_t append_exact_spans(const ScanJob& job, const Edge& edge, std::int32_t index) {
+  const Point high = turned(job, static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
+  const Point low = turned(job, static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m));
+  const double angle_high = std::atan2(high.y, high.x);
+  const double angle_low = std::atan2(low.y, low.x);
+
+  // Angles tell the beam but for one nearer than their rounding; for that the sign of the cross
+  // product does. Corners shared by two edges get the same answer, with the beam in both spans.
+  const double centre = 0.5 * static_cast<double>(job.beam_count - 1);
+  const double doubt = 1e-14 / job.resolution_rad + 1e-15 * static_cast<double>(job.beam_count);
+  const auto count = static_cast<double>(job.beam_count);
+  const double beam_low = angle_low / job.resolution_rad + centre;
+  auto first = static_cast<std::int32_t>(std::clamp(std::ceil(beam_low - doubt), 0.0, count));
+  while (first < job.beam_count && static_cast<double>(first) <= beam_low + doubt &&
+         left_of(job, low, first) < 0.0) {
+    ++first;
+  }
+  const double beam_high = angle_high / job.resolution_rad + centre;
+  auto end = static_cast<std::int32_t>(std::clamp(std::floor(beam_high + doubt) + 1.0, 0.0, count));
+  while (end > 0 && static_cast<double>(end - 1) >= beam_high - doubt &&
+         left_of(job, high, end - 1) > 0.0) {
+    --end;
+  }
+
+  // An edge that faces the sensor spans less than half a turn; if the difference says "minus
+  // much", the edge crosses the cut behind the sensor, where beams lie on both sides of it.
+  if (angle_low - angle_high > 0.5 * std::numbers::pi) {
+    index = append_span(job, edge, first, job.beam_count, index);
+    return append_span(job, edge, 0, end, index);
+  }
+  return append_span(job, edge, first, end, index);
+}
+
+}  // namespace detail
+
+void EdgeBuffer::grow() {
+  storage_.resize(std::max(2 * storage_.size(), size_ + kPadding));
+}
+
+/// What depends on the geometry alone, shared by copies of a kernel.
+struct ScanKernel::Tables {
+  explicit Tables(const ScanGeometry& geometry)
+      // One beam alone has no neighbour to tell its resolution: any will do.
+      : resolution_rad(geometry.beam_count == 1 ? 1.0 : geometry.resolution_rad),
+        reach(geometry.beam_count + detail::kBeamPadding) {
+    const int count = geometry.beam_count;
+    beams.reserve(2 * static_cast<std::size_t>(count + 2));
+    for (int beam = -1; beam <= count; ++beam) {
+      const double angle_rad = geometry.angle_rad(beam);
+      beams.push_back(std::cos(angle_rad));
+      beams.push_back(std::sin(angle_rad));
+    }
+    for (int k = -reach; k <= reach; ++k) {
+      const double angle_rad = resolution_rad * static_cast<double>(k);
+      cosines.push_back(static_cast<float>(std::cos(angle_rad)));
+      sines.push_back(static_cast<float>(std::sin(angle_rad)));
+    }
+  }
+
+  double resolution_rad;
+  int reach;                    ///< the greatest k in the tables of cos(k q) and sin(k q)
+  std::vector<double> beams;    ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
+  std::vector<float> cosines;   ///< cos(k q) for k from -reach to reach
+  std::vector<float> sines;     ///< sin(k q), likewise
+};
+
+ScanKernel::ScanKernel(const ScanGeometry& geometry)
+    : ScanKernel(geometry, available(InstructionSet::kAvx2)   ? InstructionSet::kAvx2
+                           : available(InstructionSet::kSse2) ? InstructionSet::kSse2
+                                                              : InstructionSet::kScalar) {}
+
+ScanKernel::ScanKernel(const ScanGeometry& geometry, InstructionSet instructions)
+    : geometry_(geometry),
+      instructions_(instructions),
+      tables_(std::make_shared<const Tables>(geometry)),
+      inverse_ranges_(static_cast<std::size_t>(geometry.beam_count + 2 * detail::kBeamPadding)) {
+  SIM_ASSERT(geometry.beam_count >= 1 && geometry.beam_count <= 1'000'000);
+  SIM_ASSERT(geometry.beam_count == 1 || geometry.resolution_rad > 0.0);
+  SIM_ASSERT(geometry.range_max_m > 0.0);
+  SIM_ASSERT(available(instructions));
+}
+
+bool ScanKernel::available(InstructionSet instructions) noexcept {
+  switch (instructions) {
+    case InstructionSet::kScalar:
+      return true;
+    case InstructionSet::kSse2:
+#if defined(__x86_64__)
+      return true;
+#else
+      return false;
+#endif
+    case InstructionSet::kAvx2:
+#ifdef PLAYPEN_SCAN_AVX2
+      return __builtin_cpu_supports("avx2") != 0;
+#else
+      return false;
+#endif
+  }
+  return false;
+}
+
+void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double> ranges_m) {
+  SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(geometry_.beam_count));
+  if (edges.inside) {
+    std::fill(ranges_m.begin(), ranges_m.end(), 0.0);
+    return;
+  }
+
+  // Every edge may make three spans' places: its own, and two if it is treated alone.
+  if (edges.size() > edge_capacity_ || integers_.empty()) {
+    edge_capacity_ = std::max(edges.size(), 2 * edge_capacity_);
+    const std::size_t places = 3 * edge_capacity_ + 16;
+    integers_.resize(6 * places);
+    coefficients_.resize(2 * places);
+  }
+  const std::size_t places = 3 * edge_capacity_ + 16;
+
+  // Blocks of beams are aligned, so that none straddles two lines of the cache.
+  constexpr std::size_t kAlignment = 32;
+  void* aligned = inverse_ranges_.data();
+  std::size_t space = inverse_ranges_.size() * sizeof(float);
+  std::align(kAlignment, space - kAlignment, aligned, space);
+
+  const double beams_per_rad = 1.0 / tables_->resolution_rad;
+  const auto beam_count = static_cast<double>(geometry_.beam_count);
+  const detail::ScanJob job{
+      .edges = edges.edges().data(),
+      .edge_count = static_cast<std::int32_t>(edges.size()),
+      .cos_yaw = std::cos(yaw_rad),
+      .sin_yaw = std::sin(yaw_rad),
+      .beam_count = geometry_.beam_count,
+      .range_max_m = geometry_.range_max_m,
+      .resolution_rad = tables_->resolution_rad,
+      .beams = tables_->beams.data() + 2,
+      .cos_table = tables_->cosines.data() + tables_->reach,
+      .sin_table = tables_->sines.data() + tables_->reach,
+      .beams_per_rad = static_cast<float>(beams_per_rad),
+      .beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0),
+      // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
+      // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
+      .doubt_beams =
+          static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
+      .behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad),
+      .facing = integers_.data(),
+      .narrow = integers_.data() + places,
+      .wide = integers_.data() + 2 * places,
+      .anchor = integers_.data() + 3 * places,
+      .first = integers_.data() + 4 * places,
+      .end = integers_.data() + 5 * places,
+      .a = coefficients_.data(),
+      .b = coefficients_.data() + places,
+      .inverse_ranges = static_cast<float*>(aligned),
+      .ranges_m = ranges_m.data()};
+  switch (instructions_) {
+    case InstructionSet::kScalar:
+      return detail::run_scan<detail::Scalar>(job);
+    case InstructionSet::kSse2:
+#if defined(__x86_64__)
+      return detail::run_scan<detail::Sse2>(job);
+#else
+      break;
+#endif
+    case InstructionSet::kAvx2:
+#ifdef PLAYPEN_SCAN_AVX2
+      return detail::scan_avx2(job);
+#else
+      break;
+#endif
+  }
+}
+
+}  // namespace sim::scan

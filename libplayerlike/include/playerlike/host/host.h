@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <thread>
 
 #include "playerlike/host/run_settings.h"
 #include "playerlike/session/session.h"
@@ -35,6 +36,9 @@ class Host : public std::enable_shared_from_this<Host> {
   [[nodiscard]] bool finished() const;
 
   [[nodiscard]] TimeStatistics time() const;
+  /// Forgets that a thread takes part in the lockstep. Called by sessions when a thread ends.
+  void thread_ended(std::thread::id thread) noexcept;
+
   /// Hash of the simulation's state, see sim::Simulation::state_hash.
   [[nodiscard]] std::uint64_t state_hash() const;
 

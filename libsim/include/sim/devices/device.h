@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -42,6 +43,8 @@ struct Reading {
   Reading(const Reading&) = default;
   Reading& operator=(const Reading&) = default;
   virtual ~Reading() = default;
+  /// A copy of the whole reading, to be kept.
+  [[nodiscard]] virtual std::unique_ptr<Reading> clone() const = 0;
 };
 
 /// Drive with this velocity until told otherwise.

@@ -1,6 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "sim/devices/device.h"
 
 namespace sim {
@@ -24,6 +28,10 @@ struct PoseReading final : Reading {
   Pose pose;             ///< pose device: X_WB; odometry: X_SB, S the robot's start (or as set)
   Twist twist;           ///< in B, as achieved over the last step
   bool stalled = false;  ///< see BodyState
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<PoseReading>(*this);
+  }
 };
 
 /// The arena's localisation: the true pose, with noise if asked for.

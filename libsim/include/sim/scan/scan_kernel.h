@@ -2,32 +2,72 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "sim/core/pose.h"
-
 namespace sim::scan {
 
-/// The edges that a scan may meet, as arrays, in the sensor's neighbourhood.
+/// One straight piece of an outline, from (x0, y0) to (x1, y1), with the solid on its left, so its
+/// outer face is on its right; a sensor on the left of it, or in line with it, does not see it.
+/// Coordinates are relative to the sensor's position, but W-aligned (not turned) [m].
 ///
-/// Each edge runs from (x0, y0) to (x1, y1) with the solid on its left, so its outer face is on
-/// its right; a sensor on the left of it does not see it. Coordinates are relative to the
-/// sensor's position, but W-aligned (not turned), [m]. Filled by physics, read by ScanKernel;
-/// reused from scan to scan, so that no memory is taken in steady state.
-struct EdgeBuffer {
-  std::vector<float> x0, y0, x1, y1;
+/// Outlines are closed for beams where two edges hold the same bits for the corner they share.
+struct alignas(16) Edge {
+  float x0_m;
+  float y0_m;
+  float x1_m;
+  float y1_m;
+};
+
+/// The edges that a scan may meet. Filled by physics, read by ScanKernel, reused from scan to
+/// scan: clear() keeps the memory, so that none is taken in steady state.
+class EdgeBuffer {
+ public:
   bool inside = false;  ///< the sensor's origin lies inside a solid: every beam reads 0
 
-  void clear();
-  void add(float x0_m, float y0_m, float x1_m, float y1_m);
-  [[nodiscard]] std::size_t size() const noexcept { return x0.size(); }
+  /// Forgets all edges and `inside`; keeps the memory.
+  void clear() noexcept {
+    size_ = 0;
+    inside = false;
+  }
+
+  /// Adds one edge; see Edge for the meaning.
+  void add(float x0_m, float y0_m, float x1_m, float y1_m) {
+    *append(1) = Edge{x0_m, y0_m, x1_m, y1_m};
+  }
+
+  /// Adds `count` edges at once and returns where to write them: the caller must write all of
+  /// them. The pointer holds until the next append(), add() or destruction. To add at most
+  /// `count` edges, append that many, write some and give the rest back with truncate().
+  [[nodiscard]] Edge* append(std::size_t count) {
+    const std::size_t begin = size_;
+    size_ += count;
+    if (size_ + kPadding > storage_.size()) grow();
+    return storage_.data() + begin;
+  }
+
+  /// Keeps the first `size` edges. @param size  at most size().
+  void truncate(std::size_t size) noexcept { size_ = size < size_ ? size : size_; }
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] std::span<const Edge> edges() const noexcept { return {storage_.data(), size_}; }
+
+  /// Edges after the last that may be read, though they mean nothing: the kernel reads in groups.
+  static constexpr std::size_t kPadding = 8;
+
+ private:
+  void grow();
+
+  std::vector<Edge> storage_ = std::vector<Edge>(kPadding);  ///< at least size_ + kPadding
+  std::size_t size_ = 0;
 };
 
 /// Directions of a scanner's beams: `beam_count` of them, `resolution_rad` apart, symmetric
 /// about forward; beam 0 is the rightmost (least angle).
 struct ScanGeometry {
-  int beam_count = 682;         ///< >= 1
+  int beam_count = 682;         ///< 1 to 1 000 000
   double resolution_rad = 0.0;  ///< > 0; (beam_count - 1) * resolution <= 2 pi
   double range_max_m = 5.0;     ///< > 0
 
@@ -40,17 +80,36 @@ struct ScanGeometry {
   }
 };
 
+/// Instructions that a kernel may use. All give the same bits.
+enum class InstructionSet {
+  kScalar,  ///< plain C++, on every processor
+  kSse2,    ///< every x86-64 processor
+  kAvx2,    ///< x86-64 processors since about 2013
+};
+
 /// Least distance to any edge, for every beam of a scanner at once.
 ///
 /// Edges that face the sensor are swept into the interval of beams they span; each beam keeps
 /// the nearest. Work grows with edges + beams covered, not with their product.
-/// Result: range in [0, range_max]; range_max where nothing is met. Single precision inside, with
-/// an error below 1e-5 m + 1e-6 of the range. The same bits on every x86-64 processor: the
-/// wider instruction paths, chosen at run time, do the same operations in the same order.
-/// Not thread-safe (scratch memory); one kernel a sensor.
+///
+/// Result: range in [0, range_max]; range_max where nothing is met. Against exact geometry the
+/// error is below 1e-6 of the range. Which beams an edge spans, its ends included, is decided to
+/// the last bits of double precision, so nothing is seen through the joint of two edges that share
+/// a corner. The same bits on every x86-64 processor: the wider instruction paths, chosen at run
+/// time, do the same operations in the same order.
+/// Not thread-safe (scratch memory); one kernel a sensor. A copy shares the tables of its beams
+/// with the original: equal sensors should be copies of one kernel, to leave more of the cache.
 class ScanKernel {
  public:
+  /// Uses the widest instructions that this processor has.
+  /// @param geometry  valid as ScanGeometry says.
   explicit ScanKernel(const ScanGeometry& geometry);
+
+  /// @param instructions  the instructions to use; they must be available().
+  ScanKernel(const ScanGeometry& geometry, InstructionSet instructions);
+
+  /// Whether this processor and this build of the library have the instructions.
+  [[nodiscard]] static bool available(InstructionSet instructions) noexcept;
 
   /// @param edges    edges near the sensor, relative to its position, W-aligned [m].
   /// @param yaw_rad  the sensor's heading in W [rad].
@@ -58,11 +117,18 @@ class ScanKernel {
   void scan(const EdgeBuffer& edges, double yaw_rad, std::span<double> ranges_m);
 
   [[nodiscard]] const ScanGeometry& geometry() const noexcept { return geometry_; }
+  [[nodiscard]] InstructionSet instructions() const noexcept { return instructions_; }
 
  private:
+  struct Tables;
+
   ScanGeometry geometry_;
-  std::vector<float> beam_x_, beam_y_;  ///< unit directions in the sensor's frame
-  std::vector<float> ranges_;           ///< scratch, one a beam
+  InstructionSet instructions_;
+  std::shared_ptr<const Tables> tables_;  ///< what depends on the geometry alone
+  std::vector<float> inverse_ranges_;     ///< scratch, one a beam, padded [1/m]
+  std::vector<std::int32_t> integers_;    ///< scratch, several a edge
+  std::vector<float> coefficients_;       ///< scratch, two a span
+  std::size_t edge_capacity_ = 0;         ///< edges that the scratch memory is enough for
 };
 
 }  // namespace sim::scan

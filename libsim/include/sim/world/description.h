@@ -13,7 +13,7 @@
 #include "sim/core/time.h"
 
 /// What a world is: plain structs, no behaviour. io fills them from a file, a program may fill
-/// them by hand; Simulation takes them as they are (check them with sim::check_world first).
+/// them by hand; Simulation takes them as they are (check them with sim::io::check_world first).
 namespace sim {
 
 /// Outline of a solid, a polygon in its own frame, counter-clockwise [m].
