@@ -279,7 +279,7 @@ class Checker {
     add("world/obstacle-outside", pointer,
         std::string("a") + what + " on " + floor_text(world_.arena),
         obstacle.name + " sticking out " + metres(depth_m) + " beyond the " + side + " side",
-        "its center and size make a box of twice half the size round the center");
+        "center is the middle of the box, size its full length and width");
   }
 
   void check_arena() {

@@ -392,8 +392,8 @@ class WorldReader {
         RobotDescription robot;
         robot.colour = kPalette[world_.robots.size() % kPalette.size()];
         if (reader.expect_object()) {
-          if (!reader.has("pose")) unplaced.push_back(world_.robots.size());
           read_robot(reader, robot);
+          if (!reader.has("pose")) unplaced.push_back(world_.robots.size());
         }
         world_.robots.push_back(std::move(robot));
       }
