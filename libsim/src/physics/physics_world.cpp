@@ -27,10 +27,17 @@ constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kSca
 // obstacles are 1 cm fat, so a contact is known before it is reached.
 constexpr double kMaxTravel_m = 0.0085;
 
+// The same while robots touch: where one is shoved is up to Box2D, which sees a contact only once
+// hulls are closer than their skins of 2 mm together.
+constexpr double kMaxShove_m = 0.002;
+
 // A twist counts as achieved within these.
 constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
 constexpr double kStallDelay_s = 0.2;
+
+constexpr int kVelocityIterations = 8;
+constexpr int kPositionIterations = 3;
 
 b2Vec2 to_box2d(const Vec2& p) {
   return {static_cast<float>(p.x() * kScale), static_cast<float>(p.y() * kScale)};
@@ -323,6 +330,13 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
   }
 
+  [[nodiscard]] bool any_robots_touch() const {
+    return std::any_of(near_pairs.begin(), near_pairs.end(), [this](const auto& pair) {
+      return touches(robots[static_cast<std::size_t>(pair.first)].body,
+                     robots[static_cast<std::size_t>(pair.second)].body);
+    });
+  }
+
   [[nodiscard]] static bool touches(const b2Body* a, const b2Body* b) {
     for (const b2ContactEdge* e = a->GetContactList(); e != nullptr; e = e->next) {
       if (e->other == b && e->contact->IsTouching()) return true;
@@ -340,6 +354,10 @@ struct PhysicsWorld::Impl : b2ContactListener {
   }
 
   void substep(double dt_s) {
+    if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
+      world.Step(0.0F, 1, 1);
+      placed = false;
+    }
     find_near_pairs();
     const float inv_dt = static_cast<float>(1.0 / dt_s);
     goals.resize(robots.size());
@@ -354,7 +372,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
       r.body->SetAngularVelocity(inv_dt *
                                  (static_cast<float>(goals[i].yaw_rad) - r.body->GetAngle()));
     }
-    world.Step(static_cast<float>(dt_s), 8, 3);
+    world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
     for (std::size_t i = 0; i < robots.size(); ++i) follow_body(robots[i], goals[i]);
   }
 
@@ -487,6 +505,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
   std::vector<std::size_t> robot_first_edge;
   bool robot_edges_fresh = false;
 
+  bool placed = true;  // something was put somewhere since the last step
+
   std::vector<Robot> robots;
   double largest_radius_m = 0.0;
   std::vector<int> order;  // robots by x
@@ -552,6 +572,7 @@ void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
   r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
   r.stall_clock_s = 0.0;
   impl_->robot_edges_fresh = false;
+  impl_->placed = true;
 }
 
 void PhysicsWorld::step(double dt_s) {
@@ -566,7 +587,8 @@ void PhysicsWorld::step(double dt_s) {
     travel_m = std::max(
         travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.omega_radps) * r.radius_m) * dt_s);
   }
-  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
+  const double longest_m = d.any_robots_touch() ? kMaxShove_m : kMaxTravel_m;
+  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / longest_m)));
   for (int i = 0; i < substeps; ++i) d.substep(dt_s / substeps);
   for (std::size_t i = 0; i < d.robots.size(); ++i) d.finish_step(d.robots[i], i, dt_s);
   d.robot_edges_fresh = false;
@@ -582,6 +604,7 @@ const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noe
 
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)]->SetEnabled(extended);
+  impl_->placed = true;
   impl_->rebuild_fixed_edges();
 }
 
@@ -631,16 +654,22 @@ double PhysicsWorld::clearance_m(int robot, double limit_m) const {
 
 namespace {
 
-// Appends the edges of list[first, last) that may matter, relative to the sensor.
+// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
+  const std::size_t begin = out.size();
   const bool all_high_enough = list.least_height_m > sensor_height_m;
+  scan::Edge* target = out.append(last - first);
+  const double x = p_WL.x();
+  const double y = p_WL.y();
+  std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
     if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
     const Edge& e = list.edges[i];
-    out.add(static_cast<float>(e.x0 - p_WL.x()), static_cast<float>(e.y0 - p_WL.y()),
-            static_cast<float>(e.x1 - p_WL.x()), static_cast<float>(e.y1 - p_WL.y()));
+    target[count++] = {static_cast<float>(e.x0 - x), static_cast<float>(e.y0 - y),
+                       static_cast<float>(e.x1 - x), static_cast<float>(e.y1 - y)};
   }
+  out.truncate(begin + count);
 }
 
 // Calls visit(fixture) for every fixture whose fat box meets the box.
@@ -754,6 +783,8 @@ double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range
   return static_cast<double>(closest.fraction) * range_max_m;
 }
 
-void PhysicsWorld::bare_step(double dt_s) { impl_->world.Step(static_cast<float>(dt_s), 8, 3); }
+void PhysicsWorld::bare_step(double dt_s) {
+  impl_->world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+}
 
 }  // namespace sim
