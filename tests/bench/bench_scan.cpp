@@ -19,8 +19,8 @@ struct Arena {
         physics(world.arena),
         kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m}),
         ranges(static_cast<std::size_t>(laser.beam_count)) {
-    for (const RobotDescription& robot : world.robots) {
-      physics.add_robot(*find_robot_model(robot.model), robot.pose);
+    for (const RobotDescription& description : world.robots) {
+      physics.add_robot(*find_robot_model(description.model), description.pose);
     }
   }
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/body_state.h"
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
-#include "sim/devices/device.h"
 #include "sim/scan/scan_kernel.h"
 #include "sim/world/description.h"
 #include "sim/world/robot_model.h"
