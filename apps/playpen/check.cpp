@@ -38,7 +38,9 @@ int check(const std::vector<std::string>& worlds) {
   int status = kOk;
   for (const std::string& world : worlds) {
     try {
-      std::cout << world << ": ok (" << describe(sim::load_world(find_world(world))) << ")\n";
+      // First all that may throw, then the line.
+      const std::string what = describe(sim::load_world(find_world(world)));
+      std::cout << world << ": ok (" << what << ")\n";
     } catch (const sim::ConfigError& error) {
       std::cerr << error.what() << '\n';
       status = kBadInput;
