@@ -57,8 +57,13 @@ struct Scalar {
   static float select(bool mask, float yes, float no) { return mask ? yes : no; }
   static double select(bool mask, double yes, double no) { return mask ? yes : no; }
   static float drop(bool mask, float value) { return mask ? 0.0F : value; }
-  static bool lanes_outside(std::int32_t base, std::int32_t first, std::int32_t last) {
-    return base < first || base > last;
+  struct Window {
+    std::int32_t first;
+    std::int32_t last;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) { return {first, last}; }
+  static bool outside(const Window& window, std::int32_t offset) {
+    return offset < window.first || offset > window.last;
   }
 
   static double widen(float value, int /*half*/) { return static_cast<double>(value); }
@@ -132,12 +137,19 @@ struct Sse2 {
     return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
   }
   static Float drop(Mask mask, Float value) { return _mm_andnot_ps(mask, value); }
-  static Mask lanes_outside(std::int32_t base, std::int32_t first, std::int32_t last) {
-    const __m128i lane = _mm_setr_epi32(0, 1, 2, 3);
-    const __m128i beam = _mm_add_epi32(lane, _mm_set1_epi32(base));
-    const __m128i before = _mm_cmpgt_epi32(_mm_set1_epi32(first), beam);
-    const __m128i after = _mm_cmpgt_epi32(beam, _mm_set1_epi32(last));
-    return _mm_castsi128_ps(_mm_or_si128(before, after));
+  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
+  /// 2^31: so one signed comparison finds the lanes before and those after.
+  struct Window {
+    __m128i beyond_first;
+    __m128i length;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) {
+    const __m128i lane = _mm_setr_epi32(INT32_MIN, INT32_MIN + 1, INT32_MIN + 2, INT32_MIN + 3);
+    return {_mm_sub_epi32(lane, _mm_set1_epi32(first)), _mm_set1_epi32(INT32_MIN + (last - first))};
+  }
+  static Mask outside(const Window& window, std::int32_t offset) {
+    const __m128i lane = _mm_add_epi32(window.beyond_first, _mm_set1_epi32(offset));
+    return _mm_castsi128_ps(_mm_cmpgt_epi32(lane, window.length));
   }
 
   static Double widen(Float value, int half) {
@@ -250,9 +262,7 @@ std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuf
 
 }  // namespace
 
-void EdgeBuffer::grow() {
-  storage_.resize(std::max(2 * storage_.size(), size_ + kPadding));
-}
+void EdgeBuffer::grow() { storage_.resize(std::max(2 * storage_.size(), size_ + kPadding)); }
 
 /// What depends on the geometry alone, shared by copies of a kernel.
 struct ScanKernel::Tables {
@@ -275,10 +285,10 @@ struct ScanKernel::Tables {
   }
 
   double resolution_rad;
-  int reach;                    ///< the greatest k in the tables of cos(k q) and sin(k q)
-  std::vector<double> beams;    ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
-  std::vector<float> cosines;   ///< cos(k q) for k from -reach to reach
-  std::vector<float> sines;     ///< sin(k q), likewise
+  int reach;                   ///< the greatest k in the tables of cos(k q) and sin(k q)
+  std::vector<double> beams;   ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
+  std::vector<float> cosines;  ///< cos(k q) for k from -reach to reach
+  std::vector<float> sines;    ///< sin(k q), likewise
 };
 
 ScanKernel::ScanKernel(const ScanGeometry& geometry)
@@ -357,8 +367,7 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
       .beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0),
       // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
       // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
-      .doubt_beams =
-          static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
+      .doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
       .behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad),
       .candidate_edge = integers_.data(),
       .candidate_first = integers_.data() + step,
