@@ -1,1 +1,45 @@
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+# Install rules: libraries, headers, worlds, the command, and a package that others find with
+# find_package(playpen). Nothing installed names the source or build folder, so that the tree can
+# be moved or packed.
+include(CMakePackageConfigHelpers)
+set(_playpen_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/playpen")
+
+install(TARGETS playpen_sim playpen_playerlike
+  EXPORT playpenTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+# Folders, not file sets: CMake has those from 3.23 on, Ubuntu 22.04 has 3.22.
+foreach(_dir IN ITEMS libsim/include libplayerlike/include)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${_dir}/"
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/playpen"
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/worlds/"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen/worlds")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+if(TARGET playpen)
+  file(RELATIVE_PATH _playpen_lib_from_bin
+    "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+  set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${_playpen_lib_from_bin}")
+  install(TARGETS playpen RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+install(EXPORT playpenTargets NAMESPACE playpen:: DESTINATION "${_playpen_package_dir}")
+configure_package_config_file(
+  "${CMAKE_CURRENT_LIST_DIR}/playpenConfig.cmake.in"
+  "${PROJECT_BINARY_DIR}/package/playpenConfig.cmake"
+  INSTALL_DESTINATION "${_playpen_package_dir}"
+  PATH_VARS CMAKE_INSTALL_DATADIR)
+write_basic_package_version_file(
+  "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${PROJECT_BINARY_DIR}/package/playpenConfig.cmake"
+  "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenOpenCV.cmake"
+  DESTINATION "${_playpen_package_dir}")

@@ -1,1 +1,103 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerlike/host/embedded.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <string_view>
+
+#include "host/log.h"
+
+namespace playerlike {
+namespace {
+
+// The process's embedded simulations. Never destroyed: clients at namespace scope may outlive any
+// static object. The results of runs are written by an exit handler instead.
+struct Registry {
+  std::mutex mutex;
+  std::map<std::string, std::shared_ptr<Host>> hosts;  // by the world file's full path
+  int results = 0;                                     // hosts that write results
+
+  static Registry& instance() {
+    static Registry* registry = [] {
+      auto* made = new Registry;
+      std::atexit(finish_all);
+      return made;
+    }();
+    return *registry;
+  }
+
+  static void finish_all() {
+    Registry& registry = instance();
+    const std::lock_guard lock(registry.mutex);
+    for (const auto& [key, host] : registry.hosts) host->finish();
+  }
+};
+
+std::string full_path(const std::string& file) {
+  return file.empty() ? file : std::filesystem::absolute(file).lexically_normal().string();
+}
+
+std::shared_ptr<Host> host_of(const std::string& file) {
+  Registry& registry = Registry::instance();
+  const std::lock_guard lock(registry.mutex);
+  std::shared_ptr<Host>& host = registry.hosts[full_path(file)];
+  if (host) return host;
+  try {
+    RunSettings settings = RunSettings::from_environment();
+    // The first world of a program writes its results into the folder that was asked for, each
+    // further one into a numbered folder in it; only the first can be filmed.
+    if (registry.results > 0) {
+      settings.film.clear();
+      settings.progress = false;
+      if (!settings.output_folder.empty()) {
+        settings.output_folder += "/world" + std::to_string(registry.results + 1);
+      }
+    }
+    host = Host::create(sim::load_world(file), settings, log_to_stderr());
+    ++registry.results;
+  } catch (...) {
+    registry.hosts.erase(full_path(file));
+    throw;
+  }
+  return host;
+}
+
+constexpr std::string_view kFilePrefix = "sim:";
+
+SessionError no_socket_yet(const std::string& host) {
+  return SessionError(SessionError::Code::kNotAvailable,
+                      "cannot connect to \"" + host +
+                          "\": simulations across a network are not available in this version; "
+                          "use \"localhost\" for the embedded simulation or \"sim:FILE\" for a "
+                          "world file");
+}
+
+}  // namespace
+
+std::unique_ptr<Session> open_session(const std::string& host, int port) {
+  if (host.starts_with(kFilePrefix)) {
+    const std::string file = host.substr(kFilePrefix.size());
+    if (file.empty()) {
+      throw SessionError(SessionError::Code::kBadArgument,
+                         "\"sim:\" must be followed by the name of a world file");
+    }
+    return host_of(file)->connect(port);
+  }
+  if (host != "localhost" && host != "127.0.0.1") throw no_socket_yet(host);
+  const char* world = std::getenv("PLAYPEN_WORLD");
+  const std::string file = world == nullptr ? "" : world;
+  if (file.starts_with("tcp://")) throw no_socket_yet(file);
+  return host_of(file)->connect(port);
+}
+
+void close_embedded_hosts() {
+  Registry& registry = Registry::instance();
+  const std::lock_guard lock(registry.mutex);
+  for (const auto& [key, host] : registry.hosts) host->finish();
+  registry.hosts.clear();
+  registry.results = 0;
+}
+
+}  // namespace playerlike

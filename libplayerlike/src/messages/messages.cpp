@@ -1,1 +1,146 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerlike/messages/messages.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "sim/devices/builtin.h"
+
+namespace playerlike {
+namespace {
+
+// Which kinds of device carry an interface, most wanted first.
+struct InterfaceRow {
+  std::string_view interface;
+  std::string_view device_type;
+};
+constexpr InterfaceRow kInterfaces[] = {
+    {"laser", "laser"},
+    {"position2d", "pose"},
+    {"position2d", "odometry"},
+};
+
+// The robot's devices that carry the interface, in the table's order.
+std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
+  std::vector<const DeviceInfo*> found;
+  for (const InterfaceRow& row : kInterfaces) {
+    if (row.interface != interface) continue;
+    for (const DeviceInfo& device : robot.devices) {
+      if (device.type == row.device_type) found.push_back(&device);
+    }
+  }
+  return found;
+}
+
+std::vector<std::string_view> interface_names() {
+  std::vector<std::string_view> names;
+  for (const InterfaceRow& row : kInterfaces) {
+    if (names.empty() || names.back() != row.interface) names.push_back(row.interface);
+  }
+  return names;
+}
+
+// Calls visit(interface, index, robot, device) for every address of a port.
+template <typename Visit>
+void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visit) {
+  for (const std::string_view interface : interface_names()) {
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      const RobotInfo& robot = robots[r];
+      const auto devices = carriers(robot, interface);
+      if (devices.empty()) continue;
+      if (port == kMorsePort) {
+        const auto given = robot.proxies.find(std::string(interface));
+        const int index = given != robot.proxies.end() ? given->second : static_cast<int>(r);
+        visit(interface, index, static_cast<int>(r), *devices.front());
+      } else if (port == robot.port) {
+        for (std::size_t i = 0; i < devices.size(); ++i) {
+          visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i]);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
+  std::vector<RobotInfo> robots;
+  for (int r = 0; r < simulation.robot_count(); ++r) {
+    const sim::RobotDescription& description =
+        simulation.world().robots[static_cast<std::size_t>(r)];
+    const sim::RobotModel& model = simulation.model(r);
+    RobotInfo robot;
+    robot.name = description.name;
+    robot.model = description.model;
+    robot.colour = description.colour;
+    robot.initial_pose = description.pose;
+    robot.port = description.port;
+    robot.height_m = model.height_m;
+    robot.max_speed_mps = model.max_speed_mps;
+    robot.max_turn_rate_radps = model.max_turn_rate_radps;
+    robot.proxies = description.proxies;
+    robot.drivers = description.drivers;
+    sim::Vec2 low = sim::Vec2::Constant(std::numeric_limits<double>::infinity());
+    sim::Vec2 high = -low;
+    for (const sim::Vec2& v : model.footprint) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+    robot.length_m = high.x() - low.x();
+    robot.width_m = high.y() - low.y();
+    for (std::size_t d = 0; d < description.devices.size(); ++d) {
+      const sim::DeviceDescription& device = description.devices[d];
+      DeviceInfo info;
+      info.id = {r, static_cast<int>(d)};
+      info.name = device.name;
+      info.type = device.type;
+      for (const sim::DeviceKind& kind : sim::device_kinds()) {
+        if (kind.name == device.type) info.properties = kind.properties(device.params);
+      }
+      robot.devices.push_back(std::move(info));
+    }
+    robots.push_back(std::move(robot));
+  }
+  return robots;
+}
+
+InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
+                                std::string_view interface, int index) {
+  std::optional<InterfaceBinding> found;
+  std::ostringstream known;
+  for_each_address(
+      robots, port, [&](std::string_view name, int i, int robot, const DeviceInfo& device) {
+        if (name == interface && i == index && !found) {
+          found = InterfaceBinding{device.id, std::nullopt, robot};
+        }
+        known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
+              << robots[static_cast<std::size_t>(robot)].name << '.' << device.name << ')';
+      });
+  if (!found) {
+    throw SessionError(SessionError::Code::kNoSuchDevice,
+                       "there is no device " + std::string(interface) + ':' +
+                           std::to_string(index) + " on port " + std::to_string(port) +
+                           "; this world has there: " +
+                           (known.tellp() > 0 ? known.str() : std::string("nothing")));
+  }
+  for (const DeviceInfo& device : robots[static_cast<std::size_t>(found->robot)].devices) {
+    if (device.type == "motion") {
+      found->motion = device.id;
+      break;
+    }
+  }
+  return *found;
+}
+
+std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robots, int port) {
+  std::vector<InterfaceAddress> addresses;
+  for_each_address(
+      robots, port, [&](std::string_view name, int i, int robot, const DeviceInfo& device) {
+        addresses.push_back(
+            {std::string(name), i, robots[static_cast<std::size_t>(robot)].name, device.name});
+      });
+  return addresses;
+}
+
+}  // namespace playerlike

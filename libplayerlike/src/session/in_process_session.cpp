@@ -1,1 +1,140 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "session/in_process_session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace playerlike {
+namespace {
+
+// Tells the hosts that a thread has waited on when that thread ends, so that nobody waits for it.
+class Farewell {
+ public:
+  Farewell() = default;
+  Farewell(const Farewell&) = delete;
+  Farewell& operator=(const Farewell&) = delete;
+  ~Farewell() {
+    for (const Known& known : hosts_) {
+      if (const std::shared_ptr<Host> host = known.host.lock()) {
+        host->thread_ended(std::this_thread::get_id());
+      }
+    }
+  }
+
+  void remember(const std::shared_ptr<Host>& host) {
+    for (const Known& known : hosts_) {
+      if (known.address == host.get() && !known.host.expired()) return;
+    }
+    std::erase_if(hosts_, [](const Known& known) { return known.host.expired(); });
+    hosts_.push_back({host.get(), host});
+  }
+
+ private:
+  struct Known {
+    const Host* address;
+    std::weak_ptr<Host> host;
+  };
+  std::vector<Known> hosts_;
+};
+
+thread_local Farewell farewell;
+
+}  // namespace
+
+InProcessSession::InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
+    : host_(std::move(host)), client_(std::move(client)) {}
+
+InProcessSession::~InProcessSession() { close(); }
+
+const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
+  return host_->core_->robots();
+}
+int InProcessSession::port() const noexcept { return client_->port; }
+bool InProcessSession::connected() const noexcept { return !client_->closed; }
+
+const DeviceInfo& InProcessSession::require_device(DeviceId device) const {
+  for (const RobotInfo& robot : robots()) {
+    for (const DeviceInfo& info : robot.devices) {
+      if (info.id == device) return info;
+    }
+  }
+  throw SessionError(SessionError::Code::kNoSuchDevice,
+                     "the world has no device " + std::to_string(device.device) + " of robot " +
+                         std::to_string(device.robot));
+}
+
+void InProcessSession::subscribe(DeviceId device) {
+  const DeviceInfo& info = require_device(device);
+  if (!host_->core_->is_sensor(device)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "device " + info.name + " is no sensor: it has no readings");
+  }
+  host_->core_->subscribe(*client_, device);
+}
+
+void InProcessSession::unsubscribe(DeviceId device) { host_->core_->unsubscribe(*client_, device); }
+
+void InProcessSession::set_replace(std::optional<DeviceId> device, bool replace) {
+  host_->core_->set_replace(*client_, device, replace);
+}
+
+std::uint32_t InProcessSession::overflow_count() const { return host_->core_->overflow(*client_); }
+
+void InProcessSession::wait() {
+  farewell.remember(host_);
+  host_->core_->wait(*client_);
+}
+
+int InProcessSession::take(ReadingSink& sink) { return host_->core_->take(*client_, sink); }
+
+bool InProcessSession::peek(std::chrono::milliseconds timeout) {
+  farewell.remember(host_);
+  return host_->core_->peek(*client_, std::max(timeout, std::chrono::milliseconds(0)));
+}
+
+void InProcessSession::send(DeviceId device, const sim::Command& command) {
+  require_device(device);
+  const auto finite = [](std::initializer_list<double> values) {
+    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+  };
+  bool good = true;
+  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) {
+    good = finite({twist->twist.v_mps, twist->twist.omega_radps, twist->twist.lateral_mps});
+  } else if (const auto* pose = std::get_if<sim::SetPoseCommand>(&command)) {
+    good = finite({pose->pose.x_m, pose->pose.y_m, pose->pose.yaw_rad});
+  }
+  if (!good) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a command holds a value that is not a finite number");
+  }
+  host_->core_->send(*client_, device, command);
+}
+
+void InProcessSession::draw(std::span<const sim::CanvasOperation> operations) {
+  host_->core_->draw(*client_, operations);
+}
+
+CanvasInfo InProcessSession::canvas_info() const { return host_->core_->canvas_info(); }
+
+std::optional<sim::Colour> InProcessSession::pixel(int column, int row) {
+  return host_->core_->pixel(*client_, column, row);
+}
+
+std::vector<std::uint8_t> InProcessSession::canvas_image() {
+  return host_->core_->canvas_image(*client_);
+}
+
+TimeStatistics InProcessSession::time() const { return host_->core_->time(); }
+
+void InProcessSession::sleep(double seconds) {
+  farewell.remember(host_);
+  host_->core_->sleep(*client_, seconds);
+}
+
+void InProcessSession::prefer_real_time(const std::string& reason) {
+  host_->core_->prefer_real_time(reason);
+}
+
+void InProcessSession::close() noexcept { host_->core_->remove_client(*client_); }
+
+}  // namespace playerlike

@@ -1,1 +1,190 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "canvas/image_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <stdexcept>
+#include <string_view>
+
+namespace sim {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw std::runtime_error(path + ": " + reason);
+}
+
+Bytes read_bytes(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  // A folder can be opened, but not read.
+  if (!file || file.peek() == std::ifstream::traits_type::eof()) {
+    fail(path, errno != 0 ? std::string("cannot read the picture: ") + std::strerror(errno)
+                          : "the file is empty, expected a PNG or PGM picture");
+  }
+  Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (file.bad()) fail(path, "cannot read the picture");
+  return bytes;
+}
+
+bool starts_with(const Bytes& bytes, std::string_view start) {
+  return bytes.size() >= start.size() && std::memcmp(bytes.data(), start.data(), start.size()) == 0;
+}
+
+void check_size(const std::string& path, std::uint32_t width, std::uint32_t height) {
+  if (width == 0 || height == 0) fail(path, "the picture has no pixels");
+  if (width > kMaxGreyImageSide || height > kMaxGreyImageSide) {
+    fail(path, "the picture is " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels, at most " + std::to_string(kMaxGreyImageSide) +
+                   " a side are supported");
+  }
+}
+
+// Luma of BT.601 over white, 8 bits a channel.
+std::uint8_t grey(std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32_t alpha) {
+  const std::uint32_t luma = (299 * r + 587 * g + 114 * b + 500) / 1000;
+  return static_cast<std::uint8_t>((luma * alpha + 255 * (255 - alpha) + 127) / 255);
+}
+
+// 8 bits of a sample of 8 or 16.
+std::uint8_t to_8_bits(std::uint8_t sample) { return sample; }
+std::uint8_t to_8_bits(std::uint16_t sample) {
+  return static_cast<std::uint8_t>((sample + 128u) / 257u);
+}
+
+// The loops are written out because OpenCV's own conversions may use its thread pool.
+template <typename Sample>
+void convert(const cv::Mat& decoded, GreyImage& image) {
+  const int channels = decoded.channels();
+  auto out = image.pixels.begin();
+  for (int y = 0; y < decoded.rows; ++y) {
+    const Sample* in = decoded.ptr<Sample>(y);
+    for (int x = 0; x < decoded.cols; ++x, in += channels) {
+      if (channels == 1) {
+        *out++ = to_8_bits(in[0]);
+      } else {  // OpenCV's order is blue, green, red, alpha
+        *out++ = grey(to_8_bits(in[2]), to_8_bits(in[1]), to_8_bits(in[0]),
+                      channels == 4 ? to_8_bits(in[3]) : 255u);
+      }
+    }
+  }
+}
+
+GreyImage load_png(const std::string& path, const Bytes& bytes) {
+  // After the signature of 8 bytes comes the chunk IHDR: length, name, width, height, all of 4
+  // (PNG specification, W3C 2003, 5.2 and 11.2.2).
+  if (bytes.size() < 24) fail(path, "the PNG is cut short");
+  const auto number_at = [&](std::size_t at) {
+    return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 |
+           std::uint32_t{bytes[at + 2]} << 8 | std::uint32_t{bytes[at + 3]};
+  };
+  check_size(path, number_at(16), number_at(20));
+  cv::Mat decoded;
+  try {
+    decoded = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    decoded.release();
+  }
+  if (decoded.empty()) fail(path, "the PNG is damaged");
+  GreyImage image{decoded.cols, decoded.rows, Bytes(decoded.total())};
+  if (decoded.depth() == CV_8U) {
+    convert<std::uint8_t>(decoded, image);
+  } else {
+    convert<std::uint16_t>(decoded, image);
+  }
+  return image;
+}
+
+// Numbers of a PGM, apart by white space and by comments from # to the end of the line.
+class PgmReader {
+ public:
+  PgmReader(const std::string& path, const Bytes& bytes) : path_(path), bytes_(bytes) {}
+
+  std::uint32_t number(const char* what) {
+    skip_space();
+    std::uint32_t value = 0;
+    const std::size_t begin = at_;
+    for (; at_ < bytes_.size() && bytes_[at_] >= '0' && bytes_[at_] <= '9'; ++at_) {
+      value = std::min<std::uint32_t>(value * 10 + (bytes_[at_] - '0'), 100'000'000);
+    }
+    if (at_ == begin) {
+      fail(path_, std::string(at_ == bytes_.size() ? "the PGM is cut short: no "
+                                                   : "the PGM is damaged: expected a number as ") +
+                      what);
+    }
+    return value;
+  }
+
+  // Raw samples begin after one white-space character.
+  const std::uint8_t* raw(std::size_t size) {
+    ++at_;
+    if (at_ > bytes_.size() || bytes_.size() - at_ < size) fail(path_, "the PGM is cut short");
+    return bytes_.data() + at_;
+  }
+
+ private:
+  void skip_space() {
+    while (at_ < bytes_.size()) {
+      if (bytes_[at_] == '#') {
+        while (at_ < bytes_.size() && bytes_[at_] != '\n') ++at_;
+      } else if (bytes_[at_] == ' ' || (bytes_[at_] >= '\t' && bytes_[at_] <= '\r')) {
+        ++at_;
+      } else {
+        return;
+      }
+    }
+  }
+
+  const std::string& path_;
+  const Bytes& bytes_;
+  std::size_t at_ = 2;  // after P2 or P5
+};
+
+// Netpbm's PGM, https://netpbm.sourceforge.net/doc/pgm.html. Read here, not by OpenCV, which does
+// not scale maxima other than 255 alike in the two kinds.
+GreyImage load_pgm(const std::string& path, const Bytes& bytes) {
+  PgmReader reader(path, bytes);
+  const std::uint32_t width = reader.number("width");
+  const std::uint32_t height = reader.number("height");
+  check_size(path, width, height);
+  const std::uint32_t maximum = reader.number("greatest value");
+  if (maximum == 0 || maximum > 65535) {
+    fail(path, "the PGM is damaged: its greatest value must be in 1..65535");
+  }
+  const std::size_t count = std::size_t{width} * height;
+  const auto scaled = [&](std::uint32_t sample) {
+    return static_cast<std::uint8_t>((std::min(sample, maximum) * 255 + maximum / 2) / maximum);
+  };
+  GreyImage image{static_cast<int>(width), static_cast<int>(height), {}};
+  if (bytes[1] == '2') {
+    // Each sample takes at least a digit and a space: a short file cannot claim much memory.
+    if (bytes.size() < 2 * count - 1) fail(path, "the PGM is cut short");
+    image.pixels.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) image.pixels.push_back(scaled(reader.number("pixel")));
+    return image;
+  }
+  const bool wide = maximum > 255;
+  const std::uint8_t* const raw = reader.raw(wide ? 2 * count : count);
+  image.pixels.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    image.pixels[i] = scaled(wide ? raw[2 * i] * 256u + raw[2 * i + 1] : raw[i]);
+  }
+  return image;
+}
+
+}  // namespace
+
+GreyImage load_grey_image(const std::string& path) {
+  const Bytes bytes = read_bytes(path);
+  if (starts_with(bytes, "\x89PNG\r\n\x1a\n")) return load_png(path, bytes);
+  if (starts_with(bytes, "P2") || starts_with(bytes, "P5")) return load_pgm(path, bytes);
+  fail(path, "not a PNG or PGM picture");
+}
+
+}  // namespace sim

@@ -1,1 +1,48 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/colour.h"
+
+#include <array>
+#include <cstddef>
+
+namespace sim {
+namespace {
+
+std::optional<int> hex_digit(char letter) {
+  if (letter >= '0' && letter <= '9') return letter - '0';
+  if (letter >= 'a' && letter <= 'f') return letter - 'a' + 10;
+  if (letter >= 'A' && letter <= 'F') return letter - 'A' + 10;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Colour> parse_colour(std::string_view text) {
+  if (text.size() != 4 && text.size() != 7 && text.size() != 9) return std::nullopt;
+  if (text.front() != '#') return std::nullopt;
+  text.remove_prefix(1);
+  const std::size_t digits_per_channel = text.size() == 3 ? 1 : 2;
+  std::array<std::uint8_t, 4> channels = {0, 0, 0, 255};
+  for (std::size_t channel = 0; channel * digits_per_channel < text.size(); ++channel) {
+    const auto high = hex_digit(text[channel * digits_per_channel]);
+    const auto low = hex_digit(text[channel * digits_per_channel + digits_per_channel - 1]);
+    if (!high || !low) return std::nullopt;
+    channels[channel] = static_cast<std::uint8_t>(*high * 16 + *low);
+  }
+  return Colour{channels[0], channels[1], channels[2], channels[3]};
+}
+
+std::string to_string(Colour colour) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = "#";
+  const auto append = [&](std::uint8_t channel) {
+    text += kDigits[channel >> 4];
+    text += kDigits[channel & 15];
+  };
+  append(colour.r);
+  append(colour.g);
+  append(colour.b);
+  if (colour.a != 255) append(colour.a);
+  return text;
+}
+
+}  // namespace sim

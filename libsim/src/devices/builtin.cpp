@@ -1,1 +1,163 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/builtin.h"
+
+#include <utility>
+
+#include "sim/devices/laser.h"
+#include "sim/devices/localization.h"
+#include "sim/devices/motion.h"
+#include "sim/devices/pen.h"
+
+namespace sim {
+namespace {
+
+constexpr io::NumberRange kFrequency{0.0, 1000.0, true, "Hz"};
+constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
+constexpr double kDegrees = std::numbers::pi / 180.0;
+
+RandomStream noise_stream(const DeviceDescription& device, const RobotDescription& robot,
+                          std::uint64_t world_seed) {
+  return {world_seed, robot.name + "/" + device.name};
+}
+
+LaserParams parse_laser(io::Reader& settings, LaserParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.beam_count = static_cast<int>(settings.integer("beams", p.beam_count, 1, 8192));
+  p.resolution_rad =
+      settings.angle_deg("resolution_deg", p.resolution_rad, {0.0, 360.0, true, "degrees"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.X_BL = settings.pose("pose", p.X_BL);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  const double field_of_view = p.resolution_rad * (p.beam_count - 1);
+  if (field_of_view > 2.0 * std::numbers::pi + 1e-9) {
+    settings.issue("device/laser-field-of-view",
+                   "beams that span at most 360 degrees together, (beams - 1) * resolution_deg",
+                   std::to_string(field_of_view / kDegrees) + " degrees");
+  }
+  return p;
+}
+
+PoseParams parse_pose(io::Reader& settings, PoseParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.noise_yaw_rad =
+      settings.angle_deg("noise_yaw_deg", p.noise_yaw_rad, {0.0, 360.0, false, "degrees"});
+  return p;
+}
+
+OdometryParams parse_odometry(io::Reader& settings, OdometryParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise = settings.number("noise", p.noise, {0.0, 10.0, false, "m after 1 m"});
+  return p;
+}
+
+MotionParams parse_motion(io::Reader& settings, MotionParams p) {
+  p.max_speed_mps = settings.number("max_speed", p.max_speed_mps, {0.0, 20.0, true, "m/s"});
+  p.max_turn_rate_radps = settings.angle_deg("max_turn_rate_deg", p.max_turn_rate_radps,
+                                             {0.0, 3600.0, true, "degrees/s"});
+  p.max_acceleration_mps2 =
+      settings.number("max_acceleration", p.max_acceleration_mps2, {0.0, 1000.0, false, "m/s^2"});
+  p.max_turn_acceleration_radps2 =
+      settings.angle_deg("max_turn_acceleration_deg", p.max_turn_acceleration_radps2,
+                         {0.0, 1e6, false, "degrees/s^2"});
+  p.enabled_at_start = settings.boolean("enabled", p.enabled_at_start);
+  return p;
+}
+
+PenParams parse_pen(io::Reader& settings, PenParams p) {
+  p.colour = settings.colour("colour", p.colour);
+  p.trail = settings.boolean("trail", p.trail);
+  return p;
+}
+
+using Properties = std::map<std::string, double>;
+
+Properties describe(const LaserParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"noise", p.noise_m},
+          {"beams", static_cast<double>(p.beam_count)},
+          {"resolution", p.resolution_rad},
+          {"range_max", p.range_max_m},
+          {"mount_x", p.X_BL.x_m},
+          {"mount_y", p.X_BL.y_m},
+          {"mount_yaw", p.X_BL.yaw_rad},
+          {"height", p.height_m}};
+}
+Properties describe(const MotionParams& p) {
+  return {{"max_speed", p.max_speed_mps},
+          {"max_turn_rate", p.max_turn_rate_radps},
+          {"max_acceleration", p.max_acceleration_mps2},
+          {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
+}
+Properties describe(const OdometryParams& p) {
+  return {{"frequency", p.frequency_hz}, {"noise", p.noise}};
+}
+Properties describe(const PenParams& p) { return {{"trail", p.trail ? 1.0 : 0.0}}; }
+Properties describe(const PoseParams& p) {
+  return {{"frequency", p.frequency_hz}, {"noise", p.noise_m}, {"noise_yaw", p.noise_yaw_rad}};
+}
+
+// A row of the table: `parse` reads Params, `make` builds the device from them.
+template <typename Params, typename Parse, typename Make>
+DeviceKind kind(std::string name, Parse parse, Make make) {
+  DeviceKind row;
+  row.name = std::move(name);
+  row.parse = [parse](io::Reader& settings, const std::any& defaults) -> std::any {
+    return parse(settings, std::any_cast<const Params&>(defaults));
+  };
+  row.defaults = [] { return std::any(Params{}); };
+  row.create = [make](const DeviceDescription& device, const RobotDescription& robot,
+                      const RobotModel& model, std::uint64_t seed) -> std::unique_ptr<Device> {
+    const Params params =
+        device.params.has_value() ? std::any_cast<const Params&>(device.params) : Params{};
+    return make(device, params, robot, model, noise_stream(device, robot, seed));
+  };
+  row.properties = [](const std::any& params) {
+    return describe(params.has_value() ? std::any_cast<const Params&>(params) : Params{});
+  };
+  return row;
+}
+
+std::vector<DeviceKind> make_table() {
+  using D = const DeviceDescription&;
+  using R = const RobotDescription&;
+  using M = const RobotModel&;
+  return {
+      kind<LaserParams>("laser", parse_laser,
+                        [](D d, const LaserParams& p, R, M, RandomStream noise) {
+                          return std::make_unique<Laser>(d.name, p, std::move(noise));
+                        }),
+      kind<MotionParams>("motion", parse_motion,
+                         [](D d, const MotionParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Motion>(d.name, p);
+                         }),
+      kind<OdometryParams>("odometry", parse_odometry,
+                           [](D d, const OdometryParams& p, R, M model, RandomStream noise) {
+                             return std::make_unique<Odometry>(d.name, p, model.wheel_separation_m,
+                                                               std::move(noise));
+                           }),
+      kind<PenParams>("pen", parse_pen,
+                      [](D d, const PenParams& p, R, M, const RandomStream&) {
+                        return std::make_unique<Pen>(d.name, p);
+                      }),
+      kind<PoseParams>("pose", parse_pose,
+                       [](D d, const PoseParams& p, R robot, M, RandomStream noise) {
+                         return std::make_unique<PoseSensor>(d.name, p, robot.pose,
+                                                             std::move(noise));
+                       }),
+  };
+}
+
+}  // namespace
+
+const std::vector<DeviceKind>& device_kinds() {
+  static const std::vector<DeviceKind> table = make_table();
+  return table;
+}
+
+std::vector<io::DeviceType> device_types() {
+  return {device_kinds().begin(), device_kinds().end()};
+}
+
+}  // namespace sim

@@ -1,1 +1,36 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/device.h"
+
+#include "sim/core/assert.h"
+
+namespace sim {
+
+std::optional<std::string> Device::apply(const Command& command) {
+  static_cast<void>(command);
+  return "a device of type \"" + type_ + "\" takes no such command";
+}
+
+Sensor::Sensor(std::string name, std::string type, double frequency_hz)
+    : Device(std::move(name), std::move(type)),
+      frequency_hz_(frequency_hz),
+      period_ns_(from_seconds(1.0 / frequency_hz)),
+      next_due_ns_(period_ns_) {
+  SIM_ASSERT(frequency_hz > 0.0 && period_ns_ > 0);
+}
+
+bool Sensor::update(const StepContext& context) {
+  if (context.now_ns < next_due_ns_) return false;
+  // A sensor faster than the simulation's step measures once a step; readings it could not make
+  // are not caught up on.
+  next_due_ns_ += period_ns_ * ((context.now_ns - next_due_ns_) / period_ns_ + 1);
+  ++sequence_;
+  measure(context);
+  return true;
+}
+
+void Sensor::hash(StateHash& hash) const {
+  hash.add(sequence_);
+  hash.add(next_due_ns_);
+}
+
+}  // namespace sim

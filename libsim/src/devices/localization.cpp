@@ -1,1 +1,104 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/localization.h"
+
+#include <cmath>
+
+namespace sim {
+namespace {
+
+void hash_pose(StateHash& hash, const Pose& pose) {
+  hash.add(pose.x_m);
+  hash.add(pose.y_m);
+  hash.add(pose.yaw_rad);
+}
+
+double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
+
+}  // namespace
+
+PoseSensor::PoseSensor(std::string name, const PoseParams& params, const Pose& X_WB_start,
+                       RandomStream noise)
+    : Sensor(std::move(name), "pose", params.frequency_hz),
+      params_(params),
+      noise_(std::move(noise)),
+      X_WB_(X_WB_start) {}
+
+std::optional<std::string> PoseSensor::apply(const Command& command) {
+  const auto* set = std::get_if<SetPoseCommand>(&command);
+  if (set == nullptr) return Device::apply(command);
+  X_FW_ = set->pose * X_WB_.inverse();
+  return std::nullopt;
+}
+
+void PoseSensor::integrate(const StepContext& context) { X_WB_ = context.body.X_WB; }
+
+void PoseSensor::measure(const StepContext& context) {
+  stamp(context, reading_);
+  // Without a frame of its own the truth passes unchanged, to the bit.
+  reading_.pose = X_FW_ == Pose{} ? X_WB_ : X_FW_ * X_WB_;
+  if (params_.noise_m > 0.0) {
+    reading_.pose.x_m += noise_.gaussian(params_.noise_m);
+    reading_.pose.y_m += noise_.gaussian(params_.noise_m);
+  }
+  if (params_.noise_yaw_rad > 0.0) {
+    reading_.pose.yaw_rad =
+        normalize_angle(reading_.pose.yaw_rad + noise_.gaussian(params_.noise_yaw_rad));
+  }
+  reading_.twist = context.body.twist;
+  reading_.stalled = context.body.stalled;
+}
+
+void PoseSensor::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(noise_.draws());
+  hash_pose(hash, X_FW_);
+}
+
+Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
+                   RandomStream noise)
+    : Sensor(std::move(name), "odometry", params.frequency_hz),
+      params_(params),
+      wheel_separation_m_(wheel_separation_m),
+      noise_(std::move(noise)) {}
+
+std::optional<std::string> Odometry::apply(const Command& command) {
+  const auto* set = std::get_if<SetPoseCommand>(&command);
+  if (set == nullptr) return Device::apply(command);
+  X_SB_ = set->pose;
+  X_SB_.yaw_rad = normalize_angle(X_SB_.yaw_rad);
+  return std::nullopt;
+}
+
+void Odometry::integrate(const StepContext& context) {
+  double ds_m = context.body.travel_m;
+  double dyaw_rad = context.body.turn_rad;
+  if (params_.noise > 0.0) {
+    double left_m = ds_m - 0.5 * wheel_separation_m_ * dyaw_rad;
+    double right_m = ds_m + 0.5 * wheel_separation_m_ * dyaw_rad;
+    left_m += noise_.gaussian(params_.noise * std::sqrt(std::abs(left_m)));
+    right_m += noise_.gaussian(params_.noise * std::sqrt(std::abs(right_m)));
+    ds_m = 0.5 * (left_m + right_m);
+    dyaw_rad = (right_m - left_m) / wheel_separation_m_;
+  }
+  if (ds_m == 0.0 && dyaw_rad == 0.0) return;
+  const double heading = X_SB_.yaw_rad + 0.5 * dyaw_rad;
+  const double chord_m = ds_m * sinc(0.5 * dyaw_rad);
+  X_SB_ = {X_SB_.x_m + chord_m * std::cos(heading), X_SB_.y_m + chord_m * std::sin(heading),
+           normalize_angle(X_SB_.yaw_rad + dyaw_rad)};
+}
+
+void Odometry::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.pose = X_SB_;
+  reading_.twist = context.body.twist;
+  reading_.twist.lateral_mps = 0.0;  // wheels do not feel it
+  reading_.stalled = context.body.stalled;
+}
+
+void Odometry::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(noise_.draws());
+  hash_pose(hash, X_SB_);
+}
+
+}  // namespace sim

@@ -1,1 +1,44 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/pen.h"
+
+namespace sim {
+
+void CanvasOperation::draw(Canvas& canvas) const noexcept {
+  switch (kind) {
+    case Kind::kPixel:
+      canvas.set_pixel(x0, y0, colour);
+      break;
+    case Kind::kLine:
+      canvas.draw_line(x0, y0, x1, y1, colour);
+      break;
+    case Kind::kClear:
+      canvas.clear(colour);
+      break;
+  }
+}
+
+Pen::Pen(std::string name, const PenParams& params)
+    : Actuator(std::move(name), "pen"), params_(params) {}
+
+void Pen::mark_trail(const Pose& X_WB, Canvas& canvas) {
+  if (!params_.trail) return;
+  const int column = canvas.column(X_WB.x_m);
+  const int row = canvas.row(X_WB.y_m);
+  if (has_last_ && column == last_column_ && row == last_row_) return;
+  if (has_last_) {
+    canvas.draw_line(last_column_, last_row_, column, row, params_.colour);
+  } else {
+    canvas.set_pixel(column, row, params_.colour);
+  }
+  has_last_ = true;
+  last_column_ = column;
+  last_row_ = row;
+}
+
+void Pen::hash(StateHash& hash) const {
+  hash.add(has_last_);
+  hash.add(last_column_);
+  hash.add(last_row_);
+}
+
+}  // namespace sim

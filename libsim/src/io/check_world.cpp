@@ -1,1 +1,446 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "io/check_world.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "sim/io/world_io.h"
+#include "sim/world/robot_model.h"
+
+namespace sim::io {
+namespace {
+
+/// What touches does not overlap; files give places to a few digits.
+constexpr double kTouching_m = 1e-6;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+std::string metres(double value) {
+  char text[32];
+  static_cast<void>(std::snprintf(text, sizeof text, "%.3g m", value));
+  return text;
+}
+
+std::string place(const Vec2& p) {
+  char text[64];
+  static_cast<void>(std::snprintf(text, sizeof text, "(%.2f, %.2f)", p.x(), p.y()));
+  return text;
+}
+
+Polygon box_of(const ObstacleDescription& obstacle) {
+  const Pose X_WO{obstacle.center.x(), obstacle.center.y(), obstacle.yaw_rad};
+  const Vec2 half = 0.5 * obstacle.size;
+  return {X_WO * Vec2(-half.x(), -half.y()), X_WO * Vec2(half.x(), -half.y()),
+          X_WO * Vec2(half.x(), half.y()), X_WO * Vec2(-half.x(), half.y())};
+}
+
+Polygon placed(const Polygon& footprint, const Pose& X_WB, double scale = 1.0) {
+  Polygon outline;
+  outline.reserve(footprint.size());
+  for (const Vec2& p : footprint) outline.push_back(X_WB * Vec2(p * scale));
+  return outline;
+}
+
+/// A convex polygon with the circle round it, for quick refusal.
+struct Solid {
+  explicit Solid(Polygon polygon) : outline(std::move(polygon)) {
+    for (const Vec2& p : outline) middle += p;
+    middle /= static_cast<double>(outline.size());
+    for (const Vec2& p : outline) radius_m = std::max(radius_m, (p - middle).norm());
+  }
+
+  Polygon outline;
+  Vec2 middle = Vec2::Zero();
+  double radius_m = 0.0;
+};
+
+/// How far two convex polygons reach into each other: the least shift that parts them [m]; 0 if
+/// they do not overlap. Separating axes: C. Ericson, Real-Time Collision Detection (2005),
+/// sec. 5.2.1.
+double overlap_m(const Solid& a, const Solid& b) {
+  if ((a.middle - b.middle).norm() >= a.radius_m + b.radius_m) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Polygon* polygon : {&a.outline, &b.outline}) {
+    for (std::size_t i = 0; i < polygon->size(); ++i) {
+      const Vec2 edge = (*polygon)[(i + 1) % polygon->size()] - (*polygon)[i];
+      const Vec2 normal = Vec2(edge.y(), -edge.x()).normalized();
+      const auto extent = [&normal](const Polygon& outline) {
+        double min = std::numeric_limits<double>::infinity();
+        double max = -min;
+        for (const Vec2& p : outline) {
+          min = std::min(min, normal.dot(p));
+          max = std::max(max, normal.dot(p));
+        }
+        return std::pair(min, max);
+      };
+      const auto [a_min, a_max] = extent(a.outline);
+      const auto [b_min, b_max] = extent(b.outline);
+      least = std::min(least, std::min(a_max - b_min, b_max - a_min));
+      if (least <= kTouching_m) return 0.0;
+    }
+  }
+  return least;
+}
+
+/// Whether a piece of the segment lies within the convex, counter-clockwise polygon (Cyrus and
+/// Beck's clipping), but for its outermost micrometre.
+bool crosses(const Solid& solid, const Vec2& from, const Vec2& to) {
+  const Vec2 way = to - from;
+  double enter = 0.0;
+  double leave = 1.0;
+  for (std::size_t i = 0; i < solid.outline.size(); ++i) {
+    const Vec2& corner = solid.outline[i];
+    const Vec2 edge = (solid.outline[(i + 1) % solid.outline.size()] - corner).normalized();
+    const double depth = cross(edge, from - corner) - kTouching_m;  // > 0: inside this edge
+    const double change = cross(edge, way);
+    if (change == 0.0) {
+      if (depth <= 0.0) return false;
+    } else if (change > 0.0) {
+      enter = std::max(enter, -depth / change);
+    } else {
+      leave = std::min(leave, -depth / change);
+    }
+  }
+  return enter < leave;
+}
+
+/// Whether the point lies in the solid of the walls: on the inner side of an odd number of loops.
+bool in_solid(const std::vector<WallLoop>& walls, const Vec2& p) {
+  bool inside = false;
+  for (const WallLoop& loop : walls) {
+    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+      const Vec2& a = loop.vertices[i];
+      const Vec2& b = loop.vertices[(i + 1) % loop.vertices.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (x > p.x()) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+/// Where the polygon runs into a wall: a point of that wall; nullopt if nowhere.
+std::optional<Vec2> wall_within(const std::vector<WallLoop>& walls, const Solid& solid) {
+  for (const WallLoop& loop : walls) {
+    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
+      const Vec2& a = loop.vertices[i];
+      const Vec2& b = loop.vertices[(i + 1) % loop.vertices.size()];
+      if (std::max(a.x(), b.x()) < solid.middle.x() - solid.radius_m ||
+          std::min(a.x(), b.x()) > solid.middle.x() + solid.radius_m ||
+          std::max(a.y(), b.y()) < solid.middle.y() - solid.radius_m ||
+          std::min(a.y(), b.y()) > solid.middle.y() + solid.radius_m) {
+        continue;
+      }
+      if (!crosses(solid, a, b)) continue;
+      const double t = std::clamp((solid.middle - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+      return Vec2(a + t * (b - a));
+    }
+  }
+  if (in_solid(walls, solid.middle)) return solid.middle;
+  return std::nullopt;
+}
+
+/// The border that the outline sticks out of farthest, and how far [m].
+std::pair<const char*, double> beyond_floor(const ArenaDescription& arena, const Polygon& outline) {
+  const Vec2 low = arena.origin;
+  const Vec2 high = arena.origin + arena.size;
+  std::pair<const char*, double> worst{"", kTouching_m};
+  const auto note = [&worst](const char* side, double depth_m) {
+    if (depth_m > worst.second) worst = {side, depth_m};
+  };
+  for (const Vec2& p : outline) {
+    note("left", low.x() - p.x());
+    note("right", p.x() - high.x());
+    note("bottom", low.y() - p.y());
+    note("top", p.y() - high.y());
+  }
+  if (worst.first[0] == '\0') worst.second = 0.0;
+  return worst;
+}
+
+std::string floor_text(const ArenaDescription& arena) {
+  return "the floor, which goes from " + place(arena.origin) + " to " +
+         place(arena.origin + arena.size);
+}
+
+struct NamedSolid {
+  const ObstacleDescription* obstacle;
+  bool separator;
+  Solid solid;
+};
+
+/// Everything solid that a robot at rest must keep clear of, but for other robots.
+std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
+  std::vector<NamedSolid> solids;
+  for (const ObstacleDescription& obstacle : arena.obstacles) {
+    if (obstacle.state == ObstacleState::kExtended) {
+      solids.push_back({&obstacle, false, Solid(box_of(obstacle))});
+    }
+  }
+  for (const ObstacleDescription& separator : arena.dock_separators) {
+    solids.push_back({&separator, true, Solid(box_of(separator))});
+  }
+  return solids;
+}
+
+/// Collects issues of one world.
+class Checker {
+ public:
+  Checker(const WorldDescription& world, const TrustedPart& trusted)
+      : world_(world), trusted_(trusted) {
+    if (world.arena.preset == "syrotek") preset_ = syrotek_arena();
+  }
+
+  std::vector<ConfigIssue> run() {
+    check_names_and_ports();
+    if (trusted_("/arena")) {
+      check_arena();
+      check_robot_poses();
+    }
+    check_canvas();
+    return std::move(issues_);
+  }
+
+ private:
+  void add(const char* id, std::string pointer, std::string expected, std::string found,
+           std::string hint = "") {
+    issues_.push_back({id, world_.file, std::move(pointer), std::move(expected), std::move(found),
+                       std::move(hint)});
+  }
+
+  /// Pointer of an element of a list that a preset's elements precede; of a preset's own: the list.
+  static std::string element(const char* list, std::size_t index, std::size_t of_preset) {
+    if (index < of_preset) return list;
+    return std::string(list) + '/' + std::to_string(index - of_preset);
+  }
+
+  [[nodiscard]] std::string obstacle_pointer(std::size_t i) const {
+    return element("/arena/obstacles", i, preset_.obstacles.size());
+  }
+  [[nodiscard]] std::string separator_pointer(std::size_t i) const {
+    return element("/arena/dock_separators", i, preset_.dock_separators.size());
+  }
+  [[nodiscard]] std::string dock_pointer(std::size_t i) const {
+    return element("/arena/docks", i, preset_.docks.size());
+  }
+  static std::string robot_pointer(std::size_t i) { return "/robots/" + std::to_string(i); }
+
+  void unique(std::map<std::string, std::string>& seen, const std::string& name,
+              const std::string& owner, const char* what) {
+    if (!trusted_(owner + "/name")) return;
+    const auto [first, added] = seen.emplace(name, owner);
+    if (!added) {
+      add("world/duplicate-name", owner + "/name",
+          std::string("a name of its own for each ") + what,
+          '"' + name + "\" a second time (first at " + first->second + ")",
+          "rename one of the two");
+    }
+  }
+
+  void check_names_and_ports() {
+    std::map<std::string, std::string> blocks;
+    for (std::size_t i = 0; i < world_.arena.obstacles.size(); ++i) {
+      unique(blocks, world_.arena.obstacles[i].name, obstacle_pointer(i), "obstacle and separator");
+    }
+    for (std::size_t i = 0; i < world_.arena.dock_separators.size(); ++i) {
+      unique(blocks, world_.arena.dock_separators[i].name, separator_pointer(i),
+             "obstacle and separator");
+    }
+    std::map<std::string, std::string> docks;
+    for (std::size_t i = 0; i < world_.arena.docks.size(); ++i) {
+      unique(docks, world_.arena.docks[i].name, dock_pointer(i), "dock");
+    }
+    std::map<std::string, std::string> robots;
+    std::map<int, std::size_t> ports;
+    for (std::size_t i = 0; i < world_.robots.size(); ++i) {
+      const RobotDescription& robot = world_.robots[i];
+      unique(robots, robot.name, robot_pointer(i), "robot");
+      if (!trusted_(robot_pointer(i) + "/port") || robot.port == 0) continue;
+      const auto [first, added] = ports.emplace(robot.port, i);
+      if (!added) {
+        add("world/duplicate-port", robot_pointer(i) + "/port", "a port of its own for each robot",
+            std::to_string(robot.port) + " a second time (robot " +
+                world_.robots[first->second].name + " has it)",
+            "leave \"port\" out and each robot gets a free one");
+      }
+    }
+  }
+
+  void check_inside(const ObstacleDescription& obstacle, const std::string& pointer,
+                    const char* what) {
+    const auto [side, depth_m] = beyond_floor(world_.arena, box_of(obstacle));
+    if (depth_m == 0.0) return;
+    add("world/obstacle-outside", pointer,
+        std::string("a") + what + " on " + floor_text(world_.arena),
+        obstacle.name + " sticking out " + metres(depth_m) + " beyond the " + side + " side",
+        "center is the middle of the box, size its full length and width");
+  }
+
+  void check_arena() {
+    const ArenaDescription& arena = world_.arena;
+    for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
+      check_inside(arena.obstacles[i], obstacle_pointer(i), "n obstacle");
+    }
+    for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
+      check_inside(arena.dock_separators[i], separator_pointer(i), " separator");
+    }
+    for (std::size_t i = 0; i < arena.docks.size(); ++i) {
+      const DockDescription& dock = arena.docks[i];
+      ObstacleDescription area;
+      area.name = dock.name;
+      area.center = dock.pose.position();
+      area.size = dock.size;
+      area.yaw_rad = dock.pose.yaw_rad;
+      check_inside(area, dock_pointer(i), " dock");
+    }
+  }
+
+  void check_robot_poses() {
+    const std::vector<NamedSolid> solids = standing_solids(world_.arena);
+    std::vector<std::pair<std::size_t, Solid>> before;
+    for (std::size_t i = 0; i < world_.robots.size(); ++i) {
+      const RobotDescription& robot = world_.robots[i];
+      const RobotModel* model = find_robot_model(robot.model);
+      const std::string pointer = robot_pointer(i) + "/pose";
+      if (model == nullptr || !trusted_(pointer) || !trusted_(robot_pointer(i) + "/model")) {
+        continue;
+      }
+      const std::string who = "robot " + robot.name + " at " + place(robot.pose.position());
+      Solid body(placed(model->footprint, robot.pose));
+
+      const auto [side, depth_m] = beyond_floor(world_.arena, body.outline);
+      if (depth_m > 0.0) {
+        add("world/robot-outside", pointer, "a place on " + floor_text(world_.arena),
+            who + " sticking out " + metres(depth_m) + " beyond the " + side + " side",
+            "x and y are the middle of the robot; keep 0.1 m from the border");
+      }
+      for (const NamedSolid& other : solids) {
+        const double overlap = overlap_m(body, other.solid);
+        if (overlap == 0.0) continue;
+        const ObstacleDescription& obstacle = *other.obstacle;
+        const bool dynamic = obstacle.type == ObstacleType::kDynamic;
+        add("world/robot-overlaps-obstacle", pointer,
+            std::string("a place clear of ") + (other.separator ? "separator " : "obstacle ") +
+                obstacle.name + ", whose center is " + place(obstacle.center),
+            who + " overlapping it by " + metres(overlap),
+            dynamic ? "move the robot, or leave " + obstacle.name + " retracted"
+                    : "move the robot");
+      }
+      if (const std::optional<Vec2> wall = wall_within(world_.arena.walls, body)) {
+        add("world/robot-overlaps-wall", pointer, "a place clear of the map's walls",
+            who + " in a wall at " + place(*wall), "move the robot to a light part of the map");
+      }
+      for (const auto& [j, other] : before) {
+        const double overlap = overlap_m(body, other);
+        if (overlap == 0.0) continue;
+        add("world/robots-overlap", pointer,
+            "a place clear of robot " + world_.robots[j].name + " at " +
+                place(world_.robots[j].pose.position()),
+            who + " overlapping it by " + metres(overlap), "move one of the two");
+      }
+      before.emplace_back(i, std::move(body));
+    }
+  }
+
+  void check_canvas() {
+    constexpr int kMaxSide = 8192;
+    const CanvasDescription& canvas = world_.canvas;
+    if (canvas.width < 1 || canvas.width > kMaxSide || canvas.height < 1 ||
+        canvas.height > kMaxSide) {
+      add("world/out-of-range", "/canvas/size", "1 to 8192 cells along each side",
+          std::to_string(canvas.width) + " x " + std::to_string(canvas.height));
+    }
+    if (!(canvas.cell_size_m > 0.0)) {
+      add("world/out-of-range", "/canvas/cell_size", "a number greater than 0 m",
+          std::to_string(canvas.cell_size_m));
+    }
+  }
+
+  const WorldDescription& world_;
+  const TrustedPart& trusted_;
+  ArenaDescription preset_;
+  std::vector<ConfigIssue> issues_;
+};
+
+}  // namespace
+
+std::vector<ConfigIssue> check_world_parts(const WorldDescription& world,
+                                           const TrustedPart& trusted) {
+  return Checker(world, trusted).run();
+}
+
+std::vector<ConfigIssue> check_world(const WorldDescription& world) {
+  return check_world_parts(world, [](const std::string&) { return true; });
+}
+
+std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint) {
+  constexpr double kMargin = 1.3;  // of the footprint: 2 to 3 cm for an S1R
+  constexpr double kSpacing_m = 0.1;
+  constexpr int kMostSteps = 40;
+  constexpr double kStep_m = 0.1;
+  constexpr double kFarEnough_m = 2.0;
+
+  const ArenaDescription& arena = world.arena;
+  const std::vector<NamedSolid> solids = standing_solids(arena);
+  std::vector<Solid> robots;
+  for (const RobotDescription& robot : world.robots) {
+    if (const RobotModel* model = find_robot_model(robot.model)) {
+      robots.emplace_back(placed(model->footprint, robot.pose));
+    }
+  }
+  const auto is_free = [&](const Pose& X_WB) {
+    const Solid body(placed(footprint, X_WB, kMargin));
+    return beyond_floor(arena, body.outline).second == 0.0 &&
+           std::none_of(solids.begin(), solids.end(),
+                        [&](const NamedSolid& s) { return overlap_m(body, s.solid) > 0.0; }) &&
+           std::none_of(robots.begin(), robots.end(),
+                        [&](const Solid& s) { return overlap_m(body, s) > 0.0; }) &&
+           !wall_within(arena.walls, body);
+  };
+
+  if (arena.preset == "syrotek" && is_free(syrotek_start_pose())) return syrotek_start_pose();
+
+  const double spacing_m = std::max(kSpacing_m, arena.size.maxCoeff() / kMostSteps);
+  const int columns = static_cast<int>(arena.size.x() / spacing_m);
+  const int rows = static_cast<int>(arena.size.y() / spacing_m);
+  const Vec2 middle = arena.origin + 0.5 * arena.size;
+  const int middle_column = columns / 2;
+  const int middle_row = rows / 2;
+  std::vector<Vec2> places;
+  for (int row = 0; row <= rows; ++row) {
+    for (int column = 0; column <= columns; ++column) {
+      places.emplace_back(middle.x() + (column - middle_column) * spacing_m,
+                          middle.y() + (row - middle_row) * spacing_m);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), [&middle](const Vec2& a, const Vec2& b) {
+    return (a - middle).squaredNorm() < (b - middle).squaredNorm();
+  });
+  for (const Vec2& p : places) {
+    std::optional<Pose> best;
+    double farthest_m = -1.0;
+    for (const double yaw_rad :
+         {0.0, std::numbers::pi / 2.0, std::numbers::pi, -std::numbers::pi / 2.0}) {
+      double free_m = -1.0;
+      for (int k = 0; k * kStep_m <= kFarEnough_m; ++k) {
+        const Vec2 ahead = p + k * kStep_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
+        if (!is_free({ahead.x(), ahead.y(), yaw_rad})) break;
+        free_m = k * kStep_m;
+      }
+      if (free_m > farthest_m) {
+        farthest_m = free_m;
+        best = Pose{p.x(), p.y(), yaw_rad};
+      }
+    }
+    if (best) return best;
+  }
+  return std::nullopt;
+}
+
+}  // namespace sim::io

@@ -1,1 +1,106 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "io/map_io.h"
+
+#include <array>
+#include <utility>
+
+namespace sim::io {
+namespace {
+
+/// Counter-clockwise, so that adding one turns left.
+enum Direction : unsigned { kEast = 0, kNorth = 1, kWest = 2, kSouth = 3 };
+
+/// The grid with a frame of free cells round it: no bounds to check. Rows count from the bottom.
+class FramedGrid {
+ public:
+  explicit FramedGrid(const OccupancyGrid& grid)
+      : stride_(static_cast<std::size_t>(grid.width) + 2),
+        cells_(stride_ * (static_cast<std::size_t>(grid.height) + 2), 0) {
+    for (int row = 0; row < grid.height; ++row) {
+      for (int column = 0; column < grid.width; ++column) {
+        const std::size_t from =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width) +
+            static_cast<std::size_t>(column);
+        cells_[index(column, grid.height - 1 - row)] = grid.solid[from] != 0 ? 1 : 0;
+      }
+    }
+  }
+
+  [[nodiscard]] bool solid(int column, int row) const { return cells_[index(column, row)] != 0; }
+
+  /// Whether an outline leaves the lattice point (i, j) in that direction: solid on its left, free
+  /// on its right. Point (i, j) is the bottom left corner of cell (i, j).
+  [[nodiscard]] bool edge_leaves(int i, int j, unsigned direction) const {
+    switch (direction) {
+      case kEast:
+        return solid(i, j) && !solid(i, j - 1);
+      case kNorth:
+        return solid(i - 1, j) && !solid(i, j);
+      case kWest:
+        return solid(i - 1, j - 1) && !solid(i - 1, j);
+      default:
+        return solid(i, j - 1) && !solid(i - 1, j - 1);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row + 1) * stride_ + static_cast<std::size_t>(column + 1);
+  }
+
+  std::size_t stride_;
+  std::vector<std::uint8_t> cells_;
+};
+
+}  // namespace
+
+std::optional<std::vector<WallLoop>> trace_walls(const OccupancyGrid& grid, const Vec2& origin,
+                                                 double resolution_m) {
+  constexpr std::array<int, 4> kStepX{1, 0, -1, 0};
+  constexpr std::array<int, 4> kStepY{0, 1, 0, -1};
+  const FramedGrid cells(grid);
+  const std::size_t stride = static_cast<std::size_t>(grid.width) + 1;
+  // Every loop has an edge that leads east, so these alone tell which loops have been followed.
+  std::vector<std::uint8_t> followed(stride * (static_cast<std::size_t>(grid.height) + 1), 0);
+  const auto at = [stride](int i, int j) {
+    return static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i);
+  };
+  const auto point = [&](int i, int j) {
+    return Vec2(origin.x() + i * resolution_m, origin.y() + j * resolution_m);
+  };
+
+  std::vector<WallLoop> loops;
+  std::size_t edges = 0;
+  for (int start_j = 0; start_j <= grid.height; ++start_j) {
+    for (int start_i = 0; start_i < grid.width; ++start_i) {
+      if (followed[at(start_i, start_j)] != 0 || !cells.edge_leaves(start_i, start_j, kEast)) {
+        continue;
+      }
+      // The leftmost edge of its run, since the others are followed right after it: a corner.
+      WallLoop loop;
+      loop.vertices.push_back(point(start_i, start_j));
+      int i = start_i;
+      int j = start_j;
+      unsigned direction = kEast;
+      for (;;) {
+        if (direction == kEast) followed[at(i, j)] = 1;
+        i += kStepX[direction];
+        j += kStepY[direction];
+        // Left first: where two solid cells meet at a corner, the outline stays with its own.
+        unsigned next = (direction + 1U) % 4U;
+        if (!cells.edge_leaves(i, j, next)) {
+          next = cells.edge_leaves(i, j, direction) ? direction : (direction + 3U) % 4U;
+        }
+        if (i == start_i && j == start_j && next == kEast) break;
+        if (next != direction) loop.vertices.push_back(point(i, j));
+        direction = next;
+      }
+      edges += loop.vertices.size();
+      if (edges > kMaxWallEdges) return std::nullopt;
+      loops.push_back(std::move(loop));
+    }
+  }
+  return loops;
+}
+
+}  // namespace sim::io

@@ -1,1 +1,616 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/io/world_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "canvas/image_file.h"
+#include "io/check_world.h"
+#include "io/document.h"
+#include "io/map_io.h"
+
+namespace sim::io {
+namespace {
+
+constexpr int kFirstPort = 6665;  ///< Player's own
+constexpr int kMorsePort = 4000;  ///< where all robots are visible
+constexpr std::size_t kMaxRobots = 1000;
+constexpr std::size_t kMaxObstacles = 100'000;
+
+constexpr NumberRange kPosition{-1e6, 1e6, false, "m"};
+constexpr NumberRange kLength{0.0, 10'000.0, true, "m"};
+constexpr NumberRange kHeight{0.0, 10.0, true, "m"};
+
+/// Colours of robots that are given none, told apart at a glance and none of them the red of
+/// dynamic blocks.
+constexpr std::array<Colour, 13> kPalette{{{0xff, 0x88, 0x00, 0xff},
+                                           {0x2a, 0x7f, 0xde, 0xff},
+                                           {0x2f, 0xae, 0x4e, 0xff},
+                                           {0xc2, 0x38, 0xb8, 0xff},
+                                           {0xe8, 0xc3, 0x17, 0xff},
+                                           {0x12, 0xa8, 0xa8, 0xff},
+                                           {0x6a, 0x4c, 0xe0, 0xff},
+                                           {0xf0, 0x6a, 0xa0, 0xff},
+                                           {0x8c, 0x5a, 0x32, 0xff},
+                                           {0x5f, 0x8d, 0x1f, 0xff},
+                                           {0x1d, 0x3f, 0x8f, 0xff},
+                                           {0x5c, 0x66, 0x70, 0xff},
+                                           {0x5c, 0xc8, 0xff, 0xff}}};
+
+/// The first of prefix1, prefix2, ... from `number` on that is not taken; takes it.
+std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
+  for (;; ++number) {
+    std::string name = prefix + std::to_string(number);
+    if (taken.insert(name).second) return name;
+  }
+}
+
+std::vector<std::string> type_names(const std::vector<DeviceType>& types) {
+  std::vector<std::string> names;
+  for (const DeviceType& type : types) names.push_back(type.name);
+  return names;
+}
+
+const DeviceType* find_type(const std::vector<DeviceType>& types, const std::string& name) {
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&name](const DeviceType& t) { return t.name == name; });
+  return type == types.end() ? nullptr : &*type;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? "" : "did you mean " + in_quotes(near) + "?";
+}
+
+/// Elements of a list, of which there may be so many.
+std::vector<Reader> bounded_array(Reader& parent, std::string_view key, std::size_t most) {
+  std::vector<Reader> elements = parent.array(key);
+  if (elements.size() > most) {
+    parent.issue("world/too-many", "at most " + std::to_string(most) + " of them",
+                 std::to_string(elements.size()), "", key);
+    elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(most), elements.end());
+  }
+  return elements;
+}
+
+/// Whether a key that must be there is; if not, that is recorded.
+bool require(Reader& reader, std::string_view key, const char* what) {
+  if (reader.has(key)) return true;
+  reader.issue("world/missing-key", "the key \"" + std::string(key) + "\": " + what, "none");
+  return false;
+}
+
+class WorldReader {
+ public:
+  WorldReader(Reader::Document& document, const std::vector<DeviceType>& device_types)
+      : document_(document), types_(device_types) {
+    world_.file = document.file;
+  }
+
+  WorldDescription read() {
+    Reader root(document_, document_.root, "");
+    if (!root.expect_object()) return world_;
+    static_cast<void>(root.string("$schema", ""));
+    world_.name = root.string("name", world_.name);
+    read_arena(root);
+    read_simulation(root);
+    read_canvas(root);
+    read_robots(root);
+    root.finish();
+    for (ConfigIssue& issue : check_world_parts(world_, [this](const std::string& pointer) {
+           return !document_.has_issue_at(pointer);
+         })) {
+      issue.line = document_.line_of(issue.pointer);
+      document_.add(std::move(issue));
+    }
+    return std::move(world_);
+  }
+
+ private:
+  void read_arena(Reader& root) {
+    ArenaDescription& arena = world_.arena;
+    if (!root.has("arena")) {
+      arena = syrotek_arena();
+      return;
+    }
+    std::optional<Reader> reader = root.object("arena");
+    if (!reader) return;
+    arena.preset = reader->choice("preset", "", {"syrotek"});
+    if (!arena.preset.empty()) {
+      arena = syrotek_arena();
+      for (const char* key : {"size", "origin", "map"}) {
+        if (!reader->has(key)) continue;
+        reader->issue("world/conflicting-keys", "either \"preset\" or \"" + std::string(key) + "\"",
+                      "both", "the preset has its own floor; leave one of the two out", key);
+      }
+    } else {
+      const bool has_size = reader->has("size");
+      const bool has_origin = reader->has("origin");
+      arena.size = reader->vec2("size", arena.size, kLength);
+      arena.origin = reader->vec2("origin", arena.origin, kPosition);
+      read_map(*reader, has_size, has_origin);
+    }
+    arena.border = reader->boolean("border", arena.border);
+    arena.border_height_m = reader->number("border_height", arena.border_height_m, kHeight);
+    read_blocks(*reader, "obstacles", "o", false, arena.obstacles);
+    read_docks(*reader);
+    read_blocks(*reader, "dock_separators", "separator", true, arena.dock_separators);
+    set_states(*reader);
+    reader->finish();
+  }
+
+  void read_blocks(Reader& arena, const char* key, const char* prefix, bool separators,
+                   std::vector<ObstacleDescription>& blocks) {
+    std::vector<std::size_t> unnamed;
+    for (Reader& reader : bounded_array(arena, key, kMaxObstacles)) {
+      ObstacleDescription block;
+      if (reader.expect_object()) {
+        block.name = reader.name("name", "");
+        if (require(reader, "center", "[x, y] of the middle of the box, in m")) {
+          block.center = reader.vec2("center", block.center, kPosition);
+        }
+        block.size = reader.vec2("size", block.size, kLength);
+        block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
+        block.height_m = reader.number("height", block.height_m, kHeight);
+        if (!separators) read_kind(reader, block);
+        reader.finish();
+      }
+      if (block.name.empty()) unnamed.push_back(blocks.size());
+      blocks.push_back(std::move(block));
+    }
+    std::set<std::string> taken;
+    for (const ObstacleDescription& block : blocks) taken.insert(block.name);
+    std::size_t number = 0;
+    for (const std::size_t i : unnamed) blocks[i].name = free_name(prefix, ++number, taken);
+  }
+
+  static void read_kind(Reader& reader, ObstacleDescription& block) {
+    if (reader.choice("type", "static", {"static", "dynamic"}) == "dynamic") {
+      block.type = ObstacleType::kDynamic;
+    }
+    if (reader.choice("state", "extended", {"extended", "retracted"}) == "retracted") {
+      block.state = ObstacleState::kRetracted;
+      if (block.type == ObstacleType::kStatic) {
+        reader.issue("world/static-obstacle", "\"extended\" (or no state) for a static obstacle",
+                     "\"retracted\"", "only an obstacle of type \"dynamic\" can be retracted",
+                     "state");
+      }
+    }
+  }
+
+  void read_docks(Reader& arena) {
+    std::vector<std::size_t> unnamed;
+    std::vector<DockDescription>& docks = world_.arena.docks;
+    for (Reader& reader : bounded_array(arena, "docks", kMaxObstacles)) {
+      DockDescription dock;
+      if (reader.expect_object()) {
+        dock.name = reader.name("name", "");
+        if (require(reader, "pose", "{\"x\", \"y\", \"yaw_deg\"} of its middle")) {
+          dock.pose = reader.pose("pose", dock.pose);
+        }
+        dock.size = reader.vec2("size", dock.size, kLength);
+        reader.finish();
+      }
+      if (dock.name.empty()) unnamed.push_back(docks.size());
+      docks.push_back(std::move(dock));
+    }
+    std::set<std::string> taken;
+    for (const DockDescription& dock : docks) taken.insert(dock.name);
+    std::size_t number = 0;
+    for (const std::size_t i : unnamed) docks[i].name = free_name("dock", ++number, taken);
+  }
+
+  /// The lists "extended" and "retracted": names of dynamic obstacles to set.
+  void set_states(Reader& arena) {
+    std::set<std::string> extended;
+    for (const auto& [key, state] : {std::pair("extended", ObstacleState::kExtended),
+                                     std::pair("retracted", ObstacleState::kRetracted)}) {
+      for (Reader& element : arena.array(key)) {
+        ObstacleDescription* obstacle = named_dynamic(element);
+        if (obstacle == nullptr) continue;
+        if (state == ObstacleState::kExtended) {
+          extended.insert(obstacle->name);
+        } else if (extended.contains(obstacle->name)) {
+          element.issue("world/conflicting-state", "an obstacle in one of the two lists only",
+                        in_quotes(obstacle->name) + " in \"extended\" too",
+                        "take it out of one of them");
+        }
+        obstacle->state = state;
+      }
+    }
+  }
+
+  /// The dynamic obstacle that a list's element names; nullptr and an issue if there is none.
+  ObstacleDescription* named_dynamic(Reader& element) {
+    if (!element.is_string()) {
+      element.issue("world/wrong-type", "the name of a dynamic obstacle in double quotes",
+                    element.described());
+      return nullptr;
+    }
+    const std::string name = element.scalar_text().value_or("");
+    std::vector<ObstacleDescription>& obstacles = world_.arena.obstacles;
+    const auto obstacle =
+        std::find_if(obstacles.begin(), obstacles.end(),
+                     [&name](const ObstacleDescription& o) { return o.name == name; });
+    if (obstacle != obstacles.end() && obstacle->type == ObstacleType::kDynamic) return &*obstacle;
+    if (obstacle != obstacles.end()) {
+      element.issue("world/static-obstacle", "a dynamic obstacle",
+                    in_quotes(name) + ", which is static", "static obstacles are always there");
+      return nullptr;
+    }
+    std::vector<std::string> known;
+    for (const ObstacleDescription& o : obstacles) {
+      if (o.type == ObstacleType::kDynamic && known.size() < 20) known.push_back(o.name);
+    }
+    element.issue(
+        "world/unknown-obstacle",
+        known.empty() ? "no name: this arena has no dynamic obstacles"
+                      : "the name of a dynamic obstacle: " + list_text(known),
+        in_quotes(name),
+        known.empty() ? "is \"preset\": \"syrotek\" missing?" : did_you_mean(name, known));
+    return nullptr;
+  }
+
+  void read_map(Reader& arena_reader, bool has_size, bool has_origin) {
+    ArenaDescription& arena = world_.arena;
+    std::optional<Reader> reader = arena_reader.object("map");
+    if (!reader) return;
+    MapDescription map;
+    const bool named = require(*reader, "image", "a PNG or PGM file, relative to this file");
+    map.image = reader->string("image", "");
+    map.resolution_m = reader->number("resolution", map.resolution_m, {0.0, 10.0, true, "m"});
+    map.origin = reader->vec2("origin", arena.origin, kPosition);
+    map.occupied_threshold =
+        reader->number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
+    reader->finish();
+    arena.map = map;
+    if (!named || document_.has_issue_at(reader->pointer())) return;
+
+    const std::filesystem::path folder = std::filesystem::path(document_.file).parent_path();
+    GreyImage image;
+    try {
+      image = load_grey_image((folder / map.image).string());
+    } catch (const std::runtime_error& error) {
+      reader->issue("world/map-unreadable", "a picture (PNG or PGM)", error.what(),
+                    "the name is relative to the folder of the world file", "image");
+      return;
+    }
+    if (image.width < 1 || image.height < 1 || image.width > kMaxMapSide ||
+        image.height > kMaxMapSide) {
+      reader->issue("world/map-too-large",
+                    "a picture of at most " + std::to_string(kMaxMapSide) + " pixels a side",
+                    std::to_string(image.width) + " x " + std::to_string(image.height),
+                    "shrink the picture and enlarge the resolution", "image");
+      return;
+    }
+    OccupancyGrid grid{image.width, image.height, std::move(image.pixels)};
+    for (std::uint8_t& cell : grid.solid) cell = cell < map.occupied_threshold * 255.0 ? 1 : 0;
+    std::optional<std::vector<WallLoop>> walls = trace_walls(grid, map.origin, map.resolution_m);
+    if (!walls) {
+      reader->issue("world/map-too-complex",
+                    "walls of at most " + std::to_string(kMaxWallEdges) + " edges", "more",
+                    "is it a floor plan? Remove noise, or change occupied_threshold", "image");
+      return;
+    }
+    arena.walls = *std::move(walls);
+    if (!has_size) {
+      arena.size = Vec2(image.width, image.height) * map.resolution_m;
+      if (arena.size.maxCoeff() > kLength.max) {
+        reader->issue("world/map-too-large", "a floor of at most 10000 m a side",
+                      number_text(arena.size.maxCoeff()) + " m", "use a smaller resolution",
+                      "resolution");
+      }
+    }
+    if (!has_origin) arena.origin = map.origin;
+  }
+
+  void read_simulation(Reader& root) {
+    SimulationDescription& simulation = world_.simulation;
+    std::optional<Reader> reader = root.object("simulation");
+    if (!reader) return;
+    simulation.step_ns = from_seconds(
+        reader->number("step", to_seconds(simulation.step_ns), {1e-4, 0.1, false, "s"}));
+    simulation.seed = reader->unsigned_integer("seed", simulation.seed);
+    if (const std::optional<Reader> duration = reader->child("duration");
+        duration && !duration->is_null()) {
+      simulation.duration_ns = from_seconds(reader->number("duration", 0.0, {0.0, 1e9, true, "s"}));
+    }
+    simulation.start_gate_clients =
+        static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
+    if (const std::optional<Reader> time = reader->child("time")) {
+      if (time->is_string()) {
+        if (reader->choice("time", "lockstep", {"lockstep", "real"}) == "real") {
+          simulation.time_mode = TimeMode::kPaced;
+        }
+      } else if (time->is_number()) {
+        simulation.time_mode = TimeMode::kPaced;
+        simulation.time_factor = reader->number("time", 1.0, {0.0, 1e6, true, "times real time"});
+      } else {
+        reader->issue("world/wrong-type",
+                      "\"lockstep\", \"real\" or a number: how many times real time",
+                      time->described(), "", "time");
+      }
+    }
+    reader->finish();
+  }
+
+  /// By default the canvas covers the floor in cells of 2 cm, or coarser ones if they would be
+  /// more than 4096 a side.
+  void read_canvas(Reader& root) {
+    constexpr int kMaxSide = 8192;
+    constexpr double kMaxDefaultSide = 4096.0;
+    CanvasDescription& canvas = world_.canvas;
+    const ArenaDescription& arena = world_.arena;
+    std::optional<Reader> reader = root.object("canvas");
+
+    for (const double coarser_m : {0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0}) {
+      if (arena.size.maxCoeff() / canvas.cell_size_m <= kMaxDefaultSide) break;
+      canvas.cell_size_m = coarser_m;
+    }
+    canvas.origin = arena.origin;
+    if (reader) {
+      canvas.cell_size_m = reader->number("cell_size", canvas.cell_size_m, {0.0, 10.0, true, "m"});
+      canvas.origin = reader->vec2("origin", canvas.origin, kPosition);
+    }
+    // Rounded up to an even number, which films need; 1e-9 forgives 3.42 / 0.02 > 171.
+    const auto cells = [&canvas](double length_m) {
+      const double count = 2.0 * std::ceil(0.5 * (length_m / canvas.cell_size_m - 1e-9));
+      return static_cast<std::int64_t>(std::clamp(count, 1.0, 1e9));
+    };
+    const std::array<std::int64_t, 2> covering{cells(arena.size.x()), cells(arena.size.y())};
+    std::array<std::int64_t, 2> size = covering;
+    if (reader) {
+      if (!reader->has("size") && !document_.has_issue_at("/arena") &&
+          (size[0] > kMaxSide || size[1] > kMaxSide)) {
+        reader->issue("world/canvas-too-large", "at most 8192 cells a side to cover the floor",
+                      std::to_string(size[0]) + " x " + std::to_string(size[1]),
+                      "enlarge cell_size, or give the size", "cell_size");
+      }
+      size = reader->integer_pair("size", size, 1, kMaxSide);
+      reader->finish();
+    }
+    canvas.width = static_cast<int>(std::min<std::int64_t>(size[0], kMaxSide));
+    canvas.height = static_cast<int>(std::min<std::int64_t>(size[1], kMaxSide));
+  }
+
+  void read_robots(Reader& root) {
+    std::vector<std::size_t> unplaced;
+    if (!root.has("robots")) {
+      RobotDescription robot;
+      robot.devices = default_devices(root, robot.model);
+      world_.robots.push_back(std::move(robot));
+      unplaced.push_back(0);
+    } else {
+      for (Reader& reader : bounded_array(root, "robots", kMaxRobots)) {
+        RobotDescription robot;
+        robot.colour = kPalette[world_.robots.size() % kPalette.size()];
+        if (reader.expect_object()) {
+          read_robot(reader, robot);
+          if (!reader.has("pose")) unplaced.push_back(world_.robots.size());
+        }
+        world_.robots.push_back(std::move(robot));
+      }
+    }
+    std::set<std::string> names;
+    std::set<int> ports;
+    for (const RobotDescription& robot : world_.robots) {
+      names.insert(robot.name);
+      ports.insert(robot.port);
+    }
+    for (std::size_t i = 0; i < world_.robots.size(); ++i) {
+      RobotDescription& robot = world_.robots[i];
+      if (robot.name.empty()) robot.name = free_name("r", i + 1, names);
+      if (robot.port == 0) {
+        int port = kFirstPort + static_cast<int>(i);
+        while (!ports.insert(port).second) ++port;
+        robot.port = port;
+      }
+    }
+    place_robots(unplaced);
+  }
+
+  /// Gives robots without a pose a free place each.
+  void place_robots(const std::vector<std::size_t>& unplaced) {
+    if (document_.has_issue_at("/arena")) return;
+    WorldDescription others;
+    others.arena = world_.arena;
+    for (std::size_t i = 0; i < world_.robots.size(); ++i) {
+      if (std::find(unplaced.begin(), unplaced.end(), i) == unplaced.end() &&
+          !document_.has_issue_at("/robots/" + std::to_string(i) + "/pose")) {
+        others.robots.push_back(world_.robots[i]);
+      }
+    }
+    for (const std::size_t i : unplaced) {
+      RobotDescription& robot = world_.robots[i];
+      const RobotModel* model = find_robot_model(robot.model);
+      if (model == nullptr) continue;
+      const std::optional<Pose> pose = find_free_pose(others, model->footprint);
+      if (!pose) {
+        ConfigIssue issue{"world/no-free-place",
+                          document_.file,
+                          "/robots/" + std::to_string(i),
+                          "a free place on the floor for robot " + robot.name,
+                          "none",
+                          "give it a \"pose\", or make the arena larger"};
+        issue.line = document_.line_of(issue.pointer);
+        document_.add(std::move(issue));
+        return;
+      }
+      robot.pose = *pose;
+      others.robots.push_back(robot);
+    }
+  }
+
+  void read_robot(Reader& reader, RobotDescription& robot) {
+    robot.name = reader.name("name", "");
+    robot.model = reader.choice("model", robot.model, robot_model_names());
+    robot.pose = reader.pose("pose", robot.pose);
+    robot.colour = reader.colour("colour", robot.colour);
+    if (reader.has("port")) {
+      constexpr int kFirstFree = 1024;  // those below belong to the system
+      constexpr int kLast = 65535;
+      robot.port = static_cast<int>(reader.integer("port", 0, kFirstFree, kLast));
+      if (robot.port == kMorsePort) {
+        reader.issue("world/reserved-port", "a port other than 4000", "4000",
+                     "on port 4000 all robots are visible", "port");
+        robot.port = 0;
+      }
+    }
+    read_devices(reader, robot);
+    if (std::optional<Reader> proxies = reader.object("proxies")) {
+      for (const std::string& interface : proxies->keys()) {
+        robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
+      }
+    }
+    for (Reader& driver : bounded_array(reader, "drivers", 100)) {
+      if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));
+    }
+    reader.finish();
+  }
+
+  static DriverDescription read_driver(Reader& reader) {
+    DriverDescription driver;
+    if (require(reader, "type", "which driver, for example \"snd\"")) {
+      driver.type = reader.name("type", "");
+    }
+    for (const std::string& key : reader.keys()) {
+      if (key == "type") continue;
+      Reader setting = *reader.child(key);
+      if (const std::optional<std::string> text = setting.scalar_text()) {
+        driver.settings[key] = *text;
+      } else {
+        setting.issue("world/wrong-type", "a number, a text, true or false", setting.described());
+      }
+    }
+    return driver;
+  }
+
+  /// The model's devices with default settings.
+  std::vector<DeviceDescription> default_devices(Reader& place, const std::string& model_name) {
+    std::vector<DeviceDescription> devices = find_robot_model(model_name)->devices;
+    for (DeviceDescription& device : devices) {
+      if (device.params.has_value()) continue;
+      if (const DeviceType* type = find_type(types_, device.type)) {
+        device.params = type->defaults();
+      } else {
+        place.issue("world/unknown-device-type",
+                    "one of the types that this program has: " + list_text(type_names(types_)),
+                    in_quotes(device.type) + ", which the model " + model_name + " carries");
+      }
+    }
+    return devices;
+  }
+
+  void read_devices(Reader& robot_reader, RobotDescription& robot) {
+    std::map<std::string, DeviceDescription> devices;
+    for (DeviceDescription& device : default_devices(robot_reader, robot.model)) {
+      devices.emplace(device.name, device);
+    }
+    std::vector<std::string> of_model;
+    for (const auto& [name, device] : devices) of_model.push_back(name);
+
+    if (std::optional<Reader> reader = robot_reader.object("devices")) {
+      for (const std::string& name : reader->keys()) {
+        Reader settings = *reader->child(name);
+        const bool known = devices.contains(name);
+        if (!is_valid_name(name)) {
+          settings.issue("world/bad-name", "a name of 1 to 64 letters, digits, _ or -",
+                         in_quotes(name));
+        } else if (settings.is_null() || settings.scalar_text() == "false") {
+          if (known) {
+            devices.erase(name);
+          } else {
+            settings.issue("world/unknown-device",
+                           "a device that the model has: " + list_text(of_model),
+                           in_quotes(name) + ", which is not there to be removed",
+                           did_you_mean(name, of_model));
+          }
+        } else if (!settings.is_object()) {
+          settings.issue("world/wrong-type",
+                         "an object {...} of settings, or null for no such device",
+                         settings.described());
+        } else {
+          read_device(settings, name, of_model, devices);
+        }
+      }
+    }
+    robot.devices.clear();
+    for (auto& [name, device] : devices) robot.devices.push_back(std::move(device));
+  }
+
+  void read_device(Reader& settings, const std::string& name,
+                   const std::vector<std::string>& of_model,
+                   std::map<std::string, DeviceDescription>& devices) {
+    const auto of_same_name = devices.find(name);
+    const bool known = of_same_name != devices.end();
+    std::string type_name = known ? of_same_name->second.type : name;
+    if (settings.has("type")) {
+      const std::size_t issues_before = document_.issues.size();
+      type_name = settings.choice("type", type_name, type_names(types_));
+      if (document_.issues.size() != issues_before) return;
+    }
+    const DeviceType* type = find_type(types_, type_name);
+    if (type == nullptr) {
+      settings.issue("world/unknown-device",
+                     "a device that the model has (" + list_text(of_model) +
+                         "), or a \"type\" for a new one (" + list_text(type_names(types_)) + ")",
+                     in_quotes(name) + " without a type", did_you_mean(name, of_model));
+      return;
+    }
+    const std::any base = known && of_same_name->second.type == type_name
+                              ? of_same_name->second.params
+                              : type->defaults();
+    std::any params = type->parse(settings, base);
+    settings.finish();
+    devices[name] = {name, type_name, std::move(params)};
+  }
+
+  Reader::Document& document_;
+  const std::vector<DeviceType>& types_;
+  WorldDescription world_;
+};
+
+/// Throws what was found, in the order of the file's lines.
+void throw_issues(Reader::Document& document) {
+  if (document.issues.empty()) return;
+  const auto line = [](const ConfigIssue& issue) {
+    return issue.line == 0 ? std::numeric_limits<int>::max() : issue.line;
+  };
+  std::stable_sort(
+      document.issues.begin(), document.issues.end(),
+      [&line](const ConfigIssue& a, const ConfigIssue& b) { return line(a) < line(b); });
+  throw ConfigError(std::move(document.issues));
+}
+
+}  // namespace
+
+WorldDescription read_world_text(std::string_view text, const std::string& file,
+                                 const std::vector<DeviceType>& device_types) {
+  Reader::Document document;
+  document.file = file;
+  WorldDescription world;
+  if (text.size() > kMaxFileBytes) {
+    document.add({"file/too-large", file, "", "at most 16 MiB", "more", ""});
+  } else if (parse_document(text, document)) {
+    world = WorldReader(document, device_types).read();
+  }
+  throw_issues(document);
+  return world;
+}
+
+WorldDescription read_world(const std::string& path, const std::vector<DeviceType>& device_types) {
+  Reader::Document document;
+  document.file = path;
+  std::string text;
+  if (!read_file(path, text, document)) throw_issues(document);
+  return read_world_text(text, path, device_types);
+}
+
+}  // namespace sim::io

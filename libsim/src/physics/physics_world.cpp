@@ -1,1 +1,790 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "physics/physics_world.h"
+
+#include <box2d/b2_distance.h>
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "physics/feasible_twist.h"
+#include "sim/core/assert.h"
+
+namespace sim {
+namespace {
+
+constexpr double kScale = 10.0;  // Box2D units a metre
+constexpr float kScaleF = 10.0F;
+
+// Box2D keeps the hulls of touching polygons apart by their two skins less the slop.
+constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kScale;
+
+// Farther than this a point of a robot must not move in one step of Box2D: broad phase boxes of
+// obstacles are 1 cm fat, so a contact is known before it is reached.
+constexpr double kMaxTravel_m = 0.0085;
+
+// The same while robots touch: where one is shoved is up to Box2D, which sees a contact only once
+// hulls are closer than their skins of 2 mm together.
+constexpr double kMaxShove_m = 0.002;
+
+// A twist counts as achieved within these.
+constexpr double kSpeedTolerance_mps = 0.01;
+constexpr double kTurnTolerance_radps = 0.05;
+constexpr double kStallDelay_s = 0.2;
+
+constexpr int kVelocityIterations = 8;
+constexpr int kPositionIterations = 3;
+
+b2Vec2 to_box2d(const Vec2& p) {
+  return {static_cast<float>(p.x() * kScale), static_cast<float>(p.y() * kScale)};
+}
+
+double metres(float units) { return static_cast<double>(units) / kScale; }
+
+// sin(x) / x.
+double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
+
+struct FixtureInfo {
+  PhysicsWorld::Contact::Kind kind;
+  int index;  // of the obstacle, separator or robot; -1 for borders and walls
+  double height_m;
+  std::size_t first_edge = 0;  // into StaticEdges; unused for robots
+  std::size_t edge_count = 0;
+};
+
+struct Edge {
+  double x0, y0, x1, y1;
+};
+
+// Edges of everything that does not move, in W, in one array, so that a small world's are
+// collected in one sweep.
+struct EdgeList {
+  std::vector<Edge> edges;
+  std::vector<double> heights_m;
+  double least_height_m = std::numeric_limits<double>::infinity();
+
+  void clear() {
+    edges.clear();
+    heights_m.clear();
+    least_height_m = std::numeric_limits<double>::infinity();
+  }
+  void add(const Edge& edge, double height_m) {
+    edges.push_back(edge);
+    heights_m.push_back(height_m);
+    least_height_m = std::min(least_height_m, height_m);
+  }
+};
+
+// More static edges than this are searched by Box2D's tree instead of swept.
+constexpr std::size_t kSweepLimit = 512;
+
+struct Robot {
+  b2Body* body = nullptr;
+  b2PolygonShape shape;
+  b2PolygonShape reaching_shape;  // the same with a wide skin, which finds contacts ahead
+  double height_m = 0.0;
+  double mass_kg = 0.0;
+  double inertia_kgm2 = 0.0;
+  double radius_m = 0.0;  // of the footprint about B
+  Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
+  Twist target;
+  double stall_clock_s = 0.0;
+  BodyState state;
+  std::vector<int> touching;  // contacts per partner, see ContactCounter
+};
+
+std::vector<Vec2> box_corners(const Vec2& center, const Vec2& size, double yaw_rad) {
+  const Pose X_WO{center.x(), center.y(), yaw_rad};
+  const Vec2 h = 0.5 * size;
+  return {X_WO * Vec2(h.x(), -h.y()), X_WO * Vec2(h.x(), h.y()), X_WO * Vec2(-h.x(), h.y()),
+          X_WO * Vec2(-h.x(), -h.y())};
+}
+
+b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
+  SIM_ASSERT(vertices.size() >= 3 && vertices.size() <= b2_maxPolygonVertices);
+  std::array<b2Vec2, b2_maxPolygonVertices> points;
+  const std::size_t n = std::min(vertices.size(), points.size());
+  std::transform(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(n),
+                 points.begin(), to_box2d);
+  b2PolygonShape shape;
+  shape.Set(points.data(), static_cast<int32>(n));
+  return shape;
+}
+
+const FixtureInfo& info_of(const b2Fixture* fixture) {
+  return *reinterpret_cast<const FixtureInfo*>(
+      const_cast<b2Fixture*>(fixture)->GetUserData().pointer);
+}
+
+}  // namespace
+
+struct PhysicsWorld::Impl : b2ContactListener {
+  explicit Impl(const ArenaDescription& arena) : world(b2Vec2(0.0F, 0.0F)) {
+    world.SetContactListener(this);
+    world.SetContinuousPhysics(false);  // kMaxTravel_m and feasible_twist do its work
+    b2BodyDef ground;
+    static_body = world.CreateBody(&ground);
+    add_obstacles(arena);
+    if (arena.border) add_border(arena);
+    for (const WallLoop& loop : arena.walls) add_wall(loop);
+    rebuild_fixed_edges();
+  }
+
+  // --- Building -------------------------------------------------------------------------------
+
+  FixtureInfo* new_info(Contact::Kind kind, int index, double height_m) {
+    infos.push_back(std::make_unique<FixtureInfo>(FixtureInfo{kind, index, height_m}));
+    return infos.back().get();
+  }
+
+  void attach(b2Body* body, const b2Shape& shape, FixtureInfo* info, float density) {
+    b2FixtureDef def;
+    def.shape = &shape;
+    def.density = density;
+    def.friction = 0.0F;
+    def.restitution = 0.0F;
+    def.userData.pointer = reinterpret_cast<uintptr_t>(info);
+    body->CreateFixture(&def);
+  }
+
+  void append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices) {
+    info.first_edge = all_edges.edges.size();
+    info.edge_count = vertices.size();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vec2& a = vertices[i];
+      const Vec2& b = vertices[(i + 1) % vertices.size()];
+      all_edges.add({a.x(), a.y(), b.x(), b.y()}, info.height_m);
+    }
+  }
+
+  void add_box(const ObstacleDescription& o, Contact::Kind kind, int index) {
+    FixtureInfo* info = new_info(kind, index, o.height_m);
+    const std::vector<Vec2> corners = box_corners(o.center, o.size, o.yaw_rad);
+    append_outline(*info, corners);
+    b2BodyDef def;  // a body of its own, so that it can be switched off
+    b2Body* body = world.CreateBody(&def);
+    attach(body, polygon_shape(corners), info, 0.0F);
+    body->SetEnabled(o.type == ObstacleType::kStatic || o.state == ObstacleState::kExtended);
+    if (kind == Contact::Kind::kObstacle) {
+      obstacle_bodies.push_back(body);
+    }
+  }
+
+  void add_obstacles(const ArenaDescription& arena) {
+    for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
+      add_box(arena.obstacles[i], Contact::Kind::kObstacle, static_cast<int>(i));
+    }
+    for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
+      add_box(arena.dock_separators[i], Contact::Kind::kSeparator, static_cast<int>(i));
+    }
+  }
+
+  void add_border(const ArenaDescription& arena) {
+    const double x0 = arena.origin.x();
+    const double y0 = arena.origin.y();
+    const double x1 = x0 + arena.size.x();
+    const double y1 = y0 + arena.size.y();
+    const double t = 0.1;  // thickness [m]; only the inner faces matter
+    const Vec2 mid(0.5 * (x0 + x1), 0.5 * (y0 + y1));
+    const double w = arena.size.x() + 2.0 * t;
+    const double h = arena.size.y() + 2.0 * t;
+    const std::array<std::pair<Vec2, Vec2>, 4> boxes = {{{{mid.x(), y0 - 0.5 * t}, {w, t}},
+                                                         {{x1 + 0.5 * t, mid.y()}, {t, h}},
+                                                         {{mid.x(), y1 + 0.5 * t}, {w, t}},
+                                                         {{x0 - 0.5 * t, mid.y()}, {t, h}}}};
+    // Seen from inside, the solid is on the left of edges that run clockwise round the floor.
+    const std::array<Edge, 4> faces = {
+        {{x1, y0, x0, y0}, {x1, y1, x1, y0}, {x0, y1, x1, y1}, {x0, y0, x0, y1}}};
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      FixtureInfo* info = new_info(Contact::Kind::kBorder, -1, arena.border_height_m);
+      info->first_edge = all_edges.edges.size();
+      info->edge_count = 1;
+      all_edges.add(faces[i], arena.border_height_m);
+      attach(static_body, polygon_shape(box_corners(boxes[i].first, boxes[i].second, 0.0)), info,
+             0.0F);
+    }
+  }
+
+  void add_wall(const WallLoop& loop) {
+    const std::size_t n = loop.vertices.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2& before = loop.vertices[(i + n - 1) % n];
+      const Vec2& a = loop.vertices[i];
+      const Vec2& b = loop.vertices[(i + 1) % n];
+      const Vec2& after = loop.vertices[(i + 2) % n];
+      // Walls of a map have no height of their own: every sensor sees them.
+      FixtureInfo* info =
+          new_info(Contact::Kind::kWall, -1, std::numeric_limits<double>::infinity());
+      info->first_edge = all_edges.edges.size();
+      info->edge_count = 1;
+      all_edges.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);
+      b2EdgeShape shape;
+      shape.SetOneSided(to_box2d(before), to_box2d(a), to_box2d(b), to_box2d(after));
+      attach(static_body, shape, info, 0.0F);
+      has_walls = true;
+      wall_right_m = std::max({wall_right_m, a.x(), b.x()});
+    }
+  }
+
+  // The edges that are there now, for worlds small enough to sweep.
+  void rebuild_fixed_edges() {
+    sweep = all_edges.edges.size() <= kSweepLimit;
+    fixed_edges.clear();
+    if (!sweep) return;
+    for (const auto& info : infos) {
+      if (info->kind == Contact::Kind::kRobot) continue;
+      if (info->kind == Contact::Kind::kObstacle &&
+          !obstacle_bodies[static_cast<std::size_t>(info->index)]->IsEnabled()) {
+        continue;
+      }
+      for (std::size_t i = 0; i < info->edge_count; ++i) {
+        fixed_edges.add(all_edges.edges[info->first_edge + i], info->height_m);
+      }
+    }
+  }
+
+  // --- Moving ---------------------------------------------------------------------------------
+
+  // Puts the closing-speed limits that a pair of shapes gives robot `r` into constraints.
+  // `share` is the part of the gap that r may close in this step.
+  void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+                       double share, double dt_s) {
+    const b2Transform& xf = r.body->GetTransform();
+    b2Manifold manifold;
+    b2WorldManifold points;
+    double sign = 1.0;  // the normal points from A to B
+    if (other.GetType() == b2Shape::e_polygon) {
+      const auto& polygon = static_cast<const b2PolygonShape&>(other);
+      b2CollidePolygons(&manifold, &r.reaching_shape, xf, &polygon, other_xf);
+      points.Initialize(&manifold, xf, r.reaching_shape.m_radius, other_xf, polygon.m_radius);
+    } else {
+      const auto& edge = static_cast<const b2EdgeShape&>(other);
+      b2CollideEdgeAndPolygon(&manifold, &edge, other_xf, &r.reaching_shape, xf);
+      points.Initialize(&manifold, other_xf, edge.m_radius, xf, r.reaching_shape.m_radius);
+      sign = -1.0;
+    }
+    if (manifold.pointCount == 0) return;
+    const double nx = sign * static_cast<double>(points.normal.x);
+    const double ny = sign * static_cast<double>(points.normal.y);
+    const double c = std::cos(r.X_WB.yaw_rad);
+    const double s = std::sin(r.X_WB.yaw_rad);
+    const double skins = static_cast<double>(r.reaching_shape.m_radius + other.m_radius);
+    for (int32 i = 0; i < manifold.pointCount; ++i) {
+      const double gap_m = (static_cast<double>(points.separations[i]) + skins) / kScale;
+      const double rx = metres(points.points[i].x) - r.X_WB.x_m;
+      const double ry = metres(points.points[i].y) - r.X_WB.y_m;
+      constraints.push_back({nx * c + ny * s, rx * ny - ry * nx,
+                             share * std::max(0.0, gap_m - kRestingGap_m) / dt_s});
+    }
+  }
+
+  // Robots closer than two steps' travel, by a sweep over their order in x.
+  void find_near_pairs() {
+    near_pairs.clear();
+    const auto x_of = [this](int i) { return robots[static_cast<std::size_t>(i)].X_WB.x_m; };
+    for (std::size_t i = 1; i < order.size(); ++i) {  // insertion sort: nearly sorted already
+      const int moving = order[i];
+      std::size_t j = i;
+      for (; j > 0 && x_of(order[j - 1]) > x_of(moving); --j) order[j] = order[j - 1];
+      order[j] = moving;
+    }
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Robot& a = robots[static_cast<std::size_t>(order[i])];
+      for (std::size_t j = i + 1; j < order.size(); ++j) {
+        const Robot& b = robots[static_cast<std::size_t>(order[j])];
+        const double dx = b.X_WB.x_m - a.X_WB.x_m;
+        if (dx > a.radius_m + largest_radius_m + 3.0 * kMaxTravel_m) break;
+        const double reach = a.radius_m + b.radius_m + 3.0 * kMaxTravel_m;
+        const double dy = b.X_WB.y_m - a.X_WB.y_m;
+        if (dx * dx + dy * dy < reach * reach) {
+          near_pairs.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+        }
+      }
+    }
+    std::sort(near_pairs.begin(), near_pairs.end());
+  }
+
+  [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
+    Robot& r = robots[index];
+    if (r.target.v_mps == 0.0 && r.target.omega_radps == 0.0) return r.target;
+    constraints.clear();
+    for (b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
+      const b2Fixture* mine = e->contact->GetFixtureA();
+      const b2Fixture* other = e->contact->GetFixtureB();
+      if (mine->GetBody() != r.body) std::swap(mine, other);
+      if (info_of(other).kind == Contact::Kind::kRobot) continue;
+      add_constraints(r, *other->GetShape(), other->GetBody()->GetTransform(), 1.0, dt_s);
+    }
+    const int me = static_cast<int>(index);
+    for (const auto& [a, b] : near_pairs) {
+      if (a != me && b != me) continue;
+      const Robot& other = robots[static_cast<std::size_t>(a == me ? b : a)];
+      if (touches(r.body, other.body)) continue;  // pushing: Box2D's solver shares the momentum
+      add_constraints(r, other.shape, other.body->GetTransform(), 0.5, dt_s);
+    }
+    if (constraints.empty()) return r.target;
+    return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
+  }
+
+  [[nodiscard]] bool any_robots_touch() const {
+    return std::any_of(near_pairs.begin(), near_pairs.end(), [this](const auto& pair) {
+      return touches(robots[static_cast<std::size_t>(pair.first)].body,
+                     robots[static_cast<std::size_t>(pair.second)].body);
+    });
+  }
+
+  [[nodiscard]] static bool touches(const b2Body* a, const b2Body* b) {
+    for (const b2ContactEdge* e = a->GetContactList(); e != nullptr; e = e->next) {
+      if (e->other == b && e->contact->IsTouching()) return true;
+    }
+    return false;
+  }
+
+  // Where an unhindered robot gets to: along the exact arc of the twist.
+  [[nodiscard]] static Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
+    const double half_turn = 0.5 * twist.omega_radps * dt_s;
+    const double chord = twist.v_mps * dt_s * sinc(half_turn);
+    const double heading = X_WB.yaw_rad + half_turn;
+    return {X_WB.x_m + chord * std::cos(heading), X_WB.y_m + chord * std::sin(heading),
+            X_WB.yaw_rad + twist.omega_radps * dt_s};
+  }
+
+  void substep(double dt_s) {
+    if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
+      world.Step(0.0F, 1, 1);
+      placed = false;
+    }
+    find_near_pairs();
+    const float inv_dt = static_cast<float>(1.0 / dt_s);
+    goals.resize(robots.size());
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      Robot& r = robots[i];
+      goals[i] = arc_end(r.X_WB, allowed_twist(i, dt_s), dt_s);
+      if (goals[i] == r.X_WB && !r.body->IsAwake()) continue;
+      // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
+      // does not pile up.
+      const b2Vec2 goal = to_box2d(goals[i].position());
+      r.body->SetLinearVelocity(inv_dt * (goal - r.body->GetPosition()));
+      r.body->SetAngularVelocity(inv_dt *
+                                 (static_cast<float>(goals[i].yaw_rad) - r.body->GetAngle()));
+    }
+    world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+    for (std::size_t i = 0; i < robots.size(); ++i) follow_body(robots[i], goals[i]);
+  }
+
+  // Takes over where Box2D put the robot: the exact goal if nothing hindered it.
+  void follow_body(Robot& r, const Pose& goal) {
+    const b2Vec2 p = r.body->GetPosition();
+    const b2Vec2 wanted = to_box2d(goal.position());
+    const float angle = r.body->GetAngle();
+    // Rounding of position and angle, a few units in the last place.
+    const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
+    const bool free = std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
+                      std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F;
+    const Pose before = r.X_WB;
+    if (free) {
+      r.X_WB = goal;
+    } else {
+      r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
+    }
+    const double turn = r.X_WB.yaw_rad - before.yaw_rad;
+    const double heading = before.yaw_rad + 0.5 * turn;
+    const double dx = r.X_WB.x_m - before.x_m;
+    const double dy = r.X_WB.y_m - before.y_m;
+    // The wheels' path is the arc whose chord this is.
+    r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
+    r.state.turn_rad += turn;
+    lateral_m[static_cast<std::size_t>(&r - robots.data())] +=
+        dy * std::cos(heading) - dx * std::sin(heading);
+    if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
+  }
+
+  // Keeps angles small, where single precision is fine.
+  void unwind(Robot& r) {
+    r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
+    r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
+  }
+
+  void finish_step(Robot& r, std::size_t index, double dt_s) {
+    BodyState& s = r.state;
+    s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
+    s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, lateral_m[index] / dt_s};
+    s.commanded = r.target;
+    const bool achieved =
+        std::abs(s.twist.v_mps - r.target.v_mps) <= kSpeedTolerance_mps &&
+        std::abs(s.twist.omega_radps - r.target.omega_radps) <= kTurnTolerance_radps;
+    r.stall_clock_s = achieved ? 0.0 : r.stall_clock_s + dt_s;
+    s.stalled = r.stall_clock_s >= kStallDelay_s - 1e-9;
+  }
+
+  void rebuild_robot_edges() {
+    robot_edges.clear();
+    robot_first_edge.clear();
+    for (const Robot& r : robots) {
+      robot_first_edge.push_back(robot_edges.edges.size());
+      const double c = std::cos(r.X_WB.yaw_rad);
+      const double s = std::sin(r.X_WB.yaw_rad);
+      const b2Vec2* v = r.shape.m_vertices;
+      const int n = r.shape.m_count;
+      std::array<Vec2, b2_maxPolygonVertices> p;
+      for (int i = 0; i < n; ++i) {
+        const double x = metres(v[i].x);
+        const double y = metres(v[i].y);
+        p[static_cast<std::size_t>(i)] = {r.X_WB.x_m + c * x - s * y, r.X_WB.y_m + s * x + c * y};
+      }
+      for (int i = 0; i < n; ++i) {
+        const Vec2& a = p[static_cast<std::size_t>(i)];
+        const Vec2& b = p[static_cast<std::size_t>((i + 1) % n)];
+        robot_edges.add({a.x(), a.y(), b.x(), b.y()}, r.height_m);
+      }
+    }
+    robot_first_edge.push_back(robot_edges.edges.size());
+    robot_edges_fresh = true;
+  }
+
+  [[nodiscard]] bool inside_solid(const Vec2& p_W, double height_m, int own_robot);
+
+  // --- Contacts -------------------------------------------------------------------------------
+
+  // One slot a partner: obstacles, separators, border, wall, robots.
+  [[nodiscard]] std::size_t slot(const FixtureInfo& info) const {
+    const std::size_t obstacles = obstacle_bodies.size();
+    switch (info.kind) {
+      case Contact::Kind::kObstacle:
+        return static_cast<std::size_t>(info.index);
+      case Contact::Kind::kSeparator:
+        return obstacles + 2 + static_cast<std::size_t>(info.index);
+      case Contact::Kind::kBorder:
+        return obstacles;
+      case Contact::Kind::kWall:
+        return obstacles + 1;
+      case Contact::Kind::kRobot:
+        break;
+    }
+    return obstacles + 2 + separators() + static_cast<std::size_t>(info.index);
+  }
+  [[nodiscard]] std::size_t separators() const { return separator_count; }
+
+  void count_contact(const b2Fixture* robot_fixture, const b2Fixture* other, int change) {
+    const FixtureInfo& mine = info_of(robot_fixture);
+    if (mine.kind != Contact::Kind::kRobot) return;
+    const FixtureInfo& theirs = info_of(other);
+    std::vector<int>& touching = robots[static_cast<std::size_t>(mine.index)].touching;
+    const std::size_t where = slot(theirs);
+    if (touching.size() <= where) touching.resize(where + 1, 0);
+    touching[where] += change;
+    if (change > 0 && touching[where] == 1) {
+      contacts.push_back({mine.index, theirs.kind, theirs.index});
+    }
+  }
+  void BeginContact(b2Contact* contact) override {
+    count_contact(contact->GetFixtureA(), contact->GetFixtureB(), 1);
+    count_contact(contact->GetFixtureB(), contact->GetFixtureA(), 1);
+  }
+  void EndContact(b2Contact* contact) override {
+    count_contact(contact->GetFixtureA(), contact->GetFixtureB(), -1);
+    count_contact(contact->GetFixtureB(), contact->GetFixtureA(), -1);
+  }
+
+  b2World world;
+  b2Body* static_body = nullptr;
+  std::vector<std::unique_ptr<FixtureInfo>> infos;
+  std::vector<b2Body*> obstacle_bodies;
+  std::size_t separator_count = 0;
+  bool has_walls = false;
+  double wall_right_m = -std::numeric_limits<double>::infinity();
+
+  EdgeList all_edges;    // of every static thing, extended or not
+  EdgeList fixed_edges;  // of those that are there now
+  bool sweep = true;
+  EdgeList robot_edges;
+  std::vector<std::size_t> robot_first_edge;
+  bool robot_edges_fresh = false;
+
+  bool placed = true;  // something was put somewhere since the last step
+
+  std::vector<Robot> robots;
+  double largest_radius_m = 0.0;
+  std::vector<int> order;  // robots by x
+  std::vector<std::pair<int, int>> near_pairs;
+  std::vector<Pose> goals;
+  std::vector<double> lateral_m;
+  std::vector<TwistConstraint> constraints;
+  std::vector<Contact> contacts;
+};
+
+PhysicsWorld::PhysicsWorld(const ArenaDescription& arena) : impl_(std::make_unique<Impl>(arena)) {
+  impl_->separator_count = arena.dock_separators.size();
+}
+
+PhysicsWorld::~PhysicsWorld() = default;
+
+int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
+  Impl& d = *impl_;
+  const int index = static_cast<int>(d.robots.size());
+  Robot r;
+  r.shape = polygon_shape(model.footprint);
+  r.reaching_shape = r.shape;
+  r.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  r.height_m = model.height_m;
+  for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
+  r.X_WB = X_WB;
+  r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
+
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  def.position = to_box2d(X_WB.position());
+  def.angle = static_cast<float>(X_WB.yaw_rad);
+  r.body = d.world.CreateBody(&def);
+  b2MassData unit;
+  r.shape.ComputeMass(&unit, 1.0F);
+  FixtureInfo* info = d.new_info(Contact::Kind::kRobot, index, model.height_m);
+  d.attach(r.body, r.shape, info, static_cast<float>(model.mass_kg) / unit.mass);
+  r.mass_kg = model.mass_kg;
+  r.inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
+
+  d.largest_radius_m = std::max(d.largest_radius_m, r.radius_m);
+  d.order.push_back(index);
+  d.lateral_m.push_back(0.0);
+  d.robots.push_back(std::move(r));
+  d.robot_edges_fresh = false;
+  return index;
+}
+
+int PhysicsWorld::robot_count() const noexcept { return static_cast<int>(impl_->robots.size()); }
+
+void PhysicsWorld::set_target(int robot, const Twist& target) {
+  impl_->robots[static_cast<std::size_t>(robot)].target = target;
+}
+
+void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+  r.X_WB = X_WB;
+  r.body->SetTransform(to_box2d(X_WB.position()), static_cast<float>(X_WB.yaw_rad));
+  r.body->SetLinearVelocity({0.0F, 0.0F});
+  r.body->SetAngularVelocity(0.0F);
+  r.body->SetAwake(true);
+  r.state = {};
+  r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
+  r.stall_clock_s = 0.0;
+  impl_->robot_edges_fresh = false;
+  impl_->placed = true;
+}
+
+void PhysicsWorld::step(double dt_s) {
+  Impl& d = *impl_;
+  d.contacts.clear();
+  double travel_m = 0.0;
+  for (std::size_t i = 0; i < d.robots.size(); ++i) {
+    Robot& r = d.robots[i];
+    r.state.travel_m = 0.0;
+    r.state.turn_rad = 0.0;
+    d.lateral_m[i] = 0.0;
+    travel_m = std::max(
+        travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.omega_radps) * r.radius_m) * dt_s);
+  }
+  const double longest_m = d.any_robots_touch() ? kMaxShove_m : kMaxTravel_m;
+  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / longest_m)));
+  for (int i = 0; i < substeps; ++i) d.substep(dt_s / substeps);
+  for (std::size_t i = 0; i < d.robots.size(); ++i) d.finish_step(d.robots[i], i, dt_s);
+  d.robot_edges_fresh = false;
+}
+
+const BodyState& PhysicsWorld::body(int robot) const {
+  return impl_->robots[static_cast<std::size_t>(robot)].state;
+}
+
+const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noexcept {
+  return impl_->contacts;
+}
+
+void PhysicsWorld::set_extended(int obstacle, bool extended) {
+  impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)]->SetEnabled(extended);
+  impl_->placed = true;
+  impl_->rebuild_fixed_edges();
+}
+
+bool PhysicsWorld::robot_stands_on(int obstacle) const {
+  const b2Body* block = impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)];
+  const b2Shape* shape = block->GetFixtureList()->GetShape();
+  for (const Robot& r : impl_->robots) {
+    if (b2TestOverlap(shape, 0, &r.shape, 0, block->GetTransform(), r.body->GetTransform())) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double PhysicsWorld::clearance_m(int robot, double limit_m) const {
+  const Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+  struct Nearest : b2QueryCallback {
+    const Robot* robot = nullptr;
+    double least_m = 0.0;
+
+    bool ReportFixture(b2Fixture* fixture) override {
+      if (fixture->GetBody() == robot->body) return true;
+      b2DistanceInput input;
+      input.proxyA.Set(&robot->shape, 0);
+      input.proxyB.Set(fixture->GetShape(), 0);
+      input.transformA = robot->body->GetTransform();
+      input.transformB = fixture->GetBody()->GetTransform();
+      input.useRadii = false;
+      b2SimplexCache cache;
+      cache.count = 0;
+      b2DistanceOutput output;
+      b2Distance(&output, &cache, &input);
+      least_m = std::min(least_m, metres(output.distance));
+      return true;
+    }
+  } nearest;
+  nearest.robot = &r;
+  nearest.least_m = limit_m;
+  b2AABB box;
+  r.shape.ComputeAABB(&box, r.body->GetTransform(), 0);
+  const float reach = static_cast<float>(limit_m) * kScaleF;
+  box.lowerBound -= b2Vec2(reach, reach);
+  box.upperBound += b2Vec2(reach, reach);
+  impl_->world.QueryAABB(&nearest, box);
+  return nearest.least_m;
+}
+
+namespace {
+
+// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
+void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
+                  double sensor_height_m, scan::EdgeBuffer& out) {
+  const std::size_t begin = out.size();
+  const bool all_high_enough = list.least_height_m > sensor_height_m;
+  scan::Edge* target = out.append(last - first);
+  const double x = p_WL.x();
+  const double y = p_WL.y();
+  std::size_t count = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
+    const Edge& e = list.edges[i];
+    target[count++] = {static_cast<float>(e.x0 - x), static_cast<float>(e.y0 - y),
+                       static_cast<float>(e.x1 - x), static_cast<float>(e.y1 - y)};
+  }
+  out.truncate(begin + count);
+}
+
+// Calls visit(fixture) for every fixture whose fat box meets the box.
+template <typename Visitor>
+void query(const b2World& world, const Vec2& low, const Vec2& high, Visitor visit) {
+  struct Callback : b2QueryCallback {
+    explicit Callback(Visitor& v) : visitor(v) {}
+    bool ReportFixture(b2Fixture* fixture) override {
+      visitor(*fixture);
+      return true;
+    }
+    Visitor& visitor;
+  } callback(visit);
+  b2AABB box;
+  box.lowerBound = to_box2d(low);
+  box.upperBound = to_box2d(high);
+  world.QueryAABB(&callback, box);
+}
+
+}  // namespace
+
+void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                                 int own_robot, bool test_inside, scan::EdgeBuffer& edges) const {
+  Impl& d = *impl_;
+  edges.clear();
+  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
+  if (d.sweep) {
+    append_edges(d.fixed_edges, 0, d.fixed_edges.edges.size(), p_WL, sensor_height_m, edges);
+  } else {
+    const Vec2 reach(radius_m, radius_m);
+    query(d.world, p_WL - reach, p_WL + reach, [&](const b2Fixture& fixture) {
+      const FixtureInfo& info = info_of(&fixture);
+      if (info.kind == Contact::Kind::kRobot) return;
+      append_edges(d.all_edges, info.first_edge, info.first_edge + info.edge_count, p_WL,
+                   sensor_height_m, edges);
+    });
+  }
+  for (std::size_t i = 0; i < d.robots.size(); ++i) {
+    if (static_cast<int>(i) == own_robot) continue;
+    const Robot& r = d.robots[i];
+    const double reach = radius_m + r.radius_m;
+    const double dx = r.X_WB.x_m - p_WL.x();
+    const double dy = r.X_WB.y_m - p_WL.y();
+    if (dx * dx + dy * dy > reach * reach) continue;
+    append_edges(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL,
+                 sensor_height_m, edges);
+  }
+  if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
+}
+
+bool PhysicsWorld::Impl::inside_solid(const Vec2& p_W, double height_m, int own_robot) {
+  bool inside = false;
+  query(world, p_W, p_W, [&](b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.height_m <= height_m) return;
+    if (info.kind == Contact::Kind::kRobot && info.index == own_robot) return;
+    inside = inside || fixture.TestPoint(to_box2d(p_W));
+  });
+  if (inside || !has_walls) return inside;
+  // Walls of a map are closed outlines: inside where a ray to the far right crosses an odd number
+  // of them (half-open rule at vertices).
+  int crossings = 0;
+  query(world, p_W, {wall_right_m, p_W.y()}, [&](const b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.kind != Contact::Kind::kWall) return;
+    const Edge& e = all_edges.edges[info.first_edge];
+    if ((e.y0 > p_W.y()) == (e.y1 > p_W.y())) return;
+    const double x = e.x0 + (p_W.y() - e.y0) / (e.y1 - e.y0) * (e.x1 - e.x0);
+    if (x > p_W.x()) ++crossings;
+  });
+  return crossings % 2 == 1;
+}
+
+void PhysicsWorld::hash(StateHash& hash) const {
+  for (const Robot& r : impl_->robots) {
+    for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.X_WB.yaw_rad, r.stall_clock_s, r.target.v_mps,
+                           r.target.omega_radps}) {
+      hash.add(x);
+    }
+    const b2Body& body = *r.body;
+    for (const float x :
+         {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.GetLinearVelocity().x,
+          body.GetLinearVelocity().y, body.GetAngularVelocity()}) {
+      hash.add(static_cast<double>(x));
+    }
+    for (const b2ContactEdge* e = body.GetContactList(); e != nullptr; e = e->next) {
+      hash.add(e->contact->IsTouching());
+      const b2Manifold& manifold = *e->contact->GetManifold();
+      for (int32 i = 0; i < manifold.pointCount; ++i) {
+        hash.add(static_cast<double>(manifold.points[i].normalImpulse));
+      }
+    }
+  }
+  for (const b2Body* body : impl_->obstacle_bodies) hash.add(body->IsEnabled());
+}
+
+double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
+                                int own_robot) const {
+  struct Closest : b2RayCastCallback {
+    const b2Body* own = nullptr;
+    float fraction = 1.0F;
+    float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {
+      if (fixture->GetBody() == own) return -1.0F;
+      fraction = f;
+      return f;
+    }
+  } closest;
+  if (own_robot >= 0) closest.own = impl_->robots[static_cast<std::size_t>(own_robot)].body;
+  const Vec2 end = p_WL + range_max_m * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+  impl_->world.RayCast(&closest, to_box2d(p_WL), to_box2d(end));
+  return static_cast<double>(closest.fraction) * range_max_m;
+}
+
+void PhysicsWorld::bare_step(double dt_s) {
+  impl_->world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+}
+
+}  // namespace sim

@@ -1,1 +1,312 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/simulation/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/physics_world.h"
+#include "sim/core/assert.h"
+#include "sim/core/error.h"
+#include "sim/devices/builtin.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/motion.h"
+#include "sim/io/world_io.h"
+
+namespace sim {
+namespace {
+
+constexpr std::size_t kKeptCollisions = 1024;
+// Clearances beyond this are told as this; it bounds the search round a robot.
+constexpr double kClearanceLimit_m = 10.0;
+
+struct RobotParts {
+  const RobotModel* model = nullptr;
+  std::vector<std::unique_ptr<Device>> devices;
+  std::vector<Sensor*> sensors;  // of devices, by device index; nullptr for actuators
+  Motion* motion = nullptr;      // the first of each, if any
+  Pen* pen = nullptr;
+  RobotStatistics statistics;
+  double top_point_speed_mps = 0.0;  // no point of the body moves faster
+  double clearance_slack_m = 0.0;    // see update_clearance
+};
+
+}  // namespace
+
+struct Simulation::Impl {
+  Impl(WorldDescription description, LogHook hook)
+      : world(std::move(description)),
+        log(std::move(hook)),
+        physics(world.arena),
+        canvas(world.canvas) {
+    for (std::size_t i = 0; i < world.robots.size(); ++i) add_robot(world.robots[i]);
+    for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
+  }
+
+  void add_robot(const RobotDescription& robot) {
+    RobotParts parts;
+    parts.model = find_robot_model(robot.model);
+    SIM_ASSERT(parts.model != nullptr);
+    const int index = physics.add_robot(*parts.model, robot.pose);
+    double radius_m = 0.0;
+    for (const Vec2& v : parts.model->footprint) radius_m = std::max(radius_m, v.norm());
+    for (const DeviceDescription& device : robot.devices) {
+      const auto& kinds = device_kinds();
+      const auto row = std::find_if(kinds.begin(), kinds.end(),
+                                    [&](const DeviceKind& k) { return k.name == device.type; });
+      SIM_ASSERT(row != kinds.end());
+      parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
+      Device* made = parts.devices.back().get();
+      parts.sensors.push_back(dynamic_cast<Sensor*>(made));
+      if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
+      if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
+    }
+    if (parts.motion != nullptr) {
+      const MotionParams& limits = parts.motion->params();
+      parts.top_point_speed_mps = limits.max_speed_mps + limits.max_turn_rate_radps * radius_m;
+    }
+    top_point_speed_mps = std::max(top_point_speed_mps, parts.top_point_speed_mps);
+    if (parts.pen != nullptr) parts.pen->mark_trail(robot.pose, canvas);
+    last_positions.push_back(robot.pose.position());
+    robots.push_back(std::move(parts));
+    SIM_ASSERT(index + 1 == static_cast<int>(robots.size()));
+  }
+
+  void step() {
+    const double dt_s = to_seconds(world.simulation.step_ns);
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      if (robots[i].motion != nullptr) {
+        physics.set_target(static_cast<int>(i), robots[i].motion->next_target(dt_s));
+      }
+    }
+    physics.step(dt_s);
+    now_ns += world.simulation.step_ns;
+    ++steps;
+    record_collisions();
+    updated.clear();
+    for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
+  }
+
+  void update_robot(std::size_t i, double dt_s) {
+    RobotParts& robot = robots[i];
+    const int index = static_cast<int>(i);
+    const BodyState& body = physics.body(index);
+    const Vec2 position = body.X_WB.position();
+    robot.statistics.path_length_m += (position - last_positions[i]).norm();
+    last_positions[i] = position;
+    if (body.stalled) robot.statistics.stalled_time_s += dt_s;
+    update_clearance(i, dt_s);
+    if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, canvas);
+    const StepContext context{now_ns, body, physics, index};
+    for (std::size_t k = 0; k < robot.devices.size(); ++k) {
+      robot.devices[k]->integrate(context);
+      if (robot.sensors[k] != nullptr && robot.sensors[k]->update(context)) {
+        updated.push_back({index, static_cast<int>(k)});
+      }
+    }
+  }
+
+  // The least clearance so far can only fall once the robot and what is round it have moved by
+  // the difference to what was measured last; until then there is no need to look.
+  void update_clearance(std::size_t i, double dt_s) {
+    RobotParts& robot = robots[i];
+    if (robot.statistics.least_clearance_m <= 0.0) return;
+    robot.clearance_slack_m -= (robot.top_point_speed_mps + top_point_speed_mps) * dt_s;
+    if (robot.clearance_slack_m > 0.0) return;
+    measure_clearance(i, robot.statistics.least_clearance_m + 0.25);
+  }
+
+  void measure_clearance(std::size_t i, double limit_m) {
+    RobotParts& robot = robots[i];
+    const double clearance_m = physics.clearance_m(static_cast<int>(i), limit_m);
+    double& least_m = robot.statistics.least_clearance_m;
+    if (steps == 0 || clearance_m < least_m) least_m = clearance_m;
+    robot.clearance_slack_m = clearance_m - least_m;
+  }
+
+  void record_collisions() {
+    for (const PhysicsWorld::Contact& contact : physics.new_contacts()) {
+      RobotStatistics& s = robots[static_cast<std::size_t>(contact.robot)].statistics;
+      ++s.collisions;
+      s.least_clearance_m = 0.0;
+      if (collisions.size() == kKeptCollisions) collisions.erase(collisions.begin());
+      collisions.push_back({now_ns, contact.robot, partner_name(contact)});
+    }
+  }
+
+  [[nodiscard]] std::string partner_name(const PhysicsWorld::Contact& contact) const {
+    const auto index = static_cast<std::size_t>(contact.index);
+    switch (contact.kind) {
+      case PhysicsWorld::Contact::Kind::kObstacle:
+        return world.arena.obstacles[index].name;
+      case PhysicsWorld::Contact::Kind::kSeparator:
+        return world.arena.dock_separators[index].name;
+      case PhysicsWorld::Contact::Kind::kBorder:
+        return "border";
+      case PhysicsWorld::Contact::Kind::kWall:
+        return "wall";
+      case PhysicsWorld::Contact::Kind::kRobot:
+        break;
+    }
+    return world.robots[index].name;
+  }
+
+  WorldDescription world;
+  LogHook log;
+  PhysicsWorld physics;
+  Canvas canvas;
+  std::vector<RobotParts> robots;
+  std::vector<Vec2> last_positions;
+  double top_point_speed_mps = 0.0;
+  std::vector<DeviceId> updated;
+  std::vector<Collision> collisions;
+  SimTime now_ns = 0;
+  std::uint64_t steps = 0;
+};
+
+Simulation::Simulation(WorldDescription world, LogHook log) {
+  std::vector<ConfigIssue> issues = io::check_world(world);
+  if (!issues.empty()) throw ConfigError(std::move(issues));
+  impl_ = std::make_unique<Impl>(std::move(world), std::move(log));
+}
+
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+
+void Simulation::step() { impl_->step(); }
+SimTime Simulation::now_ns() const noexcept { return impl_->now_ns; }
+std::uint64_t Simulation::steps() const noexcept { return impl_->steps; }
+
+bool Simulation::finished() const noexcept {
+  const auto& duration = impl_->world.simulation.duration_ns;
+  return duration.has_value() && impl_->now_ns >= *duration;
+}
+
+const WorldDescription& Simulation::world() const noexcept { return impl_->world; }
+int Simulation::robot_count() const noexcept { return static_cast<int>(impl_->robots.size()); }
+
+const RobotModel& Simulation::model(int robot) const {
+  return *impl_->robots.at(static_cast<std::size_t>(robot)).model;
+}
+
+const BodyState& Simulation::body(int robot) const {
+  SIM_ASSERT(robot >= 0 && robot < robot_count());
+  return impl_->physics.body(robot);
+}
+
+const RobotStatistics& Simulation::statistics(int robot) const {
+  return impl_->robots.at(static_cast<std::size_t>(robot)).statistics;
+}
+
+const std::vector<Collision>& Simulation::collisions() const noexcept { return impl_->collisions; }
+
+int Simulation::device_count(int robot) const {
+  return static_cast<int>(impl_->robots.at(static_cast<std::size_t>(robot)).devices.size());
+}
+
+const Device& Simulation::device(int robot, int device) const {
+  return *impl_->robots.at(static_cast<std::size_t>(robot))
+              .devices.at(static_cast<std::size_t>(device));
+}
+
+std::optional<int> Simulation::find_device(int robot, const std::string& name) const {
+  const auto& devices = impl_->robots.at(static_cast<std::size_t>(robot)).devices;
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    if (devices[i]->name() == name) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+std::optional<int> Simulation::find_robot(const std::string& name) const {
+  for (std::size_t i = 0; i < impl_->world.robots.size(); ++i) {
+    if (impl_->world.robots[i].name == name) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+const std::vector<Simulation::DeviceId>& Simulation::updated() const noexcept {
+  return impl_->updated;
+}
+
+std::optional<std::string> Simulation::apply(DeviceId id, const Command& command) {
+  return impl_->robots.at(static_cast<std::size_t>(id.robot))
+      .devices.at(static_cast<std::size_t>(id.device))
+      ->apply(command);
+}
+
+Canvas& Simulation::canvas() noexcept { return impl_->canvas; }
+const Canvas& Simulation::canvas() const noexcept { return impl_->canvas; }
+
+std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
+                                                          ObstacleState state) {
+  auto& obstacles = impl_->world.arena.obstacles;
+  const auto it = std::find_if(obstacles.begin(), obstacles.end(),
+                               [&](const ObstacleDescription& o) { return o.name == name; });
+  if (it == obstacles.end()) return "there is no obstacle named \"" + name + "\"";
+  if (it->type == ObstacleType::kStatic) {
+    return "obstacle \"" + name + "\" is static: it can be neither extended nor retracted";
+  }
+  const int index = static_cast<int>(it - obstacles.begin());
+  const bool extend = state == ObstacleState::kExtended;
+  if (it->state == state) return std::nullopt;
+  if (extend && impl_->physics.robot_stands_on(index)) {
+    return "obstacle \"" + name + "\" cannot be extended: a robot stands on it";
+  }
+  impl_->physics.set_extended(index, extend);
+  it->state = state;
+  for (RobotParts& robot : impl_->robots) robot.clearance_slack_m = 0.0;
+  return std::nullopt;
+}
+
+std::uint64_t Simulation::state_hash() const {
+  StateHash hash;
+  hash.add(impl_->now_ns);
+  hash.add(impl_->steps);
+  impl_->physics.hash(hash);
+  for (const RobotParts& robot : impl_->robots) {
+    for (const auto& device : robot.devices) device->hash(hash);
+    hash.add(robot.statistics.path_length_m);
+    hash.add(robot.statistics.collisions);
+    hash.add(robot.statistics.least_clearance_m);
+    hash.add(robot.statistics.stalled_time_s);
+  }
+  impl_->canvas.hash(hash);
+  return hash.value();
+}
+
+SceneSnapshot Simulation::snapshot() const {
+  SceneSnapshot scene;
+  scene.world_name = impl_->world.name;
+  scene.arena = impl_->world.arena;
+  scene.canvas_description = impl_->world.canvas;
+  scene.canvas = impl_->canvas.data();
+  scene.time_s = to_seconds(impl_->now_ns);
+  for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
+    const RobotParts& robot = impl_->robots[i];
+    const BodyState& body = impl_->physics.body(static_cast<int>(i));
+    RobotSnapshot shot;
+    shot.name = impl_->world.robots[i].name;
+    shot.colour = impl_->world.robots[i].colour;
+    shot.X_WB = body.X_WB;
+    shot.footprint = robot.model->footprint;
+    shot.stalled = body.stalled;
+    for (const auto& device : robot.devices) {
+      const auto* laser = dynamic_cast<const Laser*>(device.get());
+      if (laser == nullptr || laser->reading().sequence == 0) continue;
+      const LaserReading& scan = laser->reading();
+      const Pose X_WL = scan.X_WB * laser->params().X_BL;
+      shot.scan_origin = X_WL.position();
+      for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+        const double angle = scan.angle_min_rad + scan.resolution_rad * static_cast<double>(beam);
+        shot.scan_points.push_back(X_WL * Vec2(scan.ranges_m[beam] * std::cos(angle),
+                                               scan.ranges_m[beam] * std::sin(angle)));
+      }
+      break;
+    }
+    scene.robots.push_back(std::move(shot));
+  }
+  return scene;
+}
+
+}  // namespace sim

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <cstring>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "sim/core/colour.h"
@@ -21,6 +21,7 @@ namespace sim {
 /// Not thread-safe: its owner serialises.
 class Canvas {
  public:
+  /// @pre sides in 1..8192 cells, cell size > 0 (asserted; check_world reports it to users).
   explicit Canvas(const CanvasDescription& description);
 
   [[nodiscard]] int width() const noexcept { return width_; }
@@ -37,22 +38,43 @@ class Canvas {
   }
 
   /// Sets one cell; outside the canvas nothing happens. Alpha below 255 blends over what is there
-  /// (source-over, Porter and Duff 1984); 255 replaces.
-  void set_pixel(int column, int row, Colour colour) noexcept;
+  /// (source-over, Porter and Duff 1984, in whole numbers, so the same everywhere); 255 replaces.
+  void set_pixel(int column, int row, Colour colour) noexcept {
+    if (!contains(column, row)) return;
+    std::uint8_t* const cell = data_.data() + offset(column, row);
+    if (colour.a == 255) {
+      std::memcpy(cell, &colour, sizeof colour);
+    } else {
+      blend(cell, colour);
+    }
+  }
   /// Colour of a cell; nullopt outside.
   [[nodiscard]] std::optional<Colour> pixel(int column, int row) const noexcept;
   /// Line by Bresenham's algorithm (IBM Systems Journal 4(1), 1965), both ends drawn, each cell
   /// once, clipped exactly (the cells inside are those of the unclipped line); the same cells
   /// whichever end is named first. Any int coordinates; cost grows with the cells inside.
+  /// A line midway between two cells takes the one further from its left end (its upper end, if
+  /// it is steeper than a diagonal).
   void draw_line(int column0, int row0, int column1, int row1, Colour colour) noexcept;
+  /// Gives every cell this colour; no blending.
   void clear(Colour colour = {0, 0, 0, 0}) noexcept;
 
   /// Cells as RGBA bytes, row-major from the top; width * height * 4 of them.
   [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return data_; }
 
+  /// Adds size and cells to the hash of a simulation's state.
   void hash(StateHash& hash) const noexcept;
 
  private:
+  static_assert(sizeof(Colour) == 4, "a cell is copied as one Colour");
+
+  [[nodiscard]] std::size_t offset(int column, int row) const noexcept {
+    return (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+            static_cast<std::size_t>(column)) *
+           sizeof(Colour);
+  }
+  static void blend(std::uint8_t* cell, Colour colour) noexcept;
+
   int width_;
   int height_;
   double cell_size_m_;

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 namespace sim::detail {
-/// Prints where and which condition failed through the log hook, then aborts.
+/// Writes where and which condition failed to stderr, then aborts.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line) noexcept;
 }  // namespace sim::detail
 

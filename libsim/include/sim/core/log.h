@@ -7,6 +7,7 @@
 
 namespace sim {
 
+/// How much a message matters: for developers, good to know, suspicious, gone wrong.
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 /// Receives what libsim has to say. Given to a Simulation by its owner; libsim itself prints

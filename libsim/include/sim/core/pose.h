@@ -7,6 +7,7 @@
 
 namespace sim {
 
+/// A point or a vector in the plane; metres unless its name says otherwise.
 using Vec2 = Eigen::Vector2d;
 
 /// The same direction as `angle_rad`, in (-pi, pi].

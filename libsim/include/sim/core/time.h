@@ -11,6 +11,7 @@ namespace sim {
 /// the bit. 2^63 ns are 292 years.
 using SimTime = std::int64_t;
 
+/// Units of SimTime in a second.
 inline constexpr SimTime kNanosecondsPerSecond = 1'000'000'000;
 
 /// Seconds as a number for people and formulas; exact to 2^-53 relative.

@@ -1,7 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sim/devices/device.h"
@@ -16,6 +18,8 @@ struct DeviceKind : io::DeviceType {
   std::function<std::unique_ptr<Device>(const DeviceDescription&, const RobotDescription&,
                                         const RobotModel&, std::uint64_t world_seed)>
       create;
+  /// The numeric settings as clients are told of them, SI units and radians.
+  std::function<std::map<std::string, double>(const std::any& params)> properties;
 };
 
 /// All kinds of device that libsim has, in order of name. Written out by hand: static libraries

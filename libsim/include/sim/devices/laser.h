@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -29,8 +30,13 @@ struct LaserReading final : Reading {
   double least_range_m = 0.0;    ///< the least of ranges_m
   double least_angle_rad = 0.0;  ///< angle of (the first of) the beams that have it
   Pose X_WB;                     ///< where the robot was (for pictures; not told to clients)
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<LaserReading>(*this);
+  }
 };
 
+/// The Hokuyo-like laser scanner: LaserParams says what it is, LaserReading what it tells.
 class Laser final : public Sensor {
  public:
   Laser(std::string name, const LaserParams& params, RandomStream noise);

@@ -1,6 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "sim/devices/device.h"
 
 namespace sim {
@@ -24,13 +28,19 @@ struct PoseReading final : Reading {
   Pose pose;             ///< pose device: X_WB; odometry: X_SB, S the robot's start (or as set)
   Twist twist;           ///< in B, as achieved over the last step
   bool stalled = false;  ///< see BodyState
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<PoseReading>(*this);
+  }
 };
 
 /// The arena's localisation: the true pose, with noise if asked for.
 /// SetPoseCommand moves the frame it reports in, so that the robot's present pose reads as given.
 class PoseSensor final : public Sensor {
  public:
-  PoseSensor(std::string name, const PoseParams& params, RandomStream noise);
+  /// @param X_WB_start  where the robot stands before the first step.
+  PoseSensor(std::string name, const PoseParams& params, const Pose& X_WB_start,
+             RandomStream noise);
 
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
@@ -43,11 +53,8 @@ class PoseSensor final : public Sensor {
  private:
   PoseParams params_;
   RandomStream noise_;
-  Pose X_WB_;                    ///< true, at the last step
-  bool known_ = false;           ///< X_WB_ has been seen
-  bool moved_ = false;           ///< a SetPoseCommand has been carried out
-  Pose X_FW_;                    ///< frame that is reported in; identity until set
-  std::optional<Pose> pending_;  ///< set before the first step
+  Pose X_WB_;  ///< true, at the last step
+  Pose X_FW_;  ///< of the world in the frame that is reported in; identity until set
   PoseReading reading_;
 };
 

@@ -27,10 +27,13 @@ struct DeviceType {
 /// @throws ConfigError with every issue found: unreadable file, JSON syntax (with line and
 ///         column), trailing garbage, nesting over 32 levels, unknown keys, wrong types, values
 ///         out of range, duplicate names or ports, robots that overlap walls or one another.
+///         Every setting is looked at, however many are wrong; only broken JSON ends the reading.
 [[nodiscard]] WorldDescription read_world(const std::string& path,
                                           const std::vector<DeviceType>& device_types);
 
-/// As read_world, from text; `file` is what messages call it and whose folder maps lie in.
+/// As read_world, from text; `file` is what messages call it and whose folder maps lie in
+/// ("<memory>" for text that comes from no file: the current folder). "{}" is the default world:
+/// the SyRoTek arena with one S1R.
 [[nodiscard]] WorldDescription read_world_text(std::string_view text, const std::string& file,
                                                const std::vector<DeviceType>& device_types);
 

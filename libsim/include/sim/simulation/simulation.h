@@ -23,7 +23,7 @@ struct RobotStatistics {
   int collisions = 0;              ///< contacts begun, with obstacles, walls or robots
   double least_clearance_m = 0.0;  ///< least distance of its footprint to anything solid so far
                                    ///< [m]; 0 once it has collided
-  double stalled_time_s = 0.0;  ///< [s]
+  double stalled_time_s = 0.0;     ///< [s]
 };
 
 /// A contact that began.

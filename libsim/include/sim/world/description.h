@@ -13,17 +13,19 @@
 #include "sim/core/time.h"
 
 /// What a world is: plain structs, no behaviour. io fills them from a file, a program may fill
-/// them by hand; Simulation takes them as they are (check them with sim::check_world first).
+/// them by hand; Simulation takes them as they are (check them with sim::io::check_world first).
 namespace sim {
 
 /// Outline of a solid, a polygon in its own frame, counter-clockwise [m].
 using Polygon = std::vector<Vec2>;
 
+/// Whether an obstacle can be moved out of the way.
 enum class ObstacleType {
   kStatic,   ///< always there (light grey in pictures)
   kDynamic,  ///< can be extended from the floor and retracted into it while running (red)
 };
 
+/// Whether a dynamic obstacle stands in the arena now.
 enum class ObstacleState { kExtended, kRetracted };
 
 /// A block of the arena: a box standing on the floor.
@@ -72,8 +74,10 @@ struct ArenaDescription {
   std::vector<WallLoop> walls;  ///< of the map, merged into few edges
 };
 
+/// Lockstep: time advances when all clients wait in Read(). Paced: real time times a factor.
 enum class TimeMode { kLockstep, kPaced };
 
+/// How simulated time runs: its step, its end and its relation to the clock on the wall.
 struct SimulationDescription {
   SimTime step_ns = 10'000'000;  ///< length of a step [ns], > 0
   std::uint64_t seed = 1;
@@ -97,6 +101,7 @@ struct DriverDescription {
   std::map<std::string, std::string> settings;
 };
 
+/// A robot as the world starts: model, place, devices and how clients reach it.
 struct RobotDescription {
   std::string name;  ///< unique in the world; letters, digits, _ and -
   std::string model = "s1r";
@@ -116,6 +121,7 @@ struct CanvasDescription {
   Vec2 origin = Vec2::Zero();  ///< W position of the canvas's bottom left corner [m]
 };
 
+/// A whole world, as a file describes it.
 struct WorldDescription {
   std::string name = "unnamed";
   std::string file;  ///< where it was read from, "" if nowhere

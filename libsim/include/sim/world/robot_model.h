@@ -30,6 +30,10 @@ struct RobotModel {
 /// Names of all models, in alphabetical order.
 [[nodiscard]] std::vector<std::string> robot_model_names();
 
+/// Where a robot of the SyRoTek arena starts unless told otherwise: on the road before the docks,
+/// looking along it (X_WB), with more than 3 m free ahead.
+[[nodiscard]] Pose syrotek_start_pose();
+
 /// The SyRoTek arena: 3.42 x 3.72 m, about twenty blocks, docks along its left side.
 [[nodiscard]] ArenaDescription syrotek_arena();
 

@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#
+# From a fresh machine to pictures: installs what is missing, builds what is needed, and lets a
+# course solution drive a robot round the arena for 120 simulated seconds. Results: out/demo/.
+set -euo pipefail
+
+case ${1:-} in
+  '') ;;
+  --help | -h)
+    echo "Usage: apps/demo.sh"
+    sed -n '4,5s/^# //p' "${BASH_SOURCE[0]}"
+    exit 0
+    ;;
+  *)
+    echo "demo: unknown argument '$1'; there are none but --help" >&2
+    exit 2
+    ;;
+esac
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+build=build/release
+out=out/demo
+log=$build/demo.log
+
+if [[ -t 1 ]]; then bold=$'\e[1m' plain=$'\e[0m'; else bold='' plain=''; fi
+headline() { printf '%s%s%s\n' "$bold" "$*" "$plain"; }
+fail() {
+  printf 'demo: %s\n' "$@" >&2
+  exit 1
+}
+
+# quietly WHAT COMMAND...: runs it with its output in the log, which is shown if it fails.
+quietly() {
+  local what=$1
+  shift
+  if ! "$@" >>"$log" 2>&1; then
+    tail -n 40 "$log" >&2
+    fail "$what failed; the last lines are above, all of them in $root/$log"
+  fi
+}
+
+headline "1/3  Packages"
+"$root/apps/install_dependencies.sh" build ||
+  fail "packages are missing and could not be installed; the reason is above"
+echo "     all there"
+
+headline "2/3  Build"
+mkdir -p "$build" "$out"
+: >"$log"
+launcher=()
+if command -v ccache >/dev/null 2>&1; then
+  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+quietly "configuring" cmake --preset release "${launcher[@]}"
+targets=(playpen par_intro_solution_wall)
+jobs=$(nproc)
+if [[ -t 1 ]]; then
+  # On a terminal ninja shows its progress in one line.
+  cmake --build "$build" --parallel "$jobs" --target "${targets[@]}" ||
+    fail "the build failed; the compiler's messages are above"
+else
+  quietly "the build" cmake --build "$build" --parallel "$jobs" --target "${targets[@]}"
+fi
+echo "     $build/bin/playpen, $build/bin/par_intro_solution_wall"
+
+headline "3/3  A robot follows the walls of the arena for 120 simulated seconds"
+results=(scene.png canvas.png report.json trajectory.csv)
+# Those of an earlier run must not pass for this one's.
+(cd "$out" && rm -f "${results[@]}")
+"$build/bin/playpen" run worlds/tasks/par_intro.json --duration 120 --out "$out" \
+  -- "$build/bin/par_intro_solution_wall" ||
+  fail "the run ended with status $?; its messages are above"
+
+for file in "${results[@]}"; do
+  [[ -s $out/$file ]] || fail "the run ended well but left no $out/$file; please report this"
+done
+echo
+headline "Look at"
+echo "  $root/$out/scene.png        the arena, the robot and its trail"
+echo "  $root/$out/canvas.png       what the robot drew"
+echo "  $root/$out/report.json      the figures"
+echo "  $root/$out/trajectory.csv   where it was, and when"

@@ -1,0 +1,176 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs the Debian or Ubuntu packages that Playpen needs and that are not there yet. This is
+# the one place that names them; why each is needed is told in docs/decisions/dependencies.md.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: apps/install_dependencies.sh [--list] [GROUP...]
+
+Installs what is missing of the groups, from Debian or Ubuntu packages (Debian 12, Ubuntu 22.04
+or newer). Does nothing, and needs no rights, when all of it is there.
+
+Groups (default: build):
+  build   compiler, CMake and the libraries that Playpen links
+  test    GoogleTest and Google Benchmark
+  lint    clang, its formatter and linter, shellcheck
+  doc     Doxygen
+
+  --list  print the names of the groups' packages, one a line, and install nothing
+  --help  print this
+TEXT
+}
+
+# One entry a package: its name, or name=command where any installed version of that command
+# will do, wherever it came from.
+build_packages=(
+  "g++=g++" cmake=cmake ninja-build=ninja
+  libbox2d-dev libeigen3-dev
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
+  libopencv-highgui-dev
+  nlohmann-json3-dev libspdlog-dev libcli11-dev
+)
+test_packages=(libgtest-dev libgmock-dev libbenchmark-dev)
+lint_packages=(
+  clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)
+doc_packages=(doxygen=doxygen)
+
+fail() {
+  printf 'install_dependencies: %s\n' "$@" >&2
+  exit 1
+}
+
+# is_installed ENTRY
+is_installed() {
+  local package=${1%%=*} command=
+  [[ $1 == *=* ]] && command=${1#*=}
+  if [[ -n $command ]] && command -v "$command" >/dev/null 2>&1; then return 0; fi
+  [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]]
+}
+
+# The package that holds the sanitizer and fuzzer runtime of the packaged clang. Its name carries
+# clang's version; older releases (Ubuntu 22.04) have the files in another package, which clang
+# draws in by itself. Prints nothing where there is no such package, or apt does not know yet.
+clang_runtime_package() {
+  local depends version
+  depends=$(dpkg-query -W -f '${Depends}' clang 2>/dev/null || true)
+  if [[ -z $depends ]]; then
+    depends=$(apt-cache show --no-all-versions clang 2>/dev/null | sed -n 's/^Depends: //p' || true)
+  fi
+  version=$(grep -oE '\bclang-[0-9]+' <<<"$depends" | head -n 1 | cut -d- -f2 || true)
+  [[ -n $version ]] || return 0
+  local package=libclang-rt-$version-dev
+  if is_installed "$package" || apt-cache show "$package" >/dev/null 2>&1; then
+    printf '%s\n' "$package"
+  fi
+}
+
+clang_runtime_is_there() {
+  command -v clang >/dev/null 2>&1 || return 1
+  local found
+  found=$(find "$(clang -print-resource-dir)/lib" -name 'libclang_rt.asan*.a' 2>/dev/null |
+    head -n 1 || true)
+  [[ -n $found ]]
+}
+
+list_only=false
+groups=()
+for argument in "$@"; do
+  case $argument in
+    --list) list_only=true ;;
+    --help | -h)
+      usage
+      exit 0
+      ;;
+    build | test | lint | doc) groups+=("$argument") ;;
+    *)
+      usage >&2
+      fail "unknown argument '$argument'"
+      ;;
+  esac
+done
+((${#groups[@]} > 0)) || groups=(build)
+
+wanted=()
+with_lint=false
+for group in "${groups[@]}"; do
+  case $group in
+    build) wanted+=("${build_packages[@]}") ;;
+    test) wanted+=("${test_packages[@]}") ;;
+    lint)
+      wanted+=("${lint_packages[@]}")
+      with_lint=true
+      ;;
+    doc) wanted+=("${doc_packages[@]}") ;;
+  esac
+done
+
+if $list_only; then
+  printf '%s\n' "${wanted[@]%%=*}"
+  if $with_lint; then clang_runtime_package; fi
+  exit 0
+fi
+
+if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>&1; then
+  fail "this machine has no apt: install by hand what these Debian packages hold:" \
+    "  ${wanted[*]%%=*}"
+fi
+
+missing=()
+for entry in "${wanted[@]}"; do
+  is_installed "$entry" || missing+=("${entry%%=*}")
+done
+need_runtime=false
+if $with_lint && ! clang_runtime_is_there; then need_runtime=true; fi
+if ((${#missing[@]} == 0)) && ! $need_runtime; then exit 0; fi
+
+as_root=()
+if ((EUID != 0)); then
+  by_hand="$0 ${groups[*]}"
+  command -v sudo >/dev/null 2>&1 ||
+    fail "installing packages needs root, and there is no sudo. As root, run:" "  $by_hand"
+  if ! sudo -n true 2>/dev/null; then
+    [[ -t 0 ]] || fail "installing packages needs root, and sudo asks for a password, which" \
+      "nobody can type here. Run this first:" "  sudo $by_hand"
+    echo "Installing packages needs root; sudo may ask for your password." >&2
+  fi
+  as_root=(sudo)
+fi
+apt_get() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq \
+    -o DPkg::Lock::Timeout=600 -o Acquire::Retries=3 "$@"
+}
+
+echo "Asking the package servers for their lists ..."
+# A broken third-party source must not stop us: whether our packages come is what counts.
+updated=true
+apt_get update || updated=false
+
+if $need_runtime; then
+  runtime=$(clang_runtime_package)
+  if [[ -n $runtime ]]; then missing+=("$runtime"); fi
+fi
+((${#missing[@]} > 0)) || exit 0
+
+unknown=()
+for package in "${missing[@]}"; do
+  apt-cache show "$package" >/dev/null 2>&1 || unknown+=("$package")
+done
+if ((${#unknown[@]} > 0)); then
+  if $updated; then
+    fail "this machine's package sources do not have: ${unknown[*]}" \
+      "Playpen needs Debian 12 or Ubuntu 22.04, or newer (on Ubuntu, with 'universe' enabled)."
+  fi
+  fail "the package lists could not be fetched (see above): is there a network?" \
+    "Still to be installed: ${missing[*]}"
+fi
+
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+if ! apt_get install -y --no-install-recommends "${missing[@]}" >/dev/null; then
+  fail "apt-get could not install the packages (see above)." \
+    "Common reasons: no network, a full disk, or an interrupted earlier installation," \
+    "which 'dpkg --configure -a' (as root) mends. Still to be installed: ${missing[*]}"
+fi
+echo "Packages are ready."

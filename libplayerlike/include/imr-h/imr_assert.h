@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdlib>
+#include <sstream>
+#include <string>
+
+#include "imr-h/imr_exceptions.h"
+
+/// @file
+/// Checks for course code that throw imr::exception with the place in the source.
+///
+/// Unlike assert() of the C library they are never compiled out and never abort: a failed check
+/// can be caught, logged, and the robot stopped. A condition is evaluated once; a message is put
+/// together with << and only if the check fails.
+///
+///   IMR_ASSERT(left < right);
+///   IMR_ASSERT_MSG(count > 0, "scan of " << count << " beams");
+///   ASSERT_ARGUMENT(speed_mps >= 0.0, "negative speed " << speed_mps);
+
+namespace imr {
+namespace detail {
+
+/// Throws the exception of a failed check: "file:line: kind 'condition' failed: message".
+///
+/// @param file       source file, as the compiler names it.
+/// @param line       line of the check.
+/// @param kind       "assertion" or "argument check".
+/// @param condition  text of the condition.
+/// @param message    may be empty; then the part after "failed" is left out.
+/// @throws imr::exception always.
+[[noreturn]] void throw_failed_check(const char* file, int line, const char* kind,
+                                     const char* condition, const std::string& message);
+
+}  // namespace detail
+}  // namespace imr
+
+/// Common part of the two checks with a message; for use by the macros below only.
+#define IMR_DETAIL_CHECK(kind, condition, ...)                                \
+  do {                                                                        \
+    if (!static_cast<bool>(condition)) {                                      \
+      ::std::ostringstream imr_check_text_;                                   \
+      imr_check_text_ << __VA_ARGS__;                                         \
+      ::imr::detail::throw_failed_check(__FILE__, __LINE__, kind, #condition, \
+                                        imr_check_text_.str());               \
+    }                                                                         \
+  } while (false)
+
+/// Throws imr::exception unless the condition holds. The condition may contain commas.
+#define IMR_ASSERT(...)                                                                     \
+  do {                                                                                      \
+    if (!static_cast<bool>(__VA_ARGS__)) {                                                  \
+      ::imr::detail::throw_failed_check(__FILE__, __LINE__, "assertion", #__VA_ARGS__, ""); \
+    }                                                                                       \
+  } while (false)
+
+/// Throws imr::exception with a message unless the condition holds.
+#define IMR_ASSERT_MSG(condition, ...) IMR_DETAIL_CHECK("assertion", condition, __VA_ARGS__)
+
+/// Throws imr::exception with a message unless the condition, which judges an argument, holds.
+#define ASSERT_ARGUMENT(condition, ...) IMR_DETAIL_CHECK("argument check", condition, __VA_ARGS__)

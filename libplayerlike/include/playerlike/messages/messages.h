@@ -1,0 +1,119 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/core/colour.h"
+#include "sim/core/pose.h"
+#include "sim/core/time.h"
+#include "sim/devices/device.h"
+#include "sim/simulation/simulation.h"
+
+/// What passes between a simulation's host and its clients: plain structs.
+/// Readings and commands are libsim's own (sim::Reading and those derived from it, sim::Command).
+namespace playerlike {
+
+/// A device of a simulation, by the indices of its robot and of itself.
+using DeviceId = sim::Simulation::DeviceId;
+
+/// The port on which all robots of a world are visible (MORSE's).
+inline constexpr int kMorsePort = 4000;
+
+/// A device as clients are told of it.
+struct DeviceInfo {
+  DeviceId id{-1, -1};
+  std::string name;                          ///< in its robot, e.g. "laser"
+  std::string type;                          ///< e.g. "laser"
+  std::map<std::string, double> properties;  ///< its numeric settings, SI units and radians
+};
+
+/// A robot as clients are told of it.
+struct RobotInfo {
+  std::string name;
+  std::string model;
+  sim::Colour colour;
+  sim::Pose initial_pose;  ///< X_WB at the start
+  int port = 0;            ///< its Player port
+  double length_m = 0.0;   ///< of the footprint's bounding box along x, B [m]
+  double width_m = 0.0;    ///< along y [m]
+  double height_m = 0.0;   ///< [m]
+  double max_speed_mps = 0.0;
+  double max_turn_rate_radps = 0.0;
+  std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so
+  std::vector<sim::DriverDescription> drivers;
+  std::vector<DeviceInfo> devices;
+};
+
+/// The grid-map's size and place.
+struct CanvasInfo {
+  int width = 0;
+  int height = 0;
+  double cell_size_m = 0.0;
+  double origin_x_m = 0.0;
+  double origin_y_m = 0.0;
+};
+
+/// How far a simulation is.
+struct TimeStatistics {
+  sim::SimTime sim_time_ns = 0;
+  std::uint64_t steps = 0;
+  double step_s = 0.0;
+  double wall_time_s = 0.0;          ///< since its first step
+  double real_time_factor = 0.0;     ///< simulated over wall time; 0 before the first step
+  std::optional<double> duration_s;  ///< of the run, if it has an end
+  sim::TimeMode mode = sim::TimeMode::kLockstep;
+  bool finished = false;
+};
+
+/// A call that could not be carried out. Player's layer turns it into PlayerCc::PlayerError.
+class SessionError : public std::runtime_error {
+ public:
+  enum class Code {
+    kFinished,      ///< the simulated duration is over
+    kDisconnected,  ///< the connection is closed
+    kNoSuchDevice,  ///< the world has no such device; the message names those it has
+    kNotAvailable,  ///< not possible with this kind of session
+    kBadArgument,   ///< a value that cannot be meant, e.g. NaN
+  };
+  SessionError(Code code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  [[nodiscard]] Code code() const noexcept { return code_; }
+
+ private:
+  Code code_;
+};
+
+/// Builds what clients are told of a simulation's robots.
+[[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
+
+/// Which devices stand behind a Player device address.
+struct InterfaceBinding {
+  DeviceId reading;                ///< whose readings the interface carries
+  std::optional<DeviceId> motion;  ///< the robot's motors, for position2d
+  int robot = -1;
+};
+
+/// Finds the device behind (port, interface, index). On a robot's own port, index i is that
+/// robot's i-th device with the interface; on port 4000 the index is the one that the world's
+/// `proxies` table gives, by default the robot's number counted from 0.
+/// Interfaces known: "position2d" (pose, then odometry devices) and "laser".
+/// @throws SessionError kNoSuchDevice, naming the addresses that exist.
+[[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
+                                              std::string_view interface, int index);
+
+/// One address of a port, for lists and messages.
+struct InterfaceAddress {
+  std::string interface;
+  int index = 0;
+  std::string robot;
+  std::string device;
+};
+/// All addresses of a port.
+[[nodiscard]] std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robots,
+                                                            int port);
+
+}  // namespace playerlike

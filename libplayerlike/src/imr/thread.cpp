@@ -1,0 +1,129 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "imr-h/thread.h"
+
+#include <cxxabi.h>
+
+#include <exception>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <typeinfo>
+#include <utility>
+
+#include "imr-h/imr_exceptions.h"
+#define IMR_LOGGING_NO_SHORT_NAMES
+#include "imr-h/logging.h"
+#include "type_name.h"
+
+namespace imr::concurrent {
+
+struct CThread::State {
+  std::mutex mutex;
+  std::condition_variable ended;  // Announces that running became false.
+  bool running = false;
+  std::thread thread;
+};
+
+namespace {
+
+// Whether a name such as "PlayerCc::PlayerError" ends in the class that Read() throws at the end
+// of a run. By name, because these headers stand below the client library.
+bool names_player_error(const std::string& type) {
+  const std::size_t colon = type.rfind(':');
+  const std::string name = colon == std::string::npos ? type : type.substr(colon + 1);
+  return name == "PlayerError" || name == "MorseError";
+}
+
+// Logs the exception being handled, whose what() is given if it has one.
+void log_escaped_exception(const char* what) {
+  const std::type_info* type = abi::__cxa_current_exception_type();
+  const std::string name = type != nullptr ? detail::type_name(*type) : "an unknown type";
+  const std::string detail_text = what != nullptr ? std::string(": ") + what : std::string();
+  if (names_player_error(name)) {
+    IMR_LOG_INFO("thread ended: its client's session is over (" << name << detail_text << ")");
+  } else {
+    IMR_LOG_ERROR("thread ended by an exception of type " << name << detail_text);
+  }
+}
+
+}  // namespace
+
+CThread::CThread() : state_(std::make_shared<State>()) {}
+
+CThread::~CThread() {
+  {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    if (state_->thread.get_id() == std::this_thread::get_id()) {
+      state_->thread.detach();
+      return;
+    }
+    if (state_->running) {
+      IMR_LOG_WARN("CThread destroyed while its body runs; join() in the derived destructor");
+    }
+  }
+  join();
+}
+
+void CThread::execute() {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  if (state_->running) {
+    throw exception("CThread::execute(): the thread is running already");
+  }
+  if (state_->thread.joinable()) {
+    // An earlier run whose body has ended; it needs the lock no more.
+    state_->thread.join();
+  }
+  state_->running = true;
+  try {
+    state_->thread = std::thread(&CThread::run, this, state_);
+  } catch (const std::system_error& error) {
+    state_->running = false;
+    throw exception(std::string("CThread::execute(): can't start a thread: ") + error.what());
+  }
+}
+
+void CThread::join() {
+  // A copy, because exit() in the body may destroy this object while another thread waits here.
+  const std::shared_ptr<State> state = state_;
+  // Moved out and joined without the lock, so that two threads may join at the same time.
+  std::thread ended;
+  {
+    std::unique_lock<std::mutex> lock(state->mutex);
+    if (state->thread.get_id() == std::this_thread::get_id()) {
+      IMR_LOG_WARN("CThread::join() called by the thread itself does not wait");
+      return;
+    }
+    state->ended.wait(lock, [&state] { return !state->running; });
+    ended = std::move(state->thread);
+  }
+  if (ended.joinable()) {
+    ended.join();
+  }
+}
+
+void CThread::run(CThread* self, std::shared_ptr<State> state) {
+  // Announces the end on every way out, the platform's thread cancellation included.
+  struct EndAnnouncer {
+    State& state;
+    ~EndAnnouncer() {
+      const std::lock_guard<std::mutex> lock(state.mutex);
+      state.running = false;
+      state.ended.notify_all();
+    }
+  };
+  const EndAnnouncer announcer{*state};
+  try {
+    self->threadBody();
+  } catch (const std::exception& error) {
+    log_escaped_exception(error.what());
+  } catch (...) {
+    if (std::current_exception() == nullptr) {
+      // Not a C++ exception but pthread_exit() or pthread_cancel() unwinding the stack: the C
+      // library insists on seeing it again.
+      throw;
+    }
+    log_escaped_exception(nullptr);
+  }
+}
+
+}  // namespace imr::concurrent

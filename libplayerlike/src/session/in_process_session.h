@@ -1,0 +1,47 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "host/core.h"
+#include "playerlike/session/session.h"
+
+namespace playerlike {
+
+/// A session with a simulation in this process: calls, not messages.
+class InProcessSession final : public Session {
+ public:
+  InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client);
+  ~InProcessSession() override;
+
+  const std::vector<RobotInfo>& robots() const noexcept override;
+  int port() const noexcept override;
+  bool connected() const noexcept override;
+
+  void subscribe(DeviceId device) override;
+  void unsubscribe(DeviceId device) override;
+  void set_replace(std::optional<DeviceId> device, bool replace) override;
+  std::uint32_t overflow_count() const override;
+
+  void wait() override;
+  int take(ReadingSink& sink) override;
+  bool peek(std::chrono::milliseconds timeout) override;
+  void send(DeviceId device, const sim::Command& command) override;
+  void draw(std::span<const sim::CanvasOperation> operations) override;
+  CanvasInfo canvas_info() const override;
+  std::optional<sim::Colour> pixel(int column, int row) override;
+  std::vector<std::uint8_t> canvas_image() override;
+  TimeStatistics time() const override;
+  void sleep(double seconds) override;
+  void prefer_real_time(const std::string& reason) override;
+  void close() noexcept override;
+
+ private:
+  /// Checks that the world has the device. @throws SessionError kNoSuchDevice.
+  const DeviceInfo& require_device(DeviceId device) const;
+
+  std::shared_ptr<Host> host_;
+  std::shared_ptr<Client> client_;
+};
+
+}  // namespace playerlike

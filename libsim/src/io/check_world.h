@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/error.h"
+#include "sim/world/description.h"
+
+namespace sim::io {
+
+/// Whether the part of a world at that JSON pointer is known to be as its author meant it. A part
+/// that was in error holds a default, about which nothing is to be complained of a second time.
+using TrustedPart = std::function<bool(const std::string& pointer)>;
+
+/// check_world, leaving out what rests on parts that are not trusted.
+[[nodiscard]] std::vector<ConfigIssue> check_world_parts(const WorldDescription& world,
+                                                         const TrustedPart& trusted);
+
+/// A place on the floor, clear of everything by some centimetres, for a robot with that outline:
+/// in the SyRoTek arena its start pose if free, else as near to the middle of the floor as can be,
+/// looking where it can drive farthest. Robots listed in `world` are in its way.
+/// @return nullopt if none of the places tried (every 0.1 m, at most 41 x 41) is free.
+[[nodiscard]] std::optional<Pose> find_free_pose(const WorldDescription& world,
+                                                 const Polygon& footprint);
+
+}  // namespace sim::io

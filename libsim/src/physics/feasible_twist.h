@@ -1,0 +1,30 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "sim/core/pose.h"
+
+namespace sim {
+
+/// What a contact allows: along * v + turning * omega <= limit, all in SI units.
+struct TwistConstraint {
+  double along;    ///< forward component of the contact normal (towards the obstacle)
+  double turning;  ///< lever of the contact point about the axle's centre [m]
+  double limit;    ///< greatest closing speed [m/s], >= 0
+};
+
+/// The feasible twist nearest to `target` in kinetic energy: it minimises
+/// m (v - v0)^2 + I (omega - omega0)^2 under the constraints.
+///
+/// This is Gauss's principle of least constraint for a body on wheels that cannot slip sideways
+/// (two degrees of freedom, frictionless contacts); see Udwadia and Kalaba, Analytical Dynamics
+/// (1996), ch. 3. Since every limit is >= 0, standing still is always feasible, and the result
+/// has no more kinetic energy than the target.
+/// The optimum of this small quadratic program lies at the target, on one constraint or at the
+/// crossing of two; all are tried. Cost grows with the cube of the number of constraints, which
+/// is 0 in the open and rarely above 6.
+[[nodiscard]] Twist feasible_twist(const Twist& target, double mass_kg, double inertia_kgm2,
+                                   const std::vector<TwistConstraint>& constraints);
+
+}  // namespace sim

@@ -1,0 +1,88 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/core/body_state.h"
+#include "sim/core/hash.h"
+#include "sim/core/pose.h"
+#include "sim/scan/scan_kernel.h"
+#include "sim/world/description.h"
+#include "sim/world/robot_model.h"
+
+namespace sim {
+
+/// The bodies of a world and how they move: the only part that knows Box2D.
+///
+/// Box2D works with a tolerance (b2_linearSlop) of 5 mm, too coarse for a robot of 17 cm, so one
+/// metre is ten Box2D units here, which makes it 0.5 mm. All that crosses this interface is in
+/// metres and radians, in double precision.
+///
+/// Robots are velocity-driven. A robot that touches nothing follows the exact arc of its twist in
+/// double precision; near an obstacle the twist is first reduced to what wheels that cannot slip
+/// sideways allow (see feasible_twist in the source); robots that touch one another are left to
+/// Box2D's contact solver.
+class PhysicsWorld {
+ public:
+  explicit PhysicsWorld(const ArenaDescription& arena);
+  ~PhysicsWorld();
+  PhysicsWorld(const PhysicsWorld&) = delete;
+  PhysicsWorld& operator=(const PhysicsWorld&) = delete;
+
+  /// Adds a robot; the first has index 0.
+  int add_robot(const RobotModel& model, const Pose& X_WB);
+  [[nodiscard]] int robot_count() const noexcept;
+
+  /// The twist that a robot strives for in the next step.
+  void set_target(int robot, const Twist& target);
+  /// Puts a robot somewhere, at rest.
+  void set_pose(int robot, const Pose& X_WB);
+  /// Advances by dt_s (> 0).
+  void step(double dt_s);
+  [[nodiscard]] const BodyState& body(int robot) const;
+
+  /// Whom a contact that began in the last step is with.
+  struct Contact {
+    enum class Kind : std::uint8_t { kObstacle, kSeparator, kBorder, kWall, kRobot };
+    int robot;
+    Kind kind;
+    int index;  ///< of the obstacle, separator or robot
+  };
+  /// Contacts that began in the last step; one between robots is listed for both.
+  [[nodiscard]] const std::vector<Contact>& new_contacts() const noexcept;
+
+  /// Extends (true) or retracts a dynamic obstacle, by its index in the arena.
+  void set_extended(int obstacle, bool extended);
+  /// Whether any robot's footprint overlaps the obstacle's place.
+  [[nodiscard]] bool robot_stands_on(int obstacle) const;
+
+  /// Distance of a robot's footprint to the nearest solid, at most limit_m [m].
+  [[nodiscard]] double clearance_m(int robot, double limit_m) const;
+
+  /// Collects the edges within radius_m of a sensor at p_WL that stand higher than the sensor.
+  /// @param own_robot     robot whose body is not seen, or -1.
+  /// @param test_inside   also find out whether p_WL lies inside a solid (edges.inside); may be
+  ///                      left out for a sensor that lies within its robot's own footprint.
+  void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
+                     bool test_inside, scan::EdgeBuffer& edges) const;
+
+  void hash(StateHash& hash) const;
+
+  /// Range along one ray by b2World::RayCast, the slow exact way (reference in tests and
+  /// benchmarks); range_max_m if nothing is met. Ignores heights and insides.
+  [[nodiscard]] double ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
+                                  int own_robot) const;
+
+  /// Only b2World::Step with the last velocities, nothing of ours: the base that benchmarks
+  /// compare with. Positions drift; not for simulation.
+  void bare_step(double dt_s);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sim

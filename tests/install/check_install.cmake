@@ -1,0 +1,52 @@
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+# Run by the test install.consumer; see CMakeLists.txt beside this file for the variables.
+cmake_minimum_required(VERSION 3.22)
+
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${what} failed (${status}):\n${out}\n${err}")
+  endif()
+  set(run_output "${out}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${STAGE_DIR}")
+run("installing" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}"
+  --prefix ${STAGE_DIR}/first)
+# The package must not care where it lies.
+set(prefix "${STAGE_DIR}/moved/to another place")
+file(MAKE_DIRECTORY "${STAGE_DIR}/moved")
+file(RENAME "${STAGE_DIR}/first" "${prefix}")
+
+file(GLOB_RECURSE package_files "${prefix}/*.cmake")
+if(NOT package_files)
+  message(FATAL_ERROR "no CMake package was installed")
+endif()
+foreach(package_file IN LISTS package_files)
+  file(READ "${package_file}" text)
+  foreach(folder IN ITEMS "${SOURCE_DIR}" "${BUILD_DIR}" "${STAGE_DIR}")
+    string(FIND "${text}" "${folder}" at)
+    if(NOT at EQUAL -1)
+      message(FATAL_ERROR "${package_file} names the folder ${folder} of this build")
+    endif()
+  endforeach()
+endforeach()
+
+run("configuring the consumer" ${CMAKE_COMMAND}
+  -S ${CONSUMER_DIR} -B ${STAGE_DIR}/consumer -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
+  "-DCMAKE_PREFIX_PATH=${prefix}")
+run("building the consumer" ${CMAKE_COMMAND} --build ${STAGE_DIR}/consumer --config "${CONFIG}")
+
+run("running the client" ${STAGE_DIR}/consumer/client)
+if(NOT run_output MATCHES "read 10 times, robot at -?[0-9.]+ -?[0-9.]+ -?[0-9.]+")
+  message(FATAL_ERROR "the client printed no pose:\n${run_output}")
+endif()
+run("running the simulator's user" ${STAGE_DIR}/consumer/simulator_user)
+if(NOT run_output MATCHES "after 1 s: 100 steps")
+  message(FATAL_ERROR "the simulator's user printed:\n${run_output}")
+endif()
+if(EXISTS "${prefix}/bin/playpen")
+  run("the installed command" "${prefix}/bin/playpen" --version)
+endif()

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs what is missing, builds everything and runs the tests.
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: tests/run.sh [--preset NAME] [CTEST ARGUMENTS...]
+
+Builds a preset of CMakePresets.json (default: dev) in build/NAME and runs its tests in
+parallel. Anything else is handed to ctest, for example:
+  tests/run.sh -R Scan          only the tests whose name matches
+  tests/run.sh -LE install      all but those labelled 'install'
+TEXT
+}
+
+preset=dev
+case ${1:-} in
+  --help | -h)
+    usage
+    exit 0
+    ;;
+  --preset)
+    preset=${2:?tests/run.sh: --preset needs a name}
+    shift 2
+    ;;
+esac
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+cd "$root"
+apps/install_dependencies.sh build test
+
+launcher=()
+if command -v ccache >/dev/null 2>&1; then
+  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+fi
+jobs=$(nproc)
+mkdir -p "build/$preset"
+configure_log=build/$preset/configure.log
+if ! cmake --preset "$preset" "${launcher[@]}" >"$configure_log" 2>&1; then
+  cat "$configure_log" >&2
+  echo "tests/run.sh: configuring preset '$preset' failed; the reason is above" >&2
+  exit 1
+fi
+cmake --build "build/$preset" --parallel "$jobs"
+
+# ThreadSanitizer of older compilers cannot place its memory where the kernel randomises
+# addresses by more than 28 bits; without randomisation it always can.
+run=()
+if [[ $preset == tsan && $(cat /proc/sys/vm/mmap_rnd_bits 2>/dev/null || echo 28) -gt 28 ]]; then
+  run=(setarch -R)
+fi
+"${run[@]}" ctest --preset "$preset" --parallel "$jobs" "$@"

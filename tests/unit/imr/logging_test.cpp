@@ -1,0 +1,193 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Macros of the same names, as other headers and -DDEBUG leave behind; logging.h takes them over.
+#define DEBUG 1
+#define ERROR 0
+
+#include "imr-h/logging.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <iomanip>
+#include <map>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+// An operator<< that argument-dependent lookup does not find, as course programs write them.
+std::ostream& operator<<(std::ostream& out, const std::vector<int>& values);
+std::ostream& operator<<(std::ostream& out, const std::vector<int>& values) {
+  return out << "vector of " << values.size();
+}
+
+namespace {
+
+using imr::logging::Level;
+using testing::HasSubstr;
+
+class Logging : public testing::Test {
+ protected:
+  void SetUp() override { imr::logging::set_level(Level::kDebug); }
+  void TearDown() override {
+    unsetenv("IMR_LOG_LEVEL");
+    imr::logging::set_level_from_environment();
+  }
+
+  template <typename Function>
+  static std::string stderr_of(const Function& function) {
+    testing::internal::CaptureStderr();
+    function();
+    return testing::internal::GetCapturedStderr();
+  }
+};
+
+TEST_F(Logging, EachMacroWritesALineWithItsLevel) {
+  const std::string text = stderr_of([] {
+    DEBUG("a " << 1);
+    INFO("b " << 2.5);
+    WARN("c " << 'x');
+    ERROR("d " << std::string("text") << " " << true);
+  });
+  EXPECT_EQ(text, "[DEBUG] a 1\n[INFO] b 2.5\n[WARN] c x\n[ERROR] d text 1\n");
+}
+
+TEST_F(Logging, MacrosTakeSpacesCommasManipulatorsAndLocalOperators) {
+  const std::vector<int> values = {1, 2};
+  const std::string text = stderr_of([&] {
+    // clang-format off
+    DEBUG ("spaced");
+    // clang-format on
+    INFO(std::setw(4) << 7 << std::hex << " " << 255);
+    INFO(values << ", " << std::map<int, int>{{1, 2}, {3, 4}}.size());
+  });
+  EXPECT_EQ(text, "[DEBUG] spaced\n[INFO]    7 ff\n[INFO] vector of 2, 2\n");
+}
+
+TEST_F(Logging, LineEndsAtTheEndAreDropped) {
+  EXPECT_EQ(stderr_of([] {
+              INFO("one" << std::endl);
+              INFO("two\r\n\n");
+              INFO("");
+            }),
+            "[INFO] one\n[INFO] two\n[INFO] \n");
+}
+
+TEST_F(Logging, LinesBelowTheLevelAreNeitherPrintedNorEvaluated) {
+  imr::logging::set_level(Level::kWarn);
+  int evaluated = 0;
+  const std::string text = stderr_of([&] {
+    DEBUG("no " << ++evaluated);
+    INFO("no " << ++evaluated);
+    WARN("yes " << ++evaluated);
+    ERROR("yes " << ++evaluated);
+  });
+  EXPECT_EQ(text, "[WARN] yes 1\n[ERROR] yes 2\n");
+}
+
+TEST_F(Logging, OffSilencesErrorsToo) {
+  imr::logging::set_level(Level::kOff);
+  int evaluated = 0;
+  EXPECT_EQ(stderr_of([&] { ERROR(++evaluated); }), "");
+  EXPECT_EQ(evaluated, 0);
+  EXPECT_FALSE(imr::logging::enabled(Level::kOff));
+}
+
+TEST_F(Logging, ALineWhoseTextThrowsIsNotPrinted) {
+  const auto fail = []() -> int { throw std::runtime_error("inside"); };
+  EXPECT_EQ(stderr_of([&] { EXPECT_THROW(INFO("half " << fail()), std::runtime_error); }), "");
+}
+
+TEST_F(Logging, IsOneStatement) {
+  const std::string text = stderr_of([] {
+    const bool is_late = false;
+    if (is_late)
+      ERROR("late");
+    else
+      INFO("in time");
+  });
+  EXPECT_EQ(text, "[INFO] in time\n");
+}
+
+TEST_F(Logging, LevelIsInfoWithoutEnvironment) {
+  unsetenv("IMR_LOG_LEVEL");
+  imr::logging::set_level_from_environment();
+  EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
+  setenv("IMR_LOG_LEVEL", "", 1);
+  imr::logging::set_level_from_environment();
+  EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
+}
+
+TEST_F(Logging, EnvironmentSetsTheLevelAndTheFunctionOverridesIt) {
+  setenv("IMR_LOG_LEVEL", "Error", 1);
+  imr::logging::set_level_from_environment();
+  EXPECT_EQ(imr::logging::current_level(), Level::kError);
+  imr::logging::set_level(Level::kDebug);
+  EXPECT_EQ(imr::logging::current_level(), Level::kDebug);
+}
+
+TEST_F(Logging, AnUnknownLevelInTheEnvironmentIsReported) {
+  setenv("IMR_LOG_LEVEL", "loud", 1);
+  const std::string text = stderr_of([] { imr::logging::set_level_from_environment(); });
+  EXPECT_THAT(text, HasSubstr("[WARN] IMR_LOG_LEVEL is 'loud'"));
+  EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
+}
+
+TEST_F(Logging, ParseLevelKnowsItsWordsOnly) {
+  const std::map<std::string, Level> known = {{"debug", Level::kDebug}, {"INFO", Level::kInfo},
+                                              {"warn", Level::kWarn},   {"Warning", Level::kWarn},
+                                              {"error", Level::kError}, {"off", Level::kOff},
+                                              {"none", Level::kOff}};
+  for (const auto& entry : known) {
+    Level level = entry.second == Level::kDebug ? Level::kOff : Level::kDebug;
+    EXPECT_TRUE(imr::logging::parse_level(entry.first, level)) << entry.first;
+    EXPECT_EQ(level, entry.second) << entry.first;
+  }
+  for (const char* unknown : {"", "inf", "info ", "0", "errors"}) {
+    Level level = Level::kWarn;
+    EXPECT_FALSE(imr::logging::parse_level(unknown, level)) << unknown;
+    EXPECT_EQ(level, Level::kWarn) << unknown;
+  }
+}
+
+TEST_F(Logging, LinesOfManyThreadsDoNotMix) {
+  constexpr int kThreads = 4;
+  constexpr int kLines = 200;
+  const std::string filler(100, '.');
+  const std::string text = stderr_of([&] {
+    std::vector<std::thread> threads;
+    for (int i = 0; i < kThreads; ++i) {
+      threads.emplace_back([i, &filler] {
+        for (int j = 0; j < kLines; ++j) {
+          INFO(i << " " << j << " " << filler);
+          imr::logging::set_level(Level::kDebug);
+        }
+      });
+    }
+    for (std::thread& thread : threads) {
+      thread.join();
+    }
+  });
+  // Each thread's lines arrive whole and in its order.
+  std::vector<int> next(kThreads, 0);
+  std::istringstream lines(text);
+  std::string line;
+  while (std::getline(lines, line)) {
+    std::istringstream words(line);
+    std::string tag;
+    std::string rest;
+    int thread = -1;
+    int number = -1;
+    words >> tag >> thread >> number >> rest;
+    ASSERT_TRUE(thread >= 0 && thread < kThreads) << line;
+    EXPECT_EQ(number, next[static_cast<std::size_t>(thread)]++) << line;
+    EXPECT_EQ(line,
+              "[INFO] " + std::to_string(thread) + " " + std::to_string(number) + " " + filler);
+  }
+  EXPECT_EQ(next, std::vector<int>(kThreads, kLines));
+}
+
+}  // namespace

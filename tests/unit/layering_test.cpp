@@ -1,0 +1,290 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Who may include whom: the arrows of docs/architecture.md, checked on the text of the sources.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A source file: its path from the root of the repository, and its text.
+struct Source {
+  std::string path;
+  std::string text;
+};
+
+/// The text with comments and the contents of string literals blanked, lines kept; the names of
+/// included files are kept too.
+std::string without_comments(const std::string& text) {
+  std::string out;
+  std::istringstream lines(text);
+  std::string line;
+  bool in_block = false;
+  static const std::regex kInclude(R"(^\s*#\s*include\b)");
+  while (std::getline(lines, line)) {
+    const bool is_include = !in_block && std::regex_search(line, kInclude);
+    bool in_string = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string_view pair = std::string_view(line).substr(i, 2);
+      if (in_block) {
+        if (pair == "*/") {
+          in_block = false;
+          ++i;
+        }
+      } else if (in_string) {
+        if (line[i] == '\\') {
+          ++i;
+        } else if (line[i] == '"') {
+          in_string = false;
+          out += '"';
+        }
+      } else if (pair == "//") {
+        break;
+      } else if (pair == "/*") {
+        in_block = true;
+        ++i;
+      } else {
+        in_string = line[i] == '"' && !is_include;
+        out += line[i];
+      }
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+/// What a text includes, in order, as written between the quotes or angles.
+std::vector<std::string> includes_of(const std::string& text) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> found;
+  std::istringstream lines(without_comments(text));
+  std::string line;
+  while (std::getline(lines, line)) {
+    std::smatch match;
+    if (std::regex_search(line, match, kInclude)) found.push_back(match[1]);
+  }
+  return found;
+}
+
+bool starts_with_any(std::string_view text, const std::vector<std::string_view>& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](std::string_view prefix) { return text.starts_with(prefix); });
+}
+
+/// The folder of libsim that a source lies in or an include names ("sim/core/pose.h" and
+/// "core/x.h" are both "core"); empty if it is none of libsim's.
+std::string sim_folder(std::string_view path) {
+  for (const std::string_view prefix : {"libsim/include/sim/", "libsim/src/", "sim/"}) {
+    if (path.starts_with(prefix)) {
+      path.remove_prefix(prefix.size());
+      break;
+    }
+  }
+  const auto slash = path.find('/');
+  return slash == std::string_view::npos ? "" : std::string(path.substr(0, slash));
+}
+
+/// Folder of libsim -> the folders it may include besides itself.
+const std::map<std::string, std::set<std::string>>& sim_arrows() {
+  static const std::map<std::string, std::set<std::string>> kArrows = {
+      {"core", {}},
+      {"world", {"core"}},
+      {"canvas", {"core", "world"}},
+      {"io", {"core", "world", "canvas"}},
+      {"scan", {"core"}},
+      {"physics", {"core", "world", "scan"}},
+      {"devices", {"core", "world", "io", "canvas", "scan", "physics"}},
+      {"simulation", {"core", "world", "io", "canvas", "scan", "physics", "devices"}},
+      {"render", {"core", "world", "canvas", "simulation"}},
+  };
+  return kArrows;
+}
+
+/// What is wrong with one source of libsim or libplayerlike; empty if nothing is.
+std::vector<std::string> violations(const Source& source) {
+  std::vector<std::string> found;
+  const std::string_view path = source.path;
+  const bool in_sim = path.starts_with("libsim/");
+  const bool in_playerlike = path.starts_with("libplayerlike/");
+  const bool is_public =
+      path.starts_with("libsim/include/") || path.starts_with("libplayerlike/include/");
+  const std::string folder = in_sim ? sim_folder(path) : "";
+  const auto complain = [&](const std::string& what) {
+    found.push_back(source.path + ": " + what);
+  };
+
+  // A failed assertion says so on standard error before it aborts: nobody is left to be told.
+  const bool has_last_words = path == "libsim/src/core/assert.cpp";
+
+  if (in_sim && !sim_arrows().contains(folder)) complain("lies in no known folder of libsim");
+
+  for (const std::string& include : includes_of(source.text)) {
+    const auto refuse = [&](const std::string& why) {
+      complain("includes " + include + ": " + why);
+    };
+    if (include.starts_with("../")) refuse("name it from the include folder");
+
+    const bool is_box2d = starts_with_any(include, {"box2d/", "Box2D/"});
+    const bool is_opencv = starts_with_any(include, {"opencv2/", "opencv4/", "opencv/"});
+    const bool is_json = include.starts_with("nlohmann/");
+    if (is_box2d && !path.starts_with("libsim/src/physics/")) {
+      refuse("Box2D belongs in libsim/src/physics");
+    }
+    if (is_opencv &&
+        !(path.starts_with("libsim/src/canvas/") || path.starts_with("libsim/src/render/"))) {
+      refuse("OpenCV belongs in libsim/src/canvas and libsim/src/render");
+    }
+    if (is_json && in_sim && !path.starts_with("libsim/src/io/")) {
+      refuse("JSON belongs in libsim/src/io");
+    }
+    if (is_public && (is_json || starts_with_any(include, {"spdlog/", "fmt/", "CLI/"}))) {
+      refuse("public headers show no third-party types but Eigen's");
+    }
+
+    if (in_sim) {
+      if (starts_with_any(include,
+                          {"playerlike/", "libplayerc++/", "libCCMorse/", "libPlayer/", "imr-h/",
+                           "messages/", "host/", "session/", "proxies/", "drivers/", "server/"})) {
+        refuse("libsim knows no client");
+      }
+      static const std::set<std::string> kForbidden = {
+          "thread",     "mutex",      "shared_mutex", "condition_variable",
+          "future",     "stop_token", "barrier",      "latch",
+          "semaphore",  "chrono",     "ctime",        "time.h",
+          "sys/time.h", "pthread.h",  "asio.hpp",     "iostream"};
+      if ((kForbidden.contains(include) && !(has_last_words && include == "iostream")) ||
+          starts_with_any(include, {"asio/", "boost/asio", "sys/socket", "netinet/", "arpa/"})) {
+        refuse("libsim has no threads, machine clocks, sockets or terminal");
+      }
+      const std::string target = sim_folder(include);
+      if (sim_arrows().contains(target) && target != folder && sim_arrows().contains(folder) &&
+          !sim_arrows().at(folder).contains(target)) {
+        refuse("the arrow from " + folder + " to " + target + " does not exist");
+      }
+      if (folder == "render" && target == "simulation" &&
+          include != "sim/simulation/scene_snapshot.h") {
+        refuse("pictures are drawn from a snapshot only");
+      }
+    }
+    if (in_playerlike) {
+      if (include.starts_with("sim/") &&
+          starts_with_any(
+              path, {"libplayerlike/include/libplayerc++/", "libplayerlike/include/libCCMorse/",
+                     "libplayerlike/include/libPlayer/", "libplayerlike/include/imr-h/"})) {
+        refuse("clients are C++14, libsim's headers are C++20");
+      }
+    }
+  }
+
+  if (in_sim) {
+    static const std::regex kMachine(
+        R"(\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|random_device|default_random_engine|srand|std::rand|std::exit|quick_exit|std::cout|std::cerr|f?printf)\b)");
+    const std::string code = without_comments(source.text);
+    for (std::sregex_iterator it(code.begin(), code.end(), kMachine), end; it != end; ++it) {
+      if (has_last_words && it->str(1) == "std::cerr") continue;
+      complain("uses " + it->str(1) + ", which a deterministic library without a terminal cannot");
+    }
+  }
+  return found;
+}
+
+/// All sources below a folder of the repository.
+std::vector<Source> sources_in(const std::string& folder) {
+  std::vector<Source> sources;
+  const fs::path root(PLAYPEN_SOURCE_DIR);
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (!entry.is_regular_file() || (extension != ".h" && extension != ".cpp")) continue;
+    std::ifstream in(entry.path(), std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    sources.push_back({fs::relative(entry.path(), root).generic_string(), text.str()});
+  }
+  return sources;
+}
+
+TEST(Layering, SourcesOfTheSimulatorFollowTheArrows) {
+  const std::vector<Source> sources = sources_in("libsim");
+  ASSERT_GT(sources.size(), 20U) << "nothing to check below " PLAYPEN_SOURCE_DIR;
+  for (const Source& source : sources) EXPECT_THAT(violations(source), IsEmpty());
+}
+
+TEST(Layering, SourcesOfTheClientLibraryFollowTheArrows) {
+  const std::vector<Source> sources = sources_in("libplayerlike");
+  ASSERT_GT(sources.size(), 10U) << "nothing to check below " PLAYPEN_SOURCE_DIR;
+  for (const Source& source : sources) EXPECT_THAT(violations(source), IsEmpty());
+}
+
+TEST(Layering, AppsUsePublicHeadersOnly) {
+  for (const Source& source : sources_in("apps")) {
+    for (const std::string& include : includes_of(source.text)) {
+      // Sources of the libraries are included as "folder/file.h"; public headers are not.
+      EXPECT_FALSE(sim_arrows().contains(sim_folder(include)) && !include.starts_with("sim/"))
+          << source.path << " includes " << include;
+      EXPECT_THAT(include, testing::Not(HasSubstr("../"))) << source.path;
+    }
+  }
+}
+
+// The rules themselves, so that a rule that lets all pass is noticed.
+TEST(LayeringRules, FindIncludesButNotThoseInComments) {
+  EXPECT_THAT(includes_of("#include <a/b.h>\n// #include <c>\n/* #include <d>\n#include <e>\n*/\n"
+                          "  # include \"f.h\"  // why\n"),
+              ElementsAre("a/b.h", "f.h"));
+}
+
+TEST(LayeringRules, RefuseArrowsThatPointUp) {
+  EXPECT_THAT(violations({"libsim/include/sim/core/x.h", "#include \"sim/world/description.h\"\n"}),
+              ElementsAre(HasSubstr("from core to world")));
+  EXPECT_THAT(violations({"libsim/src/scan/x.cpp", "#include \"physics/physics_world.h\"\n"}),
+              ElementsAre(HasSubstr("from scan to physics")));
+  EXPECT_THAT(violations({"libsim/src/simulation/x.cpp", "#include \"sim/render/render.h\"\n"}),
+              ElementsAre(HasSubstr("from simulation to render")));
+  EXPECT_THAT(violations({"libsim/src/render/x.cpp", "#include \"sim/simulation/simulation.h\"\n"}),
+              ElementsAre(HasSubstr("snapshot")));
+  EXPECT_THAT(violations({"libsim/src/physics/x.cpp", "#include \"sim/scan/scan_kernel.h\"\n"}),
+              IsEmpty());
+  EXPECT_THAT(violations({"libsim/src/new/x.cpp", ""}), ElementsAre(HasSubstr("no known folder")));
+}
+
+TEST(LayeringRules, RefuseClientsThreadsAndClocksInTheSimulator) {
+  EXPECT_THAT(
+      violations({"libsim/src/core/x.cpp",
+                  "#include <libplayerc++/playerc++.h>\n#include <mutex>\n"
+                  "auto t = std::chrono::steady_clock::now();\n"}),
+      ElementsAre(HasSubstr("no client"), HasSubstr("no threads"), HasSubstr("steady_clock")));
+  EXPECT_THAT(violations({"libsim/src/core/x.cpp", "// std::cout\nauto s = \"printf\";\n"}),
+              IsEmpty());
+}
+
+TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
+  EXPECT_THAT(violations({"libsim/src/devices/x.cpp",
+                          "#include <box2d/box2d.h>\n#include <opencv2/core.hpp>\n"
+                          "#include <nlohmann/json.hpp>\n"}),
+              ElementsAre(HasSubstr("Box2D"), HasSubstr("OpenCV"), HasSubstr("JSON")));
+  EXPECT_THAT(violations({"libsim/src/physics/x.cpp", "#include <box2d/box2d.h>\n"}), IsEmpty());
+  EXPECT_THAT(violations({"libsim/src/canvas/x.cpp", "#include <opencv2/core.hpp>\n"}), IsEmpty());
+  EXPECT_THAT(
+      violations({"libplayerlike/include/playerlike/x.h", "#include <nlohmann/json.hpp>\n"}),
+      ElementsAre(HasSubstr("public headers")));
+  EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <nlohmann/json.hpp>\n"}),
+              IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/include/libCCMorse/x.h", "#include <sim/core/pose.h>\n"}),
+              ElementsAre(HasSubstr("C++14")));
+}
+
+}  // namespace
