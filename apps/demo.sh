@@ -66,11 +66,14 @@ fi
 echo "     $build/bin/playpen, $build/bin/par_intro_solution_wall"
 
 headline "3/3  A robot follows the walls of the arena for 120 simulated seconds"
+results=(scene.png canvas.png report.json trajectory.csv)
+# Those of an earlier run must not pass for this one's.
+(cd "$out" && rm -f "${results[@]}")
 "$build/bin/playpen" run worlds/tasks/par_intro.json --duration 120 --out "$out" \
   -- "$build/bin/par_intro_solution_wall" ||
   fail "the run ended with status $?; its messages are above"
 
-for file in scene.png canvas.png report.json trajectory.csv; do
+for file in "${results[@]}"; do
   [[ -s $out/$file ]] || fail "the run ended well but left no $out/$file; please report this"
 done
 echo

@@ -127,6 +127,9 @@ std::vector<std::string> violations(const Source& source) {
     found.push_back(source.path + ": " + what);
   };
 
+  // A failed assertion says so on standard error before it aborts: nobody is left to be told.
+  const bool has_last_words = path == "libsim/src/core/assert.cpp";
+
   if (in_sim && !sim_arrows().contains(folder)) complain("lies in no known folder of libsim");
 
   for (const std::string& include : includes_of(source.text)) {
@@ -163,7 +166,7 @@ std::vector<std::string> violations(const Source& source) {
           "future",     "stop_token", "barrier",      "latch",
           "semaphore",  "chrono",     "ctime",        "time.h",
           "sys/time.h", "pthread.h",  "asio.hpp",     "iostream"};
-      if (kForbidden.contains(include) ||
+      if ((kForbidden.contains(include) && !(has_last_words && include == "iostream")) ||
           starts_with_any(include, {"asio/", "boost/asio", "sys/socket", "netinet/", "arpa/"})) {
         refuse("libsim has no threads, machine clocks, sockets or terminal");
       }
@@ -192,6 +195,7 @@ std::vector<std::string> violations(const Source& source) {
         R"(\b(steady_clock|system_clock|high_resolution_clock|clock_gettime|gettimeofday|random_device|default_random_engine|srand|std::rand|std::exit|quick_exit|std::cout|std::cerr|f?printf)\b)");
     const std::string code = without_comments(source.text);
     for (std::sregex_iterator it(code.begin(), code.end(), kMachine), end; it != end; ++it) {
+      if (has_last_words && it->str(1) == "std::cerr") continue;
       complain("uses " + it->str(1) + ", which a deterministic library without a terminal cannot");
     }
   }

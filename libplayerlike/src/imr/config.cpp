@@ -332,7 +332,7 @@ std::string file_value(const std::string& where, const std::string& text) {
          !(value[comment] == '#' && (comment == 0 || is_white_space(value[comment - 1])))) {
     ++comment;
   }
-  const std::string plain = trimmed(std::string_view(value).substr(0, comment));
+  std::string plain = trimmed(std::string_view(value).substr(0, comment));
   if (plain.empty()) {
     throw exception(where +
                     "no value after '='; quote a value that is empty (\"\") or begins with '#'");

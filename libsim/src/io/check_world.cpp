@@ -279,7 +279,7 @@ class Checker {
     add("world/obstacle-outside", pointer,
         std::string("a") + what + " on " + floor_text(world_.arena),
         obstacle.name + " sticking out " + metres(depth_m) + " beyond the " + side + " side",
-        "its center and size make a box of twice half the size round the center");
+        "center is the middle of the box, size its full length and width");
   }
 
   void check_arena() {
@@ -410,11 +410,13 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
   const int columns = static_cast<int>(arena.size.x() / spacing_m);
   const int rows = static_cast<int>(arena.size.y() / spacing_m);
   const Vec2 middle = arena.origin + 0.5 * arena.size;
+  const int middle_column = columns / 2;
+  const int middle_row = rows / 2;
   std::vector<Vec2> places;
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column) {
-      places.emplace_back(middle.x() + (column - columns / 2) * spacing_m,
-                          middle.y() + (row - rows / 2) * spacing_m);
+      places.emplace_back(middle.x() + (column - middle_column) * spacing_m,
+                          middle.y() + (row - middle_row) * spacing_m);
     }
   }
   std::stable_sort(places.begin(), places.end(), [&middle](const Vec2& a, const Vec2& b) {

@@ -122,6 +122,21 @@ std::size_t find_invalid_utf8(std::string_view text) {
   return std::string_view::npos;
 }
 
+/// Whether a character may be part of a word or number that somebody meant to write.
+bool is_word_part(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+         c == '+' || c == '-' || c == '.';
+}
+
+/// About 40 bytes of it, whole characters only.
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  if (text.size() <= kLongest) return std::string(text);
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return std::string(text.substr(0, end)) + "...";
+}
+
 /// Builds the document from the parser's events.
 class Builder : public nlohmann::json_sax<nlohmann::json> {
  public:
@@ -210,7 +225,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       issue.id = "json/number-overflow";
       issue.pointer = pointer_here();
       issue.expected = "a number that a computer can hold (up to about 1.8e308)";
-      issue.found = token.size() > 40 ? token.substr(0, 40) + "..." : token;
+      issue.found = shortened(token);
     } else if (complete_) {
       issue.id = "json/trailing-garbage";
       issue.expected = "the end of the file after the outermost }";
@@ -323,6 +338,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     const auto says = [&what](const char* words) { return what.find(words) != std::string::npos; };
     const bool in_key = says("while parsing object key");
     const bool in_value = says("while parsing value");
+    bool wants_comma = false;
     if (in_key) {
       issue.expected = "a key in double quotes";
     } else if (says("while parsing object separator")) {
@@ -331,8 +347,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       issue.expected = "a value: a number, \"text\", true, false, null, {...} or [...]";
     } else if (says("while parsing array")) {
       issue.expected = "',' or ']' after an element";
+      wants_comma = true;
     } else if (says("while parsing object")) {
       issue.expected = "',' or '}' after a value";
+      wants_comma = true;
     } else {
       issue.expected = "correct JSON";
     }
@@ -345,34 +363,45 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       }
       return;
     }
-    const std::size_t token_start = at + 1 >= token.size() ? at + 1 - token.size() : 0;
-    std::size_t before = token_start;
+    if (text_[at] == '\n' || text_[at] == '\r') {
+      issue.found = "the end of the line: " + line_text(text_, at);
+      issue.hint = "a text ends with a double quote in the same line";
+      return;
+    }
+    // A wrong word ("tru") shows at the first letter that does not fit, or just behind it.
+    if (says("invalid literal") && at > 0 && !is_word_part(text_[at]) &&
+        is_word_part(text_[at - 1])) {
+      --at;
+    }
+    // The parser's idea of the last token includes brackets before it, so we look for ourselves.
+    const bool is_text = says("unexpected string literal");
+    std::size_t begin = at;
+    std::size_t end = at + 1;
+    if (is_text) {
+      begin = at + 1 >= token.size() ? at + 1 - token.size() : 0;
+    } else if (is_word_part(text_[at])) {
+      while (begin > 0 && is_word_part(text_[begin - 1])) --begin;
+      while (end < text_.size() && is_word_part(text_[end])) ++end;
+    }
+    issue.found = is_text ? shortened(text_.substr(begin, end - begin))
+                          : "'" + shortened(text_.substr(begin, end - begin)) + "'";
+    issue.found += " in the line: " + line_text(text_, at);
+    std::size_t before = begin;
     while (before > 0 && std::string_view(" \t\r\n").find(text_[before - 1]) != std::string::npos) {
       --before;
     }
     const char last = before > 0 ? text_[before - 1] : '\0';
-    const char first = token.empty() ? '\0' : token.front();
-    if (const std::size_t pos = what.find("unexpected "); pos != std::string::npos) {
-      const std::size_t begin = pos + std::string_view("unexpected ").size();
-      const std::string_view name =
-          std::string_view(what).substr(begin, what.find(';', begin) - begin);
-      if (name == "string literal") {
-        issue.found = "text";
-      } else if (name == "number literal") {
-        issue.found = "a number";
-      } else {
-        issue.found = std::string(name);
-      }
-    } else {
-      issue.found = in_quotes(token);
-    }
-    issue.found += " in the line: " + line_text(text_, at);
+    const char first = text_[begin];
     if (last == ',' && (first == '}' || first == ']')) {
       issue.hint = "remove the comma before it";
     } else if (first == '\'') {
       issue.hint = "JSON has double quotes only";
-    } else if (!in_key && !in_value && (first == '"' || first == '{' || first == '[')) {
+    } else if (wants_comma &&
+               (first == '"' || first == '{' || first == '[' || is_word_part(first))) {
       issue.hint = "is a comma missing before it?";
+    } else if (wants_comma && (first == '}' || first == ']')) {
+      issue.hint = std::string("the ") + (first == '}' ? '[' : '{') + " of line " +
+                   std::to_string(levels_.back().value->line) + " is still open";
     } else if (in_value && (first == 'N' || first == 'n' || first == 'I' || first == 'i')) {
       issue.hint = "NaN and Infinity are no numbers of JSON";
     }
@@ -530,11 +559,12 @@ std::string escape_pointer_part(std::string_view part) {
 }
 
 std::string number_text(double value) {
-  char buffer[32];
-  // Whole numbers in full, as people write them, as long as they are exact.
-  const bool whole = std::abs(value) < 1e15 && value == std::floor(value);
+  char buffer[64];
+  // No exponent in numbers that people write without one.
+  const double magnitude = std::abs(value);
+  const bool plain = value == 0.0 || (magnitude >= 1e-6 && magnitude < 1e15);
   const auto result =
-      whole ? std::to_chars(buffer, buffer + sizeof buffer, static_cast<long long>(value))
+      plain ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
             : std::to_chars(buffer, buffer + sizeof buffer, value);
   return {buffer, result.ptr};
 }
@@ -548,12 +578,6 @@ std::string list_text(const std::vector<std::string>& words, const char* last_jo
   return text;
 }
 
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kLongest = 40;
-  if (text.size() <= kLongest) return '"' + std::string(text) + '"';
-  std::size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return '"' + std::string(text.substr(0, end)) + "...\"";
-}
+std::string in_quotes(std::string_view text) { return '"' + shortened(text) + '"'; }
 
 }  // namespace sim::io

@@ -27,10 +27,17 @@ constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kSca
 // obstacles are 1 cm fat, so a contact is known before it is reached.
 constexpr double kMaxTravel_m = 0.0085;
 
+// The same while robots touch: where one is shoved is up to Box2D, which sees a contact only once
+// hulls are closer than their skins of 2 mm together.
+constexpr double kMaxShove_m = 0.002;
+
 // A twist counts as achieved within these.
 constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
 constexpr double kStallDelay_s = 0.2;
+
+constexpr int kVelocityIterations = 8;
+constexpr int kPositionIterations = 3;
 
 b2Vec2 to_box2d(const Vec2& p) {
   return {static_cast<float>(p.x() * kScale), static_cast<float>(p.y() * kScale)};
@@ -38,8 +45,12 @@ b2Vec2 to_box2d(const Vec2& p) {
 
 double metres(float units) { return static_cast<double>(units) / kScale; }
 
-// sin(x) / x.
-double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
+// sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
+double sinc(double x) {
+  if (std::abs(x) > 0.05) return std::sin(x) / x;
+  const double x2 = x * x;
+  return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
+}
 
 struct FixtureInfo {
   PhysicsWorld::Contact::Kind kind;
@@ -86,6 +97,7 @@ struct Robot {
   Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
   Twist target;
   double stall_clock_s = 0.0;
+  b2Fixture* nearest = nullptr;  // found by clearance_m last time
   BodyState state;
   std::vector<int> touching;  // contacts per partner, see ContactCounter
 };
@@ -323,6 +335,13 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
   }
 
+  [[nodiscard]] bool any_robots_touch() const {
+    return std::any_of(near_pairs.begin(), near_pairs.end(), [this](const auto& pair) {
+      return touches(robots[static_cast<std::size_t>(pair.first)].body,
+                     robots[static_cast<std::size_t>(pair.second)].body);
+    });
+  }
+
   [[nodiscard]] static bool touches(const b2Body* a, const b2Body* b) {
     for (const b2ContactEdge* e = a->GetContactList(); e != nullptr; e = e->next) {
       if (e->other == b && e->contact->IsTouching()) return true;
@@ -340,12 +359,18 @@ struct PhysicsWorld::Impl : b2ContactListener {
   }
 
   void substep(double dt_s) {
+    if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
+      world.Step(0.0F, 1, 1);
+      placed = false;
+    }
     find_near_pairs();
     const float inv_dt = static_cast<float>(1.0 / dt_s);
     goals.resize(robots.size());
+    twists.resize(robots.size());
     for (std::size_t i = 0; i < robots.size(); ++i) {
       Robot& r = robots[i];
-      goals[i] = arc_end(r.X_WB, allowed_twist(i, dt_s), dt_s);
+      twists[i] = allowed_twist(i, dt_s);
+      goals[i] = arc_end(r.X_WB, twists[i], dt_s);
       if (goals[i] == r.X_WB && !r.body->IsAwake()) continue;
       // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
       // does not pile up.
@@ -354,34 +379,36 @@ struct PhysicsWorld::Impl : b2ContactListener {
       r.body->SetAngularVelocity(inv_dt *
                                  (static_cast<float>(goals[i].yaw_rad) - r.body->GetAngle()));
     }
-    world.Step(static_cast<float>(dt_s), 8, 3);
-    for (std::size_t i = 0; i < robots.size(); ++i) follow_body(robots[i], goals[i]);
+    world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+    for (std::size_t i = 0; i < robots.size(); ++i) follow_body(i, dt_s);
   }
 
   // Takes over where Box2D put the robot: the exact goal if nothing hindered it.
-  void follow_body(Robot& r, const Pose& goal) {
+  void follow_body(std::size_t index, double dt_s) {
+    Robot& r = robots[index];
+    const Pose& goal = goals[index];
     const b2Vec2 p = r.body->GetPosition();
     const b2Vec2 wanted = to_box2d(goal.position());
     const float angle = r.body->GetAngle();
     // Rounding of position and angle, a few units in the last place.
     const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
-    const bool free = std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
-                      std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F;
-    const Pose before = r.X_WB;
-    if (free) {
+    if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
+        std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
       r.X_WB = goal;
+      r.state.travel_m += twists[index].v_mps * dt_s;
+      r.state.turn_rad += twists[index].omega_radps * dt_s;
     } else {
+      const Pose before = r.X_WB;
       r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
+      const double turn = r.X_WB.yaw_rad - before.yaw_rad;
+      const double heading = before.yaw_rad + 0.5 * turn;
+      const double dx = r.X_WB.x_m - before.x_m;
+      const double dy = r.X_WB.y_m - before.y_m;
+      // The wheels' path is the arc whose chord this is.
+      r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
+      r.state.turn_rad += turn;
+      lateral_m[index] += dy * std::cos(heading) - dx * std::sin(heading);
     }
-    const double turn = r.X_WB.yaw_rad - before.yaw_rad;
-    const double heading = before.yaw_rad + 0.5 * turn;
-    const double dx = r.X_WB.x_m - before.x_m;
-    const double dy = r.X_WB.y_m - before.y_m;
-    // The wheels' path is the arc whose chord this is.
-    r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
-    r.state.turn_rad += turn;
-    lateral_m[static_cast<std::size_t>(&r - robots.data())] +=
-        dy * std::cos(heading) - dx * std::sin(heading);
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
   }
 
@@ -487,11 +514,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
   std::vector<std::size_t> robot_first_edge;
   bool robot_edges_fresh = false;
 
+  bool placed = true;  // something was put somewhere since the last step
+
   std::vector<Robot> robots;
   double largest_radius_m = 0.0;
   std::vector<int> order;  // robots by x
   std::vector<std::pair<int, int>> near_pairs;
-  std::vector<Pose> goals;
+  std::vector<Pose> goals;    // where each robot gets to in this step if nothing hinders it
+  std::vector<Twist> twists;  // by which twist
   std::vector<double> lateral_m;
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
@@ -552,6 +582,7 @@ void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
   r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
   r.stall_clock_s = 0.0;
   impl_->robot_edges_fresh = false;
+  impl_->placed = true;
 }
 
 void PhysicsWorld::step(double dt_s) {
@@ -566,7 +597,8 @@ void PhysicsWorld::step(double dt_s) {
     travel_m = std::max(
         travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.omega_radps) * r.radius_m) * dt_s);
   }
-  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
+  const double longest_m = d.any_robots_touch() ? kMaxShove_m : kMaxTravel_m;
+  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / longest_m)));
   for (int i = 0; i < substeps; ++i) d.substep(dt_s / substeps);
   for (std::size_t i = 0; i < d.robots.size(); ++i) d.finish_step(d.robots[i], i, dt_s);
   d.robot_edges_fresh = false;
@@ -582,6 +614,7 @@ const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noe
 
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)]->SetEnabled(extended);
+  impl_->placed = true;
   impl_->rebuild_fixed_edges();
 }
 
@@ -596,51 +629,72 @@ bool PhysicsWorld::robot_stands_on(int obstacle) const {
   return false;
 }
 
-double PhysicsWorld::clearance_m(int robot, double limit_m) const {
-  const Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+double PhysicsWorld::clearance_m(int robot, double limit_m) {
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
   struct Nearest : b2QueryCallback {
-    const Robot* robot = nullptr;
-    double least_m = 0.0;
-
-    bool ReportFixture(b2Fixture* fixture) override {
-      if (fixture->GetBody() == robot->body) return true;
+    void look_at(b2Fixture* candidate) {
       b2DistanceInput input;
       input.proxyA.Set(&robot->shape, 0);
-      input.proxyB.Set(fixture->GetShape(), 0);
+      input.proxyB.Set(candidate->GetShape(), 0);
       input.transformA = robot->body->GetTransform();
-      input.transformB = fixture->GetBody()->GetTransform();
+      input.transformB = candidate->GetBody()->GetTransform();
       input.useRadii = false;
       b2SimplexCache cache;
       cache.count = 0;
       b2DistanceOutput output;
       b2Distance(&output, &cache, &input);
-      least_m = std::min(least_m, metres(output.distance));
+      const double distance_m = metres(output.distance);
+      if (distance_m >= least_m) return;
+      least_m = distance_m;
+      fixture = candidate;
+    }
+    bool ReportFixture(b2Fixture* candidate) override {
+      if (candidate->GetBody() == robot->body || candidate == fixture) return true;
+      // Boxes (a little fat) farther apart than the nearest so far need no closer look.
+      const b2AABB& theirs = candidate->GetAABB(0);
+      const b2Vec2 gap =
+          b2Max(b2Max(theirs.lowerBound - box.upperBound, box.lowerBound - theirs.upperBound),
+                b2Vec2(0.0F, 0.0F));
+      if (metres(gap.Length()) < least_m) look_at(candidate);
       return true;
     }
+    const Robot* robot = nullptr;
+    b2AABB box;  // of the robot
+    double least_m = 0.0;
+    b2Fixture* fixture = nullptr;
   } nearest;
   nearest.robot = &r;
   nearest.least_m = limit_m;
-  b2AABB box;
-  r.shape.ComputeAABB(&box, r.body->GetTransform(), 0);
-  const float reach = static_cast<float>(limit_m) * kScaleF;
+  r.shape.ComputeAABB(&nearest.box, r.body->GetTransform(), 0);
+  // What was nearest last time mostly still is: looked at first, it narrows the search.
+  if (r.nearest != nullptr && r.nearest->GetBody()->IsEnabled()) nearest.look_at(r.nearest);
+  b2AABB box = nearest.box;
+  const float reach = static_cast<float>(nearest.least_m) * kScaleF;
   box.lowerBound -= b2Vec2(reach, reach);
   box.upperBound += b2Vec2(reach, reach);
   impl_->world.QueryAABB(&nearest, box);
+  r.nearest = nearest.fixture;
   return nearest.least_m;
 }
 
 namespace {
 
-// Appends the edges of list[first, last) that may matter, relative to the sensor.
+// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
+  const std::size_t begin = out.size();
   const bool all_high_enough = list.least_height_m > sensor_height_m;
+  scan::Edge* target = out.append(last - first);
+  const double x = p_WL.x();
+  const double y = p_WL.y();
+  std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
     if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
     const Edge& e = list.edges[i];
-    out.add(static_cast<float>(e.x0 - p_WL.x()), static_cast<float>(e.y0 - p_WL.y()),
-            static_cast<float>(e.x1 - p_WL.x()), static_cast<float>(e.y1 - p_WL.y()));
+    target[count++] = {static_cast<float>(e.x0 - x), static_cast<float>(e.y0 - y),
+                       static_cast<float>(e.x1 - x), static_cast<float>(e.y1 - y)};
   }
+  out.truncate(begin + count);
 }
 
 // Calls visit(fixture) for every fixture whose fat box meets the box.
@@ -754,6 +808,14 @@ double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range
   return static_cast<double>(closest.fraction) * range_max_m;
 }
 
-void PhysicsWorld::bare_step(double dt_s) { impl_->world.Step(static_cast<float>(dt_s), 8, 3); }
+void PhysicsWorld::bare_step(double dt_s) {
+  for (Robot& r : impl_->robots) {
+    const double yaw = static_cast<double>(r.body->GetAngle());
+    r.body->SetLinearVelocity(
+        to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));
+    r.body->SetAngularVelocity(static_cast<float>(r.target.omega_radps));
+  }
+  impl_->world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+}
 
 }  // namespace sim

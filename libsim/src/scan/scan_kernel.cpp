@@ -34,6 +34,10 @@ struct Scalar {
   static void store_integers(std::int32_t* to, float value) {
     *to = static_cast<std::int32_t>(value);
   }
+  static void choose_integers(std::int32_t* to, bool mask, const std::int32_t* yes,
+                              const std::int32_t* no) {
+    *to = mask ? *yes : *no;
+  }
   static void store_ranges(double* to, float value, double greatest) {
     *to = std::min(static_cast<double>(value), greatest);
   }
@@ -52,9 +56,14 @@ struct Scalar {
   static unsigned bits(bool mask) { return mask ? 1U : 0U; }
   static float select(bool mask, float yes, float no) { return mask ? yes : no; }
   static double select(bool mask, double yes, double no) { return mask ? yes : no; }
-  static float keep(bool mask, float value) { return mask ? value : 0.0F; }
-  static bool lanes_between(std::int32_t base, std::int32_t first, std::int32_t end) {
-    return base >= first && base < end;
+  static float drop(bool mask, float value) { return mask ? 0.0F : value; }
+  struct Window {
+    std::int32_t first;
+    std::int32_t last;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) { return {first, last}; }
+  static bool outside(const Window& window, std::int32_t offset) {
+    return offset < window.first || offset > window.last;
   }
 
   static double widen(float value, int /*half*/) { return static_cast<double>(value); }
@@ -96,6 +105,12 @@ struct Sse2 {
   static void store_integers(std::int32_t* to, Float value) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_cvttps_epi32(value));
   }
+  static void choose_integers(std::int32_t* to, Mask mask, const std::int32_t* yes,
+                              const std::int32_t* no) {
+    const Float chosen = select(mask, _mm_loadu_ps(reinterpret_cast<const float*>(yes)),
+                                _mm_loadu_ps(reinterpret_cast<const float*>(no)));
+    _mm_storeu_ps(reinterpret_cast<float*>(to), chosen);
+  }
   static void store_ranges(double* to, Float value, double greatest) {
     const Double limit = broadcast(greatest);
     _mm_storeu_pd(to, _mm_min_pd(widen(value, 0), limit));
@@ -121,12 +136,20 @@ struct Sse2 {
   static Double select(DoubleMask mask, Double yes, Double no) {
     return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
   }
-  static Float keep(Mask mask, Float value) { return _mm_and_ps(mask, value); }
-  static Mask lanes_between(std::int32_t base, std::int32_t first, std::int32_t end) {
-    const __m128i lane = _mm_setr_epi32(0, 1, 2, 3);
-    const __m128i not_before = _mm_cmpgt_epi32(lane, _mm_set1_epi32(first - base - 1));
-    const __m128i before_end = _mm_cmpgt_epi32(_mm_set1_epi32(end - base), lane);
-    return _mm_castsi128_ps(_mm_and_si128(not_before, before_end));
+  static Float drop(Mask mask, Float value) { return _mm_andnot_ps(mask, value); }
+  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
+  /// 2^31: so one signed comparison finds the lanes before and those after.
+  struct Window {
+    __m128i beyond_first;
+    __m128i length;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) {
+    const __m128i lane = _mm_setr_epi32(INT32_MIN, INT32_MIN + 1, INT32_MIN + 2, INT32_MIN + 3);
+    return {_mm_sub_epi32(lane, _mm_set1_epi32(first)), _mm_set1_epi32(INT32_MIN + (last - first))};
+  }
+  static Mask outside(const Window& window, std::int32_t offset) {
+    const __m128i lane = _mm_add_epi32(window.beyond_first, _mm_set1_epi32(offset));
+    return _mm_castsi128_ps(_mm_cmpgt_epi32(lane, window.length));
   }
 
   static Double widen(Float value, int half) {
@@ -174,7 +197,9 @@ struct Point {
 };
 
 /// A point given W-aligned, in the sensor's frame.
-Point turned(const ScanJob& job, double x, double y) {
+Point turned(const ScanJob& job, float x_m, float y_m) {
+  const auto x = static_cast<double>(x_m);
+  const auto y = static_cast<double>(y_m);
   return {job.cos_yaw * x + job.sin_yaw * y, job.cos_yaw * y - job.sin_yaw * x};
 }
 
@@ -186,31 +211,10 @@ double left_of(const ScanJob& job, const Point& point, std::int32_t beam) {
 
 }  // namespace
 
-std::int32_t append_span(const ScanJob& job, const Edge& edge, std::int32_t first,
-                         std::int32_t end, std::int32_t index) {
-  const double px = static_cast<double>(edge.x0_m);
-  const double py = static_cast<double>(edge.y0_m);
-  const double dx = static_cast<double>(edge.x1_m) - px;
-  const double dy = static_cast<double>(edge.y1_m) - py;
-  const double c = dx * py - dy * px;
-  if (!(c > 0.0) || first >= end) return index;
-  const Point along = turned(job, dx, dy);
-  // d x b is how far d lies to the right of b: the direction of d has b on its left.
-  const double at_first = left_of(job, along, first);
-  const double at_last = left_of(job, along, end - 1);
-  const std::int32_t anchor = at_first <= at_last ? first : end - 1;
-  const double* const direction = job.beams + 2 * static_cast<std::ptrdiff_t>(anchor);
-  job.a[index] = static_cast<float>(std::min(at_first, at_last) / c);
-  job.b[index] = static_cast<float>((along.x * direction[0] + along.y * direction[1]) / c);
-  job.anchor[index] = anchor;
-  job.first[index] = first;
-  job.end[index] = end;
-  return index + 1;
-}
-
-std::int32_t append_exact_spans(const ScanJob& job, const Edge& edge, std::int32_t index) {
-  const Point high = turned(job, static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
-  const Point low = turned(job, static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m));
+std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int32_t index) {
+  const Edge& corners = job.edges[edge];
+  const Point high = turned(job, corners.x0_m, corners.y0_m);
+  const Point low = turned(job, corners.x1_m, corners.y1_m);
   const double angle_high = std::atan2(high.y, high.x);
   const double angle_low = std::atan2(low.y, low.x);
 
@@ -232,20 +236,33 @@ std::int32_t append_exact_spans(const ScanJob& job, const Edge& edge, std::int32
     --end;
   }
 
-  // An edge that faces the sensor spans less than half a turn; if the difference says "minus
-  // much", the edge crosses the cut behind the sensor, where beams lie on both sides of it.
+  const auto append = [&job, edge, &index](std::int32_t from, std::int32_t to) {
+    if (from >= to) return;
+    job.candidate_edge[index] = edge;
+    job.candidate_first[index] = from;
+    job.candidate_last[index] = to - 1;
+    ++index;
+  };
+  // As in find_spans(): less than half a turn, or across the cut behind the sensor.
   if (angle_low - angle_high > 0.5 * std::numbers::pi) {
-    index = append_span(job, edge, first, job.beam_count, index);
-    return append_span(job, edge, 0, end, index);
+    append(first, job.beam_count);
+    append(0, end);
+  } else {
+    append(first, end);
   }
-  return append_span(job, edge, first, end, index);
+  return index;
 }
 
 }  // namespace detail
 
-void EdgeBuffer::grow() {
-  storage_.resize(std::max(2 * storage_.size(), size_ + kPadding));
-}
+namespace {
+
+/// Length of a scratch array for so many edges: whole groups, with room to write beyond the last.
+std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuffer::kPadding; }
+
+}  // namespace
+
+void EdgeBuffer::grow() { storage_.resize(std::max(2 * storage_.size(), size_ + kPadding)); }
 
 /// What depends on the geometry alone, shared by copies of a kernel.
 struct ScanKernel::Tables {
@@ -268,10 +285,10 @@ struct ScanKernel::Tables {
   }
 
   double resolution_rad;
-  int reach;                    ///< the greatest k in the tables of cos(k q) and sin(k q)
-  std::vector<double> beams;    ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
-  std::vector<float> cosines;   ///< cos(k q) for k from -reach to reach
-  std::vector<float> sines;     ///< sin(k q), likewise
+  int reach;                   ///< the greatest k in the tables of cos(k q) and sin(k q)
+  std::vector<double> beams;   ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
+  std::vector<float> cosines;  ///< cos(k q) for k from -reach to reach
+  std::vector<float> sines;    ///< sin(k q), likewise
 };
 
 ScanKernel::ScanKernel(const ScanGeometry& geometry)
@@ -317,14 +334,15 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
     return;
   }
 
-  // Every edge may make three spans' places: its own, and two if it is treated alone.
+  // An edge may need three places: a candidate's own, and two if it gets a second look.
+  constexpr std::size_t kIntegerArrays = 9;
+  constexpr std::size_t kFloatArrays = 4;
   if (edges.size() > edge_capacity_ || integers_.empty()) {
     edge_capacity_ = std::max(edges.size(), 2 * edge_capacity_);
-    const std::size_t places = 3 * edge_capacity_ + 16;
-    integers_.resize(6 * places);
-    coefficients_.resize(2 * places);
+    integers_.resize(kIntegerArrays * places(edge_capacity_));
+    floats_.resize(kFloatArrays * places(edge_capacity_));
   }
-  const std::size_t places = 3 * edge_capacity_ + 16;
+  const std::size_t step = places(edge_capacity_);
 
   // Blocks of beams are aligned, so that none straddles two lines of the cache.
   constexpr std::size_t kAlignment = 32;
@@ -349,17 +367,21 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
       .beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0),
       // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
       // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
-      .doubt_beams =
-          static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
+      .doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
       .behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad),
-      .facing = integers_.data(),
-      .narrow = integers_.data() + places,
-      .wide = integers_.data() + 2 * places,
-      .anchor = integers_.data() + 3 * places,
-      .first = integers_.data() + 4 * places,
-      .end = integers_.data() + 5 * places,
-      .a = coefficients_.data(),
-      .b = coefficients_.data() + places,
+      .candidate_edge = integers_.data(),
+      .candidate_first = integers_.data() + step,
+      .candidate_last = integers_.data() + 2 * step,
+      .candidate_low = floats_.data(),
+      .candidate_high = floats_.data() + step,
+      .narrow = integers_.data() + 3 * step,
+      .medium = integers_.data() + 4 * step,
+      .wide = integers_.data() + 5 * step,
+      .first = integers_.data() + 6 * step,
+      .last = integers_.data() + 7 * step,
+      .anchor = integers_.data() + 8 * step,
+      .a = floats_.data() + 2 * step,
+      .b = floats_.data() + 3 * step,
       .inverse_ranges = static_cast<float*>(aligned),
       .ranges_m = ranges_m.data()};
   switch (instructions_) {

@@ -29,6 +29,12 @@ struct Avx2 {
   static void store_integers(std::int32_t* to, Float value) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_cvttps_epi32(value));
   }
+  static void choose_integers(std::int32_t* to, Mask mask, const std::int32_t* yes,
+                              const std::int32_t* no) {
+    const Float chosen = select(mask, _mm256_loadu_ps(reinterpret_cast<const float*>(yes)),
+                                _mm256_loadu_ps(reinterpret_cast<const float*>(no)));
+    _mm256_storeu_ps(reinterpret_cast<float*>(to), chosen);
+  }
   static void store_ranges(double* to, Float value, double greatest) {
     const Double limit = broadcast(greatest);
     _mm256_storeu_pd(to, _mm256_min_pd(widen(value, 0), limit));
@@ -52,12 +58,23 @@ struct Avx2 {
   static Double select(DoubleMask mask, Double yes, Double no) {
     return _mm256_blendv_pd(no, yes, mask);
   }
-  static Float keep(Mask mask, Float value) { return _mm256_and_ps(mask, value); }
-  static Mask lanes_between(std::int32_t base, std::int32_t first, std::int32_t end) {
-    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i not_before = _mm256_cmpgt_epi32(lane, _mm256_set1_epi32(first - base - 1));
-    const __m256i before_end = _mm256_cmpgt_epi32(_mm256_set1_epi32(end - base), lane);
-    return _mm256_castsi256_ps(_mm256_and_si256(not_before, before_end));
+  static Float drop(Mask mask, Float value) { return _mm256_andnot_ps(mask, value); }
+  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
+  /// 2^31: so one signed comparison finds the lanes before and those after.
+  struct Window {
+    __m256i beyond_first;
+    __m256i length;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) {
+    const __m256i lane =
+        _mm256_setr_epi32(INT32_MIN, INT32_MIN + 1, INT32_MIN + 2, INT32_MIN + 3, INT32_MIN + 4,
+                          INT32_MIN + 5, INT32_MIN + 6, INT32_MIN + 7);
+    return {_mm256_sub_epi32(lane, _mm256_set1_epi32(first)),
+            _mm256_set1_epi32(INT32_MIN + (last - first))};
+  }
+  static Mask outside(const Window& window, std::int32_t offset) {
+    const __m256i lane = _mm256_add_epi32(window.beyond_first, _mm256_set1_epi32(offset));
+    return _mm256_castsi256_ps(_mm256_cmpgt_epi32(lane, window.length));
   }
 
   static Double widen(Float value, int half) {

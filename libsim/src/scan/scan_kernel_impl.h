@@ -26,11 +26,12 @@
 namespace sim::scan::detail {
 
 /// Beams that the tables and the scratch memory exceed the scanner's by, on either side.
-inline constexpr int kBeamPadding = 32;
+inline constexpr int kBeamPadding = 40;
 
-/// Spans of at most this many beams, counted from a multiple of the vector's width, are swept
-/// without a loop: most are, and a loop of unforeseeable length costs more than idle lanes.
+/// Spans of at most so many beams, counted from a multiple of the vector's width, are swept without
+/// a loop of unforeseeable length, which would cost more than a few idle lanes. Most spans are so.
 inline constexpr int kNarrowBeams = 16;
+inline constexpr int kMediumBeams = 32;
 
 /// What a scan reads and writes. Every array is big enough to be handled in groups of 8.
 struct ScanJob {
@@ -42,34 +43,38 @@ struct ScanJob {
   std::int32_t beam_count;
   double range_max_m;
   double resolution_rad;
-  const double* beams;      ///< (x, y) of each beam in the sensor's frame; also of -1 and beam_count
-  const float* cos_table;   ///< cos(k q), for k from -(beam_count + padding) on
-  const float* sin_table;   ///< sin(k q), likewise
-  float beams_per_rad;      ///< 1 / q
-  float beam_offset;        ///< beam coordinate of straight ahead, plus 1
-  float doubt_beams;        ///< error bound of a beam coordinate
-  float behind_beams;       ///< a quarter turn: an edge across the cut behind spans "minus" more
+  const double* beams;     ///< (x, y) of each beam in the sensor's frame; also of -1 and beam_count
+  const float* cos_table;  ///< cos(k q), for k from -(beam_count + padding) on
+  const float* sin_table;  ///< sin(k q), likewise
+  float beams_per_rad;     ///< 1 / q
+  float beam_offset;       ///< beam coordinate of straight ahead, plus 1
+  float doubt_beams;       ///< error bound of a beam coordinate
+  float behind_beams;      ///< a quarter turn: an edge across the cut behind spans "minus" more
 
-  std::int32_t* facing;     ///< scratch: indices of the edges that may face the sensor
-  std::int32_t* narrow;     ///< scratch: indices of narrow spans
-  std::int32_t* wide;       ///< scratch: indices of the other spans
-  std::int32_t* anchor;     ///< spans: beam about which 1/r is expanded
-  std::int32_t* first;      ///< spans: first beam
-  std::int32_t* end;        ///< spans: beam after the last
-  float* a;                 ///< spans: coefficient A [1/m]
-  float* b;                 ///< spans: coefficient B [1/m]
-  float* inverse_ranges;    ///< scratch [1/m]
-  double* ranges_m;         ///< out, beam_count
+  // Scratch. A candidate is an edge with the span of beams it may be seen by.
+  std::int32_t* candidate_edge;   ///< index of its edge
+  std::int32_t* candidate_first;  ///< its first beam
+  std::int32_t* candidate_last;   ///< its last beam; the span is empty if that is before the first
+  float* candidate_low;           ///< beam coordinate of its corner further clockwise
+  float* candidate_high;          ///< beam coordinate of the other corner
+  std::int32_t* narrow;           ///< candidates with a narrow span
+  std::int32_t* medium;           ///< candidates with a medium span
+  std::int32_t* wide;             ///< candidates with a wider span
+  // Scratch. Spans to sweep, in the order of a list of candidates.
+  std::int32_t* first;    ///< first beam
+  std::int32_t* last;     ///< last beam
+  std::int32_t* anchor;   ///< beam about which 1/r is expanded
+  float* a;               ///< coefficient A [1/m]
+  float* b;               ///< coefficient B [1/m]
+  float* inverse_ranges;  ///< greatest 1/r so far of every beam, at a multiple of 32 bytes [1/m]
+
+  double* ranges_m;  ///< out, beam_count
 };
 
-/// Adds the span of one edge over beams [first, end), if it is not empty and the edge faces the
-/// sensor, at `index` of the span arrays. Returns the next free index.
-std::int32_t append_span(const ScanJob& job, const Edge& edge, std::int32_t first,
-                         std::int32_t end, std::int32_t index);
-
-/// Adds the spans (none, one or two) of an edge with an end so near a beam that single precision
-/// cannot tell on which side, or so near the cut behind; decides in double precision.
-std::int32_t append_exact_spans(const ScanJob& job, const Edge& edge, std::int32_t index);
+/// Adds as candidates, at `index` and after, the nonempty spans (none, one or two) of an edge with
+/// a corner so near a beam that single precision cannot tell on which side; decides in double
+/// precision. Returns the next free index.
+std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int32_t index);
 
 /// The sweep for wide instructions; called only on processors that have them.
 void scan_avx2(const ScanJob& job);
@@ -104,32 +109,22 @@ unsigned lanes_below(std::int32_t count) {
   return count >= V::kLanes ? (1U << V::kLanes) - 1U : (1U << count) - 1U;
 }
 
-/// Lists the edges that may face the sensor and may be within range. Errs on the side of keeping.
+/// Makes candidates of the edges that face the sensor, and of a few seen almost edge-on.
 template <class V>
 std::int32_t find_facing(const ScanJob& job) {
   using Float = typename V::Float;
   // Bounds the relative error of a product's rounding, twice over.
   const Float tolerance = V::broadcast(2.4e-7F);
-  const auto reach_m = static_cast<float>(job.range_max_m);
-  const Float reach_squared = V::broadcast(reach_m * reach_m * 1.00001F);
-  const Float zero = V::broadcast(0.0F);
   std::int32_t count = 0;
   for (std::int32_t base = 0; base < job.edge_count; base += V::kLanes) {
     Float x0, y0, x1, y1;
     V::load_edges(job.edges + base, x0, y0, x1, y1);
     const Float left = y0 * x1;
     const Float right = x0 * y1;
-    const Float c = left - right;
     const Float doubt = tolerance * (V::abs(left) + V::abs(right));
-    // The line's distance is c / |d|.
-    const Float dx = x1 - x0;
-    const Float dy = y1 - y0;
-    const Float c_least = V::max(c - doubt, zero);
-    const auto near = V::less_equal(c_least * c_least, reach_squared * (dx * dx + dy * dy));
-    const auto faces = V::less(zero, c + doubt);
     const unsigned bits =
-        V::bits(faces) & V::bits(near) & lanes_below<V>(job.edge_count - base);
-    count = append_lanes<V>(bits, base, job.facing, count);
+        V::bits(V::less(right - left, doubt)) & lanes_below<V>(job.edge_count - base);
+    count = append_lanes<V>(bits, base, job.candidate_edge, count);
   }
   return count;
 }
@@ -143,47 +138,49 @@ typename V::Float beam_coordinate(const ScanJob& job, typename V::Float x, typen
   const Float ay = V::abs(y);
   const Float t = V::min(ax, ay) / V::max(ax, ay);
   const Float s = t * t;
-  Float p = V::broadcast(0.006811800F);
-  p = p * s + V::broadcast(-0.03360424F);
-  p = p * s + V::broadcast(0.07962370F);
-  p = p * s + V::broadcast(-0.1323334F);
-  p = p * s + V::broadcast(0.1980782F);
-  p = p * s + V::broadcast(-0.3331737F);
-  p = p * s + V::broadcast(0.9999961F);
-  p = p * t;
+  // In pairs rather than one after the other: a chain of products would keep the processor waiting.
+  const Float s2 = s * s;
+  const Float p0 = V::broadcast(0.9999961F) + V::broadcast(-0.3331737F) * s;
+  const Float p2 = V::broadcast(0.1980782F) + V::broadcast(-0.1323334F) * s;
+  const Float p4 = V::broadcast(0.07962370F) + V::broadcast(-0.03360424F) * s;
+  const Float p46 = p4 + V::broadcast(0.006811800F) * s2;
+  Float p = t * ((p0 + p2 * s2) + p46 * (s2 * s2));
   p = V::select(V::less(ax, ay), V::broadcast(1.57079633F) - p, p);
   p = V::select(V::less(x, V::broadcast(0.0F)), V::broadcast(3.14159265F) - p, p);
   p = V::copy_sign(p, y);
   return p * V::broadcast(job.beams_per_rad) + V::broadcast(job.beam_offset);
 }
 
-/// Numbers of spans found: those at the front of job.narrow and job.wide.
-struct SpanCounts {
-  std::int32_t narrow = 0;
-  std::int32_t wide = 0;
-};
-
-/// Sorts the spans [begin, end), which one by one were added by append_span(), into the lists.
+/// Finds the beam coordinates of the candidates' corners. A loop of its own, as the long chains of
+/// operations of several groups then overlap in the processor.
 template <class V>
-void list_spans(const ScanJob& job, std::int32_t begin, std::int32_t end, SpanCounts& counts) {
-  for (std::int32_t i = begin; i < end; ++i) {
-    if (job.end[i] - job.first[i] / V::kLanes * V::kLanes <= kNarrowBeams) {
-      job.narrow[counts.narrow++] = i;
-    } else {
-      job.wide[counts.wide++] = i;
-    }
+void find_corners(const ScanJob& job, std::int32_t candidate_count) {
+  using Float = typename V::Float;
+  const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
+  const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
+  for (std::int32_t i = candidate_count; (i & (V::kLanes - 1)) != 0; ++i) job.candidate_edge[i] = 0;
+  for (std::int32_t base = 0; base < candidate_count; base += V::kLanes) {
+    Float x0, y0, x1, y1;
+    V::gather_edges(job.edges, job.candidate_edge + base, x0, y0, x1, y1);
+    // The first corner of an edge that faces the sensor is the one further counter-clockwise.
+    V::store(job.candidate_low + base,
+             beam_coordinate<V>(job, cos_yaw * x1 + sin_yaw * y1, cos_yaw * y1 - sin_yaw * x1));
+    V::store(job.candidate_high + base,
+             beam_coordinate<V>(job, cos_yaw * x0 + sin_yaw * y0, cos_yaw * y0 - sin_yaw * x0));
   }
 }
 
-/// Finds the span of beams and the coefficients of every facing edge.
+/// Numbers of candidates in job.narrow, job.medium and job.wide.
+struct SpanCounts {
+  std::int32_t narrow = 0;
+  std::int32_t medium = 0;
+  std::int32_t wide = 0;
+};
+
+/// Finds the spans of the candidates and lists those that are not empty.
 template <class V>
-SpanCounts find_spans(const ScanJob& job, std::int32_t facing_count) {
+SpanCounts find_spans(const ScanJob& job, std::int32_t candidate_count) {
   using Float = typename V::Float;
-  using Double = typename V::Double;
-  const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
-  const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
-  const Double cos_yaw_d = V::broadcast(job.cos_yaw);
-  const Double sin_yaw_d = V::broadcast(job.sin_yaw);
   const Float low = V::broadcast(0.5F);
   const Float high = V::broadcast(static_cast<float>(job.beam_count) + 0.5F);
   const Float half = V::broadcast(0.5F);
@@ -193,133 +190,187 @@ SpanCounts find_spans(const ScanJob& job, std::int32_t facing_count) {
   const Float width = V::broadcast(static_cast<float>(V::kLanes));
   const Float inverse_width = V::broadcast(1.0F / static_cast<float>(V::kLanes));
   const Float narrow_beams = V::broadcast(static_cast<float>(kNarrowBeams));
+  const Float medium_beams = V::broadcast(static_cast<float>(kMediumBeams));
 
-  // Spans of the groups come first; those added one by one follow.
-  std::int32_t free_index = (facing_count + V::kLanes - 1) / V::kLanes * V::kLanes;
-  const std::int32_t single_begin = free_index;
-  for (std::int32_t i = facing_count; i < free_index; ++i) job.facing[i] = 0;
+  // The candidates so far come in groups; those that need a second look are added after them.
+  const std::int32_t groups_end = (candidate_count + V::kLanes - 1) & -V::kLanes;
+  std::int32_t free_index = groups_end;
 
   SpanCounts counts;
-  for (std::int32_t base = 0; base < facing_count; base += V::kLanes) {
-    Float x0, y0, x1, y1;
-    V::gather_edges(job.edges, job.facing + base, x0, y0, x1, y1);
+  for (std::int32_t base = 0; base < candidate_count; base += V::kLanes) {
+    const Float v_low = V::load(job.candidate_low + base);
+    const Float v_high = V::load(job.candidate_high + base);
+    // An edge in view spans less than half a turn; if the difference says "minus much", the edge
+    // crosses the cut behind the sensor and spans all beams after v_low and all up to v_high.
+    const auto cut = V::less(behind, v_low - v_high);
 
-    // The first corner of an edge that faces the sensor is the one further counter-clockwise.
-    const Float v_high = beam_coordinate<V>(job, cos_yaw * x0 + sin_yaw * y0,
-                                            cos_yaw * y0 - sin_yaw * x0);
-    const Float v_low = beam_coordinate<V>(job, cos_yaw * x1 + sin_yaw * y1,
-                                           cos_yaw * y1 - sin_yaw * x1);
-    // Beams i with v_low <= i + 1 <= v_high. A value that is not a number becomes `low`.
+    // The span: beams i with v_low <= i + 1 <= v_high. A value that is not a number becomes `low`.
     const Float low_clamped = V::min(V::max(v_low, low), high);
     const Float high_clamped = V::min(V::max(v_high, low), high);
     const Float first = V::truncate(low_clamped);
-    const Float end = V::truncate(high_clamped);
-    const Float last = end - one;
-    const unsigned special = V::bits(V::less(sure, V::abs(low_clamped - first - half))) |
-                             V::bits(V::less(sure, V::abs(high_clamped - end - half))) |
-                             V::bits(V::less(behind, v_low - v_high));
+    const Float high_end = V::truncate(high_clamped);
+    const Float end = V::select(cut, high - half, high_end);
+    V::store_integers(job.candidate_first + base, first);
+    V::store_integers(job.candidate_last + base, end - one);
 
-    alignas(32) std::int32_t first_index[V::kLanes];
-    alignas(32) std::int32_t last_index[V::kLanes];
-    V::store_integers(first_index, first);
-    V::store_integers(last_index, last);
-
-    Double a[V::kHalves], b[V::kHalves];
-    typename V::DoubleMask at_first[V::kHalves], faces[V::kHalves];
-    for (int h = 0; h < V::kHalves; ++h) {
-      const Double px = V::widen(x0, h);
-      const Double py = V::widen(y0, h);
-      const Double dx = V::widen(x1, h) - px;
-      const Double dy = V::widen(y1, h) - py;
-      const Double c = dx * py - dy * px;
-      const Double tx = cos_yaw_d * dx + sin_yaw_d * dy;
-      const Double ty = cos_yaw_d * dy - sin_yaw_d * dx;
-      const int lane = h * (V::kLanes / V::kHalves);
-      Double first_x, first_y, last_x, last_y;
-      V::gather_beams(job.beams, first_index + lane, first_x, first_y);
-      V::gather_beams(job.beams, last_index + lane, last_x, last_y);
-      const Double at_first_value = tx * first_y - ty * first_x;
-      const Double at_last_value = tx * last_y - ty * last_x;
-      at_first[h] = V::less_equal(at_first_value, at_last_value);
-      faces[h] = V::less(V::broadcast(0.0), c);
-      const Double scale = V::broadcast(1.0) / c;
-      a[h] = V::select(at_first[h], at_first_value, at_last_value) * scale;
-      b[h] = V::select(at_first[h], tx * first_x + ty * first_y, tx * last_x + ty * last_y) * scale;
-    }
-    V::store(job.a + base, V::narrow(a));
-    V::store(job.b + base, V::narrow(b));
-    V::store_integers(job.anchor + base, V::select(V::narrow_mask(at_first), first, last));
-    V::store_integers(job.first + base, first);
-    V::store_integers(job.end + base, end);
-
+    const unsigned lanes = lanes_below<V>(candidate_count - base);
+    const unsigned unsure = (V::bits(V::less(sure, V::abs(low_clamped - first - half))) |
+                             V::bits(V::less(sure, V::abs(high_clamped - high_end - half)))) &
+                            lanes;
     const Float block = V::truncate(first * inverse_width) * width;
-    const unsigned wide = V::bits(V::less(narrow_beams, end - block));
-    const unsigned lanes = lanes_below<V>(facing_count - base);
-    const unsigned good =
-        V::bits(V::less(first, end)) & V::bits(V::narrow_mask(faces)) & lanes & ~special;
-    counts.narrow = append_lanes<V>(good & ~wide, base, job.narrow, counts.narrow);
+    const unsigned not_narrow = V::bits(V::less(narrow_beams, end - block));
+    const unsigned wide = V::bits(V::less(medium_beams, end - block));
+    const unsigned good = V::bits(V::less(first, end)) & lanes & ~unsure;
+    counts.narrow = append_lanes<V>(good & ~not_narrow, base, job.narrow, counts.narrow);
+    counts.medium = append_lanes<V>(good & not_narrow & ~wide, base, job.medium, counts.medium);
     counts.wide = append_lanes<V>(good & wide, base, job.wide, counts.wide);
 
-    unsigned rest = special & lanes;
-    for (int lane = 0; rest != 0; ++lane, rest >>= 1) {
-      if ((rest & 1U) != 0) {
-        free_index = append_exact_spans(job, job.edges[job.facing[base + lane]], free_index);
+    const unsigned twofold = V::bits(cut) & V::bits(V::less(half, high_end)) & lanes & ~unsure;
+    if ((unsure | twofold) != 0) {
+      const std::int32_t* const edges = job.candidate_edge + base;
+      std::int32_t high_ends[V::kLanes];
+      V::store_integers(high_ends, high_end);
+      for (int lane = 0; lane < V::kLanes; ++lane) {
+        if (((unsure >> lane) & 1U) != 0) {
+          free_index = append_exact_spans(job, edges[lane], free_index);
+        } else if (((twofold >> lane) & 1U) != 0) {
+          job.candidate_edge[free_index] = edges[lane];
+          job.candidate_first[free_index] = 0;
+          job.candidate_last[free_index] = high_ends[lane] - 1;
+          ++free_index;
+        }
       }
     }
   }
-  list_spans<V>(job, single_begin, free_index, counts);
+  for (std::int32_t i = groups_end; i < free_index; ++i) {
+    const std::int32_t beams = job.candidate_last[i] + 1 - (job.candidate_first[i] & -V::kLanes);
+    if (beams <= kNarrowBeams) {
+      job.narrow[counts.narrow++] = i;
+    } else if (beams <= kMediumBeams) {
+      job.medium[counts.medium++] = i;
+    } else {
+      job.wide[counts.wide++] = i;
+    }
+  }
   return counts;
 }
 
-/// Raises the beams' inverse ranges at [beam, beam + kLanes) to those of a span.
+/// Makes spans to sweep of a list of candidates, which it pads with repetitions of the first.
 template <class V>
-void raise_block(float* inverse_ranges, const float* cosines, const float* sines, std::int32_t beam,
-                 typename V::Float a, typename V::Float b) {
-  const auto value = a * V::load(cosines + beam) + b * V::load(sines + beam);
-  V::store(inverse_ranges + beam, V::max(value, V::load_aligned(inverse_ranges + beam)));
-}
+void expand_spans(const ScanJob& job, std::int32_t* list, std::int32_t count) {
+  using Float = typename V::Float;
+  using Double = typename V::Double;
+  const Double cos_yaw = V::broadcast(job.cos_yaw);
+  const Double sin_yaw = V::broadcast(job.sin_yaw);
+  const Double one = V::broadcast(1.0);
+  const Double zero = V::broadcast(0.0);
+  for (std::int32_t i = count; (i & (V::kLanes - 1)) != 0; ++i) list[i] = list[0];
 
-/// The same for those beams only that lie in [first, end).
-template <class V>
-void raise_partly(float* inverse_ranges, const float* cosines, const float* sines,
-                  std::int32_t beam, typename V::Float a, typename V::Float b, std::int32_t first,
-                  std::int32_t end) {
-  const auto value = a * V::load(cosines + beam) + b * V::load(sines + beam);
-  const auto kept = V::keep(V::lanes_between(beam, first, end), value);
-  V::store(inverse_ranges + beam, V::max(kept, V::load_aligned(inverse_ranges + beam)));
-}
+  for (std::int32_t base = 0; base < count; base += V::kLanes) {
+    std::int32_t* const firsts = job.first + base;
+    std::int32_t* const lasts = job.last + base;
+    std::int32_t edges[V::kLanes];
+    for (int lane = 0; lane < V::kLanes; ++lane) {
+      const std::int32_t candidate = list[base + lane];
+      edges[lane] = job.candidate_edge[candidate];
+      firsts[lane] = job.candidate_first[candidate];
+      lasts[lane] = job.candidate_last[candidate];
+    }
+    Float x0, y0, x1, y1;
+    V::gather_edges(job.edges, edges, x0, y0, x1, y1);
 
-/// Sweeps the spans over the beams.
-template <class V>
-void sweep_spans(const ScanJob& job, const SpanCounts& counts) {
-  float* const inverse = job.inverse_ranges;
-  for (std::int32_t i = 0; i < counts.narrow; ++i) {
-    const std::int32_t span = job.narrow[i];
-    const auto a = V::broadcast(job.a[span]);
-    const auto b = V::broadcast(job.b[span]);
-    const std::int32_t first = job.first[span];
-    const std::int32_t end = job.end[span];
-    const float* const cosines = job.cos_table - job.anchor[span];
-    const float* const sines = job.sin_table - job.anchor[span];
-    const std::int32_t block = first & ~(V::kLanes - 1);
-    for (int offset = 0; offset < kNarrowBeams; offset += V::kLanes) {
-      raise_partly<V>(inverse, cosines, sines, block + offset, a, b, first, end);
+    Double a[V::kHalves], b[V::kHalves];
+    typename V::DoubleMask use_first[V::kHalves], hidden[V::kHalves];
+    for (int half = 0; half < V::kHalves; ++half) {
+      const Double px = V::widen(x0, half);
+      const Double py = V::widen(y0, half);
+      const Double dx = V::widen(x1, half) - px;
+      const Double dy = V::widen(y1, half) - py;
+      const Double c = dx * py - dy * px;
+      const Double tx = cos_yaw * dx + sin_yaw * dy;
+      const Double ty = cos_yaw * dy - sin_yaw * dx;
+      const int lane = half * (V::kLanes / V::kHalves);
+      Double first_x, first_y, last_x, last_y;
+      V::gather_beams(job.beams, firsts + lane, first_x, first_y);
+      V::gather_beams(job.beams, lasts + lane, last_x, last_y);
+      const Double at_first = tx * first_y - ty * first_x;
+      const Double at_last = tx * last_y - ty * last_x;
+      const auto choice = V::less_equal(at_first, at_last);
+      const Double anchor_x = V::select(choice, first_x, last_x);
+      const Double anchor_y = V::select(choice, first_y, last_y);
+      const Double scale = one / c;
+      a[half] = V::select(choice, at_first, at_last) * scale;
+      b[half] = (tx * anchor_x + ty * anchor_y) * scale;
+      use_first[half] = choice;
+      hidden[half] = V::less_equal(c, zero);
+    }
+    V::store(job.a + base, V::narrow(a));
+    V::store(job.b + base, V::narrow(b));
+    V::choose_integers(job.anchor + base, V::narrow_mask(use_first), firsts, lasts);
+    const unsigned drop = V::bits(V::narrow_mask(hidden));
+    if (drop != 0) {
+      for (int lane = 0; lane < V::kLanes; ++lane) {
+        if (((drop >> lane) & 1U) != 0) job.a[base + lane] = job.b[base + lane] = 0.0F;
+      }
     }
   }
-  for (std::int32_t i = 0; i < counts.wide; ++i) {
-    const std::int32_t span = job.wide[i];
-    const auto a = V::broadcast(job.a[span]);
-    const auto b = V::broadcast(job.b[span]);
-    const std::int32_t first = job.first[span];
-    const std::int32_t end = job.end[span];
-    const float* const cosines = job.cos_table - job.anchor[span];
-    const float* const sines = job.sin_table - job.anchor[span];
-    std::int32_t block = first & ~(V::kLanes - 1);
-    raise_partly<V>(inverse, cosines, sines, block, a, b, first, end);
-    for (block += V::kLanes; block + V::kLanes <= end; block += V::kLanes) {
-      raise_block<V>(inverse, cosines, sines, block, a, b);
-    }
-    raise_partly<V>(inverse, cosines, sines, block, a, b, first, end);
+}
+
+/// One span on its way over the beams.
+template <class V>
+struct Sweep {
+  Sweep(const ScanJob& job, std::int32_t span)
+      : block(job.first[span] & -V::kLanes),
+        inverse_ranges(job.inverse_ranges + block),
+        cosines(job.cos_table + block - job.anchor[span]),
+        sines(job.sin_table + block - job.anchor[span]),
+        a(V::broadcast(job.a[span])),
+        b(V::broadcast(job.b[span])),
+        window(V::make_window(job.first[span] - block, job.last[span] - block)) {}
+
+  /// 1/r of the beams [block + offset, block + offset + kLanes).
+  [[nodiscard]] typename V::Float value(std::int32_t offset) const {
+    return a * V::load(cosines + offset) + b * V::load(sines + offset);
+  }
+  /// Raises the inverse ranges of those beams to the span's.
+  void raise(std::int32_t offset) const { raise_to(offset, value(offset)); }
+  /// Raises only those that lie within the span.
+  void raise_partly(std::int32_t offset) const {
+    raise_to(offset, V::drop(V::outside(window, offset), value(offset)));
+  }
+  void raise_to(std::int32_t offset, typename V::Float least) const {
+    // A value that is not a number changes nothing.
+    V::store(inverse_ranges + offset, V::max(least, V::load_aligned(inverse_ranges + offset)));
+  }
+
+  std::int32_t block;  ///< the span's first beam, down to a multiple of the vector's width
+  float* inverse_ranges;
+  const float* cosines;
+  const float* sines;
+  typename V::Float a;
+  typename V::Float b;
+  typename V::Window window;
+};
+
+/// Sweeps `count` spans of at most kBeams beams, from a multiple of the vector's width on.
+template <class V, int kBeams>
+void sweep_short(const ScanJob& job, std::int32_t count) {
+  for (std::int32_t i = 0; i < count; ++i) {
+    const Sweep<V> sweep(job, i);
+    for (int offset = 0; offset < kBeams; offset += V::kLanes) sweep.raise_partly(offset);
+  }
+}
+
+/// Sweeps `count` spans of any width.
+template <class V>
+void sweep_wide(const ScanJob& job, std::int32_t count) {
+  for (std::int32_t i = 0; i < count; ++i) {
+    const Sweep<V> sweep(job, i);
+    const std::int32_t last = job.last[i] - sweep.block;
+    sweep.raise_partly(0);
+    std::int32_t offset = V::kLanes;
+    for (; offset + V::kLanes <= last; offset += V::kLanes) sweep.raise(offset);
+    sweep.raise_partly(offset);
   }
 }
 
@@ -331,7 +382,15 @@ void run_scan(const ScanJob& job) {
   for (std::int32_t beam = 0; beam < job.beam_count; beam += V::kLanes) {
     V::store(job.inverse_ranges + beam, least_inverse);
   }
-  sweep_spans<V>(job, find_spans<V>(job, find_facing<V>(job)));
+  const std::int32_t candidate_count = find_facing<V>(job);
+  find_corners<V>(job, candidate_count);
+  const SpanCounts counts = find_spans<V>(job, candidate_count);
+  expand_spans<V>(job, job.narrow, counts.narrow);
+  sweep_short<V, kNarrowBeams>(job, counts.narrow);
+  expand_spans<V>(job, job.medium, counts.medium);
+  sweep_short<V, kMediumBeams>(job, counts.medium);
+  expand_spans<V>(job, job.wide, counts.wide);
+  sweep_wide<V>(job, counts.wide);
 
   const std::int32_t whole = job.beam_count & ~(V::kLanes - 1);
   const auto one = V::broadcast(1.0F);

@@ -7,6 +7,7 @@
 #include <string>
 #include <variant>
 
+#include "sim/core/body_state.h"
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/core/random_stream.h"
@@ -15,16 +16,6 @@
 namespace sim {
 
 class PhysicsWorld;
-
-/// What a robot's body does at the end of a step: the truth that its sensors measure.
-struct BodyState {
-  Pose X_WB;              ///< pose of the axle's centre in the world
-  Twist twist;            ///< achieved velocity in B over the last step
-  Twist commanded;        ///< velocity that the motors were told to reach, after all limits
-  double travel_m = 0.0;  ///< signed forward motion of the wheels' midpoint in the last step [m]
-  double turn_rad = 0.0;  ///< turn in the last step, counter-clockwise [rad]
-  bool stalled = false;   ///< the commanded twist has not been achieved for 0.2 s
-};
 
 /// What a device may look at when a step has ended.
 struct StepContext {

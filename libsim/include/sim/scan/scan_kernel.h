@@ -127,7 +127,7 @@ class ScanKernel {
   std::shared_ptr<const Tables> tables_;  ///< what depends on the geometry alone
   std::vector<float> inverse_ranges_;     ///< scratch, one a beam, padded [1/m]
   std::vector<std::int32_t> integers_;    ///< scratch, several a edge
-  std::vector<float> coefficients_;       ///< scratch, two a span
+  std::vector<float> floats_;             ///< scratch, several a edge
   std::size_t edge_capacity_ = 0;         ///< edges that the scratch memory is enough for
 };
 

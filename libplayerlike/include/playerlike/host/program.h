@@ -1,0 +1,64 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "playerlike/host/run_settings.h"
+
+/// Running a client program as a process of its own, as `playpen run` does. What the program's
+/// embedded simulation must know is passed in the environment (RunSettings::from_environment).
+namespace playerlike {
+
+/// A program that can't be started, in a sentence for the user.
+class ProgramError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Variables to set (or, with nullopt, to remove) in a program's environment.
+using EnvironmentChanges = std::map<std::string, std::optional<std::string>>;
+
+/// How a program ended: by itself with a status, or by a signal.
+struct ProgramEnd {
+  int status = 0;             ///< exit status, 0..255; 0 if a signal ended it
+  std::optional<int> signal;  ///< number of the signal that ended it
+
+  /// Whether it ended by itself with status 0.
+  [[nodiscard]] bool success() const noexcept { return status == 0 && !signal; }
+  /// What to tell a user, e.g. "ended with status 3" or "was ended by signal 11 (Segmentation
+  /// fault)".
+  [[nodiscard]] std::string text() const;
+};
+
+/// Finds a program as a shell does: a name with a slash is a path, another one is looked up in the
+/// folders of PATH.
+/// @return a path that names an executable file.
+/// @throws ProgramError saying what is wrong: no such file, a folder, not executable.
+[[nodiscard]] std::string find_program(const std::string& name);
+
+/// The environment by which a program's embedded simulation learns of its run; the inverse of
+/// RunSettings::from_environment(). Settings that are left out are removed from the environment, so
+/// that a run means what it was told and not what the shell happens to hold. The silence limit is
+/// passed on as it is.
+/// @param world_file  "": the default world. Relative names here and in the settings are made
+///                    absolute: a program may change its folder.
+[[nodiscard]] EnvironmentChanges run_environment(const std::string& world_file,
+                                                 const RunSettings& settings);
+
+/// Runs a program to its end, with this process's terminal and standard streams.
+///
+/// While it runs, SIGINT, SIGTERM, SIGHUP and SIGQUIT that another process sends to this one are
+/// passed on to it; those that the terminal sends reach it anyway and are left alone here.
+///
+/// @param command  path (see find_program()) and arguments; not empty.
+/// @throws ProgramError if the program can't be started.
+/// @note Changes the calling thread's signal mask while the program runs, and the process's
+///       disposition of SIGCHLD: for a command's main thread, one program at a time.
+[[nodiscard]] ProgramEnd run_program(const std::vector<std::string>& command,
+                                     const EnvironmentChanges& environment);
+
+}  // namespace playerlike

@@ -1,0 +1,76 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerlike/host/report_summary.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iomanip>
+#include <locale>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+
+namespace playerlike {
+namespace {
+
+/// A column of numbers: its heading names the unit, its width fits the heading.
+struct Column {
+  const char* heading;
+  const char* key;
+  int decimals;
+};
+
+constexpr Column kColumns[] = {
+    {"path [m]", "path_length", 2},
+    {"collisions", "collisions", 0},
+    {"least clearance [m]", "least_clearance", 3},
+    {"stalled [s]", "stalled_time", 2},
+};
+
+int width_of(const Column& column) {
+  return static_cast<int>(std::string(column.heading).size()) + 2;
+}
+
+std::string summarize(const nlohmann::json& report) {
+  const nlohmann::json& run = report.at("run");
+  const nlohmann::json& robots = report.at("robots");
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::fixed << std::setprecision(1) << run.at("sim_time").get<double>()
+      << " s simulated in " << std::setprecision(3) << run.at("wall_time").get<double>()
+      << " s: " << std::setprecision(1) << run.at("real_time_factor").get<double>()
+      << " times real time (seed " << run.at("seed").get<std::uint64_t>() << ")\n";
+
+  std::size_t name_width = std::string("robot").size();
+  for (const nlohmann::json& robot : robots) {
+    name_width = std::max(name_width, robot.at("name").get<std::string>().size());
+  }
+  const int name_column = static_cast<int>(name_width);
+  out << "  " << std::left << std::setw(name_column) << "robot" << std::right;
+  for (const Column& column : kColumns) out << std::setw(width_of(column)) << column.heading;
+  out << '\n';
+  for (const nlohmann::json& robot : robots) {
+    out << "  " << std::left << std::setw(name_column) << robot.at("name").get<std::string>()
+        << std::right;
+    for (const Column& column : kColumns) {
+      out << std::setw(width_of(column)) << std::setprecision(column.decimals)
+          << robot.at(column.key).get<double>();
+    }
+    out << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace
+
+std::string summarize_report(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw std::runtime_error("the report " + file + " can't be read");
+  try {
+    return summarize(nlohmann::json::parse(in));
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error("the report " + file + " is not as expected: " + error.what());
+  }
+}
+
+}  // namespace playerlike

@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// How fast a laser scan is, against one b2World::RayCast a beam in the same world.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "figures.h"
+#include "physics/physics_world.h"
+#include "sim/devices/laser.h"
+#include "sim/simulation/simulation.h"
+
+namespace sim::bench {
+namespace {
+
+// The arena with 13 robots, and the laser of one of them after another.
+struct Arena {
+  Arena()
+      : world(load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json")),
+        physics(world.arena),
+        kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m}),
+        ranges(static_cast<std::size_t>(laser.beam_count)) {
+    for (const RobotDescription& description : world.robots) {
+      physics.add_robot(*find_robot_model(description.model), description.pose);
+    }
+  }
+
+  int next_robot() { return robot = (robot + 1) % physics.robot_count(); }
+
+  void scan() {
+    const int r = next_robot();
+    const Pose X_WL = physics.body(r).X_WB * laser.X_BL;
+    physics.collect_edges(X_WL.position(), laser.range_max_m, laser.height_m, r, false, edges);
+    kernel.scan(edges, X_WL.yaw_rad, ranges);
+    benchmark::DoNotOptimize(ranges.data());
+  }
+
+  void ray_casts() {
+    const int r = next_robot();
+    const Pose X_WL = physics.body(r).X_WB * laser.X_BL;
+    for (int beam = 0; beam < laser.beam_count; ++beam) {
+      ranges[static_cast<std::size_t>(beam)] = physics.ray_cast_m(
+          X_WL.position(), X_WL.yaw_rad + kernel.geometry().angle_rad(beam), laser.range_max_m, r);
+    }
+    benchmark::DoNotOptimize(ranges.data());
+  }
+
+  LaserParams laser;
+  WorldDescription world;
+  PhysicsWorld physics;
+  scan::ScanKernel kernel;
+  scan::EdgeBuffer edges;
+  std::vector<double> ranges;
+  int robot = 0;
+};
+
+void BM_Scan682(benchmark::State& state) {
+  Arena arena;
+  for (auto _ : state) arena.scan();
+}
+BENCHMARK(BM_Scan682)->Unit(benchmark::kMicrosecond);
+
+void BM_RayCast682(benchmark::State& state) {
+  Arena arena;
+  for (auto _ : state) arena.ray_casts();
+}
+BENCHMARK(BM_RayCast682)->Unit(benchmark::kMicrosecond);
+
+void print_figures() {
+  Arena arena;
+  // Turn by turn, so that a slow moment of the machine meets both.
+  double scan_s = 1e30;
+  double cast_s = 1e30;
+  for (int round = 0; round < 10; ++round) {
+    scan_s = std::min(scan_s, seconds_per_call([&] { arena.scan(); }, 1300, 3));
+    cast_s = std::min(cast_s, seconds_per_call([&] { arena.ray_casts(); }, 39, 3));
+  }
+  figure("scan_us", scan_s * 1e6);
+  figure("scan_ns_per_beam", scan_s * 1e9 / arena.laser.beam_count);
+  figure("raycast_us", cast_s * 1e6);
+  figure("scan_speedup_over_raycast", cast_s / scan_s);
+}
+
+}  // namespace
+}  // namespace sim::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  sim::bench::print_figures();
+}

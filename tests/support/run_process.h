@@ -1,0 +1,175 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+/// Running built programs from tests, with their output captured and an end to their patience.
+namespace test_support {
+
+/// How a program ended, and what it wrote.
+struct ProcessResult {
+  std::optional<int> status;  ///< exit status; nullopt: a signal ended it
+  std::optional<int> signal;  ///< the signal that ended it
+  bool timed_out = false;     ///< it was killed because it took too long
+  std::string out;            ///< its standard output
+  std::string err;            ///< its standard error
+};
+
+struct ProcessOptions {
+  std::map<std::string, std::string> environment;  ///< variables to set on top of ours
+  std::string folder;                              ///< to run in; "": ours
+  std::chrono::seconds timeout{60};
+};
+
+/// A running program. Its standard input is a pipe that stays open, and silent, until the end.
+/// Must be started from a program with one thread.
+class Process {
+ public:
+  /// Starts a program; command[0] is looked up in PATH if it has no slash. If it can't be run,
+  /// its status is 127, as in a shell.
+  explicit Process(const std::vector<std::string>& command, const ProcessOptions& options = {})
+      : deadline_(std::chrono::steady_clock::now() + options.timeout) {
+    const auto [stdin_read, stdin_write] = make_pipe();
+    const auto [stdout_read, stdout_write] = make_pipe();
+    const auto [stderr_read, stderr_write] = make_pipe();
+    child_ = fork();
+    if (child_ < 0) throw std::runtime_error("fork failed");
+    if (child_ == 0) {
+      dup2(stdin_read, STDIN_FILENO);
+      dup2(stdout_write, STDOUT_FILENO);
+      dup2(stderr_write, STDERR_FILENO);
+      for (const auto& [name, value] : options.environment) {
+        setenv(name.c_str(), value.c_str(), 1);
+      }
+      std::vector<char*> arguments;
+      for (const std::string& argument : command) {
+        arguments.push_back(const_cast<char*>(argument.c_str()));
+      }
+      arguments.push_back(nullptr);
+      if (options.folder.empty() || chdir(options.folder.c_str()) == 0) {
+        execvp(arguments[0], arguments.data());
+      }
+      _exit(127);
+    }
+    close(stdin_read);
+    close(stdout_write);
+    close(stderr_write);
+    stdin_ = stdin_write;
+    streams_ = {Stream{stdout_read, &result_.out}, Stream{stderr_read, &result_.err}};
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+  ~Process() {
+    if (child_ > 0) kill(child_, SIGKILL);
+    static_cast<void>(finish());
+  }
+
+  /// Reads until the program's standard output holds the text.
+  /// @return whether it came before the program closed its output, or took too long.
+  [[nodiscard]] bool read_until(std::string_view text) {
+    while (result_.out.find(text) == std::string::npos) {
+      if (!pump()) return false;
+    }
+    return true;
+  }
+
+  void send_signal(int signal) const { kill(child_, signal); }
+
+  /// Waits for the program's end; kills it when the time is over.
+  [[nodiscard]] ProcessResult finish() {
+    while (pump()) {
+    }
+    if (child_ > 0) {
+      // Output is at its end, or the time is over: then it does not get any more.
+      if (result_.timed_out) kill(child_, SIGKILL);
+      int state = 0;
+      while (waitpid(child_, &state, 0) < 0 && errno == EINTR) {
+      }
+      child_ = -1;
+      if (WIFEXITED(state)) result_.status = WEXITSTATUS(state);
+      if (WIFSIGNALED(state)) result_.signal = WTERMSIG(state);
+    }
+    for (Stream& stream : streams_) close_once(stream.descriptor);
+    close_once(stdin_);
+    return result_;
+  }
+
+ private:
+  struct Stream {
+    int descriptor = -1;
+    std::string* text = nullptr;
+  };
+
+  static std::pair<int, int> make_pipe() {
+    std::array<int, 2> ends{};
+    // Closed in the child by exec; dup2 clears that on the copies.
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
+    return {ends[0], ends[1]};
+  }
+
+  static void close_once(int& descriptor) {
+    if (descriptor >= 0) close(descriptor);
+    descriptor = -1;
+  }
+
+  /// Waits for output and takes it. @return false at the end of both streams, or of the time.
+  bool pump() {
+    std::array<pollfd, 2> polls{};
+    bool any_open = false;
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+      polls[i] = {streams_[i].descriptor, POLLIN, 0};  // a negative descriptor is skipped
+      any_open = any_open || streams_[i].descriptor >= 0;
+    }
+    if (!any_open) return false;
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        deadline_ - std::chrono::steady_clock::now());
+    const int ready =
+        poll(polls.data(), polls.size(), left.count() > 0 ? static_cast<int>(left.count()) : 0);
+    if (ready < 0 && errno == EINTR) return true;
+    if (ready <= 0) {
+      result_.timed_out = true;
+      return false;
+    }
+    for (std::size_t i = 0; i < streams_.size(); ++i) {
+      if (polls[i].revents == 0) continue;
+      std::array<char, 4096> buffer{};
+      const ssize_t count = read(streams_[i].descriptor, buffer.data(), buffer.size());
+      if (count > 0) {
+        streams_[i].text->append(buffer.data(), static_cast<std::size_t>(count));
+      } else if (count == 0 || errno != EINTR) {
+        close_once(streams_[i].descriptor);
+      }
+    }
+    return true;
+  }
+
+  std::chrono::steady_clock::time_point deadline_;
+  pid_t child_ = -1;
+  int stdin_ = -1;
+  ProcessResult result_;
+  std::array<Stream, 2> streams_;
+};
+
+/// Runs a program to its end.
+[[nodiscard]] inline ProcessResult run_process(const std::vector<std::string>& command,
+                                               const ProcessOptions& options = {}) {
+  return Process(command, options).finish();
+}
+
+}  // namespace test_support

@@ -1,0 +1,464 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The rules of time (docs/architecture.md), as sessions see them.
+#include "playerlike/host/host.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "sim/devices/laser.h"
+#include "sim/devices/localization.h"
+
+namespace playerlike {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+// Collects the times of the readings of a round, and the newest pose.
+struct Collector : ReadingSink {
+  void on_reading(DeviceId device, const sim::Reading& reading) override {
+    devices.push_back(device);
+    times_ns.push_back(reading.time_ns);
+    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) x_m = pose->pose.x_m;
+  }
+  std::vector<DeviceId> devices;
+  std::vector<sim::SimTime> times_ns;
+  double x_m = 0.0;
+};
+
+// Two robots side by side in an empty room, driving along x.
+sim::WorldDescription two_robots(const std::string& simulation = "{}") {
+  return sim::load_world_text(R"({"name": "two", "arena": {"size": [20, 4]}, "simulation": )" +
+                              simulation +
+                              R"(, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}},
+                      {"name": "r2", "pose": {"x": 1, "y": 3}}]})");
+}
+
+class HostTest : public testing::Test {
+ protected:
+  std::shared_ptr<Host> start(sim::WorldDescription world, RunSettings settings = {}) {
+    host = Host::create(std::move(world), std::move(settings),
+                        [this](sim::LogLevel, std::string_view text) {
+                          const std::lock_guard lock(log_mutex);
+                          log += std::string(text) + '\n';
+                        });
+    return host;
+  }
+  std::string logged() {
+    const std::lock_guard lock(log_mutex);
+    return log;
+  }
+
+  static InterfaceBinding position2d(Session& session, int index = 0) {
+    return find_interface(session.robots(), session.port(), "position2d", index);
+  }
+  static InterfaceBinding subscribe_position(Session& session, int index = 0) {
+    const InterfaceBinding binding = position2d(session, index);
+    session.subscribe(binding.reading);
+    return binding;
+  }
+  static void drive(Session& session, const InterfaceBinding& binding, double v) {
+    session.send(binding.motion.value(), sim::TwistCommand{{v, 0.0, 0.0}});
+  }
+  // One Read() of a client.
+  static Collector read(Session& session) {
+    Collector round;
+    do {
+      session.wait();
+    } while (session.take(round) == 0);
+    return round;
+  }
+
+  std::shared_ptr<Host> host;
+  std::mutex log_mutex;
+  std::string log;
+};
+
+TEST_F(HostTest, OneReadIsATenthOfASecond) {
+  const auto session = start(two_robots())->connect(6665);
+  subscribe_position(*session);
+  for (int i = 1; i <= 20; ++i) {
+    EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(i * 100'000'000));
+    EXPECT_EQ(host->time().steps, static_cast<std::uint64_t>(10 * i));
+  }
+}
+
+TEST_F(HostTest, TimeStandsStillBetweenReads) {
+  const auto session = start(two_robots())->connect(6665);
+  subscribe_position(*session);
+  read(*session);
+  std::this_thread::yield();
+  EXPECT_EQ(session->time().steps, 10U);
+  EXPECT_EQ(session->time().steps, 10U);
+}
+
+TEST_F(HostTest, CommandsTakeEffectWithTheNextStepAndHold) {
+  const auto session = start(two_robots())->connect(6665);
+  const InterfaceBinding binding = subscribe_position(*session);
+  drive(*session, binding, 0.5);
+  EXPECT_NEAR(read(*session).x_m, 1.05, 1e-9);
+  EXPECT_NEAR(read(*session).x_m, 1.10, 1e-9);
+}
+
+TEST_F(HostTest, ReadWithoutSubscriptionsLetsATenthOfASecondPass) {
+  const auto session = start(two_robots())->connect(6665);
+  Collector none;
+  session->wait();
+  EXPECT_EQ(session->take(none), 0);
+  EXPECT_EQ(host->time().steps, 10U);
+  session->wait();
+  EXPECT_EQ(session->take(none), 0);
+  EXPECT_EQ(host->time().steps, 20U);
+}
+
+TEST_F(HostTest, FirstPeekLooksFurtherOnesStep) {
+  const auto session = start(two_robots())->connect(6665);
+  subscribe_position(*session);
+  read(*session);
+  EXPECT_FALSE(session->peek(milliseconds(0)));
+  EXPECT_EQ(host->time().steps, 10U);
+  for (int i = 1; i < 10; ++i) {
+    EXPECT_FALSE(session->peek(milliseconds(0)));
+    EXPECT_EQ(host->time().steps, 10U + static_cast<unsigned>(i));
+  }
+  EXPECT_TRUE(session->peek(milliseconds(0)));
+  EXPECT_TRUE(session->peek(milliseconds(0)));
+  EXPECT_EQ(host->time().steps, 20U);
+  EXPECT_EQ(read(*session).times_ns.front(), 200'000'000);
+  EXPECT_FALSE(session->peek(milliseconds(0)));
+}
+
+TEST_F(HostTest, PeekWithATimeoutWaitsInSimulatedTime) {
+  const auto session = start(two_robots())->connect(6665);
+  subscribe_position(*session);
+  read(*session);
+  EXPECT_FALSE(session->peek(milliseconds(50)));
+  EXPECT_EQ(host->time().steps, 15U);
+  EXPECT_TRUE(session->peek(milliseconds(1000)));
+  EXPECT_EQ(host->time().steps, 20U);
+}
+
+TEST_F(HostTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
+  const auto world = start(two_robots());
+  const auto session = world->connect(6665);
+  const auto other = world->connect(6666);
+  const InterfaceBinding mine = subscribe_position(*session);
+  subscribe_position(*other);
+  // One thread: reading the other client three times lets three rounds pass here.
+  for (int i = 0; i < 3; ++i) read(*other);
+  EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(300'000'000));
+  session->set_replace(mine.reading, false);
+  for (int i = 0; i < 3; ++i) read(*other);
+  EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(400'000'000, 500'000'000, 600'000'000));
+}
+
+TEST_F(HostTest, OneThreadReadsSeveralClientsInTurn) {
+  const auto world = start(two_robots());
+  const auto first = world->connect(6665);
+  const auto second = world->connect(6666);
+  drive(*first, subscribe_position(*first), 0.1);
+  drive(*second, subscribe_position(*second), 0.2);
+  for (int i = 1; i <= 50; ++i) {
+    EXPECT_NEAR(read(*first).x_m, 1.0 + 0.01 * i, 1e-9);
+    EXPECT_NEAR(read(*second).x_m, 1.0 + 0.02 * i, 1e-9);
+  }
+  EXPECT_EQ(host->time().steps, 500U);
+}
+
+// Two threads, each driving its robot by what it reads.
+std::uint64_t two_threads_run(const std::shared_ptr<Host>& host) {
+  const auto program = [&host](int port) {
+    const auto session = host->connect(port);
+    const auto binding = find_interface(session->robots(), port, "position2d", 0);
+    session->subscribe(binding.reading);
+    try {
+      for (int i = 0;; ++i) {
+        Collector round;
+        session->wait();
+        session->take(round);
+        session->send(*binding.motion,
+                      sim::TwistCommand{{0.2 + 0.1 * std::sin(round.x_m), 0.3 * (i % 7 - 3), 0.0}});
+      }
+    } catch (const SessionError& e) {
+      EXPECT_EQ(e.code(), SessionError::Code::kFinished);
+    }
+  };
+  std::thread one(program, 6665);
+  std::thread two(program, 6666);
+  one.join();
+  two.join();
+  return host->state_hash();
+}
+
+TEST_F(HostTest, TwoThreadsInLockstepGiveTheSameResultEveryTime) {
+  const std::string simulation = R"({"duration": 20, "clients": 2})";
+  const std::uint64_t first = two_threads_run(start(two_robots(simulation)));
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(two_threads_run(start(two_robots(simulation))), first);
+}
+
+TEST_F(HostTest, StartGateHoldsTheClockUntilAllHaveJoined) {
+  const auto world = start(two_robots(R"({"clients": 2})"));
+  const auto first = world->connect(6665);
+  const auto second = world->connect(6666);
+  subscribe_position(*first);
+  subscribe_position(*second);
+  std::thread early([&] { EXPECT_EQ(read(*first).times_ns.front(), 100'000'000); });
+  EXPECT_EQ(host->time().steps, 0U);  // whatever the other thread does
+  EXPECT_EQ(read(*second).times_ns.front(), 100'000'000);
+  early.join();
+  EXPECT_EQ(host->time().steps, 10U);
+}
+
+TEST_F(HostTest, AClientThatIsDestroyedHoldsUpNobody) {
+  const auto world = start(two_robots());
+  const auto session = world->connect(6665);
+  subscribe_position(*session);
+  auto other = world->connect(6666);
+  subscribe_position(*other);
+  std::promise<void> joined;
+  std::promise<void> leave;
+  std::thread thread([&] {
+    read(*other);
+    joined.set_value();
+    leave.get_future().wait();
+    other.reset();
+  });
+  joined.get_future().wait();
+  leave.set_value();
+  read(*session);  // the first round may have been taken already, the second needs the other's vote
+  for (int i = 0; i < 5; ++i) read(*session);
+  thread.join();
+  EXPECT_GE(host->time().steps, 60U);
+}
+
+TEST_F(HostTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
+  const auto world = start(two_robots());
+  const auto session = world->connect(6665);
+  subscribe_position(*session);
+  const auto other = world->connect(6666);
+  subscribe_position(*other);
+  std::thread([&] { read(*other); }).join();
+  for (int i = 0; i < 5; ++i) read(*session);
+  EXPECT_GE(host->time().steps, 50U);
+  EXPECT_EQ(logged(), "");  // no wait for the silence limit was needed
+}
+
+TEST_F(HostTest, AClientThatNeverReadsDoesNotTakePart) {
+  const auto world = start(two_robots());
+  const auto reader = world->connect(6665);
+  subscribe_position(*reader);
+  const auto sender = world->connect(6666);
+  drive(*sender, position2d(*sender), 0.5);
+  for (int i = 0; i < 10; ++i) read(*reader);
+  const auto all = world->connect(kMorsePort);
+  subscribe_position(*all, 1);
+  EXPECT_NEAR(read(*all).x_m, 1.55, 1e-9);
+}
+
+TEST_F(HostTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
+  RunSettings settings;
+  settings.silence_limit_s = 0.05;
+  const auto world = start(two_robots(), settings);
+  const auto session = world->connect(6665);
+  subscribe_position(*session);
+  const auto other = world->connect(6666);
+  subscribe_position(*other);
+  std::promise<void> joined;
+  std::promise<void> back;
+  std::thread thread([&] {
+    read(*other);
+    joined.set_value();
+    back.get_future().wait();  // thinks for as long as the others need
+    read(*other);
+  });
+  joined.get_future().wait();
+  for (int i = 0; i < 5; ++i) read(*session);
+  EXPECT_THAT(logged(), HasSubstr("port 6666"));
+  back.set_value();
+  thread.join();
+  for (int i = 0; i < 3; ++i) read(*session);
+}
+
+TEST_F(HostTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
+  const auto session = start(two_robots(R"({"duration": 30})"))->connect(6665);
+  const InterfaceBinding binding = subscribe_position(*session);
+  std::atomic<bool> stop{false};
+  std::thread sender([&] {
+    for (int i = 0; !stop; ++i) {
+      drive(*session, binding, 0.001 * (i % 100));
+      if (i % 64 == 0) static_cast<void>(session->pixel(3, 3));
+      if (i % 16 == 0) {
+        const sim::CanvasOperation dot{.x0 = i % 100, .y0 = 5, .colour = {255, 0, 0, 255}};
+        session->draw({&dot, 1});
+      }
+    }
+  });
+  EXPECT_THROW(while (true) read(*session), SessionError);
+  stop = true;
+  sender.join();
+  EXPECT_TRUE(host->finished());
+}
+
+TEST_F(HostTest, EndOfTheRunIsToldAfterTheLastReadings) {
+  const auto session = start(two_robots(R"({"duration": 0.3})"))->connect(6665);
+  subscribe_position(*session);
+  for (int i = 0; i < 3; ++i) read(*session);
+  EXPECT_TRUE(session->peek(milliseconds(0)));  // so that polling programs come to know it
+  try {
+    read(*session);
+    FAIL() << "expected the end of the run";
+  } catch (const SessionError& e) {
+    EXPECT_EQ(e.code(), SessionError::Code::kFinished);
+  }
+}
+
+TEST_F(HostTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
+  const auto session = start(two_robots())->connect(6665);
+  subscribe_position(*session);
+  session->sleep(0.25);
+  EXPECT_EQ(host->time().steps, 25U);
+  EXPECT_EQ(read(*session).times_ns.front(), 200'000'000);
+  EXPECT_EQ(host->time().steps, 25U);
+  EXPECT_THROW(session->sleep(-1.0), SessionError);
+  EXPECT_THROW(session->sleep(std::numeric_limits<double>::quiet_NaN()), SessionError);
+}
+
+TEST_F(HostTest, AClosedSessionThrowsAndWakesItsWaiter) {
+  const auto world = start(two_robots(R"({"clients": 2})"));
+  const auto session = world->connect(6665);
+  subscribe_position(*session);
+  std::thread closer([&] { session->close(); });
+  EXPECT_THROW(read(*session), SessionError);  // the gate never opens
+  closer.join();
+  EXPECT_FALSE(session->connected());
+  EXPECT_THROW(read(*session), SessionError);
+  EXPECT_THROW(drive(*session, position2d(*session), 0.1), SessionError);
+}
+
+TEST_F(HostTest, UnknownPortsAndDevicesAreRefusedNamingWhatThereIs) {
+  const auto world = start(two_robots());
+  try {
+    static_cast<void>(world->connect(1234));
+    FAIL();
+  } catch (const SessionError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("6665 (r1)"));
+    EXPECT_THAT(e.what(), HasSubstr("4000"));
+  }
+  const auto session = world->connect(6665);
+  try {
+    static_cast<void>(find_interface(session->robots(), 6665, "laser", 3));
+    FAIL();
+  } catch (const SessionError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("laser:0 (r1.laser)"));
+  }
+  EXPECT_THROW(session->subscribe({7, 0}), SessionError);
+  EXPECT_THROW(session->subscribe(position2d(*session).motion.value()), SessionError);
+}
+
+TEST_F(HostTest, OnPort4000TheIndexIsTheRobotsNumberUnlessTheWorldSaysOtherwise) {
+  const auto session = start(two_robots())->connect(kMorsePort);
+  EXPECT_EQ(position2d(*session, 0).robot, 0);
+  EXPECT_EQ(position2d(*session, 1).robot, 1);
+  sim::WorldDescription world = two_robots();
+  world.robots[0].proxies["position2d"] = 7;
+  const auto renamed = start(world)->connect(kMorsePort);
+  EXPECT_EQ(position2d(*renamed, 7).robot, 0);
+  EXPECT_THROW(position2d(*renamed, 0), SessionError);
+}
+
+TEST_F(HostTest, NotANumberIsRefused) {
+  const auto session = start(two_robots())->connect(6665);
+  EXPECT_THROW(drive(*session, position2d(*session), std::numeric_limits<double>::quiet_NaN()),
+               SessionError);
+}
+
+TEST_F(HostTest, DrawingsAreSeenAtOnceByTheirClientAndInOrderOfClients) {
+  const auto world = start(two_robots());
+  const auto first = world->connect(6665);
+  const auto second = world->connect(6666);
+  const auto dot = [](Session& s, sim::Colour colour) {
+    const sim::CanvasOperation operation{.x0 = 4, .y0 = 5, .colour = colour};
+    s.draw({&operation, 1});
+  };
+  dot(*second, {0, 0, 255, 255});
+  dot(*first, {255, 0, 0, 255});
+  first->wait();
+  EXPECT_EQ(first->pixel(4, 5), (sim::Colour{0, 0, 255, 255}));  // the second client comes last
+  dot(*first, {255, 0, 0, 255});
+  EXPECT_EQ(first->pixel(4, 5), (sim::Colour{255, 0, 0, 255}));
+  EXPECT_FALSE(first->pixel(-1, 0).has_value());
+}
+
+TEST_F(HostTest, PacedTimeRunsByItselfAtItsFactor) {
+  const auto session = start(two_robots(R"({"time": 200, "duration": 4})"))->connect(6665);
+  const InterfaceBinding binding = subscribe_position(*session);
+  drive(*session, binding, 0.5);
+  double last_x_m = 0.0;
+  try {
+    while (true) last_x_m = read(*session).x_m;
+  } catch (const SessionError& e) {
+    EXPECT_EQ(e.code(), SessionError::Code::kFinished);
+  }
+  const TimeStatistics time = host->time();
+  EXPECT_EQ(time.mode, sim::TimeMode::kPaced);
+  EXPECT_EQ(time.steps, 400U);
+  EXPECT_GT(last_x_m, 1.0);
+  // Never faster than asked for: 4 s at 200 times real time are 20 ms.
+  EXPECT_GE(time.wall_time_s, 0.019);
+}
+
+TEST_F(HostTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
+  const auto session = start(two_robots())->connect(6665);
+  subscribe_position(*session);
+  session->prefer_real_time("a test");
+  read(*session);
+  EXPECT_EQ(session->time().mode, sim::TimeMode::kPaced);
+  EXPECT_THAT(logged(), HasSubstr("a test"));
+}
+
+TEST_F(HostTest, ResultsOfARunAreWrittenOnceItEnds) {
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / "playpen_host_test";
+  std::filesystem::remove_all(folder);
+  RunSettings settings;
+  settings.output_folder = folder.string();
+  settings.duration_s = 1.0;
+  settings.seed = 99;
+  const auto session = start(two_robots(), settings)->connect(6665);
+  const InterfaceBinding binding = subscribe_position(*session);
+  drive(*session, binding, 0.5);
+  EXPECT_THROW(while (true) read(*session), SessionError);
+  for (const char* name : {"scene.png", "canvas.png", "report.json", "trajectory.csv"}) {
+    EXPECT_GT(std::filesystem::file_size(folder / name), 100U) << name;
+  }
+  std::ifstream stream(folder / "report.json");
+  const std::string report((std::istreambuf_iterator<char>(stream)), {});
+  EXPECT_THAT(report, HasSubstr(R"("world": "two")"));
+  EXPECT_THAT(report, HasSubstr(R"("seed": 99)"));
+  EXPECT_THAT(report, HasSubstr(R"("steps": 100)"));
+  EXPECT_THAT(report, HasSubstr(R"("name": "r2")"));
+  std::ifstream rows(folder / "trajectory.csv");
+  std::string line;
+  int count = 0;
+  while (std::getline(rows, line)) ++count;
+  EXPECT_EQ(count, 1 + 2 * 11);  // a header, then both robots at 0, 0.1, ..., 1 s
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(HostTest, AnOutputFolderThatCannotBeMadeIsAnErrorThatNamesIt) {
+  RunSettings settings;
+  settings.output_folder = "/proc/no/such/folder";
+  EXPECT_THROW(start(two_robots(), settings), std::exception);
+}
+
+}  // namespace
+}  // namespace playerlike

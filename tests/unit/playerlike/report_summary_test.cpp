@@ -1,0 +1,48 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerlike/host/report_summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "temporary_folder.h"
+
+namespace playerlike {
+namespace {
+
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("report.json", R"({
+    "run": {"sim_time": 120.0, "wall_time": 0.0251, "real_time_factor": 4780.9, "seed": 7},
+    "robots": [
+      {"name": "r1", "path_length": 23.796, "collisions": 0, "least_clearance": 0.02301,
+       "stalled_time": 0.0},
+      {"name": "long_name", "path_length": 0.0, "collisions": 12, "least_clearance": 0.0,
+       "stalled_time": 3.456}]})");
+  EXPECT_EQ(summarize_report(file),
+            "120.0 s simulated in 0.025 s: 4780.9 times real time (seed 7)\n"
+            "  robot      path [m]  collisions  least clearance [m]  stalled [s]\n"
+            "  r1            23.80           0                0.023         0.00\n"
+            "  long_name      0.00          12                0.000         3.46\n");
+}
+
+TEST(ReportSummary, NamesAFileThatIsMissingOrNoReport) {
+  const TemporaryFolder folder;
+  EXPECT_THAT([&] { static_cast<void>(summarize_report(folder / "none.json")); },
+              ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("none.json"), HasSubstr("read"))));
+  for (const char* text : {"", "{", "[]", "{}", R"({"run": {}, "robots": []})"}) {
+    const std::string file = folder.write("report.json", text);
+    EXPECT_THAT([&] { static_cast<void>(summarize_report(file)); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("report.json")))
+        << text;
+  }
+}
+
+}  // namespace
+}  // namespace playerlike

@@ -1,0 +1,380 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/simulation/simulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "physics/physics_world.h"
+#include "sim/core/error.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/localization.h"
+
+namespace sim {
+namespace {
+
+using testing::HasSubstr;
+
+// A robot in the middle of an empty 4 x 4 m room; `devices` are its settings.
+WorldDescription room(const std::string& devices = "{}", const std::string& more = "") {
+  return load_world_text(
+      R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 2, "y": 2, "yaw_deg": 0},
+          "devices": )" +
+      devices + "}]" + more + "}");
+}
+
+template <typename ReadingType>
+const ReadingType& reading(const Simulation& simulation, const std::string& device, int robot = 0) {
+  const int index = simulation.find_device(robot, device).value();
+  return dynamic_cast<const ReadingType&>(
+      dynamic_cast<const Sensor&>(simulation.device(robot, index)).reading());
+}
+
+void command(Simulation& simulation, const std::string& device, const Command& what,
+             int robot = 0) {
+  const auto refusal =
+      simulation.apply({robot, simulation.find_device(robot, device).value()}, what);
+  ASSERT_FALSE(refusal.has_value()) << *refusal;
+}
+
+void drive(Simulation& simulation, double v, double omega, int robot = 0) {
+  command(simulation, "motion", TwistCommand{{v, omega, 0.0}}, robot);
+}
+
+void run(Simulation& simulation, int steps) {
+  for (int i = 0; i < steps; ++i) simulation.step();
+}
+
+TEST(Simulation, FirstReadingsComeOnePeriodAfterTheStartAllInPhase) {
+  Simulation simulation(room());
+  run(simulation, 9);
+  EXPECT_TRUE(simulation.updated().empty());
+  run(simulation, 1);
+  EXPECT_EQ(simulation.updated().size(), 3U);  // laser, odometry, pose
+  EXPECT_EQ(reading<LaserReading>(simulation, "laser").time_ns, 100'000'000);
+  EXPECT_EQ(reading<PoseReading>(simulation, "pose").sequence, 1U);
+  run(simulation, 10);
+  EXPECT_EQ(simulation.updated().size(), 3U);
+  EXPECT_EQ(reading<PoseReading>(simulation, "pose").sequence, 2U);
+}
+
+TEST(Simulation, AFrequencyThatIsNoMultipleOfTheStepIsKeptOnAverage) {
+  Simulation simulation(room(R"({"laser": {"frequency": 30}})"));
+  run(simulation, 1000);
+  EXPECT_EQ(reading<LaserReading>(simulation, "laser").sequence, 300U);
+}
+
+TEST(Simulation, ASensorFasterThanTheStepMeasuresOnceAStep) {
+  Simulation simulation(room(R"({"pose": {"frequency": 1000}})"));
+  run(simulation, 50);
+  EXPECT_EQ(reading<PoseReading>(simulation, "pose").sequence, 50U);
+}
+
+TEST(Simulation, PoseIsTrueAndOdometryStartsAtZero) {
+  Simulation simulation(room());
+  drive(simulation, 0.5, 0.0);
+  run(simulation, 100);
+  EXPECT_NEAR(reading<PoseReading>(simulation, "pose").pose.x_m, 2.5, 1e-9);
+  EXPECT_NEAR(reading<PoseReading>(simulation, "pose").pose.y_m, 2.0, 1e-9);
+  EXPECT_NEAR(reading<PoseReading>(simulation, "odometry").pose.x_m, 0.5, 1e-9);
+  EXPECT_NEAR(reading<PoseReading>(simulation, "odometry").twist.v_mps, 0.5, 1e-9);
+}
+
+TEST(Simulation, OdometryFollowsTheArcThatTheRobotDrives) {
+  Simulation simulation(room());
+  drive(simulation, 0.3, 0.6);
+  run(simulation, 500);  // 3 rad on a circle of 0.5 m
+  const Pose pose = reading<PoseReading>(simulation, "odometry").pose;
+  EXPECT_NEAR(pose.x_m, 0.5 * std::sin(3.0), 1e-9);
+  EXPECT_NEAR(pose.y_m, 0.5 * (1.0 - std::cos(3.0)), 1e-9);
+  EXPECT_NEAR(pose.yaw_rad, 3.0, 1e-9);
+}
+
+TEST(Simulation, OdometryCanBeSetAndThenGoesOnFromThere) {
+  Simulation simulation(room());
+  command(simulation, "odometry", SetPoseCommand{{1.0, -2.0, std::numbers::pi / 2.0}});
+  drive(simulation, 0.5, 0.0);
+  run(simulation, 100);
+  const Pose pose = reading<PoseReading>(simulation, "odometry").pose;
+  EXPECT_NEAR(pose.x_m, 1.0, 1e-9);
+  EXPECT_NEAR(pose.y_m, -1.5, 1e-9);
+}
+
+TEST(Simulation, PoseCanBeRebasedSoThatThePresentPoseReadsAsGiven) {
+  Simulation simulation(room());
+  run(simulation, 10);
+  command(simulation, "pose", SetPoseCommand{{0.0, 0.0, 0.0}});
+  drive(simulation, 0.5, 0.0);
+  run(simulation, 100);
+  EXPECT_NEAR(reading<PoseReading>(simulation, "pose").pose.x_m, 0.5, 1e-9);
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-9);
+}
+
+TEST(Simulation, TwistsAreClampedToTheLimits) {
+  Simulation simulation(room());
+  drive(simulation, 9.0, -9.0);
+  run(simulation, 1);
+  EXPECT_EQ(simulation.body(0).commanded.v_mps, 0.5);
+  EXPECT_EQ(simulation.body(0).commanded.omega_radps, -3.0);
+}
+
+TEST(Simulation, MotorsOffStopTheRobotUntilTheyAreOnAndToldAgain) {
+  Simulation simulation(room());
+  drive(simulation, 0.3, 0.0);
+  run(simulation, 10);
+  command(simulation, "motion", MotorEnableCommand{false});
+  drive(simulation, 0.3, 0.0);
+  run(simulation, 10);
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.03, 1e-9);
+  command(simulation, "motion", MotorEnableCommand{true});
+  run(simulation, 10);
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.03, 1e-9);
+  drive(simulation, 0.3, 0.0);
+  run(simulation, 10);
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.06, 1e-9);
+}
+
+TEST(Simulation, AccelerationLimitRampsTheSpeed) {
+  Simulation simulation(room(R"({"motion": {"max_acceleration": 0.5}})"));
+  drive(simulation, 0.4, 0.0);
+  run(simulation, 40);  // 0.5 m/s^2 for 0.4 s: 0.2 m/s
+  EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.2, 1e-6);
+  run(simulation, 60);
+  EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.4, 1e-6);
+}
+
+TEST(Simulation, AnActuatorRefusesWhatItDoesNotTake) {
+  Simulation simulation(room());
+  const auto refusal = simulation.apply({0, simulation.find_device(0, "pen").value()},
+                                        TwistCommand{{0.1, 0.0, 0.0}});
+  ASSERT_TRUE(refusal.has_value());
+  EXPECT_THAT(*refusal, HasSubstr("pen"));
+}
+
+TEST(Simulation, LaserOfTheS1rMeasuresTheWallAheadFromItsMount) {
+  Simulation simulation(room());
+  run(simulation, 10);
+  const LaserReading& scan = reading<LaserReading>(simulation, "laser");
+  ASSERT_EQ(scan.ranges_m.size(), 682U);
+  // Beams 340 and 341 are half a step to either side of forward: 1.965 m to the wall at x = 4.
+  const double half = 0.5 * scan.resolution_rad;
+  EXPECT_NEAR(scan.ranges_m[340], 1.965 / std::cos(half), 1e-5);
+  EXPECT_NEAR(scan.ranges_m[341], 1.965 / std::cos(half), 1e-5);
+  EXPECT_NEAR(scan.angle_min_rad, -0.5 * 681 * 0.39589 * std::numbers::pi / 180.0, 1e-12);
+  // The nearest point of the room is straight ahead.
+  EXPECT_NEAR(scan.least_range_m, 1.965, 1e-4);
+  EXPECT_NEAR(std::abs(scan.least_angle_rad), half, 1e-12);  // either of the two
+}
+
+TEST(Simulation, LaserInsideAnObstacleReadsZero) {
+  // Mounted 0.5 m ahead of the axle, in the middle of a block.
+  Simulation simulation(load_world_text(
+      R"({"arena": {"size": [4, 4], "obstacles": [{"name": "b", "center": [2.5, 2], "size": [0.2, 0.2]}]},
+          "robots": [{"pose": {"x": 2, "y": 2}, "devices": {"laser": {"pose": {"x": 0.5}}}}]})"));
+  run(simulation, 10);
+  EXPECT_THAT(reading<LaserReading>(simulation, "laser").ranges_m, testing::Each(0.0));
+}
+
+TEST(Simulation, LaserLooksOverLowObstaclesAndThroughRetractedOnes) {
+  Simulation simulation(load_world_text(
+      R"({"arena": {"size": [4, 4], "obstacles": [
+            {"name": "low", "center": [2.5, 2], "size": [0.2, 0.4], "height": 0.1},
+            {"name": "down", "type": "dynamic", "state": "retracted", "center": [3, 2], "size": [0.2, 0.4]}]},
+          "robots": [{"pose": {"x": 2, "y": 2}}]})"));
+  run(simulation, 10);
+  EXPECT_NEAR(reading<LaserReading>(simulation, "laser").ranges_m[340], 1.965, 1e-3);
+  EXPECT_FALSE(simulation.set_obstacle_state("down", ObstacleState::kExtended).has_value());
+  run(simulation, 10);
+  EXPECT_NEAR(reading<LaserReading>(simulation, "laser").ranges_m[340], 0.865, 1e-3);
+}
+
+TEST(Simulation, BlocksRefuseToRiseUnderARobotOrWhenStaticOrUnknown) {
+  Simulation simulation(load_world_text(
+      R"({"arena": {"size": [4, 4], "obstacles": [
+            {"name": "s", "center": [1, 1], "size": [0.2, 0.2]},
+            {"name": "d", "type": "dynamic", "state": "retracted", "center": [2, 2], "size": [0.2, 0.2]}]},
+          "robots": [{"pose": {"x": 2, "y": 2}}]})"));
+  EXPECT_THAT(simulation.set_obstacle_state("d", ObstacleState::kExtended).value(),
+              HasSubstr("robot"));
+  EXPECT_THAT(simulation.set_obstacle_state("s", ObstacleState::kRetracted).value(),
+              HasSubstr("static"));
+  EXPECT_THAT(simulation.set_obstacle_state("x", ObstacleState::kRetracted).value(),
+              HasSubstr("no obstacle"));
+}
+
+TEST(Simulation, LaserNoiseHasTheDeviationAskedFor) {
+  Simulation simulation(room(R"({"laser": {"noise": 0.02}})"));
+  Simulation exact(room());
+  // 682 beams x 100 scans: standard error of the deviation is 0.02 / sqrt(2 n).
+  double sum = 0.0;
+  double squares = 0.0;
+  int n = 0;
+  for (int i = 0; i < 100; ++i) {
+    run(simulation, 10);
+    run(exact, 10);
+    const auto& noisy = reading<LaserReading>(simulation, "laser").ranges_m;
+    const auto& clean = reading<LaserReading>(exact, "laser").ranges_m;
+    for (std::size_t k = 0; k < noisy.size(); ++k, ++n) {
+      const double error = noisy[k] - clean[k];
+      sum += error;
+      squares += error * error;
+    }
+  }
+  EXPECT_NEAR(sum / n, 0.0, 4.0 * 0.02 / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(squares / n), 0.02, 4.0 * 0.02 / std::sqrt(2.0 * n));
+}
+
+TEST(Simulation, PoseNoiseHasTheDeviationAskedFor) {
+  Simulation simulation(room(R"({"pose": {"noise": 0.05, "noise_yaw_deg": 2, "frequency": 100}})"));
+  double x2 = 0.0;
+  double yaw2 = 0.0;
+  constexpr int kCount = 20000;
+  for (int i = 0; i < kCount; ++i) {
+    simulation.step();
+    const Pose pose = reading<PoseReading>(simulation, "pose").pose;
+    x2 += (pose.x_m - 2.0) * (pose.x_m - 2.0);
+    yaw2 += pose.yaw_rad * pose.yaw_rad;
+  }
+  const double tolerance = 4.0 / std::sqrt(2.0 * kCount);  // four standard errors, relative
+  EXPECT_NEAR(std::sqrt(x2 / kCount), 0.05, 0.05 * tolerance);
+  const double two_degrees = 2.0 * std::numbers::pi / 180.0;
+  EXPECT_NEAR(std::sqrt(yaw2 / kCount), two_degrees, two_degrees * tolerance);
+}
+
+TEST(Simulation, OdometryNoiseGrowsWithTheRootOfTheWay) {
+  // Straight for 1 m with noise 0.03: each wheel's path is off by 0.03 m (1 sigma), so the mean of
+  // both by 0.03 / sqrt(2). 400 robots one after another, seeds 1 to 400.
+  double squares = 0.0;
+  constexpr int kRuns = 400;
+  WorldDescription world = room(R"({"odometry": {"noise": 0.03}})");
+  for (int seed = 1; seed <= kRuns; ++seed) {
+    world.simulation.seed = static_cast<std::uint64_t>(seed);
+    Simulation simulation(world);
+    drive(simulation, 0.5, 0.0);
+    run(simulation, 200);
+    const Pose pose = reading<PoseReading>(simulation, "odometry").pose;
+    // The way along the curve, to first order the distance from the start.
+    const double along = std::hypot(pose.x_m, pose.y_m) - 1.0;
+    squares += along * along;
+  }
+  const double sigma = 0.03 / std::sqrt(2.0);
+  // The chord of a path that bends with up to 0.4 rad is shorter by some 1 %, within the bound.
+  EXPECT_NEAR(std::sqrt(squares / kRuns), sigma, sigma * 4.0 / std::sqrt(2.0 * kRuns) + 0.005);
+}
+
+TEST(Simulation, ANewSensorLeavesTheNoiseOfOthersUnchanged) {
+  Simulation plain(room(R"({"laser": {"noise": 0.02}})"));
+  Simulation more(room(R"({"laser": {"noise": 0.02}, "second": {"type": "laser", "noise": 0.1}})"));
+  run(plain, 50);
+  run(more, 50);
+  EXPECT_EQ(reading<LaserReading>(plain, "laser").ranges_m,
+            reading<LaserReading>(more, "laser").ranges_m);
+}
+
+TEST(Simulation, CollisionsAreCountedWithTimeAndPartner) {
+  Simulation simulation(room());
+  drive(simulation, 0.5, 0.0);
+  run(simulation, 500);
+  EXPECT_EQ(simulation.statistics(0).collisions, 1);
+  EXPECT_EQ(simulation.statistics(0).least_clearance_m, 0.0);
+  ASSERT_EQ(simulation.collisions().size(), 1U);
+  EXPECT_EQ(simulation.collisions()[0].partner, "border");
+  // 1.913 m at 0.5 m/s.
+  EXPECT_NEAR(to_seconds(simulation.collisions()[0].time_ns), 3.826, 0.05);
+  EXPECT_GT(simulation.statistics(0).stalled_time_s, 0.8);
+  EXPECT_NEAR(simulation.statistics(0).path_length_m, 1.913, 0.003);
+}
+
+TEST(Simulation, LeastClearanceIsExactThoughSeldomMeasured) {
+  Simulation simulation(room());
+  drive(simulation, 0.5, 0.0);
+  run(simulation, 300);
+  drive(simulation, -0.5, 0.0);
+  run(simulation, 100);
+  // Nearest after 1.5 m: the front at 2 + 1.5 + 0.087.
+  EXPECT_NEAR(simulation.statistics(0).least_clearance_m, 4.0 - 3.587, 1e-4);
+}
+
+TEST(Simulation, PenWithATrailDrawsTheWay) {
+  Simulation simulation(room(R"({"pen": {"trail": true, "colour": "#ff0000"}})"));
+  drive(simulation, 0.5, 0.0);
+  run(simulation, 50);
+  const Canvas& canvas = simulation.canvas();
+  EXPECT_EQ(canvas.pixel(canvas.column(2.1), canvas.row(2.0)), (Colour{255, 0, 0, 255}));
+  EXPECT_EQ(canvas.pixel(canvas.column(2.5), canvas.row(2.0)), (Colour{0, 0, 0, 0}));
+}
+
+TEST(Simulation, FinishesAtItsDuration) {
+  Simulation simulation(room("{}", R"(, "simulation": {"duration": 0.05})"));
+  run(simulation, 4);
+  EXPECT_FALSE(simulation.finished());
+  run(simulation, 1);
+  EXPECT_TRUE(simulation.finished());
+}
+
+TEST(Simulation, RefusesAWorldInWhichRobotsOverlap) {
+  WorldDescription world = room();
+  world.robots.push_back(world.robots[0]);
+  world.robots[1].name = "r2";
+  world.robots[1].port = 6666;
+  EXPECT_THROW(Simulation{world}, ConfigError);
+}
+
+TEST(Simulation, SnapshotShowsObstaclesRobotsAndScan) {
+  Simulation simulation(room());
+  run(simulation, 10);
+  const SceneSnapshot scene = simulation.snapshot();
+  ASSERT_EQ(scene.robots.size(), 1U);
+  EXPECT_EQ(scene.robots[0].name, "r1");
+  EXPECT_EQ(scene.robots[0].scan_points.size(), 682U);
+  EXPECT_NEAR(scene.robots[0].scan_origin.x(), 2.035, 1e-9);
+  EXPECT_NEAR(scene.time_s, 0.1, 1e-12);
+}
+
+// --- Repeatability
+// ----------------------------------------------------------------------------------
+
+std::uint64_t hash_after_random_drive(WorldDescription world, int steps) {
+  Simulation simulation(std::move(world));
+  std::mt19937 random(42);
+  const auto uniform = [&random] {  // the standard leaves std distributions open
+    return static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0;
+  };
+  for (int i = 0; i < steps; ++i) {
+    if (i % 37 == 0) {
+      for (int r = 0; r < simulation.robot_count(); ++r) {
+        drive(simulation, 0.5 * uniform(), 3.0 * uniform(), r);
+      }
+    }
+    simulation.step();
+  }
+  return simulation.state_hash();
+}
+
+WorldDescription thirteen_robots() {
+  return load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json");
+}
+
+TEST(SimulationHash, TwoRunsOfThirteenRobotsAreEqualToTheBit) {
+  const std::uint64_t first = hash_after_random_drive(thirteen_robots(), 10'000);
+  EXPECT_EQ(hash_after_random_drive(thirteen_robots(), 10'000), first);
+  // Compared between Debug and Release, static and shared builds.
+  RecordProperty("state_hash", std::to_string(first));
+}
+
+TEST(SimulationHash, DependsOnSeedOnlyWhereThereIsNoise) {
+  WorldDescription world = room();
+  const std::uint64_t quiet = hash_after_random_drive(world, 200);
+  world.simulation.seed = 2;
+  EXPECT_EQ(hash_after_random_drive(world, 200), quiet);
+  world = room(R"({"laser": {"noise": 0.01}})");
+  const std::uint64_t noisy = hash_after_random_drive(world, 200);
+  world.simulation.seed = 2;
+  EXPECT_NE(hash_after_random_drive(world, 200), noisy);
+}
+
+}  // namespace
+}  // namespace sim

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+"""Checks world files against the JSON schema, and that the schema refuses what it can.
+
+Usage: world_schema_test.py SOURCE_DIR
+"""
+
+import json
+import pathlib
+import re
+import sys
+
+import jsonschema
+
+# A string, or a comment; strings first, so that "//" in one stays.
+TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
+
+# Bad worlds whose fault is one of form, which a schema can see.
+FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "bad_colour",
+                 "bad_name", "missing_key", "reserved_port", "conflicting_keys"]
+
+
+def load(path):
+    text = path.read_text(encoding="utf-8")
+    return json.loads(TOKEN.sub(lambda m: m[0] if m[0][0] == '"' else " ", text))
+
+
+def main(source):
+    worlds = source / "worlds"
+    schema = load(worlds / "schema" / "world.schema.json")
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    failures = 0
+
+    good = [p for p in sorted(worlds.rglob("*.json")) if p.parent.name != "schema"]
+    for path in good:
+        for error in validator.iter_errors(load(path)):
+            print(f"{path}: {error.json_path}: {error.message}")
+            failures += 1
+    if len(good) < 7:
+        print(f"only {len(good)} worlds in {worlds}")
+        failures += 1
+
+    for name in FORMAL_FAULTS:
+        path = source / "tests" / "invalid_worlds" / f"{name}.json"
+        if validator.is_valid(load(path)):
+            print(f"{path}: the schema accepts it")
+            failures += 1
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(pathlib.Path(sys.argv[1])))
