@@ -405,8 +405,8 @@ TEST_F(PlaypenRun, TellsTheProgramOfItsRunByTheEnvironment) {
 }
 
 TEST_F(PlaypenRun, HandsOverTheProgramsArgumentsUntouched) {
-  const ProcessResult result = run({}, {"printf", "[%s]", "--seed", "-1", "--", "run", "a b"});
-  EXPECT_THAT(result.out, HasSubstr("[--seed][-1][--][run][a b]"));
+  const ProcessResult result = run({}, {"printf", "[%s]", "--seed", "-1", "--", "run", "a b", "[c,d]"});
+  EXPECT_THAT(result.out, HasSubstr("[--seed][-1][--][run][a b][[c,d]]"));
 }
 
 TEST_F(PlaypenRun, QuietPrintsNothingOfItsOwn) {
