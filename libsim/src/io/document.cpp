@@ -399,6 +399,9 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     } else if (wants_comma &&
                (first == '"' || first == '{' || first == '[' || is_word_part(first))) {
       issue.hint = "is a comma missing before it?";
+    } else if (wants_comma && (first == '}' || first == ']')) {
+      issue.hint = std::string("the ") + (first == '}' ? '[' : '{') + " of line " +
+                   std::to_string(levels_.back().value->line) + " is still open";
     } else if (in_value && (first == 'N' || first == 'n' || first == 'I' || first == 'i')) {
       issue.hint = "NaN and Infinity are no numbers of JSON";
     }

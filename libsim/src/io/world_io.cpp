@@ -427,21 +427,26 @@ class WorldReader {
         others.robots.push_back(world_.robots[i]);
       }
     }
+    bool full = false;
     for (const std::size_t i : unplaced) {
       RobotDescription& robot = world_.robots[i];
+      const std::string pointer = "/robots/" + std::to_string(i);
       const RobotModel* model = find_robot_model(robot.model);
-      if (model == nullptr) continue;
-      const std::optional<Pose> pose = find_free_pose(others, model->footprint);
+      if (model == nullptr || document_.has_issue_at(pointer + "/pose")) continue;
+      // Where one found no place the next will not find one either.
+      const std::optional<Pose> pose =
+          full ? std::nullopt : find_free_pose(others, model->footprint);
       if (!pose) {
+        full = true;
         ConfigIssue issue{"world/no-free-place",
                           document_.file,
-                          "/robots/" + std::to_string(i),
+                          pointer,
                           "a free place on the floor for robot " + robot.name,
                           "none",
                           "give it a \"pose\", or make the arena larger"};
         issue.line = document_.line_of(issue.pointer);
         document_.add(std::move(issue));
-        return;
+        continue;
       }
       robot.pose = *pose;
       others.robots.push_back(robot);

@@ -45,8 +45,12 @@ b2Vec2 to_box2d(const Vec2& p) {
 
 double metres(float units) { return static_cast<double>(units) / kScale; }
 
-// sin(x) / x.
-double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
+// sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
+double sinc(double x) {
+  if (std::abs(x) > 0.05) return std::sin(x) / x;
+  const double x2 = x * x;
+  return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
+}
 
 struct FixtureInfo {
   PhysicsWorld::Contact::Kind kind;
@@ -93,6 +97,7 @@ struct Robot {
   Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
   Twist target;
   double stall_clock_s = 0.0;
+  b2Fixture* nearest = nullptr;  // found by clearance_m last time
   BodyState state;
   std::vector<int> touching;  // contacts per partner, see ContactCounter
 };
@@ -361,9 +366,11 @@ struct PhysicsWorld::Impl : b2ContactListener {
     find_near_pairs();
     const float inv_dt = static_cast<float>(1.0 / dt_s);
     goals.resize(robots.size());
+    twists.resize(robots.size());
     for (std::size_t i = 0; i < robots.size(); ++i) {
       Robot& r = robots[i];
-      goals[i] = arc_end(r.X_WB, allowed_twist(i, dt_s), dt_s);
+      twists[i] = allowed_twist(i, dt_s);
+      goals[i] = arc_end(r.X_WB, twists[i], dt_s);
       if (goals[i] == r.X_WB && !r.body->IsAwake()) continue;
       // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
       // does not pile up.
@@ -373,33 +380,35 @@ struct PhysicsWorld::Impl : b2ContactListener {
                                  (static_cast<float>(goals[i].yaw_rad) - r.body->GetAngle()));
     }
     world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
-    for (std::size_t i = 0; i < robots.size(); ++i) follow_body(robots[i], goals[i]);
+    for (std::size_t i = 0; i < robots.size(); ++i) follow_body(i, dt_s);
   }
 
   // Takes over where Box2D put the robot: the exact goal if nothing hindered it.
-  void follow_body(Robot& r, const Pose& goal) {
+  void follow_body(std::size_t index, double dt_s) {
+    Robot& r = robots[index];
+    const Pose& goal = goals[index];
     const b2Vec2 p = r.body->GetPosition();
     const b2Vec2 wanted = to_box2d(goal.position());
     const float angle = r.body->GetAngle();
     // Rounding of position and angle, a few units in the last place.
     const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
-    const bool free = std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
-                      std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F;
-    const Pose before = r.X_WB;
-    if (free) {
+    if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
+        std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
       r.X_WB = goal;
+      r.state.travel_m += twists[index].v_mps * dt_s;
+      r.state.turn_rad += twists[index].omega_radps * dt_s;
     } else {
+      const Pose before = r.X_WB;
       r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
+      const double turn = r.X_WB.yaw_rad - before.yaw_rad;
+      const double heading = before.yaw_rad + 0.5 * turn;
+      const double dx = r.X_WB.x_m - before.x_m;
+      const double dy = r.X_WB.y_m - before.y_m;
+      // The wheels' path is the arc whose chord this is.
+      r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
+      r.state.turn_rad += turn;
+      lateral_m[index] += dy * std::cos(heading) - dx * std::sin(heading);
     }
-    const double turn = r.X_WB.yaw_rad - before.yaw_rad;
-    const double heading = before.yaw_rad + 0.5 * turn;
-    const double dx = r.X_WB.x_m - before.x_m;
-    const double dy = r.X_WB.y_m - before.y_m;
-    // The wheels' path is the arc whose chord this is.
-    r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
-    r.state.turn_rad += turn;
-    lateral_m[static_cast<std::size_t>(&r - robots.data())] +=
-        dy * std::cos(heading) - dx * std::sin(heading);
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
   }
 
@@ -511,7 +520,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
   double largest_radius_m = 0.0;
   std::vector<int> order;  // robots by x
   std::vector<std::pair<int, int>> near_pairs;
-  std::vector<Pose> goals;
+  std::vector<Pose> goals;    // where each robot gets to in this step if nothing hinders it
+  std::vector<Twist> twists;  // by which twist
   std::vector<double> lateral_m;
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
@@ -619,36 +629,51 @@ bool PhysicsWorld::robot_stands_on(int obstacle) const {
   return false;
 }
 
-double PhysicsWorld::clearance_m(int robot, double limit_m) const {
-  const Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+double PhysicsWorld::clearance_m(int robot, double limit_m) {
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
   struct Nearest : b2QueryCallback {
-    const Robot* robot = nullptr;
-    double least_m = 0.0;
-
-    bool ReportFixture(b2Fixture* fixture) override {
-      if (fixture->GetBody() == robot->body) return true;
+    void look_at(b2Fixture* candidate) {
       b2DistanceInput input;
       input.proxyA.Set(&robot->shape, 0);
-      input.proxyB.Set(fixture->GetShape(), 0);
+      input.proxyB.Set(candidate->GetShape(), 0);
       input.transformA = robot->body->GetTransform();
-      input.transformB = fixture->GetBody()->GetTransform();
+      input.transformB = candidate->GetBody()->GetTransform();
       input.useRadii = false;
       b2SimplexCache cache;
       cache.count = 0;
       b2DistanceOutput output;
       b2Distance(&output, &cache, &input);
-      least_m = std::min(least_m, metres(output.distance));
+      const double distance_m = metres(output.distance);
+      if (distance_m >= least_m) return;
+      least_m = distance_m;
+      fixture = candidate;
+    }
+    bool ReportFixture(b2Fixture* candidate) override {
+      if (candidate->GetBody() == robot->body || candidate == fixture) return true;
+      // Boxes (a little fat) farther apart than the nearest so far need no closer look.
+      const b2AABB& theirs = candidate->GetAABB(0);
+      const b2Vec2 gap =
+          b2Max(b2Max(theirs.lowerBound - box.upperBound, box.lowerBound - theirs.upperBound),
+                b2Vec2(0.0F, 0.0F));
+      if (metres(gap.Length()) < least_m) look_at(candidate);
       return true;
     }
+    const Robot* robot = nullptr;
+    b2AABB box;  // of the robot
+    double least_m = 0.0;
+    b2Fixture* fixture = nullptr;
   } nearest;
   nearest.robot = &r;
   nearest.least_m = limit_m;
-  b2AABB box;
-  r.shape.ComputeAABB(&box, r.body->GetTransform(), 0);
-  const float reach = static_cast<float>(limit_m) * kScaleF;
+  r.shape.ComputeAABB(&nearest.box, r.body->GetTransform(), 0);
+  // What was nearest last time mostly still is: looked at first, it narrows the search.
+  if (r.nearest != nullptr && r.nearest->GetBody()->IsEnabled()) nearest.look_at(r.nearest);
+  b2AABB box = nearest.box;
+  const float reach = static_cast<float>(nearest.least_m) * kScaleF;
   box.lowerBound -= b2Vec2(reach, reach);
   box.upperBound += b2Vec2(reach, reach);
   impl_->world.QueryAABB(&nearest, box);
+  r.nearest = nearest.fixture;
   return nearest.least_m;
 }
 
@@ -784,6 +809,12 @@ double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range
 }
 
 void PhysicsWorld::bare_step(double dt_s) {
+  for (Robot& r : impl_->robots) {
+    const double yaw = static_cast<double>(r.body->GetAngle());
+    r.body->SetLinearVelocity(
+        to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));
+    r.body->SetAngularVelocity(static_cast<float>(r.target.omega_radps));
+  }
   impl_->world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
 }
 

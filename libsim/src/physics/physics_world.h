@@ -60,7 +60,7 @@ class PhysicsWorld {
   [[nodiscard]] bool robot_stands_on(int obstacle) const;
 
   /// Distance of a robot's footprint to the nearest solid, at most limit_m [m].
-  [[nodiscard]] double clearance_m(int robot, double limit_m) const;
+  [[nodiscard]] double clearance_m(int robot, double limit_m);
 
   /// Collects the edges within radius_m of a sensor at p_WL that stand higher than the sensor.
   /// @param own_robot     robot whose body is not seen, or -1.
@@ -76,8 +76,8 @@ class PhysicsWorld {
   [[nodiscard]] double ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
                                   int own_robot) const;
 
-  /// Only b2World::Step with the last velocities, nothing of ours: the base that benchmarks
-  /// compare with. Positions drift; not for simulation.
+  /// A step in the plain Box2D way: each body gets the velocity of its target, then
+  /// b2World::Step. The base that benchmarks compare with; robots slide and body() is not kept.
   void bare_step(double dt_s);
 
  private:

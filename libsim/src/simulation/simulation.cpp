@@ -20,6 +20,10 @@ constexpr std::size_t kKeptCollisions = 1024;
 // Clearances beyond this are told as this; it bounds the search round a robot.
 constexpr double kClearanceLimit_m = 10.0;
 
+// A look at a robot's clearance sees this much farther than the least so far: the farther, the more
+// it costs, and the longer until the next one.
+constexpr double kClearanceLookahead_m = 0.5;
+
 struct RobotParts {
   const RobotModel* model = nullptr;
   std::vector<std::unique_ptr<Device>> devices;
@@ -27,8 +31,8 @@ struct RobotParts {
   Motion* motion = nullptr;      // the first of each, if any
   Pen* pen = nullptr;
   RobotStatistics statistics;
-  double top_point_speed_mps = 0.0;  // no point of the body moves faster
-  double clearance_slack_m = 0.0;    // see update_clearance
+  double radius_m = 0.0;           // of the footprint about B
+  double clearance_slack_m = 0.0;  // see update_clearance
 };
 
 }  // namespace
@@ -48,8 +52,9 @@ struct Simulation::Impl {
     parts.model = find_robot_model(robot.model);
     SIM_ASSERT(parts.model != nullptr);
     const int index = physics.add_robot(*parts.model, robot.pose);
-    double radius_m = 0.0;
-    for (const Vec2& v : parts.model->footprint) radius_m = std::max(radius_m, v.norm());
+    for (const Vec2& v : parts.model->footprint) {
+      parts.radius_m = std::max(parts.radius_m, v.norm());
+    }
     for (const DeviceDescription& device : robot.devices) {
       const auto& kinds = device_kinds();
       const auto row = std::find_if(kinds.begin(), kinds.end(),
@@ -61,11 +66,6 @@ struct Simulation::Impl {
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
-    if (parts.motion != nullptr) {
-      const MotionParams& limits = parts.motion->params();
-      parts.top_point_speed_mps = limits.max_speed_mps + limits.max_turn_rate_radps * radius_m;
-    }
-    top_point_speed_mps = std::max(top_point_speed_mps, parts.top_point_speed_mps);
     if (parts.pen != nullptr) parts.pen->mark_trail(robot.pose, canvas);
     last_positions.push_back(robot.pose.position());
     robots.push_back(std::move(parts));
@@ -84,6 +84,10 @@ struct Simulation::Impl {
     ++steps;
     record_collisions();
     updated.clear();
+    farthest_move_m = 0.0;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      farthest_move_m = std::max(farthest_move_m, move_m(i, dt_s));
+    }
     for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
   }
 
@@ -106,14 +110,21 @@ struct Simulation::Impl {
     }
   }
 
+  // How far any point of a robot can have moved in the last step, at most.
+  [[nodiscard]] double move_m(std::size_t i, double dt_s) const {
+    const BodyState& body = physics.body(static_cast<int>(i));
+    return std::abs(body.travel_m) + std::abs(body.twist.lateral_mps) * dt_s +
+           std::abs(body.turn_rad) * robots[i].radius_m;
+  }
+
   // The least clearance so far can only fall once the robot and what is round it have moved by
   // the difference to what was measured last; until then there is no need to look.
   void update_clearance(std::size_t i, double dt_s) {
     RobotParts& robot = robots[i];
     if (robot.statistics.least_clearance_m <= 0.0) return;
-    robot.clearance_slack_m -= (robot.top_point_speed_mps + top_point_speed_mps) * dt_s;
+    robot.clearance_slack_m -= move_m(i, dt_s) + farthest_move_m;
     if (robot.clearance_slack_m > 0.0) return;
-    measure_clearance(i, robot.statistics.least_clearance_m + 0.25);
+    measure_clearance(i, robot.statistics.least_clearance_m + kClearanceLookahead_m);
   }
 
   void measure_clearance(std::size_t i, double limit_m) {
@@ -157,7 +168,7 @@ struct Simulation::Impl {
   Canvas canvas;
   std::vector<RobotParts> robots;
   std::vector<Vec2> last_positions;
-  double top_point_speed_mps = 0.0;
+  double farthest_move_m = 0.0;  // of any robot in the last step
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
   SimTime now_ns = 0;

@@ -1,0 +1,200 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What a step costs beside the bare physics and the bare scans, what Read() of a client adds, and
+// how much faster than real time it all runs.
+#include <benchmark/benchmark.h>
+#include <libplayerc++/playerc++.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "figures.h"
+#include "physics/physics_world.h"
+#include "playerlike/host/embedded.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/motion.h"
+#include "sim/simulation/simulation.h"
+
+namespace sim::bench {
+namespace {
+
+constexpr const char* kThirteen = PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json";
+constexpr const char* kOne = PLAYPEN_SOURCE_DIR "/worlds/syrotek.json";
+
+WorldDescription endless(const char* file) {
+  WorldDescription world = load_world(file);
+  world.simulation.duration_ns.reset();
+  return world;
+}
+
+// Robots that wander: they turn away from what the laser sees ahead, otherwise drive on.
+void wander(Simulation& simulation) {
+  for (int r = 0; r < simulation.robot_count(); ++r) {
+    const int laser = simulation.find_device(r, "laser").value();
+    const auto& scan = dynamic_cast<const LaserReading&>(
+        dynamic_cast<const Sensor&>(simulation.device(r, laser)).reading());
+    const bool blocked = scan.sequence > 0 && scan.least_range_m < 0.25;
+    const Twist twist = blocked ? Twist{0.0, scan.least_angle_rad > 0.0 ? -1.5 : 1.5, 0.0}
+                                : Twist{0.3, 0.1 * (r - 6), 0.0};
+    simulation.apply({r, simulation.find_device(r, "motion").value()}, TwistCommand{twist});
+  }
+}
+
+// Simulated seconds in a second of one processor, commands every tenth of a second.
+double realtime_factor(const char* file, double simulated_s) {
+  Simulation simulation(endless(file));
+  const auto steps = static_cast<int>(simulated_s * 100.0);
+  const double seconds = seconds_per_call(
+      [&] {
+        for (int i = 0; i < steps; ++i) {
+          if (i % 10 == 0) wander(simulation);
+          simulation.step();
+        }
+      },
+      1, 5);
+  return simulated_s / seconds;
+}
+
+// The bare costs of a step of 13 robots: b2World::Step, and a tenth of each robot's scan.
+struct Bare {
+  explicit Bare(const WorldDescription& world)
+      : physics(world.arena),
+        kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m}),
+        ranges(static_cast<std::size_t>(laser.beam_count)) {
+    for (const RobotDescription& robot : world.robots) {
+      physics.add_robot(*find_robot_model(robot.model), robot.pose);
+    }
+  }
+  void scan_all() {
+    for (int r = 0; r < physics.robot_count(); ++r) {
+      const Pose X_WL = physics.body(r).X_WB * laser.X_BL;
+      physics.collect_edges(X_WL.position(), laser.range_max_m, laser.height_m, r, false, edges);
+      kernel.scan(edges, X_WL.yaw_rad, ranges);
+    }
+  }
+  LaserParams laser;
+  PhysicsWorld physics;
+  scan::ScanKernel kernel;
+  scan::EdgeBuffer edges;
+  std::vector<double> ranges;
+};
+
+// 13 robots that wander, and beside them the same robots with the same targets in the plain Box2D
+// way; turn by turn, so that a slow moment of the machine meets both.
+void step_figures() {
+  const WorldDescription world = endless(kThirteen);
+  using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
+  double best_ratio = 1e30;
+  Seconds best_step{};
+  Seconds best_bare{};
+  Seconds best_scans{};
+  for (int round = 0; round < 7; ++round) {
+    Simulation simulation(world);
+    Bare bare(world);
+    Seconds step{};
+    Seconds bare_step{};
+    Seconds scans{};
+    constexpr int kRounds = 400;
+    for (int k = 0; k < kRounds; ++k) {
+      wander(simulation);
+      for (int r = 0; r < simulation.robot_count(); ++r) {
+        const auto& motion = dynamic_cast<const Motion&>(
+            simulation.device(r, simulation.find_device(r, "motion").value()));
+        bare.physics.set_target(r, motion.commanded());
+      }
+      const auto t0 = Clock::now();
+      for (int i = 0; i < 10; ++i) simulation.step();
+      const auto t1 = Clock::now();
+      for (int i = 0; i < 10; ++i) bare.physics.bare_step(0.01);
+      const auto t2 = Clock::now();
+      bare.scan_all();
+      const auto t3 = Clock::now();
+      step += t1 - t0;
+      bare_step += t2 - t1;
+      scans += t3 - t2;
+    }
+    if (step / (bare_step + scans) > best_ratio) continue;
+    best_ratio = step / (bare_step + scans);
+    best_step = step / (10.0 * kRounds);
+    best_bare = bare_step / (10.0 * kRounds);
+    best_scans = scans / (10.0 * kRounds);
+  }
+  figure("step_us", best_step.count() * 1e6);
+  figure("bare_step_us", best_bare.count() * 1e6);
+  figure("bare_scans_us_per_step", best_scans.count() * 1e6);
+  figure("step_overhead_ratio", best_ratio);
+}
+
+// Read() of a client with position and laser against the ten steps that it lets pass.
+void read_figures() {
+  Simulation plain(endless(kOne));
+  ::setenv("PLAYPEN_WORLD", kOne, 1);
+  ::setenv("PLAYPEN_DURATION", "1e9", 1);
+  PlayerCc::PlayerClient client("localhost", 6665);
+  PlayerCc::Position2dProxy position(&client, 0);
+  PlayerCc::LaserProxy laser(&client, 0);
+  double read_s = 1e30;
+  double steps_s = 1e30;
+  for (int round = 0; round < 20; ++round) {
+    read_s = std::min(read_s, seconds_per_call([&] { client.Read(); }, 500, 3));
+    steps_s = std::min(steps_s, seconds_per_call(
+                                    [&] {
+                                      for (int i = 0; i < 10; ++i) plain.step();
+                                    },
+                                    500, 3));
+  }
+  figure("read_us", read_s * 1e6);
+  figure("read_overhead_us", (read_s - steps_s) * 1e6);
+}
+
+double resident_kb() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.rfind("VmRSS:", 0) == 0) return std::stod(line.substr(6));
+  }
+  return 0.0;
+}
+
+// Growth of memory over a million steps of one robot, after a warm-up.
+void memory_figure() {
+  Simulation simulation(endless(kOne));
+  const auto run = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      if (i % 10 == 0) wander(simulation);
+      simulation.step();
+    }
+  };
+  run(20'000);
+  const double before_kb = resident_kb();
+  run(1'000'000);
+  figure("memory_growth_kb_per_million_steps", std::max(0.0, resident_kb() - before_kb));
+}
+
+void BM_Step(benchmark::State& state, const char* file) {
+  Simulation simulation(endless(file));
+  int i = 0;
+  for (auto _ : state) {
+    if (i++ % 10 == 0) wander(simulation);
+    simulation.step();
+  }
+}
+BENCHMARK_CAPTURE(BM_Step, one_robot, kOne)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(BM_Step, thirteen_robots, kThirteen)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace sim::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  sim::bench::step_figures();
+  sim::bench::read_figures();
+  sim::bench::memory_figure();
+  sim::bench::figure("realtime_factor_1_robot", sim::bench::realtime_factor(sim::bench::kOne, 600));
+  sim::bench::figure("realtime_factor_13_robots",
+                     sim::bench::realtime_factor(sim::bench::kThirteen, 60));
+}

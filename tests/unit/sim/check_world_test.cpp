@@ -1,0 +1,198 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "sim/io/world_io.h"
+#include "sim/world/robot_model.h"
+
+namespace sim::io {
+namespace {
+
+using testing::HasSubstr;
+using testing::SizeIs;
+
+/// A room of 4 x 4 m with one robot in the middle.
+WorldDescription room() {
+  WorldDescription world;
+  world.arena.size = {4, 4};
+  RobotDescription robot;
+  robot.name = "r1";
+  robot.pose = {2, 2, 0};
+  robot.port = 6665;
+  world.robots.push_back(robot);
+  return world;
+}
+
+RobotDescription second_robot(const Pose& pose) {
+  RobotDescription robot;
+  robot.name = "r2";
+  robot.pose = pose;
+  robot.port = 6666;
+  return robot;
+}
+
+ObstacleDescription box(const char* name, Vec2 center, Vec2 size, double yaw_rad = 0.0) {
+  ObstacleDescription obstacle;
+  obstacle.name = name;
+  obstacle.center = center;
+  obstacle.size = size;
+  obstacle.yaw_rad = yaw_rad;
+  return obstacle;
+}
+
+std::vector<std::string> ids(const WorldDescription& world) {
+  std::vector<std::string> found;
+  for (const ConfigIssue& issue : check_world(world)) found.push_back(issue.id);
+  return found;
+}
+
+TEST(CheckWorld, SoundWorldHasNoIssues) { EXPECT_THAT(check_world(room()), SizeIs(0)); }
+
+TEST(CheckWorld, SyrotekArenaIsSound) {
+  WorldDescription world;
+  world.arena = syrotek_arena();
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  for (ObstacleDescription& obstacle : world.arena.obstacles) {
+    obstacle.state = ObstacleState::kExtended;
+  }
+  world.robots = {second_robot(syrotek_start_pose())};
+  EXPECT_THAT(check_world(world), SizeIs(0));
+}
+
+TEST(CheckWorld, RobotTouchingIsFineAndReachingInIsNot) {
+  // The S1R ends at x = 2 + 0.087 and -0.087; the box begins where it ends.
+  WorldDescription world = room();
+  world.arena.obstacles = {box("a", {2.087 + 0.1, 2}, {0.2, 0.2})};
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  world.arena.obstacles[0].center.x() -= 0.01;
+  const std::vector<ConfigIssue> issues = check_world(world);
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].id, "world/robot-overlaps-obstacle");
+  EXPECT_EQ(issues[0].pointer, "/robots/0/pose");
+  EXPECT_THAT(issues[0].found, HasSubstr("0.01 m"));
+}
+
+TEST(CheckWorld, TurnedBoxesAreTestedAsTheyStand) {
+  // A square of 0.2 m turned by 45 degrees reaches 0.1414 m along the axes instead of 0.1 m.
+  WorldDescription world = room();
+  world.arena.obstacles = {box("a", {2.087 + 0.12, 2}, {0.2, 0.2})};
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  world.arena.obstacles[0].yaw_rad = std::numbers::pi / 4;
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-obstacle"));
+}
+
+TEST(CheckWorld, RetractedObstaclesAreNotInTheWay) {
+  WorldDescription world = room();
+  world.arena.obstacles = {box("d", {2, 2}, {0.5, 0.5})};
+  world.arena.obstacles[0].type = ObstacleType::kDynamic;
+  world.arena.obstacles[0].state = ObstacleState::kRetracted;
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  world.arena.obstacles[0].state = ObstacleState::kExtended;
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-obstacle"));
+}
+
+TEST(CheckWorld, RobotWithinALargeBoxOverlapsIt) {
+  WorldDescription world = room();
+  world.arena.obstacles = {box("a", {2, 2}, {3, 3})};
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-obstacle"));
+}
+
+TEST(CheckWorld, EachSideOfTheFloorIsNamed) {
+  WorldDescription world = room();
+  const std::pair<Pose, const char*> cases[] = {{{0.05, 2, 0}, "left"},
+                                                {{3.95, 2, 0}, "right"},
+                                                {{2, 0.05, 0}, "bottom"},
+                                                {{2, 3.95, 0}, "top"}};
+  for (const auto& [pose, side] : cases) {
+    world.robots[0].pose = pose;
+    const std::vector<ConfigIssue> issues = check_world(world);
+    ASSERT_THAT(issues, SizeIs(1));
+    EXPECT_EQ(issues[0].id, "world/robot-outside");
+    EXPECT_THAT(issues[0].found, HasSubstr(side));
+  }
+}
+
+TEST(CheckWorld, RobotsSideBySideMayBeCloserThanTheirCircles) {
+  // Turned alike and side by side, two S1R are 0.162 m apart when they touch.
+  WorldDescription world = room();
+  world.robots.push_back(second_robot({2, 2.163, 0}));
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  world.robots[1].pose.y_m = 2.152;
+  const std::vector<ConfigIssue> issues = check_world(world);
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].id, "world/robots-overlap");
+  EXPECT_EQ(issues[0].pointer, "/robots/1/pose");
+  EXPECT_THAT(issues[0].found, HasSubstr("0.01 m"));
+  EXPECT_THAT(issues[0].expected, HasSubstr("r1"));
+}
+
+TEST(CheckWorld, WallsAreSolidOnTheirLeft) {
+  // A ring: solid between the squares of 4 and of 2 m, free within.
+  WorldDescription world = room();
+  world.arena.walls = {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}, {{{1, 1}, {1, 3}, {3, 3}, {3, 1}}}};
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  world.robots[0].pose = {2.95, 2, 0};  // on the inner outline
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
+  world.robots[0].pose = {3.5, 2, 0};  // within the solid, on no edge
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
+}
+
+TEST(CheckWorld, SmallPillarUnderARobotIsFound) {
+  // 1 cm wide, between the robot's middle and its rim: it crosses no side of the outline.
+  WorldDescription world = room();
+  world.arena.walls = {{{{2.03, 2.0}, {2.04, 2.0}, {2.04, 2.01}, {2.03, 2.01}}}};
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
+}
+
+TEST(CheckWorld, NamesAndPortsAreUnique) {
+  WorldDescription world = room();
+  world.robots.push_back(second_robot({1, 1, 0}));
+  world.robots[1].name = "r1";
+  world.robots[1].port = 6665;
+  world.arena.obstacles = {box("a", {3, 3}, {0.1, 0.1})};
+  world.arena.dock_separators = {box("a", {3, 1}, {0.1, 0.1})};
+  world.arena.docks = {{"d", {1, 3, 0}, {0.2, 0.2}}, {"d", {1, 2, 0}, {0.2, 0.2}}};
+  std::vector<std::string> places;
+  for (const ConfigIssue& issue : check_world(world)) {
+    places.push_back(issue.id + " " + issue.pointer);
+  }
+  EXPECT_THAT(places,
+              testing::UnorderedElementsAre("world/duplicate-name /arena/dock_separators/0/name",
+                                            "world/duplicate-name /arena/docks/1/name",
+                                            "world/duplicate-name /robots/1/name",
+                                            "world/duplicate-port /robots/1/port"));
+}
+
+TEST(CheckWorld, BlocksAndDocksStandOnTheFloor) {
+  WorldDescription world = room();
+  world.arena.origin = {-1, -1};  // floor to (3, 3)
+  world.arena.obstacles = {box("a", {2.9, 0}, {0.2, 0.2}), box("b", {2.95, 0}, {0.2, 0.2})};
+  world.arena.docks = {{"d", {-0.95, 0, 0}, {0.24, 0.24}}};
+  std::vector<std::string> places;
+  for (const ConfigIssue& issue : check_world(world)) {
+    places.push_back(issue.id + " " + issue.pointer);
+  }
+  EXPECT_THAT(places, testing::ElementsAre("world/obstacle-outside /arena/obstacles/1",
+                                           "world/obstacle-outside /arena/docks/0"));
+}
+
+TEST(CheckWorld, PointersLeaveOutWhatAPresetBrings) {
+  WorldDescription world;
+  world.arena = syrotek_arena();
+  world.arena.obstacles.push_back(box("mine", {3.5, 1}, {0.2, 0.2}));
+  const std::vector<ConfigIssue> issues = check_world(world);
+  ASSERT_THAT(issues, SizeIs(1));
+  EXPECT_EQ(issues[0].pointer, "/arena/obstacles/0");
+}
+
+TEST(CheckWorld, CanvasHasItsLimits) {
+  WorldDescription world = room();
+  world.canvas.width = 0;
+  world.canvas.cell_size_m = 0.0;
+  EXPECT_THAT(ids(world), testing::ElementsAre("world/out-of-range", "world/out-of-range"));
+}
+
+}  // namespace
+}  // namespace sim::io

@@ -1,0 +1,69 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/error.h"
+
+#include <gtest/gtest.h>
+
+namespace sim {
+namespace {
+
+TEST(ConfigIssue, MessageNamesPlaceExpectedFoundHintAndId) {
+  const ConfigIssue issue{"world/unknown-key",
+                          "a.json",
+                          "/robots/0/pse",
+                          "one of the keys pose",
+                          "\"pse\"",
+                          "did you mean \"pose\"?",
+                          7,
+                          3};
+  EXPECT_EQ(issue.message(),
+            "a.json:7:3: /robots/0/pse: expected one of the keys pose, found \"pse\" "
+            "(did you mean \"pose\"?) [world/unknown-key]");
+}
+
+TEST(ConfigIssue, MessageLeavesOutWhatIsNotKnown) {
+  const ConfigIssue issue{"file/missing", "a.json", "", "a file", "none"};
+  EXPECT_EQ(issue.message(), "a.json: expected a file, found none [file/missing]");
+}
+
+TEST(ConfigIssue, MessageStaysOnOneLineWhateverTheInput) {
+  const ConfigIssue issue{"x/y", "a\nb", "/\x1b[31m", "c", "d\te\x7f"};
+  EXPECT_EQ(issue.message(), "a?b: /?[31m: expected c, found d?e? [x/y]");
+}
+
+TEST(ConfigError, WhatIsOneLineAnIssue) {
+  const ConfigError error(
+      std::vector<ConfigIssue>{{"a/b", "f", "", "1", "2"}, {"c/d", "f", "", "3", "4"}});
+  EXPECT_STREQ(error.what(), "f: expected 1, found 2 [a/b]\nf: expected 3, found 4 [c/d]");
+  EXPECT_EQ(error.issues().size(), 2U);
+}
+
+TEST(NearestWord, CountsInsertionDeletionSubstitutionAndSwap) {
+  const std::vector<std::string> known{"frequency", "noise", "range_max"};
+  EXPECT_EQ(nearest_word("frequncy", known), "frequency");
+  EXPECT_EQ(nearest_word("nosie", known), "noise");
+  EXPECT_EQ(nearest_word("noize", known), "noise");
+  EXPECT_EQ(nearest_word("rangemax", known), "range_max");
+}
+
+TEST(NearestWord, LimitIsAThirdOfTheLengthButAtLeastTwo) {
+  // "abcd": two edits are near enough, three are not.
+  EXPECT_EQ(nearest_word("abcd", {"abxy"}), "abxy");
+  EXPECT_EQ(nearest_word("abcd", {"axyz"}), "");
+  // Nine letters: three edits are near enough, four are not.
+  EXPECT_EQ(nearest_word("abcdefghi", {"abcdefxyz"}), "abcdefxyz");
+  EXPECT_EQ(nearest_word("abcdefghi", {"abcdewxyz"}), "");
+}
+
+TEST(NearestWord, PrefersTheNearerAndOfEqualsTheFirst) {
+  EXPECT_EQ(nearest_word("nois", {"nose", "noise"}), "noise");  // 2 (or a swap) against 1
+  EXPECT_EQ(nearest_word("size", {"sizes", "sized"}), "sizes");
+}
+
+TEST(NearestWord, KnowsAbbreviationsButNoSingleLetters) {
+  EXPECT_EQ(nearest_word("yaw", {"x", "y", "yaw_deg"}), "yaw_deg");
+  EXPECT_EQ(nearest_word("z", {"x", "y"}), "");
+  EXPECT_EQ(nearest_word("", {"x", "name"}), "");
+}
+
+}  // namespace
+}  // namespace sim

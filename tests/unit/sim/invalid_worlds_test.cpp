@@ -1,0 +1,194 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "device_table.h"
+#include "sim/io/world_io.h"
+
+namespace sim::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a bad file must be told: the first issue's id and place, and words of its message.
+struct BadWorld {
+  const char* name;
+  const char* id;
+  const char* pointer;
+  int line;  ///< 0: the issue is of the whole file
+  const char* expected;
+  const char* found;
+};
+
+void PrintTo(const BadWorld& bad, std::ostream* out) { *out << bad.name; }
+
+const BadWorld kBadWorlds[] = {
+    {"bad_colour", "world/bad-colour", "/robots/0/colour", 1, "#ff8800", "orange"},
+    {"bad_name", "world/bad-name", "/robots/0/name", 1, "letters", "my robot"},
+    {"canvas_too_large", "world/canvas-too-large", "/canvas/cell_size", 1, "8192", "34200 x 37200"},
+    {"conflicting_keys", "world/conflicting-keys", "/arena/size", 1, "either", "both"},
+    {"conflicting_state", "world/conflicting-state", "/arena/retracted/0", 1, "one of the two",
+     "\"d3\""},
+    {"device_setting_out_of_range", "world/out-of-range", "/robots/0/devices/laser/frequency", 1,
+     "greater than 0", "0"},
+    {"device_setting_unknown", "world/unknown-key", "/robots/0/devices/laser/frequncy", 1,
+     "frequency", "did you mean \"frequency\"?"},
+    {"driver_without_type", "world/missing-key", "/robots/0/drivers/0", 1, "\"type\"", "none"},
+    {"duplicate_key", "json/duplicate-key", "/name", 4, "each key once", "first in line 2"},
+    {"duplicate_name", "world/duplicate-name", "/robots/1/name", 3, "a name of its own",
+     "\"bob\" a second time"},
+    {"duplicate_obstacle_name", "world/duplicate-name", "/arena/obstacles/0/name", 1,
+     "a name of its own", "\"s1\" a second time"},
+    {"duplicate_port", "world/duplicate-port", "/robots/1/port", 3, "a port of its own",
+     "7000 a second time"},
+    {"empty", "file/empty", "", 0, "{}", "nothing"},
+    {"invalid_utf8", "json/invalid-utf8", "", 1, "UTF-8", "0xf6"},
+    {"map_unreadable", "world/map-unreadable", "/arena/map/image", 1, "PNG or PGM", "nowhere.png"},
+    {"missing_key", "world/missing-key", "/arena/obstacles/0", 1, "\"center\"", "none"},
+    {"no_free_place", "world/no-free-place", "/robots/0", 1, "robot r1", "none"},
+    {"number_overflow", "json/number-overflow", "/simulation/duration", 1, "a number", "1e400"},
+    {"obstacle_outside", "world/obstacle-outside", "/arena/obstacles/0", 1, "(3.00, 3.00)",
+     "crate sticking out 0.05 m beyond the right side"},
+    {"out_of_range", "world/out-of-range", "/simulation/step", 1, "from 0.0001 to 0.1 s", "1e300"},
+    {"out_of_range_integer", "world/out-of-range", "/simulation/seed", 1, "from 0 to", "-1"},
+    {"out_of_range_negative", "world/out-of-range", "/arena/size/1", 1, "greater than 0", "-3"},
+    {"reserved_port", "world/reserved-port", "/robots/0/port", 1, "other than 4000", "4000"},
+    {"robot_inside_wall", "world/robot-overlaps-wall", "/robots/0/pose", 3, "clear of the map",
+     "(3.60, 1.30)"},
+    // The S1R reaches 0.087 m to the left of its middle at x = 0.05: 0.037 m too far.
+    {"robot_outside", "world/robot-outside", "/robots/0/pose", 1, "(3.42, 3.72)",
+     "robot r1 at (0.05, 2.39) sticking out 0.037 m beyond the left side"},
+    // d3 reaches up to y = 0.64, the robot down to 0.7 - 0.081 = 0.619: 0.021 m.
+    {"robot_overlaps_extended_block", "world/robot-overlaps-obstacle", "/robots/0/pose", 3,
+     "obstacle d3", "overlapping it by 0.021 m (move the robot, or leave d3 retracted)"},
+    // s1 begins at x = 0.82, the robot reaches to 0.75 + 0.087 = 0.837: 0.017 m.
+    {"robot_overlaps_obstacle", "world/robot-overlaps-obstacle", "/robots/0/pose", 1, "obstacle s1",
+     "overlapping it by 0.017 m"},
+    {"robot_overlaps_separator", "world/robot-overlaps-obstacle", "/robots/0/pose", 1,
+     "separator separator1", "robot r1 at (0.20,"},
+    {"robot_overlaps_wall", "world/robot-overlaps-wall", "/robots/0/pose", 3, "clear of the map",
+     "in a wall at (5.00, 1.50)"},
+    // 0.1 m apart, each 0.174 m long: 0.074 m.
+    {"robots_overlap", "world/robots-overlap", "/robots/1/pose", 3, "robot r1 at (0.50, 0.40)",
+     "robot r2 at (0.60, 0.40) overlapping it by 0.074 m"},
+    {"root_not_object", "world/wrong-type", "", 1, "an object", "a list of 1"},
+    {"static_obstacle", "world/static-obstacle", "/arena/extended/0", 1, "a dynamic obstacle",
+     "\"s1\""},
+    {"static_obstacle_retracted", "world/static-obstacle", "/arena/obstacles/0/state", 1,
+     "\"extended\"", "\"retracted\""},
+    {"syntax_comma_missing", "json/syntax", "", 3, "','", "is a comma missing"},
+    {"syntax_comma_too_many", "json/syntax", "", 3, "a key", "remove the comma"},
+    {"syntax_end_of_file", "json/syntax", "", 3, "a value", "opened in line 2"},
+    {"syntax_nan", "json/syntax", "", 1, "a value", "'NaN'"},
+    {"syntax_single_quotes", "json/syntax", "", 1, "double quotes", "{'name': 'x'}"},
+    {"syntax_text_unclosed", "json/syntax", "", 2, "a value", "the end of the line"},
+    {"syntax_unclosed", "json/syntax", "", 4, "'}'", "the { of line 3 is still open"},
+    {"too_deep", "json/too-deep",
+     "/robots/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0", 1, "32 levels",
+     "one more"},
+    {"too_many", "world/too-many", "/robots", 1, "at most 1000", "1001"},
+    {"too_many_errors", "world/unknown-key", "/x0", 2, "robots", "\"x0\""},
+    {"trailing_garbage", "json/trailing-garbage", "", 2, "the end of the file",
+     "{\"name\": \"y\"}"},
+    {"unknown_device", "world/unknown-device", "/robots/0/devices/lazer", 1, "laser, motion",
+     "did you mean \"laser\"?"},
+    {"unknown_device_removed", "world/unknown-device", "/robots/0/devices/sonar", 1,
+     "laser, motion", "\"sonar\""},
+    {"unknown_key", "world/unknown-key", "/robots/0/pose/yaw", 3, "x, y or yaw_deg",
+     "unknown key \"yaw\" (did you mean \"yaw_deg\"?)"},
+    {"unknown_obstacle", "world/unknown-obstacle", "/arena/extended/0", 1, "d1, d2",
+     "\"d33\" (did you mean \"d3\"?)"},
+    {"unknown_value", "world/unknown-value", "/arena/preset", 1, "\"syrotek\"", "\"syrotec\""},
+    {"wrong_type", "world/wrong-type", "/robots/0/pose/x", 1, "a number",
+     "the text \"0.5\" (a number stands without quotes)"},
+    {"wrong_type_list", "world/wrong-type", "/robots", 1, "a list", "an object"},
+    {"wrong_type_pair", "world/wrong-type", "/arena/size", 1, "two numbers", "a list of 1"},
+};
+
+const fs::path kFolder = fs::path(PLAYPEN_SOURCE_DIR) / "tests" / "invalid_worlds";
+
+class InvalidWorld : public testing::TestWithParam<BadWorld> {};
+
+TEST_P(InvalidWorld, IsRefusedWithIdPlaceAndReason) {
+  const BadWorld& bad = GetParam();
+  const std::string path = (kFolder / (std::string(bad.name) + ".json")).string();
+  try {
+    static_cast<void>(read_world(path, test::device_table()));
+    FAIL() << path << " was accepted";
+  } catch (const ConfigError& error) {
+    // Each file holds one fault; only that of too_many_errors is meant to hold more.
+    const std::size_t count = std::string(bad.name) == "too_many_errors" ? 101 : 1;
+    ASSERT_EQ(error.issues().size(), count) << error.what();
+    const ConfigIssue& issue = error.issues().front();
+    EXPECT_EQ(issue.id, bad.id);
+    EXPECT_EQ(issue.pointer, bad.pointer);
+    EXPECT_EQ(issue.line, bad.line);
+    EXPECT_EQ(issue.file, path);
+    EXPECT_THAT(issue.expected, testing::HasSubstr(bad.expected));
+    EXPECT_THAT(issue.message(), testing::HasSubstr(bad.found));
+    EXPECT_THAT(issue.message(), testing::HasSubstr("expected "));
+    EXPECT_THAT(issue.message(), testing::HasSubstr(", found "));
+    EXPECT_THAT(issue.message(), testing::StartsWith(path + ":"));
+    EXPECT_THAT(issue.message(), testing::EndsWith("[" + std::string(bad.id) + "]"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, InvalidWorld, testing::ValuesIn(kBadWorlds),
+                         [](const testing::TestParamInfo<BadWorld>& bad) {
+                           return std::string(bad.param.name);
+                         });
+
+TEST(InvalidWorlds, EachFileIsInTheTable) {
+  std::set<std::string> in_table;
+  for (const BadWorld& bad : kBadWorlds) in_table.insert(bad.name);
+  std::set<std::string> in_folder;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kFolder)) {
+    in_folder.insert(entry.path().stem().string());
+  }
+  EXPECT_EQ(in_table, in_folder);
+}
+
+std::string content(const fs::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
+  const fs::path root(PLAYPEN_SOURCE_DIR);
+  const std::regex in_source("\"((?:file|json|world|device)/[a-z0-9-]+)\"");
+  std::set<std::string> used;
+  for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".cpp") continue;
+      const std::string text = content(entry.path());
+      for (std::sregex_iterator it(text.begin(), text.end(), in_source), end; it != end; ++it) {
+        used.insert((*it)[1]);
+      }
+    }
+  }
+  ASSERT_GT(used.size(), 30U);
+
+  const std::string page = content(root / "docs" / "errors.md");
+  const std::regex heading("(?:^|\n)### `([a-z]+/[a-z0-9-]+)`");
+  std::set<std::string> listed;
+  for (std::sregex_iterator it(page.begin(), page.end(), heading), end; it != end; ++it) {
+    listed.insert((*it)[1]);
+  }
+  for (const std::string& id : used) EXPECT_TRUE(listed.contains(id)) << id << " is not explained";
+  for (const std::string& id : listed) EXPECT_TRUE(used.contains(id)) << id << " is used no more";
+}
+
+}  // namespace
+}  // namespace sim::io

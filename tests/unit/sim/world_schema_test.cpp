@@ -1,0 +1,118 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "device_table.h"
+#include "sim/io/world_io.h"
+#include "sim/world/robot_model.h"
+
+namespace sim::io {
+namespace {
+
+using nlohmann::json;
+
+json schema() {
+  std::ifstream stream(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/schema/world.schema.json");
+  return json::parse(stream);
+}
+
+/// Keys that the reader knows in each object, as it names them when it meets one it does not know
+/// ("zz"), by the pointer of the object.
+std::map<std::string, std::set<std::string>> keys_of_reader() {
+  constexpr const char* kWorld = R"({
+    "zz": 0,
+    "arena": {
+      "zz": 0,
+      "obstacles": [{"zz": 0, "center": [1, 1]}],
+      "docks": [{"zz": 0, "pose": {"zz": 0}}],
+      "dock_separators": [{"zz": 0, "center": [1, 1]}],
+      "map": {"zz": 0, "image": ""}
+    },
+    "simulation": {"zz": 0},
+    "canvas": {"zz": 0},
+    "robots": [{"zz": 0, "pose": {"zz": 0}}]
+  })";
+  std::map<std::string, std::set<std::string>> known;
+  try {
+    static_cast<void>(read_world_text(kWorld, "<memory>", test::device_table()));
+  } catch (const ConfigError& error) {
+    for (const ConfigIssue& issue : error.issues()) {
+      if (issue.id != "world/unknown-key") continue;
+      // "one of the keys a, b or c"
+      std::string list = issue.expected.substr(std::string("one of the keys ").size());
+      for (char& c : list) c = c == ',' ? ' ' : c;
+      std::istringstream words(list);
+      std::set<std::string>& keys = known[issue.pointer.substr(0, issue.pointer.rfind('/'))];
+      for (std::string word; words >> word;) {
+        if (word != "or") keys.insert(word);
+      }
+    }
+  }
+  return known;
+}
+
+std::set<std::string> keys_of(const json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
+  const json root = schema();
+  const std::map<std::string, std::string> definitions{
+      {"", ""},
+      {"/arena", "arena"},
+      {"/arena/obstacles/0", "obstacle"},
+      {"/arena/docks/0", "dock"},
+      {"/arena/docks/0/pose", "pose"},
+      {"/arena/dock_separators/0", "dock_separator"},
+      {"/arena/map", "map"},
+      {"/simulation", "simulation"},
+      {"/canvas", "canvas"},
+      {"/robots/0", "robot"},
+      {"/robots/0/pose", "pose"},
+  };
+  const std::map<std::string, std::set<std::string>> known = keys_of_reader();
+  ASSERT_EQ(known.size(), definitions.size());
+  for (const auto& [pointer, keys] : known) {
+    ASSERT_TRUE(definitions.contains(pointer)) << pointer;
+    const std::string& name = definitions.at(pointer);
+    const json& definition = name.empty() ? root : root.at("$defs").at(name);
+    EXPECT_EQ(keys, keys_of(definition.at("properties"))) << pointer;
+    EXPECT_EQ(definition.at("additionalProperties"), false) << pointer;
+  }
+}
+
+TEST(WorldSchema, ExplainsEachKey) {
+  const json root = schema();
+  std::vector<const json*> objects{&root};
+  for (const json& definition : root.at("$defs")) objects.push_back(&definition);
+  int count = 0;
+  for (const json* object : objects) {
+    if (!object->contains("properties")) continue;
+    for (const auto& [key, property] : object->at("properties").items()) {
+      const json& described =
+          property.contains("description") || !property.contains("$ref")
+              ? property
+              : root.at(json::json_pointer(property.at("$ref").get<std::string>().substr(1)));
+      EXPECT_TRUE(described.contains("description")) << key;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 50);
+}
+
+TEST(WorldSchema, KnowsTheRobotModels) {
+  EXPECT_EQ(schema().at("$defs").at("robot").at("properties").at("model").at("enum"),
+            json(robot_model_names()));
+}
+
+}  // namespace
+}  // namespace sim::io
