@@ -30,6 +30,8 @@ imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   config.add<int>("port", "its port", 4000);
   config.add<int>("laser-index", "number of the laser", 0);
   config.add<int>("position2d-index", "number of the drive", 0);
+  config.add<int>("canvas-width", "columns of the world's canvas", 172);
+  config.add<int>("canvas-height", "rows of the world's canvas", 186);
   config.add<std::string>("side", "hand that is kept on the wall: left or right", "left");
   return config;
 }
@@ -41,8 +43,9 @@ CRobot::CRobot(imr::CConfig& cfg)
       side(cfg.get<std::string>("side") == "right" ? -1.0 : 1.0) {
   imr::assert_argument(side < 0.0 || cfg.get<std::string>("side") == "left",
                        "--side must be left or right");
-  // The canvas: 172 x 186 pixels of 0.02 m cover the arena.
-  CCMorse::WindowProxy::GetInstance(client.get(), 172, 186);
+  // The canvas of the arena has 172 x 186 pixels of 0.02 m; another world may have another one.
+  CCMorse::WindowProxy::GetInstance(client.get(), cfg.get<int>("canvas-width"),
+                                    cfg.get<int>("canvas-height"));
   while (!laser->IsFresh() || !position->IsFresh()) {
     client->Read();
   }
