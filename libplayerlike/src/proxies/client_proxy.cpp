@@ -1,1 +1,244 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+#include "devices/errors.h"
+#include "libplayerc++/clientproxy.h"
+#include "proxies/link.h"
+
+namespace PlayerCc {
+
+using playerlike::translated;
+
+// --- Link
+
+void ClientProxy::Link::on_reading(const sim::Reading& reading) {
+  const double time_s = sim::to_seconds(reading.time_ns);
+  // The first reading has none before it, so no time has elapsed.
+  device.lasttime = valid ? device.datatime : time_s;
+  device.datatime = time_s;
+  device.fresh = 1;
+  valid = true;
+  proxy.HandleReading(reading);
+  proxy.mFresh = true;
+}
+
+void ClientProxy::Link::on_round() { proxy.HandleRound(); }
+
+std::function<void()> ClientProxy::Link::notification() {
+  if (proxy.mReadSignal.empty()) return {};
+  return proxy.mReadSignal.call();
+}
+
+void ClientProxy::Link::on_close() {
+  proxy.mPc = nullptr;
+  valid = false;
+  device.subscribed = 0;
+}
+
+double ClientProxy::Link::property(const std::string& name, double otherwise) const {
+  const auto& properties = info().properties;
+  const auto it = properties.find(name);
+  return it == properties.end() ? otherwise : it->second;
+}
+
+// --- ClientProxy
+
+ClientProxy::ClientProxy(PlayerClient* aPc, uint32_t aIndex)
+    : mPc(aPc), mClient(nullptr), mInfo(nullptr), mFresh(false), mIndex(aIndex) {
+  if (aPc == nullptr) {
+    throw PlayerError("ClientProxy::ClientProxy",
+                      "a proxy needs a client, but it is a null pointer",
+                      PlayerError::kBadArgument);
+  }
+  mLink = std::make_unique<Link>(*this, aPc->mCore);
+  mInfo = &mLink->device;
+  mInfo->id = this;
+}
+
+ClientProxy::~ClientProxy() { ClientProxy::Unsubscribe(); }
+
+void ClientProxy::Subscribe(uint32_t aIndex) { mIndex = aIndex; }
+
+void ClientProxy::Unsubscribe() {
+  mLink->core->remove(*mLink);
+  mReadSignal.disconnect_all_slots();  // none may see a proxy that is half gone
+  const scoped_lock_t lock(mLink->core->mutex());
+  mLink->attached = false;
+  mLink->valid = false;
+  mLink->device.subscribed = 0;
+}
+
+void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun) {
+  playerlike::ClientCore& core = *mLink->core;
+  const char* name = interface_name(static_cast<int>(aInterface));
+  translated(aFun, [&] {
+    constexpr auto kMax = static_cast<uint32_t>(std::numeric_limits<std::uint16_t>::max());
+    mLink->binding = playerlike::find_interface(core.robots(), core.session().port(), name,
+                                                static_cast<int>(std::min(aIndex, kMax)));
+    const scoped_lock_t lock(core.mutex());
+    playerc_device_t& info = mLink->device;
+    info.addr.robot = static_cast<uint32_t>(core.session().port());
+    info.addr.interf = static_cast<uint16_t>(aInterface);
+    info.addr.index = static_cast<uint16_t>(aIndex);
+    info.freshgeom = 1;
+    info.freshconfig = 1;
+    mLink->info().type.copy(info.drivername, sizeof info.drivername - 1);
+    std::optional<bool> replace;
+    const auto& rules = core.replace_rules();
+    const auto rule = rules.find(static_cast<int>(aInterface));
+    if (rule != rules.end()) replace = rule->second;
+    core.add(mLink->binding.reading, *mLink, replace);
+    mLink->attached = true;
+    info.subscribed = 1;
+  });
+}
+
+ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
+  scoped_lock_t lock(mLink->core->mutex());
+  translated(aFun, [&] { mLink->core->require_usable(); });
+  return lock;
+}
+
+void ClientProxy::HandleReading(const sim::Reading& aReading) { static_cast<void>(aReading); }
+
+void ClientProxy::HandleRound() {}
+
+bool ClientProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  static_cast<void>(aType);
+  static_cast<void>(aSubtype);
+  return false;
+}
+
+bool ClientProxy::IsValid() const {
+  const scoped_lock_t lock(mLink->core->mutex());
+  return mLink->valid;
+}
+
+bool ClientProxy::IsFresh() const {
+  const scoped_lock_t lock(mLink->core->mutex());
+  return mFresh;
+}
+
+void ClientProxy::NotFresh() {
+  const scoped_lock_t lock(mLink->core->mutex());
+  mFresh = false;
+  mInfo->fresh = 0;
+}
+
+std::string ClientProxy::GetDriverName() const {
+  const scoped_lock_t lock(LockData("ClientProxy::GetDriverName"));
+  return mInfo->drivername;
+}
+
+double ClientProxy::GetDataTime() const {
+  const scoped_lock_t lock(LockData("ClientProxy::GetDataTime"));
+  return mInfo->datatime;
+}
+
+double ClientProxy::GetElapsedTime() const {
+  const scoped_lock_t lock(LockData("ClientProxy::GetElapsedTime"));
+  return mInfo->datatime - mInfo->lasttime;
+}
+
+PlayerClient* ClientProxy::GetPlayerClient() const {
+  const scoped_lock_t lock(mLink->core->mutex());
+  return mPc;
+}
+
+uint32_t ClientProxy::GetIndex() const { return mIndex; }
+
+uint32_t ClientProxy::GetInterface() const { return mLink->device.addr.interf; }
+
+std::string ClientProxy::GetInterfaceStr() const {
+  const char* name = interface_name(static_cast<int>(GetInterface()));
+  return name == nullptr ? "unknown" : name;
+}
+
+void ClientProxy::SetReplaceRule(bool aReplace, int aType, int aSubtype) {
+  static_cast<void>(aSubtype);
+  const char* fun = "ClientProxy::SetReplaceRule";
+  const scoped_lock_t lock(LockData(fun));
+  if (!mLink->attached || (aType != -1 && aType != PLAYER_MSGTYPE_DATA)) return;
+  translated(fun, [&] { mLink->core->session().set_replace(mLink->binding.reading, aReplace); });
+}
+
+int ClientProxy::HasCapability(uint32_t aType, uint32_t aSubtype) {
+  const scoped_lock_t lock(LockData("ClientProxy::HasCapability"));
+  if (!mLink->attached) return 0;
+  const bool is_property_query =
+      aType == PLAYER_MSGTYPE_REQ &&
+      (aSubtype == PLAYER_CAPABILITIES_REQ || aSubtype == PLAYER_GET_BOOLPROP_REQ ||
+       aSubtype == PLAYER_GET_INTPROP_REQ || aSubtype == PLAYER_GET_DBLPROP_REQ);
+  return is_property_query || IsCapable(aType, aSubtype) ? 1 : 0;
+}
+
+int ClientProxy::GetDblProp(char* aProperty, double* aValue) {
+  const scoped_lock_t lock(LockData("ClientProxy::GetDblProp"));
+  if (!mLink->attached || aProperty == nullptr || aValue == nullptr) return -1;
+  const auto& properties = mLink->info().properties;
+  const auto it = properties.find(aProperty);
+  if (it == properties.end()) return -1;
+  *aValue = it->second;
+  return 0;
+}
+
+int ClientProxy::GetIntProp(char* aProperty, int32_t* aValue) {
+  double value = 0.0;
+  if (aValue == nullptr || GetDblProp(aProperty, &value) != 0) return -1;
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int32_t>::max()) {
+    return -1;
+  }
+  *aValue = static_cast<int32_t>(value);
+  return 0;
+}
+
+int ClientProxy::GetBoolProp(char* aProperty, bool* aValue) {
+  double value = 0.0;
+  if (aValue == nullptr || GetDblProp(aProperty, &value) != 0) return -1;
+  if (value != 0.0 && value != 1.0) return -1;
+  *aValue = value != 0.0;
+  return 0;
+}
+
+int ClientProxy::GetStrProp(char* aProperty, char** aValue) {
+  static_cast<void>(aProperty);
+  static_cast<void>(aValue);
+  return -1;
+}
+
+int ClientProxy::SetBoolProp(char* aProperty, bool aValue) {
+  static_cast<void>(aProperty);
+  static_cast<void>(aValue);
+  return -1;
+}
+
+int ClientProxy::SetIntProp(char* aProperty, int32_t aValue) {
+  static_cast<void>(aProperty);
+  static_cast<void>(aValue);
+  return -1;
+}
+
+int ClientProxy::SetDblProp(char* aProperty, double aValue) {
+  static_cast<void>(aProperty);
+  static_cast<void>(aValue);
+  return -1;
+}
+
+int ClientProxy::SetStrProp(char* aProperty, char* aValue) {
+  static_cast<void>(aProperty);
+  static_cast<void>(aValue);
+  return -1;
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::ClientProxy& c) {
+  return os << c.GetInterfaceStr() << ':' << c.GetIndex() << (c.IsValid() ? " valid" : " not valid")
+            << (c.IsFresh() ? ", fresh" : ", not fresh");
+}
+
+}  // namespace std

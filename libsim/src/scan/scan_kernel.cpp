@@ -57,8 +57,13 @@ struct Scalar {
   static float select(bool mask, float yes, float no) { return mask ? yes : no; }
   static double select(bool mask, double yes, double no) { return mask ? yes : no; }
   static float drop(bool mask, float value) { return mask ? 0.0F : value; }
-  static bool lanes_outside(std::int32_t base, std::int32_t first, std::int32_t last) {
-    return base < first || base > last;
+  struct Window {
+    std::int32_t first;
+    std::int32_t last;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) { return {first, last}; }
+  static bool outside(const Window& window, std::int32_t offset) {
+    return offset < window.first || offset > window.last;
   }
 
   static double widen(float value, int /*half*/) { return static_cast<double>(value); }
@@ -132,12 +137,19 @@ struct Sse2 {
     return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
   }
   static Float drop(Mask mask, Float value) { return _mm_andnot_ps(mask, value); }
-  static Mask lanes_outside(std::int32_t base, std::int32_t first, std::int32_t last) {
-    const __m128i lane = _mm_setr_epi32(0, 1, 2, 3);
-    const __m128i beam = _mm_add_epi32(lane, _mm_set1_epi32(base));
-    const __m128i before = _mm_cmpgt_epi32(_mm_set1_epi32(first), beam);
-    const __m128i after = _mm_cmpgt_epi32(beam, _mm_set1_epi32(last));
-    return _mm_castsi128_ps(_mm_or_si128(before, after));
+  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
+  /// 2^31: so one signed comparison finds the lanes before and those after.
+  struct Window {
+    __m128i beyond_first;
+    __m128i length;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) {
+    const __m128i lane = _mm_setr_epi32(INT32_MIN, INT32_MIN + 1, INT32_MIN + 2, INT32_MIN + 3);
+    return {_mm_sub_epi32(lane, _mm_set1_epi32(first)), _mm_set1_epi32(INT32_MIN + (last - first))};
+  }
+  static Mask outside(const Window& window, std::int32_t offset) {
+    const __m128i lane = _mm_add_epi32(window.beyond_first, _mm_set1_epi32(offset));
+    return _mm_castsi128_ps(_mm_cmpgt_epi32(lane, window.length));
   }
 
   static Double widen(Float value, int half) {

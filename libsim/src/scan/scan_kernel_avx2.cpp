@@ -59,12 +59,22 @@ struct Avx2 {
     return _mm256_blendv_pd(no, yes, mask);
   }
   static Float drop(Mask mask, Float value) { return _mm256_andnot_ps(mask, value); }
-  static Mask lanes_outside(std::int32_t base, std::int32_t first, std::int32_t last) {
-    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i beam = _mm256_add_epi32(lane, _mm256_set1_epi32(base));
-    const __m256i before = _mm256_cmpgt_epi32(_mm256_set1_epi32(first), beam);
-    const __m256i after = _mm256_cmpgt_epi32(beam, _mm256_set1_epi32(last));
-    return _mm256_castsi256_ps(_mm256_or_si256(before, after));
+  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
+  /// 2^31: so one signed comparison finds the lanes before and those after.
+  struct Window {
+    __m256i beyond_first;
+    __m256i length;
+  };
+  static Window make_window(std::int32_t first, std::int32_t last) {
+    const __m256i lane =
+        _mm256_setr_epi32(INT32_MIN, INT32_MIN + 1, INT32_MIN + 2, INT32_MIN + 3, INT32_MIN + 4,
+                          INT32_MIN + 5, INT32_MIN + 6, INT32_MIN + 7);
+    return {_mm256_sub_epi32(lane, _mm256_set1_epi32(first)),
+            _mm256_set1_epi32(INT32_MIN + (last - first))};
+  }
+  static Mask outside(const Window& window, std::int32_t offset) {
+    const __m256i lane = _mm256_add_epi32(window.beyond_first, _mm256_set1_epi32(offset));
+    return _mm256_castsi256_ps(_mm256_cmpgt_epi32(lane, window.length));
   }
 
   static Double widen(Float value, int half) {

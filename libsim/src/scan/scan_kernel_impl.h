@@ -310,44 +310,54 @@ void expand_spans(const ScanJob& job, std::int32_t* list, std::int32_t count) {
     const unsigned drop = V::bits(V::narrow_mask(hidden));
     if (drop != 0) {
       for (int lane = 0; lane < V::kLanes; ++lane) {
-        if (((drop >> lane) & 1U) != 0) lasts[lane] = firsts[lane] - 1;
+        if (((drop >> lane) & 1U) != 0) job.a[base + lane] = job.b[base + lane] = 0.0F;
       }
     }
   }
 }
 
-/// Raises the beams' inverse ranges at [beam, beam + kLanes) to those of a span.
+/// One span on its way over the beams.
 template <class V>
-void raise_block(float* inverse_ranges, const float* cosines, const float* sines, std::int32_t beam,
-                 typename V::Float a, typename V::Float b) {
-  const auto value = a * V::load(cosines + beam) + b * V::load(sines + beam);
-  V::store(inverse_ranges + beam, V::max(value, V::load_aligned(inverse_ranges + beam)));
-}
+struct Sweep {
+  Sweep(const ScanJob& job, std::int32_t span)
+      : block(job.first[span] & -V::kLanes),
+        inverse_ranges(job.inverse_ranges + block),
+        cosines(job.cos_table + block - job.anchor[span]),
+        sines(job.sin_table + block - job.anchor[span]),
+        a(V::broadcast(job.a[span])),
+        b(V::broadcast(job.b[span])),
+        window(V::make_window(job.first[span] - block, job.last[span] - block)) {}
 
-/// The same for those beams only that lie in [first, last].
-template <class V>
-void raise_partly(float* inverse_ranges, const float* cosines, const float* sines,
-                  std::int32_t beam, typename V::Float a, typename V::Float b, std::int32_t first,
-                  std::int32_t last) {
-  const auto value = a * V::load(cosines + beam) + b * V::load(sines + beam);
-  const auto kept = V::drop(V::lanes_outside(beam, first, last), value);
-  V::store(inverse_ranges + beam, V::max(kept, V::load_aligned(inverse_ranges + beam)));
-}
+  /// 1/r of the beams [block + offset, block + offset + kLanes).
+  [[nodiscard]] typename V::Float value(std::int32_t offset) const {
+    return a * V::load(cosines + offset) + b * V::load(sines + offset);
+  }
+  /// Raises the inverse ranges of those beams to the span's.
+  void raise(std::int32_t offset) const { raise_to(offset, value(offset)); }
+  /// Raises only those that lie within the span.
+  void raise_partly(std::int32_t offset) const {
+    raise_to(offset, V::drop(V::outside(window, offset), value(offset)));
+  }
+  void raise_to(std::int32_t offset, typename V::Float least) const {
+    // A value that is not a number changes nothing.
+    V::store(inverse_ranges + offset, V::max(least, V::load_aligned(inverse_ranges + offset)));
+  }
+
+  std::int32_t block;  ///< the span's first beam, down to a multiple of the vector's width
+  float* inverse_ranges;
+  const float* cosines;
+  const float* sines;
+  typename V::Float a;
+  typename V::Float b;
+  typename V::Window window;
+};
 
 /// Sweeps `count` spans of at most kBeams beams, from a multiple of the vector's width on.
 template <class V, int kBeams>
 void sweep_short(const ScanJob& job, std::int32_t count) {
   for (std::int32_t i = 0; i < count; ++i) {
-    const auto a = V::broadcast(job.a[i]);
-    const auto b = V::broadcast(job.b[i]);
-    const std::int32_t first = job.first[i];
-    const std::int32_t last = job.last[i];
-    const float* const cosines = job.cos_table - job.anchor[i];
-    const float* const sines = job.sin_table - job.anchor[i];
-    const std::int32_t block = first & -V::kLanes;
-    for (int offset = 0; offset < kBeams; offset += V::kLanes) {
-      raise_partly<V>(job.inverse_ranges, cosines, sines, block + offset, a, b, first, last);
-    }
+    const Sweep<V> sweep(job, i);
+    for (int offset = 0; offset < kBeams; offset += V::kLanes) sweep.raise_partly(offset);
   }
 }
 
@@ -355,18 +365,12 @@ void sweep_short(const ScanJob& job, std::int32_t count) {
 template <class V>
 void sweep_wide(const ScanJob& job, std::int32_t count) {
   for (std::int32_t i = 0; i < count; ++i) {
-    const auto a = V::broadcast(job.a[i]);
-    const auto b = V::broadcast(job.b[i]);
-    const std::int32_t first = job.first[i];
-    const std::int32_t last = job.last[i];
-    const float* const cosines = job.cos_table - job.anchor[i];
-    const float* const sines = job.sin_table - job.anchor[i];
-    std::int32_t block = first & -V::kLanes;
-    raise_partly<V>(job.inverse_ranges, cosines, sines, block, a, b, first, last);
-    for (block += V::kLanes; block + V::kLanes <= last; block += V::kLanes) {
-      raise_block<V>(job.inverse_ranges, cosines, sines, block, a, b);
-    }
-    raise_partly<V>(job.inverse_ranges, cosines, sines, block, a, b, first, last);
+    const Sweep<V> sweep(job, i);
+    const std::int32_t last = job.last[i] - sweep.block;
+    sweep.raise_partly(0);
+    std::int32_t offset = V::kLanes;
+    for (; offset + V::kLanes <= last; offset += V::kLanes) sweep.raise(offset);
+    sweep.raise_partly(offset);
   }
 }
 

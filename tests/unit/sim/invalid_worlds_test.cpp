@@ -167,7 +167,7 @@ std::string content(const fs::path& path) {
 
 TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   const fs::path root(PLAYPEN_SOURCE_DIR);
-  const std::regex in_source("\"((?:file|json|world|device)/[a-z0-9-]+)\"");
+  const std::regex in_source("\"((?:file|json|world|device|run)/[a-z0-9-]+)\"");
   std::set<std::string> used;
   for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {

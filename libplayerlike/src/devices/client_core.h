@@ -1,0 +1,108 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libplayerc++/mutex.h"
+#include "playerlike/session/session.h"
+
+namespace playerlike {
+
+/// Whoever wants the readings of one device: a proxy, a MorseSensor.
+class ReadingListener {
+ public:
+  virtual ~ReadingListener() = default;
+  /// A new reading, valid during the call. The core's mutex is held.
+  virtual void on_reading(const sim::Reading& reading) = 0;
+  /// All readings of a round were handled, and some were this listener's. The mutex is held.
+  virtual void on_round() {}
+  /// What to call after the round, without the mutex; empty if nothing. The mutex is held.
+  virtual std::function<void()> notification() { return {}; }
+  /// The client is gone. The mutex is held.
+  virtual void on_close() {}
+};
+
+/// What a client and its devices share, and so what outlives whichever goes first: the session,
+/// the mutex over all data, and who listens to which device.
+///
+/// Lock order: the mutex first, then whatever the session locks. Waiting is done without the mutex.
+class ClientCore final : private ReadingSink {
+ public:
+  explicit ClientCore(std::unique_ptr<Session> session);
+  ~ClientCore() override;
+
+  [[nodiscard]] PlayerCc::mutex_t& mutex() noexcept { return mutex_; }
+  [[nodiscard]] Session& session() noexcept { return *session_; }
+  [[nodiscard]] const std::vector<RobotInfo>& robots() const noexcept { return session_->robots(); }
+
+  /// Subscribes a listener to a device. The mutex is held by the caller.
+  /// @param replace  see Session::set_replace(); nullopt: whatever the session does by itself.
+  void add(DeviceId device, ReadingListener& listener, std::optional<bool> replace = std::nullopt);
+  /// The reverse; harmless when it was not added. Takes the mutex; never throws.
+  void remove(ReadingListener& listener) noexcept;
+
+  /// Waits for a round and hands its readings to the listeners, then calls their notifications.
+  /// @param stop  if it is true after the wait, nothing is handed out.
+  void read(const std::atomic<bool>* stop = nullptr);
+  [[nodiscard]] bool peek(std::chrono::milliseconds timeout) { return session_->peek(timeout); }
+
+  /// Ends the session; listeners stay listed, for nothing more to come. Takes the mutex.
+  void close() noexcept;
+  [[nodiscard]] bool closed() const noexcept { return closed_; }
+
+  /// Whether a thread in the background has met the end of the run, which the program's own
+  /// threads cannot notice otherwise.
+  [[nodiscard]] bool run_is_over() const noexcept { return run_is_over_; }
+  void set_run_is_over(bool over) noexcept { run_is_over_ = over; }
+
+  /// Throws SessionError if the client is gone, or the run over in the background.
+  void require_usable() const;
+
+  /// Where a robot's localisation last said that it is, for devices that report it too; under
+  /// the mutex. Poses of the arena's localisation win over odometry.
+  void note_pose(int robot, const sim::Pose& pose, bool absolute);
+  [[nodiscard]] std::optional<sim::Pose> last_pose(int robot) const;
+
+  /// Replace rules for interfaces whose devices are subscribed to later; under the mutex.
+  std::map<int, bool>& replace_rules() noexcept { return replace_rules_; }
+
+  [[nodiscard]] const RobotInfo& robot_of(DeviceId device) const;
+  [[nodiscard]] const DeviceInfo& info_of(DeviceId device) const;
+  /// Calls visit(device) for every device that is listened to; under the mutex.
+  template <typename Visit>
+  void for_each_device(Visit visit) const {
+    for (const Entry& entry : entries_) visit(entry.device);
+  }
+
+ private:
+  struct Entry {
+    DeviceId device;
+    ReadingListener* listener;
+    bool updated;
+  };
+  struct KnownPose {
+    sim::Pose pose;
+    bool absolute;
+  };
+
+  void on_reading(DeviceId device, const sim::Reading& reading) override;
+
+  PlayerCc::mutex_t mutex_;
+  const std::unique_ptr<Session> session_;
+  std::vector<Entry> entries_;
+  std::map<int, KnownPose> poses_;
+  std::map<int, bool> replace_rules_;
+  std::atomic<bool> closed_{false};
+  std::atomic<bool> run_is_over_{false};
+};
+
+/// Opens a session and wraps it; see open_session().
+[[nodiscard]] std::shared_ptr<ClientCore> make_core(std::unique_ptr<Session> session);
+
+}  // namespace playerlike

@@ -1,0 +1,55 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "devices/client_core.h"
+#include "libplayerc++/clientproxy.h"
+#include "playerlike/messages/messages.h"
+
+namespace PlayerCc {
+
+/// The end of a proxy that sessions see: receives readings, and knows which devices stand behind
+/// it.
+struct ClientProxy::Link final : playerlike::ReadingListener {
+  Link(ClientProxy& owner, std::shared_ptr<playerlike::ClientCore> shared)
+      : proxy(owner), core(std::move(shared)) {}
+
+  void on_reading(const sim::Reading& reading) override;
+  void on_round() override;
+  std::function<void()> notification() override;
+  void on_close() override;
+
+  [[nodiscard]] const playerlike::RobotInfo& robot() const {
+    return core->robot_of(binding.reading);
+  }
+  [[nodiscard]] const playerlike::DeviceInfo& info() const {
+    return core->info_of(binding.reading);
+  }
+  /// A setting of the device that readings come from.
+  [[nodiscard]] double property(const std::string& name, double otherwise) const;
+
+  ClientProxy& proxy;
+  const std::shared_ptr<playerlike::ClientCore> core;
+  playerlike::InterfaceBinding binding;
+  bool attached = false;
+  bool valid = false;
+  playerc_device_t device = {};
+};
+
+/// What a client's calls go through, for the rest of the library.
+struct detail::CoreAccess {
+  [[nodiscard]] static const std::shared_ptr<playerlike::ClientCore>& get(
+      const PlayerClient& client) {
+    return client.mCore;
+  }
+};
+
+/// Name of an interface by its code; nullptr if there is none.
+[[nodiscard]] const char* interface_name(int code) noexcept;
+/// Code of an interface by its name; nullopt if there is none.
+[[nodiscard]] std::optional<int> interface_code(const std::string& name) noexcept;
+
+}  // namespace PlayerCc
