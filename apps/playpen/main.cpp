@@ -1,55 +1,36 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "commands.h"
+#include "parsed_option.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/core/error.h"
 
 namespace {
 
-/// Reads the whole of a text as a number.
-template <typename T>
-bool parse_number(const std::string& text, T& value) {
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end;
-}
+using playpen::add_parsed;
+using playpen::parse_number;
 
-/// Adds an option whose text `parse` turns into a setting; it returns false for a bad one.
-template <typename Parse>
-CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& description,
-                        const std::string& value_name, const std::string& expected, Parse parse) {
-  return command
-      .add_option_function<std::string>(
-          name,
-          [name, expected, parse](const std::string& text) {
-            if (!parse(text)) {
-              throw CLI::ValidationError(name, "must be " + expected + ", but is '" + text + "'");
-            }
-          },
-          description)
-      ->type_name(value_name);
-}
-
-void add_run(CLI::App& app, int& status) {
+void add_run(CLI::App& app, const std::vector<std::string>& program, int& status) {
   const auto request = std::make_shared<playpen::RunRequest>();
+  request->command = program;
   playerlike::RunSettings& settings = request->settings;
   CLI::App& command = *app.add_subcommand("run", "Run a client program on a world");
-  command.footer("For example: playpen run tasks/par_intro --duration 60 -- ./robot --port 6665");
+  command.footer(
+      "After '--' come the client program and its arguments, for example\n"
+      "playpen run tasks/par_intro --duration 60 -- ./robot --port 6665");
   command
       .add_option("world", request->world,
                   "World file, or the name of a shipped world (tasks/par_intro), or 'default'")
-      ->required()
-      ->type_name("");
-  command.add_option("program", request->command, "Client program and its arguments, after '--'")
       ->required()
       ->type_name("");
   add_parsed(command, "--duration", "Simulated seconds after which the run ends", "S",
@@ -82,7 +63,10 @@ void add_run(CLI::App& app, int& status) {
                return text.size() > 4 && (text.ends_with(".mp4") || text.ends_with(".avi"));
              });
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
-  command.callback([request, &status] { status = playpen::run(*request); });
+  command.callback([request, &status] {
+    if (request->command.empty()) throw CLI::RequiredError("-- PROGRAM");
+    status = playpen::run(*request);
+  });
 }
 
 void add_check(CLI::App& app, int& status) {
@@ -128,11 +112,17 @@ int main(int argc, char** argv) {
         "Exit status: 0 fine, 1 the program failed, 2 bad input.\n"
         "'playpen COMMAND --help' tells more.");
     int status = playpen::kOk;
-    add_run(app, status);
+    // What follows `run ... --` is another program's: kept from the parser, which would take
+    // "[a,b]" apart.
+    char** const all_end = argv + argc;
+    char** const end = argc > 1 && argv[1] == std::string_view("run")
+                           ? std::find(argv, all_end, std::string_view("--"))
+                           : all_end;
+    add_run(app, std::vector<std::string>(std::min(end + 1, all_end), all_end), status);
     add_check(app, status);
     add_render(app, status);
     try {
-      app.parse(argc, argv);
+      app.parse(static_cast<int>(end - argv), argv);
     } catch (const CLI::ParseError& error) {
       return app.exit(error) == 0 ? playpen::kOk : playpen::kBadInput;
     }

@@ -50,3 +50,21 @@ endif()
 if(EXISTS "${prefix}/bin/playpen")
   run("the installed command" "${prefix}/bin/playpen" --version)
 endif()
+
+# A task of the course, copied out of the tree, built and run by the installed command on an
+# installed world.
+set(task "${STAGE_DIR}/my robot")
+file(COPY "${SOURCE_DIR}/apps/par_intro/solution_wall/" DESTINATION "${task}")
+run("configuring the copied task" ${CMAKE_COMMAND}
+  -S ${task} -B ${task}/build -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_CXX_COMPILER=${CXX_COMPILER}
+  "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
+  "-DCMAKE_PREFIX_PATH=${prefix}")
+run("building the copied task" ${CMAKE_COMMAND} --build ${task}/build --config "${CONFIG}")
+if(EXISTS "${prefix}/bin/playpen")
+  run("running the copied task" "${prefix}/bin/playpen" run tasks/par_intro
+    --duration 5 --out ${task}/out -- ${task}/build/par_intro_solution_wall)
+  if(NOT run_output MATCHES "5.0 s simulated" OR NOT EXISTS "${task}/out/report.json")
+    message(FATAL_ERROR "the copied task's run printed:\n${run_output}")
+  endif()
+endif()

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <exception>
 #include <iosfwd>
 #include <string>
 
@@ -10,10 +9,10 @@ namespace PlayerCc {
 
 /// What the client library throws: what went wrong, in which function, and a code.
 ///
-/// In CCMorse programs the same class is called MorseError. Unlike Player's it is a
-/// std::exception too, so that one that nobody catches is printed with its text; a program that
-/// catches both must name PlayerError first.
-class PlayerError : public std::exception {
+/// In CCMorse programs the same class is called MorseError. It is no std::exception, as Player's is
+/// none: programs catch it by value as often as by reference, and compilers warn of that for
+/// classes with virtual functions. One that nobody catches is printed before the program aborts.
+class PlayerError {
  public:
   /// Codes by which a program can tell errors apart. All are negative; -1 is Player's own default.
   enum Code {
@@ -30,9 +29,6 @@ class PlayerError : public std::exception {
   /// @param aStr   what is wrong, a sentence for a person.
   /// @param aCode  one of Code, or a program's own.
   PlayerError(const std::string aFun = "", const std::string aStr = "", const int aCode = -1);
-  PlayerError(const PlayerError&) = default;
-  PlayerError& operator=(const PlayerError&) = default;
-  ~PlayerError() override;
 
   /// What is wrong.
   std::string GetErrorStr() const { return mStr; }
@@ -41,13 +37,9 @@ class PlayerError : public std::exception {
   /// One of Code.
   int GetErrorCode() const { return mCode; }
 
-  /// "function: text", for handlers of std::exception.
-  const char* what() const noexcept override { return mWhat.c_str(); }
-
  private:
   std::string mFun;
   std::string mStr;
-  std::string mWhat;
   int mCode;
 };
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "devices/errors.h"
-
 namespace playerlike {
 
 ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {}
@@ -110,7 +108,6 @@ std::shared_ptr<ClientCore> make_core(std::unique_ptr<Session> session) {
   if (session == nullptr) {
     throw SessionError(SessionError::Code::kBadArgument, "the session is null");
   }
-  register_end_of_run();
   return std::make_shared<ClientCore>(std::move(session));
 }
 

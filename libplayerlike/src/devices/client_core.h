@@ -102,7 +102,7 @@ class ClientCore final : private ReadingSink {
   std::atomic<bool> run_is_over_{false};
 };
 
-/// Opens a session and wraps it; see open_session().
+/// Wraps a session, which must not be null.
 [[nodiscard]] std::shared_ptr<ClientCore> make_core(std::unique_ptr<Session> session);
 
 }  // namespace playerlike

@@ -2,6 +2,9 @@
 #include "devices/errors.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <mutex>
 #include <sstream>
 
 #include "host/end_of_program.h"
@@ -26,15 +29,41 @@ PlayerError::Code player_code(SessionError::Code code) noexcept {
   return PlayerError::kFailed;
 }
 
-void register_end_of_run() noexcept {
-  add_end_of_run_test([](const std::exception_ptr& error) {
+namespace {
+
+std::terminate_handler previous_handler = nullptr;
+
+[[noreturn]] void describe_and_terminate() {
+  if (const std::exception_ptr error = std::current_exception()) {
     try {
       std::rethrow_exception(error);
     } catch (const PlayerError& e) {
-      return e.GetErrorCode() == PlayerError::kRunIsOver;
+      std::cerr << "PlayerError that nobody catches: " << e << std::endl;
     } catch (...) {
-      return false;
+      // Not ours: the previous handler describes it.
     }
+  }
+  if (previous_handler != nullptr) previous_handler();
+  std::abort();
+}
+
+bool says_run_is_over(const std::exception_ptr& error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const PlayerError& e) {
+    return e.GetErrorCode() == PlayerError::kRunIsOver;
+  } catch (...) {
+    return false;
+  }
+}
+
+}  // namespace
+
+void prepare_for_uncaught_errors() noexcept {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    add_end_of_run_test(says_run_is_over);
+    previous_handler = std::set_terminate(describe_and_terminate);
   });
 }
 

@@ -14,8 +14,9 @@ namespace playerlike {
 /// The code under which a client sees a session's error.
 [[nodiscard]] PlayerCc::PlayerError::Code player_code(SessionError::Code code) noexcept;
 
-/// Lets a PlayerError that says the run is over end `playpen run` as the SessionError would.
-void register_end_of_run() noexcept;
+/// From now on a PlayerError that nobody catches is printed on standard error before the program
+/// aborts; one that says the run is over ends `playpen run` as the SessionError would.
+void prepare_for_uncaught_errors() noexcept;
 
 /// Does something, and turns what sessions throw into PlayerError in the name of `fun`. Anything
 /// else, as what a program's own callback throws, passes.

@@ -1,1 +1,367 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "devices/client_core.h"
+#include "devices/errors.h"
+#include "libCCMorse/MorseActuator.h"
+#include "libCCMorse/MorseDevice.h"
+#include "libCCMorse/MorseLaser.h"
+#include "libCCMorse/MorseMotionVW.h"
+#include "libCCMorse/MorseOdometry.h"
+#include "libCCMorse/MorsePen.h"
+#include "libCCMorse/MorsePose.h"
+#include "libCCMorse/MorseSensor.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/localization.h"
+
+namespace CCMorse {
+
+using PlayerCc::PlayerError;
+using playerlike::DeviceId;
+using playerlike::DeviceInfo;
+using playerlike::translated;
+
+// --- MorseDevice
+
+MorseDevice::MorseDevice(const MorseRobot& aRobot, const std::string& aName, const char* aType,
+                         const char* aClass)
+    : mRobot(aRobot), mClass(aClass), mRobotIndex(-1), mDeviceIndex(-1) {
+  const playerlike::RobotInfo& robot = Core()->robots().at(mRobot.mIndex);
+  std::string known;
+  for (const DeviceInfo& device : robot.devices) {
+    if (device.type != aType) continue;
+    known += (known.empty() ? "" : ", ") + device.name;
+    if (mDeviceIndex >= 0 || (!aName.empty() && device.name != aName)) continue;
+    mRobotIndex = device.id.robot;
+    mDeviceIndex = device.id.device;
+  }
+  if (mDeviceIndex < 0) {
+    throw PlayerError(Fun(aClass),
+                      "robot " + robot.name + " has no device of type \"" + aType + "\"" +
+                          (aName.empty() ? "" : " called \"" + aName + "\"") +
+                          "; devices of that type: " + (known.empty() ? "none" : known),
+                      PlayerError::kNoSuchDevice);
+  }
+}
+
+MorseDevice::~MorseDevice() = default;
+
+std::string MorseDevice::Fun(const char* aFunction) const {
+  return std::string(mClass) + "::" + aFunction;
+}
+
+PlayerCc::mutex_t::scoped_lock MorseDevice::Lock(const char* aFunction) const {
+  PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
+  // The name is put together only when it is needed: this is called for every beam.
+  if (Core()->closed() || Core()->run_is_over()) {
+    translated(Fun(aFunction).c_str(), [&] { Core()->require_usable(); });
+  }
+  return lock;
+}
+
+std::string MorseDevice::GetName() const {
+  return Core()->info_of(DeviceId{mRobotIndex, mDeviceIndex}).name;
+}
+
+std::string MorseDevice::GetType() const {
+  return Core()->info_of(DeviceId{mRobotIndex, mDeviceIndex}).type;
+}
+
+std::map<std::string, double> MorseDevice::GetProperties() const {
+  return Core()->info_of(DeviceId{mRobotIndex, mDeviceIndex}).properties;
+}
+
+double MorseDevice::GetProperty(const char* aName, double aOtherwise) const {
+  const auto& properties = Core()->info_of(DeviceId{mRobotIndex, mDeviceIndex}).properties;
+  const auto it = properties.find(aName);
+  return it == properties.end() ? aOtherwise : it->second;
+}
+
+// --- MorseSensor
+
+struct MorseSensor::Receiver final : playerlike::ReadingListener {
+  explicit Receiver(MorseSensor& owner) : sensor(owner) {}
+
+  void on_reading(const sim::Reading& reading) override {
+    time_s = sim::to_seconds(reading.time_ns);
+    valid = true;
+    fresh = true;
+    sensor.HandleReading(reading);
+  }
+  void on_close() override { valid = false; }
+
+  MorseSensor& sensor;
+  double time_s = 0.0;
+  bool valid = false;
+  bool fresh = false;
+};
+
+MorseSensor::MorseSensor(const MorseRobot& aRobot, const std::string& aName, const char* aType,
+                         const char* aClass)
+    : MorseDevice(aRobot, aName, aType, aClass), mReceiver(std::make_unique<Receiver>(*this)) {}
+
+MorseSensor::~MorseSensor() { Detach(); }
+
+void MorseSensor::Attach() {
+  const PlayerCc::mutex_t::scoped_lock lock(Lock("Attach"));
+  translated(Fun("Attach").c_str(), [&] {
+    Core()->add(DeviceId{RobotIndex(), DeviceIndex()}, *mReceiver);
+  });
+}
+
+void MorseSensor::Detach() { Core()->remove(*mReceiver); }
+
+bool MorseSensor::IsValid() const {
+  const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
+  return mReceiver->valid;
+}
+
+bool MorseSensor::IsFresh() const {
+  const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
+  return mReceiver->fresh;
+}
+
+void MorseSensor::NotFresh() {
+  const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
+  mReceiver->fresh = false;
+}
+
+double MorseSensor::GetTime() const {
+  const auto lock = Lock("GetTime");
+  return mReceiver->time_s;
+}
+
+double MorseSensor::GetFrequency() const { return GetProperty("frequency", 0.0); }
+
+// --- MorseActuator
+
+MorseActuator::MorseActuator(const MorseRobot& aRobot, const std::string& aName, const char* aType,
+                             const char* aClass)
+    : MorseDevice(aRobot, aName, aType, aClass) {}
+
+MorseActuator::~MorseActuator() = default;
+
+// --- MorsePose, MorseOdometry
+
+MorseLocalization::MorseLocalization(const MorseRobot& aRobot, const std::string& aName,
+                                     const char* aType, const char* aClass)
+    : MorseSensor(aRobot, aName, aType, aClass), mPose(), mVelocity(), mStall(false) {
+  Attach();
+}
+
+MorseLocalization::~MorseLocalization() { Detach(); }
+
+void MorseLocalization::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading);
+  if (reading == nullptr) return;
+  mPose = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};
+  mVelocity = {reading->twist.v_mps, reading->twist.lateral_mps, reading->twist.omega_radps};
+  mStall = reading->stalled;
+}
+
+player_pose2d_t MorseLocalization::GetPose() const {
+  const auto lock = Lock("GetPose");
+  return mPose;
+}
+double MorseLocalization::GetX() const { return GetPose().px; }
+double MorseLocalization::GetY() const { return GetPose().py; }
+double MorseLocalization::GetYaw() const { return GetPose().pa; }
+
+double MorseLocalization::GetSpeed() const {
+  const auto lock = Lock("GetSpeed");
+  return mVelocity.px;
+}
+
+double MorseLocalization::GetLateralSpeed() const {
+  const auto lock = Lock("GetLateralSpeed");
+  return mVelocity.py;
+}
+
+double MorseLocalization::GetTurnRate() const {
+  const auto lock = Lock("GetTurnRate");
+  return mVelocity.pa;
+}
+
+bool MorseLocalization::GetStall() const {
+  const auto lock = Lock("GetStall");
+  return mStall;
+}
+
+void MorseLocalization::SetPose(double aX, double aY, double aYaw) {
+  const std::string fun = Fun("SetPose");
+  playerlike::require_finite(fun.c_str(), {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
+  const auto lock = Lock("SetPose");
+  translated(fun.c_str(), [&] {
+    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()},
+                           sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
+  });
+}
+
+MorsePose::MorsePose(const MorseRobot& aRobot, const std::string& aName)
+    : MorseLocalization(aRobot, aName, "pose", "MorsePose") {}
+MorsePose::~MorsePose() = default;
+
+MorseOdometry::MorseOdometry(const MorseRobot& aRobot, const std::string& aName)
+    : MorseLocalization(aRobot, aName, "odometry", "MorseOdometry") {}
+MorseOdometry::~MorseOdometry() = default;
+
+// --- MorseLaser
+
+MorseLaser::MorseLaser(const MorseRobot& aRobot, const std::string& aName)
+    : MorseSensor(aRobot, aName, "laser", "MorseLaser"),
+      mMinAngle(0.0),
+      mResolution(GetProperty("resolution", 0.0)),
+      mMaxRange(GetProperty("range_max", 0.0)),
+      mLeastRange(mMaxRange),
+      mLeastAngle(0.0) {
+  // The simulated laser is symmetric about forward.
+  mMinAngle = -0.5 * std::max(0.0, GetProperty("beams", 0.0) - 1.0) * mResolution;
+  Attach();
+}
+
+MorseLaser::~MorseLaser() { Detach(); }
+
+void MorseLaser::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::LaserReading*>(&aReading);
+  if (reading == nullptr) return;
+  mRanges = reading->ranges_m;
+  mMinAngle = reading->angle_min_rad;
+  mResolution = reading->resolution_rad;
+  mMaxRange = reading->range_max_m;
+  mLeastRange = reading->least_range_m;
+  mLeastAngle = reading->least_angle_rad;
+}
+
+double MorseLaser::Checked(uint32_t aIndex, const char* aFunction) const {
+  if (aIndex >= mRanges.size()) {
+    throw PlayerError(Fun(aFunction),
+                      "there is no beam " + std::to_string(aIndex) + ": the scan has " +
+                          std::to_string(mRanges.size()) + ", counted from 0",
+                      PlayerError::kBadArgument);
+  }
+  return mRanges[aIndex];
+}
+
+uint32_t MorseLaser::GetCount() const {
+  const auto lock = Lock("GetCount");
+  return static_cast<uint32_t>(mRanges.size());
+}
+
+double MorseLaser::GetRange(uint32_t aIndex) const {
+  const auto lock = Lock("GetRange");
+  return Checked(aIndex, "GetRange");
+}
+
+double MorseLaser::operator[](uint32_t aIndex) const { return GetRange(aIndex); }
+
+double MorseLaser::GetBearing(uint32_t aIndex) const {
+  const auto lock = Lock("GetBearing");
+  static_cast<void>(Checked(aIndex, "GetBearing"));
+  return mMinAngle + aIndex * mResolution;
+}
+
+player_point_2d_t MorseLaser::GetPoint(uint32_t aIndex) const {
+  const auto lock = Lock("GetPoint");
+  const double range = Checked(aIndex, "GetPoint");
+  const double bearing = mMinAngle + aIndex * mResolution;
+  return {range * std::cos(bearing), range * std::sin(bearing)};
+}
+
+std::vector<double> MorseLaser::GetRanges() const {
+  const auto lock = Lock("GetRanges");
+  return mRanges;
+}
+
+double MorseLaser::GetMinAngle() const {
+  const auto lock = Lock("GetMinAngle");
+  return mMinAngle;
+}
+
+double MorseLaser::GetMaxAngle() const {
+  const auto lock = Lock("GetMaxAngle");
+  const double beams =
+      mRanges.empty() ? GetProperty("beams", 1.0) : static_cast<double>(mRanges.size());
+  return mMinAngle + (beams - 1.0) * mResolution;
+}
+
+double MorseLaser::GetResolution() const {
+  const auto lock = Lock("GetResolution");
+  return mResolution;
+}
+
+double MorseLaser::GetMaxRange() const {
+  const auto lock = Lock("GetMaxRange");
+  return mMaxRange;
+}
+
+double MorseLaser::GetLeastRange() const {
+  const auto lock = Lock("GetLeastRange");
+  return mLeastRange;
+}
+
+double MorseLaser::GetLeastAngle() const {
+  const auto lock = Lock("GetLeastAngle");
+  return mLeastAngle;
+}
+
+player_pose2d_t MorseLaser::GetMountPose() const {
+  return {GetProperty("mount_x", 0.0), GetProperty("mount_y", 0.0), GetProperty("mount_yaw", 0.0)};
+}
+
+// --- MorseMotionVW
+
+MorseMotionVW::MorseMotionVW(const MorseRobot& aRobot, const std::string& aName)
+    : MorseActuator(aRobot, aName, "motion", "MorseMotionVW") {}
+MorseMotionVW::~MorseMotionVW() = default;
+
+void MorseMotionVW::SetSpeed(double aSpeed, double aTurnRate) {
+  const char* fun = "MorseMotionVW::SetSpeed";
+  playerlike::require_finite(fun, {{"the forward speed", aSpeed}, {"the turn rate", aTurnRate}});
+  const auto lock = Lock("SetSpeed");
+  translated(fun, [&] {
+    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()},
+                           sim::TwistCommand{{aSpeed, aTurnRate}});
+  });
+}
+
+void MorseMotionVW::Stop() { SetSpeed(0.0, 0.0); }
+
+void MorseMotionVW::SetMotorEnable(bool aEnable) {
+  const auto lock = Lock("SetMotorEnable");
+  translated("MorseMotionVW::SetMotorEnable", [&] {
+    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, sim::MotorEnableCommand{aEnable});
+  });
+}
+
+double MorseMotionVW::GetMaxSpeed() const {
+  return std::min(GetRobot().GetMaxSpeed(), GetProperty("max_speed", GetRobot().GetMaxSpeed()));
+}
+
+double MorseMotionVW::GetMaxTurnRate() const {
+  return std::min(GetRobot().GetMaxTurnRate(),
+                  GetProperty("max_turn_rate", GetRobot().GetMaxTurnRate()));
+}
+
+// --- MorsePen
+
+MorsePen::MorsePen(const MorseRobot& aRobot, const std::string& aName)
+    : MorseActuator(aRobot, aName, "pen", "MorsePen"), Drawing(aRobot.mCore, "MorsePen") {
+  const sim::Colour& c = aRobot.mCore->robots().at(aRobot.mIndex).colour;
+  mColour = ImageColour_t(c.r, c.g, c.b, c.a);
+}
+
+MorsePen::~MorsePen() = default;
+
+ImageColour_t MorsePen::GetColour() const {
+  const PlayerCc::mutex_t::scoped_lock lock(MorseDevice::Core()->mutex());
+  return mColour;
+}
+
+void MorsePen::SetColour(const ImageColour_t& aColour) {
+  const PlayerCc::mutex_t::scoped_lock lock(MorseDevice::Core()->mutex());
+  mColour = aColour;
+}
+
+}  // namespace CCMorse

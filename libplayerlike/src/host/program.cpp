@@ -153,7 +153,7 @@ std::string find_program(const std::string& name) {
     const std::size_t colon = rest.find(':');
     const std::string folder(rest.substr(0, colon));
     // An empty entry of PATH means the folder we are in.
-    const std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
+    std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
     if (!obstacle_to_running(candidate)) return candidate;
     if (colon == std::string_view::npos) break;
     rest.remove_prefix(colon + 1);

@@ -82,7 +82,10 @@ struct PlayerClient::Impl {
 PlayerClient::PlayerClient(std::unique_ptr<playerlike::Session> aSession,
                            const std::string& aHostname, uint32_t aPort)
     : mCore(translated_all("PlayerClient::PlayerClient",
-                           [&] { return playerlike::make_core(std::move(aSession)); })),
+                           [&] {
+                             playerlike::prepare_for_uncaught_errors();
+                             return playerlike::make_core(std::move(aSession));
+                           })),
       mMutex(mCore->mutex()),
       mImpl(std::make_unique<Impl>()) {
   mImpl->hostname = aHostname;
@@ -92,6 +95,7 @@ PlayerClient::PlayerClient(std::unique_ptr<playerlike::Session> aSession,
 PlayerClient::PlayerClient(const std::string aHostname, uint32_t aPort, int transport)
     : PlayerClient(translated_all("PlayerClient::PlayerClient",
                                   [&] {
+                                    playerlike::prepare_for_uncaught_errors();
                                     if (transport != PLAYERC_TRANSPORT_TCP &&
                                         transport != PLAYERC_TRANSPORT_UDP) {
                                       throw SessionError(SessionError::Code::kBadArgument,

@@ -6,17 +6,15 @@
 namespace PlayerCc {
 
 PlayerError::PlayerError(const std::string aFun, const std::string aStr, const int aCode)
-    : mFun(aFun), mStr(aStr), mWhat(aFun.empty() ? aStr : aFun + ": " + aStr), mCode(aCode) {}
-
-// Out of line, so that the class has its type information in one place only.
-PlayerError::~PlayerError() = default;
+    : mFun(aFun), mStr(aStr), mCode(aCode) {}
 
 }  // namespace PlayerCc
 
 namespace std {
 
 std::ostream& operator<<(std::ostream& os, const PlayerCc::PlayerError& e) {
-  return os << e.what() << " (error " << e.GetErrorCode() << ')';
+  if (!e.GetErrorFun().empty()) os << e.GetErrorFun() << ": ";
+  return os << e.GetErrorStr() << " (error " << e.GetErrorCode() << ')';
 }
 
 }  // namespace std

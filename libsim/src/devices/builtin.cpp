@@ -71,6 +71,18 @@ PenParams parse_pen(io::Reader& settings, PenParams p) {
   return p;
 }
 
+// Whether a mount lies so far within the footprint that no solid reaches it: robots sink into
+// solids by less than 2 mm.
+bool well_within(const Polygon& footprint, const Pose& X_BL) {
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Vec2& a = footprint[i];
+    const Vec2 edge = footprint[(i + 1) % footprint.size()] - a;
+    const Vec2 inward = Vec2(-edge.y(), edge.x()).normalized();
+    if (inward.dot(X_BL.position() - a) < 0.005) return false;
+  }
+  return true;
+}
+
 using Properties = std::map<std::string, double>;
 
 Properties describe(const LaserParams& p) {
@@ -125,8 +137,9 @@ std::vector<DeviceKind> make_table() {
   using M = const RobotModel&;
   return {
       kind<LaserParams>("laser", parse_laser,
-                        [](D d, const LaserParams& p, R, M, RandomStream noise) {
-                          return std::make_unique<Laser>(d.name, p, std::move(noise));
+                        [](D d, const LaserParams& p, R, M model, RandomStream noise) {
+                          return std::make_unique<Laser>(
+                              d.name, p, !well_within(model.footprint, p.X_BL), std::move(noise));
                         }),
       kind<MotionParams>("motion", parse_motion,
                          [](D d, const MotionParams& p, R, M, const RandomStream&) {

@@ -7,9 +7,19 @@
 
 namespace sim {
 
-Laser::Laser(std::string name, const LaserParams& params, RandomStream noise)
+double LaserReading::least_range_m() const {
+  return *std::min_element(ranges_m.begin(), ranges_m.end());
+}
+
+double LaserReading::least_angle_rad() const {
+  const auto least = std::min_element(ranges_m.begin(), ranges_m.end());
+  return angle_min_rad + resolution_rad * static_cast<double>(least - ranges_m.begin());
+}
+
+Laser::Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise)
     : Sensor(std::move(name), "laser", params.frequency_hz),
       params_(params),
+      may_be_inside_(may_be_inside),
       noise_(std::move(noise)),
       kernel_({params.beam_count, params.resolution_rad, params.range_max_m}) {
   reading_.ranges_m.assign(static_cast<std::size_t>(params.beam_count), 0.0);
@@ -22,7 +32,7 @@ void Laser::measure(const StepContext& context) {
   stamp(context, reading_);
   const Pose X_WL = context.body.X_WB * params_.X_BL;
   context.physics.collect_edges(X_WL.position(), params_.range_max_m, params_.height_m,
-                                context.robot, /*test_inside=*/true, edges_);
+                                context.robot, may_be_inside_, edges_);
   kernel_.scan(edges_, X_WL.yaw_rad, reading_.ranges_m);
   if (params_.noise_m > 0.0) {
     for (double& range : reading_.ranges_m) {
@@ -31,10 +41,6 @@ void Laser::measure(const StepContext& context) {
       range = std::clamp(range + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
   }
-  const auto least = std::min_element(reading_.ranges_m.begin(), reading_.ranges_m.end());
-  reading_.least_range_m = *least;
-  reading_.least_angle_rad =
-      kernel_.geometry().angle_rad(static_cast<int>(least - reading_.ranges_m.begin()));
   reading_.X_WB = context.body.X_WB;
 }
 

@@ -36,6 +36,10 @@ constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
 constexpr double kStallDelay_s = 0.2;
 
+// How much farther than asked for clearance_m looks for candidates: how far things may move until
+// it must look again.
+constexpr double kCandidateMargin_m = 0.1;
+
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
@@ -97,7 +101,11 @@ struct Robot {
   Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
   Twist target;
   double stall_clock_s = 0.0;
-  b2Fixture* nearest = nullptr;  // found by clearance_m last time
+  std::vector<b2Fixture*> candidates;  // all that is nearer than candidates_reach_m
+  b2Vec2 nearest_direction{1.0F, 0.0F};
+  double candidates_reach_m = -1.0;  // less all motion since; see clearance_m
+  double free_m = 0.0;  // nothing solid is nearer than this: what clearance_m found, less
+                        // all motion since
   BodyState state;
   std::vector<int> touching;  // contacts per partner, see ContactCounter
 };
@@ -118,6 +126,22 @@ b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
   b2PolygonShape shape;
   shape.Set(points.data(), static_cast<int32>(n));
   return shape;
+}
+
+// Least of n . v over the corners v of a polygon or an edge, in W (Box2D units).
+float least_along(const b2Vec2& n, const b2Shape& shape, const b2Transform& xf) {
+  const b2Vec2 local = b2MulT(xf.q, n);
+  float least = std::numeric_limits<float>::infinity();
+  if (shape.GetType() == b2Shape::e_polygon) {
+    const auto& polygon = static_cast<const b2PolygonShape&>(shape);
+    for (int32 i = 0; i < polygon.m_count; ++i) {
+      least = std::min(least, b2Dot(local, polygon.m_vertices[i]));
+    }
+  } else {
+    const auto& edge = static_cast<const b2EdgeShape&>(shape);
+    least = std::min(b2Dot(local, edge.m_vertex1), b2Dot(local, edge.m_vertex2));
+  }
+  return least + b2Dot(n, xf.p);
 }
 
 const FixtureInfo& info_of(const b2Fixture* fixture) {
@@ -316,6 +340,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
     Robot& r = robots[index];
     if (r.target.v_mps == 0.0 && r.target.omega_radps == 0.0) return r.target;
+    // Even if another robot comes to meet it, nothing is reached in this step.
+    if (r.free_m > 2.0 * kMaxTravel_m + kRestingGap_m) return r.target;
     constraints.clear();
     for (b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Fixture* mine = e->contact->GetFixtureA();
@@ -358,6 +384,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
             X_WB.yaw_rad + twist.omega_radps * dt_s};
   }
 
+  void something_was_placed() {
+    placed = true;
+    for (Robot& r : robots) {
+      r.free_m = 0.0;
+      r.candidates_reach_m = -1.0;
+    }
+  }
+
   void substep(double dt_s) {
     if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
       world.Step(0.0F, 1, 1);
@@ -380,11 +414,22 @@ struct PhysicsWorld::Impl : b2ContactListener {
                                  (static_cast<float>(goals[i].yaw_rad) - r.body->GetAngle()));
     }
     world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
-    for (std::size_t i = 0; i < robots.size(); ++i) follow_body(i, dt_s);
+    double farthest_m = 0.0;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      const double moved_m = follow_body(i, dt_s);
+      robots[i].free_m -= moved_m;
+      robots[i].candidates_reach_m -= moved_m;
+      farthest_m = std::max(farthest_m, moved_m);
+    }
+    for (Robot& r : robots) {
+      r.free_m -= farthest_m;
+      r.candidates_reach_m -= farthest_m;
+    }
   }
 
   // Takes over where Box2D put the robot: the exact goal if nothing hindered it.
-  void follow_body(std::size_t index, double dt_s) {
+  // Returns how far any point of the robot has moved, at most [m].
+  double follow_body(std::size_t index, double dt_s) {
     Robot& r = robots[index];
     const Pose& goal = goals[index];
     const b2Vec2 p = r.body->GetPosition();
@@ -392,24 +437,30 @@ struct PhysicsWorld::Impl : b2ContactListener {
     const float angle = r.body->GetAngle();
     // Rounding of position and angle, a few units in the last place.
     const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
+    double moved = 0.0;
+    double turn = 0.0;
     if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
         std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
       r.X_WB = goal;
-      r.state.travel_m += twists[index].v_mps * dt_s;
-      r.state.turn_rad += twists[index].omega_radps * dt_s;
+      const double travel = twists[index].v_mps * dt_s;
+      turn = twists[index].omega_radps * dt_s;
+      moved = std::abs(travel);
+      r.state.travel_m += travel;
     } else {
       const Pose before = r.X_WB;
       r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
-      const double turn = r.X_WB.yaw_rad - before.yaw_rad;
+      turn = r.X_WB.yaw_rad - before.yaw_rad;
       const double heading = before.yaw_rad + 0.5 * turn;
       const double dx = r.X_WB.x_m - before.x_m;
       const double dy = r.X_WB.y_m - before.y_m;
       // The wheels' path is the arc whose chord this is.
       r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
-      r.state.turn_rad += turn;
+      moved = std::hypot(dx, dy);
       lateral_m[index] += dy * std::cos(heading) - dx * std::sin(heading);
     }
+    r.state.turn_rad += turn;
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
+    return moved + std::abs(turn) * r.radius_m;
   }
 
   // Keeps angles small, where single precision is fine.
@@ -561,6 +612,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   d.order.push_back(index);
   d.lateral_m.push_back(0.0);
   d.robots.push_back(std::move(r));
+  d.something_was_placed();
   d.robot_edges_fresh = false;
   return index;
 }
@@ -582,7 +634,7 @@ void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
   r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
   r.stall_clock_s = 0.0;
   impl_->robot_edges_fresh = false;
-  impl_->placed = true;
+  impl_->something_was_placed();
 }
 
 void PhysicsWorld::step(double dt_s) {
@@ -614,7 +666,7 @@ const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noe
 
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)]->SetEnabled(extended);
-  impl_->placed = true;
+  impl_->something_was_placed();
   impl_->rebuild_fixed_edges();
 }
 
@@ -629,52 +681,71 @@ bool PhysicsWorld::robot_stands_on(int obstacle) const {
   return false;
 }
 
-double PhysicsWorld::clearance_m(int robot, double limit_m) {
+double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
-  struct Nearest : b2QueryCallback {
-    void look_at(b2Fixture* candidate) {
-      b2DistanceInput input;
-      input.proxyA.Set(&robot->shape, 0);
-      input.proxyB.Set(candidate->GetShape(), 0);
-      input.transformA = robot->body->GetTransform();
-      input.transformB = candidate->GetBody()->GetTransform();
-      input.useRadii = false;
-      b2SimplexCache cache;
-      cache.count = 0;
-      b2DistanceOutput output;
-      b2Distance(&output, &cache, &input);
-      const double distance_m = metres(output.distance);
-      if (distance_m >= least_m) return;
-      least_m = distance_m;
-      fixture = candidate;
+  const b2AABB& box = r.body->GetFixtureList()->GetAABB(0);
+  // What may be nearest is kept in a list that is good for some way (as Verlet's neighbour lists
+  // are, Phys. Rev. 159, 98, 1967), most often the first of it.
+  if (limit_m > r.candidates_reach_m) {
+    struct Collector : b2QueryCallback {
+      bool ReportFixture(b2Fixture* fixture) override {
+        if (fixture->GetBody() != own) into->push_back(fixture);
+        return true;
+      }
+      const b2Body* own = nullptr;
+      std::vector<b2Fixture*>* into = nullptr;
+    } collector;
+    collector.own = r.body;
+    collector.into = &r.candidates;
+    r.candidates.clear();
+    r.candidates_reach_m = limit_m + kCandidateMargin_m;
+    const float reach = static_cast<float>(r.candidates_reach_m) * kScaleF;
+    b2AABB wide = box;
+    wide.lowerBound -= b2Vec2(reach, reach);
+    wide.upperBound += b2Vec2(reach, reach);
+    impl_->world.QueryAABB(&collector, wide);
+  }
+  double least_m = limit_m;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < r.candidates.size(); ++i) {
+    b2Fixture* candidate = r.candidates[i];
+    // Two cheap lower bounds, by the boxes (a little fat) and along the direction of the last
+    // nearest points, mostly say enough.
+    const b2AABB& theirs = candidate->GetAABB(0);
+    const b2Vec2 gap =
+        b2Max(b2Max(theirs.lowerBound - box.upperBound, box.lowerBound - theirs.upperBound),
+              b2Vec2(0.0F, 0.0F));
+    const double boxes_apart_m = metres(gap.Length());
+    if (boxes_apart_m >= least_m) continue;
+    const b2Transform& xf = r.body->GetTransform();
+    const b2Transform& their_xf = candidate->GetBody()->GetTransform();
+    const float apart = least_along(r.nearest_direction, *candidate->GetShape(), their_xf) +
+                        least_along(-r.nearest_direction, r.shape, xf);
+    const double bound_m = std::max(boxes_apart_m, metres(apart));
+    if (bound_m >= exact_below_m) {
+      least_m = std::min(least_m, bound_m);
+      continue;
     }
-    bool ReportFixture(b2Fixture* candidate) override {
-      if (candidate->GetBody() == robot->body || candidate == fixture) return true;
-      // Boxes (a little fat) farther apart than the nearest so far need no closer look.
-      const b2AABB& theirs = candidate->GetAABB(0);
-      const b2Vec2 gap =
-          b2Max(b2Max(theirs.lowerBound - box.upperBound, box.lowerBound - theirs.upperBound),
-                b2Vec2(0.0F, 0.0F));
-      if (metres(gap.Length()) < least_m) look_at(candidate);
-      return true;
+    b2DistanceInput input;
+    input.proxyA.Set(&r.shape, 0);
+    input.proxyB.Set(candidate->GetShape(), 0);
+    input.transformA = xf;
+    input.transformB = their_xf;
+    input.useRadii = false;
+    b2SimplexCache cache;
+    cache.count = 0;
+    b2DistanceOutput output;
+    b2Distance(&output, &cache, &input);
+    if (metres(output.distance) >= least_m) continue;
+    if (output.distance > 0.0F) {
+      r.nearest_direction = (1.0F / output.distance) * (output.pointB - output.pointA);
     }
-    const Robot* robot = nullptr;
-    b2AABB box;  // of the robot
-    double least_m = 0.0;
-    b2Fixture* fixture = nullptr;
-  } nearest;
-  nearest.robot = &r;
-  nearest.least_m = limit_m;
-  r.shape.ComputeAABB(&nearest.box, r.body->GetTransform(), 0);
-  // What was nearest last time mostly still is: looked at first, it narrows the search.
-  if (r.nearest != nullptr && r.nearest->GetBody()->IsEnabled()) nearest.look_at(r.nearest);
-  b2AABB box = nearest.box;
-  const float reach = static_cast<float>(nearest.least_m) * kScaleF;
-  box.lowerBound -= b2Vec2(reach, reach);
-  box.upperBound += b2Vec2(reach, reach);
-  impl_->world.QueryAABB(&nearest, box);
-  r.nearest = nearest.fixture;
-  return nearest.least_m;
+    least_m = metres(output.distance);
+    nearest = i;
+  }
+  if (nearest > 0) std::swap(r.candidates[0], r.candidates[nearest]);
+  r.free_m = least_m;
+  return least_m;
 }
 
 namespace {

@@ -59,8 +59,9 @@ class PhysicsWorld {
   /// Whether any robot's footprint overlaps the obstacle's place.
   [[nodiscard]] bool robot_stands_on(int obstacle) const;
 
-  /// Distance of a robot's footprint to the nearest solid, at most limit_m [m].
-  [[nodiscard]] double clearance_m(int robot, double limit_m);
+  /// Distance of a robot's footprint to the nearest solid, at most limit_m [m]; exact where it is
+  /// below exact_below_m, otherwise a lower bound that is at least that.
+  [[nodiscard]] double clearance_m(int robot, double limit_m, double exact_below_m);
 
   /// Collects the edges within radius_m of a sensor at p_WL that stand higher than the sensor.
   /// @param own_robot     robot whose body is not seen, or -1.

@@ -290,7 +290,7 @@ TEST(PhysicsWorld, WallsOfAMapStopARobotFromOutsideOnly) {
   world.set_target(0, {0.5, 0.0, 0.0});
   run(world, 300);
   EXPECT_NEAR(world.body(0).X_WB.x_m, 2.5 - 0.087 - 0.0015, 0.001);
-  EXPECT_THAT(world.clearance_m(0, 1.0), testing::DoubleNear(0.0015, 0.0005));
+  EXPECT_THAT(world.clearance_m(0, 1.0, 1.0), testing::DoubleNear(0.0015, 0.0005));
 }
 
 TEST(PhysicsWorld, ClearanceIsTheDistanceToTheNearestSolid) {
@@ -300,8 +300,11 @@ TEST(PhysicsWorld, ClearanceIsTheDistanceToTheNearestSolid) {
   // The side of the footprint is 0.081 m from the axle's centre, the block's face at x = 2.1;
   // turned by 90 degrees the robot's right side faces... its left side at x - 0.081.
   world.add_robot(s1r_model(), {2.5, 2.0, kPi / 2.0});
-  EXPECT_NEAR(world.clearance_m(0, 1.0), 2.5 - 0.081 - 2.1, 1e-5);
-  EXPECT_EQ(world.clearance_m(0, 0.1), 0.1);
+  EXPECT_NEAR(world.clearance_m(0, 1.0, 1.0), 2.5 - 0.081 - 2.1, 1e-5);
+  EXPECT_EQ(world.clearance_m(0, 0.1, 0.1), 0.1);
+  // A bound will do above 0.2 m.
+  EXPECT_GE(world.clearance_m(0, 1.0, 0.2), 0.2);
+  EXPECT_LE(world.clearance_m(0, 1.0, 0.2), 2.5 - 0.081 - 2.1 + 1e-5);
 }
 
 }  // namespace

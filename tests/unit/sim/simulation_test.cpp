@@ -165,8 +165,8 @@ TEST(Simulation, LaserOfTheS1rMeasuresTheWallAheadFromItsMount) {
   EXPECT_NEAR(scan.ranges_m[341], 1.965 / std::cos(half), 1e-5);
   EXPECT_NEAR(scan.angle_min_rad, -0.5 * 681 * 0.39589 * std::numbers::pi / 180.0, 1e-12);
   // The nearest point of the room is straight ahead.
-  EXPECT_NEAR(scan.least_range_m, 1.965, 1e-4);
-  EXPECT_NEAR(std::abs(scan.least_angle_rad), half, 1e-12);  // either of the two
+  EXPECT_NEAR(scan.least_range_m(), 1.965, 1e-4);
+  EXPECT_NEAR(std::abs(scan.least_angle_rad()), half, 1e-12);  // either of the two
 }
 
 TEST(Simulation, LaserInsideAnObstacleReadsZero) {

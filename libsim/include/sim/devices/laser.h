@@ -27,9 +27,12 @@ struct LaserReading final : Reading {
   double angle_min_rad = 0.0;    ///< of beam 0, the rightmost
   double resolution_rad = 0.0;
   double range_max_m = 0.0;
-  double least_range_m = 0.0;    ///< the least of ranges_m
-  double least_angle_rad = 0.0;  ///< angle of (the first of) the beams that have it
-  Pose X_WB;                     ///< where the robot was (for pictures; not told to clients)
+  Pose X_WB;  ///< where the robot was (for pictures; not told to clients)
+
+  /// The least of ranges_m. @pre a scan has been made. Cost: one pass over the ranges.
+  [[nodiscard]] double least_range_m() const;
+  /// Angle of the (first of the) beams that have it. @pre and cost as above.
+  [[nodiscard]] double least_angle_rad() const;
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<LaserReading>(*this);
@@ -39,7 +42,9 @@ struct LaserReading final : Reading {
 /// The Hokuyo-like laser scanner: LaserParams says what it is, LaserReading what it tells.
 class Laser final : public Sensor {
  public:
-  Laser(std::string name, const LaserParams& params, RandomStream noise);
+  /// @param may_be_inside  whether the laser may ever stand inside a solid: not if it is mounted
+  ///                       well within its robot's footprint, which saves a search a scan.
+  Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise);
 
   [[nodiscard]] const LaserReading& reading() const noexcept override { return reading_; }
   [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
@@ -50,6 +55,7 @@ class Laser final : public Sensor {
 
  private:
   LaserParams params_;
+  bool may_be_inside_;
   RandomStream noise_;
   scan::ScanKernel kernel_;
   scan::EdgeBuffer edges_;

@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// @file
+/// The CCMorse library: the one header that client programs include. It brings in what
+/// libplayerc++/playerc++.h does, Player's classes under CCMorse's name too, and PI.
+
+#include "libCCMorse/ClientProxy.h"
+#include "libCCMorse/Drawing.h"
+#include "libCCMorse/GridMapLayer.h"
+#include "libCCMorse/ImagePoint.h"
+#include "libCCMorse/LaserProxy.h"
+#include "libCCMorse/MorseActuator.h"
+#include "libCCMorse/MorseClient.h"
+#include "libCCMorse/MorseDevice.h"
+#include "libCCMorse/MorseError.h"
+#include "libCCMorse/MorseLaser.h"
+#include "libCCMorse/MorseMotionVW.h"
+#include "libCCMorse/MorseOdometry.h"
+#include "libCCMorse/MorsePen.h"
+#include "libCCMorse/MorsePose.h"
+#include "libCCMorse/MorseProperties.h"
+#include "libCCMorse/MorseRobot.h"
+#include "libCCMorse/MorseSensor.h"
+#include "libCCMorse/MorseTime.h"
+#include "libCCMorse/PlayerClient.h"
+#include "libCCMorse/Position2dProxy.h"
+#include "libCCMorse/WindowProxy.h"
+#include "libplayerc++/playerc++.h"
+
+#ifndef PI
+/// The ratio of a circle's circumference to its diameter.
+#define PI 3.14159265358979323846
+#endif

@@ -1,0 +1,11 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "libplayerc++/laserproxy.h"
+
+namespace CCMorse {
+
+/// The one class under both names; see PlayerCc::LaserProxy.
+using PlayerCc::LaserProxy;
+
+}  // namespace CCMorse

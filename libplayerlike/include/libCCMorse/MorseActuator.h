@@ -1,0 +1,18 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "libCCMorse/MorseDevice.h"
+
+namespace CCMorse {
+
+/// A device that acts: on its robot, or on the world.
+class MorseActuator : public MorseDevice {
+ public:
+  ~MorseActuator() override;
+
+ protected:
+  MorseActuator(const MorseRobot& aRobot, const std::string& aName, const char* aType,
+                const char* aClass);
+};
+
+}  // namespace CCMorse

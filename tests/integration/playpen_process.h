@@ -1,0 +1,31 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "run_process.h"
+
+/// What the tests of the playpen command share.
+namespace test_support {
+
+/// An empty room with one robot; laser and pose are exact unless `noise_m` says otherwise.
+[[nodiscard]] inline std::string room_world(double noise_m = 0.0) {
+  const nlohmann::json world = {{"name", "room"},
+                                {"arena", {{"size", {2.0, 2.0}}}},
+                                {"robots",
+                                 {{{"name", "r1"},
+                                   {"pose", {{"x", 0.5}, {"y", 1.0}, {"yaw_deg", 0.0}}},
+                                   {"devices", {{"laser", {{"noise", noise_m}}}}}}}}};
+  return world.dump();
+}
+
+/// Runs playpen with these arguments, in a folder.
+[[nodiscard]] inline ProcessResult playpen(std::vector<std::string> arguments,
+                                           const ProcessOptions& options = {}) {
+  arguments.insert(arguments.begin(), PLAYPEN_COMMAND);
+  return test_support::run_process(arguments, options);
+}
+
+}  // namespace test_support
