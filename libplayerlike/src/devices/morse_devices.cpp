@@ -230,8 +230,8 @@ void MorseLaser::HandleReading(const sim::Reading& aReading) {
   mMinAngle = reading->angle_min_rad;
   mResolution = reading->resolution_rad;
   mMaxRange = reading->range_max_m;
-  mLeastRange = reading->least_range_m;
-  mLeastAngle = reading->least_angle_rad;
+  mLeastRange = reading->least_range_m();
+  mLeastAngle = reading->least_angle_rad();
 }
 
 double MorseLaser::Checked(uint32_t aIndex, const char* aFunction) const {
