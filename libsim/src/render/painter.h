@@ -121,6 +121,8 @@ class Painter {
  private:
   static std::uint8_t mix(std::uint8_t below, std::uint8_t above, float share) {
     const auto from = static_cast<float>(below);
+    // Rounds right: the sum is positive. lround would be called once a pixel.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     return static_cast<std::uint8_t>(from + (static_cast<float>(above) - from) * share + 0.5F);
   }
   /// Calls visit(x, y, coverage) for every pixel that the shape covers in part or whole.

@@ -157,10 +157,10 @@ struct Layout {
     return {floor.left + (p_W.x() - origin.x()) * pixels_per_m,
             floor.bottom - (p_W.y() - origin.y()) * pixels_per_m};
   }
-  [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& points_W) const {
+  [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& points_in_world) const {
     std::vector<Vec2> points;
-    points.reserve(points_W.size());
-    for (const Vec2& point : points_W) points.push_back((*this)(point));
+    points.reserve(points_in_world.size());
+    for (const Vec2& point : points_in_world) points.push_back((*this)(point));
     return points;
   }
 };
@@ -276,9 +276,9 @@ class ScenePainter {
     const double width_px = line_px(1.0, 0.7);
     Shape grid;
     const Vec2 end = layout_.origin + scene_.arena.size;
-    const auto line = [&](const Vec2& from_W, const Vec2& to_W) {
-      const Vec2 a = layout_(from_W);
-      const Vec2 b = layout_(to_W);
+    const auto line = [&](const Vec2& p_WA, const Vec2& p_WB) {
+      const Vec2 a = layout_(p_WA);
+      const Vec2 b = layout_(p_WB);
       const Vec2 half(0.5 * width_px, 0.5 * width_px);
       grid.add_piece({a.cwiseMin(b) - half,
                       {std::max(a.x(), b.x()) + half.x(), std::min(a.y(), b.y()) - half.y()},
