@@ -12,12 +12,14 @@ namespace test_support {
 
 /// An empty room with one robot; laser and pose are exact unless `noise_m` says otherwise.
 [[nodiscard]] inline std::string room_world(double noise_m = 0.0) {
-  const nlohmann::json world = {{"name", "room"},
-                                {"arena", {{"size", {2.0, 2.0}}}},
-                                {"robots",
-                                 {{{"name", "r1"},
-                                   {"pose", {{"x", 0.5}, {"y", 1.0}, {"yaw_deg", 0.0}}},
-                                   {"devices", {{"laser", {{"noise", noise_m}}}}}}}}};
+  const nlohmann::json world = {
+      {"name", "room"},
+      {"arena", {{"size", {2.0, 2.0}}}},
+      {"canvas", {{"size", {172, 186}}}},  // what the course's programs expect
+      {"robots",
+       {{{"name", "r1"},
+         {"pose", {{"x", 0.5}, {"y", 1.0}, {"yaw_deg", 0.0}}},
+         {"devices", {{"laser", {{"noise", noise_m}}}}}}}}};
   return world.dump();
 }
 

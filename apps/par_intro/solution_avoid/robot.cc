@@ -15,24 +15,27 @@ const double FRONT = 0.5;   // what counts as in front [rad]
 const double V_MAX = 0.3;   // speed with nothing in front [m/s]
 const double W_MAX = 2.0;   // fastest turn [rad/s]
 const double WEIGHT = 6.0;  // turn rate for an eye that is covered altogether [rad/s]
-const double CLOSE = 0.7;  // nearness in front from which on it only turns
+const double CLOSE = 0.7;   // nearness in front from which on it only turns
 
 }  // namespace
 
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   config.add<std::string>("host", "where the robot is", "localhost");
-  config.add<int>("port", "its port", 4000);
-  config.add<int>("laser-index", "number of the laser", 0);
-  config.add<int>("position2d-index", "number of the drive", 0);
+  config.add<unsigned>("port", "its port", 4000);
+  config.add<unsigned>("laser-index", "number of the laser", 0);
+  config.add<unsigned>("position2d-index", "number of the drive", 0);
+  config.add<int>("canvas-width", "columns of the world's canvas", 172);
+  config.add<int>("canvas-height", "rows of the world's canvas", 186);
   return config;
 }
 
 CRobot::CRobot(imr::CConfig& cfg)
-    : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<int>("port"))),
-      laser(new CCMorse::LaserProxy(client.get(), cfg.get<int>("laser-index"))),
-      position(new CCMorse::Position2dProxy(client.get(), cfg.get<int>("position2d-index"))) {
-  // The canvas: 172 x 186 pixels of 0.02 m cover the arena.
-  CCMorse::WindowProxy::GetInstance(client.get(), 172, 186);
+    : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
+      laser(new CCMorse::LaserProxy(client.get(), cfg.get<unsigned>("laser-index"))),
+      position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))) {
+  // The canvas of the arena has 172 x 186 pixels of 0.02 m; another world may have another one.
+  CCMorse::WindowProxy::GetInstance(client.get(), cfg.get<int>("canvas-width"),
+                                    cfg.get<int>("canvas-height"));
   while (!laser->IsFresh() || !position->IsFresh()) {
     client->Read();
   }

@@ -27,22 +27,25 @@ double clamp(double value, double low, double high) { return std::max(low, std::
 
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   config.add<std::string>("host", "where the robot is", "localhost");
-  config.add<int>("port", "its port", 4000);
-  config.add<int>("laser-index", "number of the laser", 0);
-  config.add<int>("position2d-index", "number of the drive", 0);
+  config.add<unsigned>("port", "its port", 4000);
+  config.add<unsigned>("laser-index", "number of the laser", 0);
+  config.add<unsigned>("position2d-index", "number of the drive", 0);
+  config.add<int>("canvas-width", "columns of the world's canvas", 172);
+  config.add<int>("canvas-height", "rows of the world's canvas", 186);
   config.add<std::string>("side", "hand that is kept on the wall: left or right", "left");
   return config;
 }
 
 CRobot::CRobot(imr::CConfig& cfg)
-    : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<int>("port"))),
-      laser(new CCMorse::LaserProxy(client.get(), cfg.get<int>("laser-index"))),
-      position(new CCMorse::Position2dProxy(client.get(), cfg.get<int>("position2d-index"))),
+    : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
+      laser(new CCMorse::LaserProxy(client.get(), cfg.get<unsigned>("laser-index"))),
+      position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))),
       side(cfg.get<std::string>("side") == "right" ? -1.0 : 1.0) {
   imr::assert_argument(side < 0.0 || cfg.get<std::string>("side") == "left",
                        "--side must be left or right");
-  // The canvas: 172 x 186 pixels of 0.02 m cover the arena.
-  CCMorse::WindowProxy::GetInstance(client.get(), 172, 186);
+  // The canvas of the arena has 172 x 186 pixels of 0.02 m; another world may have another one.
+  CCMorse::WindowProxy::GetInstance(client.get(), cfg.get<int>("canvas-width"),
+                                    cfg.get<int>("canvas-height"));
   while (!laser->IsFresh() || !position->IsFresh()) {
     client->Read();
   }

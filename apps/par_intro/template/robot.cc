@@ -13,16 +13,16 @@ imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
   // simulation) somewhere else. On port 4000 all robots are visible, and the index says which one;
   // ports 6665, 6666, ... are one robot each, with index 0.
   config.add<std::string>("host", "where the robot is", "localhost");
-  config.add<int>("port", "its port", 4000);
-  config.add<int>("laser-index", "number of the laser", 0);
-  config.add<int>("position2d-index", "number of the drive", 0);
+  config.add<unsigned>("port", "its port", 4000);
+  config.add<unsigned>("laser-index", "number of the laser", 0);
+  config.add<unsigned>("position2d-index", "number of the drive", 0);
   return config;
 }
 
 CRobot::CRobot(imr::CConfig& cfg)
-    : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<int>("port"))),
-      laser(new CCMorse::LaserProxy(client.get(), cfg.get<int>("laser-index"))),
-      position(new CCMorse::Position2dProxy(client.get(), cfg.get<int>("position2d-index"))) {
+    : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
+      laser(new CCMorse::LaserProxy(client.get(), cfg.get<unsigned>("laser-index"))),
+      position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))) {
   // Proxies are empty until the first data come.
   while (!laser->IsFresh() || !position->IsFresh()) {
     client->Read();

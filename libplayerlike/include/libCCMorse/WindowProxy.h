@@ -25,9 +25,11 @@ class WindowProxy : public Drawing {
  public:
   /// Makes the client's window, or returns it if the client has one.
   /// @param aClient  not null.
-  /// @param aWidth, aHeight  cells; must be those of the world's grid-map ("canvas": {"size":
-  ///                 [width, height]} in the world file, by default 172 x 186).
-  /// @throws PlayerError kBadArgument for a null client or another size.
+  /// @param aWidth, aHeight  cells, > 0. The window shows the world's whole grid-map, whatever its
+  ///                 size ("canvas": {"size": [width, height]} in the world file, 172 x 186 in the
+  ///                 SyRoTek arena), so that one program serves worlds of all sizes: GetWidth()
+  ///                 and GetHeight() tell the true size, GetX() and GetY() find the cells.
+  /// @throws PlayerError kBadArgument for a null client or a size that is not positive.
   static WindowProxy& GetInstance(PlayerClient* aClient, int aWidth, int aHeight);
   /// The window.
   /// @throws PlayerError kNotAvailable if there is none.

@@ -3,7 +3,7 @@
 
 /// @file
 /// Player's constants: interface codes, message types, data modes, and those of the interfaces
-/// that have proxies here. Macros, as Player has them, so that programs may test them with #ifdef.
+/// that have proxies here. Macros, as Player has them, so that the preprocessor knows them.
 
 // Codes of interfaces: what a device speaks, in device addresses and LookupName().
 #define PLAYER_PLAYER_CODE 1

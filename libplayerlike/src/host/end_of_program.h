@@ -13,6 +13,12 @@ namespace playerlike {
 /// process with status 0 instead of aborting it. Other uncaught exceptions abort as before.
 void end_program_quietly_if_uncaught() noexcept;
 
+/// From now on the first SIGINT or SIGTERM only sets a flag, so that the run can be ended in good
+/// order; a second one ends the process. Signals that the program handles itself are left to it.
+void note_interrupts() noexcept;
+/// Whether such a signal has come.
+[[nodiscard]] bool interrupted() noexcept;
+
 /// Adds a test of whether an exception says that the run is over (SessionError kFinished is
 /// known). The layer above registers the exception type that it turns that into.
 using EndOfRunTest = bool (*)(const std::exception_ptr&);

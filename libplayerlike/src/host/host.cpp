@@ -54,6 +54,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
   }
   recorder_ = std::make_unique<Recorder>(trajectory, settings_.film, simulation_);
   mode_chosen_ = settings_.time_mode.has_value();
+  if (settings_.quiet_end) note_interrupts();
 }
 
 Host::Core::~Core() {
@@ -283,7 +284,7 @@ void Host::Core::advance() {
   distribute();
   if (simulation_.finished()) last_step_ = WallClock::now();
   if (settings_.progress && simulation_.steps() % 64 == 0) show_progress(false);
-  if (simulation_.finished()) end_run();
+  if (simulation_.finished() || (settings_.quiet_end && interrupted())) end_run();
   release_waiters();
 }
 

@@ -40,18 +40,11 @@ WindowProxy& WindowProxy::GetInstance(PlayerClient* aClient, int aWidth, int aHe
                       PlayerError::kBadArgument);
   }
   const std::shared_ptr<ClientCore>& core = PlayerCc::detail::CoreAccess::get(*aClient);
-  const playerlike::CanvasInfo canvas =
-      playerlike::translated(fun, [&] { return core->session().canvas_info(); });
-  if (aWidth != canvas.width || aHeight != canvas.height) {
-    const auto size = [](int width, int height) {
-      return std::to_string(width) + " x " + std::to_string(height);
-    };
+  if (aWidth <= 0 || aHeight <= 0) {
     throw PlayerError(fun,
-                      "the window must have the size of the world's grid-map, " +
-                          size(canvas.width, canvas.height) + " cells, but " +
-                          size(aWidth, aHeight) +
-                          " were asked for (the world file sets it by \"canvas\": {\"size\": "
-                          "[width, height]})",
+                      "a window has at least one column and one row, but " +
+                          std::to_string(aWidth) + " x " + std::to_string(aHeight) +
+                          " were asked for",
                       PlayerError::kBadArgument);
   }
   Windows& windows = Windows::instance();

@@ -165,8 +165,9 @@ std::vector<DeviceKind> make_table() {
 }  // namespace
 
 const std::vector<DeviceKind>& device_kinds() {
-  static const std::vector<DeviceKind> table = make_table();
-  return table;
+  // Never destroyed: a simulation may still be in use while the program exits.
+  static const auto* const table = new std::vector<DeviceKind>(make_table());
+  return *table;
 }
 
 std::vector<io::DeviceType> device_types() {

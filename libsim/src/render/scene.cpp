@@ -230,8 +230,8 @@ class ScenePainter {
 
   Image draw() && {
     draw_floor();
-    if (options_.canvas) draw_canvas_on_floor();
     draw_docks();
+    if (options_.canvas) draw_canvas_on_floor();
     draw_retracted();
     // What robots see and where they went may reach beyond the floor where there are no borders.
     painter_.set_clip(static_cast<int>(std::floor(layout_.floor.left)),

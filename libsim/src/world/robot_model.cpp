@@ -7,16 +7,17 @@ namespace sim {
 namespace {
 
 /// All models, in order of name. Settings of their devices are left empty: io fills in the
-/// defaults of each type, since the types' settings lie above this layer.
+/// defaults of each type, since the types' settings lie above this layer. Never destroyed:
+/// simulations hold pointers to models, and one may still be drawn while the program exits.
 const std::vector<RobotModel>& models() {
-  static const std::vector<RobotModel> all = [] {
+  static const auto* const all = [] {
     RobotModel s1r = s1r_model();
     for (const char* device : {"laser", "motion", "odometry", "pen", "pose"}) {
       s1r.devices.push_back({device, device, {}});
     }
-    return std::vector<RobotModel>{std::move(s1r)};
+    return new std::vector<RobotModel>{std::move(s1r)};
   }();
-  return all;
+  return *all;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -452,6 +453,21 @@ TEST_F(HostTest, ResultsOfARunAreWrittenOnceItEnds) {
   while (std::getline(rows, line)) ++count;
   EXPECT_EQ(count, 1 + 2 * 11);  // a header, then both robots at 0, 0.1, ..., 1 s
   std::filesystem::remove_all(folder);
+}
+
+TEST_F(HostTest, AnInterruptEndsARunOfPlaypenInGoodOrder) {
+  RunSettings settings;
+  settings.quiet_end = true;  // as under playpen run
+  const auto session = start(two_robots(), settings)->connect(6665);
+  subscribe_position(*session);
+  read(*session);
+  std::raise(SIGINT);
+  try {
+    read(*session);
+    FAIL() << "expected the end of the run";
+  } catch (const SessionError& e) {
+    EXPECT_EQ(e.code(), SessionError::Code::kFinished);
+  }
 }
 
 TEST_F(HostTest, AnOutputFolderThatCannotBeMadeIsAnErrorThatNamesIt) {

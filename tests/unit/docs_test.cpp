@@ -1,0 +1,138 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Links of the documentation lead somewhere.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+const fs::path kRoot(PLAYPEN_SOURCE_DIR);
+
+std::string content(const fs::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// The text without fenced blocks and code in backticks, lines kept.
+std::string prose_of(const std::string& text) {
+  std::string prose;
+  std::istringstream lines(text);
+  bool in_fence = false;
+  for (std::string line; std::getline(lines, line); prose += '\n') {
+    if (line.starts_with("```")) {
+      in_fence = !in_fence;
+    } else if (!in_fence) {
+      static const std::regex kCode("`[^`]*`");
+      prose += std::regex_replace(line, kCode, "code");
+    }
+  }
+  return prose;
+}
+
+/// Targets of links and pictures, those in the web left out.
+std::vector<std::string> links_of(const std::string& text) {
+  static const std::regex kLink(R"(\]\(([^()\s]+(\([^()\s]*\))?)\))");
+  const std::string prose = prose_of(text);
+  std::vector<std::string> links;
+  for (std::sregex_iterator it(prose.begin(), prose.end(), kLink), end; it != end; ++it) {
+    const std::string target = (*it)[1];
+    if (!target.starts_with("https://") && !target.starts_with("http://")) links.push_back(target);
+  }
+  return links;
+}
+
+/// The anchor that a heading gets: lower case, blanks to hyphens, other signs dropped.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    const auto u = static_cast<unsigned char>(c);
+    if (std::isalnum(u) != 0 || c == '-' || c == '_') {
+      anchor += static_cast<char>(std::tolower(u));
+    } else if (c == ' ') {
+      anchor += '-';
+    }
+  }
+  return anchor;
+}
+
+std::set<std::string> anchors_of(const std::string& text) {
+  std::set<std::string> anchors;
+  std::istringstream lines(text);
+  bool in_fence = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) in_fence = !in_fence;
+    const auto level = line.find_first_not_of('#');
+    if (in_fence || level == 0 || level == std::string::npos || line[level] != ' ') continue;
+    anchors.insert(anchor_of(line.substr(level + 1)));
+  }
+  return anchors;
+}
+
+/// What is wrong with the links of a page; `file` is where it lies.
+std::vector<std::string> dead_links(const fs::path& file, const std::string& text) {
+  std::vector<std::string> dead;
+  for (const std::string& link : links_of(text)) {
+    const auto hash = link.find('#');
+    const std::string target = link.substr(0, hash);
+    const fs::path path = target.empty() ? file : file.parent_path() / target;
+    const bool there = target.empty() || fs::exists(path);
+    const bool anchored =
+        hash == std::string::npos ||
+        (there &&
+         anchors_of(target.empty() ? text : content(path)).contains(link.substr(hash + 1)));
+    if (!there || !anchored) dead.push_back(link);
+  }
+  return dead;
+}
+
+std::vector<fs::path> pages() {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(kRoot)) {
+    if (entry.path().extension() == ".md") found.push_back(entry.path());
+  }
+  for (const char* folder : {"docs", "apps"}) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+      if (entry.path().extension() == ".md") found.push_back(entry.path());
+    }
+  }
+  return found;
+}
+
+TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
+  const std::vector<fs::path> all = pages();
+  ASSERT_GT(all.size(), 10U);
+  for (const fs::path& page : all) {
+    EXPECT_THAT(dead_links(page, content(page)), IsEmpty()) << page;
+  }
+}
+
+// The checks themselves, so that one that lets all pass is noticed.
+TEST(DocumentationLinks, AreFoundInProseOnly) {
+  EXPECT_THAT(links_of("[a](b.md) and ![c](d/e.png)\n`[f](g)`\n```\n[h](i)\n```\n[j](#k)\n"
+                       "[web](https://example.org/x)\n"),
+              ElementsAre("b.md", "d/e.png", "#k"));
+}
+
+TEST(DocumentationLinks, ToNothingAreDead) {
+  EXPECT_THAT(dead_links(kRoot / "docs/x.md",
+                         "# A b: c\n[1](no_such_page.md) [2](conventions.md)\n"
+                         "[3](conventions.md#units) [4](conventions.md#nothing)\n"
+                         "[5](#a-b-c) [6](#d) [7](../tests/run.sh)\n"),
+              ElementsAre("no_such_page.md", "conventions.md#nothing", "#d"));
+}
+
+}  // namespace

@@ -1,0 +1,240 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Each device type has its page, its world and defaults that hold together; each shipped world
+// runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sim/core/error.h"
+#include "sim/devices/builtin.h"
+#include "sim/simulation/simulation.h"
+
+namespace sim {
+
+/// How GoogleTest names a kind of device in its output.
+void PrintTo(const DeviceKind& kind, std::ostream* os) { *os << kind.name; }
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::Contains;
+
+const fs::path kRoot(PLAYPEN_SOURCE_DIR);
+
+std::string content(const fs::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// A row of a page's table of settings, without backticks.
+struct Setting {
+  std::string key;
+  std::string unit;
+  std::string range;  ///< "(0, 1000]", or "–"
+  std::string default_value;
+};
+
+std::string trimmed(std::string text) {
+  std::erase(text, '`');
+  const auto first = text.find_first_not_of(' ');
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// The rows of the table under "## Settings".
+std::vector<Setting> settings_of(const std::string& page) {
+  std::vector<Setting> settings;
+  std::istringstream lines(page);
+  std::string line;
+  bool in_section = false;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("## ")) in_section = line == "## Settings";
+    if (!in_section || !line.starts_with("| `")) continue;
+    std::vector<std::string> cells;
+    std::istringstream row(line.substr(1));
+    for (std::string cell; std::getline(row, cell, '|');) cells.push_back(trimmed(cell));
+    cells.resize(std::max<std::size_t>(cells.size(), 4));
+    settings.push_back({cells[0], cells[1], cells[2], cells[3]});
+  }
+  return settings;
+}
+
+/// A world with one robot that has one more device of a type, of these settings.
+std::string world_with(const std::string& type, const std::string& settings) {
+  return R"({"robots": [{"devices": {"example": {"type": ")" + type + "\"" +
+         (settings.empty() ? "" : ", " + settings) + "}}}]}";
+}
+
+std::vector<ConfigIssue> issues_of(const std::string& type, const std::string& settings) {
+  try {
+    static_cast<void>(load_world_text(world_with(type, settings)));
+  } catch (const ConfigError& error) {
+    return error.issues();
+  }
+  return {};
+}
+
+/// The device's numeric settings after reading, as clients are told of them.
+std::map<std::string, double> read_properties(const DeviceKind& kind, const std::string& settings) {
+  const WorldDescription world = load_world_text(world_with(kind.name, settings));
+  for (const DeviceDescription& device : world.robots.at(0).devices) {
+    if (device.name == "example") return kind.properties(device.params);
+  }
+  ADD_FAILURE() << "the device was not read";
+  return {};
+}
+
+/// Whether a number is refused as out of range for a key.
+bool out_of_range(const std::string& type, const std::string& key, const std::string& value) {
+  std::vector<std::string> found;
+  for (const ConfigIssue& issue : issues_of(type, "\"" + key + "\": " + value)) {
+    if (issue.pointer == "/robots/0/devices/example/" + key) found.push_back(issue.id);
+  }
+  return std::find(found.begin(), found.end(), "world/out-of-range") != found.end();
+}
+
+class DevicePage : public testing::TestWithParam<DeviceKind> {
+ protected:
+  [[nodiscard]] static const std::string& type() { return GetParam().name; }
+  [[nodiscard]] static fs::path page_file() { return kRoot / "docs/devices" / (type() + ".md"); }
+  [[nodiscard]] static fs::path world_file() {
+    return kRoot / "worlds/devices" / (type() + ".json");
+  }
+  [[nodiscard]] static std::vector<Setting> settings() { return settings_of(content(page_file())); }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, DevicePage, testing::ValuesIn(device_kinds()),
+                         [](const auto& row) { return row.param.name; });
+
+TEST_P(DevicePage, ExistsAndIsNamedAfterTheType) {
+  ASSERT_TRUE(fs::exists(page_file())) << page_file();
+  EXPECT_TRUE(content(page_file()).starts_with("# " + type() + "\n"));
+}
+
+TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
+  std::vector<std::string> expected;
+  for (const ConfigIssue& issue : issues_of(type(), "\"zz\": 0")) {
+    if (issue.id == "world/unknown-key") expected.push_back(issue.expected);
+  }
+  ASSERT_EQ(expected.size(), 1U);
+  // "one of the keys a, b or c"
+  std::string list = expected[0];
+  std::replace(list.begin(), list.end(), ',', ' ');
+  std::istringstream words(list);
+  std::set<std::string> known;
+  for (std::string word; words >> word;) known.insert(word);
+  for (const char* word : {"one", "of", "the", "keys", "or", "type"}) known.erase(word);
+  ASSERT_FALSE(known.empty()) << expected[0];
+
+  std::set<std::string> listed;
+  for (const Setting& setting : settings()) listed.insert(setting.key);
+  EXPECT_EQ(listed, known);
+}
+
+TEST_P(DevicePage, TellsTheDefaultsOfTheReader) {
+  const auto defaults = GetParam().properties(GetParam().defaults());
+  for (const Setting& setting : settings()) {
+    const auto read =
+        read_properties(GetParam(), "\"" + setting.key + "\": " + setting.default_value);
+    ASSERT_EQ(read.size(), defaults.size());
+    for (const auto& [name, value] : defaults) {
+      // The page has at least 9 digits where a number is not short.
+      EXPECT_NEAR(read.at(name), value, 1e-9 * std::max(1.0, std::abs(value)))
+          << setting.key << ": " << setting.default_value << " makes another " << name;
+    }
+  }
+}
+
+TEST_P(DevicePage, TellsTheRangesOfTheReader) {
+  const std::regex kRange(R"(([\[(])([-0-9.]+), ([-0-9.]+)([\])]))");
+  for (const Setting& setting : settings()) {
+    std::smatch range;
+    if (!std::regex_match(setting.range, range, kRange)) {
+      EXPECT_EQ(setting.range, "–") << setting.key;
+      continue;
+    }
+    const std::string low = range[2];
+    const std::string high = range[3];
+    EXPECT_EQ(out_of_range(type(), setting.key, low), range[1] == "(") << setting.key;
+    EXPECT_EQ(out_of_range(type(), setting.key, high), range[4] == ")") << setting.key;
+    EXPECT_TRUE(out_of_range(type(), setting.key, std::to_string(std::stod(low) - 1.0)))
+        << setting.key;
+    EXPECT_TRUE(out_of_range(type(), setting.key, std::to_string(std::stod(high) + 1.0)))
+        << setting.key;
+  }
+}
+
+TEST_P(DevicePage, EmptySettingsGiveTheDefaults) {
+  EXPECT_EQ(read_properties(GetParam(), ""), GetParam().properties(GetParam().defaults()));
+  EXPECT_EQ(GetParam().properties({}), GetParam().properties(GetParam().defaults()));
+}
+
+TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
+  ASSERT_TRUE(fs::exists(world_file())) << world_file();
+  Simulation simulation(load_world(world_file().string()));
+  int devices = 0;
+  for (int robot = 0; robot < simulation.robot_count(); ++robot) {
+    for (int device = 0; device < simulation.device_count(robot); ++device) {
+      if (simulation.device(robot, device).type() == type()) ++devices;
+    }
+  }
+  EXPECT_GT(devices, 0);
+  const std::string text = content(world_file());
+  for (const Setting& setting : settings()) {
+    EXPECT_NE(text.find("\"" + setting.key + "\":"), std::string::npos)
+        << setting.key << " is not shown in " << world_file();
+  }
+  for (int i = 0; i < 100; ++i) simulation.step();
+  EXPECT_EQ(simulation.steps(), 100U);
+}
+
+TEST(DevicePages, AreOfKnownTypes) {
+  std::set<std::string> types;
+  for (const DeviceKind& kind : device_kinds()) types.insert(kind.name);
+  for (const char* folder : {"docs/devices", "worlds/devices"}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / folder)) {
+      EXPECT_THAT(types, Contains(entry.path().stem().string())) << entry.path();
+    }
+  }
+}
+
+TEST(ShippedWorlds, LoadAndStep) {
+  int worlds = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / "worlds")) {
+    const std::string file = entry.path().string();
+    if (!file.ends_with(".json") || file.ends_with(".schema.json")) continue;
+    ++worlds;
+    std::optional<Simulation> simulation;
+    ASSERT_NO_THROW(simulation.emplace(load_world(file))) << file;
+    for (int i = 0; i < 100; ++i) simulation->step();
+    EXPECT_EQ(simulation->steps(), 100U) << file;
+  }
+  EXPECT_GE(worlds, 10);
+}
+
+// The page's reader itself, so that one which finds nothing is noticed.
+TEST(DevicePageTable, IsReadFromItsSectionOnly) {
+  const std::vector<Setting> settings = settings_of(
+      "# x\n| `a` | m | – | `1` | no |\n## Settings\n| key | unit | range | default |\n|---|---|\n"
+      "| `b` | m | (0, 1] | `2` | yes |\n## Reading\n| `c` | m | [0, 1] | `3` | no |\n");
+  ASSERT_EQ(settings.size(), 1U);
+  EXPECT_EQ(settings[0].key, "b");
+  EXPECT_EQ(settings[0].range, "(0, 1]");
+  EXPECT_EQ(settings[0].default_value, "2");
+}
+
+}  // namespace
+}  // namespace sim
