@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 #include <set>
@@ -175,6 +176,23 @@ TEST_P(DevicePage, TellsTheRangesOfTheReader) {
     EXPECT_TRUE(out_of_range(type(), setting.key, std::to_string(std::stod(high) + 1.0)))
         << setting.key;
   }
+}
+
+TEST_P(DevicePage, HasTheSameKeysInTheSchema) {
+  const auto schema = nlohmann::json::parse(content(kRoot / "worlds/schema/world.schema.json"));
+  std::set<std::string> in_schema;
+  const auto& settings_object = schema.at("$defs").at("device_" + type()).at("oneOf").at(0);
+  for (const auto& [key, value] : settings_object.at("properties").items()) in_schema.insert(key);
+  in_schema.erase("type");
+  std::set<std::string> listed;
+  for (const Setting& setting : settings()) listed.insert(setting.key);
+  EXPECT_EQ(in_schema, listed);
+  EXPECT_TRUE(schema.at("$defs")
+                  .at("robot")
+                  .at("properties")
+                  .at("devices")
+                  .at("properties")
+                  .contains(type()));
 }
 
 TEST_P(DevicePage, EmptySettingsGiveTheDefaults) {
