@@ -34,7 +34,7 @@ class MorseLaser : public MorseSensor {
   double GetResolution() const;  ///< angle between neighbouring beams [rad]
   double GetMaxRange() const;    ///< [m]
 
-  /// Least range of the scan [m]; GetMaxRange() before the first.
+  /// Least range of the scan [m]; GetMaxRange() before the first. Looks through all beams.
   double GetLeastRange() const;
   /// Angle of the beam that has it; of several, the rightmost [rad]; 0 before the first scan.
   double GetLeastAngle() const;
@@ -51,8 +51,6 @@ class MorseLaser : public MorseSensor {
   double mMinAngle;
   double mResolution;
   double mMaxRange;
-  double mLeastRange;
-  double mLeastAngle;
 };
 
 }  // namespace CCMorse

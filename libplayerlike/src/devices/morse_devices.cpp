@@ -213,9 +213,7 @@ MorseLaser::MorseLaser(const MorseRobot& aRobot, const std::string& aName)
     : MorseSensor(aRobot, aName, "laser", "MorseLaser"),
       mMinAngle(0.0),
       mResolution(GetProperty("resolution", 0.0)),
-      mMaxRange(GetProperty("range_max", 0.0)),
-      mLeastRange(mMaxRange),
-      mLeastAngle(0.0) {
+      mMaxRange(GetProperty("range_max", 0.0)) {
   // The simulated laser is symmetric about forward.
   mMinAngle = -0.5 * std::max(0.0, GetProperty("beams", 0.0) - 1.0) * mResolution;
   Attach();
@@ -230,8 +228,6 @@ void MorseLaser::HandleReading(const sim::Reading& aReading) {
   mMinAngle = reading->angle_min_rad;
   mResolution = reading->resolution_rad;
   mMaxRange = reading->range_max_m;
-  mLeastRange = reading->least_range_m();
-  mLeastAngle = reading->least_angle_rad();
 }
 
 double MorseLaser::Checked(uint32_t aIndex, const char* aFunction) const {
@@ -298,12 +294,15 @@ double MorseLaser::GetMaxRange() const {
 
 double MorseLaser::GetLeastRange() const {
   const auto lock = Lock("GetLeastRange");
-  return mLeastRange;
+  if (mRanges.empty()) return mMaxRange;
+  return *std::min_element(mRanges.begin(), mRanges.end());
 }
 
 double MorseLaser::GetLeastAngle() const {
   const auto lock = Lock("GetLeastAngle");
-  return mLeastAngle;
+  if (mRanges.empty()) return 0.0;
+  const auto least = std::min_element(mRanges.begin(), mRanges.end());
+  return mMinAngle + static_cast<double>(least - mRanges.begin()) * mResolution;
 }
 
 player_pose2d_t MorseLaser::GetMountPose() const {

@@ -1,0 +1,740 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <sstream>
+#include <thread>
+
+#include "fake_session.h"
+#include "libplayerc++/playerc++.h"
+
+namespace {
+
+using PlayerCc::ClientProxy;
+using PlayerCc::LaserProxy;
+using PlayerCc::PlayerClient;
+using PlayerCc::PlayerError;
+using PlayerCc::Position2dProxy;
+using test::error_code_of;
+using test::fake_session;
+using test::FakeWorld;
+using test::kLaser;
+using test::kMotion;
+using test::kOdometry;
+using test::kPose;
+using test::make_fake_world;
+using test::pose_reading;
+using test::scan;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+class Proxies : public testing::Test {
+ protected:
+  /// The twist that was sent last.
+  sim::Twist last_twist() const {
+    if (world->sent.empty() || !(world->sent.back().first == kMotion) ||
+        !std::holds_alternative<sim::TwistCommand>(world->sent.back().second)) {
+      ADD_FAILURE() << "the last command is no twist for the motors";
+      return {kNan, kNan, kNan};
+    }
+    return std::get<sim::TwistCommand>(world->sent.back().second).twist;
+  }
+
+  std::shared_ptr<FakeWorld> world = make_fake_world();
+  PlayerClient client{fake_session(world)};
+};
+
+// --- PlayerClient
+
+TEST_F(Proxies, ClientTellsHostPortAndInterfaces) {
+  EXPECT_TRUE(client.Connected());
+  EXPECT_EQ(client.GetPort(), 6665U);
+  EXPECT_EQ(client.LookupCode("laser"), PLAYER_LASER_CODE);
+  EXPECT_EQ(client.LookupCode("teapot"), -1);
+  EXPECT_EQ(client.LookupName(PLAYER_POSITION2D_CODE), "position2d");
+  EXPECT_EQ(client.LookupName(9999), "unknown");
+  EXPECT_EQ(client.GetOverflowCount(), 3U);
+}
+
+TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
+  EXPECT_TRUE(client.GetDeviceList().empty());
+  client.RequestDeviceList();
+  const std::list<playerc_device_info_t> list = client.GetDeviceList();
+  // laser:0, position2d:0 (pose) and position2d:1 (odometry).
+  ASSERT_EQ(list.size(), 3U);
+  EXPECT_EQ(list.front().addr.interf, PLAYER_LASER_CODE);
+  EXPECT_STREQ(list.front().drivername, "laser");
+  EXPECT_EQ(list.back().addr.interf, PLAYER_POSITION2D_CODE);
+  EXPECT_EQ(list.back().addr.index, 1);
+  EXPECT_STREQ(list.back().drivername, "odometry");
+}
+
+TEST_F(Proxies, ClientKeepsItsRetrySettings) {
+  client.SetRetryLimit(5);
+  client.SetRetryTime(2.5);
+  client.SetRequestTimeout(3);
+  EXPECT_EQ(client.GetRetryLimit(), 5);
+  EXPECT_DOUBLE_EQ(client.GetRetryTime(), 2.5);
+}
+
+TEST_F(Proxies, DataModeMustBePullOrPush) {
+  client.SetDataMode(PLAYER_DATAMODE_PULL);
+  client.SetDataMode(PLAYER_DATAMODE_PUSH);
+  EXPECT_EQ(error_code_of([&] { client.SetDataMode(17); }), PlayerError::kBadArgument);
+}
+
+TEST_F(Proxies, ReplaceRulesReachTheSession) {
+  client.SetReplaceRule(false);
+  EXPECT_EQ(world->replace.at(-1), false);
+  client.SetReplaceRule(true, PLAYER_MSGTYPE_DATA, -1, PLAYER_LASER_CODE);
+  EXPECT_EQ(world->replace.at(kLaser.device), true);
+  // Commands never wait, so a rule for them changes nothing.
+  client.SetReplaceRule(false, PLAYER_MSGTYPE_CMD, -1, PLAYER_LASER_CODE);
+  EXPECT_EQ(world->replace.at(kLaser.device), true);
+  // A rule for an interface holds for proxies made later too.
+  world->replace.clear();
+  LaserProxy laser(&client, 0);
+  EXPECT_EQ(world->replace.at(kLaser.device), true);
+  laser.SetReplaceRule(false);
+  EXPECT_EQ(world->replace.at(kLaser.device), false);
+}
+
+TEST_F(Proxies, ReadAtTheEndOfTheRunSaysSo) {
+  try {
+    client.Read();
+    FAIL() << "Read() returned";
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorStr(), "the simulated run is over");
+    EXPECT_EQ(e.GetErrorFun(), "PlayerClient::Read");
+    EXPECT_EQ(e.GetErrorCode(), PlayerError::kRunIsOver);
+  }
+}
+
+TEST_F(Proxies, ReadIfWaitingReadsOnlyWhatWaits) {
+  world->over_when_empty = false;
+  Position2dProxy position(&client, 0);
+  EXPECT_FALSE(client.Peek(0));
+  client.ReadIfWaiting();
+  EXPECT_FALSE(position.IsFresh());
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  EXPECT_TRUE(client.Peek(0));
+  client.ReadIfWaiting();
+  EXPECT_TRUE(position.IsFresh());
+}
+
+TEST(PlayerClientErrors, NameWhatIsWrong) {
+  EXPECT_EQ(error_code_of([] { PlayerClient client(std::unique_ptr<playerlike::Session>{}); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([] { PlayerClient client("localhost", 6665, 99); }),
+            PlayerError::kBadArgument);
+  try {
+    PlayerClient client("sim:no/such/world.json");
+    FAIL() << "a world that does not exist was loaded";
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorFun(), "PlayerClient::PlayerClient");
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("no/such/world.json"));
+  }
+}
+
+// --- ClientProxy
+
+TEST_F(Proxies, MissingDeviceIsAnErrorThatNamesThoseThereAre) {
+  try {
+    LaserProxy laser(&client, 3);
+    FAIL() << "laser:3 exists";
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorCode(), PlayerError::kNoSuchDevice);
+    EXPECT_EQ(e.GetErrorFun(), "LaserProxy::LaserProxy");
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("laser:3"));
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("laser:0"));
+  }
+  EXPECT_EQ(error_code_of([&] { LaserProxy laser(&client, 4294967295U); }),
+            PlayerError::kNoSuchDevice);
+  EXPECT_EQ(error_code_of([] { LaserProxy laser(nullptr); }), PlayerError::kBadArgument);
+}
+
+TEST_F(Proxies, SubscribeWhileTheyLive) {
+  {
+    LaserProxy laser(&client);
+    Position2dProxy position(&client, 1);
+    EXPECT_EQ(world->subscriptions.at(kLaser.device), 1);
+    EXPECT_EQ(world->subscriptions.at(kOdometry.device), 1);
+  }
+  EXPECT_EQ(world->subscriptions.at(kLaser.device), 0);
+  EXPECT_EQ(world->subscriptions.at(kOdometry.device), 0);
+}
+
+TEST_F(Proxies, FlagsFollowTheData) {
+  Position2dProxy position(&client, 0);
+  EXPECT_FALSE(position.IsValid());
+  EXPECT_FALSE(position.IsFresh());
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  world->add_round({{kPose, pose_reading(0.25, {1.0, 2.0, 0.5})}});
+  client.Read();
+  EXPECT_TRUE(position.IsValid());
+  EXPECT_TRUE(position.IsFresh());
+  EXPECT_DOUBLE_EQ(position.GetDataTime(), 0.1);
+  EXPECT_DOUBLE_EQ(position.GetElapsedTime(), 0.0);
+  position.NotFresh();
+  EXPECT_FALSE(position.IsFresh());
+  EXPECT_TRUE(position.IsValid());
+  client.Read();
+  EXPECT_TRUE(position.IsFresh());
+  EXPECT_DOUBLE_EQ(position.GetDataTime(), 0.25);
+  EXPECT_DOUBLE_EQ(position.GetElapsedTime(), 0.25 - 0.1);
+}
+
+TEST_F(Proxies, OneReadFillsAllOfADevice) {
+  Position2dProxy first(&client, 0), second(&client, 0), odometry(&client, 1);
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  client.Read();
+  EXPECT_TRUE(first.IsFresh());
+  EXPECT_TRUE(second.IsFresh());
+  EXPECT_FALSE(odometry.IsFresh());
+}
+
+TEST_F(Proxies, TellWhatTheyAre) {
+  Position2dProxy odometry(&client, 1);
+  EXPECT_EQ(odometry.GetIndex(), 1U);
+  EXPECT_EQ(odometry.GetInterface(), static_cast<uint32_t>(PLAYER_POSITION2D_CODE));
+  EXPECT_EQ(odometry.GetInterfaceStr(), "position2d");
+  EXPECT_EQ(odometry.GetDriverName(), "odometry");
+  EXPECT_EQ(odometry.GetPlayerClient(), &client);
+  EXPECT_EQ(odometry.HasCapability(PLAYER_MSGTYPE_CMD, PLAYER_POSITION2D_CMD_VEL), 1);
+  EXPECT_EQ(odometry.HasCapability(PLAYER_MSGTYPE_REQ, PLAYER_POSITION2D_REQ_SPEED_PID), 0);
+}
+
+TEST_F(Proxies, PropertiesAreTheSettingsOfTheDevice) {
+  LaserProxy laser(&client);
+  char range_max[] = "range_max", beams[] = "beams", noise[] = "noise", teapot[] = "teapot";
+  double d = -1.0;
+  int32_t i = -1;
+  bool b = true;
+  char* text = nullptr;
+  EXPECT_EQ(laser.GetDblProp(range_max, &d), 0);
+  EXPECT_DOUBLE_EQ(d, 5.0);
+  EXPECT_EQ(laser.GetIntProp(beams, &i), 0);
+  EXPECT_EQ(i, 5);
+  EXPECT_EQ(laser.GetBoolProp(noise, &b), 0);
+  EXPECT_FALSE(b);
+  EXPECT_EQ(laser.GetDblProp(teapot, &d), -1);
+  EXPECT_DOUBLE_EQ(d, 5.0);
+  char resolution[] = "resolution";
+  EXPECT_EQ(laser.GetIntProp(resolution, &i), -1);  // 0.5 is no whole number
+  EXPECT_EQ(laser.GetBoolProp(beams, &b), -1);
+  EXPECT_EQ(laser.GetStrProp(beams, &text), -1);
+  EXPECT_EQ(laser.SetDblProp(range_max, 1.0), -1);
+  EXPECT_EQ(laser.SetIntProp(beams, 1), -1);
+  EXPECT_EQ(laser.SetBoolProp(noise, true), -1);
+  EXPECT_EQ(laser.SetStrProp(beams, text), -1);
+}
+
+int free_function_calls = 0;
+void free_function() { ++free_function_calls; }
+
+TEST_F(Proxies, ReadSignalCallsSubscribersAfterNewData) {
+  Position2dProxy position(&client, 0);
+  LaserProxy laser(&client);
+  double seen_x = 0.0;
+  int laser_calls = 0;
+  // Getters are allowed in subscribers: the data is not locked then.
+  const ClientProxy::connection_t c =
+      position.ConnectReadSignal([&] { seen_x = position.GetXPos(); });
+  laser.ConnectReadSignal(std::bind([](int* n) { ++*n; }, &laser_calls));
+  free_function_calls = 0;
+  position.ConnectReadSignal(&free_function);
+  world->add_round({{kPose, pose_reading(0.1, {1.5, 0.0, 0.0})}});
+  world->add_round({{kPose, pose_reading(0.2, {2.5, 0.0, 0.0})}});
+  client.Read();
+  EXPECT_DOUBLE_EQ(seen_x, 1.5);
+  EXPECT_EQ(laser_calls, 0);
+  EXPECT_TRUE(c.connected());
+  position.DisconnectReadSignal(c);
+  EXPECT_FALSE(c.connected());
+  client.Read();
+  EXPECT_DOUBLE_EQ(seen_x, 1.5);
+  EXPECT_EQ(free_function_calls, 2);
+}
+
+TEST_F(Proxies, SubscriberMayDisconnectItself) {
+  Position2dProxy position(&client, 0);
+  int calls = 0;
+  ClientProxy::connection_t c;
+  c = position.ConnectReadSignal([&] {
+    ++calls;
+    position.DisconnectReadSignal(c);
+  });
+  world->add_round({{kPose, pose_reading(0.1, {})}});
+  world->add_round({{kPose, pose_reading(0.2, {})}});
+  client.Read();
+  client.Read();
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(Proxies, MutexIsLikeBoosts) {
+  Position2dProxy position(&client, 0);
+  std::future<double> other;
+  {
+    PlayerClient::mutex_t::scoped_lock lock(client.mMutex);
+    EXPECT_FALSE(client.mMutex.try_lock());
+    other = std::async(std::launch::async, [&] { return position.GetXPos(); });
+    lock.unlock();
+  }
+  EXPECT_DOUBLE_EQ(other.get(), 0.0);  // would never come if the lock were still held
+}
+
+TEST(ProxyLifetimes, ProxiesSurviveTheirClient) {
+  auto world = make_fake_world();
+  auto client = std::make_unique<PlayerClient>(fake_session(world));
+  Position2dProxy position(client.get(), 0);
+  LaserProxy laser(client.get());
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  client->Read();
+  client.reset();
+  EXPECT_TRUE(world->closed);
+  EXPECT_FALSE(position.IsValid());
+  EXPECT_EQ(position.GetPlayerClient(), nullptr);
+  EXPECT_EQ(position.GetIndex(), 0U);
+  EXPECT_EQ(error_code_of([&] { position.SetSpeed(0.1, 0.0); }), PlayerError::kDisconnected);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(position.GetXPos()); }),
+            PlayerError::kDisconnected);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(laser[0]); }), PlayerError::kDisconnected);
+  position.NotFresh();
+  EXPECT_FALSE(position.IsFresh());
+}
+
+/// A program's own proxy, as two in the wild have it.
+class OwnProxy : public ClientProxy {
+ public:
+  explicit OwnProxy(PlayerClient* aPc, uint32_t aIndex = 0) : ClientProxy(aPc, aIndex) {
+    Subscribe(aIndex);
+  }
+  ~OwnProxy() override { Unsubscribe(); }
+  bool HasClient() const { return GetVar(mPc) != nullptr; }
+  double InfoTime() const { return GetVar(mInfo->datatime); }
+  std::vector<int> Copy() const {
+    std::vector<int> out(mValues.size());
+    GetVarByRef(mValues.begin(), mValues.end(), out.begin());
+    return out;
+  }
+  void Raise() {
+    scoped_lock_t lock(mPc->mMutex);
+    mFresh = true;
+  }
+
+ private:
+  std::vector<int> mValues = {1, 2, 3};
+};
+
+TEST_F(Proxies, SubclassesReachProtectedMembers) {
+  OwnProxy own(&client, 2);
+  EXPECT_TRUE(own.HasClient());
+  EXPECT_DOUBLE_EQ(own.InfoTime(), 0.0);
+  EXPECT_THAT(own.Copy(), ElementsAre(1, 2, 3));
+  EXPECT_EQ(own.GetIndex(), 2U);
+  own.Raise();
+  EXPECT_TRUE(own.IsFresh());
+  EXPECT_EQ(own.GetDriverName(), "");
+  EXPECT_EQ(own.HasCapability(PLAYER_MSGTYPE_DATA, 1), 0);
+}
+
+// --- Threads
+
+TEST_F(Proxies, ThreadReadsInTheBackground) {
+  world->over_when_empty = false;
+  Position2dProxy position(&client, 0);
+  std::promise<void> first, second;
+  std::atomic<int> calls{0};
+  position.ConnectReadSignal([&] {
+    if (calls++ == 0) {
+      first.set_value();
+    } else {
+      second.set_value();
+    }
+  });
+  client.StartThread();
+  client.StartThread();  // it runs already
+  EXPECT_EQ(world->real_time_reasons.size(), 1U);
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 0.0, 0.0})}});
+  first.get_future().wait();
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 1.0);
+  client.StopThread();
+  world->add_round({{kPose, pose_reading(0.2, {2.0, 0.0, 0.0})}});
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 1.0);
+  client.StartThread();
+  second.get_future().wait();
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 2.0);
+  // The destructor ends the thread.
+}
+
+TEST_F(Proxies, EndOfTheRunReachesProgramsThatReadInTheBackground) {
+  Position2dProxy position(&client, 0);
+  client.StartThread();  // meets the end at once
+  while (error_code_of([&] { static_cast<void>(position.GetXPos()); }) != PlayerError::kRunIsOver) {
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(error_code_of([&] { position.SetSpeed(0.1, 0.0); }), PlayerError::kRunIsOver);
+  client.StopThread();
+  position.SetSpeed(0.0, 0.0);  // tidying up afterwards is fine
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 0.0);
+}
+
+TEST_F(Proxies, SubscriberMayStopTheThreadAndRun) {
+  world->over_when_empty = false;
+  Position2dProxy position(&client, 0);
+  std::promise<void> stopped;
+  const auto c = position.ConnectReadSignal([&] {
+    client.StopThread();
+    stopped.set_value();
+  });
+  world->add_round({{kPose, pose_reading(0.1, {})}});
+  client.StartThread();
+  stopped.get_future().wait();
+  position.DisconnectReadSignal(c);
+  int rounds = 0;
+  position.ConnectReadSignal([&] {
+    if (++rounds == 2) client.Stop();
+  });
+  world->add_round({{kPose, pose_reading(0.2, {})}});
+  world->add_round({{kPose, pose_reading(0.3, {})}});
+  client.Run(1);
+  EXPECT_EQ(rounds, 2);
+}
+
+TEST_F(Proxies, RunEndsWithTheRun) {
+  Position2dProxy position(&client, 0);
+  world->add_round({{kPose, pose_reading(0.1, {})}});
+  EXPECT_EQ(error_code_of([&] { client.Run(); }), PlayerError::kRunIsOver);
+  EXPECT_TRUE(position.IsValid());
+}
+
+TEST_F(Proxies, CommandsFromAnotherThreadAreFineWhileOneReads) {
+  Position2dProxy position(&client, 0);
+  constexpr int kRounds = 200;
+  for (int i = 1; i <= kRounds; ++i) {
+    world->add_round({{kPose, pose_reading(0.1 * i, {0.01 * i, 0.0, 0.0})}});
+  }
+  std::thread driver([&] {
+    for (int i = 0; i < kRounds; ++i) position.SetSpeed(0.1, 0.0);
+  });
+  for (int i = 0; i < kRounds; ++i) client.Read();
+  driver.join();
+  EXPECT_EQ(world->sent.size(), static_cast<std::size_t>(kRounds));
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 0.01 * kRounds);
+}
+
+// --- Position2dProxy
+
+TEST_F(Proxies, PositionShowsItsReading) {
+  Position2dProxy position(&client, 0);
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 0.0);
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5}, {0.3, -0.2, 0.01}, true)}});
+  client.Read();
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 1.0);
+  EXPECT_DOUBLE_EQ(position.GetYPos(), 2.0);
+  EXPECT_DOUBLE_EQ(position.GetYaw(), 0.5);
+  EXPECT_DOUBLE_EQ(position.GetXSpeed(), 0.3);
+  EXPECT_DOUBLE_EQ(position.GetYSpeed(), 0.01);
+  EXPECT_DOUBLE_EQ(position.GetYawSpeed(), -0.2);
+  EXPECT_TRUE(position.GetStall());
+}
+
+TEST_F(Proxies, AllSpeedsOverloadsDriveTheMotors) {
+  Position2dProxy position(&client, 0);
+  position.SetSpeed(0.1, 0.2);
+  EXPECT_EQ(last_twist(), (sim::Twist{0.1, 0.2, 0.0}));
+  position.SetSpeed(0.2, 9.0, 0.3);  // sideways is ignored
+  EXPECT_EQ(last_twist(), (sim::Twist{0.2, 0.3, 0.0}));
+  const player_pose2d_t speed = {0.3, 0.0, -0.4};
+  position.SetSpeed(speed);
+  EXPECT_EQ(last_twist(), (sim::Twist{0.3, -0.4, 0.0}));
+}
+
+TEST_F(Proxies, CommandsRefuseWhatIsNoNumber) {
+  Position2dProxy position(&client, 0);
+  const auto refused = [&](auto action) {
+    EXPECT_EQ(error_code_of(action), PlayerError::kBadArgument);
+  };
+  refused([&] { position.SetSpeed(kNan, 0.0); });
+  refused([&] { position.SetSpeed(0.0, kInf); });
+  refused([&] { position.SetSpeed(0.0, kNan, 0.0); });
+  refused([&] { position.SetVelHead(0.1, kNan); });
+  refused([&] { position.GoTo(kInf, 0.0, 0.0); });
+  refused([&] { position.SetCarlike(0.1, kNan); });
+  refused([&] { position.SetCarlike(0.1, M_PI); });
+  refused([&] { position.SetOdometry(0.0, kNan, 0.0); });
+  EXPECT_TRUE(world->sent.empty());
+}
+
+TEST_F(Proxies, CarlikeTurnsAsABicycleOfItsLength) {
+  Position2dProxy position(&client, 0);
+  position.SetCarlike(0.2, 0.3);
+  EXPECT_DOUBLE_EQ(last_twist().v_mps, 0.2);
+  EXPECT_DOUBLE_EQ(last_twist().omega_radps, 0.2 * std::tan(0.3) / 0.174);
+}
+
+TEST_F(Proxies, VelHeadTurnsInProportionUntilAnotherCommand) {
+  Position2dProxy position(&client, 0);
+  position.SetVelHead(0.2, 1.0);
+  EXPECT_TRUE(world->sent.empty());  // where it heads is not known yet
+  world->add_round({{kPose, pose_reading(0.1, {0.0, 0.0, 0.4})}});
+  world->add_round({{kPose, pose_reading(0.2, {0.0, 0.0, -3.0})}});
+  world->add_round({{kPose, pose_reading(0.3, {0.0, 0.0, 0.0})}});
+  client.Read();
+  // 2 /s times the 0.6 rad that are missing.
+  EXPECT_DOUBLE_EQ(last_twist().v_mps, 0.2);
+  EXPECT_NEAR(last_twist().omega_radps, 1.2, 1e-12);
+  client.Read();
+  // From -3 to 1 the short way is -(2 pi - 4) = -2.28 rad: beyond the motors' 2 rad/s.
+  EXPECT_DOUBLE_EQ(last_twist().omega_radps, -2.0);
+  position.SetSpeed(0.0, 0.0);
+  const std::size_t sent = world->sent.size();
+  client.Read();
+  EXPECT_EQ(world->sent.size(), sent);
+}
+
+// A robot that does exactly what it was told, for 0.1 s a reading.
+void drive_until_quiet(PlayerClient& client, FakeWorld& world, sim::Pose& pose, int rounds,
+                       double speed_limit, double turn_limit) {
+  for (int i = 1; i <= rounds; ++i) {
+    world.add_round({{kPose, pose_reading(0.1 * i, pose)}});
+    client.Read();
+    const auto& twist = std::get<sim::TwistCommand>(world.sent.back().second).twist;
+    ASSERT_LE(std::abs(twist.v_mps), speed_limit);
+    ASSERT_LE(std::abs(twist.omega_radps), turn_limit);
+    const double heading = pose.yaw_rad + 0.05 * twist.omega_radps;
+    pose = {pose.x_m + 0.1 * twist.v_mps * std::cos(heading),
+            pose.y_m + 0.1 * twist.v_mps * std::sin(heading),
+            sim::normalize_angle(pose.yaw_rad + 0.1 * twist.omega_radps)};
+  }
+}
+
+TEST_F(Proxies, GoToReachesItsGoalAndHeadingWithinTheLimits) {
+  Position2dProxy position(&client, 0);
+  sim::Pose pose{0.5, 0.4, 3.0};
+  position.GoTo(1.5, 1.0, -2.0);
+  // 1.2 m at 0.4 m/s and two turns take under 10 s; 20 s leave room.
+  drive_until_quiet(client, *world, pose, 200, 0.4, 2.0);
+  EXPECT_NEAR(pose.x_m, 1.5, 0.01);
+  EXPECT_NEAR(pose.y_m, 1.0, 0.01);
+  EXPECT_NEAR(pose.yaw_rad, -2.0, 0.01);
+  EXPECT_EQ(last_twist(), sim::Twist{});
+  const std::size_t sent = world->sent.size();
+  world->add_round({{kPose, pose_reading(30.0, pose)}});
+  client.Read();
+  EXPECT_EQ(world->sent.size(), sent) << "it is there, so nothing more is to be told";
+}
+
+TEST_F(Proxies, GoToObeysTheSpeedsItIsGiven) {
+  Position2dProxy position(&client, 0);
+  sim::Pose pose{0.5, 0.4, 0.0};
+  position.GoTo(player_pose2d_t{1.0, 0.4, 1.0}, player_pose2d_t{0.1, 0.0, 0.5});
+  drive_until_quiet(client, *world, pose, 200, 0.1, 0.5);
+  EXPECT_NEAR(pose.x_m, 1.0, 0.01);
+  EXPECT_NEAR(pose.yaw_rad, 1.0, 0.01);
+}
+
+TEST_F(Proxies, MotorsSwitchAndEndAGoTo) {
+  Position2dProxy position(&client, 0);
+  position.SetMotorEnable(true);
+  ASSERT_EQ(world->sent.size(), 1U);
+  EXPECT_TRUE(std::get<sim::MotorEnableCommand>(world->sent.back().second).enabled);
+  world->add_round({{kPose, pose_reading(0.1, {})}});
+  world->add_round({{kPose, pose_reading(0.2, {})}});
+  position.GoTo(player_pose2d_t{1.0, 0.0, 0.0});
+  client.Read();
+  EXPECT_GT(last_twist().v_mps, 0.0);
+  position.SetMotorEnable(false);
+  client.Read();
+  EXPECT_FALSE(std::get<sim::MotorEnableCommand>(world->sent.back().second).enabled);
+}
+
+TEST_F(Proxies, OdometryIsSetOnTheDeviceThatIsRead) {
+  Position2dProxy odometry(&client, 1);
+  odometry.SetOdometry(1.0, 2.0, 4.0);
+  EXPECT_EQ(world->sent.back().first, kOdometry);
+  const auto& pose = std::get<sim::SetPoseCommand>(world->sent.back().second).pose;
+  EXPECT_EQ(pose, (sim::Pose{1.0, 2.0, sim::normalize_angle(4.0)}));
+  odometry.ResetOdometry();
+  EXPECT_EQ(std::get<sim::SetPoseCommand>(world->sent.back().second).pose, sim::Pose{});
+}
+
+TEST_F(Proxies, PositionTellsItsGeometry) {
+  Position2dProxy position(&client, 0);
+  position.RequestGeom();
+  EXPECT_DOUBLE_EQ(position.GetSize().sl, 0.174);
+  EXPECT_DOUBLE_EQ(position.GetSize().sw, 0.162);
+  EXPECT_DOUBLE_EQ(position.GetSize().sh, 0.18);
+  EXPECT_DOUBLE_EQ(position.GetOffset().px, 0.0);
+}
+
+TEST(ProxiesOfOddRobots, WithoutMotorsCannotBeDriven) {
+  auto world = make_fake_world();
+  std::erase_if(world->robots[0].devices, [](const auto& d) { return d.type == "motion"; });
+  PlayerClient client(fake_session(world));
+  Position2dProxy position(&client, 0);
+  EXPECT_EQ(error_code_of([&] { position.SetSpeed(0.1, 0.0); }), PlayerError::kNotAvailable);
+  EXPECT_EQ(error_code_of([&] { position.SetMotorEnable(true); }), PlayerError::kNotAvailable);
+  EXPECT_EQ(position.HasCapability(PLAYER_MSGTYPE_CMD, PLAYER_POSITION2D_CMD_VEL), 0);
+}
+
+// --- LaserProxy
+
+TEST_F(Proxies, LaserKnowsItsSettingsBeforeTheFirstScan) {
+  LaserProxy laser(&client);
+  laser.RequestConfigure();
+  laser.RequestGeom();
+  laser.RequestID();
+  EXPECT_EQ(laser.GetCount(), 0U);
+  EXPECT_DOUBLE_EQ(laser.GetMaxRange(), 5.0);
+  EXPECT_DOUBLE_EQ(laser.GetScanRes(), 0.5);
+  EXPECT_DOUBLE_EQ(laser.GetScanningFrequency(), 10.0);
+  EXPECT_DOUBLE_EQ(laser.GetConfMinAngle(), -1.0);  // 5 beams, 0.5 rad apart
+  EXPECT_DOUBLE_EQ(laser.GetConfMaxAngle(), 1.0);
+  EXPECT_GT(laser.GetRangeRes(), 0.0);
+  EXPECT_FALSE(laser.IntensityOn());
+  EXPECT_EQ(laser.GetID(), 0);
+  EXPECT_DOUBLE_EQ(laser.GetPose().px, 0.035);
+  EXPECT_DOUBLE_EQ(laser.GetPose().py, 0.01);
+  EXPECT_DOUBLE_EQ(laser.GetPose().pz, 0.125);
+  EXPECT_DOUBLE_EQ(laser.GetPose().pyaw, 0.1);
+  EXPECT_GT(laser.GetSize().sh, 0.0);
+  EXPECT_DOUBLE_EQ(laser.GetMinLeft(), 5.0);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(laser.GetRange(0)); }),
+            PlayerError::kBadArgument);
+}
+
+TEST_F(Proxies, LaserMembersAgreeWithOneAnother) {
+  LaserProxy laser(&client);
+  world->add_round({{kLaser, scan(0.1, {2.0, 1.0, 5.0, 4.0, 0.5})}});
+  client.Read();
+  ASSERT_EQ(laser.GetCount(), 5U);
+  EXPECT_DOUBLE_EQ(laser.GetMinAngle(), -1.0);
+  EXPECT_DOUBLE_EQ(laser.GetMaxAngle(), 1.0);
+  for (uint32_t i = 0; i < 5; ++i) {
+    EXPECT_DOUBLE_EQ(laser.GetBearing(i), laser.GetMinAngle() + i * laser.GetScanRes());
+    EXPECT_DOUBLE_EQ(laser[i], laser.GetRange(i));
+    const player_point_2d_t p = laser.GetPoint(i);
+    EXPECT_NEAR(std::hypot(p.px, p.py), laser.GetRange(i), 1e-12);
+    EXPECT_NEAR(std::atan2(p.py, p.px), laser.GetBearing(i), 1e-12);
+    EXPECT_EQ(laser.GetIntensity(i), 0);
+  }
+  EXPECT_DOUBLE_EQ(laser[0], 2.0);
+  EXPECT_DOUBLE_EQ(laser.GetBearing(4), laser.GetMaxAngle());
+  // Of 5 beams the first 2 are the right half; the middle one counts to the left.
+  EXPECT_DOUBLE_EQ(laser.GetMinRight(), 1.0);
+  EXPECT_DOUBLE_EQ(laser.GetMinLeft(), 0.5);
+  EXPECT_DOUBLE_EQ(laser.MinRight(), 1.0);
+  EXPECT_DOUBLE_EQ(laser.MinLeft(), 0.5);
+}
+
+TEST_F(Proxies, BeamsBeyondTheEndAreRefused) {
+  LaserProxy laser(&client);
+  world->add_round({{kLaser, scan(0.1, {2.0, 1.0, 5.0, 4.0, 0.5})}});
+  client.Read();
+  try {
+    static_cast<void>(laser[5]);
+    FAIL() << "beam 5 of 5 exists";
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorCode(), PlayerError::kBadArgument);
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("beam 5"));
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("has 5"));
+  }
+  for (const int code : {error_code_of([&] { static_cast<void>(laser.GetRange(5)); }),
+                         error_code_of([&] { static_cast<void>(laser.GetBearing(5)); }),
+                         error_code_of([&] { static_cast<void>(laser.GetPoint(5)); }),
+                         error_code_of([&] { static_cast<void>(laser.GetIntensity(5)); })}) {
+    EXPECT_EQ(code, PlayerError::kBadArgument);
+  }
+}
+
+TEST_F(Proxies, ConfigureCropsAndThinsTheScan) {
+  LaserProxy laser(&client);
+  world->add_round({{kLaser, scan(0.1, {2.0, 1.0, 5.0, 4.0, 0.5004})}});
+  client.Read();
+  laser.Configure(-0.6, 1.0, 0, 0, false, 10.0);  // beams at -0.5, 0, 0.5 and 1
+  ASSERT_EQ(laser.GetCount(), 4U);
+  EXPECT_DOUBLE_EQ(laser[0], 1.0);
+  EXPECT_DOUBLE_EQ(laser.GetMinAngle(), -0.5);
+  EXPECT_DOUBLE_EQ(laser.GetConfMinAngle(), -0.5);
+  EXPECT_DOUBLE_EQ(laser.GetMaxAngle(), 1.0);
+  // Every second beam: 1 rad is 5730 hundredths of a degree. Ranges to 1 cm.
+  laser.Configure(-1.0, 1.0, 5730, 10, true, 99.0);
+  ASSERT_EQ(laser.GetCount(), 3U);
+  EXPECT_DOUBLE_EQ(laser.GetScanRes(), 1.0);
+  EXPECT_DOUBLE_EQ(laser.GetRangeRes(), 0.01);
+  EXPECT_DOUBLE_EQ(laser[1], 5.0);
+  EXPECT_NEAR(laser[2], 0.50, 1e-12);
+  EXPECT_DOUBLE_EQ(laser.GetBearing(2), 1.0);
+  EXPECT_FALSE(laser.IntensityOn());
+  EXPECT_DOUBLE_EQ(laser.GetScanningFrequency(), 10.0);
+  // It holds for the next scan too.
+  world->add_round({{kLaser, scan(0.2, {0.1, 0.2, 0.3, 0.4, 0.5})}});
+  client.Read();
+  ASSERT_EQ(laser.GetCount(), 3U);
+  EXPECT_NEAR(laser[1], 0.3, 1e-12);
+  EXPECT_EQ(error_code_of([&] { laser.Configure(2.0, 3.0, 0, 0, false, 0.0); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { laser.Configure(kNan, 3.0, 0, 0, false, 0.0); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(laser.GetCount(), 3U);
+}
+
+TEST_F(Proxies, ConfigureBeforeTheFirstScanHoldsForIt) {
+  LaserProxy laser(&client);
+  laser.Configure(0.0, 0.5, 0, 0, false, 10.0);
+  EXPECT_EQ(laser.GetCount(), 0U);
+  world->add_round({{kLaser, scan(0.1, {2.0, 1.0, 5.0, 4.0, 0.5})}});
+  client.Read();
+  ASSERT_EQ(laser.GetCount(), 2U);
+  EXPECT_DOUBLE_EQ(laser[0], 5.0);
+  EXPECT_DOUBLE_EQ(laser[1], 4.0);
+}
+
+TEST_F(Proxies, RobotPoseIsWhatTheClientLastReadOfIt) {
+  LaserProxy laser(&client);
+  Position2dProxy position(&client, 0), odometry(&client, 1);
+  EXPECT_DOUBLE_EQ(laser.GetRobotPose().px, 0.0);
+  world->add_round({{kOdometry, pose_reading(0.1, {9.0, 9.0, 0.9})},
+                    {kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  world->add_round({{kOdometry, pose_reading(0.2, {9.0, 9.0, 0.9})}});
+  client.Read();
+  client.Read();  // the odometry's newer word does not count beside the localisation's
+  EXPECT_DOUBLE_EQ(laser.GetRobotPose().px, 1.0);
+  EXPECT_DOUBLE_EQ(laser.GetRobotPose().py, 2.0);
+  EXPECT_DOUBLE_EQ(laser.GetRobotPose().pyaw, 0.5);
+}
+
+// --- operator<<
+
+TEST_F(Proxies, PrintReadableTables) {
+  Position2dProxy position(&client, 0);
+  LaserProxy laser(&client);
+  world->add_round({{kPose, pose_reading(0.1, {1.25, 2.5, 0.5})},
+                    {kLaser, scan(0.1, {2.0, 1.0, 5.0, 4.0, 0.75})}});
+  client.Read();
+  std::ostringstream out;
+  out << position;
+  EXPECT_THAT(out.str(), HasSubstr("position2d:0 valid, fresh"));
+  EXPECT_THAT(out.str(), HasSubstr("1.25\t2.5\t0.5"));
+  out.str("");
+  out << laser;
+  EXPECT_THAT(out.str(), HasSubstr("-1\t1\t0.5\t5\t5"));
+  EXPECT_THAT(out.str(), HasSubstr("\n1\t0.75\t"));
+  out.str("");
+  out << client;
+  EXPECT_THAT(out.str(), HasSubstr("6665\tyes"));
+  EXPECT_THAT(out.str(), HasSubstr("position2d\t1\tr1\todometry"));
+  out.str("");
+  out << static_cast<const ClientProxy&>(laser);
+  EXPECT_EQ(out.str(), "laser:0 valid, fresh");
+}
+
+}  // namespace
