@@ -53,7 +53,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
     trajectory = (folder / "trajectory.csv").string();
   }
   recorder_ = std::make_unique<Recorder>(trajectory, settings_.film, simulation_);
-  mode_chosen_ = settings_.time_mode.has_value();
+  mode_chosen_ = simulation_.world().simulation.time_mode_given;
   if (settings_.quiet_end) note_interrupts();
 }
 

@@ -103,6 +103,7 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
   if (duration_s) world.simulation.duration_ns = sim::from_seconds(*duration_s);
   if (time_mode) {
     world.simulation.time_mode = *time_mode;
+    world.simulation.time_mode_given = true;
     world.simulation.time_factor = time_factor;
   }
 }

@@ -325,6 +325,7 @@ class WorldReader {
     simulation.start_gate_clients =
         static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
     if (const std::optional<Reader> time = reader->child("time")) {
+      simulation.time_mode_given = true;
       if (time->is_string()) {
         if (reader->choice("time", "lockstep", {"lockstep", "real"}) == "real") {
           simulation.time_mode = TimeMode::kPaced;

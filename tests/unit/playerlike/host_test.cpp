@@ -426,6 +426,15 @@ TEST_F(HostTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
   EXPECT_THAT(logged(), HasSubstr("a test"));
 }
 
+TEST_F(HostTest, ATimeModeThatTheWorldChoseIsKept) {
+  const auto session = start(two_robots(R"({"time": "lockstep"})"))->connect(6665);
+  subscribe_position(*session);
+  session->prefer_real_time("a test");
+  read(*session);
+  EXPECT_EQ(session->time().mode, sim::TimeMode::kLockstep);
+  EXPECT_EQ(logged(), "");
+}
+
 TEST_F(HostTest, ResultsOfARunAreWrittenOnceItEnds) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "playpen_host_test";
