@@ -113,7 +113,7 @@ class Host::Core {
   [[nodiscard]] bool thread_waits(std::thread::id thread) const;
   void wait_for_others(Lock& lock);
   void advance();
-  void apply_inputs();
+  void apply_inputs(Client& client);
   void flush_drawings(Client& client);
   void distribute();
   void release_waiters();

@@ -21,8 +21,10 @@ namespace playerlike {
 namespace {
 
 constexpr std::size_t kQueueLimit = 1000;
-// A client may draw this much ahead of the next step before its drawings are carried out.
+// A client may draw and command this much ahead of the next step before it is carried out, so that
+// one that never reads does not fill memory.
 constexpr std::size_t kDrawingLimit = 1 << 16;
+constexpr std::size_t kCommandLimit = 1 << 12;
 constexpr sim::SimTime kEmptyRound_ns = sim::kNanosecondsPerSecond / 10;
 // A program that ignores the end of the run this often is ended.
 constexpr int kReadsAfterEnd = 1000;
@@ -94,14 +96,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   const Lock lock = lock_soon();
   if (client.closed.exchange(true)) return;
   // What it asked for last still happens.
-  if (!ended_) {
-    const std::lock_guard input(client.input_mutex);
-    for (const auto& [device, command] : client.commands) {
-      static_cast<void>(simulation_.apply(device, command));
-    }
-    client.commands.clear();
-    flush_drawings(client);
-  }
+  if (!ended_) apply_inputs(client);
   client.subscriptions.clear();
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
   changed_.notify_all();
@@ -277,7 +272,7 @@ void Host::Core::advance() {
     first_step_ = now;
     last_progress_ = now;
   }
-  apply_inputs();
+  for (const auto& client : clients_) apply_inputs(*client);
   simulation_.step();
   last_step_ = now;
   recorder_->observe(simulation_);
@@ -288,15 +283,13 @@ void Host::Core::advance() {
   release_waiters();
 }
 
-void Host::Core::apply_inputs() {
-  for (const auto& client : clients_) {
-    const std::lock_guard input(client->input_mutex);
-    for (const auto& [device, command] : client->commands) {
-      if (const auto refusal = simulation_.apply(device, command)) warn(*refusal);
-    }
-    client->commands.clear();
-    flush_drawings(*client);
+void Host::Core::apply_inputs(Client& client) {
+  const std::lock_guard input(client.input_mutex);
+  for (const auto& [device, command] : client.commands) {
+    if (const auto refusal = simulation_.apply(device, command)) warn(*refusal);
   }
+  client.commands.clear();
+  flush_drawings(client);
 }
 
 void Host::Core::flush_drawings(Client& client) {
@@ -419,15 +412,19 @@ void Host::Core::sleep(Client& client, double duration_s) {
 void Host::Core::send(Client& client, DeviceId device, const sim::Command& command) {
   require_open(client);
   touch(client);
-  const std::lock_guard input(client.input_mutex);
-  // Only the newest twist of a step counts, so a client that never reads does not fill memory.
-  if (std::holds_alternative<sim::TwistCommand>(command) && !client.commands.empty() &&
-      client.commands.back().first == device &&
-      std::holds_alternative<sim::TwistCommand>(client.commands.back().second)) {
-    client.commands.back().second = command;
-    return;
+  {
+    const std::lock_guard input(client.input_mutex);
+    // Of commands in a row of the same kind to the same device only the last counts.
+    if (!client.commands.empty() && client.commands.back().first == device &&
+        client.commands.back().second.index() == command.index()) {
+      client.commands.back().second = command;
+      return;
+    }
+    client.commands.emplace_back(device, command);
+    if (client.commands.size() <= kCommandLimit) return;
   }
-  client.commands.emplace_back(device, command);
+  const Lock lock = lock_soon();
+  apply_inputs(client);
 }
 
 void Host::Core::draw(Client& client, std::span<const sim::CanvasOperation> operations) {
@@ -522,7 +519,7 @@ void Host::Core::finish() noexcept {
   try {
     const Lock lock = lock_soon();
     if (!ended_) {
-      apply_inputs();
+      for (const auto& client : clients_) apply_inputs(*client);
       end_run();
       release_waiters();
     }

@@ -265,6 +265,17 @@ TEST_F(HostTest, AClientThatNeverReadsDoesNotTakePart) {
   EXPECT_NEAR(read(*all).x_m, 1.55, 1e-9);
 }
 
+TEST_F(HostTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
+  const auto session = start(two_robots())->connect(6665);
+  const InterfaceBinding binding = position2d(*session);
+  for (int i = 0; i < 20'001; ++i) {  // more than are kept waiting
+    session->send(*binding.motion, sim::MotorEnableCommand{true});
+    drive(*session, binding, i % 2 == 0 ? 0.4 : -0.4);
+  }
+  session->subscribe(binding.reading);
+  EXPECT_NEAR(read(*session).x_m, 1.04, 1e-9);
+}
+
 TEST_F(HostTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
   RunSettings settings;
   settings.silence_limit_s = 0.05;
