@@ -10,7 +10,9 @@ function(run what)
   set(run_output "${out}" PARENT_SCOPE)
 endfunction()
 
-file(REMOVE_RECURSE "${STAGE_DIR}")
+# The package is installed afresh each time; what is built against it is kept, so that only what
+# has changed is compiled again (installed files keep their times).
+file(REMOVE_RECURSE "${STAGE_DIR}/first" "${STAGE_DIR}/moved" "${STAGE_DIR}/my robot/out")
 run("installing" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}"
   --prefix ${STAGE_DIR}/first)
 # The package must not care where it lies.
