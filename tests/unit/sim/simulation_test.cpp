@@ -347,7 +347,8 @@ std::uint64_t hash_after_random_drive(WorldDescription world, int steps) {
   for (int i = 0; i < steps; ++i) {
     if (i % 37 == 0) {
       for (int r = 0; r < simulation.robot_count(); ++r) {
-        drive(simulation, 0.5 * uniform(), 3.0 * uniform(), r);
+        const double v = 0.5 * uniform();  // in this order; that of arguments is open
+        drive(simulation, v, 3.0 * uniform(), r);
       }
     }
     simulation.step();
