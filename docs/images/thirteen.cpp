@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Thirteen robots wander about the arena, driven by one thread through thirteen clients, one a port.
-// It draws the picture at the top of README.md (see make_pictures.sh).
+// Thirteen robots wander about the arena, driven by one thread through thirteen clients, one a
+// port. It draws the picture at the top of README.md (see make_pictures.sh).
 #include <libplayerc++/playerc++.h>
 
 #include <cmath>

@@ -83,10 +83,10 @@ struct SimulationDescription {
   std::uint64_t seed = 1;
   std::optional<SimTime> duration_ns;  ///< the run ends then; none: it goes on
   TimeMode time_mode = TimeMode::kLockstep;
-  bool time_mode_given = false;         ///< somebody chose it; else a host may change it, see
-                                        ///< playerlike::Session::prefer_real_time
-  double time_factor = 1.0;    ///< paced: simulated seconds a wall second, > 0
-  int start_gate_clients = 1;  ///< the clock waits until so many clients have joined, >= 1
+  bool time_mode_given = false;  ///< somebody chose it; else a host may change it, see
+                                 ///< playerlike::Session::prefer_real_time
+  double time_factor = 1.0;      ///< paced: simulated seconds a wall second, > 0
+  int start_gate_clients = 1;    ///< the clock waits until so many clients have joined, >= 1
 };
 
 /// A sensor or actuator of a robot.
