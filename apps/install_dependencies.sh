@@ -26,7 +26,7 @@ TEXT
 # One entry a package: its name, or name=command where any installed version of that command
 # will do, wherever it came from.
 build_packages=(
-  "g++=g++" cmake=cmake ninja-build=ninja
+  "g++=g++" cmake=cmake ninja-build=ninja make=make
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-highgui-dev
