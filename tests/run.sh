@@ -6,26 +6,37 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-Usage: tests/run.sh [--preset NAME] [CTEST ARGUMENTS...]
+Usage: tests/run.sh [--preset NAME] [--target NAME]... [CTEST ARGUMENTS...]
 
 Builds a preset of CMakePresets.json (default: dev) in build/NAME and runs its tests in
-parallel. Anything else is handed to ctest, for example:
-  tests/run.sh -R Scan          only the tests whose name matches
+parallel. With --target only these targets are built. Anything else is handed to ctest, for
+example:
+  tests/run.sh -R scan          only the tests whose name matches
   tests/run.sh -LE install      all but those labelled 'install'
 TEXT
 }
 
 preset=dev
-case ${1:-} in
-  --help | -h)
-    usage
-    exit 0
-    ;;
-  --preset)
-    preset=${2:?tests/run.sh: --preset needs a name}
-    shift 2
-    ;;
-esac
+targets=()
+while (($# > 0)); do
+  case $1 in
+    --help | -h)
+      usage
+      exit 0
+      ;;
+    --preset)
+      preset=${2:?tests/run.sh: --preset needs a name}
+      shift 2
+      ;;
+    --target)
+      targets+=(--target "${2:?tests/run.sh: --target needs a name}")
+      shift 2
+      ;;
+    *)
+      break
+      ;;
+  esac
+done
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -43,7 +54,7 @@ if ! cmake --preset "$preset" "${launcher[@]}" >"$configure_log" 2>&1; then
   echo "tests/run.sh: configuring preset '$preset' failed; the reason is above" >&2
   exit 1
 fi
-cmake --build "build/$preset" --parallel "$jobs"
+cmake --build "build/$preset" --parallel "$jobs" "${targets[@]}"
 
 # ThreadSanitizer of older compilers cannot place its memory where the kernel randomises
 # addresses by more than 28 bits; without randomisation it always can.
