@@ -6,6 +6,7 @@
 
 #include "figures.h"
 #include "physics/physics_world.h"
+#include "realtime.h"
 #include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
 
@@ -88,4 +89,5 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();
   sim::bench::print_figures();
+  sim::bench::print_realtime_factors();
 }

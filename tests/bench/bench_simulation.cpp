@@ -12,50 +12,13 @@
 
 #include "figures.h"
 #include "physics/physics_world.h"
-#include "playerlike/host/embedded.h"
+#include "realtime.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/motion.h"
 #include "sim/simulation/simulation.h"
 
 namespace sim::bench {
 namespace {
-
-constexpr const char* kThirteen = PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json";
-constexpr const char* kOne = PLAYPEN_SOURCE_DIR "/worlds/syrotek.json";
-
-WorldDescription endless(const char* file) {
-  WorldDescription world = load_world(file);
-  world.simulation.duration_ns.reset();
-  return world;
-}
-
-// Robots that wander: they turn away from what the laser sees ahead, otherwise drive on.
-void wander(Simulation& simulation) {
-  for (int r = 0; r < simulation.robot_count(); ++r) {
-    const int laser = simulation.find_device(r, "laser").value();
-    const auto& scan = dynamic_cast<const LaserReading&>(
-        dynamic_cast<const Sensor&>(simulation.device(r, laser)).reading());
-    const bool blocked = scan.sequence > 0 && scan.least_range_m() < 0.25;
-    const Twist twist = blocked ? Twist{0.0, scan.least_angle_rad() > 0.0 ? -1.5 : 1.5, 0.0}
-                                : Twist{0.3, 0.1 * (r - 6), 0.0};
-    simulation.apply({r, simulation.find_device(r, "motion").value()}, TwistCommand{twist});
-  }
-}
-
-// Simulated seconds in a second of one processor, commands every tenth of a second.
-double realtime_factor(const char* file, double simulated_s) {
-  Simulation simulation(endless(file));
-  const auto steps = static_cast<int>(simulated_s * 100.0);
-  const double seconds = seconds_per_call(
-      [&] {
-        for (int i = 0; i < steps; ++i) {
-          if (i % 10 == 0) wander(simulation);
-          simulation.step();
-        }
-      },
-      1, 5);
-  return simulated_s / seconds;
-}
 
 // The bare costs of a step of 13 robots: b2World::Step, and a tenth of each robot's scan.
 struct Bare {
@@ -192,7 +155,5 @@ int main(int argc, char** argv) {
   sim::bench::step_figures();
   sim::bench::read_figures();
   sim::bench::memory_figure();
-  sim::bench::figure("realtime_factor_1_robot", sim::bench::realtime_factor(sim::bench::kOne, 600));
-  sim::bench::figure("realtime_factor_13_robots",
-                     sim::bench::realtime_factor(sim::bench::kThirteen, 60));
+  sim::bench::print_realtime_factors();
 }
