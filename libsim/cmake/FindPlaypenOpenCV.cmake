@@ -2,7 +2,10 @@
 # The OpenCV modules Playpen uses, as playpen_opencv. Debian splits OpenCV; only the huge
 # libopencv-dev holds OpenCVConfig.cmake, so its config is used where it is there, else the
 # headers and libraries of the small packages are searched for.
-set(_playpen_opencv_modules core imgproc imgcodecs videoio highgui)
+#
+# highgui, which loads a windowing toolkit, is kept out of it: it is playpen_opencv_highgui, where
+# it is there.
+set(_playpen_opencv_modules core imgproc imgcodecs videoio)
 if(NOT TARGET playpen_opencv)
   find_package(OpenCV 4 CONFIG QUIET COMPONENTS ${_playpen_opencv_modules})
   if(OpenCV_FOUND)
@@ -31,7 +34,19 @@ endif()
 if(TARGET playpen_opencv)
   set(PLAYPEN_OPENCV_TARGET playpen_opencv)
 endif()
+if(TARGET playpen_opencv AND NOT TARGET playpen_opencv_highgui)
+  find_path(PLAYPEN_OPENCV_HIGHGUI_INCLUDE_DIR opencv2/highgui.hpp PATH_SUFFIXES opencv4)
+  find_library(PLAYPEN_OPENCV_highgui_LIBRARY opencv_highgui)
+  mark_as_advanced(PLAYPEN_OPENCV_HIGHGUI_INCLUDE_DIR PLAYPEN_OPENCV_highgui_LIBRARY)
+  if(PLAYPEN_OPENCV_HIGHGUI_INCLUDE_DIR AND PLAYPEN_OPENCV_highgui_LIBRARY)
+    add_library(playpen_opencv_highgui INTERFACE IMPORTED)
+    target_include_directories(playpen_opencv_highgui SYSTEM INTERFACE
+      "${PLAYPEN_OPENCV_HIGHGUI_INCLUDE_DIR}")
+    target_link_libraries(playpen_opencv_highgui INTERFACE
+      "${PLAYPEN_OPENCV_highgui_LIBRARY}" playpen_opencv)
+  endif()
+endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(PlaypenOpenCV
   REQUIRED_VARS PLAYPEN_OPENCV_TARGET
-  REASON_FAILURE_MESSAGE "install libopencv-{core,imgproc,imgcodecs,videoio,highgui}-dev")
+  REASON_FAILURE_MESSAGE "install libopencv-{core,imgproc,imgcodecs,videoio}-dev")

@@ -25,7 +25,8 @@ if(TARGET playpen)
   file(RELATIVE_PATH _playpen_lib_from_bin
     "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
   set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${_playpen_lib_from_bin}")
-  install(TARGETS playpen RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # The window's program is looked for beside the command.
+  install(TARGETS playpen playpen-view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 install(EXPORT playpenTargets NAMESPACE playpen:: DESTINATION "${_playpen_package_dir}")

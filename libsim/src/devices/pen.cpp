@@ -3,20 +3,6 @@
 
 namespace sim {
 
-void CanvasOperation::draw(Canvas& canvas) const noexcept {
-  switch (kind) {
-    case Kind::kPixel:
-      canvas.set_pixel(x0, y0, colour);
-      break;
-    case Kind::kLine:
-      canvas.draw_line(x0, y0, x1, y1, colour);
-      break;
-    case Kind::kClear:
-      canvas.clear(colour);
-      break;
-  }
-}
-
 Pen::Pen(std::string name, const PenParams& params)
     : Actuator(std::move(name), "pen"), params_(params) {}
 

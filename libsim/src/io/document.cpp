@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -230,10 +231,12 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       issue.id = "json/trailing-garbage";
       issue.expected = "the end of the file after the outermost }";
       issue.found = "more text: " + line_text(text_, at);
-      issue.hint = "a world file holds one object; delete what follows it";
+      issue.hint = "a " + document_.what + " file holds one object; delete what follows it";
     } else if (!started_ && what.find("end of input") != std::string::npos) {
       issue.id = "file/empty";
-      issue.expected = "a world, for example {} (the default arena with one robot)";
+      issue.expected = document_.what == "world"
+                           ? "a world, for example {} (the default arena with one robot)"
+                           : "a " + document_.what;
       issue.found = "nothing but blanks and comments";
       at = text_.size();
     } else {
@@ -312,7 +315,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       ConfigIssue issue{
           "json/too-deep", document_.file,
           pointer_here(),  "at most " + std::to_string(kMaxDepth) + " levels of { and [",
-          "one more",      "no part of a world needs so many"};
+          "one more",      "no part of a " + document_.what + " needs so many"};
       issue.line = current_line(false);
       document_.add(std::move(issue));
       return false;
@@ -506,7 +509,8 @@ bool parse_document(std::string_view text, Reader::Document& document) {
                                    nlohmann::json::input_format_t::json, true, true);
 }
 
-bool read_file(const std::string& path, std::string& text, Reader::Document& document) {
+bool read_file(const std::string& path, std::string& text, Reader::Document& document,
+               const char* what) {
   namespace fs = std::filesystem;
   const auto fail = [&](const char* id, const char* expected, std::string found, std::string hint) {
     document.add({id, document.file, "", expected, std::move(found), std::move(hint)});
@@ -516,14 +520,14 @@ bool read_file(const std::string& path, std::string& text, Reader::Document& doc
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) {
     const std::string near = nearest_word(fs::path(path).filename().string(), neighbours(path));
-    return fail("file/missing", "a world file", "no file of that name",
+    return fail("file/missing", what, "no file of that name",
                 near.empty() ? "the name is relative to the folder " +
                                    in_quotes(fs::current_path(error).string())
                              : "did you mean \"" + near + "\"?");
   }
   if (status.type() == fs::file_type::directory) {
     const std::vector<std::string> names = neighbours(fs::path(path) / "x");
-    return fail("file/not-a-file", "a world file", "a folder",
+    return fail("file/not-a-file", what, "a folder",
                 names.empty() ? "" : "name a file in it, for example " + in_quotes(names.front()));
   }
   std::ifstream stream(path, std::ios::binary);
@@ -539,9 +543,20 @@ bool read_file(const std::string& path, std::string& text, Reader::Document& doc
   }
   if (text.size() > kMaxFileBytes) {
     return fail("file/too-large", "a file of at most 16 MiB", "a larger one",
-                "is this a world file?");
+                std::string("is this ") + what + '?');
   }
   return true;
+}
+
+void throw_issues(Reader::Document& document) {
+  if (document.issues.empty()) return;
+  const auto line = [](const ConfigIssue& issue) {
+    return issue.line == 0 ? std::numeric_limits<int>::max() : issue.line;
+  };
+  std::stable_sort(
+      document.issues.begin(), document.issues.end(),
+      [&line](const ConfigIssue& a, const ConfigIssue& b) { return line(a) < line(b); });
+  throw ConfigError(std::move(document.issues));
 }
 
 std::string escape_pointer_part(std::string_view part) {

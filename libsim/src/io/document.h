@@ -40,6 +40,7 @@ struct Reader::Value {
 
 struct Reader::Document {
   std::string file;
+  std::string what = "world";  ///< what the file holds, for messages
   Value root;
   std::vector<ConfigIssue> issues;
 
@@ -58,8 +59,14 @@ struct Reader::Document {
 /// @return false if the text is no JSON; then at least one issue says why.
 bool parse_document(std::string_view text, Reader::Document& document);
 
-/// The file's content; nullopt and an issue if it cannot be had.
-bool read_file(const std::string& path, std::string& text, Reader::Document& document);
+/// Reads a file's content.
+/// @param what  the file is expected to be, for messages.
+/// @return false and an issue if it cannot be had.
+bool read_file(const std::string& path, std::string& text, Reader::Document& document,
+               const char* what = "a world file");
+
+/// Throws what was found, in the order of the file's lines; returns if that is nothing.
+void throw_issues(Reader::Document& document);
 
 /// One part of a JSON pointer, with '~' and '/' escaped (RFC 6901, section 3).
 std::string escape_pointer_part(std::string_view part);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -15,6 +14,7 @@
 #include "io/check_world.h"
 #include "io/document.h"
 #include "io/map_io.h"
+#include "sim/world/view_mode.h"
 
 namespace sim::io {
 namespace {
@@ -375,6 +375,13 @@ class WorldReader {
                       "enlarge cell_size, or give the size", "cell_size");
       }
       size = reader->integer_pair("size", size, 1, kMaxSide);
+      std::vector<std::string> modes;
+      for (const ViewMode mode : kViewModes) modes.emplace_back(to_string(mode));
+      canvas.view_mode =
+          parse_view_mode(
+              reader->choice("view_mode", std::string(to_string(canvas.view_mode)), modes))
+              .value_or(canvas.view_mode);
+      canvas.view_mode_locked = reader->boolean("lock_view_mode", canvas.view_mode_locked);
       reader->finish();
     }
     canvas.width = static_cast<int>(std::min<std::int64_t>(size[0], kMaxSide));
@@ -582,18 +589,6 @@ class WorldReader {
   const std::vector<DeviceType>& types_;
   WorldDescription world_;
 };
-
-/// Throws what was found, in the order of the file's lines.
-void throw_issues(Reader::Document& document) {
-  if (document.issues.empty()) return;
-  const auto line = [](const ConfigIssue& issue) {
-    return issue.line == 0 ? std::numeric_limits<int>::max() : issue.line;
-  };
-  std::stable_sort(
-      document.issues.begin(), document.issues.end(),
-      [&line](const ConfigIssue& a, const ConfigIssue& b) { return line(a) < line(b); });
-  throw ConfigError(std::move(document.issues));
-}
 
 }  // namespace
 

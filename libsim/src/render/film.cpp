@@ -1,14 +1,22 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
+#include <cinttypes>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <istream>
 #include <opencv2/videoio.hpp>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "sim/render/render.h"
@@ -29,12 +37,74 @@ std::string lower_case_ending(const std::string& path) {
   return ending;
 }
 
-int fourcc_of(const std::string& path) {
+namespace fs = std::filesystem;
+
+enum class FilmKind { kMpeg4, kMotionJpeg, kPictures };
+
+std::optional<FilmKind> kind_of(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  std::error_code error;
+  if (path.ends_with('/') || fs::is_directory(path, error)) return FilmKind::kPictures;
   const std::string ending = lower_case_ending(path);
-  if (ending == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
-  if (ending == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  fail(path, ending.empty() ? "its name must end in .mp4 or .avi"
-                            : "unknown ending \"" + ending + "\", expected .mp4 or .avi");
+  if (ending == ".mp4") return FilmKind::kMpeg4;
+  if (ending == ".avi") return FilmKind::kMotionJpeg;
+  return ending.empty() ? std::optional(FilmKind::kPictures) : std::nullopt;
+}
+
+FilmKind required_kind_of(const std::string& path) {
+  const std::optional<FilmKind> kind = kind_of(path);
+  if (kind) return *kind;
+  fail(path, path.empty() ? "it has no name"
+                          : "unknown ending \"" + lower_case_ending(path) +
+                                "\", expected .mp4, .avi, or none for a folder of pictures");
+}
+
+// Whether a file is called frame_000001.png, or with another number.
+bool is_frame(const fs::path& file) {
+  const std::string name = file.filename().string();
+  constexpr std::string_view kStart = "frame_";
+  constexpr std::string_view kEnd = ".png";
+  if (!name.starts_with(kStart) || !name.ends_with(kEnd)) return false;
+  const std::string digits = name.substr(kStart.size(), name.size() - kStart.size() - kEnd.size());
+  return digits.size() >= 6 && digits.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// A number of `bytes` bytes at the place where the file is read.
+std::uint64_t read_number(std::istream& file, int bytes, bool little_endian) {
+  std::uint64_t number = 0;
+  for (int i = 0; i < bytes; ++i) {
+    const auto byte = static_cast<std::uint64_t>(file.get() & 0xff);
+    number = little_endian ? number | byte << (8 * i) : number << 8 | byte;
+  }
+  return number;
+}
+
+// Whether a film ends where its blocks say. OpenCV does not tell when a disk was full, but then the
+// last block lacks its end or, in an MP4 (ISO 14496-12), the index "moov", which is written last.
+// An AVI consists of RIFF blocks: a name, then the length of what follows; in an MP4 the length
+// comes first, and counts itself and the name. A length of 1 stands for one of 64 bits.
+bool is_whole(const std::string& path) {
+  std::error_code error;
+  const std::uint64_t size = fs::file_size(path, error);
+  std::ifstream file(path, std::ios::binary);
+  const bool is_avi = lower_case_ending(path) == ".avi";
+  bool has_index = is_avi;
+  std::uint64_t at = 0;
+  while (!error && file && at < size) {
+    file.seekg(static_cast<std::streamoff>(at));
+    std::uint64_t length = 0;
+    if (is_avi) {
+      file.ignore(4);
+      length = 8 + read_number(file, 4, true);
+    } else {
+      length = read_number(file, 4, false);
+      has_index = has_index || read_number(file, 4, false) == 0x6d6f6f76;  // "moov"
+      if (length == 1) length = read_number(file, 8, false);
+    }
+    if (length < 8) return false;
+    at += length;
+  }
+  return !error && file && at == size && size > 0 && has_index;
 }
 
 std::string size_text(int width, int height) {
@@ -44,19 +114,64 @@ std::string size_text(int width, int height) {
 }  // namespace
 
 struct FilmWriter::Impl {
-  std::string path;
-  double frames_per_second = 0.0;
-  int fourcc = 0;
-  int frame_width = 0;  // as given; the film's own size is `bgr`'s
-  int frame_height = 0;
-  cv::Mat bgr;
-  cv::VideoWriter writer;  // opened with the first frame, which tells the size
+  explicit Impl(std::string name) : path(std::move(name)) {}
+  virtual ~Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
-  ~Impl() {
-    writer.release();
-    if (frame_width == 0) std::remove(path.c_str());  // no film: leave no empty file
+  void add(const Image& frame) {
+    if (frame.rgb.size() !=
+        3 * static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height)) {
+      fail(path, "a frame has not as many pixels as its size says");
+    }
+    if (frame_count == 0) {
+      frame_width = frame.width;
+      frame_height = frame.height;
+    } else if (frame.width != frame_width || frame.height != frame_height) {
+      fail(path, "a frame is " + size_text(frame.width, frame.height) +
+                     " pixels, those before were " + size_text(frame_width, frame_height));
+    }
+    write(frame);
+    ++frame_count;
   }
 
+  /// Completes the film and sees whether it is whole.
+  virtual void finish() {}
+
+  std::string path;
+  std::uint64_t frame_count = 0;
+  int frame_width = 0;
+  int frame_height = 0;
+
+ private:
+  /// Writes a frame that is like those before.
+  virtual void write(const Image& frame) = 0;
+};
+
+namespace {
+
+class Video final : public FilmWriter::Impl {
+ public:
+  Video(const std::string& name, double frames_per_second, int fourcc)
+      : Impl(name), frames_per_second_(frames_per_second), fourcc_(fourcc) {
+    // OpenCV only says that it failed. Opening the file here tells why, and before a run, not
+    // after.
+    errno = 0;
+    if (!std::ofstream(path, std::ios::binary | std::ios::trunc)) {
+      fail(path, errno != 0 ? std::strerror(errno) : "unknown reason");
+    }
+  }
+  ~Video() override {
+    writer_.release();
+    if (frame_count == 0) std::remove(path.c_str());  // no film: leave no empty file
+  }
+
+  void finish() override {
+    writer_.release();
+    if (frame_count > 0 && !is_whole(path)) fail(path, "it is not whole (is the disk full?)");
+  }
+
+ private:
   void open(const Image& frame) {
     const int width = frame.width & ~1;
     const int height = frame.height & ~1;
@@ -67,66 +182,98 @@ struct FilmWriter::Impl {
     // pool of threads, and is the second choice where OpenCV was built without FFmpeg.
     const cv::Size size(width, height);
     try {
-      if (!writer.open(path, cv::CAP_FFMPEG, fourcc, frames_per_second, size)) {
-        writer.open(path, fourcc, frames_per_second, size);
+      if (!writer_.open(path, cv::CAP_FFMPEG, fourcc_, frames_per_second_, size)) {
+        writer_.open(path, fourcc_, frames_per_second_, size);
       }
     } catch (const cv::Exception& error) {
       fail(path, error.what());
     }
-    if (!writer.isOpened()) fail(path, "OpenCV has no encoder for it on this computer");
-    frame_width = frame.width;
-    frame_height = frame.height;
-    bgr.create(height, width, CV_8UC3);
+    if (!writer_.isOpened()) fail(path, "OpenCV has no encoder for it on this computer");
+    bgr_.create(height, width, CV_8UC3);
   }
 
-  void add(const Image& frame) {
-    if (frame.rgb.size() !=
-        3 * static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height)) {
-      fail(path, "a frame has not as many pixels as its size says");
-    }
-    if (frame_width == 0) open(frame);
-    if (frame.width != frame_width || frame.height != frame_height) {
-      fail(path, "a frame is " + size_text(frame.width, frame.height) +
-                     " pixels, those before were " + size_text(frame_width, frame_height));
-    }
-    for (int y = 0; y < bgr.rows; ++y) {
+  void write(const Image& frame) override {
+    if (frame_count == 0) open(frame);
+    for (int y = 0; y < bgr_.rows; ++y) {
       const std::uint8_t* rgb = frame.rgb.data() + 3 * static_cast<std::size_t>(y) *
                                                        static_cast<std::size_t>(frame.width);
-      std::uint8_t* out = bgr.ptr(y);
-      for (int x = 0; x < bgr.cols; ++x, rgb += 3, out += 3) {
+      std::uint8_t* out = bgr_.ptr(y);
+      for (int x = 0; x < bgr_.cols; ++x, rgb += 3, out += 3) {
         out[0] = rgb[2];
         out[1] = rgb[1];
         out[2] = rgb[0];
       }
     }
     try {
-      writer.write(bgr);
+      writer_.write(bgr_);
     } catch (const cv::Exception& error) {
       fail(path, error.what());
     }
   }
+
+  double frames_per_second_;
+  int fourcc_;
+  cv::Mat bgr_;             // of the film's own size
+  cv::VideoWriter writer_;  // opened with the first frame, which tells the size
 };
 
+class Pictures final : public FilmWriter::Impl {
+ public:
+  explicit Pictures(const std::string& name) : Impl(name) {
+    std::error_code error;
+    made_ = fs::create_directories(path, error);
+    if (error || !fs::is_directory(path, error)) {
+      fail(path, error ? error.message() : "it is there, and no folder");
+    }
+    try {
+      for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+        if (is_frame(entry.path())) fs::remove(entry.path());
+      }
+    } catch (const fs::filesystem_error& problem) {
+      fail(path, problem.code().message());
+    }
+  }
+  ~Pictures() override {
+    std::error_code ignored;
+    if (made_ && frame_count == 0) fs::remove(path, ignored);
+  }
+
+ private:
+  void write(const Image& frame) override {
+    const std::uint64_t number = frame_count + 1;
+    std::array<char, 32> name{};
+    std::snprintf(name.data(), name.size(), "frame_%06" PRIu64 ".png", number);
+    // Quick to pack: a film has thousands.
+    write_png(frame, (fs::path(path) / name.data()).string(), PngEffort::kQuick);
+  }
+
+  bool made_ = false;
+};
+
+}  // namespace
+
 FilmWriter::FilmWriter(const std::string& path, double frames_per_second) {
-  const int fourcc = fourcc_of(path);
+  const FilmKind kind = required_kind_of(path);
   if (!(frames_per_second >= 1.0 && frames_per_second <= 1000.0)) {
     fail(path, "frames per second must be in 1..1000");
   }
-  // OpenCV only says that it failed. Opening the file here tells why, and before a run, not after.
-  errno = 0;
-  if (!std::ofstream(path, std::ios::binary | std::ios::trunc)) {
-    fail(path, errno != 0 ? std::strerror(errno) : "unknown reason");
+  if (kind == FilmKind::kPictures) {
+    impl_ = std::make_unique<Pictures>(path);
+  } else {
+    const int fourcc = kind == FilmKind::kMpeg4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
+                                                : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+    impl_ = std::make_unique<Video>(path, frames_per_second, fourcc);
   }
-  impl_ = std::make_unique<Impl>();
-  impl_->path = path;
-  impl_->frames_per_second = frames_per_second;
-  impl_->fourcc = fourcc;
 }
+
+bool FilmWriter::is_film_name(const std::string& path) { return kind_of(path).has_value(); }
 
 FilmWriter::~FilmWriter() = default;
 FilmWriter::FilmWriter(FilmWriter&&) noexcept = default;
 FilmWriter& FilmWriter::operator=(FilmWriter&&) noexcept = default;
 
 void FilmWriter::add(const Image& frame) { impl_->add(frame); }
+
+void FilmWriter::finish() { impl_->finish(); }
 
 }  // namespace sim::render

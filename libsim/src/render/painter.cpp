@@ -2,8 +2,10 @@
 #include "render/painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -66,6 +68,18 @@ double signed_area(const std::vector<Vec2>& points) {
   return 0.5 * twice;
 }
 
+// Most of a row is empty: eight cells at a time are passed over.
+int first_not_zero(const float* cells, int begin, int end) {
+  constexpr int kAtOnce = 8;
+  for (; begin + kAtOnce <= end; begin += kAtOnce) {
+    std::array<std::uint64_t, kAtOnce / 2> pairs{};
+    std::memcpy(pairs.data(), cells + begin, sizeof pairs);
+    if ((pairs[0] | pairs[1] | pairs[2] | pairs[3]) != 0) break;
+  }
+  while (begin < end && cells[begin] == 0.0F) ++begin;
+  return begin;
+}
+
 // Sums up what edges contribute to the pixels of a part of the picture. An edge covers, in each
 // row it crosses, what lies to its right, counted positive downwards and negative upwards. Cell
 // (x, y) holds the change of that from pixel x - 1 to pixel x, so that a running sum along the row
@@ -97,18 +111,21 @@ class Accumulator {
     }
   }
 
-  // Calls visit(x, y, coverage) where there is any, row by row, and sets all cells back to zero.
+  // Calls visit(y, x_begin, x_end, coverage) for the runs where there is any, row by row, and sets
+  // all cells back to zero.
   template <typename Visitor>
   void visit_and_clear(Visitor visit) {
     constexpr float kLeast = 1.0F / 2048.0F;  // less than that is rounding, and would not show
     for (int y = 0; y < height_; ++y) {
       float* const cell = cells_ + static_cast<std::size_t>(y) * stride_;
       float total = 0.0F;
-      for (int x = 0; x < width_; ++x) {
+      for (int x = 0; x < width_;) {
         total += cell[x];
         cell[x] = 0.0F;
+        const int begin = x++;
+        x = first_not_zero(cell, x, width_);
         const float covered = std::abs(total);
-        if (covered > kLeast) visit(x, y, std::min(covered, 1.0F));
+        if (covered > kLeast) visit(y, begin, x, std::min(covered, 1.0F));
       }
       cell[width_] = 0.0F;
     }
@@ -152,6 +169,38 @@ class Accumulator {
   float* cells_;
 };
 
+// The part of `clip` in which the shape may cover something.
+PixelRect bounds_within(const Shape& shape, const PixelRect& clip) {
+  if (shape.edges().empty()) return {};
+  Vec2 low = shape.edges().front().from;
+  Vec2 high = low;
+  for (const Shape::Edge& edge : shape.edges()) {  // outlines are closed: `from` is every corner
+    low = low.cwiseMin(edge.from);
+    high = high.cwiseMax(edge.from);
+  }
+  const auto within = [](double at, int from, int to) {
+    return static_cast<int>(std::clamp<double>(at, from, to));
+  };
+  return {within(std::floor(low.x()), clip.left, clip.right),
+          within(std::floor(low.y()), clip.top, clip.bottom),
+          within(std::ceil(high.x()), clip.left, clip.right),
+          within(std::ceil(high.y()), clip.top, clip.bottom)};
+}
+
+std::uint32_t whole_weight(float share) {
+  return static_cast<std::uint32_t>(share * 65536.0F + 0.5F);
+}
+
+// Lays a colour over a pixel, `weight` / 2^16 of it.
+void blend_pixel(std::uint8_t* pixel, Colour colour, std::uint32_t weight) {
+  constexpr std::uint32_t kOne = 1 << 16;
+  constexpr std::uint32_t kHalf = kOne / 2;
+  const std::uint32_t keep = kOne - weight;
+  pixel[0] = static_cast<std::uint8_t>((pixel[0] * keep + colour.r * weight + kHalf) >> 16);
+  pixel[1] = static_cast<std::uint8_t>((pixel[1] * keep + colour.g * weight + kHalf) >> 16);
+  pixel[2] = static_cast<std::uint8_t>((pixel[2] * keep + colour.b * weight + kHalf) >> 16);
+}
+
 }  // namespace
 
 void Shape::add_outline(const std::vector<Vec2>& points) {
@@ -192,7 +241,23 @@ void Shape::add_line(const std::vector<Vec2>& points, double width_px, bool clos
     const Vec2 side = Vec2(-along.y(), along.x()) * (0.5 * width_px / length);
     add_piece({a + side, b + side, b - side, a - side});
   }
-  for (const Vec2& point : points) add_disc(point, 0.5 * width_px);
+  const double radius_px = 0.5 * width_px;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool end = !closed && (i == 0 || i + 1 == points.size());
+    if (!end) {
+      // The wedge left open outside a joint that turns by t is radius (1 - cos(t / 2)) high.
+      constexpr double kLeastGap_px = 0.02;
+      const Vec2 in = points[i] - points[(i + points.size() - 1) % points.size()];
+      const Vec2 out = points[(i + 1) % points.size()] - points[i];
+      const double lengths = in.norm() * out.norm();
+      if (lengths > 0.0) {
+        const double half_angle_cosine =
+            std::sqrt(std::max(0.0, 0.5 * (1.0 + in.dot(out) / lengths)));
+        if (radius_px * (1.0 - half_angle_cosine) < kLeastGap_px) continue;
+      }
+    }
+    add_disc(points[i], radius_px);
+  }
 }
 
 void Shape::add_dashed_outline(const std::vector<Vec2>& points, double width_px, double dash_px) {
@@ -221,6 +286,127 @@ void Shape::cut(const Shape& hole) {
   for (const Edge& edge : hole.edges_) edges_.push_back({edge.to, edge.from});
 }
 
+template <typename Visitor>
+void Rasteriser::rasterise(const Shape& shape, const PixelRect& clip, Visitor visit) {
+  const PixelRect part = bounds_within(shape, clip);
+  const int width = part.right - part.left;
+  const int height = part.bottom - part.top;
+  if (width <= 0 || height <= 0) return;
+  const std::size_t size = (static_cast<std::size_t>(width) + 1) * static_cast<std::size_t>(height);
+  if (cells_.size() < size) cells_.resize(size);
+  Accumulator accumulator(width, height, cells_.data());
+  const Vec2 corner(part.left, part.top);
+  for (const Shape::Edge& edge : shape.edges()) {
+    accumulator.add(edge.from - corner, edge.to - corner);
+  }
+  accumulator.visit_and_clear([&](int y, int begin, int end, float coverage) {
+    visit(part.top + y, part.left + begin, part.left + end, coverage);
+  });
+}
+
+void Overlay::Canvas::fill(const Shape& shape, Colour colour, double opacity) {
+  const float strength = static_cast<float>(opacity) * static_cast<float>(colour.a) / 255.0F;
+  const std::array<float, 3> channels = {static_cast<float>(colour.r), static_cast<float>(colour.g),
+                                         static_cast<float>(colour.b)};
+  rasteriser_.rasterise(shape, part_, [&](int y, int begin, int end, float coverage) {
+    const float share = coverage * strength;
+    Pixel* pixel = pixels_.data() + static_cast<std::size_t>(y - part_.top) *
+                                        static_cast<std::size_t>(part_.right - part_.left);
+    for (int x = begin; x < end; ++x) {
+      Pixel& out = pixel[x - part_.left];
+      for (std::size_t i = 0; i < 3; ++i) {
+        out.added[i] = out.added[i] * (1.0F - share) + channels[i] * share;
+      }
+      out.kept *= 1.0F - share;
+    }
+  });
+}
+
+Overlay::Overlay(int width, int height, const std::function<void(Canvas&)>& draw) {
+  constexpr int kBand_px = 1 << 20;
+  const int rows = std::max(1, kBand_px / width);
+  Canvas canvas;
+  for (int top = 0; top < height; top += rows) {
+    canvas.part_ = {0, top, width, std::min(top + rows, height)};
+    canvas.pixels_.assign(
+        static_cast<std::size_t>(canvas.part_.bottom - top) * static_cast<std::size_t>(width),
+        Canvas::Pixel{});
+    draw(canvas);
+    add_runs(canvas);
+  }
+}
+
+void Overlay::add_runs(const Canvas& canvas) {
+  constexpr float kLeastKept = 1.0F / 1024.0F;  // less does not show
+  const int width = canvas.part_.right - canvas.part_.left;
+  const Canvas::Pixel* pixel = canvas.pixels_.data();
+  for (int y = canvas.part_.top; y < canvas.part_.bottom; ++y, pixel += width) {
+    for (int x = 0; x < width;) {
+      if (pixel[x].kept == 1.0F) {
+        ++x;
+        continue;
+      }
+      Run run;
+      run.begin = x;
+      run.opaque = pixel[x].kept < kLeastKept;
+      run.first = run.opaque ? bytes_.size() : blends_.size();
+      for (; x < width && pixel[x].kept != 1.0F && (pixel[x].kept < kLeastKept) == run.opaque;
+           ++x) {
+        if (run.opaque) {
+          for (const float channel : pixel[x].added) {
+            bytes_.push_back(static_cast<std::uint8_t>(std::min(channel + 0.5F, 255.0F)));
+          }
+        } else {
+          blends_.push_back(Blend::of(pixel[x].kept, pixel[x].added));
+        }
+      }
+      run.end = x;
+      runs_.push_back(run);
+    }
+    row_.push_back(runs_.size());
+  }
+}
+
+void Overlay::draw_on(Image& image, const PixelRect& part) const {
+  const int bottom = std::min(part.bottom, static_cast<int>(row_.size()) - 1);
+  for (int y = part.top; y < bottom; ++y) {
+    std::uint8_t* const row =
+        image.rgb.data() + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
+    const std::size_t last = row_[static_cast<std::size_t>(y) + 1];
+    for (std::size_t i = row_[static_cast<std::size_t>(y)]; i < last; ++i) {
+      const Run& run = runs_[i];
+      const int begin = std::max(run.begin, part.left);
+      const int end = std::min(run.end, part.right);
+      if (begin >= end) continue;
+      const auto skipped = static_cast<std::size_t>(begin - run.begin);
+      const auto count = static_cast<std::size_t>(end - begin);
+      std::uint8_t* pixel = row + 3 * static_cast<std::size_t>(begin);
+      if (run.opaque) {
+        std::memcpy(pixel, bytes_.data() + run.first + 3 * skipped, 3 * count);
+        continue;
+      }
+      const Blend* blend = blends_.data() + run.first + skipped;
+      for (std::size_t k = 0; k < count; ++k, pixel += 3) blend[k].apply(pixel);
+    }
+  }
+}
+
+double Overlay::hidden_px(const PixelRect& part) const {
+  double hidden = 0.0;
+  const int bottom = std::min(part.bottom, static_cast<int>(row_.size()) - 1);
+  for (int y = part.top; y < bottom; ++y) {
+    const std::size_t last = row_[static_cast<std::size_t>(y) + 1];
+    for (std::size_t i = row_[static_cast<std::size_t>(y)]; i < last; ++i) {
+      const Run& run = runs_[i];
+      for (int x = std::max(run.begin, part.left); x < std::min(run.end, part.right); ++x) {
+        const std::size_t at = run.first + static_cast<std::size_t>(x - run.begin);
+        hidden += run.opaque ? 1.0 : 1.0 - static_cast<double>(blends_[at].keep) / 65536.0;
+      }
+    }
+  }
+  return hidden;
+}
+
 Painter::Painter(int width, int height, Colour background) {
   image_.width = width;
   image_.height = height;
@@ -234,87 +420,71 @@ Painter::Painter(int width, int height, Colour background) {
   clear_clip();
 }
 
-void Painter::set_clip(int left, int top, int right, int bottom) {
-  clip_left_ = std::clamp(left, 0, image_.width);
-  clip_top_ = std::clamp(top, 0, image_.height);
-  clip_right_ = std::clamp(right, clip_left_, image_.width);
-  clip_bottom_ = std::clamp(bottom, clip_top_, image_.height);
+void Painter::set_clip(const PixelRect& clip) {
+  clip_.left = std::clamp(clip.left, 0, image_.width);
+  clip_.top = std::clamp(clip.top, 0, image_.height);
+  clip_.right = std::clamp(clip.right, clip_.left, image_.width);
+  clip_.bottom = std::clamp(clip.bottom, clip_.top, image_.height);
 }
 
-Mask Painter::bounds(const Shape& shape) const {
-  Mask mask;
-  if (shape.edges().empty()) return mask;
-  Vec2 low = shape.edges().front().from;
-  Vec2 high = low;
-  for (const Shape::Edge& edge : shape.edges()) {  // outlines are closed: `from` is every corner
-    low = low.cwiseMin(edge.from);
-    high = high.cwiseMax(edge.from);
-  }
-  const auto within = [](double at, int from, int to) {
-    return static_cast<int>(std::clamp<double>(at, from, to));
-  };
-  mask.left = within(std::floor(low.x()), clip_left_, clip_right_);
-  mask.top = within(std::floor(low.y()), clip_top_, clip_bottom_);
-  mask.width = within(std::ceil(high.x()), clip_left_, clip_right_) - mask.left;
-  mask.height = within(std::ceil(high.y()), clip_top_, clip_bottom_) - mask.top;
-  return mask;
-}
-
-template <typename Visitor>
-void Painter::rasterise(const Shape& shape, Visitor visit) {
-  const Mask part = bounds(shape);
-  if (part.width <= 0 || part.height <= 0) return;
-  const std::size_t size =
-      (static_cast<std::size_t>(part.width) + 1) * static_cast<std::size_t>(part.height);
-  if (cells_.size() < size) cells_.resize(size);
-  Accumulator accumulator(part.width, part.height, cells_.data());
-  const Vec2 corner(part.left, part.top);
-  for (const Shape::Edge& edge : shape.edges()) {
-    accumulator.add(edge.from - corner, edge.to - corner);
-  }
-  accumulator.visit_and_clear(
-      [&](int x, int y, float coverage) { visit(part.left + x, part.top + y, coverage); });
+void Painter::blend(int y, int x_begin, int x_end, Colour colour, float opacity) {
+  const std::uint32_t weight =
+      whole_weight(opacity * static_cast<float>(colour.a) * (1.0F / 255.0F));
+  std::uint8_t* at = pixel(x_begin, y);
+  for (int x = x_begin; x < x_end; ++x, at += 3) blend_pixel(at, colour, weight);
 }
 
 void Painter::fill(const Shape& shape, Colour colour, double opacity) {
   const auto strength = static_cast<float>(opacity);
-  rasterise(shape, [&](int x, int y, float coverage) { blend(x, y, colour, coverage * strength); });
+  rasteriser_.rasterise(shape, clip_, [&](int y, int begin, int end, float coverage) {
+    blend(y, begin, end, colour, coverage * strength);
+  });
 }
 
 void Painter::fill_fading(const Shape& shape, Colour colour, const Vec2& center, double radius_px,
                           double opacity_center, double opacity_rim) {
-  const auto at_center = static_cast<float>(opacity_center);
-  const auto fall = static_cast<float>(opacity_center - opacity_rim);
+  const float alpha = static_cast<float>(colour.a) / 255.0F;
+  const float at_center = static_cast<float>(opacity_center) * alpha;
+  const float fall = static_cast<float>(opacity_center - opacity_rim) * alpha;
   const auto inverse_square = static_cast<float>(1.0 / (radius_px * radius_px));
   const auto center_x = static_cast<float>(center.x() - 0.5);
   const auto center_y = static_cast<float>(center.y() - 0.5);
-  rasterise(shape, [&](int x, int y, float coverage) {
-    const float dx = static_cast<float>(x) - center_x;
+  rasteriser_.rasterise(shape, clip_, [&](int y, int begin, int end, float coverage) {
     const float dy = static_cast<float>(y) - center_y;
-    const float share = std::min(1.0F, (dx * dx + dy * dy) * inverse_square);
-    blend(x, y, colour, coverage * (at_center - fall * share));
+    std::uint8_t* at = pixel(begin, y);
+    for (int x = begin; x < end; ++x, at += 3) {
+      const float dx = static_cast<float>(x) - center_x;
+      const float share = std::min(1.0F, (dx * dx + dy * dy) * inverse_square);
+      blend_pixel(at, colour, whole_weight(coverage * (at_center - fall * share)));
+    }
   });
 }
 
-Mask Painter::mask(const Shape& shape) {
-  Mask mask = bounds(shape);
-  mask.coverage.resize(static_cast<std::size_t>(mask.width) *
-                       static_cast<std::size_t>(mask.height));
-  rasterise(shape, [&](int x, int y, float coverage) {
-    mask.coverage[static_cast<std::size_t>(y - mask.top) * static_cast<std::size_t>(mask.width) +
-                  static_cast<std::size_t>(x - mask.left)] = coverage;
-  });
-  return mask;
-}
-
-void Painter::fill(const Mask& mask, Colour colour, double opacity) {
+void Painter::unite(const Shape& shape, double opacity) {
   const auto strength = static_cast<float>(opacity);
-  const float* coverage = mask.coverage.data();
-  for (int y = mask.top; y < mask.top + mask.height; ++y) {
-    for (int x = mask.left; x < mask.left + mask.width; ++x, ++coverage) {
-      if (*coverage > 0.0F) blend(x, y, colour, *coverage * strength);
+  if (united_.empty()) united_.resize(image_.rgb.size() / 3);
+  rasteriser_.rasterise(shape, clip_, [&](int y, int begin, int end, float coverage) {
+    float* const row =
+        united_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
+    for (int x = begin; x < end; ++x) row[x] = std::max(row[x], coverage * strength);
+    PixelRect& part = united_part_;
+    const bool none = part.right == 0;
+    part = {none ? begin : std::min(part.left, begin), none ? y : std::min(part.top, y),
+            std::max(part.right, end), std::max(part.bottom, y + 1)};
+  });
+}
+
+void Painter::fill_united(Colour colour) {
+  for (int y = united_part_.top; y < united_part_.bottom; ++y) {
+    float* const row =
+        united_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
+    for (int x = first_not_zero(row, united_part_.left, united_part_.right); x < united_part_.right;
+         x = first_not_zero(row, x + 1, united_part_.right)) {
+      blend(y, x, x + 1, colour, row[x]);
+      row[x] = 0.0F;
     }
   }
+  united_part_ = {};
 }
 
 double Painter::text_width_px(const std::string& text, const TextStyle& style) {
@@ -325,38 +495,74 @@ double Painter::text_width_px(const std::string& text, const TextStyle& style) {
   return width_px;
 }
 
-void Painter::draw_text(const std::string& text, const Vec2& start, const TextStyle& style) {
-  if (!is_drawable(start)) return;
+Painter::TextMask Painter::make_text_mask(const std::string& text, const TextStyle& style,
+                                          int quarter_px, double rim_px) {
   const std::vector<Word> words = words_of(text, style);
   // Room on all sides for strokes, the halo and letters below the base line.
   const int room =
       static_cast<int>(std::ceil(style.cap_height_px * (0.5 + style.weight) + style.halo_px)) + 1;
-  const int left = static_cast<int>(std::floor(start.x())) - room;
-  const int top = static_cast<int>(std::lround(start.y() - style.cap_height_px)) - room;
-  const int width = static_cast<int>(std::ceil(text_width_px(text, style))) + 2 * room + 1;
-  const int height = static_cast<int>(std::ceil(style.cap_height_px)) + 2 * room;
-  const auto draw = [&](double rim_px, Colour colour) {
-    cv::Mat large = cv::Mat::zeros(height * kTextOversampling, width * kTextOversampling, CV_8UC1);
-    for (const Word& word : words) {
-      const cv::Point origin(
-          static_cast<int>(std::lround((start.x() + word.start_px - left) * kTextOversampling)),
-          static_cast<int>(std::lround(start.y()) - top) * kTextOversampling);
-      cv::putText(large, word.text, origin, kFont, font_scale(style), cv::Scalar(255),
-                  stroke_width(style, rim_px), cv::LINE_AA);
-    }
-    for (int y = std::max(0, -top); y < std::min(height, image_.height - top); ++y) {
-      for (int x = std::max(0, -left); x < std::min(width, image_.width - left); ++x) {
-        int total = 0;
-        for (int sub = 0; sub < kTextOversampling; ++sub) {
-          const std::uint8_t* row = large.ptr(y * kTextOversampling + sub) + x * kTextOversampling;
-          for (int i = 0; i < kTextOversampling; ++i) total += row[i];
-        }
-        if (total > 0) {
-          blend(left + x, top + y, colour,
-                static_cast<float>(total) / (255.0F * kTextOversampling * kTextOversampling));
-        }
+  const int cap_height = static_cast<int>(std::ceil(style.cap_height_px));
+  TextMask mask;
+  mask.left = -room;
+  mask.top = -cap_height - room;
+  mask.width = static_cast<int>(std::ceil(text_width_px(text, style))) + 2 * room + 2;
+  mask.height = cap_height + 2 * room;
+  cv::Mat large =
+      cv::Mat::zeros(mask.height * kTextOversampling, mask.width * kTextOversampling, CV_8UC1);
+  for (const Word& word : words) {
+    const cv::Point origin(
+        static_cast<int>(std::lround((word.start_px + room) * kTextOversampling)) + quarter_px,
+        -mask.top * kTextOversampling);
+    cv::putText(large, word.text, origin, kFont, font_scale(style), cv::Scalar(255),
+                stroke_width(style, rim_px), cv::LINE_AA);
+  }
+  mask.coverage.reserve(static_cast<std::size_t>(mask.width) *
+                        static_cast<std::size_t>(mask.height));
+  for (int y = 0; y < mask.height; ++y) {
+    for (int x = 0; x < mask.width; ++x) {
+      std::uint32_t total = 0;
+      for (int sub = 0; sub < kTextOversampling; ++sub) {
+        const std::uint8_t* row = large.ptr(y * kTextOversampling + sub) + x * kTextOversampling;
+        for (int i = 0; i < kTextOversampling; ++i) total += row[i];
       }
+      constexpr std::uint32_t kMost = 255 * kTextOversampling * kTextOversampling;
+      mask.coverage.push_back((total << 16) / kMost);
     }
+  }
+  return mask;
+}
+
+void Painter::fill(const TextMask& mask, int left, int top, Colour colour) {
+  const int x_begin = std::max(0, -left);
+  const int x_end = std::min(mask.width, image_.width - left);
+  for (int y = std::max(0, -top); y < std::min(mask.height, image_.height - top); ++y) {
+    const std::uint32_t* const row =
+        mask.coverage.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width);
+    for (int x = x_begin; x < x_end; ++x) {
+      if (row[x] > 0) blend_pixel(pixel(left + x, top + y), colour, row[x] * colour.a / 255);
+    }
+  }
+}
+
+void Painter::draw_text(const std::string& text, const Vec2& start, const TextStyle& style) {
+  if (!is_drawable(start)) return;
+  constexpr std::size_t kMostRemembered = 400;
+  static_assert(kTextOversampling == 4, "places are rounded to quarters of a pixel");
+  const auto quarters = static_cast<std::int64_t>(std::llround(start.x() * kTextOversampling));
+  const auto quarter_px = static_cast<int>(((quarters % 4) + 4) % 4);
+  const auto x = static_cast<int>((quarters - quarter_px) / 4);
+  const auto y = static_cast<int>(std::lround(start.y()));
+  const auto draw = [&](double rim_px, Colour colour) {
+    const std::array<double, 4> look = {style.cap_height_px, style.weight, style.halo_px, rim_px};
+    std::string key(1, static_cast<char>('0' + quarter_px));
+    key.append(reinterpret_cast<const char*>(look.data()), sizeof look);
+    key += text;
+    auto known = texts_.find(key);
+    if (known == texts_.end()) {
+      if (texts_.size() >= kMostRemembered) texts_.clear();
+      known = texts_.emplace(key, make_text_mask(text, style, quarter_px, rim_px)).first;
+    }
+    fill(known->second, x + known->second.left, y + known->second.top, colour);
   };
   if (style.halo_px > 0.0) draw(style.halo_px, style.halo);
   draw(0.0, style.colour);

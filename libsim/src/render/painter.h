@@ -1,11 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "sim/core/colour.h"
@@ -39,7 +41,8 @@ class Shape {
   /// A closed outline without crossings, turned the way all pieces are: pieces unite.
   void add_piece(std::vector<Vec2> points);
   void add_disc(const Vec2& center, double radius_px);
-  /// A line of some width with round joints and ends, as pieces.
+  /// A line of some width with round ends and joints, as pieces. (Joints that hardly turn get no
+  /// disc: what it would add could not be seen.)
   void add_line(const std::vector<Vec2>& points, double width_px, bool closed = false);
   /// As add_line for a closed outline, dashed so that every corner lies within a dash.
   void add_dashed_outline(const std::vector<Vec2>& points, double width_px, double dash_px);
@@ -55,15 +58,6 @@ class Shape {
   std::vector<Edge> edges_;
 };
 
-/// How much of each pixel of a part of the picture something covers, in [0, 1].
-struct Mask {
-  int left = 0;  ///< of the part in the picture [pixels]
-  int top = 0;
-  int width = 0;
-  int height = 0;
-  std::vector<float> coverage;  ///< row-major, width * height
-};
-
 /// How a line of text looks.
 struct TextStyle {
   double cap_height_px = 12.0;  ///< height of a capital letter
@@ -71,6 +65,95 @@ struct TextStyle {
   Colour colour;
   double halo_px = 0.0;  ///< width of a rim that sets it off from what is below; 0: none
   Colour halo;
+};
+
+/// How a pixel changes: each channel becomes (below * keep + add) >> 16.
+struct Blend {
+  std::uint32_t keep = 1U << 16;                                   ///< 0..2^16
+  std::array<std::uint32_t, 3> add = {1 << 15, 1 << 15, 1 << 15};  ///< with a half for rounding
+
+  /// @param kept   share of what is below that stays, in [0, 1].
+  /// @param added  what comes on top, 0..255 * (1 - kept).
+  static Blend of(float kept, const std::array<float, 3>& added) {
+    constexpr float kOne = 65536.0F;
+    const auto whole = [](float value) { return static_cast<std::uint32_t>(value * kOne + 0.5F); };
+    constexpr std::uint32_t kHalf = 1 << 15;
+    return {whole(kept),
+            {whole(added[0]) + kHalf, whole(added[1]) + kHalf, whole(added[2]) + kHalf}};
+  }
+  void apply(std::uint8_t* pixel) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      pixel[i] = static_cast<std::uint8_t>((pixel[i] * keep + add[i]) >> 16);
+    }
+  }
+};
+
+/// Columns [left, right) and rows [top, bottom) of a picture.
+struct PixelRect {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+/// Finds out which pixels a shape covers, and how much of each, by the exact area.
+class Rasteriser {
+ public:
+  /// Calls visit(y, x_begin, x_end, coverage) for every run of pixels of a row within `clip` that
+  /// the shape covers alike, in part or whole.
+  template <typename Visitor>
+  void rasterise(const Shape& shape, const PixelRect& clip, Visitor visit);
+
+ private:
+  std::vector<float> cells_;  // all zero between calls
+};
+
+/// Something drawn once, to be laid over many pictures: what it does to each pixel.
+class Overlay {
+ public:
+  /// What one draws on to make an overlay; like a Painter.
+  class Canvas {
+   public:
+    /// As Painter::fill.
+    void fill(const Shape& shape, Colour colour, double opacity = 1.0);
+
+   private:
+    friend class Overlay;
+    struct Pixel {
+      std::array<float, 3> added{};
+      float kept = 1.0F;
+    };
+    PixelRect part_;             // a band of the picture
+    std::vector<Pixel> pixels_;  // row-major
+    Rasteriser rasteriser_;
+  };
+
+  Overlay() = default;
+  /// @param draw  called with a Canvas, once for each band of the picture (a large one is
+  ///     made in bands, so that it does not take many times its own memory); must draw the same
+  ///     each time.
+  Overlay(int width, int height, const std::function<void(Canvas&)>& draw);
+
+  /// Lays it over the part of a picture of its size.
+  void draw_on(Image& image, const PixelRect& part) const;
+  /// How much of a part of the picture it hides, in pixels.
+  [[nodiscard]] double hidden_px(const PixelRect& part) const;
+
+ private:
+  struct Run {
+    int begin = 0;  // columns
+    int end = 0;
+    bool opaque = false;
+    std::size_t first = 0;  // of bytes_ if it is opaque, else of blends_
+  };
+  void add_runs(const Canvas& canvas);
+
+  std::vector<Run> runs_;            // by row, then from the left
+  std::vector<std::size_t> row_{0};  // first run of each row, and the end
+  std::vector<std::uint8_t> bytes_;
+  std::vector<Blend> blends_;
 };
 
 /// Draws shapes and text on a picture, anti-aliased by the exact area that a shape covers of each
@@ -85,58 +168,56 @@ class Painter {
   Painter(int width, int height, Colour background);
 
   [[nodiscard]] const Image& image() const { return image_; }
-  [[nodiscard]] Image take() && { return std::move(image_); }
+  [[nodiscard]] Image& image() { return image_; }
 
   /// Lays a colour over the shape. Opacity, in [0, 1], comes on top of the colour's alpha.
   void fill(const Shape& shape, Colour colour, double opacity = 1.0);
-  void fill(const Mask& mask, Colour colour, double opacity = 1.0);
   /// As fill, the opacity falling with the square of the distance from `center`, from
   /// `opacity_center` there to `opacity_rim` at `radius_px` and beyond.
   void fill_fading(const Shape& shape, Colour colour, const Vec2& center, double radius_px,
                    double opacity_center, double opacity_rim);
-  /// From now on shapes (not text) are only drawn in [left, right) x [top, bottom).
-  void set_clip(int left, int top, int right, int bottom);
-  void clear_clip() { set_clip(0, 0, image_.width, image_.height); }
-
-  /// Lays one colour over one pixel.
-  void blend(int x, int y, Colour colour, float opacity) {
-    const float share = opacity * static_cast<float>(colour.a) * (1.0F / 255.0F);
-    std::uint8_t* const pixel =
-        image_.rgb.data() +
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
-             static_cast<std::size_t>(x));
-    pixel[0] = mix(pixel[0], colour.r, share);
-    pixel[1] = mix(pixel[1], colour.g, share);
-    pixel[2] = mix(pixel[2], colour.b, share);
-  }
-
-  /// What the shape covers within the clip.
-  [[nodiscard]] Mask mask(const Shape& shape);
+  /// Notes that a shape is to be drawn with some opacity; of shapes that overlap the most opaque
+  /// counts.
+  void unite(const Shape& shape, double opacity);
+  /// Lays a colour over all that was noted since the last call.
+  void fill_united(Colour colour);
+  /// From now on shapes (not text) are only drawn there.
+  void set_clip(const PixelRect& clip);
+  void clear_clip() { set_clip({0, 0, image_.width, image_.height}); }
 
   /// Length of a line of text [pixels].
   [[nodiscard]] static double text_width_px(const std::string& text, const TextStyle& style);
   /// Writes a line of ASCII text (other characters become '?'), its base line beginning at `start`.
+  /// Texts are remembered: what was written before costs less.
   void draw_text(const std::string& text, const Vec2& start, const TextStyle& style);
 
  private:
-  static std::uint8_t mix(std::uint8_t below, std::uint8_t above, float share) {
-    const auto from = static_cast<float>(below);
-    // Rounds right: the sum is positive. lround would be called once a pixel.
-    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
-    return static_cast<std::uint8_t>(from + (static_cast<float>(above) - from) * share + 0.5F);
+  /// How much of each pixel round a text its strokes cover: 0..2^16.
+  struct TextMask {
+    int left = 0;  ///< of the start, rounded down [pixels]
+    int top = 0;
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint32_t> coverage;  ///< row-major
+  };
+  [[nodiscard]] static TextMask make_text_mask(const std::string& text, const TextStyle& style,
+                                               int quarter_px, double rim_px);
+  void fill(const TextMask& mask, int left, int top, Colour colour);
+
+  /// Lays a colour over the pixels of a row from x_begin to x_end.
+  void blend(int y, int x_begin, int x_end, Colour colour, float opacity);
+  [[nodiscard]] std::uint8_t* pixel(int x, int y) {
+    return image_.rgb.data() +
+           3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
+                static_cast<std::size_t>(x));
   }
-  /// Calls visit(x, y, coverage) for every pixel that the shape covers in part or whole.
-  template <typename Visitor>
-  void rasterise(const Shape& shape, Visitor visit);
-  /// The part of the picture in which the shape may cover something; no coverage yet.
-  [[nodiscard]] Mask bounds(const Shape& shape) const;
 
   Image image_;
-  int clip_left_ = 0;
-  int clip_top_ = 0;
-  int clip_right_ = 0;
-  int clip_bottom_ = 0;
-  std::vector<float> cells_;  ///< for rasterise; all zero between calls
+  PixelRect clip_;
+  Rasteriser rasteriser_;
+  std::vector<float> united_;  ///< opacity of each pixel; all zero after fill_united
+  PixelRect united_part_;      ///< where it may be more than zero
+  std::map<std::string, TextMask> texts_;
 };
 
 }  // namespace sim::render

@@ -17,7 +17,9 @@ namespace {
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path) {
+void prepare_pictures() { static_cast<void>(cv::haveImageWriter("picture.png")); }
+
+void write_png(const Image& image, const std::string& path, PngEffort effort) {
   const std::size_t samples =
       3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgb.size() != samples) {
@@ -35,7 +37,8 @@ void write_png(const Image& image, const std::string& path) {
   std::vector<std::uint8_t> bytes;
   bool encoded = false;
   try {
-    encoded = cv::imencode(".png", bgr, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
+    encoded = cv::imencode(".png", bgr, bytes,
+                           {cv::IMWRITE_PNG_COMPRESSION, effort == PngEffort::kQuick ? 1 : 6});
   } catch (const cv::Exception& error) {
     fail(path, error.what());
   }

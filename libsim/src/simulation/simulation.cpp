@@ -12,6 +12,7 @@
 #include "sim/devices/laser.h"
 #include "sim/devices/motion.h"
 #include "sim/io/world_io.h"
+#include "sim/world/view_mode.h"
 
 namespace sim {
 namespace {
@@ -42,7 +43,8 @@ struct Simulation::Impl {
       : world(std::move(description)),
         log(std::move(hook)),
         physics(world.arena),
-        canvas(world.canvas) {
+        layers(world.canvas),
+        view_mode(world.canvas.view_mode) {
     for (std::size_t i = 0; i < world.robots.size(); ++i) add_robot(world.robots[i]);
     for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
   }
@@ -66,7 +68,7 @@ struct Simulation::Impl {
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
-    if (parts.pen != nullptr) parts.pen->mark_trail(robot.pose, canvas);
+    if (parts.pen != nullptr) parts.pen->mark_trail(robot.pose, layers.base());
     last_positions.push_back(robot.pose.position());
     robots.push_back(std::move(parts));
     SIM_ASSERT(index + 1 == static_cast<int>(robots.size()));
@@ -100,7 +102,7 @@ struct Simulation::Impl {
     last_positions[i] = position;
     if (body.stalled) robot.statistics.stalled_time_s += dt_s;
     update_clearance(i, dt_s);
-    if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, canvas);
+    if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, layers.base());
     const StepContext context{now_ns, body, physics, index};
     for (std::size_t k = 0; k < robot.devices.size(); ++k) {
       robot.devices[k]->integrate(context);
@@ -166,7 +168,8 @@ struct Simulation::Impl {
   WorldDescription world;
   LogHook log;
   PhysicsWorld physics;
-  Canvas canvas;
+  LayerStack layers;
+  ViewMode view_mode;
   std::vector<RobotParts> robots;
   std::vector<Vec2> last_positions;
   double farthest_move_m = 0.0;  // of any robot in the last step
@@ -247,8 +250,22 @@ std::optional<std::string> Simulation::apply(DeviceId id, const Command& command
       ->apply(command);
 }
 
-Canvas& Simulation::canvas() noexcept { return impl_->canvas; }
-const Canvas& Simulation::canvas() const noexcept { return impl_->canvas; }
+LayerStack& Simulation::layers() noexcept { return impl_->layers; }
+const LayerStack& Simulation::layers() const noexcept { return impl_->layers; }
+Canvas& Simulation::canvas() noexcept { return impl_->layers.base(); }
+const Canvas& Simulation::canvas() const noexcept { return impl_->layers.base(); }
+
+ViewMode Simulation::view_mode() const noexcept { return impl_->view_mode; }
+
+std::optional<std::string> Simulation::set_view_mode(ViewMode mode) {
+  if (mode == impl_->view_mode) return std::nullopt;
+  if (impl_->world.canvas.view_mode_locked) {
+    return "the view mode cannot be changed to \"" + std::string(to_string(mode)) +
+           "\": the world locks it at \"" + std::string(to_string(impl_->view_mode)) + "\"";
+  }
+  impl_->view_mode = mode;
+  return std::nullopt;
+}
 
 std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
                                                           ObstacleState state) {
@@ -283,7 +300,7 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(robot.statistics.least_clearance_m);
     hash.add(robot.statistics.stalled_time_s);
   }
-  impl_->canvas.hash(hash);
+  impl_->layers.base().hash(hash);
   return hash.value();
 }
 
@@ -291,8 +308,10 @@ SceneSnapshot Simulation::snapshot() const {
   SceneSnapshot scene;
   scene.world_name = impl_->world.name;
   scene.arena = impl_->world.arena;
-  scene.canvas_description = impl_->world.canvas;
-  scene.canvas = impl_->canvas.data();
+  scene.canvas_description = impl_->layers.description();
+  scene.canvas = impl_->layers.composed();
+  scene.layers = impl_->layers.layers();
+  scene.view_mode = impl_->view_mode;
   scene.time_s = to_seconds(impl_->now_ns);
   for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
     const RobotParts& robot = impl_->robots[i];

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <vector>
 
+#include "sim/canvas/cell_raster.h"
 #include "sim/core/colour.h"
 #include "sim/core/hash.h"
 #include "sim/world/description.h"
@@ -18,14 +18,15 @@ namespace sim {
 /// Cells are square; column 0 is the left, row 0 the top of the picture:
 /// column = floor((x - origin_x) / cell), row = height - 1 - floor((y - origin_y) / cell).
 /// Row-major RGBA, 4 bytes a cell. A fresh canvas is transparent black (0, 0, 0, 0).
+/// Its size is changed by the LayerStack that it is the base of, with that of the other layers.
 /// Not thread-safe: its owner serialises.
 class Canvas {
  public:
   /// @pre sides in 1..8192 cells, cell size > 0 (asserted; check_world reports it to users).
   explicit Canvas(const CanvasDescription& description);
 
-  [[nodiscard]] int width() const noexcept { return width_; }
-  [[nodiscard]] int height() const noexcept { return height_; }
+  [[nodiscard]] int width() const noexcept { return cells_.width(); }
+  [[nodiscard]] int height() const noexcept { return cells_.height(); }
   [[nodiscard]] double cell_size_m() const noexcept { return cell_size_m_; }
   [[nodiscard]] Vec2 origin() const noexcept { return origin_; }
 
@@ -34,20 +35,12 @@ class Canvas {
   /// Row of a W position, counted from the top; may lie outside [0, height).
   [[nodiscard]] int row(double y_m) const noexcept;
   [[nodiscard]] bool contains(int column, int row) const noexcept {
-    return column >= 0 && row >= 0 && column < width_ && row < height_;
+    return cells_.contains(column, row);
   }
 
   /// Sets one cell; outside the canvas nothing happens. Alpha below 255 blends over what is there
   /// (source-over, Porter and Duff 1984, in whole numbers, so the same everywhere); 255 replaces.
-  void set_pixel(int column, int row, Colour colour) noexcept {
-    if (!contains(column, row)) return;
-    std::uint8_t* const cell = data_.data() + offset(column, row);
-    if (colour.a == 255) {
-      std::memcpy(cell, &colour, sizeof colour);
-    } else {
-      blend(cell, colour);
-    }
-  }
+  void set_pixel(int column, int row, Colour colour) noexcept { cells_.blend(column, row, colour); }
   /// Colour of a cell; nullopt outside.
   [[nodiscard]] std::optional<Colour> pixel(int column, int row) const noexcept;
   /// Line by Bresenham's algorithm (IBM Systems Journal 4(1), 1965), both ends drawn, each cell
@@ -60,26 +53,19 @@ class Canvas {
   void clear(Colour colour = {0, 0, 0, 0}) noexcept;
 
   /// Cells as RGBA bytes, row-major from the top; width * height * 4 of them.
-  [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return data_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return cells_.data(); }
 
   /// Adds size and cells to the hash of a simulation's state.
   void hash(StateHash& hash) const noexcept;
 
  private:
-  static_assert(sizeof(Colour) == 4, "a cell is copied as one Colour");
+  friend class LayerStack;  // resizes it with the other layers, and looks at what has changed
 
-  [[nodiscard]] std::size_t offset(int column, int row) const noexcept {
-    return (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-            static_cast<std::size_t>(column)) *
-           sizeof(Colour);
-  }
-  static void blend(std::uint8_t* cell, Colour colour) noexcept;
+  static_assert(sizeof(Colour) == sizeof(CellValue), "a cell is copied as one Colour");
 
-  int width_;
-  int height_;
+  CellRaster cells_;
   double cell_size_m_;
   Vec2 origin_;
-  std::vector<std::uint8_t> data_;
 };
 
 }  // namespace sim

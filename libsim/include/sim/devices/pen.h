@@ -12,18 +12,6 @@ struct PenParams {
   bool trail = false;                     ///< draw where the robot drives, without being told
 };
 
-/// One drawing on the canvas, in cells (column, row from the top).
-struct CanvasOperation {
-  enum class Kind : std::uint8_t { kPixel, kLine, kClear };
-  Kind kind = Kind::kPixel;
-  int x0 = 0, y0 = 0;
-  int x1 = 0, y1 = 0;  ///< line only
-  Colour colour;
-
-  /// Draws it; what lies outside the canvas is clipped.
-  void draw(Canvas& canvas) const noexcept;
-};
-
 /// The pen by which a robot draws on the canvas. Clients draw what they like with it; with
 /// `trail` on it also marks the robot's way by itself.
 class Pen final : public Actuator {

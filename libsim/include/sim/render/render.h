@@ -20,24 +20,66 @@ struct Image {
 /// What to draw of a scene.
 struct RenderOptions {
   int size_px = 1000;  ///< the longer side of the picture, 64..8192; below 200 there is no text
-  bool canvas = true;  ///< the grid-map on the floor
+  bool canvas = true;  ///< the grid-map
   bool trails = true;
   bool scans = true;  ///< laser fans
   bool names = true;
-  bool legend = true;  ///< scale bar, world name and simulated time
+  bool legend = true;  ///< scale bar, world name, simulated time, and the visible layers' names
+
+  friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
 };
 
-/// Draws a scene: floor, canvas, docks, obstacles, borders, trails, laser fans, robots.
+/// Draws scenes one after another, as for a film or a window: what does not change from one
+/// picture to the next (floor, blocks, borders, texts, cells that nobody drew on) is kept.
 ///
-/// The W axes point right and up. The arena is as large as margins and footer let it; a very
-/// narrow one gets wider margins, so that the footer has room. A robot too small to be seen is
-/// marked by a disc of its colour, one that is stalled by a red ring. Laser fans and trails end at
-/// the edge of the floor. Coordinates that are not finite or absurdly far away (1e9 pixels) are
-/// left out.
-/// Deterministic, on the calling thread. Cost: tens of milliseconds at 1000 px, growing with the
-/// pixels under laser fans.
-/// @throws std::invalid_argument if size_px is out of range, or the canvas has not as many bytes
-///     as its description says.
+/// The view modes, all in a picture of one size, which depends on the arena and the options alone:
+/// - ground: floor, canvas on it, docks, obstacles, borders, trails, laser fans, robots. The W axes
+///   point right and up. The arena is as large as margins and footer let it; a very narrow one gets
+///   wider margins, so that the footer has room. A robot too small to be seen is marked by a disc
+///   of its colour, one that is stalled by a red ring, one that is marked by a dark one. Laser fans
+///   and trails end at the edge of the floor. Coordinates that are not finite or absurdly far away
+///   (1e9 pixels) are left out.
+/// - mini-map: the same with a bare floor; the canvas, framed, with a dot for each robot, in that
+///   corner of the floor where it covers least of obstacles and docks.
+/// - full-screen: the canvas alone on white, each cell the same whole number of pixels wide, in the
+///   middle of the picture. One with more cells than the picture has pixels is shrunk, each pixel
+///   showing the mean of the cells under it.
+///
+/// The legend names the visible layers but the base: a swatch of a layer's colour, for a grey layer
+/// the shades of free, unknown and occupied. What has no room is left out: first the words for
+/// the shades, then the topmost layers, whose number is told instead.
+///
+/// The same scene gives the same picture to the bit, whatever was drawn before.
+/// Not thread-safe; several renderers are independent of one another. Deterministic, on the calling
+/// thread. Cost: a few milliseconds at 800 px; tens for the first picture and when an obstacle, the
+/// arena's or the picture's size has changed.
+class SceneRenderer {
+ public:
+  /// @throws std::invalid_argument if size_px is out of range.
+  explicit SceneRenderer(const RenderOptions& options = {});
+  ~SceneRenderer();
+  SceneRenderer(SceneRenderer&&) noexcept;
+  SceneRenderer& operator=(SceneRenderer&&) noexcept;
+
+  /// Draws a scene in its view mode. The picture may be read until the next call.
+  /// @throws std::invalid_argument if the canvas has not as many bytes as its description says.
+  [[nodiscard]] const Image& draw(const SceneSnapshot& scene) {
+    return draw(scene, scene.view_mode);
+  }
+  /// As above, in another view mode than its own.
+  [[nodiscard]] const Image& draw(const SceneSnapshot& scene, ViewMode mode);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One picture of a scene in its view mode: SceneRenderer(options).draw(scene).
+/// @throws std::invalid_argument as SceneRenderer.
+[[nodiscard]] Image draw_view(const SceneSnapshot& scene, const RenderOptions& options = {});
+
+/// One picture of a scene in the view mode ground, whatever its own is.
+/// @throws std::invalid_argument as SceneRenderer.
 [[nodiscard]] Image draw_scene(const SceneSnapshot& scene, const RenderOptions& options = {});
 
 /// Draws the canvas alone, each cell `scale` pixels a side, transparent cells as white.
@@ -46,28 +88,50 @@ struct RenderOptions {
 [[nodiscard]] Image draw_canvas(const CanvasDescription& description,
                                 const std::vector<std::uint8_t>& rgba, int scale);
 
+/// How much work goes into making a PNG small.
+enum class PngEffort {
+  kQuick,  ///< a few times faster, the file a third larger or so
+  kSmall,
+};
+
 /// Writes a PNG; equal pictures give equal bytes. @throws std::runtime_error naming the file and
 /// the reason.
-void write_png(const Image& image, const std::string& path);
+void write_png(const Image& image, const std::string& path, PngEffort effort = PngEffort::kSmall);
 
-/// Writes a film, frame by frame: ".mp4" (MPEG-4) or ".avi" (Motion JPEG) by the file's ending.
-/// It is complete when the writer is destroyed; without a frame no file remains.
+/// Makes what the picture library keeps until the process ends. Call
+/// it before std::atexit() with a handler that writes pictures: handlers run in reverse order, so
+/// the library's things then outlive the handler. Not needed otherwise.
+void prepare_pictures();
+
+/// Writes a film, frame by frame: ".mp4" (MPEG-4) or ".avi" (Motion JPEG) by the file's ending, or
+/// a folder of pictures frame_000001.png, frame_000002.png, ... if the name has no ending, ends in
+/// a slash or is that of a folder. A folder that is not there is made; frames of an earlier film in
+/// it are removed. A film is complete after finish(), or when the writer is destroyed; without a
+/// frame no file and no new folder remains.
 class FilmWriter {
  public:
-  /// @param frames_per_second  1..1000.
-  /// @throws std::runtime_error naming the file and the reason: the file cannot be opened, its
-  ///     ending is unknown, or the rate is out of range.
+  /// @param frames_per_second  1..1000; a folder of pictures does not keep it.
+  /// @throws std::runtime_error naming the file and the reason: the file or folder cannot be made,
+  ///     the ending is unknown, or the rate is out of range.
   FilmWriter(const std::string& path, double frames_per_second);
   ~FilmWriter();
   FilmWriter(FilmWriter&&) noexcept;
   FilmWriter& operator=(FilmWriter&&) noexcept;
 
+  /// Whether `path` is the name of a film that can be written, by its ending.
+  [[nodiscard]] static bool is_film_name(const std::string& path);
+
   /// All frames must have the size of the first (the film's sides are cut to even numbers).
   /// @throws std::runtime_error naming the file and the reason: another size, or no encoder.
   void add(const Image& frame);
 
+  /// Completes the film. add() must not be called afterwards.
+  /// @throws std::runtime_error naming the file if it is not whole, as when the disk was full.
+  void finish();
+
+  struct Impl;  ///< what writes one kind of film
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/canvas/canvas.h"
+#include "sim/canvas/layers.h"
 #include "sim/devices/laser.h"
 #include "sim/world/description.h"
 
@@ -20,6 +21,7 @@ struct RobotSnapshot {
   std::vector<Vec2> scan_points;    ///< hits of its newest laser scan in W [m], beam by beam
   Vec2 scan_origin = Vec2::Zero();  ///< where that laser stood, in W [m]
   bool stalled = false;
+  bool marked = false;  ///< to be told apart from the others, as the one that a user chose
 };
 
 /// All that a picture of a simulation needs. Plain data: may be drawn on another thread.
@@ -27,7 +29,11 @@ struct SceneSnapshot {
   std::string world_name;
   ArenaDescription arena;  ///< obstacles with their present state
   CanvasDescription canvas_description;
-  std::vector<std::uint8_t> canvas;  ///< RGBA as Canvas::data(); empty: no canvas
+  std::vector<std::uint8_t> canvas;  ///< RGBA as Canvas::data(), all visible layers over one
+                                     ///< another; empty: no canvas
+  std::vector<LayerInfo> layers;     ///< all, hidden ones and the base too, lowest first; for
+                                     ///< legends
+  ViewMode view_mode = ViewMode::kGround;
   std::vector<RobotSnapshot> robots;
   double time_s = 0.0;
 };

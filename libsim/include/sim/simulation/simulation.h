@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim/canvas/canvas.h"
+#include "sim/canvas/layers.h"
 #include "sim/core/log.h"
 #include "sim/devices/device.h"
 #include "sim/devices/pen.h"
@@ -77,14 +78,24 @@ class Simulation {
   /// @return nothing if done, else why not.
   std::optional<std::string> apply(DeviceId id, const Command& command);
 
+  /// The grid-maps: the canvas of all pens, and the layers that clients put over or under it.
+  [[nodiscard]] LayerStack& layers() noexcept;
+  [[nodiscard]] const LayerStack& layers() const noexcept;
+  /// The base layer of layers().
   [[nodiscard]] Canvas& canvas() noexcept;
   [[nodiscard]] const Canvas& canvas() const noexcept;
+
+  /// How pictures show the grid-maps now; the simulation itself makes nothing of it.
+  [[nodiscard]] ViewMode view_mode() const noexcept;
+  /// @return nothing if done (or nothing to do), else why not: the world locks another mode.
+  std::optional<std::string> set_view_mode(ViewMode mode);
 
   /// Extends or retracts a dynamic obstacle.
   /// @return nothing if done, else why not: no such obstacle, static, or a robot stands there.
   std::optional<std::string> set_obstacle_state(const std::string& name, ObstacleState state);
 
-  /// Hash of all state that the future depends on: equal hashes, equal futures.
+  /// Hash of all state that the future depends on, and of the base canvas: equal hashes, equal
+  /// futures. Other layers and the view mode are left out: they are the clients' pictures.
   [[nodiscard]] std::uint64_t state_hash() const;
 
   /// The scene as it is now. Trails are kept by the caller (Simulation remembers no past).

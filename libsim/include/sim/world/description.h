@@ -115,12 +115,21 @@ struct RobotDescription {
   std::vector<DriverDescription> drivers;
 };
 
+/// How the grid-map is shown in pictures, films and windows.
+enum class ViewMode {
+  kGround,      ///< it lies on the floor; obstacles and robots stand on it
+  kMiniMap,     ///< in a corner of the picture of the arena
+  kFullScreen,  ///< alone, its cells crisp
+};
+
 /// The grid-map that robots draw on with their pens.
 struct CanvasDescription {
-  int width = 172;             ///< cells, 1..8192
-  int height = 186;            ///< cells, 1..8192
-  double cell_size_m = 0.02;   ///< [m]
-  Vec2 origin = Vec2::Zero();  ///< W position of the canvas's bottom left corner [m]
+  int width = 172;                         ///< cells, 1..8192
+  int height = 186;                        ///< cells, 1..8192
+  double cell_size_m = 0.02;               ///< [m]
+  Vec2 origin = Vec2::Zero();              ///< W position of the canvas's bottom left corner [m]
+  ViewMode view_mode = ViewMode::kGround;  ///< at the start
+  bool view_mode_locked = false;           ///< nobody may change it while running
 };
 
 /// A whole world, as a file describes it.

@@ -1,0 +1,159 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "sim/core/colour.h"
+
+namespace sim {
+
+/// What a cell of a grid-map holds, in four bytes, whatever its layer's kind.
+struct CellValue {
+  std::uint32_t bits = 0;
+
+  [[nodiscard]] static CellValue of(Colour colour) noexcept {
+    return {std::bit_cast<std::uint32_t>(colour)};
+  }
+  [[nodiscard]] static CellValue of(bool set) noexcept { return {set ? 1U : 0U}; }
+  [[nodiscard]] static CellValue of(float occupancy) noexcept {
+    return {std::bit_cast<std::uint32_t>(occupancy)};
+  }
+  [[nodiscard]] Colour colour() const noexcept { return std::bit_cast<Colour>(bits); }
+  [[nodiscard]] bool set() const noexcept { return bits != 0; }
+  [[nodiscard]] float occupancy() const noexcept { return std::bit_cast<float>(bits); }
+
+  friend bool operator==(const CellValue&, const CellValue&) = default;
+};
+
+/// A rectangle of cells; columns from the left, rows from the top.
+struct CellRect {
+  int column = 0;
+  int row = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// `above` over `below`, neither premultiplied: source-over of Porter and Duff (Compositing
+/// Digital Images, SIGGRAPH 1984, table 1) in whole numbers, so the same on every machine.
+///
+/// With weights wa = a_above * 255 and wb = a_below * (255 - a_above), alpha = (wa + wb) / 255 and
+/// each channel is the weighted mean, both rounded to nearest. A colour of alpha 0 changes nothing.
+[[nodiscard]] inline Colour source_over(Colour above, Colour below) noexcept {
+  if (above.a == 255 || (below.a == 0 && above.a != 0)) return above;
+  if (above.a == 0) return below;
+  const unsigned weight_above = above.a * 255u;
+  const unsigned weight_below = below.a * (255u - above.a);
+  const auto mix = [&](unsigned total) {
+    const auto channel = [&](unsigned a, unsigned b) {
+      return static_cast<std::uint8_t>((a * weight_above + b * weight_below + total / 2) / total);
+    };
+    return Colour{channel(above.r, below.r), channel(above.g, below.g), channel(above.b, below.b),
+                  static_cast<std::uint8_t>((total + 127) / 255)};
+  };
+  // Over what is opaque the weights add up to a constant, which compilers divide by quickly.
+  if (below.a == 255) return mix(255u * 255u);
+  return mix(weight_above + weight_below);
+}
+
+/// Cells of four bytes in rows, row 0 at the top: the store below the canvas and every layer.
+///
+/// Keeps book, tile by tile (kTileSide x kTileSide cells), of what has been written since somebody
+/// last looked, at the price of one byte stored with each cell. A tile that is not "used" holds
+/// nothing but blank cells. Drawings are clipped. Not thread-safe: its owner serialises.
+class CellRaster {
+ public:
+  static constexpr int kTileShift = 4;
+  static constexpr int kTileSide = 1 << kTileShift;
+  /// Bits of a tile's mark.
+  static constexpr std::uint8_t kChanged = 1;  ///< written to since mark_seen()
+  static constexpr std::uint8_t kUsed = 2;     ///< may hold cells that are not blank
+
+  /// @param blank  what all cells hold at first, and what resize() adds.
+  /// @pre sides >= 1.
+  CellRaster(int width, int height, CellValue blank);
+
+  [[nodiscard]] int width() const noexcept { return width_; }
+  [[nodiscard]] int height() const noexcept { return height_; }
+  [[nodiscard]] CellValue blank() const noexcept { return blank_; }
+  [[nodiscard]] bool contains(int column, int row) const noexcept {
+    return column >= 0 && row >= 0 && column < width_ && row < height_;
+  }
+  /// @pre contains(column, row)
+  [[nodiscard]] CellValue at(int column, int row) const noexcept {
+    CellValue value;
+    std::memcpy(&value, row_bytes(row) + byte_offset(column), sizeof value);
+    return value;
+  }
+  /// Cells as bytes, row-major from the top, four a cell.
+  [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return data_; }
+  /// The first byte of a row. @pre 0 <= row < height()
+  [[nodiscard]] const std::uint8_t* row_bytes(int row) const noexcept {
+    return data_.data() + static_cast<std::size_t>(row) * byte_offset(width_);
+  }
+
+  /// Gives a cell a value; outside nothing happens.
+  void put(int column, int row, CellValue value) noexcept {
+    if (contains(column, row)) write(column, row, value);
+  }
+  /// Draws a colour over what the cell holds (source_over); outside nothing happens.
+  void blend(int column, int row, Colour colour) noexcept {
+    if (!contains(column, row)) return;
+    if (colour.a == 255) {
+      write(column, row, CellValue::of(colour));
+    } else if (colour.a != 0) {
+      write(column, row, CellValue::of(source_over(colour, at(column, row).colour())));
+    }
+  }
+  /// put() along a line, see Canvas::draw_line.
+  void put_line(int column0, int row0, int column1, int row1, CellValue value) noexcept;
+  /// blend() along a line, see Canvas::draw_line.
+  void blend_line(int column0, int row0, int column1, int row1, Colour colour) noexcept;
+  /// Gives every cell that value.
+  void fill(CellValue value) noexcept;
+  /// Gives each cell of a rectangle its value from a row-major list; what lies outside is left
+  /// out. Tiles whose cells all have their value already are not marked.
+  /// @pre values.size() == rect.width * rect.height, sides >= 0.
+  void set_cells(const CellRect& rect, std::span<const CellValue> values) noexcept;
+  /// Changes the number of columns and rows; the bottom left cell stays what it is, cells are cut
+  /// off or added (blank) at the top and the right. Marks every tile as changed.
+  /// @pre sides >= 1.
+  void resize(int width, int height);
+
+  [[nodiscard]] int tile_columns() const noexcept { return tiles_across(width_); }
+  [[nodiscard]] int tile_rows() const noexcept { return tiles_across(height_); }
+  /// kChanged and kUsed of each tile, row-major from the top; tile_columns() x tile_rows().
+  [[nodiscard]] const std::vector<std::uint8_t>& tiles() const noexcept { return tiles_; }
+  /// Takes kChanged off all tiles.
+  void mark_seen() noexcept;
+
+  /// How many tiles cover so many cells.
+  [[nodiscard]] static int tiles_across(int cells) noexcept {
+    return (cells + kTileSide - 1) >> kTileShift;
+  }
+
+ private:
+  [[nodiscard]] static std::size_t byte_offset(int cells) noexcept {
+    return static_cast<std::size_t>(cells) * sizeof(CellValue);
+  }
+  void write(int column, int row, CellValue value) noexcept {
+    const auto c = static_cast<std::size_t>(column);
+    const auto r = static_cast<std::size_t>(row);
+    std::memcpy(data_.data() + (r * static_cast<std::size_t>(width_) + c) * sizeof value, &value,
+                sizeof value);
+    tiles_[(r >> kTileShift) * tile_stride_ + (c >> kTileShift)] = kChanged | kUsed;
+  }
+
+  int width_;
+  int height_;
+  CellValue blank_;
+  std::size_t tile_stride_;
+  std::vector<std::uint8_t> data_;
+  std::vector<std::uint8_t> tiles_;
+};
+
+}  // namespace sim

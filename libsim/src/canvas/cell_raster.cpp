@@ -1,0 +1,111 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/canvas/cell_raster.h"
+
+#include <algorithm>
+
+#include "canvas/line.h"
+#include "sim/core/assert.h"
+
+namespace sim {
+namespace {
+
+void fill_cells(std::uint8_t* to, std::size_t count, CellValue value) noexcept {
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(to + i * sizeof value, &value, sizeof value);
+}
+
+}  // namespace
+
+CellRaster::CellRaster(int width, int height, CellValue blank)
+    : width_(width), height_(height), blank_(blank) {
+  SIM_ASSERT(width >= 1 && height >= 1);
+  tile_stride_ = static_cast<std::size_t>(tile_columns());
+  data_.resize(byte_offset(width_) * static_cast<std::size_t>(height_));
+  fill_cells(data_.data(), data_.size() / sizeof blank_, blank_);
+  tiles_.assign(tile_stride_ * static_cast<std::size_t>(tile_rows()), 0);
+}
+
+void CellRaster::put_line(int column0, int row0, int column1, int row1, CellValue value) noexcept {
+  visit_line(width_, height_, column0, row0, column1, row1,
+             [&](int column, int row) { write(column, row, value); });
+}
+
+void CellRaster::blend_line(int column0, int row0, int column1, int row1, Colour colour) noexcept {
+  if (colour.a == 255) {
+    put_line(column0, row0, column1, row1, CellValue::of(colour));
+  } else if (colour.a != 0) {
+    visit_line(width_, height_, column0, row0, column1, row1, [&](int column, int row) {
+      write(column, row, CellValue::of(source_over(colour, at(column, row).colour())));
+    });
+  }
+}
+
+void CellRaster::fill(CellValue value) noexcept {
+  fill_cells(data_.data(), data_.size() / sizeof value, value);
+  if (value == blank_) {
+    // Tiles that were blank before are as they were.
+    for (std::uint8_t& tile : tiles_) tile = tile == 0 ? 0 : kChanged;
+  } else {
+    std::fill(tiles_.begin(), tiles_.end(), std::uint8_t{kChanged | kUsed});
+  }
+}
+
+void CellRaster::set_cells(const CellRect& rect, std::span<const CellValue> values) noexcept {
+  using std::int64_t;
+  SIM_ASSERT(rect.width >= 0 && rect.height >= 0);
+  SIM_ASSERT(values.size() ==
+             static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height));
+  const auto left = static_cast<int>(std::clamp<int64_t>(rect.column, 0, width_));
+  const auto top = static_cast<int>(std::clamp<int64_t>(rect.row, 0, height_));
+  const auto right =
+      static_cast<int>(std::clamp<int64_t>(int64_t{rect.column} + rect.width, 0, width_));
+  const auto bottom =
+      static_cast<int>(std::clamp<int64_t>(int64_t{rect.row} + rect.height, 0, height_));
+  if (left >= right) return;  // nothing of it lies inside
+  for (int row = top; row < bottom; ++row) {
+    const CellValue* from =
+        values.data() + (int64_t{row} - rect.row) * rect.width + (int64_t{left} - rect.column);
+    std::uint8_t* const to = data_.data() + static_cast<std::size_t>(row) * byte_offset(width_);
+    std::uint8_t* const tiles =
+        tiles_.data() + static_cast<std::size_t>(row >> kTileShift) * tile_stride_;
+    // Piece by piece: the part of the row that lies in one tile.
+    for (int column = left; column < right;) {
+      const int tile = column >> kTileShift;
+      const int end = std::min(right, (tile + 1) << kTileShift);
+      const std::size_t size = byte_offset(end - column);
+      if (std::memcmp(to + byte_offset(column), from, size) != 0) {
+        std::memcpy(to + byte_offset(column), from, size);
+        tiles[tile] = kChanged | kUsed;
+      }
+      from += end - column;
+      column = end;
+    }
+  }
+}
+
+void CellRaster::resize(int width, int height) {
+  SIM_ASSERT(width >= 1 && height >= 1);
+  CellRaster resized(width, height, blank_);
+  const int columns = std::min(width, width_);
+  const int rows = std::min(height, height_);
+  for (int i = 1; i <= rows; ++i) {
+    const std::size_t row = static_cast<std::size_t>(height - i);
+    std::memcpy(resized.data_.data() + row * byte_offset(width), row_bytes(height_ - i),
+                byte_offset(columns));
+  }
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      if (resized.at(column, row) != blank_) {
+        resized.tiles_[static_cast<std::size_t>(row >> kTileShift) * resized.tile_stride_ +
+                       static_cast<std::size_t>(column >> kTileShift)] = kUsed;
+      }
+    }
+  }
+  for (std::uint8_t& tile : resized.tiles_) tile |= kChanged;
+  *this = std::move(resized);
+}
+
+void CellRaster::mark_seen() noexcept {
+  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kChanged);
+}
+
+}  // namespace sim

@@ -1,0 +1,403 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/canvas/layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "sim/core/assert.h"
+
+namespace sim {
+namespace {
+
+constexpr int kMaxCells = 8192;
+constexpr float kUnknown = 0.5F;
+
+/// How a layer's cells become colours: its kind and what of its style bears on that.
+struct Ink {
+  Ink(LayerKind of_kind, const LayerStyle& style)
+      : kind(of_kind), colour(style.colour), transparent_colour(style.transparent_colour) {
+    const double opaque = 1.0 - style.transparency;
+    // NaN is no wish for anything: opaque.
+    opacity = opaque < 1.0
+                  ? static_cast<std::uint8_t>(std::floor(255.0 * std::max(opaque, 0.0) + 0.5))
+                  : std::uint8_t{255};
+    if (kind != LayerKind::kBinary) colour = {};
+    if (transparent_colour) transparent_colour->a = 255;
+  }
+
+  [[nodiscard]] Colour drawn(CellValue value) const noexcept {
+    switch (kind) {
+      case LayerKind::kColour:
+        return drawn_as<LayerKind::kColour>(value);
+      case LayerKind::kBinary:
+        return drawn_as<LayerKind::kBinary>(value);
+      case LayerKind::kGrey:
+        break;
+    }
+    return drawn_as<LayerKind::kGrey>(value);
+  }
+
+  /// As drawn(), where the kind is known: for loops over many cells.
+  template <LayerKind kKind>
+  [[nodiscard]] Colour drawn_as(CellValue value) const noexcept {
+    Colour c = shade<kKind>(value);
+    if (transparent_colour && c.r == transparent_colour->r && c.g == transparent_colour->g &&
+        c.b == transparent_colour->b) {
+      return {0, 0, 0, 0};
+    }
+    if (opacity != 255) c.a = static_cast<std::uint8_t>((c.a * opacity + 127u) / 255u);
+    return c.a == 0 ? Colour{0, 0, 0, 0} : c;
+  }
+
+  friend bool operator==(const Ink&, const Ink&) = default;
+
+  LayerKind kind;
+  Colour colour;
+  std::optional<Colour> transparent_colour;
+  std::uint8_t opacity = 255;
+
+ private:
+  template <LayerKind kKind>
+  [[nodiscard]] Colour shade(CellValue value) const noexcept {
+    if constexpr (kKind == LayerKind::kColour) {
+      return value.colour();
+    } else if constexpr (kKind == LayerKind::kBinary) {
+      return value.set() ? colour : Colour{0, 0, 0, 0};
+    } else {
+      const float occupancy = value.occupancy();
+      // Both comparisons fail for NaN.
+      const float p = occupancy >= 0.0F  ? std::min(occupancy, 1.0F)
+                      : occupancy < 0.0F ? 0.0F
+                                         : kUnknown;
+      // 255 (1 - p) rounded, halves up, by way of its double rounded down.
+      const auto doubled = static_cast<unsigned>(510.0 * (1.0 - static_cast<double>(p)));
+      const auto grey = static_cast<std::uint8_t>((doubled + 1) / 2);
+      return {grey, grey, grey, 255};
+    }
+  }
+};
+
+CellValue blank_of(LayerKind kind) {
+  return kind == LayerKind::kGrey ? CellValue::of(kUnknown) : CellValue{};
+}
+
+struct Layer {
+  LayerId id;
+  LayerKind kind;
+  int owner;
+  LayerStyle style;
+  Ink ink;
+  std::unique_ptr<CellRaster> own;  // none for the base layer, whose cells are the canvas's
+  CellRaster* cells;
+
+  /// Whether a cell that nobody has drawn on shows.
+  [[nodiscard]] bool blank_shows() const { return ink.drawn(cells->blank()).a != 0; }
+};
+
+/// Whether a is drawn before b.
+bool lies_below(const Layer& a, const Layer& b) {
+  const auto rank = [](const Layer& layer) {
+    return std::tuple(layer.style.priority, layer.id != kBaseLayer, layer.owner, layer.id);
+  };
+  return rank(a) < rank(b);
+}
+
+bool any_bit(const std::vector<std::uint8_t>& bytes, std::uint8_t bits) {
+  unsigned all = 0;
+  for (const std::uint8_t byte : bytes) all |= byte;
+  return (all & bits) != 0;
+}
+
+}  // namespace
+
+struct LayerStack::Impl {
+  explicit Impl(const CanvasDescription& place) : description(place), base(place) {
+    LayerStyle style;
+    style.name = "canvas";
+    const Ink ink(LayerKind::kColour, style);
+    layers.push_back(
+        {kBaseLayer, LayerKind::kColour, 0, std::move(style), ink, nullptr, &cells(base)});
+    dirty.assign(cells(base).tiles().size(), 0);
+    picture.assign(base.data().size(), 0);
+  }
+
+  static CellRaster& cells(Canvas& canvas) { return canvas.cells_; }
+
+  [[nodiscard]] Layer* find(LayerId id) {
+    const auto it =
+        std::find_if(layers.begin(), layers.end(), [id](const Layer& l) { return l.id == id; });
+    return it == layers.end() ? nullptr : &*it;
+  }
+  [[nodiscard]] Layer& get(LayerId id) {
+    Layer* layer = find(id);
+    SIM_ASSERT(layer != nullptr);
+    return *layer;
+  }
+
+  /// All that the layer shows, or has shown since it was last composed, is to be composed anew.
+  void mark(const Layer& layer) {
+    const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
+    const bool everywhere = layer.blank_shows();
+    for (std::size_t i = 0; i < dirty.size(); ++i) {
+      if (everywhere || tiles[i] != 0) dirty[i] = 1;
+    }
+  }
+
+  [[nodiscard]] std::vector<LayerId> visible_order() const {
+    std::vector<LayerId> order;
+    for (const Layer& layer : layers) {
+      if (layer.style.visible) order.push_back(layer.id);
+    }
+    return order;
+  }
+
+  void set_style(LayerId id, LayerStyle style) {
+    const std::vector<LayerId> order_before = visible_order();
+    Layer& layer = get(id);
+    Layer before{layer.id,  layer.kind, layer.owner, std::move(layer.style),
+                 layer.ink, nullptr,    layer.cells};
+    layer.ink = Ink(layer.kind, style);
+    layer.style = std::move(style);
+    const bool looks_else = layer.style.visible && before.style.visible && layer.ink != before.ink;
+    // Its place among the others is now found by the sort; `layer` may be another one after it.
+    std::sort(layers.begin(), layers.end(), lies_below);
+    if (!looks_else && visible_order() == order_before) return;
+    if (before.style.visible) mark(before);
+    if (get(id).style.visible) mark(get(id));
+  }
+
+  /// Brings the tile's cells in `picture` up to date.
+  void compose_tile(int tile_column, int tile_row) {
+    const int left = tile_column << CellRaster::kTileShift;
+    const int right = std::min(left + CellRaster::kTileSide, base.width());
+    const int top = tile_row << CellRaster::kTileShift;
+    const int bottom = std::min(top + CellRaster::kTileSide, base.height());
+    const std::size_t tile =
+        static_cast<std::size_t>(tile_row) * static_cast<std::size_t>(cells(base).tile_columns()) +
+        static_cast<std::size_t>(tile_column);
+    const auto count = static_cast<std::size_t>(right - left);
+    const std::size_t stride = static_cast<std::size_t>(base.width()) * sizeof(Colour);
+    std::uint8_t* const first = picture.data() + static_cast<std::size_t>(top) * stride +
+                                static_cast<std::size_t>(left) * sizeof(Colour);
+    for (int row = top; row < bottom; ++row) {
+      std::memset(first + static_cast<std::size_t>(row - top) * stride, 0, count * sizeof(Colour));
+    }
+    for (const Layer& layer : layers) {
+      if (!layer.style.visible) continue;
+      const bool used = (layer.cells->tiles()[tile] & CellRaster::kUsed) != 0;
+      if (!used && !layer.blank_shows()) continue;
+      for (int row = top; row < bottom; ++row) {
+        draw_row(layer.ink,
+                 layer.cells->row_bytes(row) + static_cast<std::size_t>(left) * sizeof(CellValue),
+                 count, first + static_cast<std::size_t>(row - top) * stride);
+      }
+    }
+    recomposed_cells += count * static_cast<std::size_t>(bottom - top);
+  }
+
+  static void draw_row(const Ink& ink, const std::uint8_t* from, std::size_t count,
+                       std::uint8_t* to) {
+    switch (ink.kind) {
+      case LayerKind::kColour:
+        return draw_row_as<LayerKind::kColour>(ink, from, count, to);
+      case LayerKind::kBinary:
+        return draw_row_as<LayerKind::kBinary>(ink, from, count, to);
+      case LayerKind::kGrey:
+        return draw_row_as<LayerKind::kGrey>(ink, from, count, to);
+    }
+  }
+
+  template <LayerKind kKind>
+  static void draw_row_as(const Ink& layer_ink, const std::uint8_t* from, std::size_t count,
+                          std::uint8_t* to) {
+    const Ink ink = layer_ink;  // a copy, which the bytes written below cannot alias
+    for (std::size_t i = 0; i < count; ++i) {
+      CellValue value;
+      std::memcpy(&value, from + i * sizeof value, sizeof value);
+      const Colour above = ink.drawn_as<kKind>(value);
+      if (above.a == 0) continue;
+      Colour cell;
+      std::memcpy(&cell, to + i * sizeof cell, sizeof cell);
+      cell = source_over(above, cell);
+      std::memcpy(to + i * sizeof cell, &cell, sizeof cell);
+    }
+  }
+
+  void compose() {
+    for (Layer& layer : layers) {
+      if (!layer.style.visible) continue;
+      const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
+      for (std::size_t i = 0; i < dirty.size(); ++i) {
+        dirty[i] = static_cast<std::uint8_t>(dirty[i] | (tiles[i] & CellRaster::kChanged));
+      }
+      layer.cells->mark_seen();
+    }
+    if (!any_bit(dirty, 1)) return;
+    ++version;
+    const int columns = cells(base).tile_columns();
+    const int rows = cells(base).tile_rows();
+    std::size_t tile = 0;
+    for (int row = 0; row < rows; ++row) {
+      for (int column = 0; column < columns; ++column, ++tile) {
+        if (dirty[tile] != 0) compose_tile(column, row);
+        dirty[tile] = 0;
+      }
+    }
+  }
+
+  /// Whether compose() would find something to do.
+  [[nodiscard]] bool is_dirty() const {
+    return any_bit(dirty, 1) || std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
+             return layer.style.visible && any_bit(layer.cells->tiles(), CellRaster::kChanged);
+           });
+  }
+
+  CanvasDescription description;
+  Canvas base;
+  std::vector<Layer> layers;  // in the order of drawing
+  LayerId next_id = kBaseLayer + 1;
+  std::vector<std::uint8_t> dirty;    // tile by tile: to be composed anew, for whatever reason
+  std::vector<std::uint8_t> picture;  // RGBA; true where no tile is dirty
+  std::uint64_t version = 0;          // how often compose() has found something to do
+  std::uint64_t recomposed_cells = 0;
+};
+
+LayerStack::LayerStack(const CanvasDescription& description)
+    : impl_(std::make_unique<Impl>(description)) {}
+LayerStack::~LayerStack() = default;
+LayerStack::LayerStack(LayerStack&&) noexcept = default;
+LayerStack& LayerStack::operator=(LayerStack&&) noexcept = default;
+
+int LayerStack::width() const noexcept { return impl_->base.width(); }
+int LayerStack::height() const noexcept { return impl_->base.height(); }
+
+CanvasDescription LayerStack::description() const { return impl_->description; }
+
+Canvas& LayerStack::base() noexcept { return impl_->base; }
+const Canvas& LayerStack::base() const noexcept { return impl_->base; }
+
+LayerId LayerStack::add(LayerKind kind, LayerStyle style, int owner) {
+  SIM_ASSERT(impl_->next_id < std::numeric_limits<LayerId>::max());
+  const LayerId id = impl_->next_id++;
+  auto own = std::make_unique<CellRaster>(width(), height(), blank_of(kind));
+  CellRaster* const cells = own.get();
+  const Ink ink(kind, style);
+  Layer layer{id, kind, owner, std::move(style), ink, std::move(own), cells};
+  if (layer.style.visible) impl_->mark(layer);
+  const auto place =
+      std::upper_bound(impl_->layers.begin(), impl_->layers.end(), layer, lies_below);
+  impl_->layers.insert(place, std::move(layer));
+  return id;
+}
+
+bool LayerStack::remove(LayerId layer) {
+  Layer* const found = impl_->find(layer);
+  if (found == nullptr || layer == kBaseLayer) return false;
+  if (found->style.visible) impl_->mark(*found);
+  impl_->layers.erase(impl_->layers.begin() + (found - impl_->layers.data()));
+  return true;
+}
+
+bool LayerStack::contains(LayerId layer) const noexcept { return impl_->find(layer) != nullptr; }
+LayerKind LayerStack::kind(LayerId layer) const { return impl_->get(layer).kind; }
+const LayerStyle& LayerStack::style(LayerId layer) const { return impl_->get(layer).style; }
+
+void LayerStack::set_style(LayerId layer, LayerStyle style) {
+  impl_->set_style(layer, std::move(style));
+}
+
+std::vector<LayerInfo> LayerStack::layers() const {
+  std::vector<LayerInfo> infos;
+  infos.reserve(impl_->layers.size());
+  for (const Layer& layer : impl_->layers) {
+    infos.push_back({layer.id, layer.kind, layer.owner, layer.style});
+  }
+  return infos;
+}
+
+void LayerStack::draw(std::span<const DrawOperation> operations) {
+  LayerId id = kBaseLayer;
+  Layer* layer = impl_->find(id);
+  for (const DrawOperation& operation : operations) {
+    if (operation.layer != id) {
+      id = operation.layer;
+      layer = impl_->find(id);
+    }
+    if (layer == nullptr) continue;
+    CellRaster& cells = *layer->cells;
+    const bool blends = layer->kind == LayerKind::kColour;
+    const CellValue value = operation.value;
+    switch (operation.kind) {
+      case DrawOperation::Kind::kPixel:
+        if (blends) {
+          cells.blend(operation.x0, operation.y0, value.colour());
+        } else {
+          cells.put(operation.x0, operation.y0, value);
+        }
+        break;
+      case DrawOperation::Kind::kLine:
+        if (blends) {
+          cells.blend_line(operation.x0, operation.y0, operation.x1, operation.y1, value.colour());
+        } else {
+          cells.put_line(operation.x0, operation.y0, operation.x1, operation.y1, value);
+        }
+        break;
+      case DrawOperation::Kind::kFill:
+        cells.fill(value);
+        break;
+    }
+  }
+}
+
+void LayerStack::set_cells(LayerId layer, const CellRect& rect, std::span<const CellValue> values) {
+  if (Layer* const found = impl_->find(layer)) found->cells->set_cells(rect, values);
+}
+
+std::optional<CellValue> LayerStack::cell(LayerId layer, int column, int row) const {
+  const Layer* const found = impl_->find(layer);
+  if (found == nullptr || !found->cells->contains(column, row)) return std::nullopt;
+  return found->cells->at(column, row);
+}
+
+std::vector<CellValue> LayerStack::cells(LayerId layer) const {
+  const std::vector<std::uint8_t>& bytes = impl_->get(layer).cells->data();
+  std::vector<CellValue> values(bytes.size() / sizeof(CellValue));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+void LayerStack::resize(int width, int height) {
+  SIM_ASSERT(width >= 1 && width <= kMaxCells && height >= 1 && height <= kMaxCells);
+  if (width == this->width() && height == this->height()) return;
+  for (Layer& layer : impl_->layers) layer.cells->resize(width, height);
+  impl_->description.width = width;
+  impl_->description.height = height;
+  const CellRaster& base = Impl::cells(impl_->base);
+  impl_->dirty.assign(base.tiles().size(), 1);
+  impl_->picture.assign(base.data().size(), 0);
+}
+
+const std::vector<std::uint8_t>& LayerStack::composed() {
+  impl_->compose();
+  return impl_->picture;
+}
+
+std::vector<std::uint8_t> LayerStack::picture(LayerId layer) const {
+  const Layer& found = impl_->get(layer);
+  const std::vector<std::uint8_t>& from = found.cells->data();
+  std::vector<std::uint8_t> bytes(from.size(), 0);
+  Impl::draw_row(found.ink, from.data(), from.size() / sizeof(CellValue), bytes.data());
+  return bytes;
+}
+
+std::uint64_t LayerStack::version() const noexcept {
+  return impl_->version + (impl_->is_dirty() ? 1 : 0);
+}
+
+std::uint64_t LayerStack::recomposed_cells() const noexcept { return impl_->recomposed_cells; }
+
+}  // namespace sim

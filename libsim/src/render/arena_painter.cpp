@@ -1,0 +1,273 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "render/arena_painter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sim::render {
+namespace {
+
+// Number at the end of a dock's name, e.g. "7" of "dock7"; the count where it has none.
+std::string dock_label(const std::string& name, std::size_t index) {
+  const std::size_t last = name.find_last_not_of("0123456789");
+  const std::string digits = last == std::string::npos ? name : name.substr(last + 1);
+  return digits.empty() || digits.size() > 3 ? std::to_string(index + 1) : digits;
+}
+
+std::vector<Vec2> box_corners(const Pose& X_WB, const Vec2& size) {
+  const Vec2 half = 0.5 * size;
+  return {X_WB * Vec2(-half.x(), -half.y()), X_WB * Vec2(half.x(), -half.y()),
+          X_WB * Vec2(half.x(), half.y()), X_WB * Vec2(-half.x(), half.y())};
+}
+
+std::vector<Vec2> box_corners(const ObstacleDescription& box) {
+  return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
+}
+
+bool is_retracted(const ObstacleDescription& obstacle) {
+  return obstacle.type == ObstacleType::kDynamic && obstacle.state == ObstacleState::kRetracted;
+}
+
+class GroundPainter {
+ public:
+  GroundPainter(const ArenaDescription& arena, const Layout& layout, Painter& painter)
+      : arena_(arena), layout_(layout), painter_(painter) {}
+
+  void draw_floor() {
+    Shape floor;
+    floor.add_piece(rectangle_corners(layout_.floor, 0.0));
+    painter_.fill(floor, palette::kFloor);
+    // Half a metre between lines, unless that is too dense or too sparse to help.
+    double step_m = 0.5;
+    if (step_m * layout_.pixels_per_m < 28.0 * layout_.unit_px) {
+      step_m = round_below(100.0 * layout_.unit_px / layout_.pixels_per_m);
+    } else if (step_m * layout_.pixels_per_m > 450.0 * layout_.unit_px) {
+      step_m = round_below(200.0 * layout_.unit_px / layout_.pixels_per_m);
+    }
+    const double width_px = layout_.line_px(1.0, 0.7);
+    Shape grid;
+    const Vec2 end = layout_.origin + arena_.size;
+    const auto line = [&](const Vec2& p_WA, const Vec2& p_WB) {
+      const Vec2 a = layout_(p_WA);
+      const Vec2 b = layout_(p_WB);
+      const Vec2 half(0.5 * width_px, 0.5 * width_px);
+      grid.add_piece({a.cwiseMin(b) - half,
+                      {std::max(a.x(), b.x()) + half.x(), std::min(a.y(), b.y()) - half.y()},
+                      a.cwiseMax(b) + half,
+                      {std::min(a.x(), b.x()) - half.x(), std::max(a.y(), b.y()) + half.y()}});
+    };
+    // Counted in whole steps: a sum of steps would drift, and stop far away from zero.
+    const auto lines_along = [&](int axis) {
+      const double first = std::floor(layout_.origin[axis] / step_m) + 1.0;
+      const int count = static_cast<int>(std::ceil(end[axis] / step_m) - first);
+      for (int i = 0; i < count; ++i) {
+        Vec2 from = layout_.origin;
+        Vec2 to = end;
+        from[axis] = to[axis] = (first + i) * step_m;
+        line(from, to);
+      }
+    };
+    lines_along(0);
+    lines_along(1);
+    painter_.fill(grid, palette::kGrid);
+  }
+
+  void draw_docks() {
+    std::size_t index = 0;
+    for (const DockDescription& dock : arena_.docks) {
+      const std::vector<Vec2> corners = layout_(box_corners(dock.pose, dock.size));
+      Shape area;
+      area.add_piece(corners);
+      painter_.fill(area, palette::kDock);
+      draw_dock_corners(corners);
+      const Vec2 center = layout_(dock.pose.position());
+      const double side_px = dock.size.minCoeff() * layout_.pixels_per_m;
+      draw_bolt(center, 0.3 * side_px);
+      draw_dock_number(dock_label(dock.name, index++), dock, side_px);
+    }
+  }
+
+ private:
+  // Marks of a parking place: an angle at each corner.
+  void draw_dock_corners(const std::vector<Vec2>& corners) {
+    Shape marks;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec2& corner = corners[i];
+      const Vec2 to_next = (corners[(i + 1) % 4] - corner) * 0.18;
+      const Vec2 to_last = (corners[(i + 3) % 4] - corner) * 0.18;
+      marks.add_line({corner + to_next, corner, corner + to_last}, layout_.line_px(2.0));
+    }
+    painter_.fill(marks, palette::kDockInk);
+  }
+
+  // A flash of lightning, the sign of charging, always upright.
+  void draw_bolt(const Vec2& center, double half_height_px) {
+    const double h = half_height_px;
+    Shape bolt;
+    bolt.add_outline({center + h * Vec2(0.22, -1.0), center + h * Vec2(-0.52, 0.16),
+                      center + h * Vec2(-0.06, 0.16), center + h * Vec2(-0.22, 1.0),
+                      center + h * Vec2(0.52, -0.16), center + h * Vec2(0.06, -0.16)});
+    painter_.fill(bolt, palette::kDockInk, 0.75);
+  }
+
+  void draw_dock_number(const std::string& label, const DockDescription& dock, double side_px) {
+    if (!layout_.text) return;
+    TextStyle style;
+    style.cap_height_px = std::min(0.15 * side_px, 40.0 * layout_.unit_px);
+    style.weight = 0.14;
+    style.colour = palette::kDockInk;
+    if (style.cap_height_px < 5.0) return;  // would not be legible
+    const Vec2 corner = layout_(dock.pose * Vec2(-0.5 * dock.size.x(), -0.5 * dock.size.y()));
+    const Vec2 center = layout_(dock.pose.position());
+    // In the rear right corner, which a docked robot leaves free.
+    const Vec2 middle = corner + (center - corner) * 0.38;
+    painter_.draw_text(label,
+                       {middle.x() - 0.5 * Painter::text_width_px(label, style),
+                        middle.y() + 0.5 * style.cap_height_px},
+                       style);
+  }
+
+  const ArenaDescription& arena_;
+  const Layout& layout_;
+  Painter& painter_;
+};
+
+class SolidsPainter {
+ public:
+  SolidsPainter(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& painter)
+      : arena_(arena), layout_(layout), painter_(painter) {}
+
+  void draw_retracted() {
+    Shape outlines;
+    for (const ObstacleDescription& obstacle : arena_.obstacles) {
+      if (!is_retracted(obstacle)) continue;
+      outlines.add_dashed_outline(layout_(box_corners(obstacle)), layout_.line_px(1.6),
+                                  layout_.line_px(5.0, 3.0));
+    }
+    painter_.fill(outlines, palette::kDynamic, 0.6);
+  }
+
+  // Borders, separators, blocks and walls: shadows first, so that none falls on a neighbour's top.
+  void draw_solids() {
+    Shape borders;
+    Shape separators;
+    Shape statics;
+    Shape dynamics;
+    Shape walls;
+    const double border_px = layout_.border_px;
+    if (arena_.border) {
+      borders.add_outline(rectangle_corners(layout_.floor, border_px));
+      std::vector<Vec2> inner = rectangle_corners(layout_.floor, 0.0);
+      std::reverse(inner.begin(), inner.end());
+      borders.add_outline(inner);
+    }
+    for (const ObstacleDescription& box : arena_.dock_separators) {
+      separators.add_piece(layout_(box_corners(box)));
+    }
+    for (const ObstacleDescription& box : arena_.obstacles) {
+      if (is_retracted(box)) continue;
+      (box.type == ObstacleType::kDynamic ? dynamics : statics)
+          .add_piece(layout_(box_corners(box)));
+    }
+    for (const WallLoop& loop : arena_.walls) walls.add_outline(layout_(loop.vertices));
+
+    draw_shadows({&separators, &statics, &dynamics, &walls});
+    if (arena_.border) {
+      draw_border_shade();
+    } else {
+      outline(rectangle_corners(layout_.floor, 0.0), palette::kFaintInk, layout_.line_px(1.2), 0.6);
+    }
+    painter_.fill(walls, palette::kWall);
+    for (const WallLoop& loop : arena_.walls) {
+      outline(layout_(loop.vertices), palette::kWallEdge, layout_.line_px(1.0, 0.7));
+    }
+    painter_.fill(borders, palette::kBorder);
+    if (arena_.border) {
+      outline(rectangle_corners(layout_.floor, border_px), palette::kBorderEdge,
+              layout_.line_px(1.2));
+      outline(rectangle_corners(layout_.floor, 0.0), palette::kBorderEdge, layout_.line_px(1.2));
+    }
+    painter_.fill(separators, palette::kBorder);
+    for (const ObstacleDescription& box : arena_.dock_separators) {
+      outline(layout_(box_corners(box)), palette::kBorderEdge, layout_.line_px(1.2));
+    }
+    painter_.fill(statics, palette::kStatic);
+    painter_.fill(dynamics, palette::kDynamic);
+    for (const ObstacleDescription& box : arena_.obstacles) {
+      if (is_retracted(box)) continue;
+      const bool dynamic = box.type == ObstacleType::kDynamic;
+      draw_block_edge(box, dynamic ? palette::kDynamicEdge : palette::kStaticEdge);
+    }
+  }
+
+ private:
+  // Edge within the block's outline, so that blocks side by side do not grow into each other.
+  void draw_block_edge(const ObstacleDescription& box, Colour colour) {
+    const double width_px = layout_.line_px(1.6);
+    const double inset_m = width_px / layout_.pixels_per_m;
+    if (box.size.minCoeff() <= 2.0 * inset_m) return;
+    const Pose X_WB{box.center.x(), box.center.y(), box.yaw_rad};
+    outline(layout_(box_corners(X_WB, box.size - Vec2(inset_m, inset_m))), colour, width_px);
+  }
+
+  void outline(const std::vector<Vec2>& points, Colour colour, double width_px,
+               double opacity = 1.0) {
+    Shape line;
+    line.add_line(points, width_px, true);
+    painter_.fill(line, colour, opacity);
+  }
+
+  // Soft shadows to the lower right: copies at growing distance, each fainter.
+  void draw_shadows(const std::vector<const Shape*>& solids) {
+    Shape all;
+    for (const Shape* solid : solids) all.append(*solid, Vec2::Zero());
+    for (const double distance : {1.0, 2.2, 3.6, 5.0}) {
+      Shape moved;
+      moved.append(all, Vec2(0.8, 1.0) * distance * layout_.unit_px);
+      painter_.fill(moved, palette::kShadow, 0.075);
+    }
+  }
+
+  // The border's shade on the floor along its upper and left side.
+  void draw_border_shade() {
+    const Rectangle& floor = layout_.floor;
+    for (const double depth : {1.5, 3.0, 5.0}) {
+      const double d = depth * layout_.unit_px;
+      Shape shade;
+      shade.add_piece({{floor.left, floor.top},
+                       {floor.right, floor.top},
+                       {floor.right, floor.top + d},
+                       {floor.left + 0.8 * d, floor.top + d},
+                       {floor.left + 0.8 * d, floor.bottom},
+                       {floor.left, floor.bottom}});
+      painter_.fill(shade, palette::kShadow, 0.06);
+    }
+  }
+
+  const ArenaDescription& arena_;
+  const Layout& layout_;
+  Overlay::Canvas& painter_;
+};
+
+}  // namespace
+
+void draw_ground(const ArenaDescription& arena, const Layout& layout, Painter& painter) {
+  GroundPainter ground(arena, layout, painter);
+  ground.draw_floor();
+  ground.draw_docks();
+}
+
+void draw_retracted(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& overlay) {
+  SolidsPainter(arena, layout, overlay).draw_retracted();
+}
+
+void draw_solids(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& overlay) {
+  SolidsPainter(arena, layout, overlay).draw_solids();
+}
+
+}  // namespace sim::render

@@ -1,0 +1,105 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "render/painter.h"
+#include "sim/core/colour.h"
+#include "sim/core/pose.h"
+#include "sim/render/render.h"
+#include "sim/world/description.h"
+
+namespace sim::render {
+
+/// All colours but those that robots bring along.
+namespace palette {
+constexpr Colour kPaper{0xf1, 0xef, 0xea};
+constexpr Colour kFloor{0xfc, 0xfb, 0xf8};
+constexpr Colour kGrid{0xe6, 0xe3, 0xdb};
+constexpr Colour kShadow{0x2b, 0x26, 0x20};
+constexpr Colour kBorder{0x8c, 0x5e, 0x3c};
+constexpr Colour kBorderEdge{0x66, 0x42, 0x28};
+constexpr Colour kStatic{0xcd, 0xd1, 0xd6};
+constexpr Colour kStaticEdge{0x97, 0x9d, 0xa6};
+constexpr Colour kDynamic{0xd6, 0x45, 0x41};
+constexpr Colour kDynamicEdge{0x9f, 0x2b, 0x2b};
+constexpr Colour kWall{0x45, 0x4b, 0x54};
+constexpr Colour kWallEdge{0x2d, 0x31, 0x38};
+constexpr Colour kDock{0xd5, 0xea, 0xe4};
+constexpr Colour kDockInk{0x4f, 0x9a, 0x8b};
+constexpr Colour kInk{0x35, 0x38, 0x3d};
+constexpr Colour kFaintInk{0x7d, 0x7f, 0x82};
+constexpr Colour kHalo{0xff, 0xff, 0xff};
+constexpr Colour kWheel{0x2c, 0x2e, 0x33};
+constexpr Colour kLight{0xff, 0xff, 0xff};
+constexpr Colour kStalled{0xe0, 0x1e, 0x37};
+}  // namespace palette
+
+/// The colour `share` of the way from a to b.
+[[nodiscard]] Colour mix(Colour a, Colour b, double share);
+
+/// Luma of BT.601, 0..1.
+[[nodiscard]] double luma(Colour colour);
+
+[[nodiscard]] inline Colour opaque(Colour colour) { return {colour.r, colour.g, colour.b, 255}; }
+
+/// The greatest of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is at most `limit` > 0.
+[[nodiscard]] double round_below(double limit);
+
+/// `text`, cut and ended with dots if it is longer than allowed; "" where not even that fits.
+[[nodiscard]] std::string shortened(const std::string& text, const TextStyle& style,
+                                    double width_px);
+
+/// A part of the picture [pixels].
+struct Rectangle {
+  double left = 0.0;
+  double top = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+
+  [[nodiscard]] double overlap(const Rectangle& other) const {
+    const double width = std::min(right, other.right) - std::max(left, other.left);
+    const double height = std::min(bottom, other.bottom) - std::max(top, other.top);
+    return width > 0.0 && height > 0.0 ? width * height : 0.0;
+  }
+};
+
+/// Where things lie in the picture.
+struct Layout {
+  double unit_px = 1.0;  ///< a thousandth of the longer side: all line widths and texts scale by it
+  bool text = true;      ///< whether there is room for any text
+  int width = 0;         ///< of the picture
+  int height = 0;
+  double margin_px = 0.0;
+  double footer_px = 0.0;  ///< height of what is below the arena
+  double border_px = 0.0;  ///< width of the border round the floor; 0: none
+  double pixels_per_m = 1.0;
+  Rectangle floor;
+  Vec2 origin = Vec2::Zero();  ///< W position of the floor's bottom left corner [m]
+
+  Layout(const ArenaDescription& arena, const RenderOptions& options);
+
+  /// The place of a W position.
+  [[nodiscard]] Vec2 operator()(const Vec2& p_W) const {
+    return {floor.left + (p_W.x() - origin.x()) * pixels_per_m,
+            floor.bottom - (p_W.y() - origin.y()) * pixels_per_m};
+  }
+  [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& points_in_world) const;
+
+  /// The pixels that the floor covers, in part or whole.
+  [[nodiscard]] PixelRect floor_pixels() const;
+
+  /// A length that is the same share of every picture, but never thinner than `least_px`.
+  [[nodiscard]] double line_px(double thousandths, double least_px = 0.8) const {
+    return std::max(thousandths * unit_px, least_px);
+  }
+  /// Text of a size that is the same share of every picture, but stays legible.
+  [[nodiscard]] TextStyle text_style(double cap_height, Colour colour) const;
+};
+
+/// The corners of a rectangle, clockwise in the picture, moved outwards.
+[[nodiscard]] std::vector<Vec2> rectangle_corners(const Rectangle& rectangle, double grown_px);
+
+}  // namespace sim::render

@@ -1,0 +1,27 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/layout.h"
+#include "render/painter.h"
+#include "sim/simulation/scene_snapshot.h"
+
+/// What moves in an arena.
+namespace sim::render {
+
+/// Laser fans and trails, which lie on the floor. `cells` are those of the scene's canvas if it is
+/// drawn on the floor, else empty: the more it holds, the fainter the fans are; and the more of a
+/// trail lies on coloured cells (most likely the program's own drawing of it), the fainter that is.
+void draw_fans(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
+               const Layout& layout, Painter& painter);
+void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
+                 const Layout& layout, Painter& painter);
+
+/// What lies over blocks and borders: surfaces that lasers have met, robots, and their names.
+void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+
+}  // namespace sim::render
