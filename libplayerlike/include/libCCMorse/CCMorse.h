@@ -10,6 +10,7 @@
 #include "libCCMorse/GridMapLayer.h"
 #include "libCCMorse/ImagePoint.h"
 #include "libCCMorse/LaserProxy.h"
+#include "libCCMorse/MapProxy.h"
 #include "libCCMorse/MorseActuator.h"
 #include "libCCMorse/MorseClient.h"
 #include "libCCMorse/MorseDevice.h"
@@ -25,6 +26,7 @@
 #include "libCCMorse/MorseTime.h"
 #include "libCCMorse/PlayerClient.h"
 #include "libCCMorse/Position2dProxy.h"
+#include "libCCMorse/SndDriver.h"
 #include "libCCMorse/WindowProxy.h"
 #include "libplayerc++/playerc++.h"
 

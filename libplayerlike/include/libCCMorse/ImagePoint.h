@@ -43,4 +43,18 @@ struct ImageColour_t {
   }
 };
 
+/// A cell and the colour it is given, for lists of them.
+struct ImagePixel_t {
+  int x;
+  int y;
+  ImageColour_t colour;
+
+  constexpr ImagePixel_t() noexcept : x(0), y(0) {}
+  constexpr ImagePixel_t(int aX, int aY, const ImageColour_t& aColour) noexcept
+      : x(aX), y(aY), colour(aColour) {}
+  constexpr ImagePixel_t(int aX, int aY, std::uint8_t aR, std::uint8_t aG, std::uint8_t aB,
+                         std::uint8_t aA = 255) noexcept
+      : x(aX), y(aY), colour(aR, aG, aB, aA) {}
+};
+
 }  // namespace CCMorse

@@ -8,19 +8,25 @@
 
 namespace CCMorse {
 
-/// The pen by which a robot draws on the grid-map. See Drawing for cells and colours.
-class MorsePen : public MorseActuator, public Drawing {
+/// The pen by which a robot draws on the grid-map that all robots share. See Drawing for cells and
+/// colours, and CanvasDrawing for what concerns the whole grid-map.
+class MorsePen : public MorseActuator, public CanvasDrawing {
  public:
   /// @param aName  device; "": the robot's first of type "pen".
   explicit MorsePen(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorsePen() override;
 
   /// Colour of drawings that name none; the robot's colour at first.
-  ImageColour_t GetColour() const;
-  void SetColour(const ImageColour_t& aColour);
+  ImageColour_t GetColour() const { return MarkColour(); }
+  template <typename... Colour>
+  void SetColour(const Colour&... aColour) {
+    SetMarkColour(detail::make_colour(aColour...));
+  }
 
   using Drawing::SetLine;
+  using Drawing::SetLineMetres;
   using Drawing::SetPixel;
+  using Drawing::SetPixelMetres;
   /// In the pen's own colour.
   void SetPixel(int aX, int aY) { Drawing::SetPixel(aX, aY, GetColour()); }
   void SetPixel(const ImagePoint_t& aPoint) { SetPixel(aPoint.x, aPoint.y); }
@@ -30,9 +36,14 @@ class MorsePen : public MorseActuator, public Drawing {
   void SetLine(const ImagePoint_t& aFrom, const ImagePoint_t& aTo) {
     SetLine(aFrom.x, aFrom.y, aTo.x, aTo.y);
   }
+  void SetPixelMetres(double aX, double aY) { SetPixel(GetX(aX), GetY(aY)); }
+  void SetLineMetres(double aX0, double aY0, double aX1, double aY1) {
+    SetLine(GetX(aX0), GetY(aY0), GetX(aX1), GetY(aY1));
+  }
 
  private:
-  ImageColour_t mColour;
+  using MorseDevice::Core;
+  using MorseDevice::Fun;
 };
 
 }  // namespace CCMorse

@@ -118,9 +118,9 @@ class ClientProxy {
   // For the proxies of this library. What follows is called with mMutex locked unless said
   // otherwise, and functions with a parameter aFun throw PlayerError in that name.
 
-  /// Finds the device at (interface, index) on the client's port and subscribes to it. Takes
-  /// mMutex.
-  void Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun);
+  /// Finds the device at (interface, index) on the client's port and subscribes to it, unless it
+  /// has no readings. Takes mMutex.
+  void Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun, bool aHasReadings = true);
   /// Locks mMutex.
   /// @throws PlayerError kDisconnected if the client is gone; kRunIsOver, see StartThread().
   scoped_lock_t LockData(const char* aFun = "ClientProxy") const;

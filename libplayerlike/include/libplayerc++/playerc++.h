@@ -5,7 +5,9 @@
 /// Player's C++ client library: the one header that client programs include.
 
 #include "libplayerc++/clientproxy.h"
+#include "libplayerc++/graphics2dproxy.h"
 #include "libplayerc++/laserproxy.h"
+#include "libplayerc++/mapproxy.h"
 #include "libplayerc++/mutex.h"
 #include "libplayerc++/playerbase.h"
 #include "libplayerc++/playerclient.h"

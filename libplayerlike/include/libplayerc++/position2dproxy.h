@@ -21,6 +21,11 @@ namespace PlayerCc {
 /// kBadArgument. The robots have differential drives: sideways speeds are ignored. Of SetVelHead()
 /// and GoTo() the control runs in this library, once for each new reading, so only while the client
 /// reads.
+///
+/// An index that the world's `drivers` table gives a driver (docs/snd.md) reports what that
+/// driver's own position device does. Its GoTo() hands the goal to the driver, which drives round
+/// obstacles in a thread of its own, and stops when it is blocked; any other command goes straight
+/// to the motors and drops the goal.
 class Position2dProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
@@ -39,7 +44,7 @@ class Position2dProxy : public ClientProxy {
 
   /// Drive to a pose in the frame that GetXPos() is in: turn towards it, drive there straight (to
   /// within 1 cm), turn to the heading (to within 0.01 rad), stop. It goes straight, also into
-  /// obstacles.
+  /// obstacles, unless the index is a driver's.
   /// @param pos  where to.
   /// @param vel  px: highest forward speed [m/s]; pa: highest turn rate [rad/s]; 0 for the robot's
   ///             own limits; signs do not matter, py is ignored.

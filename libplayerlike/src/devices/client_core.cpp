@@ -89,6 +89,39 @@ std::optional<sim::Pose> ClientCore::last_pose(int robot) const {
   return it->second.pose;
 }
 
+sim::LayerId ClientCore::take_sheet() {
+  constexpr int kPriority = 100;
+  require_usable();
+  const std::vector<sim::LayerInfo> layers = session_->layers();
+  for (int number = 0;; ++number) {
+    sim::LayerStyle style;
+    style.name = number == 0 ? "graphics2d" : "graphics2d_" + std::to_string(number);
+    style.priority = kPriority;
+    const auto layer = std::find_if(layers.begin(), layers.end(), [&](const sim::LayerInfo& l) {
+      return l.style.name == style.name;
+    });
+    if (layer == layers.end()) {
+      const sim::LayerId made = session_->create_layer(sim::LayerKind::kColour, std::move(style));
+      sheets_[made] = true;
+      return made;
+    }
+    const auto sheet = sheets_.find(layer->id);
+    if (sheet == sheets_.end() || sheet->second) continue;
+    sheet->second = true;
+    sim::DrawOperation clear;
+    clear.kind = sim::DrawOperation::Kind::kFill;
+    clear.layer = layer->id;
+    session_->draw({&clear, 1});
+    return layer->id;
+  }
+}
+
+void ClientCore::give_back_sheet(sim::LayerId layer) noexcept {
+  const std::lock_guard lock(mutex_);
+  const auto sheet = sheets_.find(layer);
+  if (sheet != sheets_.end()) sheet->second = false;
+}
+
 const RobotInfo& ClientCore::robot_of(DeviceId device) const {
   return robots().at(static_cast<std::size_t>(device.robot));
 }

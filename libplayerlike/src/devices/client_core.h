@@ -61,6 +61,11 @@ class ClientCore final : private ReadingSink {
   [[nodiscard]] bool run_is_over() const noexcept { return run_is_over_; }
   void set_run_is_over(bool over) noexcept { run_is_over_ = over; }
 
+  /// Whether require_usable() would not throw. Cheap.
+  [[nodiscard]] bool usable() const noexcept {
+    return !closed_.load(std::memory_order_acquire) &&
+           !run_is_over_.load(std::memory_order_acquire);
+  }
   /// Throws SessionError if the client is gone, or the run over in the background.
   void require_usable() const;
 
@@ -68,6 +73,13 @@ class ClientCore final : private ReadingSink {
   /// the mutex. Poses of the arena's localisation win over odometry.
   void note_pose(int robot, const sim::Pose& pose, bool absolute);
   [[nodiscard]] std::optional<sim::Pose> last_pose(int robot) const;
+
+  /// A layer of the session for a Graphics2dProxy: one that an earlier proxy has given back, or a
+  /// new one, under the first of the names "graphics2d", "graphics2d_1", ... that no proxy uses and
+  /// no other layer has. The mutex is held by the caller.
+  [[nodiscard]] sim::LayerId take_sheet();
+  /// The reverse; the layer stays as it is. Takes the mutex; never throws.
+  void give_back_sheet(sim::LayerId layer) noexcept;
 
   /// Replace rules for interfaces whose devices are subscribed to later; under the mutex.
   std::map<int, bool>& replace_rules() noexcept { return replace_rules_; }
@@ -98,6 +110,7 @@ class ClientCore final : private ReadingSink {
   std::vector<Entry> entries_;
   std::map<int, KnownPose> poses_;
   std::map<int, bool> replace_rules_;
+  std::map<sim::LayerId, bool> sheets_;  // layers of graphics proxies -> in use
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
 };

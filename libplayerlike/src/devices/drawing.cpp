@@ -2,12 +2,14 @@
 #include "libCCMorse/Drawing.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "devices/client_core.h"
 #include "devices/errors.h"
-#include "libCCMorse/GridMapLayer.h"
+#include "sim/canvas/layers.h"
 #include "sim/core/colour.h"
 
 namespace CCMorse {
@@ -17,9 +19,9 @@ using playerlike::translated;
 
 namespace detail {
 
-std::uint8_t channel_of_share(double share) {
+std::uint8_t channel_of_unusual_share(double share) {
   playerlike::require_finite("Drawing", {{"a colour's channel", share}});
-  return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * 255.0));
+  return share > 0.5 ? 255 : 0;
 }
 
 ImageColour_t colour_of_text(const std::string& text) {
@@ -49,178 +51,427 @@ int cell_number(double cells) {
   return static_cast<int>(std::clamp(std::floor(cells), -kFar, kFar));
 }
 
-sim::Colour sim_colour(const ImageColour_t& c) { return {c.r, c.g, c.b, c.a}; }
+constexpr std::pair<ViewMode, sim::ViewMode> kModes[] = {
+    {GROUND, sim::ViewMode::kGround},
+    {MINI_MAP, sim::ViewMode::kMiniMap},
+    {FULL_SCREEN, sim::ViewMode::kFullScreen},
+};
+
+static_assert(sizeof(ImageColour_t) == sizeof(sim::CellValue), "colours are copied as cells");
+static_assert(std::bit_cast<std::uint32_t>(sim::Colour{1, 2, 3, 4}) == 0x04030201U,
+              "Drawing::ValueOf() puts the red channel into the lowest byte");
+
+std::uint32_t bits_of_colour(const ImageColour_t& c) {
+  return sim::CellValue::of(sim::Colour{c.r, c.g, c.b, c.a}).bits;
+}
+
+ImageColour_t colour_of_bits(std::uint32_t bits) {
+  const sim::Colour c = sim::CellValue{bits}.colour();
+  return {c.r, c.g, c.b, c.a};
+}
+
+// Leaves the alpha of RGBA bytes out, if three channels are wanted.
+std::vector<std::uint8_t> with_channels(const char* fun, std::vector<std::uint8_t> rgba,
+                                        int channels) {
+  if (channels == 4) return rgba;
+  if (channels != 3) {
+    throw PlayerError(fun,
+                      "a picture has 3 (RGB) or 4 (RGBA) channels, but " +
+                          std::to_string(channels) + " were asked for",
+                      PlayerError::kBadArgument);
+  }
+  const std::size_t cells = rgba.size() / 4;
+  for (std::size_t i = 0; i < cells; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) rgba[3 * i + c] = rgba[4 * i + c];
+  }
+  rgba.resize(3 * cells);
+  return rgba;
+}
+
+void require_points(const std::string& fun, const player_point_2d_t* points, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    playerlike::require_finite(fun.c_str(),
+                               {{"a point's x", points[i].px}, {"a point's y", points[i].py}});
+  }
+}
 
 }  // namespace
 
-Drawing::Drawing(std::shared_ptr<playerlike::ClientCore> aCore, const char* aName)
-    : mCore(std::move(aCore)), mName(aName) {
-  const playerlike::CanvasInfo canvas = translated(aName, [&] {
+Drawing::Drawing(std::shared_ptr<playerlike::ClientCore> aCore, const char* aName, int aLayer,
+                 CellKind aKind)
+    : mCore(std::move(aCore)),
+      mQueue(&mCore->session().draw_queue()),
+      mName(aName),
+      mLayer(aLayer),
+      mKind(aKind),
+      mRetired(false),
+      mMarkColour(0xff000000U),
+      mGeneration(0),
+      mWidth(0),
+      mHeight(0),
+      mCellSize(0.0),
+      mOriginX(0.0),
+      mOriginY(0.0) {
+  translated(aName, [&] {
     mCore->require_usable();
-    return mCore->session().canvas_info();
+    // The count first: if somebody resizes in between, the next look finds another one.
+    mGeneration = mCore->session().canvas_generation();
+    const playerlike::CanvasInfo canvas = mCore->session().canvas_info();
+    mWidth = canvas.width;
+    mHeight = canvas.height;
+    mCellSize = canvas.cell_size_m;
+    mOriginX = canvas.origin_x_m;
+    mOriginY = canvas.origin_y_m;
   });
-  mWidth = canvas.width;
-  mHeight = canvas.height;
-  mCellSize = canvas.cell_size_m;
-  mOriginX = canvas.origin_x_m;
-  mOriginY = canvas.origin_y_m;
 }
 
 Drawing::~Drawing() = default;
 
-int Drawing::GetWidth() const { return mWidth; }
-int Drawing::GetHeight() const { return mHeight; }
+std::string Drawing::Fun(const char* aFunction) const {
+  return std::string(mName) + "::" + aFunction;
+}
+
+void Drawing::RequireUsable(const char* aFunction) const {
+  if (Retired()) {
+    throw PlayerError(Fun(aFunction), "this layer was removed", PlayerError::kNotAvailable);
+  }
+  translated(mName, [&] { mCore->require_usable(); });
+}
+
+// Follows resizes.
+void Drawing::Refresh() const {
+  const playerlike::Session& session = mCore->session();
+  if (session.canvas_generation() == mGeneration.load(std::memory_order_acquire)) return;
+  translated(mName, [&] {
+    const std::lock_guard lock(mSizeMutex);
+    const std::uint64_t generation = session.canvas_generation();
+    const playerlike::CanvasInfo canvas = session.canvas_info();
+    mWidth = canvas.width;
+    mHeight = canvas.height;
+    mGeneration.store(generation, std::memory_order_release);
+  });
+}
+
+int Drawing::GetWidth() const {
+  Refresh();
+  return mWidth;
+}
+
+int Drawing::GetHeight() const {
+  Refresh();
+  return mHeight;
+}
+
 double Drawing::GetCellSize() const { return mCellSize; }
 
 int Drawing::GetX(double aX) const {
-  playerlike::require_finite(mName, {{"x", aX}});
+  if (!std::isfinite(aX)) playerlike::require_finite(mName, {{"x", aX}});
   return cell_number((aX - mOriginX) / mCellSize);
 }
 
 int Drawing::GetY(double aY) const {
-  playerlike::require_finite(mName, {{"y", aY}});
-  return mHeight - 1 - cell_number((aY - mOriginY) / mCellSize);
+  if (!std::isfinite(aY)) playerlike::require_finite(mName, {{"y", aY}});
+  return GetHeight() - 1 - cell_number((aY - mOriginY) / mCellSize);
 }
 
-bool Drawing::Shade(ImageColour_t& aColour) const {
-  static_cast<void>(aColour);
-  return true;
+// --- Values of cells
+
+ImageColour_t Drawing::MarkColour() const {
+  return colour_of_bits(mMarkColour.load(std::memory_order_relaxed));
 }
 
-void Drawing::DrawPixel(int aX, int aY, ImageColour_t aColour) {
-  translated(mName, [&] {
-    mCore->require_usable();
-    if (!Shade(aColour)) return;
-    sim::CanvasOperation operation;
-    operation.kind = sim::CanvasOperation::Kind::kPixel;
+void Drawing::SetMarkColour(const ImageColour_t& aColour) {
+  mMarkColour.store(bits_of_colour(aColour), std::memory_order_relaxed);
+}
+
+std::uint32_t Drawing::MarkOf(const ImageColour_t& aColour) const {
+  if (mKind == BINARY_CELLS) return sim::CellValue::of(aColour.a != 0).bits;
+  if (aColour.a == 0) return sim::CellValue::of(0.5F).bits;
+  const int light = aColour.r + aColour.g + aColour.b;
+  return sim::CellValue::of(static_cast<float>(765 - light) / 765.0F).bits;
+}
+
+ImageColour_t Drawing::ColourOf(std::uint32_t aValue) const {
+  switch (mKind) {
+    case COLOUR_CELLS:
+      return colour_of_bits(aValue);
+    case BINARY_CELLS:
+      return aValue != 0 ? MarkColour() : ImageColour_t(0, 0, 0, 0);
+    case GREY_CELLS:
+      break;
+  }
+  const double occupancy =
+      std::clamp(static_cast<double>(sim::CellValue{aValue}.occupancy()), 0.0, 1.0);
+  const auto light = static_cast<std::uint8_t>(std::floor(255.0 * (1.0 - occupancy) + 0.5));
+  return {light, light, light};
+}
+
+// --- Drawing
+
+// On the way of every cell: nothing here takes a lock, but for the queue's own, and errors are
+// dealt with elsewhere.
+template <typename Write>
+void Drawing::Put(Write aWrite) {
+  if (Retired() || !mCore->usable()) RequireUsable("SetPixel");
+  while (!mQueue->push_by(aWrite)) MakeRoom();
+}
+
+void Drawing::MakeRoom() {
+  translated(mName, [&] { mCore->session().flush_drawings(); });
+}
+
+void Drawing::PutPixel(int aX, int aY, std::uint32_t aValue) {
+  Put([=, this](sim::DrawOperation& operation) {
+    operation.kind = sim::DrawOperation::Kind::kPixel;
+    operation.layer = mLayer;
     operation.x0 = aX;
     operation.y0 = aY;
-    operation.colour = sim_colour(aColour);
-    mCore->session().draw({&operation, 1});
+    operation.value = {aValue};
   });
 }
 
-void Drawing::DrawLine(int aX0, int aY0, int aX1, int aY1, ImageColour_t aColour) {
-  translated(mName, [&] {
-    mCore->require_usable();
-    if (!Shade(aColour)) return;
-    sim::CanvasOperation operation;
-    operation.kind = sim::CanvasOperation::Kind::kLine;
+void Drawing::PutLine(int aX0, int aY0, int aX1, int aY1, std::uint32_t aValue) {
+  Put([=, this](sim::DrawOperation& operation) {
+    operation.kind = sim::DrawOperation::Kind::kLine;
+    operation.layer = mLayer;
     operation.x0 = aX0;
     operation.y0 = aY0;
     operation.x1 = aX1;
     operation.y1 = aY1;
-    operation.colour = sim_colour(aColour);
-    mCore->session().draw({&operation, 1});
+    operation.value = {aValue};
   });
 }
 
 void Drawing::Fill(const ImageColour_t& aColour) {
-  translated(mName, [&] {
-    mCore->require_usable();
-    sim::CanvasOperation operation;
-    operation.kind = sim::CanvasOperation::Kind::kClear;
-    operation.colour = sim_colour(aColour);
-    mCore->session().draw({&operation, 1});
+  const std::uint32_t value = ValueOf(aColour);
+  Put([=, this](sim::DrawOperation& operation) {
+    operation.kind = sim::DrawOperation::Kind::kFill;
+    operation.layer = mLayer;
+    operation.value = {value};
   });
+}
+
+// Columns first .. last of a row, clipped; nothing if there are none.
+void Drawing::PutSpan(double aFirst, double aLast, int aY, std::uint32_t aValue) {
+  const int first = static_cast<int>(std::clamp(aFirst, 0.0, static_cast<double>(mWidth)));
+  const int last = static_cast<int>(std::clamp(aLast, -1.0, static_cast<double>(mWidth - 1)));
+  if (first < last) {
+    PutLine(first, aY, last, aY, aValue);
+  } else if (first == last) {
+    PutPixel(first, aY, aValue);
+  }
+}
+
+void Drawing::DrawPolyline(const player_point_2d_t* aPoints, std::size_t aCount,
+                           const ImageColour_t& aColour) {
+  require_points(Fun("SetPolylineMetres"), aPoints, aCount);
+  if (aCount == 0) return;
+  ImagePoint_t from = GetPoint(aPoints[0].px, aPoints[0].py);
+  if (aCount == 1) DrawPixel(from.x, from.y, aColour);
+  for (std::size_t i = 1; i < aCount; ++i) {
+    const ImagePoint_t to = GetPoint(aPoints[i].px, aPoints[i].py);
+    DrawLine(from.x, from.y, to.x, to.y, aColour);
+    from = to;
+  }
+}
+
+// Row by row through the middles of the cells: a cell is drawn if an odd number of edges cross the
+// row left of its middle.
+void Drawing::FillPolygon(const player_point_2d_t* aPoints, std::size_t aCount,
+                          const ImageColour_t& aColour) {
+  require_points(Fun("SetPolygonMetres"), aPoints, aCount);
+  RequireUsable("SetPolygonMetres");
+  if (aCount == 0) return;
+  struct Corner {
+    double column, row;  // in cells from the top left corner of the picture
+  };
+  const int height = GetHeight();
+  std::vector<Corner> corners(aCount);
+  double top = static_cast<double>(height);
+  double bottom = 0.0;
+  for (std::size_t i = 0; i < aCount; ++i) {
+    corners[i] = {(aPoints[i].px - mOriginX) / mCellSize,
+                  height - (aPoints[i].py - mOriginY) / mCellSize};
+    top = std::min(top, corners[i].row);
+    bottom = std::max(bottom, corners[i].row);
+  }
+  const int first_row =
+      static_cast<int>(std::clamp(std::floor(top), 0.0, static_cast<double>(height)));
+  const int last_row =
+      static_cast<int>(std::clamp(std::floor(bottom), -1.0, static_cast<double>(height - 1)));
+  const std::uint32_t value = ValueOf(aColour);
+  std::vector<double> crossings;
+  for (int row = first_row; row <= last_row; ++row) {
+    const double middle = row + 0.5;
+    crossings.clear();
+    for (std::size_t i = 0; i < aCount; ++i) {
+      const Corner& a = corners[i];
+      const Corner& b = corners[(i + 1) % aCount];
+      if ((a.row <= middle) == (b.row <= middle)) continue;
+      crossings.push_back(a.column + (b.column - a.column) * ((middle - a.row) / (b.row - a.row)));
+    }
+    std::sort(crossings.begin(), crossings.end());
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      PutSpan(std::ceil(crossings[i] - 0.5), std::ceil(crossings[i + 1] - 0.5) - 1.0, row, value);
+    }
+  }
+}
+
+void Drawing::FillDisc(double aX, double aY, double aRadius, const ImageColour_t& aColour) {
+  const std::string fun = Fun("SetDiscMetres");
+  playerlike::require_finite(fun.c_str(), {{"x", aX}, {"y", aY}, {"the radius", aRadius}});
+  if (aRadius < 0.0) {
+    throw PlayerError(fun, "the radius must not be negative, but is " + std::to_string(aRadius),
+                      PlayerError::kBadArgument);
+  }
+  RequireUsable("SetDiscMetres");
+  const int height = GetHeight();
+  const double centre_column = (aX - mOriginX) / mCellSize;
+  const double centre_row = height - (aY - mOriginY) / mCellSize;
+  const double radius = aRadius / mCellSize;
+  const ImagePoint_t own = GetPoint(aX, aY);
+  const int first_row = static_cast<int>(
+      std::clamp(std::min(std::ceil(centre_row - radius - 0.5), static_cast<double>(own.y)), 0.0,
+                 static_cast<double>(height)));
+  const int last_row = static_cast<int>(
+      std::clamp(std::max(std::floor(centre_row + radius - 0.5), static_cast<double>(own.y)), -1.0,
+                 static_cast<double>(height - 1)));
+  const std::uint32_t value = ValueOf(aColour);
+  for (int row = first_row; row <= last_row; ++row) {
+    const double dy = row + 0.5 - centre_row;
+    double first = 1.0, last = 0.0;
+    if (std::abs(dy) <= radius) {
+      const double dx = std::sqrt(radius * radius - dy * dy);
+      first = std::ceil(centre_column - dx - 0.5);
+      last = std::floor(centre_column + dx - 0.5);
+    }
+    if (first > last) {
+      if (row != own.y) continue;
+      first = last = own.x;
+    }
+    PutSpan(first, last, row, value);
+  }
+}
+
+// --- Whole images
+
+void Drawing::SetImage(const std::uint8_t* aImage, std::size_t aBytes) {
+  RequireUsable("SetImage");
+  const int width = GetWidth();
+  const int height = GetHeight();
+  const std::size_t cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  if (aImage == nullptr || (aBytes != 3 * cells && aBytes != 4 * cells)) {
+    throw PlayerError(Fun("SetImage"),
+                      "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                          " cells has " + std::to_string(3 * cells) + " (RGB) or " +
+                          std::to_string(4 * cells) + " (RGBA) bytes, but " +
+                          (aImage == nullptr ? "a null pointer" : std::to_string(aBytes)) +
+                          " was given",
+                      PlayerError::kBadArgument);
+  }
+  const auto values = std::make_unique_for_overwrite<sim::CellValue[]>(cells);
+  const std::size_t channels = aBytes / cells;
+  if (mKind == COLOUR_CELLS && channels == 4) {
+    std::memcpy(values.get(), aImage, aBytes);
+  } else if (mKind == COLOUR_CELLS) {
+    for (std::size_t i = 0; i < cells; ++i) {
+      const std::uint8_t* const c = aImage + 3 * i;
+      values[i] = {bits_of_colour(ImageColour_t(c[0], c[1], c[2]))};
+    }
+  } else {
+    for (std::size_t i = 0; i < cells; ++i) {
+      const std::uint8_t* const c = aImage + channels * i;
+      values[i] = {MarkOf(ImageColour_t(c[0], c[1], c[2], channels == 4 ? c[3] : 255))};
+    }
+  }
+  translated(mName, [&] {
+    mCore->session().draw_cells(mLayer, {0, 0, width, height}, {values.get(), cells});
+  });
+}
+
+void Drawing::UpdateImage(const std::vector<ImagePixel_t>& aPixels) {
+  for (const ImagePixel_t& pixel : aPixels) DrawPixel(pixel.x, pixel.y, pixel.colour);
+}
+
+std::vector<std::uint8_t> Drawing::GetImage(int aChannels) const {
+  RequireUsable("GetImage");
+  const std::vector<sim::CellValue> cells =
+      translated(mName, [&] { return mCore->session().cells(mLayer); });
+  std::vector<std::uint8_t> image(4 * cells.size());
+  if (mKind == COLOUR_CELLS) {
+    std::memcpy(image.data(), cells.data(), image.size());
+  } else {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const ImageColour_t c = ColourOf(cells[i].bits);
+      std::memcpy(image.data() + 4 * i, &c, sizeof c);
+    }
+  }
+  return with_channels(Fun("GetImage").c_str(), std::move(image), aChannels);
+}
+
+std::uint32_t Drawing::CellAt(int aX, int aY, const char* aFunction) const {
+  RequireUsable(aFunction);
+  const auto value = translated(mName, [&] { return mCore->session().cell(mLayer, aX, aY); });
+  if (!value) {
+    throw PlayerError(Fun(aFunction),
+                      "there is no cell (" + std::to_string(aX) + ", " + std::to_string(aY) +
+                          "): the grid-map has " + std::to_string(GetWidth()) + " x " +
+                          std::to_string(GetHeight()) + ", counted from 0",
+                      PlayerError::kBadArgument);
+  }
+  return value->bits;
 }
 
 ImageColour_t Drawing::GetPixel(int aX, int aY) const {
-  const std::optional<sim::Colour> c = translated(mName, [&] {
-    mCore->require_usable();
-    return mCore->session().pixel(aX, aY);
-  });
-  if (!c) {
-    throw PlayerError(mName,
-                      "there is no cell (" + std::to_string(aX) + ", " + std::to_string(aY) +
-                          "): the grid-map has " + std::to_string(mWidth) + " x " +
-                          std::to_string(mHeight) + ", counted from 0",
-                      PlayerError::kBadArgument);
+  return ColourOf(CellAt(aX, aY, "GetPixel"));
+}
+
+// --- CanvasDrawing
+
+CanvasDrawing::CanvasDrawing(std::shared_ptr<playerlike::ClientCore> aCore, const char* aName)
+    : Drawing(std::move(aCore), aName) {}
+
+CanvasDrawing::~CanvasDrawing() = default;
+
+void CanvasDrawing::Resize(int aWidth, int aHeight) {
+  RequireUsable("Resize");
+  translated(Fun("Resize").c_str(), [&] { Core()->session().resize_canvas(aWidth, aHeight); });
+}
+
+void CanvasDrawing::SaveImage(const std::string& aName, int aScale) const {
+  RequireUsable("SaveImage");
+  translated(Fun("SaveImage").c_str(), [&] { Core()->session().save_image(aName, aScale); });
+}
+
+std::vector<std::uint8_t> CanvasDrawing::GetComposedImage(int aChannels) const {
+  RequireUsable("GetComposedImage");
+  const std::string fun = Fun("GetComposedImage");
+  return with_channels(fun.c_str(),
+                       translated(fun.c_str(), [&] { return Core()->session().canvas_image(); }),
+                       aChannels);
+}
+
+void CanvasDrawing::SetViewMode(ViewMode aMode) {
+  RequireUsable("SetViewMode");
+  const std::string fun = Fun("SetViewMode");
+  for (const auto& [mode, sim_mode] : kModes) {
+    if (mode != aMode) continue;
+    const sim::ViewMode wanted = sim_mode;
+    translated(fun.c_str(), [&] { Core()->session().set_view_mode(wanted); });
+    return;
   }
-  return {c->r, c->g, c->b, c->a};
+  throw PlayerError(fun, "there is no view mode " + std::to_string(static_cast<int>(aMode)),
+                    PlayerError::kBadArgument);
 }
 
-// --- GridMapLayer
-
-GridMapLayer::GridMapLayer(std::shared_ptr<playerlike::ClientCore> aCore)
-    : Drawing(std::move(aCore), "GridMapLayer"),
-      mLayerName("canvas"),
-      mTransparency(0.0),
-      mHasTransparentColour(false),
-      mPriority(0) {}
-
-GridMapLayer::~GridMapLayer() = default;
-
-std::string GridMapLayer::GetName() const {
-  const std::lock_guard lock(mMutex);
-  return mLayerName;
-}
-
-void GridMapLayer::SetName(const std::string& aName) {
-  const std::lock_guard lock(mMutex);
-  mLayerName = aName;
-}
-
-ImageColour_t GridMapLayer::GetColour() const {
-  const std::lock_guard lock(mMutex);
-  return mColour;
-}
-
-void GridMapLayer::SetOwnColour(const ImageColour_t& aColour) {
-  const std::lock_guard lock(mMutex);
-  mColour = aColour;
-}
-
-void GridMapLayer::SetTransparency(double aTransparency) {
-  playerlike::require_finite("GridMapLayer::SetTransparency",
-                             {{"the transparency", aTransparency}});
-  const std::lock_guard lock(mMutex);
-  mTransparency = std::clamp(aTransparency, 0.0, 1.0);
-}
-
-double GridMapLayer::GetTransparency() const {
-  const std::lock_guard lock(mMutex);
-  return mTransparency;
-}
-
-void GridMapLayer::SetSeeThrough(bool aOn, const ImageColour_t& aColour) {
-  const std::lock_guard lock(mMutex);
-  mHasTransparentColour = aOn;
-  mTransparentColour = aColour;
-}
-
-void GridMapLayer::ResetTransparentColour() { SetSeeThrough(false, ImageColour_t()); }
-
-bool GridMapLayer::HasTransparentColour() const {
-  const std::lock_guard lock(mMutex);
-  return mHasTransparentColour;
-}
-
-ImageColour_t GridMapLayer::GetTransparentColour() const {
-  const std::lock_guard lock(mMutex);
-  return mTransparentColour;
-}
-
-void GridMapLayer::SetPriority(int aPriority) {
-  const std::lock_guard lock(mMutex);
-  mPriority = aPriority;
-}
-
-int GridMapLayer::GetPriority() const {
-  const std::lock_guard lock(mMutex);
-  return mPriority;
-}
-
-bool GridMapLayer::Shade(ImageColour_t& aColour) const {
-  const std::lock_guard lock(mMutex);
-  const ImageColour_t& hole = mTransparentColour;
-  if (mHasTransparentColour && aColour.r == hole.r && aColour.g == hole.g && aColour.b == hole.b) {
-    return false;
+ViewMode CanvasDrawing::GetViewMode() const {
+  RequireUsable("GetViewMode");
+  const sim::ViewMode found =
+      translated(Fun("GetViewMode").c_str(), [&] { return Core()->session().view_mode(); });
+  for (const auto& [mode, sim_mode] : kModes) {
+    if (sim_mode == found) return mode;
   }
-  if (mTransparency > 0.0) {
-    aColour.a = static_cast<std::uint8_t>(std::lround(aColour.a * (1.0 - mTransparency)));
-  }
-  return aColour.a > 0;
+  return GROUND;
 }
 
 }  // namespace CCMorse

@@ -346,21 +346,11 @@ double MorseMotionVW::GetMaxTurnRate() const {
 // --- MorsePen
 
 MorsePen::MorsePen(const MorseRobot& aRobot, const std::string& aName)
-    : MorseActuator(aRobot, aName, "pen", "MorsePen"), Drawing(aRobot.mCore, "MorsePen") {
+    : MorseActuator(aRobot, aName, "pen", "MorsePen"), CanvasDrawing(aRobot.mCore, "MorsePen") {
   const sim::Colour& c = aRobot.mCore->robots().at(aRobot.mIndex).colour;
-  mColour = ImageColour_t(c.r, c.g, c.b, c.a);
+  SetMarkColour(ImageColour_t(c.r, c.g, c.b, c.a));
 }
 
 MorsePen::~MorsePen() = default;
-
-ImageColour_t MorsePen::GetColour() const {
-  const PlayerCc::mutex_t::scoped_lock lock(MorseDevice::Core()->mutex());
-  return mColour;
-}
-
-void MorsePen::SetColour(const ImageColour_t& aColour) {
-  const PlayerCc::mutex_t::scoped_lock lock(MorseDevice::Core()->mutex());
-  mColour = aColour;
-}
 
 }  // namespace CCMorse

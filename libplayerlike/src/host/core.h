@@ -12,7 +12,12 @@
 #include <vector>
 
 #include "host/recorder.h"
+#include "host/view_controls.h"
+#include "host/viewer_link.h"
 #include "playerlike/host/host.h"
+#include "playerlike/session/draw_queue.h"
+#include "playerlike/session/layer_book.h"
+#include "sim/world/occupancy_map.h"
 
 namespace playerlike {
 
@@ -30,6 +35,7 @@ struct Client {
 
   int number = 0;  ///< in order of connection; fixes the order of commands
   int port = 0;
+  bool follower = false;                    ///< see Session::open_follower()
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -46,24 +52,28 @@ struct Client {
   std::atomic<bool> closed{false};
   std::atomic<WallClock::rep> last_seen{0};
 
-  std::mutex input_mutex;  ///< guards what follows; taken after Core's mutex
+  std::mutex input_mutex;  ///< guards the commands; taken after Core's mutex
   std::vector<std::pair<DeviceId, sim::Command>> commands;
-  std::vector<sim::CanvasOperation> drawings;
+  DrawQueue drawings;  ///< any thread may push; the rest under Core's mutex
 };
 
 /// The body of a Host. See DESIGN section 3 and docs/architecture.md for the rules of time.
 ///
-/// One mutex guards simulation and clients. Commands and drawings go through each client's own
-/// input mutex, so that senders do not wait for a step.
-class Host::Core {
+/// One mutex guards simulation and clients. Commands go through each client's own input mutex and
+/// drawings through its own queue, so that senders do not wait for a step.
+class Host::Core : private ViewedRun {
  public:
   Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log);
-  ~Core();
+  ~Core() override;
 
   void start_pacer_if_needed();
   void stop_pacer();
+  /// Connects the run with its window, if the settings name one.
+  void start_viewer_if_needed();
+  /// Closes the window. Not to be called with the lock held.
+  void stop_viewer();
 
-  std::shared_ptr<Client> add_client(int port);
+  std::shared_ptr<Client> add_client(int port, bool follower = false);
   void remove_client(Client& client) noexcept;
   /// Forgets that a thread takes part; called when it ends.
   void thread_ended(std::thread::id thread) noexcept;
@@ -79,19 +89,36 @@ class Host::Core {
   void sleep(Client& client, double seconds);
 
   void send(Client& client, DeviceId device, const sim::Command& command);
-  void draw(Client& client, std::span<const sim::CanvasOperation> operations);
-  std::optional<sim::Colour> pixel(Client& client, int column, int row);
-  std::vector<std::uint8_t> canvas_image(Client& client);
+  void flush_drawings(Client& client);
+  /// Does something with the layers, after what the client has drawn so far: calls
+  /// action(layers, book) under the mutex.
+  template <typename Action>
+  auto with_layers(Client& client, Action action) {
+    const Lock lock = lock_soon();
+    require_open(client);
+    carry_out_drawings(client);
+    return action(simulation_.layers(), layer_book_);
+  }
+  void resize_canvas(Client& client, int width, int height);
+  void save_image(Client& client, const std::string& name, int scale);
+  sim::ViewMode view_mode() const;
+  void set_view_mode(Client& client, sim::ViewMode mode);
+  sim::OccupancyMap world_map(double cell_size_m) const;
+  void join(Client& client);
 
   void prefer_real_time(const std::string& reason);
   TimeStatistics time() const;
   void finish() noexcept;
   bool finished() const;
+  sim::RobotStatistics statistics(int robot) const;
   std::uint64_t state_hash() const;
 
   [[nodiscard]] bool is_sensor(DeviceId device) const;
   const std::vector<RobotInfo>& robots() const noexcept { return robots_; }
-  CanvasInfo canvas_info() const noexcept { return canvas_info_; }
+  CanvasInfo canvas_info() const;
+  std::uint64_t canvas_generation() const noexcept {
+    return canvas_generation_.load(std::memory_order_acquire);
+  }
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -109,18 +136,38 @@ class Host::Core {
   /// Whether what the client waits for is there.
   [[nodiscard]] bool wait_is_over(const Client& client) const;
   [[nodiscard]] bool gate_open();
+  [[nodiscard]] int joined_programs() const;
+  [[nodiscard]] bool program_takes_part() const;
   [[nodiscard]] bool all_wait() const;
   [[nodiscard]] bool thread_waits(std::thread::id thread) const;
-  void wait_for_others(Lock& lock);
+  void wait_for_others(Lock& lock, const Client& client);
   void advance();
   void apply_inputs(Client& client);
-  void flush_drawings(Client& client);
+  void carry_out_drawings(Client& client);
   void distribute();
   void release_waiters();
   void end_run();
   void write_results();
   void show_progress(bool last);
   void pace();
+  /// Holds the pacer while the user has paused the run.
+  void wait_while_paused(Lock& lock);
+
+  // The window, as ViewedRun; called by the link's thread.
+  ViewScene view_scene() override;
+  std::string on_key(std::uint32_t keysym, bool pressed, bool control) override;
+  void on_keys_released() override;
+  void on_saved(const std::string& file, const std::string& problem) override;
+  void on_closed() override;
+  void on_lost(const std::string& reason) override;
+  /// Carries out a pressed key that drives no robot.
+  void act(ViewAction action);
+  void change_view_mode(int by);
+  void change_speed(bool faster);
+  void change_pause();
+  [[nodiscard]] std::string next_picture_file();
+  /// Puts a passing message into the window.
+  void tell(const std::string& text);
   [[nodiscard]] TimeStatistics time_locked() const;
   void warn(const std::string& text) const;
 
@@ -128,13 +175,14 @@ class Host::Core {
   sim::LogHook log_;
   sim::Simulation simulation_;
   std::vector<RobotInfo> robots_;
-  CanvasInfo canvas_info_;
+  LayerBook layer_book_;
+  std::atomic<std::uint64_t> canvas_generation_{0};
   std::unique_ptr<Recorder> recorder_;
 
   mutable std::mutex mutex_;
   mutable std::atomic<int> knocking_{0};  ///< threads in lock_soon()
   std::condition_variable changed_;
-  std::vector<std::shared_ptr<Client>> clients_;
+  std::vector<std::shared_ptr<Client>> clients_;  ///< followers first, each kind in order of number
   int next_number_ = 0;
   bool gate_opened_ = false;
   bool ended_ = false;
@@ -148,6 +196,16 @@ class Host::Core {
   std::thread pacer_;
   bool paced_ = false;  ///< the pacer steps, not the clients
   bool stop_pacing_ = false;
+  double time_factor_ = 1.0;  ///< simulated seconds a wall second, when paced
+  bool paused_ = false;       ///< by the user at the window
+  int pace_changes_ = 0;      ///< counts changes of the two above
+
+  std::optional<HandDrive> hand_;  ///< of a run with a window
+  bool help_ = true;               ///< shown in the window
+  std::string message_;            ///< shown in the window until then
+  WallClock::time_point message_end_{};
+  int pictures_ = 0;  ///< number of the newest picture that the user saved
+  std::unique_ptr<ViewerLink> viewer_;
 };
 
 }  // namespace playerlike

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "host/log.h"
+#include "sim/render/render.h"
 
 namespace playerlike {
 namespace {
@@ -22,6 +23,7 @@ struct Registry {
   static Registry& instance() {
     static Registry* registry = [] {
       auto* made = new Registry;
+      sim::render::prepare_pictures();
       std::atexit(finish_all);
       return made;
     }();
@@ -47,14 +49,17 @@ std::shared_ptr<Host> host_of(const std::string& file) {
   try {
     RunSettings settings = RunSettings::from_environment();
     // The first world of a program writes its results into the folder that was asked for, each
-    // further one into a numbered folder in it; only the first can be filmed.
+    // further one into a numbered folder in it; only the first can be filmed or watched.
     if (registry.results > 0) {
       settings.film.clear();
+      settings.view_socket.reset();
       settings.progress = false;
       if (!settings.output_folder.empty()) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);
       }
     }
+    // The window is this process's own: programs that it starts must not take it for theirs.
+    unsetenv("PLAYPEN_VIEW");
     host = Host::create(sim::load_world(file), settings, log_to_stderr());
     ++registry.results;
   } catch (...) {

@@ -4,26 +4,28 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 #include <utility>
 
 #include "host/core.h"
 #include "host/end_of_program.h"
 #include "host/outputs.h"
 #include "session/in_process_session.h"
+#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
 
 constexpr std::size_t kQueueLimit = 1000;
-// A client may draw and command this much ahead of the next step before it is carried out, so that
-// one that never reads does not fill memory.
-constexpr std::size_t kDrawingLimit = 1 << 16;
+// A client may command this much ahead of the next step before it is carried out, so that one that
+// never reads does not fill memory.
 constexpr std::size_t kCommandLimit = 1 << 12;
 constexpr sim::SimTime kEmptyRound_ns = sim::kNanosecondsPerSecond / 10;
 // A program that ignores the end of the run this often is ended.
@@ -43,28 +45,25 @@ WallClock::duration wall(double seconds) {
 Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
-      simulation_((settings_.apply_to(world), std::move(world)), log_),
+      simulation_((check_drivers(world), settings_.apply_to(world), std::move(world)), log_),
       robots_(describe_robots(simulation_)) {
-  const sim::CanvasDescription& canvas = simulation_.world().canvas;
-  canvas_info_ = {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(),
-                  canvas.origin.y()};
-  std::string trajectory;
   if (!settings_.output_folder.empty()) {
-    const std::filesystem::path folder(settings_.output_folder);
-    std::filesystem::create_directories(folder);
-    trajectory = (folder / "trajectory.csv").string();
+    std::filesystem::create_directories(settings_.output_folder);
   }
-  recorder_ = std::make_unique<Recorder>(trajectory, settings_.film, simulation_);
+  recorder_ = std::make_unique<Recorder>(settings_, simulation_);
   mode_chosen_ = simulation_.world().simulation.time_mode_given;
+  time_factor_ = simulation_.world().simulation.time_factor;
   if (settings_.quiet_end) note_interrupts();
 }
 
 Host::Core::~Core() {
   finish();
+  stop_viewer();
   stop_pacer();
 }
 
 void Host::Core::start_pacer_if_needed() {
+  const Lock lock = lock_soon();  // the window's thread may look at paced_ already
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   paced_ = true;
   pacer_ = std::thread([this] { pace(); });
@@ -80,14 +79,17 @@ Host::Core::Lock Host::Core::lock_soon() const {
   return lock;
 }
 
-std::shared_ptr<Client> Host::Core::add_client(int port) {
+std::shared_ptr<Client> Host::Core::add_client(int port, bool follower) {
   const Lock lock = lock_soon();
   auto client = std::make_shared<Client>();
   client->number = next_number_++;
   client->port = port;
+  client->follower = follower;
   client->empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
   touch(*client);
-  clients_.push_back(client);
+  const auto programs =
+      std::find_if(clients_.begin(), clients_.end(), [](const auto& c) { return !c->follower; });
+  clients_.insert(follower ? programs : clients_.end(), client);
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
@@ -97,6 +99,8 @@ void Host::Core::remove_client(Client& client) noexcept {
   if (client.closed.exchange(true)) return;
   // What it asked for last still happens.
   if (!ended_) apply_inputs(client);
+  client.drawings.close();
+  layer_book_.leave(client.number);
   client.subscriptions.clear();
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
   changed_.notify_all();
@@ -189,11 +193,20 @@ std::uint32_t Host::Core::overflow(const Client& client) const {
 
 bool Host::Core::over() const { return ended_ || simulation_.finished(); }
 
+int Host::Core::joined_programs() const {
+  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(),
+                                        [](const auto& c) { return c->joined && !c->follower; }));
+}
+
+// Whether somebody is there for whom time may go on.
+bool Host::Core::program_takes_part() const {
+  return std::any_of(clients_.begin(), clients_.end(),
+                     [](const auto& c) { return c->joined && !c->silent && !c->follower; });
+}
+
 bool Host::Core::gate_open() {
   if (gate_opened_) return true;
-  const auto joined =
-      std::count_if(clients_.begin(), clients_.end(), [](const auto& c) { return c->joined; });
-  gate_opened_ = joined >= simulation_.world().simulation.start_gate_clients;
+  gate_opened_ = joined_programs() >= simulation_.world().simulation.start_gate_clients;
   return gate_opened_;
 }
 
@@ -220,22 +233,25 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.wake_ns = wake_ns;
   while (!wait_is_over(client)) {
     require_open(client);
-    client.waiting = true;
+    // Said once: threads that all only tell each other that they wait would never sleep.
+    const bool began = !std::exchange(client.waiting, true);
     if (paced_) {
-      changed_.notify_all();
+      if (began) changed_.notify_all();
       changed_.wait(lock);
-    } else if (gate_open() && all_wait()) {
+    } else if (gate_open() && program_takes_part() && all_wait()) {
       advance();
     } else {
-      changed_.notify_all();
-      wait_for_others(lock);
+      if (began) changed_.notify_all();
+      wait_for_others(lock, client);
     }
   }
   client.waiting = false;
 }
 
 // Waits for a change, and no longer than until a client has been silent for too long.
-void Host::Core::wait_for_others(Lock& lock) {
+void Host::Core::wait_for_others(Lock& lock, const Client& client) {
+  // A follower does not mind how long programs take.
+  if (client.follower) return changed_.wait(lock);
   const auto limit = wall(settings_.silence_limit_s);
   auto deadline = WallClock::now() + limit;
   if (gate_opened_) {
@@ -247,11 +263,9 @@ void Host::Core::wait_for_others(Lock& lock) {
   }
   if (changed_.wait_until(lock, deadline) != std::cv_status::timeout) return;
   if (!gate_opened_) {
-    const auto joined =
-        std::count_if(clients_.begin(), clients_.end(), [](const auto& c) { return c->joined; });
     warn("the start gate waits for " +
          std::to_string(simulation_.world().simulation.start_gate_clients) + " clients; " +
-         std::to_string(joined) + " have joined so far");
+         std::to_string(joined_programs()) + " have joined so far");
     return;
   }
   const auto now = WallClock::now();
@@ -273,6 +287,7 @@ void Host::Core::advance() {
     last_progress_ = now;
   }
   for (const auto& client : clients_) apply_inputs(*client);
+  if (hand_) hand_->before_step(simulation_);
   simulation_.step();
   last_step_ = now;
   recorder_->observe(simulation_);
@@ -286,17 +301,29 @@ void Host::Core::advance() {
 void Host::Core::apply_inputs(Client& client) {
   const std::lock_guard input(client.input_mutex);
   for (const auto& [device, command] : client.commands) {
+    if (hand_) hand_->note_command(device, command);
     if (const auto refusal = simulation_.apply(device, command)) warn(*refusal);
   }
   client.commands.clear();
-  flush_drawings(client);
+  carry_out_drawings(client);
 }
 
-void Host::Core::flush_drawings(Client& client) {
-  for (const sim::CanvasOperation& operation : client.drawings) {
-    operation.draw(simulation_.canvas());
-  }
-  client.drawings.clear();
+// Drawings on layers that are not the client's are left out; one look for each run of drawings on
+// the same layer sees to that.
+void Host::Core::carry_out_drawings(Client& client) {
+  client.drawings.drain([&](std::span<const sim::DrawOperation> operations) {
+    while (!operations.empty()) {
+      const sim::LayerId layer = operations.front().layer;
+      const auto end =
+          std::find_if(operations.begin(), operations.end(),
+                       [layer](const sim::DrawOperation& o) { return o.layer != layer; });
+      const auto count = static_cast<std::size_t>(end - operations.begin());
+      if (layer_book_.may_use(client.number, layer)) {
+        simulation_.layers().draw(operations.first(count));
+      }
+      operations = operations.subspan(count);
+    }
+  });
 }
 
 void Host::Core::distribute() {
@@ -427,34 +454,80 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   apply_inputs(client);
 }
 
-void Host::Core::draw(Client& client, std::span<const sim::CanvasOperation> operations) {
+// --- The canvas
+// -----------------------------------------------------------------------------------
+
+void Host::Core::flush_drawings(Client& client) {
+  const Lock lock = lock_soon();
   require_open(client);
-  bool full = false;
-  {
-    const std::lock_guard input(client.input_mutex);
-    client.drawings.insert(client.drawings.end(), operations.begin(), operations.end());
-    full = client.drawings.size() > kDrawingLimit;
+  touch(client);
+  carry_out_drawings(client);
+  client.drawings.reserve();
+}
+
+void Host::Core::resize_canvas(Client& client, int width, int height) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  // What others have drawn was meant for the cells as they were numbered then.
+  for (const auto& c : clients_) carry_out_drawings(*c);
+  layer_book_.resize(simulation_.layers(), width, height);
+  canvas_generation_.fetch_add(1, std::memory_order_acq_rel);
+}
+
+CanvasInfo Host::Core::canvas_info() const {
+  const Lock lock = lock_soon();
+  const sim::CanvasDescription canvas = simulation_.layers().description();
+  return {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()};
+}
+
+void Host::Core::save_image(Client& client, const std::string& name, int scale) {
+  const std::string file = picture_file(settings_.output_folder, name, scale);
+  sim::CanvasDescription canvas;
+  std::vector<std::uint8_t> rgba;
+  with_layers(client, [&](sim::LayerStack& layers, const LayerBook&) {
+    canvas = layers.description();
+    rgba = layers.composed();
+  });
+  write_picture(canvas, rgba, scale, file);
+}
+
+sim::ViewMode Host::Core::view_mode() const {
+  const Lock lock = lock_soon();
+  return simulation_.view_mode();
+}
+
+void Host::Core::set_view_mode(Client& client, sim::ViewMode mode) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  if (const auto refusal = simulation_.set_view_mode(mode)) {
+    throw SessionError(SessionError::Code::kNotAvailable, *refusal);
   }
-  if (!full) return;
-  const Lock lock = lock_soon();
-  const std::lock_guard input(client.input_mutex);
-  flush_drawings(client);
 }
 
-std::optional<sim::Colour> Host::Core::pixel(Client& client, int column, int row) {
+sim::OccupancyMap Host::Core::world_map(double cell_size_m) const {
+  constexpr int kMaxSide = 8192;
   const Lock lock = lock_soon();
-  require_open(client);
-  const std::lock_guard input(client.input_mutex);
-  flush_drawings(client);
-  return simulation_.canvas().pixel(column, row);
+  const sim::ArenaDescription& arena = simulation_.world().arena;
+  // A side that is a whole number of cells long is not to get another one by rounding.
+  const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
+  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a map of this arena needs a cell size of at least " +
+                           std::to_string(arena.size.maxCoeff() / kMaxSide) + " m, but it is " +
+                           std::to_string(cell_size_m));
+  }
+  sim::CanvasDescription grid;
+  grid.width = static_cast<int>(cells.x());
+  grid.height = static_cast<int>(cells.y());
+  grid.cell_size_m = cell_size_m;
+  grid.origin = arena.origin;
+  return sim::true_map(arena, grid);
 }
 
-std::vector<std::uint8_t> Host::Core::canvas_image(Client& client) {
+void Host::Core::join(Client& client) {
   const Lock lock = lock_soon();
-  require_open(client);
-  const std::lock_guard input(client.input_mutex);
-  flush_drawings(client);
-  return simulation_.canvas().data();
+  adopt(client);
+  changed_.notify_all();  // the start gate may have waited for it
 }
 
 // --- Pacing
@@ -473,18 +546,33 @@ void Host::Core::prefer_real_time(const std::string& reason) {
 
 void Host::Core::pace() {
   Lock lock(mutex_);
-  const double factor = simulation_.world().simulation.time_factor;
   const double step_s = sim::to_seconds(simulation_.world().simulation.step_ns);
   const auto gate_clients = simulation_.world().simulation.start_gate_clients;
   changed_.wait(
       lock, [&] { return stop_pacing_ || (gate_clients <= 1 ? !clients_.empty() : gate_open()); });
+  // Step number done + 1 since `base` is due at base + (done + 1) * step / factor.
   auto base = WallClock::now();
   std::uint64_t done = 0;
+  double factor = time_factor_;
+  int changes = pace_changes_;
   while (!stop_pacing_ && !over()) {
+    if (paused_) {
+      wait_while_paused(lock);
+      base = WallClock::now();
+      done = 0;
+      continue;
+    }
+    if (changes != pace_changes_) {
+      // From the newest step on at the new speed: nothing is caught up with, nothing lost.
+      base += wall(static_cast<double>(done) * step_s / factor);
+      done = 0;
+      factor = time_factor_;
+      changes = pace_changes_;
+    }
     const auto due = base + wall(static_cast<double>(done + 1) * step_s / factor);
     const auto now = WallClock::now();
     if (now < due) {
-      changed_.wait_until(lock, due, [&] { return stop_pacing_; });
+      changed_.wait_until(lock, due, [&] { return stop_pacing_ || changes != pace_changes_; });
       continue;
     }
     // Far behind (a suspended machine, a factor beyond what it can do): go on from here instead
@@ -499,6 +587,17 @@ void Host::Core::pace() {
       lock.unlock();
       std::this_thread::yield();
       lock.lock();
+    }
+  }
+}
+
+void Host::Core::wait_while_paused(Lock& lock) {
+  while (paused_ && !stop_pacing_ && !over()) {
+    changed_.wait_for(lock, std::chrono::milliseconds(50));
+    // Without a step nobody else would see the signal.
+    if (settings_.quiet_end && interrupted() && !ended_) {
+      end_run();
+      release_waiters();
     }
   }
 }
@@ -532,6 +631,8 @@ void Host::Core::finish() noexcept {
 
 void Host::Core::end_run() {
   ended_ = true;
+  // Threads that take no part in the lockstep may have drawn since the last step.
+  for (const auto& client : clients_) carry_out_drawings(*client);
   if (settings_.progress) show_progress(true);
   try {
     write_results();
@@ -542,7 +643,12 @@ void Host::Core::end_run() {
 }
 
 void Host::Core::write_results() {
-  recorder_->close();
+  // A film that failed is no reason to keep back the rest.
+  try {
+    recorder_->close();
+  } catch (const std::exception& e) {
+    warn(std::string("the recording is not complete: ") + e.what());
+  }
   if (settings_.output_folder.empty()) return;
   write_outputs(settings_.output_folder, simulation_, recorder_->scene(simulation_), time_locked());
 }
@@ -605,6 +711,11 @@ bool Host::Core::finished() const {
   return over();
 }
 
+sim::RobotStatistics Host::Core::statistics(int robot) const {
+  const Lock lock = lock_soon();
+  return simulation_.statistics(robot);
+}
+
 std::uint64_t Host::Core::state_hash() const {
   const Lock lock = lock_soon();
   return simulation_.state_hash();
@@ -612,6 +723,156 @@ std::uint64_t Host::Core::state_hash() const {
 
 void Host::Core::warn(const std::string& text) const {
   if (log_) log_(sim::LogLevel::kWarning, text);
+}
+
+// --- The window
+// ---------------------------------------------------------------------------------------
+
+void Host::Core::start_viewer_if_needed() {
+  if (!settings_.view_socket) return;
+  hand_.emplace(robots_);
+  viewer_ = std::make_unique<ViewerLink>(*settings_.view_socket, static_cast<ViewedRun&>(*this));
+}
+
+void Host::Core::stop_viewer() {
+  std::unique_ptr<ViewerLink> viewer;
+  {
+    const Lock lock = lock_soon();
+    viewer = std::move(viewer_);
+  }
+}
+
+ViewScene Host::Core::view_scene() {
+  const Lock lock = lock_soon();
+  ViewScene view;
+  view.scene = recorder_->scene(simulation_);
+  view.finished = over();
+  view.paused = paused_;
+  if (hand_->chosen() >= 0) {
+    const auto index = static_cast<std::size_t>(hand_->chosen());
+    const sim::Colour colour = robots_[index].colour;
+    view.scene.robots[index].marked = true;
+    view.robot_colour = static_cast<std::uint32_t>(colour.r) << 16U |
+                        static_cast<std::uint32_t>(colour.g) << 8U | colour.b;
+    view.status = robots_[index].name + (hand_->active() ? " by hand    " : "    ");
+  }
+  std::array<char, 64> time{};
+  std::snprintf(time.data(), time.size(), "t %.1f s    ", sim::to_seconds(simulation_.now_ns()));
+  view.status += time.data();
+  view.status += (paced_ ? factor_text(time_factor_) : "lockstep") + "    ";
+  view.status += sim::to_string(simulation_.view_mode());
+  if (paused_) view.status += "    paused";
+  if (WallClock::now() < message_end_) view.message = message_;
+  if (help_) view.help = view_help();
+  return view;
+}
+
+std::string Host::Core::on_key(std::uint32_t keysym, bool pressed, bool control) {
+  // A key that went down without Ctrl may come up with it.
+  const auto action = view_action(keysym, control && pressed);
+  if (!action) return "";
+  if (*action == ViewAction::kEnd) {
+    if (pressed) on_closed();
+    return "";
+  }
+  const Lock lock = lock_soon();
+  if (*action <= ViewAction::kRight) {
+    hand_->hold(*action, pressed);
+    if (pressed && paused_) tell("paused: the robot moves when time does (Space)");
+    return "";
+  }
+  if (!pressed) return "";
+  if (*action == ViewAction::kSave) return next_picture_file();
+  act(*action);
+  return "";
+}
+
+void Host::Core::act(ViewAction action) {
+  switch (action) {
+    case ViewAction::kNextMode:
+      return change_view_mode(+1);
+    case ViewAction::kPreviousMode:
+      return change_view_mode(-1);
+    case ViewAction::kNextRobot:
+      hand_->choose_next(simulation_);
+      return;
+    case ViewAction::kPause:
+      return change_pause();
+    case ViewAction::kFaster:
+    case ViewAction::kSlower:
+      return change_speed(action == ViewAction::kFaster);
+    case ViewAction::kHelp:
+      help_ = !help_;
+      return;
+    default:
+      return;  // driving, saving and ending are done by on_key
+  }
+}
+
+void Host::Core::change_view_mode(int by) {
+  const auto& modes = sim::kViewModes;
+  const auto count = static_cast<int>(modes.size());
+  const auto now = std::find(modes.begin(), modes.end(), simulation_.view_mode()) - modes.begin();
+  const auto next = static_cast<std::size_t>((static_cast<int>(now) + by + count) % count);
+  if (const auto refusal = simulation_.set_view_mode(modes.at(next))) tell(*refusal);
+}
+
+void Host::Core::change_speed(bool faster) {
+  if (!paced_) return tell("lockstep: time goes as fast as the program");
+  const double factor = next_time_factor(time_factor_, faster);
+  if (factor == time_factor_) {
+    return tell(std::string("no ") + (faster ? "faster" : "slower") + " than " +
+                factor_text(factor));
+  }
+  time_factor_ = factor;
+  ++pace_changes_;
+  changed_.notify_all();
+}
+
+void Host::Core::change_pause() {
+  if (!paced_) return tell("lockstep: time cannot be paused");
+  paused_ = !paused_;
+  ++pace_changes_;
+  changed_.notify_all();
+}
+
+std::string Host::Core::next_picture_file() {
+  if (settings_.output_folder.empty()) {
+    tell("no picture: the run has no output folder");
+    return "";
+  }
+  std::array<char, 32> name{};
+  std::filesystem::path file;
+  std::error_code ignored;  // in a folder that cannot be looked at writing fails, and says why
+  do {
+    std::snprintf(name.data(), name.size(), "view_%06d.png", ++pictures_);
+    file = std::filesystem::path(settings_.output_folder) / name.data();
+  } while (std::filesystem::exists(file, ignored));
+  return file.string();
+}
+
+void Host::Core::on_keys_released() {
+  const Lock lock = lock_soon();
+  hand_->release_all();
+}
+
+void Host::Core::on_saved(const std::string& file, const std::string& problem) {
+  const Lock lock = lock_soon();
+  tell(problem.empty() ? "saved " + std::filesystem::path(file).filename().string() : problem);
+}
+
+void Host::Core::on_closed() { finish(); }
+
+void Host::Core::on_lost(const std::string& reason) {
+  const Lock lock = lock_soon();
+  hand_->release_all();
+  if (paused_) change_pause();
+  if (!over()) warn("there is no window any more (" + reason + "); the run goes on without it");
+}
+
+void Host::Core::tell(const std::string& text) {
+  message_ = text;
+  message_end_ = WallClock::now() + std::chrono::seconds(4);
 }
 
 // --- Host
@@ -623,6 +884,7 @@ Host::~Host() = default;
 std::shared_ptr<Host> Host::create(sim::WorldDescription world, RunSettings settings,
                                    sim::LogHook log) {
   auto core = std::make_unique<Core>(std::move(world), std::move(settings), std::move(log));
+  core->start_viewer_if_needed();
   core->start_pacer_if_needed();
   return std::shared_ptr<Host>(new Host(std::move(core)));
 }
@@ -648,11 +910,13 @@ void Host::thread_ended(std::thread::id thread) noexcept { core_->thread_ended(t
 
 void Host::finish() noexcept {
   core_->finish();
+  core_->stop_viewer();
   core_->stop_pacer();
 }
 
 bool Host::finished() const { return core_->finished(); }
 TimeStatistics Host::time() const { return core_->time(); }
+sim::RobotStatistics Host::statistics(int robot) const { return core_->statistics(robot); }
 std::uint64_t Host::state_hash() const { return core_->state_hash(); }
 
 }  // namespace playerlike

@@ -1,20 +1,131 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/outputs.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
+#include <vector>
 
+#include "host/picture_sizes.h"
+#include "playerlike/host/results.h"
+#include "sim/canvas/layers.h"
+#include "sim/io/map_file.h"
 #include "sim/render/render.h"
 
 namespace playerlike {
 namespace {
 
-constexpr int kSceneSize_px = 1200;
-constexpr int kCanvasScale = 4;
+namespace fs = std::filesystem;
+
+constexpr const char* kLayerFolder = "layers";
+
+// Pixels a cell: a whole number, so that cells are crisp.
+int cell_scale(const sim::CanvasDescription& canvas) {
+  return std::max(1, kCanvasMostSize_px / std::max(canvas.width, canvas.height));
+}
+
+// A layer's name as that of a file: other characters than these could be a path, or trouble.
+std::string safe_name(const std::string& name) {
+  std::string safe = name;
+  for (char& c : safe) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_';
+    if (!plain) c = '_';
+  }
+  return safe.empty() ? "_" : safe;
+}
+
+// The files' names of layers, without ending. Those that would be the same, also where case does
+// not count, get their owner's port behind them, and a number if that does not tell them apart.
+std::vector<std::string> file_names(const std::vector<sim::LayerInfo>& layers) {
+  const auto folded = [](std::string name) {
+    for (char& c : name) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    }
+    return name;
+  };
+  std::map<std::string, int> count;
+  for (const sim::LayerInfo& layer : layers) ++count[folded(safe_name(layer.style.name))];
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const sim::LayerInfo& layer : layers) {
+    const std::string plain = safe_name(layer.style.name);
+    std::string name = plain;
+    if (count[folded(plain)] > 1 && layer.id != sim::kBaseLayer) {
+      name += "_";
+      name += std::to_string(layer.owner);
+    }
+    const std::string base = name;
+    for (int number = 2; !taken.insert(folded(name)).second; ++number) {
+      name = base;
+      name += "_";
+      name += std::to_string(number);
+    }
+    names.push_back(name);
+  }
+  return names;
+}
+
+// Removes the files of a folder that `is_ours` says are ours.
+template <typename Predicate>
+void remove_files(const fs::path& folder, Predicate is_ours) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  std::vector<fs::path> ours;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory() && is_ours(entry.path())) ours.push_back(entry.path());
+  }
+  for (const fs::path& file : ours) {
+    fs::remove(file, error);
+    if (error) {
+      throw std::runtime_error("an earlier result, " + file.string() +
+                               ", can't be removed: " + error.message());
+    }
+  }
+}
+
+void remove_if_empty(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove(folder, ignored);  // fails, as it should, unless it is empty
+}
+
+void remove_layers(const fs::path& folder) {
+  remove_files(folder / kLayerFolder, [](const fs::path& file) {
+    const std::string ending = file.extension().string();
+    return ending == ".png" || ending == ".pgm" || ending == ".yaml";
+  });
+  remove_if_empty(folder / kLayerFolder);
+}
+
+void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
+  remove_layers(folder);
+  const std::vector<sim::LayerInfo> layers = stack.layers();
+  const std::vector<std::string> names = file_names(layers);
+  const sim::CanvasDescription canvas = stack.description();
+  fs::create_directories(folder / kLayerFolder);
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const sim::LayerId id = layers[i].id;
+    const std::string stem = (folder / kLayerFolder / names[i]).string();
+    sim::render::write_png(sim::render::draw_canvas(canvas, stack.picture(id), cell_scale(canvas)),
+                           stem + ".png");
+    if (layers[i].kind != sim::LayerKind::kGrey) continue;
+    sim::OccupancyMap map;
+    map.width = canvas.width;
+    map.height = canvas.height;
+    map.cell_size_m = canvas.cell_size_m;
+    map.origin = canvas.origin;
+    for (const sim::CellValue& cell : stack.cells(id)) map.cells.push_back(cell.occupancy());
+    sim::io::write_map(map, stem);
+  }
+}
 
 std::string hex(std::uint64_t value) {
   std::array<char, 20> text{};
@@ -47,20 +158,101 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
 
 }  // namespace
 
+void remove_snapshots(const std::string& folder) {
+  remove_files(fs::path(folder) / kSnapshotFolder, [](const fs::path& file) {
+    const std::string name = file.filename().string();
+    return name.starts_with("scene_") && name.ends_with("s.png");
+  });
+  remove_if_empty(fs::path(folder) / kSnapshotFolder);
+}
+
+void remove_results(const std::string& folder) {
+  constexpr std::array<std::string_view, 4> kFiles = {"report.json", "scene.png", "canvas.png",
+                                                      "trajectory.csv"};
+  for (const std::string_view name : kFiles) {
+    std::error_code error;
+    const fs::path file = fs::path(folder) / name;
+    fs::remove(file, error);
+    if (error) {
+      throw std::runtime_error("an earlier result, " + file.string() +
+                               ", can't be removed: " + error.message());
+    }
+  }
+  remove_layers(folder);
+  remove_snapshots(folder);
+  // Those that a user saved from the live window.
+  remove_files(folder, [](const fs::path& file) {
+    const std::string name = file.filename().string();
+    return name.starts_with("view_") && name.ends_with(".png");
+  });
+}
+
 void write_outputs(const std::string& folder, const sim::Simulation& simulation,
                    const sim::SceneSnapshot& scene, const TimeStatistics& time) {
-  const std::filesystem::path out(folder);
-  sim::render::write_png(sim::render::draw_scene(scene, {.size_px = kSceneSize_px}),
-                         (out / "scene.png").string());
+  const fs::path out(folder);
+  const bool mini_map = scene.view_mode == sim::ViewMode::kMiniMap;
+  sim::render::SceneRenderer renderer({.size_px = kSceneSize_px});
   sim::render::write_png(
-      sim::render::draw_canvas(scene.canvas_description, scene.canvas, kCanvasScale),
-      (out / "canvas.png").string());
+      renderer.draw(scene, mini_map ? sim::ViewMode::kMiniMap : sim::ViewMode::kGround),
+      (out / "scene.png").string());
+  sim::render::write_png(sim::render::draw_canvas(scene.canvas_description, scene.canvas,
+                                                  cell_scale(scene.canvas_description)),
+                         (out / "canvas.png").string());
+  write_layers(out, simulation.layers());
   // Last, so that a report means that all is there.
   const std::string file = (out / "report.json").string();
   std::ofstream stream(file, std::ios::trunc);
   stream << report(simulation, time).dump(2) << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file);
+}
+
+std::string picture_file(const std::string& folder, const std::string& name, int scale) {
+  constexpr std::size_t kMaxName = 100;
+  constexpr int kMaxScale = 64;
+  const bool plain = !name.empty() && name.size() <= kMaxName && name.front() != '.' &&
+                     std::none_of(name.begin(), name.end(), [](char c) {
+                       const auto byte = static_cast<unsigned char>(c);
+                       return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7f;
+                     });
+  if (!plain) {
+    throw SessionError(
+        SessionError::Code::kBadArgument,
+        "a picture is saved in the run's output folder, under a plain file name of 1 "
+        "to " +
+            std::to_string(kMaxName) +
+            " characters such as \"map.png\", without folders and no dot in front; "
+            "but the name is \"" +
+            name.substr(0, kMaxName) + '"');
+  }
+  if (scale < 1 || scale > kMaxScale) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a picture has 1 to " + std::to_string(kMaxScale) +
+                           " pixels along a cell's side, but " + std::to_string(scale) +
+                           " were asked for");
+  }
+  if (folder.empty()) {
+    throw SessionError(SessionError::Code::kNotAvailable,
+                       "there is no folder to save pictures in: name one by `playpen run --out "
+                       "FOLDER` or PLAYPEN_OUT");
+  }
+  const std::filesystem::path file =
+      std::filesystem::path(folder) / (name.ends_with(".png") ? name : name + ".png");
+  std::error_code ignored;  // what cannot be looked at cannot be written either
+  if (std::filesystem::is_symlink(file, ignored)) {
+    throw SessionError(SessionError::Code::kNotAvailable,
+                       file.string() + " is a link, which may lead out of the output folder");
+  }
+  return file.string();
+}
+
+void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::uint8_t>& rgba,
+                   int scale, const std::string& file) {
+  try {
+    sim::render::write_png(sim::render::draw_canvas(canvas, rgba, scale), file);
+  } catch (const std::exception& e) {
+    throw SessionError(SessionError::Code::kNotAvailable, e.what());
+  }
 }
 
 }  // namespace playerlike

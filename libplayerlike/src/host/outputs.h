@@ -1,7 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "playerlike/messages/messages.h"
 #include "sim/simulation/scene_snapshot.h"
@@ -9,9 +11,30 @@
 
 namespace playerlike {
 
-/// Writes report.json, scene.png and canvas.png into `folder`.
+/// Folder of the pictures that are made while a run goes on, in its output folder.
+inline constexpr const char* kSnapshotFolder = "snapshots";
+
+/// Removes the pictures of earlier runs from an output folder's snapshots/.
+/// @throws std::runtime_error naming the file that can't be removed and the reason.
+void remove_snapshots(const std::string& folder);
+
+/// Writes report.json, scene.png, canvas.png and, for each layer, layers/NAME.png (and NAME.pgm
+/// with NAME.yaml for grey ones, see sim::io::write_map) into `folder`.
+///
+/// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
+/// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
+/// layers of one name get their clients' ports behind it, and a number if that is not enough.
 /// @throws std::runtime_error naming the file that could not be written.
 void write_outputs(const std::string& folder, const sim::Simulation& simulation,
                    const sim::SceneSnapshot& scene, const TimeStatistics& time);
+
+/// Where a picture goes that a client wants saved.
+/// @throws SessionError as Session::save_image().
+[[nodiscard]] std::string picture_file(const std::string& folder, const std::string& name,
+                                       int scale);
+/// Writes the canvas as a PNG, scale x scale pixels a cell.
+/// @throws SessionError kNotAvailable if it cannot be written.
+void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::uint8_t>& rgba,
+                   int scale, const std::string& file);
 
 }  // namespace playerlike

@@ -1,20 +1,26 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/program.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
+#include <utility>
+
+#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
@@ -103,11 +109,20 @@ class HeldSignals {
   /// @return its number if another process sent it and it is to be passed on, else 0.
   [[nodiscard]] int wait_to_forward() const {
     // A bounded wait: SIGCHLD may have gone to another thread of this process, if it has any.
-    const timespec a_while{0, 200'000'000};
     siginfo_t info{};
-    const int signal = sigtimedwait(&held_, &info, &a_while);
+    const int signal = wait(std::chrono::milliseconds(200), &info);
     const bool from_a_process = info.si_code == SI_USER || info.si_code == SI_QUEUE;
     return signal > 0 && signal != SIGCHLD && from_a_process ? signal : 0;
+  }
+
+  /// Waits for one of the signals, whoever sent it, no longer than told.
+  /// @return its number, or -1 if none came.
+  [[nodiscard]] int wait(std::chrono::nanoseconds at_most, siginfo_t* info = nullptr) const {
+    constexpr long long kNanoseconds = 1'000'000'000;
+    const long long count = std::max<long long>(at_most.count(), 0);
+    const timespec time{static_cast<time_t>(count / kNanoseconds),
+                        static_cast<long>(count % kNanoseconds)};
+    return sigtimedwait(&held_, info, &time);
   }
 
  private:
@@ -116,23 +131,155 @@ class HeldSignals {
   struct sigaction old_child_action_ {};
 };
 
-pid_t start(std::vector<std::string> command, const EnvironmentChanges& changes,
-            const sigset_t& mask) {
-  std::vector<std::string> environment = changed_environment(changes);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setsigmask(&attributes, &mask);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, command.front().c_str(), nullptr, &attributes,
-                                pointers(command).data(), pointers(environment).data());
-  posix_spawnattr_destroy(&attributes);
-  if (error != 0) {
-    throw ProgramError("the program " + in_quotes(command.front()) +
-                       " can't be started: " + std::strerror(error));
+/// What a program is started with besides its command and environment.
+class SpawnSettings {
+ public:
+  /// @param mask  the signal mask of the program.
+  explicit SpawnSettings(const sigset_t& mask) {
+    posix_spawnattr_init(&attributes_);
+    posix_spawn_file_actions_init(&files_);
+    posix_spawnattr_setsigmask(&attributes_, &mask);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK);
   }
-  return child;
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+  ~SpawnSettings() {
+    posix_spawn_file_actions_destroy(&files_);
+    posix_spawnattr_destroy(&attributes_);
+  }
+
+  /// A process group of its own, no input, and this descriptor for what it prints.
+  void set_apart(int output) {
+    posix_spawnattr_setpgroup(&attributes_, 0);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+    posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_adddup2(&files_, output, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files_, output, STDERR_FILENO);
+  }
+
+  [[nodiscard]] pid_t start(std::vector<std::string> command,
+                            const EnvironmentChanges& changes) const {
+    std::vector<std::string> environment = changed_environment(changes);
+    pid_t child = 0;
+    const int error = posix_spawn(&child, command.front().c_str(), &files_, &attributes_,
+                                  pointers(command).data(), pointers(environment).data());
+    if (error != 0) {
+      throw ProgramError("the program " + in_quotes(command.front()) +
+                         " can't be started: " + std::strerror(error));
+    }
+    return child;
+  }
+
+ private:
+  posix_spawnattr_t attributes_{};
+  posix_spawn_file_actions_t files_{};
+};
+
+ProgramEnd program_end(int wait_state) {
+  ProgramEnd end;
+  if (WIFSIGNALED(wait_state)) {
+    end.signal = WTERMSIG(wait_state);
+  } else {
+    end.status = WEXITSTATUS(wait_state);
+  }
+  return end;
 }
+
+/// Waits for a child that has ended or must. Interruptions do not matter here.
+int reap(pid_t child) {
+  int state = 0;
+  while (waitpid(child, &state, 0) < 0 && errno == EINTR) {
+  }
+  return state;
+}
+
+using Clock = std::chrono::steady_clock;
+
+/// A program that runs in a group of its own. Killed, with all its group, if it is let go.
+class GroupedProgram {
+ public:
+  GroupedProgram(const ProgramJob& job, std::size_t index, const sigset_t& mask) : index_(index) {
+    // Closed in the program by exec; dup2 clears that on the copies.
+    const int output =
+        open(job.output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (output < 0) {
+      throw ProgramError("the file " + in_quotes(job.output_file) +
+                         " can't be made: " + std::strerror(errno));
+    }
+    try {
+      SpawnSettings settings(mask);
+      settings.set_apart(output);
+      child_ = settings.start(job.command, job.environment);
+    } catch (...) {
+      close(output);
+      throw;
+    }
+    close(output);
+  }
+  GroupedProgram(GroupedProgram&& other) noexcept
+      : index_(other.index_),
+        child_(std::exchange(other.child_, 0)),
+        start_(other.start_),
+        kind_(other.kind_),
+        kill_time_(other.kill_time_) {}
+  GroupedProgram& operator=(GroupedProgram&& other) noexcept {
+    std::swap(index_, other.index_);
+    std::swap(child_, other.child_);
+    std::swap(start_, other.start_);
+    std::swap(kind_, other.kind_);
+    std::swap(kill_time_, other.kill_time_);
+    return *this;
+  }
+  ~GroupedProgram() {
+    if (child_ == 0) return;
+    kill(-child_, SIGKILL);
+    reap(child_);
+  }
+
+  [[nodiscard]] std::size_t index() const noexcept { return index_; }
+
+  /// How it ended; nullopt while it runs.
+  [[nodiscard]] std::optional<JobEnd> poll() {
+    siginfo_t info{};
+    if (waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+        info.si_pid == 0) {
+      return std::nullopt;
+    }
+    // Before its number is given back, so that the group can be nobody else's.
+    kill(-child_, SIGKILL);
+    const ProgramEnd program = program_end(reap(std::exchange(child_, 0)));
+    return JobEnd{kind_, program, std::chrono::duration<double>(Clock::now() - start_).count()};
+  }
+
+  /// Asks it to end, for this reason, and sees to it that it does after the grace.
+  void ask_to_end(JobEnd::Kind reason, Clock::duration grace) {
+    if (kill_time_) return;
+    kind_ = reason;
+    kill_time_ = Clock::now() + grace;
+    kill(-child_, SIGTERM);
+    kill(-child_, SIGCONT);  // one that was stopped could not end
+  }
+
+  /// Does what is due by now.
+  /// @param timeout  how long it may run.
+  /// @return when something is due next.
+  Clock::time_point look_after(Clock::duration timeout, Clock::duration grace) {
+    const Clock::time_point now = Clock::now();
+    if (now - start_ >= timeout) ask_to_end(JobEnd::Kind::kTimedOut, grace);
+    if (kill_time_ && now >= *kill_time_) kill(-child_, SIGKILL);
+    if (kill_time_) return std::max(*kill_time_, now + std::chrono::milliseconds(10));
+    return start_ + timeout;
+  }
+
+  void end_grace() { kill_time_ = Clock::now(); }
+
+ private:
+  std::size_t index_;
+  pid_t child_ = 0;
+  Clock::time_point start_ = Clock::now();
+  JobEnd::Kind kind_ = JobEnd::Kind::kEnded;
+  std::optional<Clock::time_point> kill_time_;  ///< set once it was asked to end
+};
 
 }  // namespace
 
@@ -173,6 +320,20 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_WORLD"] = path_or_nothing(world_file);
   changes["PLAYPEN_OUT"] = path_or_nothing(settings.output_folder);
   changes["PLAYPEN_RECORD"] = path_or_nothing(settings.film);
+  changes["PLAYPEN_VIEW"] =
+      settings.view_socket ? std::optional(std::to_string(*settings.view_socket)) : std::nullopt;
+  const RunSettings defaults;
+  const auto number_unless = [](double value, double by_default) {
+    return value != by_default ? std::optional(number_text(value)) : std::nullopt;
+  };
+  changes["PLAYPEN_RECORD_FPS"] = number_unless(settings.film_fps, defaults.film_fps);
+  changes["PLAYPEN_RECORD_SPEED"] = number_unless(settings.film_speed, defaults.film_speed);
+  changes["PLAYPEN_SNAPSHOT_EVERY"] = settings.snapshot_period_s
+                                          ? std::optional(number_text(*settings.snapshot_period_s))
+                                          : std::nullopt;
+  changes["PLAYPEN_VIEW_MODE"] =
+      settings.view_mode ? std::optional(std::string(sim::to_string(*settings.view_mode)))
+                         : std::nullopt;
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =
@@ -188,7 +349,7 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
 ProgramEnd run_program(const std::vector<std::string>& command,
                        const EnvironmentChanges& environment) {
   const HeldSignals signals;
-  const pid_t child = start(command, environment, signals.old_mask());
+  const pid_t child = SpawnSettings(signals.old_mask()).start(command, environment);
   int state = 0;
   for (;;) {
     const pid_t ended = waitpid(child, &state, WNOHANG);
@@ -198,13 +359,57 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     }
     if (const int signal = signals.wait_to_forward(); signal != 0) kill(child, signal);
   }
-  ProgramEnd end;
-  if (WIFSIGNALED(state)) {
-    end.signal = WTERMSIG(state);
-  } else {
-    end.status = WEXITSTATUS(state);
+  return program_end(state);
+}
+
+std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobLimits& limits,
+                                 const std::function<void(std::size_t)>& on_start,
+                                 const std::function<void(std::size_t, const JobEnd&)>& on_end) {
+  constexpr double kForEver_s = 1e9;  // 30 years
+  const auto duration = [&](double seconds) {
+    return std::chrono::duration_cast<Clock::duration>(
+        std::chrono::duration<double>(std::min(seconds, kForEver_s)));
+  };
+  const Clock::duration grace = duration(limits.grace_s);
+  const Clock::duration timeout = duration(limits.timeout_s > 0.0 ? limits.timeout_s : kForEver_s);
+  const auto at_once = static_cast<std::size_t>(std::max(limits.at_once, 1));
+
+  const HeldSignals signals;
+  std::vector<JobEnd> ends(jobs.size());
+  std::vector<GroupedProgram> running;
+  std::size_t next = 0;
+  bool told_to_end = false;
+  while (!running.empty() || (next < jobs.size() && !told_to_end)) {
+    while (!told_to_end && next < jobs.size() && running.size() < at_once) {
+      running.emplace_back(jobs[next], next, signals.old_mask());
+      if (on_start) on_start(next);
+      ++next;
+    }
+    // Bounded for the same reason as in wait_to_forward().
+    Clock::time_point wake = Clock::now() + std::chrono::milliseconds(200);
+    for (GroupedProgram& program : running) {
+      wake = std::min(wake, program.look_after(timeout, grace));
+    }
+    if (const int signal = signals.wait(wake - Clock::now()); signal > 0 && signal != SIGCHLD) {
+      for (GroupedProgram& program : running) {
+        program.ask_to_end(JobEnd::Kind::kInterrupted, grace);
+        if (told_to_end) program.end_grace();
+      }
+      told_to_end = true;
+    }
+    for (auto program = running.begin(); program != running.end();) {
+      const std::optional<JobEnd> end = program->poll();
+      if (!end) {
+        ++program;
+        continue;
+      }
+      const std::size_t index = program->index();
+      program = running.erase(program);
+      ends[index] = *end;
+      if (on_end) on_end(index, *end);
+    }
   }
-  return end;
+  return ends;
 }
 
 }  // namespace playerlike

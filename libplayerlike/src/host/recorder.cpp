@@ -1,35 +1,67 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "host/recorder.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
+#include <utility>
+
+#include "host/outputs.h"
 
 namespace playerlike {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr sim::SimTime kRowPeriod_ns = sim::kNanosecondsPerSecond / 10;
-constexpr double kFramesPerSecond = 25.0;
-constexpr sim::SimTime kFramePeriod_ns = sim::kNanosecondsPerSecond / 25;
-constexpr int kFilmSize_px = 800;
 // A trail that reaches this many points is thinned to every other one.
 constexpr std::size_t kMaxTrailPoints = 8192;
 
 }  // namespace
 
-Recorder::Recorder(const std::string& trajectory_file, const std::string& film_file,
-                   const sim::Simulation& simulation)
-    : active_(!trajectory_file.empty() || !film_file.empty()), trajectory_file_(trajectory_file) {
-  if (!trajectory_file.empty()) {
-    trajectory_.open(trajectory_file, std::ios::trunc);
-    if (!trajectory_) throw std::runtime_error("cannot write " + trajectory_file);
+Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulation)
+    : active_(!settings.output_folder.empty() || !settings.film.empty()) {
+  const fs::path folder(settings.output_folder);
+  if (!settings.output_folder.empty()) {
+    trajectory_file_ = (folder / "trajectory.csv").string();
+    trajectory_.open(trajectory_file_, std::ios::trunc);
+    if (!trajectory_) throw std::runtime_error("cannot write " + trajectory_file_);
     trajectory_ << "time,robot,x,y,yaw,v,omega,stalled\n";
   }
-  if (!film_file.empty()) {
-    film_ = std::make_unique<sim::render::FilmWriter>(film_file, kFramesPerSecond);
+  std::unique_ptr<sim::render::FilmWriter> film;
+  if (!settings.film.empty()) {
+    film = std::make_unique<sim::render::FilmWriter>(settings.film, settings.film_fps);
+    film_clock_ = Clock(settings.film_speed / settings.film_fps);
+  }
+  if (settings.snapshot_period_s && !settings.output_folder.empty()) {
+    snapshot_folder_ = (folder / kSnapshotFolder).string();
+    remove_snapshots(settings.output_folder);
+    fs::create_directories(snapshot_folder_);
+    snapshot_clock_ = Clock(*settings.snapshot_period_s);
+  }
+  if (film || !snapshot_folder_.empty()) {
+    pictures_ = std::make_unique<PictureThread>(std::move(film));
   }
   trails_.resize(static_cast<std::size_t>(simulation.robot_count()));
   observe(simulation);
+}
+
+std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
+  if (period_s_ <= 0.0) return 0;
+  // The tolerance takes what rounding makes of whole numbers: it is far less than a step.
+  const double periods = sim::to_seconds(now_ns) / period_s_ * (1.0 + 1e-12) + 1e-9;
+  const std::uint64_t past = static_cast<std::uint64_t>(periods) + 1;
+  const std::uint64_t count = past - std::min(told_, past);
+  told_ = past;
+  return count;
+}
+
+std::string Recorder::picture_file(sim::SimTime now_ns) const {
+  std::array<char, 48> name{};
+  std::snprintf(name.data(), name.size(), "scene_%010.3fs.png", sim::to_seconds(now_ns));
+  return (fs::path(snapshot_folder_) / name.data()).string();
 }
 
 void Recorder::observe(const sim::Simulation& simulation) {
@@ -40,12 +72,14 @@ void Recorder::observe(const sim::Simulation& simulation) {
     next_row_ns_ += kRowPeriod_ns;
     write_rows(simulation);
   }
-  if (film_ && now_ns >= next_frame_ns_) {
-    const sim::render::Image frame =
-        sim::render::draw_scene(scene(simulation), {.size_px = kFilmSize_px});
-    // A step longer than a frame's time fills more than one frame.
-    for (; now_ns >= next_frame_ns_; next_frame_ns_ += kFramePeriod_ns) film_->add(frame);
-  }
+  if (!pictures_) return;
+  // A step longer than a frame's time fills more than one frame.
+  const auto frames = static_cast<int>(film_clock_.due(now_ns));
+  const bool picture = snapshot_clock_.due(now_ns) > 0;
+  if (frames == 0 && !picture) return;
+  pictures_->add({.scene = scene(simulation),
+                  .film_frames = frames,
+                  .picture = picture ? picture_file(now_ns) : std::string()});
 }
 
 void Recorder::extend_trails(const sim::Simulation& simulation) {
@@ -88,9 +122,10 @@ sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
 }
 
 void Recorder::close() {
-  film_.reset();
-  if (!trajectory_.is_open()) return;
-  trajectory_.close();
+  // The thread is gone afterwards whatever happens, and a second close() does nothing.
+  const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
+  if (trajectory_.is_open()) trajectory_.close();
+  if (pictures) pictures->finish();
   if (trajectory_.fail()) throw std::runtime_error("cannot write " + trajectory_file_);
 }
 

@@ -1,26 +1,29 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "sim/render/render.h"
+#include "host/picture_thread.h"
+#include "playerlike/host/run_settings.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike {
 
-/// Keeps a run's past for its results: the trails of the robots, trajectory.csv and the film.
-/// Called after each step by the thread that steps.
+/// Keeps a run's past for its results: the trails of the robots, trajectory.csv, the film and the
+/// pictures in snapshots/. Called after each step by the thread that steps; film and pictures are
+/// drawn and written on another.
+///
+/// A film's frame k shows the scene at k * film_speed / film_fps simulated seconds or, if that lies
+/// between two steps, after the later one. So a run of D seconds has floor(D * fps / speed) + 1
+/// frames. Pictures are made likewise every snapshot_period_s, but one a step at most.
 class Recorder {
  public:
-  /// Records nothing when both names are empty.
-  /// @param trajectory_file  CSV to write, or "".
-  /// @param film_file        film to write, or "".
-  /// @throws std::runtime_error if a file cannot be made.
-  Recorder(const std::string& trajectory_file, const std::string& film_file,
-           const sim::Simulation& simulation);
+  /// @throws std::runtime_error if a file or folder cannot be made.
+  Recorder(const RunSettings& settings, const sim::Simulation& simulation);
 
   void observe(const sim::Simulation& simulation);
 
@@ -39,13 +42,29 @@ class Recorder {
   void extend_trails(const sim::Simulation& simulation);
   void write_rows(const sim::Simulation& simulation);
 
-  bool active_;
+  /// What recurs at times k * period, k = 0, 1, ...
+  class Clock {
+   public:
+    Clock() = default;
+    explicit Clock(double period_s) : period_s_(period_s) {}
+    /// How many of the times have come since the last call.
+    [[nodiscard]] std::uint64_t due(sim::SimTime now_ns);
+
+   private:
+    double period_s_ = 0.0;  // 0: it never recurs
+    std::uint64_t told_ = 0;
+  };
+  [[nodiscard]] std::string picture_file(sim::SimTime now_ns) const;
+
+  bool active_ = false;
   std::string trajectory_file_;
   std::ofstream trajectory_;
-  std::unique_ptr<sim::render::FilmWriter> film_;
+  std::string snapshot_folder_;
+  std::unique_ptr<PictureThread> pictures_;  // none without film and pictures
   std::vector<Trail> trails_;
   sim::SimTime next_row_ns_ = 0;
-  sim::SimTime next_frame_ns_ = 0;
+  Clock film_clock_;
+  Clock snapshot_clock_;
 };
 
 }  // namespace playerlike

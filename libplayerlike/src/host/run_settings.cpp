@@ -5,10 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/core/error.h"
 #include "sim/core/time.h"
+#include "sim/render/render.h"
+#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
@@ -23,6 +26,14 @@ bool parse_whole(std::string_view text, T& value) {
 constexpr double kLongest_s = 1e9;
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
+
+// Reads a number in [least, most].
+bool parse_within(const std::string& text, double least, double most, double& value) {
+  double read = 0.0;
+  if (!parse_whole(text, read) || !(read >= least && read <= most)) return false;
+  value = read;
+  return true;
+}
 
 std::string_view environment(const char* name) {
   const char* value = std::getenv(name);
@@ -49,6 +60,18 @@ bool parse_time_mode(const std::string& text, sim::TimeMode& mode, double& facto
   mode = sim::TimeMode::kPaced;
   factor = value;
   return true;
+}
+
+bool parse_film_fps(const std::string& text, double& frames_per_second) {
+  return parse_within(text, 1.0, 240.0, frames_per_second);
+}
+
+bool parse_film_speed(const std::string& text, double& speed) {
+  return parse_within(text, 0.01, 1000.0, speed);
+}
+
+bool parse_snapshot_period(const std::string& text, double& period_s) {
+  return parse_within(text, 0.001, kLongest_s, period_s);
 }
 
 RunSettings RunSettings::from_environment() {
@@ -90,8 +113,42 @@ RunSettings RunSettings::from_environment() {
       wrong("PLAYPEN_SILENCE_LIMIT", "a number of seconds in (0, 1e9]");
     }
   }
+  if (const auto text = environment("PLAYPEN_VIEW"); !text.empty()) {
+    int descriptor = 0;
+    if (parse_whole(text, descriptor) && descriptor > 2) {
+      settings.view_socket = descriptor;
+    } else {
+      wrong("PLAYPEN_VIEW", "the number of a descriptor above 2, as playpen run --view sets it");
+    }
+  }
   settings.output_folder = environment("PLAYPEN_OUT");
   settings.film = environment("PLAYPEN_RECORD");
+  if (!settings.film.empty() && !sim::render::FilmWriter::is_film_name(settings.film)) {
+    wrong("PLAYPEN_RECORD", kFilmExpected);
+  }
+  const auto text_of = [](const char* name) { return std::string(environment(name)); };
+  if (const std::string text = text_of("PLAYPEN_RECORD_FPS");
+      !text.empty() && !parse_film_fps(text, settings.film_fps)) {
+    wrong("PLAYPEN_RECORD_FPS", kFilmFpsExpected);
+  }
+  if (const std::string text = text_of("PLAYPEN_RECORD_SPEED");
+      !text.empty() && !parse_film_speed(text, settings.film_speed)) {
+    wrong("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected);
+  }
+  if (const std::string text = text_of("PLAYPEN_SNAPSHOT_EVERY"); !text.empty()) {
+    double period_s = 0.0;
+    if (!parse_snapshot_period(text, period_s)) {
+      wrong("PLAYPEN_SNAPSHOT_EVERY", kSnapshotPeriodExpected);
+    } else if (settings.output_folder.empty()) {
+      wrong("PLAYPEN_SNAPSHOT_EVERY", "PLAYPEN_OUT beside it, the folder for the pictures");
+    } else {
+      settings.snapshot_period_s = period_s;
+    }
+  }
+  if (const std::string text = text_of("PLAYPEN_VIEW_MODE"); !text.empty()) {
+    settings.view_mode = sim::parse_view_mode(text);
+    if (!settings.view_mode) wrong("PLAYPEN_VIEW_MODE", kViewModeExpected);
+  }
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
@@ -105,6 +162,19 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
     world.simulation.time_mode = *time_mode;
     world.simulation.time_mode_given = true;
     world.simulation.time_factor = time_factor;
+  }
+  if (view_mode) {
+    if (world.canvas.view_mode_locked && *view_mode != world.canvas.view_mode) {
+      sim::ConfigIssue issue{"run/view_mode_locked",
+                             world.file.empty() ? world.name : world.file,
+                             "/canvas/lock_view_mode",
+                             "the view mode that the world locks, \"" +
+                                 std::string(sim::to_string(world.canvas.view_mode)) + '"',
+                             '"' + std::string(sim::to_string(*view_mode)) + '"',
+                             ""};
+      throw sim::ConfigError(std::vector<sim::ConfigIssue>{std::move(issue)});
+    }
+    world.canvas.view_mode = *view_mode;
   }
 }
 

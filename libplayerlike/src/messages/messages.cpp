@@ -16,6 +16,7 @@ struct InterfaceRow {
   std::string_view device_type;
 };
 constexpr InterfaceRow kInterfaces[] = {
+    {"graphics2d", "pen"},
     {"laser", "laser"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
@@ -33,6 +34,15 @@ std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view
   return found;
 }
 
+// What the world itself offers, whatever robots are in it.
+constexpr std::string_view kWorldInterface = "map";
+
+// Whether clients can connect to a port.
+bool is_open(const std::vector<RobotInfo>& robots, int port) {
+  return port == kMorsePort || std::any_of(robots.begin(), robots.end(),
+                                           [&](const RobotInfo& r) { return r.port == port; });
+}
+
 std::vector<std::string_view> interface_names() {
   std::vector<std::string_view> names;
   for (const InterfaceRow& row : kInterfaces) {
@@ -41,7 +51,8 @@ std::vector<std::string_view> interface_names() {
   return names;
 }
 
-// Calls visit(interface, index, robot, device) for every address of a port.
+// Calls visit(interface, index, robot, device, driver) for every address of a port; driver is null
+// but for the positions that a robot's drivers offer, which only its own port has.
 template <typename Visit>
 void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visit) {
   for (const std::string_view interface : interface_names()) {
@@ -52,10 +63,15 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
       if (port == kMorsePort) {
         const auto given = robot.proxies.find(std::string(interface));
         const int index = given != robot.proxies.end() ? given->second : static_cast<int>(r);
-        visit(interface, index, static_cast<int>(r), *devices.front());
+        visit(interface, index, static_cast<int>(r), *devices.front(), nullptr);
       } else if (port == robot.port) {
         for (std::size_t i = 0; i < devices.size(); ++i) {
-          visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i]);
+          visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i], nullptr);
+        }
+        if (interface != "position2d") continue;
+        for (const SndDriverDescription& driver : robot.snd_drivers) {
+          visit(interface, driver.index, static_cast<int>(r),
+                *devices[static_cast<std::size_t>(driver.position)], &driver);
         }
       }
     }
@@ -63,6 +79,12 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
 }
 
 }  // namespace
+
+bool carries(std::string_view device_type, std::string_view interface) {
+  return std::any_of(std::begin(kInterfaces), std::end(kInterfaces), [&](const InterfaceRow& row) {
+    return row.device_type == device_type && row.interface == interface;
+  });
+}
 
 std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
   std::vector<RobotInfo> robots;
@@ -81,6 +103,8 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     robot.max_turn_rate_radps = model.max_turn_rate_radps;
     robot.proxies = description.proxies;
     robot.drivers = description.drivers;
+    robot.snd_drivers =
+        read_drivers(description, simulation.world().file, "/robots/" + std::to_string(r));
     sim::Vec2 low = sim::Vec2::Constant(std::numeric_limits<double>::infinity());
     sim::Vec2 high = -low;
     for (const sim::Vec2& v : model.footprint) {
@@ -109,14 +133,20 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
   std::optional<InterfaceBinding> found;
   std::ostringstream known;
-  for_each_address(
-      robots, port, [&](std::string_view name, int i, int robot, const DeviceInfo& device) {
-        if (name == interface && i == index && !found) {
-          found = InterfaceBinding{device.id, std::nullopt, robot};
-        }
-        known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
-              << robots[static_cast<std::size_t>(robot)].name << '.' << device.name << ')';
-      });
+  for_each_address(robots, port,
+                   [&](std::string_view name, int i, int robot, const DeviceInfo& device,
+                       const SndDriverDescription* driver) {
+                     if (name == interface && i == index && !found) {
+                       found = InterfaceBinding{device.id, std::nullopt, robot, driver};
+                     }
+                     known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
+                           << robots[static_cast<std::size_t>(robot)].name << '.'
+                           << (driver == nullptr ? device.name : "snd") << ')';
+                   });
+  if (is_open(robots, port)) {
+    if (interface == kWorldInterface && index == 0) return {};
+    known << (known.tellp() > 0 ? ", " : "") << kWorldInterface << ":0 (the world)";
+  }
   if (!found) {
     throw SessionError(SessionError::Code::kNoSuchDevice,
                        "there is no device " + std::string(interface) + ':' +
@@ -136,10 +166,13 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
 std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robots, int port) {
   std::vector<InterfaceAddress> addresses;
   for_each_address(
-      robots, port, [&](std::string_view name, int i, int robot, const DeviceInfo& device) {
-        addresses.push_back(
-            {std::string(name), i, robots[static_cast<std::size_t>(robot)].name, device.name});
+      robots, port,
+      [&](std::string_view name, int i, int robot, const DeviceInfo& device,
+          const SndDriverDescription* driver) {
+        addresses.push_back({std::string(name), i, robots[static_cast<std::size_t>(robot)].name,
+                             driver == nullptr ? device.name : "snd"});
       });
+  if (is_open(robots, port)) addresses.push_back({std::string(kWorldInterface), 0, "", "world"});
   return addresses;
 }
 

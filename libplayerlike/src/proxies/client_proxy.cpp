@@ -14,14 +14,17 @@ using playerlike::translated;
 // --- Link
 
 void ClientProxy::Link::on_reading(const sim::Reading& reading) {
-  const double time_s = sim::to_seconds(reading.time_ns);
-  // The first reading has none before it, so no time has elapsed.
+  refresh(sim::to_seconds(reading.time_ns));
+  proxy.HandleReading(reading);
+  proxy.mFresh = true;
+}
+
+void ClientProxy::Link::refresh(double time_s) {
+  // The first data have none before them, so no time has elapsed.
   device.lasttime = valid ? device.datatime : time_s;
   device.datatime = time_s;
   device.fresh = 1;
   valid = true;
-  proxy.HandleReading(reading);
-  proxy.mFresh = true;
 }
 
 void ClientProxy::Link::on_round() { proxy.HandleRound(); }
@@ -70,7 +73,8 @@ void ClientProxy::Unsubscribe() {
   mLink->device.subscribed = 0;
 }
 
-void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun) {
+void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun,
+                         bool aHasReadings) {
   playerlike::ClientCore& core = *mLink->core;
   const char* name = interface_name(static_cast<int>(aInterface));
   translated(aFun, [&] {
@@ -84,12 +88,12 @@ void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun)
     info.addr.index = static_cast<uint16_t>(aIndex);
     info.freshgeom = 1;
     info.freshconfig = 1;
-    mLink->info().type.copy(info.drivername, sizeof info.drivername - 1);
+    driver_name(core, mLink->binding).copy(info.drivername, sizeof info.drivername - 1);
     std::optional<bool> replace;
     const auto& rules = core.replace_rules();
     const auto rule = rules.find(static_cast<int>(aInterface));
     if (rule != rules.end()) replace = rule->second;
-    core.add(mLink->binding.reading, *mLink, replace);
+    if (aHasReadings) core.add(mLink->binding.reading, *mLink, replace);
     mLink->attached = true;
     info.subscribed = 1;
   });

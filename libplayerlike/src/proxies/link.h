@@ -22,6 +22,9 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   std::function<void()> notification() override;
   void on_close() override;
 
+  /// Notes that there are data of this time [s]; with the client's mutex held.
+  void refresh(double time_s);
+
   [[nodiscard]] const playerlike::RobotInfo& robot() const {
     return core->robot_of(binding.reading);
   }
@@ -46,6 +49,13 @@ struct detail::CoreAccess {
     return client.mCore;
   }
 };
+
+/// What Player calls the driver behind an address: the kind of device, or "world".
+[[nodiscard]] inline std::string driver_name(const playerlike::ClientCore& core,
+                                             const playerlike::InterfaceBinding& binding) {
+  if (binding.is_world()) return "world";
+  return binding.driver != nullptr ? "snd" : core.info_of(binding.reading).type;
+}
 
 /// Name of an interface by its code; nullptr if there is none.
 [[nodiscard]] const char* interface_name(int code) noexcept;

@@ -254,7 +254,7 @@ void PlayerClient::SetReplaceRule(bool aReplace, int aType, int aSubtype, int aI
       if (address.interface != name) continue;
       const auto binding =
           playerlike::find_interface(mCore->robots(), session.port(), name, address.index);
-      session.set_replace(binding.reading, aReplace);
+      if (!binding.is_world()) session.set_replace(binding.reading, aReplace);
     }
   });
 }
@@ -271,7 +271,7 @@ void PlayerClient::RequestDeviceList() {
       info.addr.robot = static_cast<uint32_t>(port);
       info.addr.interf = static_cast<uint16_t>(interface_code(address.interface).value_or(0));
       info.addr.index = static_cast<uint16_t>(address.index);
-      mCore->info_of(binding.reading).type.copy(info.drivername, sizeof info.drivername - 1);
+      driver_name(*mCore, binding).copy(info.drivername, sizeof info.drivername - 1);
       mImpl->devices.push_back(info);
     }
   });

@@ -5,6 +5,7 @@
 
 #include "devices/errors.h"
 #include "libplayerc++/position2dproxy.h"
+#include "proxies/goal_driver.h"
 #include "proxies/link.h"
 #include "sim/devices/localization.h"
 
@@ -47,6 +48,15 @@ struct Position2dProxy::Control {
   double turn_rate_radps = 0.0;
   bool aligning = false;  // arrived, turning to the goal's heading
 
+  // Of an index that a driver offers: who takes the goals. What else the program commands ends
+  // its pursuit.
+  std::shared_ptr<playerlike::GoalDriver> driver;
+
+  void stop_pursuit() {
+    mode = Mode::kNone;
+    if (driver != nullptr) driver->cancel();
+  }
+
   [[nodiscard]] double turn(double error_rad, double limit_radps) const {
     return std::clamp(gain_per_s * error_rad, -limit_radps, limit_radps);
   }
@@ -83,6 +93,10 @@ Position2dProxy::~Position2dProxy() { Position2dProxy::Unsubscribe(); }
 void Position2dProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "Position2dProxy::Position2dProxy";
   Attach(PLAYER_POSITION2D_CODE, aIndex, fun);
+  if (mLink->binding.driver != nullptr) {
+    mControl->driver = translated(
+        fun, [&] { return playerlike::share_driver(mLink->core->session(), mLink->binding); });
+  }
   const scoped_lock_t lock(LockData(fun));
   const playerlike::RobotInfo& robot = mLink->robot();
   mControl->length_m = robot.length_m;
@@ -151,7 +165,7 @@ void Position2dProxy::Send(double aXSpeed, double aYawSpeed, const char* aFun) {
 
 void Position2dProxy::Drive(double aXSpeed, double aYawSpeed, const char* aFun) {
   const scoped_lock_t lock(LockData(aFun));
-  mControl->mode = Control::Mode::kNone;
+  mControl->stop_pursuit();
   Send(aXSpeed, aYawSpeed, aFun);
 }
 
@@ -175,6 +189,7 @@ void Position2dProxy::SetVelHead(double aXSpeed, double aYSpeed, double aYawHead
       fun,
       {{"the forward speed", aXSpeed}, {"the sideways speed", aYSpeed}, {"the heading", aYawHead}});
   const scoped_lock_t lock(LockData(fun));
+  mControl->stop_pursuit();
   mControl->mode = Control::Mode::kHeading;
   mControl->forward_mps = aXSpeed;
   mControl->goal = {0.0, 0.0, sim::normalize_angle(aYawHead)};
@@ -198,11 +213,17 @@ void Position2dProxy::GoTo(player_pose2d_t pos, player_pose2d_t vel) {
   const auto limited = [](double wish, double robot) {
     return wish == 0.0 ? robot : std::min(std::abs(wish), robot);
   };
-  mControl->mode = Control::Mode::kGoTo;
-  mControl->aligning = false;
   mControl->goal = {pos.px, pos.py, sim::normalize_angle(pos.pa)};
   mControl->speed_mps = limited(vel.px, mControl->robot_speed_mps);
   mControl->turn_rate_radps = limited(vel.pa, mControl->robot_turn_rate_radps);
+  if (mControl->driver != nullptr) {
+    mControl->mode = Control::Mode::kNone;
+    mControl->driver->go_to(
+        {{pos.px, pos.py}, mControl->goal.pa, mControl->speed_mps, mControl->turn_rate_radps});
+    return;
+  }
+  mControl->mode = Control::Mode::kGoTo;
+  mControl->aligning = false;
   if (mControl->has_reading) HandleRound();
 }
 
@@ -243,7 +264,11 @@ player_bbox3d_t Position2dProxy::GetSize() {
 void Position2dProxy::SetMotorEnable(bool enable) {
   const char* fun = "Position2dProxy::SetMotorEnable";
   const scoped_lock_t lock(LockData(fun));
-  if (!enable) mControl->mode = Control::Mode::kNone;
+  if (!enable) {
+    mControl->stop_pursuit();
+    // Else the driver's last speeds would go on when the motors are on again before the next step.
+    if (mControl->driver != nullptr) Send(0.0, 0.0, fun);
+  }
   translated(fun, [&] {
     const auto& motion = mLink->binding.motion;
     if (!motion) {

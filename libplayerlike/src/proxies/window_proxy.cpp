@@ -7,11 +7,13 @@
 #include "devices/errors.h"
 #include "libCCMorse/WindowProxy.h"
 #include "proxies/link.h"
+#include "sim/canvas/layers.h"
 
 namespace CCMorse {
 
 using PlayerCc::PlayerError;
 using playerlike::ClientCore;
+using playerlike::translated;
 
 namespace {
 
@@ -30,6 +32,25 @@ struct Windows {
     return *windows;
   }
 };
+
+GridMapLayer::Kind kind_of(sim::LayerKind kind) {
+  return kind == sim::LayerKind::kBinary ? GridMapLayer::BINARY
+         : kind == sim::LayerKind::kGrey ? GridMapLayer::GREY
+                                         : GridMapLayer::RGBA;
+}
+
+sim::LayerKind sim_kind_of(GridMapLayer::Kind kind) {
+  return kind == GridMapLayer::BINARY ? sim::LayerKind::kBinary
+         : kind == GridMapLayer::GREY ? sim::LayerKind::kGrey
+                                      : sim::LayerKind::kColour;
+}
+
+PlayerError no_such_layer(const char* fun, const std::string& name,
+                          const std::vector<std::string>& known) {
+  std::string text = "there is no layer \"" + name + "\"; layers:";
+  for (const std::string& other : known) text += (&other == &known.front() ? " " : ", ") + other;
+  return PlayerError(fun, text, PlayerError::kBadArgument);
+}
 
 }  // namespace
 
@@ -73,7 +94,7 @@ WindowProxy& WindowProxy::GetInstance() {
 }
 
 WindowProxy::WindowProxy(std::shared_ptr<ClientCore> aCore)
-    : Drawing(aCore, "WindowProxy"), mLayer(new GridMapLayer(std::move(aCore))) {}
+    : CanvasDrawing(std::move(aCore), "WindowProxy") {}
 
 WindowProxy::~WindowProxy() {
   Windows& windows = Windows::instance();
@@ -81,16 +102,76 @@ WindowProxy::~WindowProxy() {
   std::erase_if(windows.entries, [this](const Windows::Entry& e) { return e.window == this; });
 }
 
-bool WindowProxy::Shade(ImageColour_t& aColour) const { return mLayer->Shade(aColour); }
-
-GridMapLayer& WindowProxy::GetLayer(const std::string& aName) {
-  if (mLayer->GetName() == aName) return *mLayer;
-  throw PlayerError("WindowProxy::GetLayer",
-                    "there is no layer \"" + aName + "\"; layers: " + mLayer->GetName(),
-                    PlayerError::kBadArgument);
+// With mLayersMutex held, as the next one.
+GridMapLayer& WindowProxy::Handle(int aLayer, GridMapLayer::Kind aKind) {
+  for (const auto& handle : mHandles) {
+    if (handle->LayerNumber() == aLayer) return *handle;
+  }
+  mHandles.push_back(std::unique_ptr<GridMapLayer>(new GridMapLayer(Core(), aLayer, aKind)));
+  return *mHandles.back();
 }
 
-std::vector<std::string> WindowProxy::GetLayerNames() const { return {mLayer->GetName()}; }
+// Mostly finds the name among the handles, so that asking for a layer again and again is cheap;
+// the others were made by an earlier window or another proxy of the client.
+GridMapLayer* WindowProxy::Find(const std::string& aName) {
+  for (const auto& handle : mHandles) {
+    if (!handle->Retired() && handle->GetName() == aName) return handle.get();
+  }
+  const auto layers =
+      translated("WindowProxy::FindLayer", [&] { return Core()->session().layers(); });
+  for (const sim::LayerInfo& layer : layers) {
+    if (layer.style.name == aName) return &Handle(layer.id, kind_of(layer.kind));
+  }
+  return nullptr;
+}
+
+GridMapLayer& WindowProxy::CreateLayer(const std::string& aName, GridMapLayer::Kind aKind,
+                                       int aPriority) {
+  const char* fun = "WindowProxy::CreateLayer";
+  RequireUsable("CreateLayer");
+  if (aKind != GridMapLayer::RGBA && aKind != GridMapLayer::BINARY && aKind != GridMapLayer::GREY) {
+    throw PlayerError(fun, "there is no kind of layer " + std::to_string(static_cast<int>(aKind)),
+                      PlayerError::kBadArgument);
+  }
+  const std::lock_guard lock(mLayersMutex);
+  sim::LayerStyle style;
+  style.name = aName;
+  style.priority = aPriority;
+  const sim::LayerId layer = translated(
+      fun, [&] { return Core()->session().create_layer(sim_kind_of(aKind), std::move(style)); });
+  return Handle(layer, aKind);
+}
+
+GridMapLayer* WindowProxy::FindLayer(const std::string& aName) {
+  RequireUsable("FindLayer");
+  const std::lock_guard lock(mLayersMutex);
+  return Find(aName);
+}
+
+GridMapLayer& WindowProxy::GetLayer(const std::string& aName) {
+  if (GridMapLayer* const layer = FindLayer(aName)) return *layer;
+  throw no_such_layer("WindowProxy::GetLayer", aName, GetLayerNames());
+}
+
+void WindowProxy::RemoveLayer(const std::string& aName) {
+  const char* fun = "WindowProxy::RemoveLayer";
+  RequireUsable("RemoveLayer");
+  const std::lock_guard lock(mLayersMutex);
+  GridMapLayer* const layer = Find(aName);
+  if (layer == nullptr) throw no_such_layer(fun, aName, GetLayerNames());
+  translated(fun, [&] { Core()->session().remove_layer(layer->LayerNumber()); });
+  layer->Retire();
+}
+
+std::vector<std::string> WindowProxy::GetLayerNames() const {
+  RequireUsable("GetLayerNames");
+  const auto layers =
+      translated("WindowProxy::GetLayerNames", [&] { return Core()->session().layers(); });
+  std::vector<std::string> names;
+  names.reserve(layers.size());
+  for (const sim::LayerInfo& layer : layers) names.push_back(layer.style.name);
+  return names;
+}
 
 }  // namespace CCMorse
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace playerlike {
 namespace {
@@ -110,18 +111,96 @@ void InProcessSession::send(DeviceId device, const sim::Command& command) {
   host_->core_->send(*client_, device, command);
 }
 
-void InProcessSession::draw(std::span<const sim::CanvasOperation> operations) {
-  host_->core_->draw(*client_, operations);
+void InProcessSession::join() {
+  farewell.remember(host_);
+  host_->core_->join(*client_);
+}
+
+std::unique_ptr<Session> InProcessSession::open_follower() {
+  return std::make_unique<InProcessSession>(
+      host_, host_->core_->add_client(client_->port, /*follower=*/true));
+}
+
+const void* InProcessSession::simulation() const noexcept { return host_.get(); }
+
+DrawQueue& InProcessSession::draw_queue() noexcept { return client_->drawings; }
+
+void InProcessSession::flush_drawings() { host_->core_->flush_drawings(*client_); }
+
+void InProcessSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
+                                  std::span<const sim::CellValue> values) {
+  require_cells(rect, values.size());
+  host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+    book.require(client_->number, layer);
+    layers.set_cells(layer, rect, values);
+  });
+}
+
+std::optional<sim::CellValue> InProcessSession::cell(sim::LayerId layer, int column, int row) {
+  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+    book.require(client_->number, layer);
+    return layers.cell(layer, column, row);
+  });
+}
+
+std::vector<sim::CellValue> InProcessSession::cells(sim::LayerId layer) {
+  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+    book.require(client_->number, layer);
+    return layers.cells(layer);
+  });
+}
+
+sim::LayerId InProcessSession::create_layer(sim::LayerKind kind, sim::LayerStyle style) {
+  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
+    return book.create(layers, client_->number, client_->port, kind, std::move(style));
+  });
+}
+
+void InProcessSession::remove_layer(sim::LayerId layer) {
+  host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
+    book.remove(layers, client_->number, layer);
+  });
+}
+
+void InProcessSession::set_layer_style(sim::LayerId layer, sim::LayerStyle style) {
+  host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
+    book.set_style(layers, client_->number, layer, std::move(style));
+  });
+}
+
+std::vector<sim::LayerInfo> InProcessSession::layers() {
+  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+    return book.list(layers, client_->number);
+  });
+}
+
+std::vector<std::uint8_t> InProcessSession::canvas_image() {
+  return host_->core_->with_layers(
+      *client_, [](sim::LayerStack& layers, const LayerBook&) { return layers.composed(); });
+}
+
+void InProcessSession::resize_canvas(int width, int height) {
+  host_->core_->resize_canvas(*client_, width, height);
 }
 
 CanvasInfo InProcessSession::canvas_info() const { return host_->core_->canvas_info(); }
 
-std::optional<sim::Colour> InProcessSession::pixel(int column, int row) {
-  return host_->core_->pixel(*client_, column, row);
+std::uint64_t InProcessSession::canvas_generation() const noexcept {
+  return host_->core_->canvas_generation();
 }
 
-std::vector<std::uint8_t> InProcessSession::canvas_image() {
-  return host_->core_->canvas_image(*client_);
+void InProcessSession::save_image(const std::string& name, int scale) {
+  host_->core_->save_image(*client_, name, scale);
+}
+
+sim::ViewMode InProcessSession::view_mode() const { return host_->core_->view_mode(); }
+
+void InProcessSession::set_view_mode(sim::ViewMode mode) {
+  host_->core_->set_view_mode(*client_, mode);
+}
+
+sim::OccupancyMap InProcessSession::world_map(double cell_size_m) {
+  return host_->core_->world_map(cell_size_m);
 }
 
 TimeStatistics InProcessSession::time() const { return host_->core_->time(); }

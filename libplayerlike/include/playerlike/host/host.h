@@ -39,6 +39,9 @@ class Host : public std::enable_shared_from_this<Host> {
   /// Forgets that a thread takes part in the lockstep. Called by sessions when a thread ends.
   void thread_ended(std::thread::id thread) noexcept;
 
+  /// What a robot has been through so far. @param robot  its index in the world; it must exist.
+  [[nodiscard]] sim::RobotStatistics statistics(int robot) const;
+
   /// Hash of the simulation's state, see sim::Simulation::state_hash.
   [[nodiscard]] std::uint64_t state_hash() const;
 

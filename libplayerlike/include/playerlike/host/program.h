@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -60,5 +62,52 @@ struct ProgramEnd {
 ///       disposition of SIGCHLD: for a command's main thread, one program at a time.
 [[nodiscard]] ProgramEnd run_program(const std::vector<std::string>& command,
                                      const EnvironmentChanges& environment);
+
+/// A program to be run beside others by run_programs().
+struct ProgramJob {
+  std::vector<std::string> command;  ///< path (see find_program()) and arguments; not empty
+  EnvironmentChanges environment;
+  std::string output_file;  ///< gets its standard output and standard error, overwritten
+};
+
+/// What became of a ProgramJob.
+struct JobEnd {
+  enum class Kind {
+    kEnded,        ///< by itself, or by a signal that others sent
+    kTimedOut,     ///< it was ended because it took too long
+    kInterrupted,  ///< it was ended because this process was told to end
+    kNotStarted,   ///< this process was told to end before its turn came
+  };
+  Kind kind = Kind::kNotStarted;
+  ProgramEnd program;        ///< how it ended in the end; of kNotStarted: nothing
+  double wall_time_s = 0.0;  ///< from its start to its end by the clock on the wall [s]
+};
+
+/// How run_programs() goes about it.
+struct JobLimits {
+  int at_once = 1;         ///< programs that run side by side, >= 1
+  double timeout_s = 0.0;  ///< wall time that a program may take [s]; 0: no limit
+  double grace_s = 5.0;    ///< from the polite signal to the one that can't be refused [s], >= 0
+};
+
+/// Runs many programs, several side by side, to their ends.
+///
+/// Each runs in a process group of its own with an empty standard input. One that takes too long
+/// gets SIGTERM, on which an embedded simulation writes its results, and SIGKILL after the grace;
+/// signals go to the whole group. What a program leaves running in its group is killed when it
+/// ends. On SIGINT, SIGTERM, SIGHUP or SIGQUIT to this process all are ended in the same way and no
+/// more are started; a second one of these signals ends the grace.
+///
+/// @param on_start  called as a job has started, if set.
+/// @param on_end    called as a job has ended, in the order in which they end, if set. Not called
+///                  for jobs that were not started.
+/// @return the ends, in the order of the jobs.
+/// @throws ProgramError if a program can't be started or its output file can't be made, and what
+///         the callbacks throw; nothing is left running then.
+/// @note As for run_program(): for a command's main thread, one call at a time.
+[[nodiscard]] std::vector<JobEnd> run_programs(
+    const std::vector<ProgramJob>& jobs, const JobLimits& limits,
+    const std::function<void(std::size_t)>& on_start = {},
+    const std::function<void(std::size_t, const JobEnd&)>& on_end = {});
 
 }  // namespace playerlike

@@ -15,24 +15,56 @@ struct RunSettings {
   std::optional<std::uint64_t> seed;
   std::optional<double> duration_s;  ///< > 0
   std::optional<sim::TimeMode> time_mode;
-  double time_factor = 1.0;      ///< with kPaced: simulated seconds a wall second
-  std::string output_folder;     ///< "": nothing is written
-  std::string film;              ///< "": no film
+  double time_factor = 1.0;                 ///< with kPaced: simulated seconds a wall second
+  std::string output_folder;                ///< "": nothing is written
+  std::string film;                         ///< .mp4, .avi, or a folder that gets PNGs; "": no film
+  double film_fps = 25.0;                   ///< frames a second of the film, 1..240
+  double film_speed = 1.0;                  ///< simulated seconds a second of the film, 0.01..1000
+  std::optional<double> snapshot_period_s;  ///< simulated time between pictures in the output
+                                            ///< folder's snapshots/, 0.001..1e9
+  std::optional<sim::ViewMode> view_mode;   ///< at the start, instead of the world's
+  /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
+  std::optional<int> view_socket;
   bool progress = false;         ///< a progress line on stderr, if that is a terminal
   bool quiet_end = false;        ///< an uncaught end-of-run error ends the program with status 0
   double silence_limit_s = 5.0;  ///< wall time after which a thinking client stops counting
 
   /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a
-  /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_SILENCE_LIMIT.
+  /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
+  /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen), PLAYPEN_VIEW
+  /// (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN,
+  /// PLAYPEN_SILENCE_LIMIT.
   /// @throws sim::ConfigError naming the variable, what it should be and what it is.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Puts seed, duration and time mode into the world.
+  /// Puts seed, duration, time mode and view mode into the world.
+  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode.
   void apply_to(sim::WorldDescription& world) const;
 };
 
 /// Reads "lockstep", "real" or a factor > 0 (e.g. "10") into mode and factor.
 /// @return whether the text is one of these.
 [[nodiscard]] bool parse_time_mode(const std::string& text, sim::TimeMode& mode, double& factor);
+
+/// Reads frames a second of a film, 1..240. @return whether the text is such a number.
+[[nodiscard]] bool parse_film_fps(const std::string& text, double& frames_per_second);
+/// Reads simulated seconds a second of a film, 0.01..1000. @return whether the text is such a
+/// number.
+[[nodiscard]] bool parse_film_speed(const std::string& text, double& speed);
+/// Reads simulated seconds between pictures, 0.001..1e9. @return whether the text is such a number.
+[[nodiscard]] bool parse_snapshot_period(const std::string& text, double& period_s);
+
+/// What parse_film_fps() takes, in words for messages.
+inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
+/// What parse_film_speed() takes, in words for messages.
+inline constexpr const char* kFilmSpeedExpected = "a number from 0.01 to 1000";
+/// What parse_snapshot_period() takes, in words for messages.
+inline constexpr const char* kSnapshotPeriodExpected = "a number of seconds from 0.001 to 1e9";
+/// What names a film, in words for messages; see sim::render::FilmWriter.
+inline constexpr const char* kFilmExpected =
+    "a file ending in .mp4 or .avi, or a folder: a name without an ending, or with a slash at its "
+    "end";
+/// What sim::parse_view_mode() takes, in words for messages.
+inline constexpr const char* kViewModeExpected = "ground, mini-map or full-screen";
 
 }  // namespace playerlike

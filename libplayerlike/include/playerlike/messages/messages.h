@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "playerlike/messages/snd_settings.h"
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
@@ -45,7 +46,8 @@ struct RobotInfo {
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so
-  std::vector<sim::DriverDescription> drivers;
+  std::vector<sim::DriverDescription> drivers;    ///< as the world file has them
+  std::vector<SndDriverDescription> snd_drivers;  ///< the same, understood
   std::vector<DeviceInfo> devices;
 };
 
@@ -87,20 +89,32 @@ class SessionError : public std::runtime_error {
   Code code_;
 };
 
+/// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
+[[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
+
 /// Builds what clients are told of a simulation's robots.
+/// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
 
 /// Which devices stand behind a Player device address.
 struct InterfaceBinding {
-  DeviceId reading;                ///< whose readings the interface carries
+  DeviceId reading{-1, -1};        ///< whose readings the interface carries; none: the world's own
   std::optional<DeviceId> motion;  ///< the robot's motors, for position2d
-  int robot = -1;
+  int robot = -1;                  ///< -1: no robot's, but the world's
+  const SndDriverDescription* driver = nullptr;  ///< what takes goals for it, if it is a driver's;
+                                                 ///< lives as long as the list of robots
+
+  /// Whether the world itself stands there, not a device: it answers requests, and makes no
+  /// readings.
+  [[nodiscard]] bool is_world() const { return robot < 0; }
 };
 
 /// Finds the device behind (port, interface, index). On a robot's own port, index i is that
-/// robot's i-th device with the interface; on port 4000 the index is the one that the world's
+/// robot's i-th device with the interface, and drivers have the indices that the world gives them
+/// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
-/// Interfaces known: "position2d" (pose, then odometry devices) and "laser".
+/// Interfaces known: "position2d" (pose, then odometry devices), "laser" and "graphics2d" (pens);
+/// and "map", the world's own, with index 0 on every port.
 /// @throws SessionError kNoSuchDevice, naming the addresses that exist.
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                               std::string_view interface, int index);
@@ -109,7 +123,7 @@ struct InterfaceBinding {
 struct InterfaceAddress {
   std::string interface;
   int index = 0;
-  std::string robot;
+  std::string robot;  ///< empty: the world's
   std::string device;
 };
 /// All addresses of a port.

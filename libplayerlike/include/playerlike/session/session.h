@@ -2,16 +2,25 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "playerlike/messages/messages.h"
-#include "sim/devices/pen.h"
+#include "playerlike/session/draw_queue.h"
+#include "sim/canvas/layers.h"
+#include "sim/world/occupancy_map.h"
 
 namespace playerlike {
+
+inline constexpr std::size_t kMaxLayers = 64;     ///< of a session, without the base layer
+inline constexpr std::size_t kMaxLayerName = 64;  ///< bytes
+/// Of all layers of a simulation together: 256 MiB.
+inline constexpr std::size_t kMaxLayerCells = std::size_t{1} << 26U;
 
 /// Receives the readings of a round.
 class ReadingSink {
@@ -66,13 +75,94 @@ class Session {
   /// Queues a command for the next step.
   virtual void send(DeviceId device, const sim::Command& command) = 0;
 
-  /// Draws on the canvas, in order; others see it from the next step on, this session at once.
-  virtual void draw(std::span<const sim::CanvasOperation> operations) = 0;
-  [[nodiscard]] virtual CanvasInfo canvas_info() const = 0;
-  /// Colour of a cell; nullopt outside the canvas.
-  [[nodiscard]] virtual std::optional<sim::Colour> pixel(int column, int row) = 0;
-  /// All cells as RGBA bytes, row-major from the top.
+  /// Takes part in the lockstep from now on, with the calling thread as this session's owner, as
+  /// after a wait(), but without waiting: simulated time stands until this thread waits. So a
+  /// thread can join before the one that started it goes on. Also undoes being silent for too long.
+  virtual void join() = 0;
+
+  /// Opens a further session of the same simulation and port, for a driver that a program runs in
+  /// a thread of its own. In lockstep such a follower holds simulated time while its thread thinks,
+  /// as any session, but never lets it go on by itself: time stands while no other session takes
+  /// part. It does not count for the start gate, and its commands are carried out before those
+  /// of other sessions, so that a program has the last word.
+  [[nodiscard]] virtual std::unique_ptr<Session> open_follower() = 0;
+  /// The same for all sessions of one simulation, and different for others that exist now.
+  [[nodiscard]] virtual const void* simulation() const noexcept = 0;
+
+  /// @name The canvas and its layers
+  ///
+  /// Drawings go through a queue of this session. It is emptied, in order, before each step (the
+  /// clients in the order in which they connected), when it is full, and before any other call
+  /// here that concerns the canvas: so this session sees its drawings at once, others from the next
+  /// step on at the latest. Everything else here happens at once.
+  ///
+  /// A layer belongs to the session that made it; only this one may name it. It stays when the
+  /// session ends, until one on the same port makes a layer of the same name.
+  /// @{
+
+  /// The queue, for those who draw cell by cell: push() onto it is draw() without a virtual call.
+  /// A push that fails is tried again after flush_drawings().
+  [[nodiscard]] virtual DrawQueue& draw_queue() noexcept = 0;
+  /// Carries out what waits in the queue, and gives it its first room.
+  virtual void flush_drawings() = 0;
+  /// Draws on the canvas (layer kBaseLayer) and on this session's layers, in order. What lies
+  /// outside is clipped; what names another layer, also another session's, is left out.
+  void draw(std::span<const sim::DrawOperation> operations);
+  /// Gives each cell of a rectangle its value, row-major from the top, without blending; clipped.
+  /// @throws SessionError kBadArgument if there are not as many values as the rectangle has cells,
+  ///         or for a layer that is not this session's.
+  virtual void draw_cells(sim::LayerId layer, const sim::CellRect& rect,
+                          std::span<const sim::CellValue> values) = 0;
+  /// Value of a cell; nullopt outside. @throws SessionError kBadArgument as draw_cells().
+  [[nodiscard]] virtual std::optional<sim::CellValue> cell(sim::LayerId layer, int column,
+                                                           int row) = 0;
+  /// All cells of a layer, row-major from the top. @throws SessionError kBadArgument as above.
+  [[nodiscard]] virtual std::vector<sim::CellValue> cells(sim::LayerId layer) = 0;
+
+  /// Makes a layer. One of the same name that an ended session of this port left is taken out.
+  /// @throws SessionError kBadArgument for a name that is not 1 to kMaxLayerName printable bytes
+  ///         (UTF-8 may be among them) or that this session has already, "canvas" among them;
+  ///         kNotAvailable if it has kMaxLayers, or all layers together would hold more than
+  ///         kMaxLayerCells cells.
+  virtual sim::LayerId create_layer(sim::LayerKind kind, sim::LayerStyle style) = 0;
+  /// Takes one of this session's layers out.
+  /// @throws SessionError kBadArgument if it is not; kNotAvailable for the base layer.
+  virtual void remove_layer(sim::LayerId layer) = 0;
+  /// Changes how a layer is drawn over others. The base layer's may be changed too (by any
+  /// session), but for its name.
+  /// @throws SessionError kBadArgument for a layer that is not this session's or a name as in
+  ///         create_layer(); kNotAvailable for another name of the base layer.
+  virtual void set_layer_style(sim::LayerId layer, sim::LayerStyle style) = 0;
+  /// The base layer and this session's own, lowest first.
+  [[nodiscard]] virtual std::vector<sim::LayerInfo> layers() = 0;
+
+  /// All visible layers of all clients over one another, as RGBA bytes, row-major from the top.
   [[nodiscard]] virtual std::vector<std::uint8_t> canvas_image() = 0;
+  /// Gives the canvas, with all layers of all clients, another number of columns and rows. What is
+  /// drawn stays where it is in the world.
+  /// @throws SessionError kBadArgument for sides outside 1..8192; kNotAvailable if all layers
+  ///         together would hold more than kMaxLayerCells cells.
+  virtual void resize_canvas(int width, int height) = 0;
+  /// Size and place of the canvas now. Does not throw on a closed session.
+  [[nodiscard]] virtual CanvasInfo canvas_info() const = 0;
+  /// How often the canvas was resized, by anyone: while this stays the same, so does
+  /// canvas_info(). Cheap.
+  [[nodiscard]] virtual std::uint64_t canvas_generation() const noexcept = 0;
+  /// Writes canvas_image() as a PNG, scale x scale pixels a cell, into the run's output folder.
+  /// @param name  a plain file name; ".png" is added unless it is there.
+  /// @throws SessionError kBadArgument for any other name, or a scale outside 1..64; kNotAvailable
+  ///         if the run has no output folder, or the file cannot be written.
+  virtual void save_image(const std::string& name, int scale = 1) = 0;
+
+  [[nodiscard]] virtual sim::ViewMode view_mode() const = 0;
+  /// @throws SessionError kNotAvailable if the world has locked another mode.
+  virtual void set_view_mode(sim::ViewMode mode) = 0;
+  /// @}
+
+  /// The true map of the arena's floor with its obstacles as they stand now, see sim::true_map().
+  /// @throws SessionError kBadArgument if the cell size is not a positive number, or the map would
+  ///         have more than 8192 cells along a side.
+  [[nodiscard]] virtual sim::OccupancyMap world_map(double cell_size_m) = 0;
 
   [[nodiscard]] virtual TimeStatistics time() const = 0;
   /// Lets simulated time pass (lockstep), or waits (paced). seconds >= 0.

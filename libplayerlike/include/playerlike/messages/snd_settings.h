@@ -1,0 +1,58 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/world/description.h"
+
+namespace playerlike {
+
+/// Settings of Smooth Nearness-Diagram navigation (docs/snd.md); ranges in snd_setting_table().
+struct SndSettings {
+  double robot_radius_m = 0.1;      ///< of the disc round the axle's middle that holds the robot
+  double safety_distance_m = 0.15;  ///< obstacles nearer to the disc than this deflect and slow
+  double max_speed_mps = 0.3;
+  double max_turn_rate_radps = 1.5;
+  double goal_distance_m = 0.05;  ///< the goal's position is reached within this
+  double goal_angle_rad = 0.1;    ///< and its heading within this
+  double patience_s = 20.0;       ///< blocked when it comes no nearer to the goal for so long
+};
+
+/// A number among the settings: how it is called and bounded.
+struct SndSettingRow {
+  const char* key;   ///< in world files; one that ends in "_deg" is in degrees there
+  const char* unit;  ///< in world files, "m", "m/s", ...
+  double SndSettings::*value;
+  double above;    ///< greater than this [SI]
+  double at_most;  ///< [SI]
+};
+/// All of them, in the order of docs/snd.md.
+[[nodiscard]] const std::vector<SndSettingRow>& snd_setting_table();
+
+/// What is wrong with settings, e.g. "robot_radius must be greater than 0 and at most 10 m, but is
+/// -1"; empty if nothing is.
+[[nodiscard]] std::string fault_of(const SndSettings& settings);
+
+/// A driver of a world's `drivers` table, of type "snd".
+struct SndDriverDescription {
+  SndSettings settings;
+  int index = -1;    ///< of its position2d on the robot's port
+  int position = 0;  ///< the robot's position2d that tells where it is
+  int laser = 0;     ///< the robot's laser to look with
+};
+
+/// Reads the `drivers` of one robot; no other type than "snd" is known.
+/// @param robot    in the world.
+/// @param file     as messages call the world.
+/// @param pointer  JSON pointer of the robot, e.g. "/robots/0".
+/// @throws sim::ConfigError with all that is wrong.
+[[nodiscard]] std::vector<SndDriverDescription> read_drivers(const sim::RobotDescription& robot,
+                                                             const std::string& file,
+                                                             const std::string& pointer);
+
+/// Reads the drivers of all robots, only to see that they are sound.
+/// @throws sim::ConfigError with all that is wrong.
+void check_drivers(const sim::WorldDescription& world);
+
+}  // namespace playerlike

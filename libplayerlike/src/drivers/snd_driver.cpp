@@ -1,0 +1,168 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <string>
+
+#include "devices/errors.h"
+#include "drivers/snd_thread.h"
+#include "libCCMorse/SndDriver.h"
+#include "proxies/link.h"
+
+namespace CCMorse {
+
+using PlayerCc::PlayerError;
+using playerlike::SndState;
+using playerlike::translated;
+
+namespace {
+
+playerlike::SndSettings checked(const char* fun, const SndSettings& s) {
+  const playerlike::SndSettings settings{.robot_radius_m = s.robot_radius,
+                                         .safety_distance_m = s.safety_distance,
+                                         .max_speed_mps = s.max_speed,
+                                         .max_turn_rate_radps = s.max_turn_rate,
+                                         .goal_distance_m = s.goal_distance,
+                                         .goal_angle_rad = s.goal_angle,
+                                         .patience_s = s.patience};
+  const std::string fault = playerlike::fault_of(settings);
+  if (!fault.empty()) throw PlayerError(fun, fault, PlayerError::kBadArgument);
+  return settings;
+}
+
+}  // namespace
+
+SndDriver::SndDriver(PlayerClient* aClient, uint32_t aPosition, uint32_t aLaser,
+                     const SndSettings& aSettings)
+    : mPosition(aPosition) {
+  const char* fun = "SndDriver::SndDriver";
+  if (aClient == nullptr) {
+    throw PlayerError(fun, "a driver needs a client, but it is a null pointer",
+                      PlayerError::kBadArgument);
+  }
+  const playerlike::SndSettings settings = checked(fun, aSettings);
+  mCore = PlayerCc::detail::CoreAccess::get(*aClient);
+  translated(fun, [&] {
+    mCore->require_usable();
+    mThread = std::make_unique<playerlike::SndThread>(mCore->session().open_follower(),
+                                                      static_cast<int>(aPosition),
+                                                      static_cast<int>(aLaser), settings);
+  });
+}
+
+SndDriver::~SndDriver() = default;
+
+void SndDriver::SetGoal(double aX, double aY) {
+  const char* fun = "SndDriver::SetGoal";
+  playerlike::require_finite(fun, {{"the goal's x", aX}, {"the goal's y", aY}});
+  translated(fun, [&] {
+    mCore->require_usable();
+    mThread->go_to({{aX, aY}, {}, {}, {}});
+  });
+}
+
+void SndDriver::SetGoal(double aX, double aY, double aYaw) {
+  const char* fun = "SndDriver::SetGoal";
+  playerlike::require_finite(
+      fun, {{"the goal's x", aX}, {"the goal's y", aY}, {"the goal's heading", aYaw}});
+  translated(fun, [&] {
+    mCore->require_usable();
+    mThread->go_to({{aX, aY}, sim::normalize_angle(aYaw), {}, {}});
+  });
+}
+
+void SndDriver::Cancel() {
+  translated("SndDriver::Cancel", [&] {
+    mCore->require_usable();
+    mThread->cancel();
+    playerlike::Session& session = mCore->session();
+    const playerlike::InterfaceBinding binding = playerlike::find_interface(
+        session.robots(), session.port(), "position2d", static_cast<int>(mPosition));
+    session.send(binding.motion.value(), sim::TwistCommand{});
+  });
+}
+
+SndDriver::Status SndDriver::GetStatus() const {
+  return translated("SndDriver::GetStatus", [&] {
+    mCore->require_usable();
+    switch (mThread->state()) {
+      case SndState::kIdle:
+        break;
+      case SndState::kMoving:
+        return MOVING;
+      case SndState::kReached:
+        return REACHED;
+      case SndState::kBlocked:
+        return BLOCKED;
+    }
+    return IDLE;
+  });
+}
+
+SndDriver::Status SndDriver::WaitForGoal(double aTimeout) {
+  const char* fun = "SndDriver::WaitForGoal";
+  playerlike::require_finite(fun, {{"the timeout", aTimeout}});
+  return translated(fun, [&] {
+    const auto now_s = [&] { return sim::to_seconds(mCore->session().time().sim_time_ns); };
+    const double start_s = now_s();
+    Status status = GetStatus();
+    while (status == MOVING && (aTimeout < 0.0 || now_s() - start_s < aTimeout)) {
+      mCore->read();
+      status = GetStatus();
+    }
+    return status;
+  });
+}
+
+SndSettings SndDriver::GetSettings() const {
+  const playerlike::SndSettings s = mThread->settings();
+  SndSettings settings;
+  settings.robot_radius = s.robot_radius_m;
+  settings.safety_distance = s.safety_distance_m;
+  settings.max_speed = s.max_speed_mps;
+  settings.max_turn_rate = s.max_turn_rate_radps;
+  settings.goal_distance = s.goal_distance_m;
+  settings.goal_angle = s.goal_angle_rad;
+  settings.patience = s.patience_s;
+  return settings;
+}
+
+void SndDriver::SetSettings(const SndSettings& aSettings) {
+  const char* fun = "SndDriver::SetSettings";
+  const playerlike::SndSettings settings = checked(fun, aSettings);
+  translated(fun, [&] {
+    mCore->require_usable();
+    mThread->set_settings(settings);
+  });
+}
+
+void SndDriver::SetRobotRadius(double aRadius) {
+  SndSettings settings = GetSettings();
+  settings.robot_radius = aRadius;
+  SetSettings(settings);
+}
+
+void SndDriver::SetSafetyDistance(double aDistance) {
+  SndSettings settings = GetSettings();
+  settings.safety_distance = aDistance;
+  SetSettings(settings);
+}
+
+void SndDriver::SetSpeedLimits(double aSpeed, double aTurnRate) {
+  SndSettings settings = GetSettings();
+  settings.max_speed = aSpeed;
+  settings.max_turn_rate = aTurnRate;
+  SetSettings(settings);
+}
+
+void SndDriver::SetGoalTolerances(double aDistance, double aAngle) {
+  SndSettings settings = GetSettings();
+  settings.goal_distance = aDistance;
+  settings.goal_angle = aAngle;
+  SetSettings(settings);
+}
+
+void SndDriver::SetPatience(double aSeconds) {
+  SndSettings settings = GetSettings();
+  settings.patience = aSeconds;
+  SetSettings(settings);
+}
+
+}  // namespace CCMorse

@@ -1,0 +1,169 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/snd_thread.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "proxies/link.h"
+
+namespace playerlike {
+
+using PlayerCc::PlayerError;
+
+SndThread::SndThread(std::unique_ptr<Session> session, int position, int laser,
+                     const SndSettings& settings)
+    : client_(std::move(session)),
+      position_(&client_, static_cast<uint32_t>(position)),
+      laser_(&client_, static_cast<uint32_t>(laser)),
+      in_use_(settings),
+      navigation_(settings),
+      settings_(settings) {
+  if (position_.HasCapability(PLAYER_MSGTYPE_CMD, PLAYER_POSITION2D_CMD_VEL) == 0) {
+    throw PlayerError("SndDriver::SndDriver",
+                      "the robot has no motors (a device of type \"motion\") in this world",
+                      PlayerError::kNotAvailable);
+  }
+  const player_pose3d_t mount = laser_.GetPose();
+  scan_.X_BL = {mount.px, mount.py, mount.pyaw};
+  // Not before the thread has joined may the caller go on, and with it time.
+  std::unique_lock lock(mutex_);
+  thread_ = std::thread([this] { run(); });
+  started_changed_.wait(lock, [this] { return started_; });
+}
+
+SndThread::~SndThread() {
+  PlayerCc::detail::CoreAccess::get(client_)->close();  // the thread finds its connection closed
+  thread_.join();
+  if (state() != SndState::kMoving) return;
+  try {
+    // What a session asked for last is still done when it closes.
+    PlayerCc::PlayerClient last(session().open_follower());
+    PlayerCc::Position2dProxy(&last, position_.GetIndex()).SetSpeed(0.0, 0.0);
+  } catch (const PlayerError&) {
+    // The run is over: there is nobody left to be stopped.
+  }
+}
+
+Session& SndThread::session() const {
+  return PlayerCc::detail::CoreAccess::get(client_)->session();
+}
+
+void SndThread::run() {
+  try {
+    session().join();
+    {
+      const std::lock_guard lock(mutex_);
+      started_ = true;
+    }
+    started_changed_.notify_all();
+    while (true) {
+      client_.Read();
+      round();
+    }
+  } catch (const PlayerError&) {
+    // The run is over, or the driver is being destroyed.
+  } catch (const SessionError&) {
+    // The same, before the first round.
+  }
+  const std::lock_guard lock(mutex_);
+  started_ = true;
+  started_changed_.notify_all();
+}
+
+void SndThread::round() {
+  const sim::SimTime now_ns = session().time().sim_time_ns;
+  take_requests(now_ns);
+  // Without a scan and a pose there is nothing to go by yet.
+  if (navigation_.state() == SndState::kMoving && laser_.IsFresh() && position_.IsValid()) {
+    laser_.NotFresh();
+    const uint32_t count = laser_.GetCount();
+    scan_.angle_min_rad = laser_.GetMinAngle();
+    scan_.resolution_rad = laser_.GetScanRes();
+    scan_.range_max_m = laser_.GetMaxRange();
+    scan_.ranges_m.resize(count);
+    for (uint32_t i = 0; i < count; ++i) scan_.ranges_m[i] = laser_.GetRange(i);
+    const sim::Pose X_WB{position_.GetXPos(), position_.GetYPos(), position_.GetYaw()};
+    const sim::Twist twist = navigation_.step(sim::to_seconds(now_ns), X_WB, scan_);
+    position_.SetSpeed(twist.v_mps, twist.omega_radps);
+  }
+  const std::lock_guard lock(mutex_);
+  newest_.state = navigation_.state();
+}
+
+// Takes over what was asked for before this round, and lets others see the round before.
+void SndThread::take_requests(sim::SimTime before_ns) {
+  const std::lock_guard lock(mutex_);
+  if (newest_.time_ns < before_ns) before_ = newest_;
+  newest_.time_ns = before_ns;
+  auto request = requests_.begin();
+  for (; request != requests_.end() && request->time_ns < before_ns; ++request) {
+    newest_.number = request->number;
+    if (const auto* goal = std::get_if<Goal>(&request->what)) {
+      begin(*goal);
+    } else if (const auto* settings = std::get_if<SndSettings>(&request->what)) {
+      in_use_ = *settings;
+      navigation_.set_settings(in_use_);
+    } else {
+      navigation_.cancel();
+    }
+  }
+  requests_.erase(requests_.begin(), request);
+}
+
+void SndThread::begin(const Goal& goal) {
+  SndSettings limited = in_use_;
+  limited.max_speed_mps =
+      std::min(limited.max_speed_mps, goal.max_speed_mps.value_or(limited.max_speed_mps));
+  limited.max_turn_rate_radps = std::min(
+      limited.max_turn_rate_radps, goal.max_turn_rate_radps.value_or(limited.max_turn_rate_radps));
+  navigation_.set_settings(limited);
+  navigation_.start({goal.position, goal.yaw_rad});
+}
+
+void SndThread::ask(std::variant<Goal, Cancel, SndSettings> what) {
+  const std::lock_guard lock(mutex_);
+  if (const auto* settings = std::get_if<SndSettings>(&what)) {
+    settings_ = *settings;
+    requests_.push_back({session().time().sim_time_ns, last_number_, std::move(what)});
+    return;
+  }
+  asked_for_ = std::holds_alternative<Goal>(what) ? SndState::kMoving : SndState::kIdle;
+  requests_.push_back({session().time().sim_time_ns, ++last_number_, std::move(what)});
+}
+
+void SndThread::go_to(const Goal& goal) { ask(goal); }
+
+void SndThread::cancel() { ask(Cancel{}); }
+
+void SndThread::set_settings(const SndSettings& settings) { ask(settings); }
+
+SndSettings SndThread::settings() const {
+  const std::lock_guard lock(mutex_);
+  return settings_;
+}
+
+SndState SndThread::state() const {
+  const std::lock_guard lock(mutex_);
+  const Outcome& outcome = newest_.time_ns < session().time().sim_time_ns ? newest_ : before_;
+  return outcome.number == last_number_ ? outcome.state : asked_for_;
+}
+
+std::shared_ptr<GoalDriver> share_driver(Session& session, const InterfaceBinding& binding) {
+  using Key = std::tuple<const void*, int, int>;  // simulation, robot, index
+  static std::mutex mutex;
+  static auto* const drivers = new std::map<Key, std::weak_ptr<GoalDriver>>;  // never destroyed
+  const SndDriverDescription& description = *binding.driver;
+  const std::lock_guard lock(mutex);
+  std::erase_if(*drivers, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<GoalDriver>& entry =
+      (*drivers)[{session.simulation(), binding.robot, description.index}];
+  if (auto driver = entry.lock()) return driver;
+  auto driver = std::make_shared<SndThread>(session.open_follower(), description.position,
+                                            description.laser, description.settings);
+  entry = driver;
+  return driver;
+}
+
+}  // namespace playerlike

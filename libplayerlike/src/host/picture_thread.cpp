@@ -1,0 +1,90 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/picture_thread.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/picture_sizes.h"
+
+namespace playerlike {
+namespace {
+
+// So many scenes may wait, to even out fast and slow ones, but not more memory than that.
+constexpr std::size_t kMostJobs = 8;
+constexpr std::size_t kMostBytes = 64 << 20;
+
+std::size_t most_jobs(const sim::SceneSnapshot& scene) {
+  return std::clamp<std::size_t>(kMostBytes / (scene.canvas.size() + 1), 1, kMostJobs);
+}
+
+}  // namespace
+
+PictureThread::PictureThread(std::unique_ptr<sim::render::FilmWriter> film)
+    : film_(std::move(film)),
+      film_renderer_({.size_px = kFilmSize_px}),
+      picture_renderer_({.size_px = kSceneSize_px}),
+      thread_([this] { work(); }) {}
+
+PictureThread::~PictureThread() { end_thread(); }
+
+void PictureThread::add(Job job) {
+  std::unique_lock lock(mutex_);
+  const std::size_t most = most_jobs(job.scene);
+  changed_.wait(lock, [&] { return jobs_.size() < most || failure_; });
+  if (failure_) return;
+  jobs_.push_back(std::move(job));
+  changed_.notify_all();
+}
+
+void PictureThread::finish() {
+  end_thread();
+  const std::unique_ptr<sim::render::FilmWriter> film = std::move(film_);
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  if (film) film->finish();
+}
+
+void PictureThread::end_thread() {
+  {
+    const std::lock_guard lock(mutex_);
+    last_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void PictureThread::work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return !jobs_.empty() || last_; });
+    if (jobs_.empty()) return;
+    const Job job = std::move(jobs_.front());
+    std::exception_ptr failure;
+    lock.unlock();
+    try {
+      draw(job);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    lock.lock();
+    // Only now: a job in work counts, so that no more memory is taken than meant.
+    jobs_.pop_front();
+    if (failure) {
+      failure_ = failure;
+      jobs_.clear();
+    }
+    changed_.notify_all();
+    if (failure) return;
+  }
+}
+
+void PictureThread::draw(const Job& job) {
+  if (job.film_frames > 0) {
+    const sim::render::Image& frame = film_renderer_.draw(job.scene);
+    for (int i = 0; i < job.film_frames; ++i) film_->add(frame);
+  }
+  if (!job.picture.empty()) {
+    sim::render::write_png(picture_renderer_.draw(job.scene), job.picture);
+  }
+}
+
+}  // namespace playerlike
