@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# From a fresh machine to pictures: installs what is missing, builds what is needed, and lets a
-# course solution drive a robot round the arena for 120 simulated seconds. Results: out/demo/.
+# From a fresh machine to a film: installs what is missing, builds what is needed, and lets a robot
+# explore an arena that it does not know, all by itself. Results: out/demo/.
 set -euo pipefail
 
 case ${1:-} in
@@ -54,7 +54,7 @@ if command -v ccache >/dev/null 2>&1; then
   launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
 quietly "configuring" cmake --preset release "${launcher[@]}"
-targets=(playpen par_intro_solution_wall)
+targets=(playpen par_exploration_solution_nearest)
 jobs=$(nproc)
 if [[ -t 1 ]]; then
   # On a terminal ninja shows its progress in one line.
@@ -63,14 +63,15 @@ if [[ -t 1 ]]; then
 else
   quietly "the build" cmake --build "$build" --parallel "$jobs" --target "${targets[@]}"
 fi
-echo "     $build/bin/playpen, $build/bin/par_intro_solution_wall"
+echo "     $build/bin/playpen, $build/bin/par_exploration_solution_nearest"
 
-headline "3/3  A robot follows the walls of the arena for 120 simulated seconds"
-results=(scene.png canvas.png report.json trajectory.csv)
+headline "3/3  A robot explores an arena that it does not know"
+results=(film.mp4 scene.png canvas.png layers/occupancy.pgm layers/occupancy.yaml report.json
+  trajectory.csv)
 # Those of an earlier run must not pass for this one's.
 (cd "$out" && rm -f "${results[@]}")
-"$build/bin/playpen" run worlds/tasks/par_intro.json --duration 120 --out "$out" \
-  -- "$build/bin/par_intro_solution_wall" ||
+"$build/bin/playpen" run worlds/tasks/par_exploration.json --record "$out/film.mp4" \
+  --record-speed 2.5 --out "$out" -- "$build/bin/par_exploration_solution_nearest" ||
   fail "the run ended with status $?; its messages are above"
 
 for file in "${results[@]}"; do
@@ -78,7 +79,9 @@ for file in "${results[@]}"; do
 done
 echo
 headline "Look at"
-echo "  $root/$out/scene.png        the arena, the robot and its trail"
-echo "  $root/$out/canvas.png       what the robot drew"
+echo "  $root/$out/film.mp4         how it went, 2.5 times as fast"
+echo "  $root/$out/scene.png        the arena, the robot, and what it knows at the end"
+echo "  $root/$out/canvas.png       what it knows, alone; layers/ has each layer"
+echo "  $root/$out/layers/occupancy.yaml   its map, for ROS's map_server"
 echo "  $root/$out/report.json      the figures"
 echo "  $root/$out/trajectory.csv   where it was, and when"

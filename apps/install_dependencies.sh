@@ -14,7 +14,8 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 
 Groups (default: build):
   build   compiler, CMake and the libraries that Playpen links
-  test    GoogleTest and Google Benchmark
+  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, and a display without a
+          screen for the live window
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
 
@@ -29,10 +30,11 @@ build_packages=(
   "g++=g++" cmake=cmake ninja-build=ninja make=make
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
-  libopencv-highgui-dev
-  nlohmann-json3-dev libspdlog-dev libcli11-dev
+  libopencv-highgui-dev libx11-dev
+  nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
 )
-test_packages=(libgtest-dev libgmock-dev libbenchmark-dev)
+test_packages=(
+  libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)
 doc_packages=(doxygen=doxygen)

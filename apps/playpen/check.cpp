@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "playerlike/messages/snd_settings.h"
 #include "sim/core/error.h"
 #include "sim/simulation/simulation.h"
 
@@ -39,7 +40,9 @@ int check(const std::vector<std::string>& worlds) {
   for (const std::string& world : worlds) {
     try {
       // First all that may throw, then the line.
-      const std::string what = describe(sim::load_world(find_world(world)));
+      const sim::WorldDescription description = sim::load_world(find_world(world));
+      playerlike::check_drivers(description);
+      const std::string what = describe(description);
       std::cout << world << ": ok (" << what << ")\n";
     } catch (const sim::ConfigError& error) {
       std::cerr << error.what() << '\n';

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct RunRequest {
   std::string world;  ///< as the user wrote it, see find_world()
   playerlike::RunSettings settings;
   bool quiet = false;
+  bool view = false;  ///< in a window, in real time unless the settings say otherwise
   std::vector<std::string> command;  ///< program and arguments
 };
 
@@ -27,16 +30,53 @@ struct RunRequest {
 /// @return a path, "" for "default" and "" (the default world), or `name` if nothing was found.
 [[nodiscard]] std::string find_world(const std::string& name);
 
+/// Finds the task that a user means, as find_world() does: a file, or the name of a shipped task
+/// such as "par_intro" or "tasks/par_intro".
+/// @return a path, or `name` if nothing was found.
+[[nodiscard]] std::string find_task(const std::string& name);
+
+/// What `playpen grade` was asked for.
+struct GradeRequest {
+  std::string task;                  ///< as the user wrote it, see find_task()
+  std::vector<std::string> worlds;   ///< see find_world(); none: those of the task
+  std::vector<std::uint64_t> seeds;  ///< none: those of the task
+  int jobs = 0;                      ///< 0: as many as there are processors
+  std::optional<double> timeout_s;   ///< none: that of the task
+  std::string output_folder;         ///< "": out/grade/TASK
+  std::string json_file;             ///< "": grade.json in the output folder
+  std::vector<std::string> command;  ///< program and arguments
+};
+
+/// Runs a client program on the worlds of a task, judges it, prints a table and writes a JSON file.
+/// @return kOk if all runs pass, else kProgramFailed.
+/// @throws sim::ConfigError for a bad task or world, playerlike::ProgramError for a program that
+///         can't be started, std::exception if a folder or file can't be written.
+[[nodiscard]] int grade_program(GradeRequest request);
+
 /// Runs a client program on a world; prints how it went unless told to be quiet.
 /// @throws sim::ConfigError for a bad world, playerlike::ProgramError for a program that can't be
-///         started, std::exception if the output folder can't be prepared.
+///         started, std::exception if the output folder can't be prepared or there can be no
+///         window.
 [[nodiscard]] int run(RunRequest request);
 
 /// Validates worlds; prints a line for each sound one and every issue of the others.
 [[nodiscard]] int check(const std::vector<std::string>& worlds);
 
-/// Draws a world as it is at its start into a PNG of `size_px` pixels on its longer side.
-/// @throws sim::ConfigError for a bad world, std::runtime_error if the file can't be written.
-[[nodiscard]] int render(const std::string& world, const std::string& file, int size_px);
+/// What `playpen render` was asked for.
+struct RenderRequest {
+  std::string world;  ///< as the user wrote it, see find_world(); or a map_server file, .yaml
+  std::string file;   ///< .png, or .yaml with `map`
+  int size_px = 1000;
+  std::optional<sim::ViewMode> view_mode;  ///< instead of the world's
+  bool canvas = false;                     ///< the canvas alone
+  bool map = false;                        ///< the true map
+};
+
+/// Draws a world as it is at its start, its canvas alone or its true map, or a map.
+/// Pictures of cells have a whole number of pixels a cell, so many that the longer side is at most
+/// `size_px` long, but at least one.
+/// @throws sim::ConfigError for a bad world or map, std::runtime_error if the file can't be written
+///         or the request asks for what is not there.
+[[nodiscard]] int render(const RenderRequest& request);
 
 }  // namespace playpen

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "commands.h"
+#include "grade/task.h"
 
 namespace playpen {
 namespace {
@@ -30,18 +31,31 @@ std::vector<fs::path> worlds_folders() {
   return folders;
 }
 
+/// The first of these files that a worlds folder has, or `name`.
+std::string find_shipped(const std::string& name, const std::vector<std::string>& files) {
+  std::error_code error;
+  for (const fs::path& folder : worlds_folders()) {
+    for (const std::string& file : files) {
+      if (fs::is_regular_file(folder / file, error)) return (folder / file).string();
+    }
+  }
+  return name;
+}
+
 }  // namespace
 
 std::string find_world(const std::string& name) {
   std::error_code error;
   if (name.empty() || fs::exists(name, error)) return name;
   if (name == "default") return "";
-  for (const fs::path& folder : worlds_folders()) {
-    for (const fs::path& candidate : {folder / name, folder / (name + ".json")}) {
-      if (fs::is_regular_file(candidate, error)) return candidate.string();
-    }
-  }
-  return name;
+  return find_shipped(name, {name, name + ".json"});
+}
+
+std::string find_task(const std::string& name) {
+  std::error_code error;
+  if (name.empty() || fs::is_regular_file(name, error)) return name;
+  const std::string file = name + std::string(grade::kTaskSuffix);
+  return find_shipped(name, {name, file, "tasks/" + file});
 }
 
 }  // namespace playpen

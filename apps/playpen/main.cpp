@@ -6,19 +6,32 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "commands.h"
+#include "grade_options.h"
 #include "parsed_option.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/core/error.h"
+#include "sim/render/render.h"
+#include "sim/world/view_mode.h"
 
 namespace {
 
 using playpen::add_parsed;
 using playpen::parse_number;
+
+void add_view_mode(CLI::App& command, std::optional<sim::ViewMode>& mode) {
+  add_parsed(command, "--view-mode",
+             "How the canvas is shown: ground, mini-map or full-screen [the world's]", "MODE",
+             playerlike::kViewModeExpected, [&mode](const std::string& text) {
+               mode = sim::parse_view_mode(text);
+               return mode.has_value();
+             });
+}
 
 void add_run(CLI::App& app, const std::vector<std::string>& program, int& status) {
   const auto request = std::make_shared<playpen::RunRequest>();
@@ -57,11 +70,29 @@ void add_run(CLI::App& app, const std::vector<std::string>& program, int& status
              });
   command.add_option("--out", settings.output_folder, "Folder for results [out/<world's name>]")
       ->type_name("DIR");
-  add_parsed(command, "--record", "Record a film", "FILE.mp4", "a file ending in .mp4 or .avi",
-             [&settings](const std::string& text) {
+  add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
+             playerlike::kFilmExpected, [&settings](const std::string& text) {
                settings.film = text;
-               return text.size() > 4 && (text.ends_with(".mp4") || text.ends_with(".avi"));
+               return sim::render::FilmWriter::is_film_name(text);
              });
+  add_parsed(command, "--record-fps", "Frames a second of the film [25]", "N",
+             playerlike::kFilmFpsExpected, [&settings](const std::string& text) {
+               return playerlike::parse_film_fps(text, settings.film_fps);
+             });
+  add_parsed(command, "--record-speed", "Simulated seconds a second of the film [1]", "X",
+             playerlike::kFilmSpeedExpected, [&settings](const std::string& text) {
+               return playerlike::parse_film_speed(text, settings.film_speed);
+             });
+  add_parsed(command, "--snapshot-every", "Simulated seconds between pictures in DIR/snapshots",
+             "S", playerlike::kSnapshotPeriodExpected, [&settings](const std::string& text) {
+               double period_s = 0.0;
+               const bool good = playerlike::parse_snapshot_period(text, period_s);
+               if (good) settings.snapshot_period_s = period_s;
+               return good;
+             });
+  add_view_mode(command, settings.view_mode);
+  command.add_flag("--view", request->view,
+                   "Watch and steer in a window, in real time unless --time gives a factor");
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
   command.callback([request, &status] {
     if (request->command.empty()) throw CLI::RequiredError("-- PROGRAM");
@@ -77,28 +108,33 @@ void add_check(CLI::App& app, int& status) {
 }
 
 void add_render(CLI::App& app, int& status) {
-  struct Arguments {
-    std::string world;
-    std::string file;
-    int size_px = 1000;
-  };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto request = std::make_shared<playpen::RenderRequest>();
   CLI::App& command = *app.add_subcommand("render", "Draw a world as it is at its start");
-  command.add_option("world", arguments->world, "World file")->required()->type_name("");
-  add_parsed(command, "--out", "Picture to write", "FILE.png", "a file ending in .png",
-             [arguments](const std::string& text) {
-               arguments->file = text;
-               return text.size() > 4 && text.ends_with(".png");
+  command
+      .add_option("world", request->world,
+                  "World file or name of a shipped world, or a map (a map_server file, .yaml)")
+      ->required()
+      ->type_name("");
+  add_parsed(command, "--out", "Picture, or with --map also the map's .yaml", "FILE.png",
+             "a file ending in .png (or .yaml)",
+             [request](const std::string& text) {
+               request->file = text;
+               return text.size() > 4 && (text.ends_with(".png") || text.ends_with(".yaml"));
              })
       ->required();
   add_parsed(command, "--size", "Pixels along the longer side [1000]", "PX",
-             "a whole number from 64 to 8192", [arguments](const std::string& text) {
-               int& size_px = arguments->size_px;
+             "a whole number from 64 to 8192", [request](const std::string& text) {
+               int& size_px = request->size_px;
                return parse_number(text, size_px) && size_px >= 64 && size_px <= 8192;
              });
-  command.callback([arguments, &status] {
-    status = playpen::render(arguments->world, arguments->file, arguments->size_px);
-  });
+  add_view_mode(command, request->view_mode);
+  CLI::Option* const canvas = command.add_flag("--canvas", request->canvas,
+                                               "The canvas alone, a whole number of pixels a cell");
+  command
+      .add_flag("--map", request->map,
+                "The true map, a cell of the canvas each: as a picture, or as a map_server pair")
+      ->excludes(canvas);
+  command.callback([request, &status] { status = playpen::render(*request); });
 }
 
 }  // namespace
@@ -112,13 +148,16 @@ int main(int argc, char** argv) {
         "Exit status: 0 fine, 1 the program failed, 2 bad input.\n"
         "'playpen COMMAND --help' tells more.");
     int status = playpen::kOk;
-    // What follows `run ... --` is another program's: kept from the parser, which would take
-    // "[a,b]" apart.
+    // What follows `run ... --` or `grade ... --` is another program's: kept from the parser, which
+    // would take "[a,b]" apart.
     char** const all_end = argv + argc;
-    char** const end = argc > 1 && argv[1] == std::string_view("run")
+    const std::string_view command = argc > 1 ? argv[1] : "";
+    char** const end = command == "run" || command == "grade"
                            ? std::find(argv, all_end, std::string_view("--"))
                            : all_end;
-    add_run(app, std::vector<std::string>(std::min(end + 1, all_end), all_end), status);
+    const std::vector<std::string> program(std::min(end + 1, all_end), all_end);
+    add_run(app, program, status);
+    playpen::add_grade(app, program, status);
     add_check(app, status);
     add_render(app, status);
     try {

@@ -1,16 +1,82 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/render/render.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "commands.h"
+#include "sim/io/map_file.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/occupancy_map.h"
 
 namespace playpen {
+namespace {
 
-int render(const std::string& world, const std::string& file, int size_px) {
-  const sim::Simulation simulation(sim::load_world(find_world(world)));
-  sim::render::RenderOptions options;
-  options.size_px = size_px;
-  sim::render::write_png(sim::render::draw_scene(simulation.snapshot(), options), file);
+bool is_map_file(const std::string& name) {
+  return name.ends_with(".yaml") || name.ends_with(".yml");
+}
+
+void draw_cells(const RenderRequest& request, int width, int height,
+                const std::vector<std::uint8_t>& rgba) {
+  sim::CanvasDescription cells;
+  cells.width = width;
+  cells.height = height;
+  const int scale = std::max(1, request.size_px / std::max(width, height));
+  sim::render::write_png(sim::render::draw_canvas(cells, rgba, scale), request.file);
+}
+
+/// White is free, black occupied, grey between.
+void draw_map(const RenderRequest& request, const sim::OccupancyMap& map) {
+  std::vector<std::uint8_t> rgba;
+  rgba.reserve(4 * map.cells.size());
+  for (const float occupancy : map.cells) {
+    const auto shade = static_cast<std::uint8_t>(std::lround(255.0F * (1.0F - occupancy)));
+    rgba.insert(rgba.end(), {shade, shade, shade, 255});
+  }
+  draw_cells(request, map.width, map.height, rgba);
+}
+
+void give_map(const RenderRequest& request, const sim::OccupancyMap& map) {
+  if (!is_map_file(request.file)) return draw_map(request, map);
+  sim::io::write_map(map, std::filesystem::path(request.file).replace_extension().string());
+}
+
+}  // namespace
+
+int render(const RenderRequest& request) {
+  if (is_map_file(request.file) && !request.map) {
+    throw std::runtime_error("a .yaml file holds a map: say --map as well, or name a .png file");
+  }
+  if (is_map_file(request.world)) {
+    if (request.canvas || request.view_mode) {
+      throw std::runtime_error("'" + request.world +
+                               "' is a map; --canvas and --view-mode are for worlds");
+    }
+    give_map(request, sim::io::read_map(request.world));
+    return kOk;
+  }
+  sim::WorldDescription world = sim::load_world(find_world(request.world));
+  playerlike::RunSettings settings;
+  settings.view_mode = request.view_mode;
+  settings.apply_to(world);
+  const sim::Simulation simulation(std::move(world));
+  const sim::SceneSnapshot scene = simulation.snapshot();
+  if (request.map) {
+    give_map(request, sim::true_map(scene.arena, scene.canvas_description));
+  } else if (request.canvas) {
+    draw_cells(request, scene.canvas_description.width, scene.canvas_description.height,
+               scene.canvas);
+  } else {
+    sim::render::RenderOptions options;
+    options.size_px = request.size_px;
+    sim::render::write_png(sim::render::draw_view(scene, options), request.file);
+  }
   return kOk;
 }
 

@@ -1,13 +1,16 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 
 #include "commands.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/report_summary.h"
+#include "playerlike/host/results.h"
 #include "sim/simulation/simulation.h"
+#include "viewer_process.h"
 
 namespace playpen {
 namespace {
@@ -15,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kReport = "report.json";
+constexpr const char* kTrajectory = "trajectory.csv";  // made when the program connects
 
 /// Where results go unless the user says so: a folder of the world's name in out/.
 std::string default_output_folder(const std::string& world_file) {
@@ -30,13 +34,11 @@ void prepare_outputs(const playerlike::RunSettings& settings) {
     throw std::runtime_error("the output folder '" + settings.output_folder +
                              "' can't be made: " + error.message());
   }
-  for (const char* name : {kReport, "scene.png", "canvas.png", "trajectory.csv"}) {
-    const fs::path file = fs::path(settings.output_folder) / name;
-    fs::remove(file, error);
-    if (error) throw fs::filesystem_error("an earlier result can't be removed", file, error);
-  }
+  playerlike::remove_results(settings.output_folder);
   if (settings.film.empty()) return;
-  const fs::path film_folder = fs::absolute(settings.film).parent_path();
+  // A film that is a folder of pictures ends in a slash, maybe.
+  const fs::path film = fs::absolute(settings.film);
+  const fs::path film_folder = (film.has_filename() ? film : film.parent_path()).parent_path();
   if (!fs::is_directory(film_folder, error)) {
     throw std::runtime_error("the folder of the film, '" + film_folder.string() +
                              "', does not exist");
@@ -48,18 +50,35 @@ void print_results(const playerlike::RunSettings& settings) {
   const fs::path folder(settings.output_folder);
   std::cout << playerlike::summarize_report(folder / kReport)
             << "pictures: " << (folder / "scene.png").string() << ", "
-            << (folder / "canvas.png").string() << '\n';
+            << (folder / "canvas.png").string() << ", " << (folder / "layers").string() << '/';
+  if (settings.snapshot_period_s) std::cout << ", " << (folder / "snapshots").string() << '/';
+  std::cout << '\n';
   if (!settings.film.empty()) std::cout << "film: " << settings.film << '\n';
+}
+
+/// Lets time follow the wall clock, as people need it who watch.
+/// @throws std::runtime_error if lockstep was asked for.
+void pace(playerlike::RunSettings& settings, const sim::WorldDescription& world) {
+  if (settings.time_mode == sim::TimeMode::kLockstep) {
+    throw std::runtime_error(
+        "--view shows a run in real time, so it can't go with --time lockstep; leave that out, or "
+        "give a factor such as --time 4");
+  }
+  if (settings.time_mode || world.simulation.time_mode == sim::TimeMode::kPaced) return;
+  settings.time_mode = sim::TimeMode::kPaced;
+  settings.time_factor = 1.0;
 }
 
 }  // namespace
 
 int run(RunRequest request) {
   const std::string world_file = find_world(request.world);
-  const sim::WorldDescription world = sim::load_world(world_file);
+  sim::WorldDescription world = sim::load_world(world_file);
+  request.settings.apply_to(world);  // says what does not go with the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
   playerlike::RunSettings& settings = request.settings;
   if (settings.output_folder.empty()) settings.output_folder = default_output_folder(world_file);
+  if (request.view) pace(settings, world);
   settings.progress = !request.quiet;
   settings.quiet_end = true;
   prepare_outputs(settings);
@@ -67,15 +86,24 @@ int run(RunRequest request) {
     std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
                  "(or give --duration)\n";
   }
+  std::optional<ViewerProcess> viewer;
+  if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
 
   const std::string& program = request.command.front();
   const playerlike::ProgramEnd end =
       playerlike::run_program(request.command, playerlike::run_environment(world_file, settings));
 
+  viewer.reset();  // it has nothing to show any more
+
   const bool reported = fs::exists(fs::path(settings.output_folder) / kReport);
   if (reported && !request.quiet) print_results(settings);
   if (!end.success()) {
     std::cerr << "playpen: " << program << ' ' << end.text() << '\n';
+    return kProgramFailed;
+  }
+  if (!reported && fs::exists(fs::path(settings.output_folder) / kTrajectory)) {
+    std::cerr << "playpen: there is no report: " << program
+              << " was cut short in the middle of the run, or the results could not be written\n";
     return kProgramFailed;
   }
   if (!reported) {

@@ -1,0 +1,44 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "shared_map.h"
+
+namespace {
+
+// Times of one moment that two devices tell are the same number; this is for robots whose clocks
+// are not ideal [s].
+const double SAME_TIME = 1e-3;
+
+}  // namespace
+
+void CSharedMap::publish(const par::OccupancyGrid& newMap, const Observation& observation) {
+  {
+    const ScopedLock lk(mtx);
+    map = newMap;
+    newest = observation;
+  }
+  changed.notify_all();
+}
+
+void CSharedMap::close() {
+  {
+    const ScopedLock lk(mtx);
+    isClosed = true;
+  }
+  changed.notify_all();
+}
+
+bool CSharedMap::waitFor(double time, Observation& observation) {
+  ScopedLock lk(mtx);
+  changed.wait(lk, [&] { return isClosed || newest.time > time - SAME_TIME; });
+  observation = newest;
+  return !isClosed;
+}
+
+par::OccupancyGrid CSharedMap::copy() const {
+  const ScopedLock lk(mtx);
+  return map;
+}
+
+bool CSharedMap::closed() const {
+  const ScopedLock lk(mtx);
+  return isClosed;
+}

@@ -1,0 +1,26 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#ifndef PAR_EXPLORATION_ROBOT_H
+#define PAR_EXPLORATION_ROBOT_H
+
+#include <cstddef>
+#include <vector>
+
+#include "explorer.h"
+#include "imr-h/imr_config.h"
+#include "par_common/occupancy_grid.h"
+
+// Explores by going to the nearest frontier, the classic (B. Yamauchi, "A frontier-based approach
+// for autonomous exploration", CIRA 1997). Simple, and hard to beat by much.
+class CRobot : public CExplorer {
+ public:
+  static imr::CConfig& getConfig(imr::CConfig& config);
+
+  explicit CRobot(imr::CConfig& cfg);
+  ~CRobot() override;
+
+ protected:
+  std::size_t choose(const std::vector<Candidate>& candidates,
+                     const par::Grid<par::CellState>& states) override;
+};
+
+#endif

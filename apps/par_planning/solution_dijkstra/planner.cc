@@ -1,0 +1,10 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "planner.h"
+
+const char* const PLANNER_NAME = "Dijkstra";
+
+// The shortest way over the grid's 8 neighbours. It goes in steps of 45 degrees; what comes next,
+// smoothing by line of sight, pulls it straight.
+par::Path plan(const par::Mask& blocked, const par::Cell& start, const par::Cell& goal) {
+  return par::dijkstra(blocked, start, goal);
+}

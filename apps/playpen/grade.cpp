@@ -1,0 +1,78 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/grade.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "commands.h"
+#include "playerlike/host/program.h"
+
+namespace playpen {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A line that is written over again and again, if a person looks at it.
+class ProgressLine {
+ public:
+  void show(const grade::Progress& progress) {
+    if (!is_terminal_) return;
+    std::cerr << "\r\033[K" << progress.ended << " of " << progress.runs << " runs ended, "
+              << progress.running << " running" << std::flush;
+  }
+  void clear() const {
+    if (is_terminal_) std::cerr << "\r\033[K" << std::flush;
+  }
+
+ private:
+  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
+};
+
+void write_file(const fs::path& file, const std::string& text) {
+  if (file.has_parent_path()) {
+    std::error_code ignored;  // what is not there then shows below
+    fs::create_directories(file.parent_path(), ignored);
+  }
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error("the file '" + file.string() + "' can't be written");
+}
+
+}  // namespace
+
+int grade_program(GradeRequest request) {
+  grade::GradeSettings settings;
+  settings.task = grade::read_task(find_task(request.task));
+  for (std::string& world : request.worlds) world = find_world(world);
+  if (!request.worlds.empty()) grade::choose_worlds(settings.task, request.worlds);
+  if (!request.seeds.empty()) settings.task.seeds = request.seeds;
+  if (request.timeout_s) settings.task.timeout_s = *request.timeout_s;
+  settings.program = request.command;
+  settings.program.front() = playerlike::find_program(request.command.front());
+  settings.jobs = request.jobs > 0
+                      ? request.jobs
+                      : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  settings.output_folder =
+      request.output_folder.empty() ? "out/grade/" + settings.task.name : request.output_folder;
+
+  ProgressLine line;
+  grade::Grade result =
+      grade::grade(settings, [&line](const grade::Progress& progress) { line.show(progress); });
+  line.clear();
+  result.program = request.command;  // as the user wrote it
+  std::cout << grade::table(result);
+  const fs::path file = request.json_file.empty() ? fs::path(settings.output_folder) / "grade.json"
+                                                  : fs::path(request.json_file);
+  write_file(file, grade::json_text(result));
+  std::cout << "details: " << file.string() << '\n';
+  return result.passed() == result.runs.size() ? kOk : kProgramFailed;
+}
+
+}  // namespace playpen

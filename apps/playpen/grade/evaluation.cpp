@@ -1,0 +1,290 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "grade/map_score.h"
+#include "grade/shortest_path.h"
+#include "grade/text.h"
+#include "sim/core/error.h"
+#include "sim/io/map_file.h"
+#include "sim/world/robot_model.h"
+
+namespace playpen::grade {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Radius of the largest circle round the origin within a convex outline [m].
+double inscribed_radius(const sim::Polygon& outline) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const sim::Vec2& a = outline[i];
+    const sim::Vec2 side = outline[(i + 1) % outline.size()] - a;
+    // Distance of the origin from the line through a side.
+    radius = std::min(radius, std::abs(side.x() * a.y() - side.y() * a.x()) / side.norm());
+  }
+  return radius;
+}
+
+[[noreturn]] void refuse(const Task& task, const char* id, const char* pointer,
+                         std::string expected, std::string found, std::string hint = "") {
+  throw sim::ConfigError(sim::ConfigIssue{id, task.file, pointer, std::move(expected),
+                                          std::move(found), std::move(hint)});
+}
+
+/// Takes the judged robot's figures out of the report. @return what is wrong, if something is.
+std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
+                                       Measures& measures) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "no report: the program never connected to the simulation, or was cut short";
+  try {
+    const nlohmann::json report = nlohmann::json::parse(in);
+    Measures found = measures;
+    found.sim_time_s = report.at("run").at("sim_time").get<double>();
+    for (const nlohmann::json& robot : report.at("robots")) {
+      if (robot.at("name").get<std::string>() != reference.robot) continue;
+      found.path_length_m = robot.at("path_length").get<double>();
+      found.collisions = robot.at("collisions").get<int>();
+      // null: there is nothing solid to be clear of.
+      if (const nlohmann::json& clearance = robot.at("least_clearance"); !clearance.is_null()) {
+        found.least_clearance_m = clearance.get<double>();
+      }
+      found.stalled_time_s = robot.at("stalled_time").get<double>();
+      if (!reference.goal) continue;
+      const nlohmann::json& pose = robot.at("final_pose");
+      const sim::Vec2 place(pose.at("x").get<double>(), pose.at("y").get<double>());
+      const Goal& goal = *reference.goal;
+      found.goal_distance_m = (place - goal.position).norm();
+      const bool looks_right =
+          !goal.yaw_rad ||
+          std::abs(sim::normalize_angle(pose.at("yaw").get<double>() - *goal.yaw_rad)) <=
+              goal.yaw_tolerance_rad;
+      found.reached = *found.goal_distance_m <= goal.tolerance_m && looks_right;
+      if (*found.reached && found.shortest_path_m && *found.shortest_path_m > 0.0) {
+        found.path_ratio = *found.path_length_m / *found.shortest_path_m;
+      }
+    }
+    measures = found;
+    if (!measures.path_length_m) return "the report has no robot " + reference.robot;
+  } catch (const nlohmann::json::exception& error) {
+    return std::string("the report is not as expected: ") + error.what();
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> read_drawn_map(const fs::path& folder, const Task& task,
+                                          const Reference& reference, Measures& measures) {
+  const std::string name = "layers/" + task.map_layer + ".yaml";
+  std::error_code error;
+  if (!fs::is_regular_file(folder / name, error)) return "no map: there is no " + name;
+  try {
+    const sim::OccupancyMap map = sim::io::read_map((folder / name).string());
+    const MapScore score = score_map(map, reference.truth, reference.start);
+    measures.coverage = score.coverage;
+    measures.correctness = score.correctness;
+  } catch (const sim::ConfigError& e) {
+    return std::string("the map can't be read: ") + e.what();
+  }
+  return std::nullopt;
+}
+
+Ending ending_of(const playerlike::JobEnd& end, const Measures& measures,
+                 const Reference& reference) {
+  using Kind = playerlike::JobEnd::Kind;
+  switch (end.kind) {
+    case Kind::kNotStarted:
+      return Ending::kNotRun;
+    case Kind::kInterrupted:
+      return Ending::kInterrupted;
+    case Kind::kTimedOut:
+      return Ending::kTimedOut;
+    case Kind::kEnded:
+      break;
+  }
+  if (end.program.signal) return Ending::kSignal;
+  if (end.program.status != 0) return Ending::kBadStatus;
+  constexpr double kRounding_s = 1e-6;  // of the time that the report has
+  const bool over = reference.duration_s && measures.sim_time_s &&
+                    *measures.sim_time_s >= *reference.duration_s - kRounding_s;
+  return over ? Ending::kTimeOver : Ending::kBySelf;
+}
+
+/// What is wrong with an ending, whatever the thresholds; nullopt if nothing is.
+std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end,
+                                    const Task& task) {
+  switch (ending) {
+    case Ending::kBySelf:
+    case Ending::kTimeOver:
+      return std::nullopt;
+    case Ending::kBadStatus:
+    case Ending::kSignal:
+      return "the program " + end.program.text();
+    case Ending::kTimedOut:
+      return "timeout: still running after " + short_number(task.timeout_s) + " s";
+    case Ending::kInterrupted:
+      return "the grader was interrupted";
+    case Ending::kNotRun:
+      return "not run: the grader was interrupted";
+  }
+  return std::nullopt;
+}
+
+/// Adds a fault if a measure lies beyond its limit, or was not taken.
+class Judge {
+ public:
+  void at_least(const char* what, const std::optional<double>& value,
+                const std::optional<double>& limit, int decimals, const char* unit = "") {
+    compare(what, value, limit, decimals, unit, true);
+  }
+  void at_most(const char* what, const std::optional<double>& value,
+               const std::optional<double>& limit, int decimals, const char* unit = "") {
+    compare(what, value, limit, decimals, unit, false);
+  }
+  void add(std::string fault) { faults_.push_back(std::move(fault)); }
+  [[nodiscard]] std::vector<std::string> take() { return std::move(faults_); }
+
+ private:
+  void compare(const char* what, const std::optional<double>& value,
+               const std::optional<double>& limit, int decimals, const char* unit, bool least) {
+    if (!limit) return;
+    const std::string bound = least ? "at least " : "at most ";
+    if (!value) {
+      add(std::string(what) + " unknown, " + bound + short_number(*limit) + unit + " asked for");
+    } else if (least ? *value < *limit : *value > *limit) {
+      add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + ", " + bound +
+          short_number(*limit) + unit + (least ? " needed" : " allowed"));
+    }
+  }
+
+  std::vector<std::string> faults_;
+};
+
+}  // namespace
+
+Reference make_reference(const Task& task, const TaskWorld& task_world,
+                         const sim::WorldDescription& world) {
+  Reference reference;
+  reference.world_file = task_world.file;
+  reference.world = world_name(task_world.file);
+  const auto robot =
+      task.robot.empty()
+          ? world.robots.begin()
+          : std::find_if(world.robots.begin(), world.robots.end(),
+                         [&task](const sim::RobotDescription& r) { return r.name == task.robot; });
+  if (robot == world.robots.end()) {
+    refuse(task, "task/unknown-robot", "/robot",
+           task.robot.empty() ? "worlds with a robot" : "worlds with a robot " + task.robot,
+           "none in \"" + reference.world + '"');
+  }
+  reference.robot = robot->name;
+  reference.start = robot->pose.position();
+  reference.duration_s = task.duration_s;
+  if (!reference.duration_s && world.simulation.duration_ns) {
+    reference.duration_s = sim::to_seconds(*world.simulation.duration_ns);
+  }
+  reference.goal = task_world.goal ? task_world.goal : task.goal;
+  if (!reference.goal && (task.thresholds.must_reach || task.thresholds.max_path_ratio)) {
+    refuse(task, "task/missing-goal", "", "a \"goal\" that holds for every world",
+           "none for \"" + reference.world + '"', "the thresholds ask for one");
+  }
+  if (!task.map_layer.empty() || reference.goal) reference.truth = make_truth(world.arena);
+  if (reference.goal) {
+    const double radius_m = inscribed_radius(sim::find_robot_model(robot->model)->footprint);
+    // What stands beside a wall is up to a cell's diagonal deeper in the inflated map; a goal
+    // need only be met within its tolerance.
+    const double slip_m = std::max(2.0 * kTruthCell_m, reference.goal->tolerance_m);
+    const std::optional<Way> way = shortest_way(inflate(reference.truth, radius_m), reference.start,
+                                                reference.goal->position, slip_m);
+    if (!way) {
+      refuse(task, "task/unreachable-goal", "",
+             "a goal that robot " + reference.robot + " can reach",
+             '(' + short_number(reference.goal->position.x()) + ", " +
+                 short_number(reference.goal->position.y()) + ") in \"" + reference.world +
+                 "\", to which there is no way");
+    }
+    reference.shortest_path_m = way->length_m;
+  }
+  return reference;
+}
+
+std::string name_of(Ending ending) {
+  switch (ending) {
+    case Ending::kBySelf:
+      return "by-itself";
+    case Ending::kTimeOver:
+      return "time-over";
+    case Ending::kBadStatus:
+      return "bad-status";
+    case Ending::kSignal:
+      return "signal";
+    case Ending::kTimedOut:
+      return "timeout";
+    case Ending::kInterrupted:
+      return "interrupted";
+    case Ending::kNotRun:
+      return "not-run";
+  }
+  return "";
+}
+
+std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Ending ending) {
+  Judge judge;
+  if (t.must_end && ending == Ending::kTimeOver) {
+    judge.add("the simulated time was over before the program ended");
+  }
+  if (t.must_reach && !m.reached) judge.add("goal not known to be reached");
+  if (t.must_reach && m.reached && !*m.reached) {
+    judge.add("goal not reached: " + fixed(*m.goal_distance_m, 2) + " m away from it at the end");
+  }
+  judge.at_least("coverage", m.coverage, t.min_coverage, 3);
+  judge.at_least("map correctness", m.correctness, t.min_correctness, 3);
+  judge.at_most("collisions", m.collisions ? std::optional<double>(*m.collisions) : std::nullopt,
+                t.max_collisions ? std::optional<double>(*t.max_collisions) : std::nullopt, 0);
+  judge.at_least("least clearance", m.least_clearance_m, t.min_clearance_m, 3, " m");
+  judge.at_least("path", m.path_length_m, t.min_path_length_m, 2, " m");
+  judge.at_most("path", m.path_length_m, t.max_path_length_m, 2, " m");
+  judge.at_most("path to shortest path", m.path_ratio, t.max_path_ratio, 2);
+  judge.at_most("simulated time", m.sim_time_s, t.max_sim_time_s, 1, " s");
+  judge.at_most("stalled time", m.stalled_time_s, t.max_stalled_time_s, 2, " s");
+  return judge.take();
+}
+
+void evaluate(const Task& task, const Reference& reference, const playerlike::JobEnd& end,
+              const fs::path& folder, GradedRun& run) {
+  std::optional<std::string> problem;
+  if (end.kind != playerlike::JobEnd::Kind::kNotStarted) {
+    run.measures.shortest_path_m = reference.shortest_path_m;
+    problem = read_report(folder / "report.json", reference, run.measures);
+    if (!problem && !task.map_layer.empty()) {
+      problem = read_drawn_map(folder, task, reference, run.measures);
+      // A map that nobody asks for may be missing.
+      if (!task.thresholds.min_coverage && !task.thresholds.min_correctness) problem.reset();
+    }
+  }
+  run.ending = ending_of(end, run.measures, reference);
+  run.wall_time_s = end.wall_time_s;
+  if (run.ending == Ending::kBadStatus) run.status = end.program.status;
+  if (run.ending == Ending::kSignal) run.signal = end.program.signal;
+
+  run.faults.clear();
+  if (auto fault = fault_of(run.ending, end, task)) {
+    // A program that ended badly need not be told what is missing because of that.
+    run.faults.push_back(*std::move(fault));
+  } else if (problem) {
+    run.faults.push_back(*std::move(problem));
+  }
+  // Without a report there is nothing to judge, and its absence has been told.
+  if (!run.measures.sim_time_s) return;
+  const std::vector<std::string> beyond = faults_of(task.thresholds, run.measures, run.ending);
+  run.faults.insert(run.faults.end(), beyond.begin(), beyond.end());
+}
+
+}  // namespace playpen::grade

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/grade.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "playerlike/host/program.h"
+#include "playerlike/host/results.h"
+#include "playerlike/host/run_settings.h"
+#include "sim/core/error.h"
+#include "sim/simulation/simulation.h"
+
+namespace playpen::grade {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Makes a run's folder and takes what an earlier run has left out of it.
+void prepare_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error)) {
+    throw std::runtime_error("the output folder '" + folder.string() +
+                             "' can't be made: " + error.message());
+  }
+  playerlike::remove_results(folder.string());
+}
+
+bool same_world(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  std::error_code error;
+  return !a.empty() && !b.empty() && fs::equivalent(a, b, error);
+}
+
+playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& world,
+                               std::uint64_t seed, const fs::path& folder) {
+  playerlike::RunSettings run;
+  run.seed = seed;
+  run.duration_s = settings.task.duration_s;
+  run.output_folder = folder.string();
+  run.quiet_end = true;
+  playerlike::ProgramJob job;
+  job.command = settings.program;
+  for (const auto* more : {&settings.task.arguments, &world.arguments}) {
+    job.command.insert(job.command.end(), more->begin(), more->end());
+  }
+  job.environment = playerlike::run_environment(world.file, run);
+  job.output_file = (folder / "program.log").string();
+  return job;
+}
+
+}  // namespace
+
+void choose_worlds(Task& task, const std::vector<std::string>& files) {
+  std::vector<TaskWorld> chosen;
+  std::set<std::string> names;
+  for (const std::string& file : files) {
+    const std::string name = world_name(file);
+    if (!names.insert(name).second) {
+      throw sim::ConfigError(
+          sim::ConfigIssue{"task/duplicate-world", file, "", "worlds with names of their own",
+                           '"' + name + "\" a second time", "runs are told apart by these names"});
+    }
+    const auto known =
+        std::find_if(task.worlds.begin(), task.worlds.end(),
+                     [&file](const TaskWorld& world) { return same_world(world.file, file); });
+    if (known != task.worlds.end()) {
+      chosen.push_back(*known);
+    } else {
+      chosen.push_back({file, {}, std::nullopt});
+    }
+  }
+  task.worlds = std::move(chosen);
+}
+
+Grade grade(const GradeSettings& settings,
+            const std::function<void(const Progress&)>& on_progress) {
+  const Task& task = settings.task;
+  Grade result{task, settings.program, {}};
+  std::vector<Reference> references;
+  for (const TaskWorld& world : task.worlds) {
+    references.push_back(make_reference(task, world, sim::load_world(world.file)));
+  }
+  std::vector<playerlike::ProgramJob> jobs;
+  std::vector<const Reference*> reference_of;
+  const fs::path out(settings.output_folder);
+  for (std::size_t i = 0; i < task.worlds.size(); ++i) {
+    for (const std::uint64_t seed : task.seeds) {
+      GradedRun run;
+      run.world = references[i].world;
+      run.seed = seed;
+      run.folder = run.world + "_seed" + std::to_string(seed);
+      prepare_folder(out / run.folder);
+      jobs.push_back(job_for(settings, task.worlds[i], seed, out / run.folder));
+      reference_of.push_back(&references[i]);
+      result.runs.push_back(std::move(run));
+    }
+  }
+
+  playerlike::JobLimits limits;
+  limits.at_once = settings.jobs;
+  limits.timeout_s = task.timeout_s;
+  Progress progress{jobs.size(), 0, 0};
+  const auto tell = [&] {
+    if (on_progress) on_progress(progress);
+  };
+  const std::vector<playerlike::JobEnd> ends = playerlike::run_programs(
+      jobs, limits,
+      [&](std::size_t /*index*/) {
+        ++progress.running;
+        tell();
+      },
+      [&](std::size_t /*index*/, const playerlike::JobEnd& /*end*/) {
+        --progress.running;
+        ++progress.ended;
+        tell();
+      });
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    GradedRun& run = result.runs[i];
+    evaluate(task, *reference_of[i], ends[i], out / run.folder, run);
+  }
+  return result;
+}
+
+}  // namespace playpen::grade

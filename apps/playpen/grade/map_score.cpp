@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/map_score.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace playpen::grade {
+namespace {
+
+/// Column and row (from the top) of a cell.
+using Cell = std::pair<int, int>;
+
+std::size_t index(const sim::OccupancyMap& map, const Cell& cell) {
+  return static_cast<std::size_t>(cell.second) * static_cast<std::size_t>(map.width) +
+         static_cast<std::size_t>(cell.first);
+}
+
+bool contains(const sim::OccupancyMap& map, const Cell& cell) {
+  return cell.first >= 0 && cell.first < map.width && cell.second >= 0 && cell.second < map.height;
+}
+
+/// The cell that a point of the world lies in, if the map has it.
+std::optional<Cell> cell_at(const sim::OccupancyMap& map, const sim::Vec2& p_W) {
+  const sim::Vec2 p = (p_W - map.origin) / map.cell_size_m;
+  if (!(p.x() >= 0.0 && p.x() < map.width && p.y() >= 0.0 && p.y() < map.height)) {
+    return std::nullopt;
+  }
+  return Cell{static_cast<int>(p.x()), map.height - 1 - static_cast<int>(p.y())};
+}
+
+sim::Vec2 middle_of(const sim::OccupancyMap& map, const Cell& cell) {
+  return map.origin +
+         sim::Vec2(cell.first + 0.5, map.height - 1 - cell.second + 0.5) * map.cell_size_m;
+}
+
+CellState state_at(const sim::OccupancyMap& map, const Cell& cell) {
+  return cell_state(map.at(cell.first, cell.second));
+}
+
+bool solid_within_a_cell(const sim::OccupancyMap& truth, const Cell& cell) {
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      const Cell near{cell.first + dx, cell.second + dy};
+      if (contains(truth, near) && state_at(truth, near) == CellState::kSolid) return true;
+    }
+  }
+  return false;
+}
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+CellState cell_state(float value) noexcept {
+  constexpr float kFreeBelow = 0.45F;
+  constexpr float kSolidAbove = 0.55F;
+  if (value < kFreeBelow) return CellState::kFree;
+  return value > kSolidAbove ? CellState::kSolid : CellState::kUnknown;
+}
+
+sim::OccupancyMap make_truth(const sim::ArenaDescription& arena) {
+  constexpr int kMargin = 2;  // cells round the floor
+  sim::CanvasDescription grid;
+  grid.cell_size_m = kTruthCell_m;
+  grid.origin = arena.origin - sim::Vec2::Constant(kMargin * kTruthCell_m);
+  const auto cells = [](double length_m) {
+    // 1e-9 forgives 3.42 / 0.02 > 171.
+    return static_cast<int>(std::ceil(length_m / kTruthCell_m - 1e-9)) + 2 * kMargin;
+  };
+  grid.width = cells(arena.size.x());
+  grid.height = cells(arena.size.y());
+  return sim::true_map(arena, grid);
+}
+
+std::vector<std::uint8_t> reachable_cells(const sim::OccupancyMap& truth, const sim::Vec2& start) {
+  std::vector<std::uint8_t> reached(truth.cells.size(), 0);
+  std::vector<Cell> open;
+  const auto visit = [&](const Cell& cell) {
+    if (!contains(truth, cell) || state_at(truth, cell) != CellState::kFree) return;
+    std::uint8_t& mark = reached[index(truth, cell)];
+    if (mark != 0) return;
+    mark = 1;
+    open.push_back(cell);
+  };
+  if (const std::optional<Cell> first = cell_at(truth, start)) visit(*first);
+  while (!open.empty()) {
+    const auto [column, row] = open.back();
+    open.pop_back();
+    visit({column - 1, row});
+    visit({column + 1, row});
+    visit({column, row - 1});
+    visit({column, row + 1});
+  }
+  return reached;
+}
+
+MapScore score_map(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
+                   const sim::Vec2& start) {
+  MapScore score;
+  const std::vector<std::uint8_t> reachable = reachable_cells(truth, start);
+  std::size_t covered = 0;
+  for (int row = 0; row < truth.height; ++row) {
+    for (int column = 0; column < truth.width; ++column) {
+      const Cell cell{column, row};
+      if (reachable[index(truth, cell)] == 0) continue;
+      ++score.reachable_cells;
+      const std::optional<Cell> drawn = cell_at(map, middle_of(truth, cell));
+      if (drawn && state_at(map, *drawn) == CellState::kFree) ++covered;
+    }
+  }
+  std::size_t right = 0;
+  for (int row = 0; row < map.height; ++row) {
+    for (int column = 0; column < map.width; ++column) {
+      const CellState said = state_at(map, {column, row});
+      if (said == CellState::kUnknown) continue;
+      const std::optional<Cell> cell = cell_at(truth, middle_of(map, {column, row}));
+      if (!cell) continue;
+      ++score.known_cells;
+      const bool is_right = said == CellState::kFree ? state_at(truth, *cell) == CellState::kFree
+                                                     : solid_within_a_cell(truth, *cell);
+      if (is_right) ++right;
+    }
+  }
+  score.coverage = share(covered, score.reachable_cells);
+  score.correctness = share(right, score.known_cells);
+  return score;
+}
+
+}  // namespace playpen::grade

@@ -1,0 +1,192 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/report.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "grade/text.h"
+
+namespace playpen::grade {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A measure that is worth a summary: its name in the JSON file and in the summary's lines.
+struct Summarized {
+  const char* key;
+  const char* words;
+  int decimals;
+  std::optional<double> Measures::*value;
+};
+
+constexpr Summarized kSummarized[] = {
+    {"coverage", "coverage", 3, &Measures::coverage},
+    {"correctness", "map correctness", 3, &Measures::correctness},
+    {"path_ratio", "path to shortest path", 2, &Measures::path_ratio},
+    {"path_length", "path [m]", 2, &Measures::path_length_m},
+    {"least_clearance", "least clearance [m]", 3, &Measures::least_clearance_m},
+    {"sim_time", "simulated time [s]", 1, &Measures::sim_time_s},
+};
+
+struct Spread {
+  double least = 0.0;
+  double mean = 0.0;
+  double most = 0.0;
+};
+
+std::optional<Spread> spread_of(const Grade& grade, std::optional<double> Measures::*value) {
+  std::vector<double> values;
+  for (const GradedRun& run : grade.runs) {
+    if (const std::optional<double>& v = run.measures.*value) values.push_back(*v);
+  }
+  if (values.empty()) return std::nullopt;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  double sum = 0.0;
+  for (const double v : values) sum += v;
+  return Spread{*least, sum / static_cast<double>(values.size()), *most};
+}
+
+std::string ending_text(const GradedRun& run) {
+  switch (run.ending) {
+    case Ending::kBySelf:
+      return "by itself";
+    case Ending::kTimeOver:
+      return "time over";
+    case Ending::kBadStatus:
+      return "status " + std::to_string(run.status);
+    case Ending::kSignal:
+      return "signal " + std::to_string(run.signal.value_or(0));
+    case Ending::kTimedOut:
+    case Ending::kInterrupted:
+      return name_of(run.ending);
+    case Ending::kNotRun:
+      return "not run";
+  }
+  return "";
+}
+
+std::string number_or_dash(const std::optional<double>& value, int decimals) {
+  return value ? fixed(*value, decimals) : "-";
+}
+
+using Row = std::vector<std::string>;
+
+Row row_of(const GradedRun& run) {
+  const Measures& m = run.measures;
+  return {run.world,
+          std::to_string(run.seed),
+          run.passed() ? "pass" : "FAIL",
+          ending_text(run),
+          m.reached ? (*m.reached ? "yes" : "no") : "-",
+          number_or_dash(m.coverage, 3),
+          number_or_dash(m.correctness, 3),
+          number_or_dash(m.path_length_m, 2),
+          number_or_dash(m.path_ratio, 2),
+          m.collisions ? std::to_string(*m.collisions) : "-",
+          number_or_dash(m.least_clearance_m, 3),
+          number_or_dash(m.sim_time_s, 1),
+          run.ending == Ending::kNotRun ? "-" : fixed(run.wall_time_s, 1)};
+}
+
+/// Rows under one another; words to the left, numbers to the right.
+std::string aligned(const std::vector<Row>& rows) {
+  const auto is_words = [](std::size_t column) { return column == 0 || column == 3; };
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string blanks(widths[i] - row[i].size(), ' ');
+      if (i > 0) text += "  ";
+      text += is_words(i) ? row[i] + blanks : blanks + row[i];
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+template <typename T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json to_json(const GradedRun& run) {
+  const Measures& m = run.measures;
+  ordered_json end = {{"kind", name_of(run.ending)}};
+  if (run.ending == Ending::kBadStatus) end["status"] = run.status;
+  if (run.signal) end["signal"] = *run.signal;
+  return {{"world", run.world},
+          {"seed", run.seed},
+          {"folder", run.folder},
+          {"passed", run.passed()},
+          {"faults", run.faults},
+          {"end", end},
+          {"reached", or_null(m.reached)},
+          {"goal_distance", or_null(m.goal_distance_m)},
+          {"coverage", or_null(m.coverage)},
+          {"correctness", or_null(m.correctness)},
+          {"path_length", or_null(m.path_length_m)},
+          {"shortest_path", or_null(m.shortest_path_m)},
+          {"path_ratio", or_null(m.path_ratio)},
+          {"collisions", or_null(m.collisions)},
+          {"least_clearance", or_null(m.least_clearance_m)},
+          {"stalled_time", or_null(m.stalled_time_s)},
+          {"sim_time", or_null(m.sim_time_s)},
+          {"wall_time", run.wall_time_s}};
+}
+
+}  // namespace
+
+std::size_t Grade::passed() const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [](const GradedRun& run) { return run.passed(); }));
+}
+
+std::string table(const Grade& grade) {
+  std::vector<Row> rows = {{"world", "seed", "", "end", "reached", "coverage", "correct", "path[m]",
+                            "ratio", "coll", "clear[m]", "sim[s]", "wall[s]"}};
+  for (const GradedRun& run : grade.runs) rows.push_back(row_of(run));
+  std::string text = aligned(rows);
+  for (const GradedRun& run : grade.runs) {
+    for (const std::string& fault : run.faults) {
+      text += run.world + " seed " + std::to_string(run.seed) + ": " + fault + '\n';
+    }
+  }
+  text += grade.task.name + ": " + std::to_string(grade.passed()) + " of " +
+          std::to_string(grade.runs.size()) + " runs passed\n";
+  for (const Summarized& what : kSummarized) {
+    const std::optional<Spread> spread = spread_of(grade, what.value);
+    if (!spread) continue;
+    text += "  " + std::string(what.words) + ": " + fixed(spread->least, what.decimals) + " to " +
+            fixed(spread->most, what.decimals) + ", mean " + fixed(spread->mean, what.decimals) +
+            '\n';
+  }
+  return text;
+}
+
+std::string json_text(const Grade& grade) {
+  ordered_json runs = ordered_json::array();
+  for (const GradedRun& run : grade.runs) runs.push_back(to_json(run));
+  ordered_json summary = {{"runs", grade.runs.size()},
+                          {"passed", grade.passed()},
+                          {"failed", grade.runs.size() - grade.passed()}};
+  for (const Summarized& what : kSummarized) {
+    const std::optional<Spread> spread = spread_of(grade, what.value);
+    summary[what.key] =
+        spread ? ordered_json{{"min", spread->least}, {"mean", spread->mean}, {"max", spread->most}}
+               : ordered_json(nullptr);
+  }
+  const ordered_json whole = {{"task", grade.task.name},
+                              {"program", grade.program},
+                              {"passed", grade.passed() == grade.runs.size()},
+                              {"summary", summary},
+                              {"runs", runs}};
+  // Arguments and folders may hold bytes that are no UTF-8.
+  return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace playpen::grade

@@ -1,0 +1,255 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/task.h"
+
+#include <charconv>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "sim/io/reader.h"
+#include "sim/io/settings_file.h"
+
+namespace playpen::grade {
+namespace {
+
+namespace fs = std::filesystem;
+using sim::io::NumberRange;
+using sim::io::Reader;
+
+constexpr std::size_t kMaxItems = 10'000;  ///< seeds, worlds, arguments
+constexpr NumberRange kPosition{-1e6, 1e6, false, "m"};
+constexpr NumberRange kLength{0.0, 1e6, false, "m"};
+constexpr NumberRange kTime{0.0, 1e9, true, "s"};
+constexpr NumberRange kShare{0.0, 1.0, false, ""};
+
+/// A number that may be left out.
+std::optional<double> optional_number(Reader& reader, const char* key, const NumberRange& range) {
+  if (!reader.has(key)) return std::nullopt;
+  return reader.number(key, 0.0, range);
+}
+
+bool require(Reader& reader, const char* key, const char* what) {
+  if (reader.has(key)) return true;
+  reader.issue("world/missing-key", "the key \"" + std::string(key) + "\": " + what, "none");
+  return false;
+}
+
+std::vector<Reader> bounded_array(Reader& parent, const char* key) {
+  std::vector<Reader> elements = parent.array(key);
+  if (elements.size() > kMaxItems) {
+    parent.issue("world/too-many", "at most " + std::to_string(kMaxItems) + " of them",
+                 std::to_string(elements.size()), "", key);
+    elements.clear();
+  }
+  return elements;
+}
+
+class TaskReader {
+ public:
+  explicit TaskReader(const std::string& file) {
+    task_.file = file;
+    task_.name = fs::path(file).filename().string();
+    for (const std::string_view ending : {kTaskSuffix, std::string_view(".json")}) {
+      if (task_.name.ends_with(ending) && task_.name.size() > ending.size()) {
+        task_.name.resize(task_.name.size() - ending.size());
+      }
+    }
+  }
+
+  void read(Reader& root) {
+    if (!root.expect_object()) return;
+    static_cast<void>(root.string("$schema", ""));
+    task_.description = root.string("description", "");
+    read_worlds(root);
+    read_seeds(root);
+    if (root.has("duration")) task_.duration_s = root.number("duration", 0.0, kTime);
+    task_.timeout_s = root.number("timeout", task_.timeout_s, kTime);
+    task_.arguments = read_arguments(root);
+    task_.goal = read_goal(root);
+    task_.robot = root.name("robot", "");
+    task_.map_layer = root.string("map", "");
+    read_thresholds(root);
+    root.finish();
+  }
+
+  [[nodiscard]] Task take() { return std::move(task_); }
+
+ private:
+  void read_worlds(Reader& root) {
+    if (!require(root, "worlds", "a list of world files, relative to this file")) return;
+    std::vector<Reader> elements = bounded_array(root, "worlds");
+    if (elements.empty()) {
+      const std::optional<Reader> list = root.child("worlds");
+      if (list->is_array()) {
+        root.issue("world/out-of-range", "at least one world", list->described(), "", "worlds");
+      }
+    }
+    std::map<std::string, std::string> places;  // of names
+    for (Reader& element : elements) {
+      TaskWorld world;
+      std::string name;
+      if (element.is_string()) {
+        name = element.scalar_text().value_or("");
+      } else if (element.is_object()) {
+        if (require(element, "world", "the world's file, relative to this file")) {
+          name = element.string("world", "");
+        }
+        world.arguments = read_arguments(element);
+        world.goal = read_goal(element);
+        element.finish();
+      } else {
+        element.issue("world/wrong-type",
+                      "the name of a world file in double quotes, or an object {...}",
+                      element.described());
+      }
+      if (name.empty() && !element.is_string()) continue;  // reported already
+      world.file = (fs::path(task_.file).parent_path() / name).string();
+      std::error_code error;
+      if (name.empty() || !fs::is_regular_file(world.file, error)) {
+        element.issue("task/unknown-world", "a world file", '"' + name + "\", which is not there",
+                      "the name is relative to the folder of the task file");
+        continue;
+      }
+      const auto [other, is_new] = places.emplace(world_name(world.file), element.pointer());
+      if (!is_new) {
+        element.issue("task/duplicate-world", "worlds with names of their own",
+                      '"' + other->first + "\" a second time", "the first is " + other->second);
+        continue;
+      }
+      task_.worlds.push_back(std::move(world));
+    }
+  }
+
+  void read_seeds(Reader& root) {
+    if (!root.has("seeds")) return;
+    if (const std::optional<Reader> seeds = root.child("seeds"); !seeds->is_array()) {
+      if (!seeds->is_number()) {
+        root.issue("world/wrong-type", "a list of seeds, or how many there are", seeds->described(),
+                   "", "seeds");
+        return;
+      }
+      const std::int64_t count = root.integer("seeds", 1, 1, kMaxItems);
+      task_.seeds.clear();
+      for (std::int64_t i = 1; i <= count; ++i) {
+        task_.seeds.push_back(static_cast<std::uint64_t>(i));
+      }
+      return;
+    }
+    std::vector<Reader> elements = bounded_array(root, "seeds");
+    if (elements.empty()) {
+      root.issue("world/out-of-range", "at least one seed", "none", "", "seeds");
+      return;
+    }
+    task_.seeds.clear();
+    std::set<std::uint64_t> taken;
+    for (Reader& element : elements) {
+      constexpr const char* kExpected = "a whole number from 0 to 18446744073709551615";
+      const std::string text = element.scalar_text().value_or("");
+      std::uint64_t seed = 0;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+      if (!element.is_number()) {
+        element.issue("world/wrong-type", kExpected, element.described());
+      } else if (error != std::errc() || end != text.data() + text.size()) {
+        element.issue("world/out-of-range", kExpected, element.described());
+      } else if (!taken.insert(seed).second) {
+        element.issue("task/duplicate-seed", "each seed once", text + " a second time",
+                      "equal seeds give equal runs");
+      } else {
+        task_.seeds.push_back(seed);
+      }
+    }
+  }
+
+  static std::vector<std::string> read_arguments(Reader& reader) {
+    std::vector<std::string> arguments;
+    for (Reader& element : bounded_array(reader, "arguments")) {
+      if (element.is_string()) {
+        arguments.push_back(element.scalar_text().value_or(""));
+      } else {
+        element.issue("world/wrong-type", "an argument of the program in double quotes",
+                      element.described());
+      }
+    }
+    return arguments;
+  }
+
+  static std::optional<Goal> read_goal(Reader& parent) {
+    std::optional<Reader> reader = parent.object("goal");
+    if (!reader) return std::nullopt;
+    Goal goal;
+    for (const char* key : {"x", "y"}) {
+      if (require(*reader, key, "where the robot is to be, in m")) {
+        (*key == 'x' ? goal.position.x() : goal.position.y()) = reader->number(key, 0.0, kPosition);
+      }
+    }
+    if (reader->has("yaw_deg"))
+      goal.yaw_rad = sim::normalize_angle(reader->angle_deg("yaw_deg", 0));
+    goal.tolerance_m = reader->number("tolerance", goal.tolerance_m, {0.0, 1000.0, true, "m"});
+    goal.yaw_tolerance_rad = reader->angle_deg("yaw_tolerance_deg", goal.yaw_tolerance_rad,
+                                               {0.0, 180.0, true, "degrees"});
+    reader->finish();
+    return goal;
+  }
+
+  void read_thresholds(Reader& root) {
+    std::optional<Reader> reader = root.object("thresholds");
+    if (!reader) return;
+    Thresholds& t = task_.thresholds;
+    t.min_coverage = optional_number(*reader, "min_coverage", kShare);
+    t.min_correctness = optional_number(*reader, "min_correctness", kShare);
+    if (reader->has("max_collisions")) {
+      t.max_collisions = static_cast<int>(reader->integer("max_collisions", 0, 0, 1'000'000));
+    }
+    t.min_clearance_m = optional_number(*reader, "min_clearance", kLength);
+    t.min_path_length_m = optional_number(*reader, "min_path_length", kLength);
+    t.max_path_length_m = optional_number(*reader, "max_path_length", kLength);
+    t.max_path_ratio = optional_number(*reader, "max_path_ratio", {1.0, 1e6, false, ""});
+    t.max_sim_time_s = optional_number(*reader, "max_sim_time", kTime);
+    t.max_stalled_time_s = optional_number(*reader, "max_stalled_time", {0.0, 1e9, false, "s"});
+    t.must_reach = reader->boolean("must_reach", t.must_reach);
+    t.must_end = reader->boolean("must_end", t.must_end);
+    for (const char* key : {"min_coverage", "min_correctness"}) {
+      if (!reader->has(key) || root.has("map")) continue;
+      reader->issue("task/missing-map", "a task with the key \"map\"", "none",
+                    "it names the layer that the program draws its map in", key);
+    }
+    for (const char* key : {"must_reach", "max_path_ratio"}) {
+      if ((std::string_view(key) == "must_reach" ? !t.must_reach : !t.max_path_ratio) ||
+          root.has("goal")) {
+        continue;
+      }
+      for (const TaskWorld& world : task_.worlds) {
+        if (world.goal) continue;
+        reader->issue("task/missing-goal", "a \"goal\" in the task or in each of its worlds",
+                      "none for \"" + world_name(world.file) + '"', "", key);
+        break;
+      }
+    }
+    reader->finish();
+  }
+
+  Task task_;
+};
+
+}  // namespace
+
+std::string world_name(const std::string& world_file) {
+  return world_file.empty() ? "default" : fs::path(world_file).stem().string();
+}
+
+Task read_task(const std::string& path) {
+  TaskReader reader(path);
+  sim::io::read_settings(path, "task", [&reader](Reader& root) { reader.read(root); });
+  return reader.take();
+}
+
+Task read_task_text(std::string_view text, const std::string& file) {
+  TaskReader reader(file);
+  sim::io::read_settings_text(text, file, "task", [&reader](Reader& root) { reader.read(root); });
+  return reader.take();
+}
+
+}  // namespace playpen::grade

@@ -1,0 +1,78 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <sstream>
+
+#include "commands.h"
+#include "parsed_option.h"
+
+namespace playpen {
+namespace {
+
+/// "1,7,9": these seeds; "5": the seeds 1 to 5.
+bool parse_seeds(const std::string& text, std::vector<std::uint64_t>& seeds) {
+  constexpr std::uint64_t kMost = 10'000;
+  seeds.clear();
+  if (text.find(',') == std::string::npos) {
+    std::uint64_t count = 0;
+    if (!parse_number(text, count) || count < 1 || count > kMost) return false;
+    for (std::uint64_t seed = 1; seed <= count; ++seed) seeds.push_back(seed);
+    return true;
+  }
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    std::uint64_t seed = 0;
+    if (!parse_number(part, seed) || seeds.size() == kMost) return false;
+    if (std::find(seeds.begin(), seeds.end(), seed) != seeds.end()) return false;
+    seeds.push_back(seed);
+  }
+  return !seeds.empty();
+}
+
+}  // namespace
+
+void add_grade(CLI::App& app, const std::vector<std::string>& program, int& status) {
+  const auto request = std::make_shared<GradeRequest>();
+  request->command = program;
+  CLI::App& command =
+      *app.add_subcommand("grade", "Run a client program on the worlds of a task and judge it");
+  command.footer(
+      "After '--' come the client program and its arguments, for example\n"
+      "playpen grade par_intro --seeds 5 -- ./robot\n"
+      "Exit status: 0 all runs passed, 1 some did not, 2 bad input.");
+  command.add_option("task", request->task, "Task file, or the name of a shipped task (par_intro)")
+      ->required()
+      ->type_name("");
+  command.add_option("world", request->worlds, "World files or names [those of the task]")
+      ->type_name("");
+  add_parsed(command, "--seeds", "N: the seeds 1 to N; or a list of seeds, '7,' for one", "N,N,...",
+             "a number from 1 to 10000, or different seeds with commas between them",
+             [request](const std::string& text) { return parse_seeds(text, request->seeds); });
+  add_parsed(command, "--jobs", "Programs that run side by side [the number of processors]", "N",
+             "a whole number from 1 to 1000", [request](const std::string& text) {
+               int& jobs = request->jobs;
+               return parse_number(text, jobs) && jobs >= 1 && jobs <= 1000;
+             });
+  add_parsed(command, "--timeout", "Seconds by the clock on the wall that a run may take", "S",
+             "a number of seconds above 0", [request](const std::string& text) {
+               double seconds = 0.0;
+               const bool good =
+                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
+               if (good) request->timeout_s = seconds;
+               return good;
+             });
+  command.add_option("--out", request->output_folder, "Folder for results [out/grade/<task>]")
+      ->type_name("DIR");
+  command.add_option("--json", request->json_file, "The grade as JSON [<out>/grade.json]")
+      ->type_name("FILE");
+  command.callback([request, &status] {
+    if (request->command.empty()) throw CLI::RequiredError("-- PROGRAM");
+    status = grade_program(*request);
+  });
+}
+
+}  // namespace playpen
