@@ -113,6 +113,20 @@ static_assert(member<double (LaserProxy::*)() const, &LaserProxy::GetMinRight>::
 static_assert(member<double (LaserProxy::*)() const, &LaserProxy::MinLeft>::exists, "");
 static_assert(member<double (LaserProxy::*)() const, &LaserProxy::MinRight>::exists, "");
 
+// MapProxy
+static_assert(member<void (MapProxy::*)(), &MapProxy::RequestMap>::exists, "");
+static_assert(member<int (MapProxy::*)(int, int) const, &MapProxy::GetCellIndex>::exists, "");
+static_assert(member<int8_t (MapProxy::*)(int, int) const, &MapProxy::GetCell>::exists, "");
+static_assert(member<double (MapProxy::*)() const, &MapProxy::GetResolution>::exists, "");
+static_assert(member<uint32_t (MapProxy::*)() const, &MapProxy::GetWidth>::exists, "");
+static_assert(member<uint32_t (MapProxy::*)() const, &MapProxy::GetHeight>::exists, "");
+static_assert(member<double (MapProxy::*)() const, &MapProxy::GetOriginX>::exists, "");
+static_assert(member<double (MapProxy::*)() const, &MapProxy::GetOriginY>::exists, "");
+static_assert(member<int8_t (MapProxy::*)() const, &MapProxy::GetDataRange>::exists, "");
+static_assert(member<void (MapProxy::*)(int8_t*) const, &MapProxy::GetMap>::exists, "");
+static_assert(std::is_constructible<MapProxy, PlayerClient*>::value, "");
+static_assert(std::is_constructible<MapProxy, PlayerClient*, uint32_t>::value, "");
+
 // Position2dProxy
 static_assert(
     member<void (Position2dProxy::*)(double, double, double), &Position2dProxy::SetSpeed>::exists,
@@ -167,5 +181,26 @@ static_assert(std::is_base_of<ClientProxy, LaserProxy>::value, "");
 static_assert(std::is_base_of<ClientProxy, Position2dProxy>::value, "");
 static_assert(!std::is_copy_constructible<LaserProxy>::value, "");
 static_assert(!std::is_copy_constructible<PlayerClient>::value, "");
+
+// Graphics2dProxy
+static_assert(std::is_constructible<Graphics2dProxy, PlayerClient*, uint32_t>::value, "");
+static_assert(member<void (Graphics2dProxy::*)(player_color_t), &Graphics2dProxy::Color>::exists,
+              "");
+static_assert(member<void (Graphics2dProxy::*)(uint8_t, uint8_t, uint8_t, uint8_t),
+                     &Graphics2dProxy::Color>::exists,
+              "");
+static_assert(member<void (Graphics2dProxy::*)(), &Graphics2dProxy::Clear>::exists, "");
+static_assert(member<void (Graphics2dProxy::*)(player_point_2d_t[], int),
+                     &Graphics2dProxy::DrawPoints>::exists,
+              "");
+static_assert(member<void (Graphics2dProxy::*)(player_point_2d_t[], int, bool, player_color_t),
+                     &Graphics2dProxy::DrawPolygon>::exists,
+              "");
+static_assert(member<void (Graphics2dProxy::*)(player_point_2d_t[], int),
+                     &Graphics2dProxy::DrawPolyline>::exists,
+              "");
+static_assert(member<void (Graphics2dProxy::*)(player_point_2d_t[], int),
+                     &Graphics2dProxy::DrawMultiline>::exists,
+              "");
 
 }  // namespace

@@ -52,6 +52,9 @@ if(NOT run_output MATCHES "after 1 s: 100 steps")
 endif()
 if(EXISTS "${prefix}/bin/playpen")
   run("the installed command" "${prefix}/bin/playpen" --version)
+  if(NOT EXISTS "${prefix}/bin/playpen-view")
+    message(FATAL_ERROR "playpen-view, the program of the live window, was not installed")
+  endif()
 endif()
 
 # A task of the course, copied out of the tree, built and run by the installed command on an

@@ -29,8 +29,8 @@ using testing::Not;
 TEST(PlaypenCommand, HelpNamesTheCommandsAndExitStatuses) {
   const ProcessResult result = playpen({"--help"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("run"), HasSubstr("check"), HasSubstr("render"),
-                                HasSubstr("Exit status")));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("run"), HasSubstr("grade"), HasSubstr("check"),
+                                HasSubstr("render"), HasSubstr("Exit status")));
   EXPECT_THAT(result.err, IsEmpty());
 }
 
@@ -47,7 +47,7 @@ TEST(PlaypenCommand, VersionIsTheProjects) {
 }
 
 TEST(PlaypenCommand, EachCommandHasHelp) {
-  for (const char* command : {"run", "check", "render"}) {
+  for (const char* command : {"run", "grade", "check", "render"}) {
     const ProcessResult result = playpen({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("world")) << command;
@@ -79,15 +79,24 @@ TEST(PlaypenCommand, BadOptionValuesAreRefusedByNameAndValue) {
                                          {"--seed", "18446744073709551616"},  // 2^64
                                          {"--time", "never"},
                                          {"--time", "0"},
-                                         {"--record", "film.gif"}}) {
+                                         {"--record", "film.gif"},
+                                         {"--record-fps", "0.5"},
+                                         {"--record-fps", "fast"},
+                                         {"--record-speed", "0"},
+                                         {"--record-speed", "2000"},
+                                         {"--snapshot-every", "-1"},
+                                         {"--snapshot-every", "1s"},
+                                         {"--view-mode", "fullscreen"}}) {
     const ProcessResult result =
         playpen({"run", world, std::string(c.option) + "=" + c.value, "--", "/bin/true"});
     EXPECT_EQ(result.status, 2) << c.option << ' ' << c.value;
     EXPECT_THAT(result.err,
                 AllOf(HasSubstr(c.option), HasSubstr(std::string("'") + c.value + "'")));
   }
-  for (const Case& c :
-       std::vector<Case>{{"--size", "63"}, {"--size", "8193"}, {"--out", "picture.jpg"}}) {
+  for (const Case& c : std::vector<Case>{{"--size", "63"},
+                                         {"--size", "8193"},
+                                         {"--out", "picture.jpg"},
+                                         {"--view-mode", "map"}}) {
     const std::string option = std::string(c.option) + "=" + c.value;
     std::vector<std::string> call = {"render", world, option};
     if (c.option != std::string("--out")) call.insert(call.end(), {"--out", folder / "a.png"});
@@ -153,6 +162,44 @@ TEST(PlaypenRender, DrawsAWorldInTheSizeAskedFor) {
     return value;
   };
   EXPECT_EQ(std::max(number_at(16), number_at(20)), 300);
+}
+
+TEST(PlaypenRender, DrawsTheCanvasAloneAndTheTrueMapAndMapsOfFiles) {
+  const TemporaryFolder folder;
+  const std::string world = folder.write("room.json", room_world());
+  const auto render = [&](const std::string& from, const std::string& out,
+                          std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", from, "--out", folder / out});
+    const ProcessResult result = playpen(options);
+    EXPECT_EQ(result.status, 0) << result.err;
+  };
+  render(world, "canvas.png", {"--canvas"});
+  render(world, "full.png", {"--view-mode", "full-screen"});
+  render(world, "map.png", {"--map"});
+  render(world, "map.yaml", {"--map"});
+  render(folder / "map.yaml", "read.png", {});
+  // 172 x 186 cells in 1000 px: 5 pixels a cell.
+  const std::string canvas = read_bytes(folder / "canvas.png");
+  EXPECT_EQ(static_cast<unsigned char>(canvas[18]) * 256 + static_cast<unsigned char>(canvas[19]),
+            172 * 5);
+  EXPECT_THAT(read_bytes(folder / "map.yaml"), HasSubstr("map.pgm"));
+  EXPECT_TRUE(read_bytes(folder / "map.png") == read_bytes(folder / "read.png"));
+  EXPECT_FALSE(read_bytes(folder / "map.png") == canvas);
+  EXPECT_GT(read_bytes(folder / "full.png").size(), 1000U);
+}
+
+TEST(PlaypenRender, RefusesWhatDoesNotGoTogether) {
+  const TemporaryFolder folder;
+  const std::string world = folder.write("room.json", room_world());
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--out", folder / "a.png", "--canvas", "--map"},
+        {"--out", folder / "a.yaml"}}) {
+    std::vector<std::string> call = {"render", world};
+    call.insert(call.end(), options.begin(), options.end());
+    const ProcessResult result = playpen(call);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("--map"));
+  }
 }
 
 TEST(PlaypenRender, RefusesABadWorldAndAFileItCannotWrite) {

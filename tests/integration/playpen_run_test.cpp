@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstddef>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -210,6 +211,17 @@ TEST_F(PlaypenRun, AProgramThatNeverConnectsIsAFailureAndOldResultsDoNotHideIt) 
   EXPECT_EQ(output("mine.txt"), "kept");
 }
 
+TEST_F(PlaypenRun, ResultsThatCannotBeWrittenAreAFailureThatSaysSo) {
+  // A folder where a picture is to be written; made by the program's shell, as earlier results go.
+  const ProcessResult result =
+      run({"--duration", "1"}, {"sh", "-c", "mkdir \"$1\" && exec \"$0\"", TEMPLATE_PROGRAM,
+                                (fs::path(out_) / "scene.png").string()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("results of the run are missing"));
+  EXPECT_THAT(result.err, HasSubstr("there is no report"));
+  EXPECT_THAT(result.err, Not(HasSubstr("never connected")));
+}
+
 TEST_F(PlaypenRun, PassesSignalsOnToTheProgram) {
   std::vector<std::string> command = arguments({}, {"sh", "-c", "echo ready; exec cat"});
   command.insert(command.begin(), PLAYPEN_COMMAND);
@@ -279,6 +291,54 @@ TEST_F(PlaypenRun, RecordsAFilm) {
   EXPECT_EQ(read_bytes(film).substr(4, 4), "ftyp");
   EXPECT_THAT(result.out, HasSubstr("film.mp4"));
   EXPECT_EQ(run({"--record", folder_ / "none/film.mp4"}, {WALL_PROGRAM}).status, 2);
+}
+
+TEST_F(PlaypenRun, FilmsHaveTheFramesTheSizeAndTheRateAskedFor) {
+  for (const char* name : {"film.mp4", "film.avi"}) {
+    const std::string film = folder_ / name;
+    const ProcessResult result =
+        run({"--duration", "2", "--record", film, "--record-fps", "20", "--record-speed", "0.5"},
+            {WALL_PROGRAM});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const ProcessResult probe = test_support::run_process(
+        {"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries",
+         "stream=width,height,r_frame_rate,nb_read_frames", "-of", "csv=p=0", film});
+    ASSERT_EQ(probe.status, 0) << probe.err;
+    // 2 s * 20 / 0.5 + 1 frames. The arena is a square: with 30 px of margin on the left and the
+    // right, 30 above and 59 below, a picture of 800 px has one of 711 px, and is 771 px wide,
+    // in films 770.
+    EXPECT_EQ(probe.out, "770,800,20/1,81\n") << name;
+  }
+}
+
+TEST_F(PlaypenRun, FilmsIntoAFolderAndTakesPicturesOnTheWay) {
+  folder_.write("out/snapshots/scene_000077.000s.png", "old");
+  folder_.write("out/layers/old.png", "old");
+  const ProcessResult result =
+      run({"--duration", "2", "--record", folder_ / "frames", "--record-speed", "10",
+           "--snapshot-every", "0.5", "--view-mode", "mini-map"},
+          {WALL_PROGRAM});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const auto count = [](const fs::path& folder) {
+    return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+  };
+  EXPECT_EQ(count(folder_ / "frames"), 6);         // 2 * 25 / 10 + 1
+  EXPECT_EQ(count(folder_ / "out/snapshots"), 5);  // at 0, 0.5, 1, 1.5 and 2 s
+  EXPECT_TRUE(fs::exists(folder_ / "out/layers/canvas.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/layers/old.png"));
+  // scene.png is drawn in the mode, too, and of the same moment.
+  EXPECT_TRUE(output("scene.png") == output("snapshots/scene_000002.000s.png"));
+}
+
+TEST_F(PlaypenRun, RefusesAViewModeThatTheWorldDoesNotAllowBeforeTheProgramStarts) {
+  json world = json::parse(room_world());
+  world["canvas"]["view_mode"] = "full-screen";
+  world["canvas"]["lock_view_mode"] = true;
+  world_ = folder_.write("locked.json", world.dump());
+  const ProcessResult result = run({"--view-mode", "ground"}, {"touch", folder_ / "started"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("run/view_mode_locked"), HasSubstr("full-screen")));
+  EXPECT_FALSE(fs::exists(folder_ / "started"));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <cmath>
 #include <condition_variable>
 #include <cstdint>
 #include <map>
@@ -8,12 +10,14 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "libplayerc++/playererror.h"
+#include "playerlike/session/layer_book.h"
 #include "playerlike/session/session.h"
-#include "sim/canvas/canvas.h"
+#include "sim/canvas/layers.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 
@@ -37,8 +41,17 @@ struct FakeWorld {
   std::map<int, bool> replace;       ///< device number (-1: all) -> rule
   std::vector<std::string> real_time_reasons;
   bool closed = false;
-  int draw_calls = 0;
-  sim::Canvas canvas{sim::CanvasDescription{}};
+  std::size_t drawn = 0;  ///< drawings carried out
+  int cell_calls = 0;     ///< of draw_cells()
+  int flushes = 0;
+  sim::LayerStack layers{sim::CanvasDescription{}};
+  playerlike::LayerBook book;
+  int clients = 0;  ///< sessions so far
+  std::atomic<std::uint64_t> resizes{0};
+  sim::ViewMode view_mode = sim::ViewMode::kGround;
+  bool view_mode_locked = false;
+  std::vector<std::pair<std::string, int>> saved;  ///< pictures: name, scale
+  int joins = 0;
   sim::SimTime slept_ns = 0;
   playerlike::TimeStatistics time;
 
@@ -121,7 +134,8 @@ inline std::shared_ptr<sim::Reading> scan(double time_s, std::vector<double> ran
 /// A session that hands out a FakeWorld's readings, one round a wait().
 class FakeSession final : public playerlike::Session {
  public:
-  explicit FakeSession(std::shared_ptr<FakeWorld> world) : world_(std::move(world)) {}
+  explicit FakeSession(std::shared_ptr<FakeWorld> world)
+      : world_(std::move(world)), number_(world_->clients++) {}
   ~FakeSession() override { FakeSession::close(); }
 
   const std::vector<playerlike::RobotInfo>& robots() const noexcept override {
@@ -193,24 +207,108 @@ class FakeSession final : public playerlike::Session {
     world_->sent.emplace_back(device, command);
   }
 
-  void draw(std::span<const sim::CanvasOperation> operations) override {
+  void join() override {
     const std::lock_guard lock(world_->mutex);
     require_open();
-    ++world_->draw_calls;
-    for (const auto& operation : operations) operation.draw(world_->canvas);
+    ++world_->joins;
   }
-  playerlike::CanvasInfo canvas_info() const override {
-    const sim::Canvas& c = world_->canvas;
-    return {c.width(), c.height(), c.cell_size_m(), c.origin().x(), c.origin().y()};
+  std::unique_ptr<playerlike::Session> open_follower() override {
+    return std::make_unique<FakeSession>(world_);
   }
-  std::optional<sim::Colour> pixel(int column, int row) override {
+  const void* simulation() const noexcept override { return world_.get(); }
+  playerlike::DrawQueue& draw_queue() noexcept override { return queue_; }
+  void flush_drawings() override {
+    with_layers([this](sim::LayerStack&, playerlike::LayerBook&) { ++world_->flushes; });
     const std::lock_guard lock(world_->mutex);
-    require_open();
-    return world_->canvas.pixel(column, row);
+    queue_.reserve();
+  }
+  void draw_cells(sim::LayerId layer, const sim::CellRect& rect,
+                  std::span<const sim::CellValue> values) override {
+    playerlike::require_cells(rect, values.size());
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.require(number_, layer);
+      ++world_->cell_calls;
+      layers.set_cells(layer, rect, values);
+    });
+  }
+  std::optional<sim::CellValue> cell(sim::LayerId layer, int column, int row) override {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.require(number_, layer);
+      return layers.cell(layer, column, row);
+    });
+  }
+  std::vector<sim::CellValue> cells(sim::LayerId layer) override {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.require(number_, layer);
+      return layers.cells(layer);
+    });
+  }
+  sim::LayerId create_layer(sim::LayerKind kind, sim::LayerStyle style) override {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      return book.create(layers, number_, world_->port, kind, std::move(style));
+    });
+  }
+  void remove_layer(sim::LayerId layer) override {
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.remove(layers, number_, layer);
+    });
+  }
+  void set_layer_style(sim::LayerId layer, sim::LayerStyle style) override {
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.set_style(layers, number_, layer, std::move(style));
+    });
+  }
+  std::vector<sim::LayerInfo> layers() override {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      return book.list(layers, number_);
+    });
   }
   std::vector<std::uint8_t> canvas_image() override {
+    return with_layers(
+        [](sim::LayerStack& layers, playerlike::LayerBook&) { return layers.composed(); });
+  }
+  void resize_canvas(int width, int height) override {
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.resize(layers, width, height);
+      ++world_->resizes;
+    });
+  }
+  playerlike::CanvasInfo canvas_info() const override {
     const std::lock_guard lock(world_->mutex);
-    return world_->canvas.data();
+    const sim::CanvasDescription c = world_->layers.description();
+    return {c.width, c.height, c.cell_size_m, c.origin.x(), c.origin.y()};
+  }
+  std::uint64_t canvas_generation() const noexcept override { return world_->resizes; }
+  void save_image(const std::string& name, int scale) override {
+    const std::lock_guard lock(world_->mutex);
+    require_open();
+    world_->saved.emplace_back(name, scale);
+  }
+  sim::ViewMode view_mode() const override {
+    const std::lock_guard lock(world_->mutex);
+    return world_->view_mode;
+  }
+  void set_view_mode(sim::ViewMode mode) override {
+    const std::lock_guard lock(world_->mutex);
+    require_open();
+    if (world_->view_mode_locked && mode != world_->view_mode) {
+      throw playerlike::SessionError(playerlike::SessionError::Code::kNotAvailable,
+                                     "the view mode is locked");
+    }
+    world_->view_mode = mode;
+  }
+  /// Of a room of one square metre without anything in it.
+  sim::OccupancyMap world_map(double cell_size_m) override {
+    if (!(cell_size_m > 1e-3)) {
+      throw playerlike::SessionError(playerlike::SessionError::Code::kBadArgument,
+                                     "the cell size is no positive number");
+    }
+    sim::OccupancyMap map;
+    map.width = map.height = static_cast<int>(std::ceil(1.0 / cell_size_m - 1e-6));
+    map.cell_size_m = cell_size_m;
+    map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
+                     0.0F);
+    return map;
   }
 
   playerlike::TimeStatistics time() const override {
@@ -230,6 +328,9 @@ class FakeSession final : public playerlike::Session {
   void close() noexcept override {
     const std::lock_guard lock(world_->mutex);
     world_->closed = true;
+    carry_out_drawings();
+    queue_.close();
+    world_->book.leave(number_);
     world_->changed.notify_all();
   }
 
@@ -241,7 +342,25 @@ class FakeSession final : public playerlike::Session {
     }
   }
 
+  // With the world's mutex held.
+  void carry_out_drawings() {
+    queue_.drain([this](std::span<const sim::DrawOperation> operations) {
+      world_->drawn += operations.size();
+      world_->layers.draw(operations);
+    });
+  }
+  template <typename Action>
+  std::invoke_result_t<Action, sim::LayerStack&, playerlike::LayerBook&> with_layers(
+      Action action) {
+    const std::lock_guard lock(world_->mutex);
+    require_open();
+    carry_out_drawings();
+    return action(world_->layers, world_->book);
+  }
+
   std::shared_ptr<FakeWorld> world_;
+  int number_;
+  playerlike::DrawQueue queue_;
 };
 
 /// A new session of that world.

@@ -89,6 +89,9 @@ class Process {
     return true;
   }
 
+  /// What it has written to its standard output so far.
+  [[nodiscard]] const std::string& output() const { return result_.out; }
+
   void send_signal(int signal) const { kill(child_, signal); }
 
   /// Waits for the program's end; kills it when the time is over.

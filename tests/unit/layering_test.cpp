@@ -148,10 +148,16 @@ std::vector<std::string> violations(const Source& source) {
         !(path.starts_with("libsim/src/canvas/") || path.starts_with("libsim/src/render/"))) {
       refuse("OpenCV belongs in libsim/src/canvas and libsim/src/render");
     }
+    if (include == "opencv2/highgui.hpp" || include.starts_with("X11/")) {
+      refuse("windows belong in apps/playpen/view");
+    }
     if (is_json && in_sim && !path.starts_with("libsim/src/io/")) {
       refuse("JSON belongs in libsim/src/io");
     }
-    if (is_public && (is_json || starts_with_any(include, {"spdlog/", "fmt/", "CLI/"}))) {
+    const bool is_yaml = include.starts_with("yaml-cpp/");
+    if (is_yaml && !path.starts_with("libsim/src/io/")) refuse("YAML belongs in libsim/src/io");
+    if (is_public &&
+        (is_json || is_yaml || starts_with_any(include, {"spdlog/", "fmt/", "CLI/"}))) {
       refuse("public headers show no third-party types but Eigen's");
     }
 
@@ -186,6 +192,9 @@ std::vector<std::string> violations(const Source& source) {
               path, {"libplayerlike/include/libplayerc++/", "libplayerlike/include/libCCMorse/",
                      "libplayerlike/include/libPlayer/", "libplayerlike/include/imr-h/"})) {
         refuse("clients are C++14, libsim's headers are C++20");
+      }
+      if (include.starts_with("drivers/") && !path.starts_with("libplayerlike/src/drivers/")) {
+        refuse("drivers use proxies, not the other way round; see proxies/goal_driver.h");
       }
     }
   }
@@ -236,6 +245,10 @@ TEST(Layering, AppsUsePublicHeadersOnly) {
       EXPECT_FALSE(sim_arrows().contains(sim_folder(include)) && !include.starts_with("sim/"))
           << source.path << " includes " << include;
       EXPECT_THAT(include, testing::Not(HasSubstr("../"))) << source.path;
+      // A windowing toolkit is loaded by the window's own process, nowhere else.
+      EXPECT_TRUE(source.path.starts_with("apps/playpen/view/") ||
+                  !starts_with_any(include, {"opencv2/", "X11/"}))
+          << source.path << " includes " << include;
     }
   }
 }
@@ -271,12 +284,24 @@ TEST(LayeringRules, RefuseClientsThreadsAndClocksInTheSimulator) {
               IsEmpty());
 }
 
+TEST(LayeringRules, LetDriversUseProxiesAndNotTheOtherWayRound) {
+  EXPECT_THAT(violations({"libplayerlike/src/drivers/x.cpp",
+                          "#include \"drivers/x.h\"\n#include \"proxies/link.h\"\n"}),
+              IsEmpty());
+  EXPECT_THAT(
+      violations({"libplayerlike/src/proxies/x.cpp", "#include \"drivers/snd_thread.h\"\n"}),
+      ElementsAre(HasSubstr("goal_driver.h")));
+}
+
 TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
-  EXPECT_THAT(violations({"libsim/src/devices/x.cpp",
-                          "#include <box2d/box2d.h>\n#include <opencv2/core.hpp>\n"
-                          "#include <nlohmann/json.hpp>\n"}),
-              ElementsAre(HasSubstr("Box2D"), HasSubstr("OpenCV"), HasSubstr("JSON")));
+  EXPECT_THAT(
+      violations({"libsim/src/devices/x.cpp",
+                  "#include <box2d/box2d.h>\n#include <opencv2/core.hpp>\n"
+                  "#include <nlohmann/json.hpp>\n#include <yaml-cpp/yaml.h>\n"}),
+      ElementsAre(HasSubstr("Box2D"), HasSubstr("OpenCV"), HasSubstr("JSON"), HasSubstr("YAML")));
   EXPECT_THAT(violations({"libsim/src/physics/x.cpp", "#include <box2d/box2d.h>\n"}), IsEmpty());
+  EXPECT_THAT(violations({"libsim/src/render/x.cpp", "#include <opencv2/highgui.hpp>\n"}),
+              ElementsAre(HasSubstr("apps/playpen/view")));
   EXPECT_THAT(violations({"libsim/src/canvas/x.cpp", "#include <opencv2/core.hpp>\n"}), IsEmpty());
   EXPECT_THAT(
       violations({"libplayerlike/include/playerlike/x.h", "#include <nlohmann/json.hpp>\n"}),

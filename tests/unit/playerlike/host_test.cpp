@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
@@ -69,6 +70,10 @@ class HostTest : public testing::Test {
   }
   static void drive(Session& session, const InterfaceBinding& binding, double v) {
     session.send(binding.motion.value(), sim::TwistCommand{{v, 0.0, 0.0}});
+  }
+  static std::optional<sim::Colour> colour_at(Session& session, int column, int row) {
+    const auto value = session.cell(sim::kBaseLayer, column, row);
+    return value ? std::optional(value->colour()) : std::nullopt;
   }
   // One Read() of a client.
   static Collector read(Session& session) {
@@ -307,9 +312,10 @@ TEST_F(HostTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
   std::thread sender([&] {
     for (int i = 0; !stop; ++i) {
       drive(*session, binding, 0.001 * (i % 100));
-      if (i % 64 == 0) static_cast<void>(session->pixel(3, 3));
+      if (i % 64 == 0) static_cast<void>(session->cell(sim::kBaseLayer, 3, 3));
       if (i % 16 == 0) {
-        const sim::CanvasOperation dot{.x0 = i % 100, .y0 = 5, .colour = {255, 0, 0, 255}};
+        const sim::DrawOperation dot{
+            .x0 = i % 100, .y0 = 5, .value = sim::CellValue::of(sim::Colour{255, 0, 0, 255})};
         session->draw({&dot, 1});
       }
     }
@@ -398,19 +404,21 @@ TEST_F(HostTest, DrawingsAreSeenAtOnceByTheirClientAndInOrderOfClients) {
   const auto first = world->connect(6665);
   const auto second = world->connect(6666);
   const auto dot = [](Session& s, sim::Colour colour) {
-    const sim::CanvasOperation operation{.x0 = 4, .y0 = 5, .colour = colour};
+    const sim::DrawOperation operation{.x0 = 4, .y0 = 5, .value = sim::CellValue::of(colour)};
     s.draw({&operation, 1});
   };
   dot(*second, {0, 0, 255, 255});
   dot(*first, {255, 0, 0, 255});
   first->wait();
-  EXPECT_EQ(first->pixel(4, 5), (sim::Colour{0, 0, 255, 255}));  // the second client comes last
+  EXPECT_EQ(colour_at(*first, 4, 5),
+            (sim::Colour{0, 0, 255, 255}));  // the second client comes last
   dot(*first, {255, 0, 0, 255});
-  EXPECT_EQ(first->pixel(4, 5), (sim::Colour{255, 0, 0, 255}));
-  EXPECT_FALSE(first->pixel(-1, 0).has_value());
+  EXPECT_EQ(colour_at(*first, 4, 5), (sim::Colour{255, 0, 0, 255}));
+  EXPECT_FALSE(first->cell(sim::kBaseLayer, -1, 0).has_value());
 }
 
-TEST_F(HostTest, PacedTimeRunsByItselfAtItsFactor) {
+TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
+  const auto begin = std::chrono::steady_clock::now();
   const auto session = start(two_robots(R"({"time": 200, "duration": 4})"))->connect(6665);
   const InterfaceBinding binding = subscribe_position(*session);
   drive(*session, binding, 0.5);
@@ -424,8 +432,9 @@ TEST_F(HostTest, PacedTimeRunsByItselfAtItsFactor) {
   EXPECT_EQ(time.mode, sim::TimeMode::kPaced);
   EXPECT_EQ(time.steps, 400U);
   EXPECT_GT(last_x_m, 1.0);
-  // Never faster than asked for: 4 s at 200 times real time are 20 ms.
-  EXPECT_GE(time.wall_time_s, 0.019);
+  // 4 s at 200 times real time are 20 ms, counted from when the first client connects: a late step
+  // is caught up with, but none comes early. Load can only make it longer.
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
 }
 
 TEST_F(HostTest, ABackgroundReaderMakesTimeFollowTheWallClock) {

@@ -186,6 +186,32 @@ TEST_F(Morse, PenDrawsInTheRobotsColourOrAnother) {
   EXPECT_EQ(pen.GetPixel(1, 1).a, 0);
 }
 
+TEST_F(Morse, PenConcernsTheWholeGridMapToo) {
+  MorsePen pen(robot);
+  pen.SetColour("#0000ff");
+  pen.SetPixelMetres(0.05, 0.05);
+  pen.SetLineMetres(0.05, 0.09, 0.09, 0.09);
+  pen.SetPixelMetres(0.05, 0.13, 1, 2, 3);
+  EXPECT_EQ(pen.GetPixel(2, 183), ImageColour_t(0, 0, 255));
+  EXPECT_EQ(pen.GetPixel(4, 181), ImageColour_t(0, 0, 255));
+  EXPECT_EQ(pen.GetPixel(2, 179), ImageColour_t(1, 2, 3));
+  pen.UpdateImage({{7, 7, 1, 2, 3}});
+  std::vector<std::uint8_t> image = pen.GetImage(3);
+  ASSERT_EQ(image.size(), 172U * 186 * 3);
+  EXPECT_EQ(image[3 * (7 * 172 + 7) + 2], 3);
+  image.assign(image.size(), 9);
+  pen.SetImage(image);
+  EXPECT_EQ(pen.GetPixel(0, 0), ImageColour_t(9, 9, 9));
+  pen.SetViewMode(CCMorse::MINI_MAP);
+  EXPECT_EQ(pen.GetViewMode(), CCMorse::MINI_MAP);
+  pen.SaveImage("pen.png");
+  EXPECT_EQ(world->saved.size(), 1U);
+  pen.Resize(50, 60);
+  EXPECT_EQ(pen.GetWidth(), 50);
+  EXPECT_EQ(pen.GetY(0.0), 59);
+  EXPECT_EQ(pen.GetComposedImage(3).size(), 50U * 60 * 3);
+}
+
 TEST_F(Morse, PropertiesAreTheWorldFiles) {
   const MorseProperties properties(robot);
   EXPECT_EQ(properties.GetModel(), "s1r");
@@ -194,7 +220,8 @@ TEST_F(Morse, PropertiesAreTheWorldFiles) {
   EXPECT_DOUBLE_EQ(properties.GetInitialPose().px, 0.5);
   EXPECT_DOUBLE_EQ(properties.GetSize().sl, 0.174);
   // The proxies table gives the laser index 7; position2d has the robot's number.
-  EXPECT_THAT(properties.GetProxyIndexes(), ElementsAre(Pair("laser", 7), Pair("position2d", 0)));
+  EXPECT_THAT(properties.GetProxyIndexes(),
+              ElementsAre(Pair("graphics2d", 0), Pair("laser", 7), Pair("position2d", 0)));
   EXPECT_EQ(properties.GetProxyIndex("laser"), 7);
   EXPECT_EQ(properties.GetProxyIndex("sonar"), -1);
   EXPECT_THAT(properties.GetDriverNames(), ElementsAre("snd"));

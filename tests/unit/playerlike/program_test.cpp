@@ -3,13 +3,18 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "sim/core/error.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -17,18 +22,23 @@ namespace {
 
 namespace fs = std::filesystem;
 using test_support::TemporaryFolder;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Pair;
 using testing::ThrowsMessage;
 using testing::UnorderedElementsAre;
 
 TEST(RunEnvironment, RemovesWhatIsNotSet) {
-  EXPECT_THAT(run_environment("", RunSettings{}),
-              UnorderedElementsAre(
-                  Pair("PLAYPEN_WORLD", std::nullopt), Pair("PLAYPEN_OUT", std::nullopt),
-                  Pair("PLAYPEN_RECORD", std::nullopt), Pair("PLAYPEN_SEED", std::nullopt),
-                  Pair("PLAYPEN_DURATION", std::nullopt), Pair("PLAYPEN_TIME", std::nullopt),
-                  Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt)));
+  EXPECT_THAT(
+      run_environment("", RunSettings{}),
+      UnorderedElementsAre(
+          Pair("PLAYPEN_WORLD", std::nullopt), Pair("PLAYPEN_OUT", std::nullopt),
+          Pair("PLAYPEN_RECORD", std::nullopt), Pair("PLAYPEN_SEED", std::nullopt),
+          Pair("PLAYPEN_DURATION", std::nullopt), Pair("PLAYPEN_TIME", std::nullopt),
+          Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt),
+          Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
+          Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
+          Pair("PLAYPEN_VIEW", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
@@ -76,6 +86,10 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   settings.time_factor = 2.5;
   settings.output_folder = "/out";
   settings.film = "/film.mp4";
+  settings.film_fps = 29.97;
+  settings.film_speed = 0.1;
+  settings.snapshot_period_s = 2.5;
+  settings.view_mode = sim::ViewMode::kMiniMap;
   settings.progress = true;
   settings.quiet_end = true;
   const ScopedEnvironment environment(run_environment("/world.json", settings));
@@ -86,6 +100,10 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(read.time_factor, settings.time_factor);
   EXPECT_EQ(read.output_folder, settings.output_folder);
   EXPECT_EQ(read.film, settings.film);
+  EXPECT_EQ(read.film_fps, settings.film_fps);
+  EXPECT_EQ(read.film_speed, settings.film_speed);
+  EXPECT_EQ(read.snapshot_period_s, settings.snapshot_period_s);
+  EXPECT_EQ(read.view_mode, settings.view_mode);
   EXPECT_EQ(read.progress, settings.progress);
   EXPECT_EQ(read.quiet_end, settings.quiet_end);
 }
@@ -95,6 +113,46 @@ TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
   settings.time_mode = sim::TimeMode::kLockstep;
   const ScopedEnvironment environment(run_environment("", settings));
   EXPECT_EQ(RunSettings::from_environment().time_mode, sim::TimeMode::kLockstep);
+}
+
+TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
+  const EnvironmentChanges bad = {
+      {"PLAYPEN_RECORD", "film.gif"},      {"PLAYPEN_RECORD_FPS", "0"},
+      {"PLAYPEN_RECORD_SPEED", "1001"},    {"PLAYPEN_SNAPSHOT_EVERY", "0"},
+      {"PLAYPEN_VIEW_MODE", "fullscreen"}, {"PLAYPEN_OUT", "out"}};
+  const ScopedEnvironment environment(bad);
+  try {
+    static_cast<void>(RunSettings::from_environment());
+    FAIL() << "taken";
+  } catch (const sim::ConfigError& error) {
+    for (const auto& [name, value] : bad) {
+      if (name == "PLAYPEN_OUT") continue;
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr('"' + *value + '"')));
+    }
+  }
+}
+
+TEST(RunSettings, SnapshotsNeedAnOutputFolder) {
+  const ScopedEnvironment environment(
+      {{"PLAYPEN_SNAPSHOT_EVERY", "1"}, {"PLAYPEN_OUT", std::nullopt}});
+  EXPECT_THAT([] { static_cast<void>(RunSettings::from_environment()); },
+              ThrowsMessage<sim::ConfigError>(HasSubstr("PLAYPEN_OUT beside it")));
+}
+
+TEST(RunSettings, ViewModeIsTheRunsUnlessTheWorldLocksAnother) {
+  RunSettings settings;
+  settings.view_mode = sim::ViewMode::kFullScreen;
+  sim::WorldDescription world;
+  settings.apply_to(world);
+  EXPECT_EQ(world.canvas.view_mode, sim::ViewMode::kFullScreen);
+
+  world.canvas.view_mode_locked = true;
+  settings.apply_to(world);  // the same one: nothing to say
+  settings.view_mode = sim::ViewMode::kGround;
+  EXPECT_THAT(
+      [&] { settings.apply_to(world); },
+      ThrowsMessage<sim::ConfigError>(
+          AllOf(HasSubstr("run/view_mode_locked"), HasSubstr("full-screen"), HasSubstr("ground"))));
 }
 
 TEST(FindProgram, TakesANameWithASlashAsAPath) {
@@ -165,6 +223,172 @@ TEST(RunProgram, ThrowsIfTheProgramCannotBeStarted) {
   EXPECT_THAT([&] { static_cast<void>(run_program({script}, {})); },
               ThrowsMessage<ProgramError>(HasSubstr("can't be started")));
 }
+
+/// Jobs that run scripts in a folder of their own.
+class RunPrograms : public testing::Test {
+ protected:
+  [[nodiscard]] ProgramJob job(const std::string& script) {
+    return {{"/bin/sh", "-c", script}, {}, folder_ / "log" + std::to_string(++count_)};
+  }
+  [[nodiscard]] std::string log(int number) const {
+    return test_support::read_bytes(folder_ / "log" + std::to_string(number));
+  }
+
+  TemporaryFolder folder_;
+
+ private:
+  int count_ = 0;
+};
+
+/// A pipe whose writing end programs inherit, to learn when the last of them is gone.
+class HeldByPrograms {
+ public:
+  HeldByPrograms() { EXPECT_EQ(pipe(ends_.data()), 0); }
+  HeldByPrograms(const HeldByPrograms&) = delete;
+  HeldByPrograms& operator=(const HeldByPrograms&) = delete;
+  ~HeldByPrograms() { close(ends_[0]); }
+
+  /// Waits, for ever if need be, until no other process has the writing end.
+  void wait_until_all_are_gone() {
+    close(ends_[1]);
+    char byte = 0;
+    EXPECT_EQ(read(ends_[0], &byte, 1), 0);
+  }
+
+ private:
+  std::array<int, 2> ends_{};
+};
+
+/// Lets programs that are started meanwhile ignore SIGTERM.
+class TermIgnored {
+ public:
+  TermIgnored() : old_(std::signal(SIGTERM, SIG_IGN)) {}
+  TermIgnored(const TermIgnored&) = delete;
+  TermIgnored& operator=(const TermIgnored&) = delete;
+  ~TermIgnored() { std::signal(SIGTERM, old_); }
+
+ private:
+  void (*old_)(int);
+};
+
+TEST_F(RunPrograms, GivesTheEndsInTheOrderOfTheJobsAndKeepsOutputsApart) {
+  const std::vector<ProgramJob> jobs = {job("echo one; echo more >&2; exit 3"), job("echo two"),
+                                        job("kill -SEGV $$")};
+  std::vector<std::size_t> started;
+  std::vector<std::size_t> ended;
+  const std::vector<JobEnd> ends = run_programs(
+      jobs, {.at_once = 3, .timeout_s = 0.0}, [&](std::size_t i) { started.push_back(i); },
+      [&](std::size_t i, const JobEnd& end) {
+        EXPECT_EQ(end.kind, JobEnd::Kind::kEnded);
+        ended.push_back(i);
+      });
+  ASSERT_EQ(ends.size(), 3U);
+  EXPECT_EQ(ends[0].program.status, 3);
+  EXPECT_TRUE(ends[1].program.success());
+  EXPECT_EQ(ends[2].program.signal, SIGSEGV);
+  EXPECT_EQ(log(1), "one\nmore\n");
+  EXPECT_EQ(log(2), "two\n");
+  EXPECT_THAT(started, testing::ElementsAre(0, 1, 2));
+  EXPECT_THAT(ended, testing::UnorderedElementsAre(0, 1, 2));
+}
+
+TEST_F(RunPrograms, RunsAsManyAtOnceAsToldAndNoMore) {
+  std::vector<ProgramJob> jobs;
+  // Each of a pair waits for the other, so a pair must run side by side.
+  for (const char* fifo : {"a", "b", "c"}) {
+    ASSERT_EQ(std::system(("mkfifo " + folder_ / fifo).c_str()), 0);
+    jobs.push_back(job("echo x > " + folder_ / fifo));
+    jobs.push_back(job("cat " + folder_ / fifo));
+  }
+  int running = 0;
+  int most = 0;
+  const std::vector<JobEnd> ends = run_programs(
+      jobs, {.at_once = 2}, [&](std::size_t) { most = std::max(most, ++running); },
+      [&](std::size_t, const JobEnd&) { --running; });
+  for (const JobEnd& end : ends) EXPECT_TRUE(end.program.success());
+  EXPECT_EQ(most, 2);
+  EXPECT_EQ(running, 0);
+}
+
+TEST_F(RunPrograms, GiveNoInput) {
+  EXPECT_TRUE(run_programs({job("test -z \"$(cat)\"")}, {})[0].program.success());
+}
+
+TEST_F(RunPrograms, EndsWhatTakesTooLongPolitely) {
+  const std::vector<JobEnd> ends = run_programs(
+      {job("sleep 1000"), job("exit 0")}, {.at_once = 1, .timeout_s = 0.1, .grace_s = 1000.0});
+  EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTimedOut);
+  EXPECT_EQ(ends[0].program.signal, SIGTERM);
+  EXPECT_GE(ends[0].wall_time_s, 0.1);
+}
+
+TEST_F(RunPrograms, KillsWhatDoesNotEndWithinTheGrace) {
+  const TermIgnored ignored;
+  const std::vector<JobEnd> ends =
+      run_programs({job("sleep 1000")}, {.at_once = 1, .timeout_s = 0.1, .grace_s = 0.1});
+  EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTimedOut);
+  EXPECT_EQ(ends[0].program.signal, SIGKILL);
+}
+
+TEST_F(RunPrograms, EndsAStoppedProgramToo) {
+  const std::vector<JobEnd> ends =
+      run_programs({job("kill -STOP $$")}, {.at_once = 1, .timeout_s = 0.1, .grace_s = 1000.0});
+  EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTimedOut);
+}
+
+TEST_F(RunPrograms, LeaveNothingRunningInTheirGroups) {
+  HeldByPrograms held;
+  const std::vector<JobEnd> ends = run_programs({job("sleep 1000 & exit 0")}, {});
+  EXPECT_TRUE(ends[0].program.success());
+  held.wait_until_all_are_gone();
+}
+
+TEST_F(RunPrograms, EndEarlyWhenThisProcessIsToldTo) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    int started = 0;
+    const std::vector<JobEnd> ends =
+        run_programs({job("sleep 1000"), job("sleep 1000"), job("exit 0")},
+                     {.at_once = 2, .timeout_s = 0.0, .grace_s = 1000.0}, [&](std::size_t) {
+                       if (++started == 2) kill(getpid(), signal);
+                     });
+    EXPECT_EQ(ends[0].kind, JobEnd::Kind::kInterrupted);
+    EXPECT_EQ(ends[0].program.signal, SIGTERM);
+    EXPECT_EQ(ends[1].kind, JobEnd::Kind::kInterrupted);
+    EXPECT_EQ(ends[2].kind, JobEnd::Kind::kNotStarted);
+  }
+}
+
+TEST_F(RunPrograms, ASecondSignalEndsTheGrace) {
+  const TermIgnored ignored;
+  const std::vector<JobEnd> ends = run_programs(
+      {job("sleep 1000")}, {.at_once = 1, .timeout_s = 0.0, .grace_s = 1e6}, [](std::size_t) {
+        kill(getpid(), SIGINT);
+        kill(getpid(), SIGHUP);  // both wait until they are asked for
+      });
+  EXPECT_EQ(ends[0].kind, JobEnd::Kind::kInterrupted);
+  EXPECT_EQ(ends[0].program.signal, SIGKILL);
+}
+
+TEST_F(RunPrograms, ThrowWhenOneCannotBeStartedAndLeaveNoneRunning) {
+  HeldByPrograms held;
+  ProgramJob no_program = job("");
+  no_program.command = {folder_ / "none"};
+  EXPECT_THAT(
+      [&] {
+        static_cast<void>(run_programs({job("sleep 1000"), no_program}, {2}));
+      },
+      ThrowsMessage<ProgramError>(HasSubstr("can't be started")));
+  ProgramJob no_output = job("");
+  no_output.output_file = folder_ / "no/such/folder/log";
+  EXPECT_THAT(
+      [&] {
+        static_cast<void>(run_programs({job("sleep 1000"), no_output}, {2}));
+      },
+      ThrowsMessage<ProgramError>(HasSubstr("can't be made")));
+  held.wait_until_all_are_gone();
+}
+
+TEST_F(RunPrograms, NoneAtAllIsFine) { EXPECT_THAT(run_programs({}, {}), testing::IsEmpty()); }
 
 }  // namespace
 }  // namespace playerlike

@@ -67,13 +67,15 @@ TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
   EXPECT_TRUE(client.GetDeviceList().empty());
   client.RequestDeviceList();
   const std::list<playerc_device_info_t> list = client.GetDeviceList();
-  // laser:0, position2d:0 (pose) and position2d:1 (odometry).
-  ASSERT_EQ(list.size(), 3U);
-  EXPECT_EQ(list.front().addr.interf, PLAYER_LASER_CODE);
-  EXPECT_STREQ(list.front().drivername, "laser");
-  EXPECT_EQ(list.back().addr.interf, PLAYER_POSITION2D_CODE);
-  EXPECT_EQ(list.back().addr.index, 1);
-  EXPECT_STREQ(list.back().drivername, "odometry");
+  // graphics2d:0 (pen), laser:0, position2d:0 (pose), position2d:1 (odometry) and the world's
+  // map:0.
+  std::vector<std::string> found;
+  for (const playerc_device_info_t& info : list) {
+    found.push_back(client.LookupName(info.addr.interf) + ':' + std::to_string(info.addr.index) +
+                    ' ' + info.drivername);
+  }
+  EXPECT_THAT(found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "position2d:0 pose",
+                                 "position2d:1 odometry", "map:0 world"));
 }
 
 TEST_F(Proxies, ClientKeepsItsRetrySettings) {

@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <sstream>
+#include <thread>
 
 #include "fake_session.h"
 #include "libCCMorse/WindowProxy.h"
@@ -138,7 +140,8 @@ TEST_F(Window, BadColoursAreRefused) {
   EXPECT_EQ(error_code_of([&] { window.SetPixel(1, 1, std::nan(""), 0.0, 0.0); }),
             PlayerError::kBadArgument);
   EXPECT_EQ(error_code_of([&] { window.SetPixel(1, 1, "green"); }), PlayerError::kBadArgument);
-  EXPECT_EQ(world->draw_calls, 0);
+  window.GetPixel(1, 1);
+  EXPECT_EQ(world->drawn, 0U);
 }
 
 TEST_F(Window, AlphaBlendsOverWhatIsThere) {
@@ -198,44 +201,175 @@ TEST_F(Window, PixelsAreReadInManyWays) {
   EXPECT_EQ(error_code_of([&] { window.GetPixel(0, -1); }), PlayerError::kBadArgument);
 }
 
-TEST_F(Window, LayerIsReachedByName) {
-  EXPECT_THAT(window.GetLayerNames(), ElementsAre("canvas"));
-  CCMorse::GridMapLayer& layer = window.GetLayer();
-  EXPECT_EQ(&window.GetLayer("canvas"), &layer);
-  EXPECT_EQ(error_code_of([&] { window.GetLayer("map"); }), PlayerError::kBadArgument);
-  layer.SetName("map");
-  EXPECT_EQ(&window.GetLayer("map"), &layer);
-  layer.SetPriority(3);
-  EXPECT_EQ(layer.GetPriority(), 3);
+TEST_F(Window, PositionsInMetresAreDrawnInTheirCells) {
+  // Column floor(x / 0.02), row 185 - floor(y / 0.02).
+  window.SetPixelMetres(0.05, 0.03, 255, 0, 0);
+  EXPECT_EQ(window.GetPixel(2, 184), ImageColour_t(255, 0, 0));
+  window.SetPixelMetres(1, 1, "#00ff00");
+  EXPECT_EQ(window.GetPixel(50, 135), ImageColour_t(0, 255, 0));
+  window.SetLineMetres(0.01, 3.71, 0.07, 3.71, 0.0, 0.0, 1.0);
+  for (int x = 0; x <= 3; ++x) EXPECT_EQ(window.GetPixel(x, 0), ImageColour_t(0, 0, 255)) << x;
+  EXPECT_EQ(window.GetPixel(4, 0).a, 0);
+  window.SetPolylineMetres({{0.01, 2.01}, {0.05, 2.01}, {0.05, 2.05}}, 1, 2, 3);
+  EXPECT_EQ(window.GetPixel(1, 85), ImageColour_t(1, 2, 3));
+  EXPECT_EQ(window.GetPixel(2, 84), ImageColour_t(1, 2, 3));
+  EXPECT_EQ(window.GetPixel(2, 83), ImageColour_t(1, 2, 3));
+  window.SetPolylineMetres({{3.01, 2.01}}, 1, 2, 3);
+  EXPECT_EQ(window.GetPixel(150, 85), ImageColour_t(1, 2, 3));
+  window.SetPolylineMetres({}, 1, 2, 3);
+  EXPECT_EQ(error_code_of([&] { window.SetPixelMetres(std::nan(""), 0.0, 1, 2, 3); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] {
+              window.SetPolylineMetres({{0.0, INFINITY}}, 1, 2, 3);
+            }),
+            PlayerError::kBadArgument);
 }
 
-TEST_F(Window, LayerDrawsInItsColourAndTransparency) {
-  CCMorse::GridMapLayer& layer = window.GetLayer();
-  layer.SetColour(255, 0, 0);
-  layer.SetPixel(1, 1);
-  layer.SetLine(1, 2, 3, 2);
+TEST_F(Window, DiscsHoldTheCellsWhoseMiddlesAreWithinTheRadius) {
+  constexpr double kX = 1.003, kY = 2.008, kRadius = 0.11;
+  window.SetDiscMetres(kX, kY, kRadius, 255, 0, 0, 100);
+  int drawn = 0;
+  for (int row = 0; row < 186; ++row) {
+    for (int column = 0; column < 172; ++column) {
+      const double dx = 0.02 * (column + 0.5) - kX;
+      const double dy = 0.02 * (186 - row - 0.5) - kY;
+      const bool inside = dx * dx + dy * dy <= kRadius * kRadius;
+      // Alpha 100: a cell drawn twice would have more.
+      ASSERT_EQ(window.GetPixel(column, row).a, inside ? 100 : 0) << column << ", " << row;
+      drawn += inside ? 1 : 0;
+    }
+  }
+  EXPECT_NEAR(drawn, 3.1416 * 5.5 * 5.5, 6.0);  // the area in cells, to within its rim
+  window.Clear();
+  window.SetDiscMetres(0.5, 0.5, 0.0, 0, 0, 255);  // no middle is so near: the cell itself
+  EXPECT_EQ(window.GetPixel(25, 160), ImageColour_t(0, 0, 255));
+  window.SetDiscMetres(-0.05, -0.05, 0.1, 0, 255, 0);  // clipped
+  EXPECT_EQ(window.GetPixel(0, 185), ImageColour_t(0, 255, 0));
+  window.SetDiscMetres(1.0, 1.0, 1e6, 9, 9, 9);
+  EXPECT_EQ(window.GetPixel(171, 0), ImageColour_t(9, 9, 9));
+  EXPECT_EQ(error_code_of([&] { window.SetDiscMetres(0, 0, -1, 9, 9, 9); }),
+            PlayerError::kBadArgument);
+}
+
+TEST_F(Window, PolygonsHoldTheCellsWhoseMiddlesLieInside) {
+  // A square of 0.2 m with a square hole: both outlines in one, by the even-odd rule.
+  window.SetPolygonMetres({{1.0, 1.0},
+                           {1.2, 1.0},
+                           {1.2, 1.2},
+                           {1.0, 1.2},
+                           {1.0, 1.0},
+                           {1.06, 1.06},
+                           {1.06, 1.14},
+                           {1.14, 1.14},
+                           {1.14, 1.06},
+                           {1.06, 1.06}},
+                          255, 0, 0, 100);
+  for (int row = 120; row < 140; ++row) {
+    for (int column = 45; column < 65; ++column) {
+      const double x = 0.02 * (column + 0.5);
+      const double y = 0.02 * (186 - row - 0.5);
+      const bool in_square = x > 1.0 && x < 1.2 && y > 1.0 && y < 1.2;
+      const bool in_hole = x > 1.06 && x < 1.14 && y > 1.06 && y < 1.14;
+      ASSERT_EQ(window.GetPixel(column, row).a, in_square && !in_hole ? 100 : 0)
+          << column << ", " << row;
+    }
+  }
+  window.SetPolygonMetres({{-1e9, -1e9}, {1e9, -1e9}, {0.0, 1e9}}, "#090909");
+  EXPECT_EQ(window.GetPixel(0, 0), ImageColour_t(9, 9, 9));
+}
+
+TEST_F(Window, WholeImagesAreSetAndRead) {
+  std::vector<std::uint8_t> rgb(172 * 186 * 3);
+  for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint8_t>(i % 251);
+  window.SetImage(rgb);
+  EXPECT_EQ(window.GetImage(3), rgb);
+  EXPECT_EQ(window.GetPixel(1, 0), ImageColour_t(3, 4, 5));
+  std::vector<std::uint8_t> rgba;
+  window.GetImage(rgba);
+  ASSERT_EQ(rgba.size(), 172U * 186 * 4);
+  EXPECT_EQ(rgba[7], 255);
+  rgba[4] = 99;
+  rgba[7] = 10;
+  window.SetImage(rgba.data(), rgba.size());
+  EXPECT_EQ(window.GetPixel(1, 0), ImageColour_t(99, 4, 5, 10)) << "no blending";
+  EXPECT_EQ(window.GetImage(), rgba);
+  rgba.pop_back();
+  EXPECT_EQ(error_code_of([&] { window.SetImage(rgba); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { window.SetImage(nullptr, 172 * 186 * 3); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { window.GetImage(2); }), PlayerError::kBadArgument);
+}
+
+TEST_F(Window, ImagesKeepTheirPlaceAmongDrawings) {
+  window.SetPixel(1, 1, 1, 1, 1);
+  window.SetImage(std::vector<std::uint8_t>(172 * 186 * 4, 7));
+  window.SetPixel(2, 2, 2, 2, 2);
+  EXPECT_EQ(window.GetPixel(1, 1), ImageColour_t(7, 7, 7, 7));
+  EXPECT_EQ(window.GetPixel(2, 2), ImageColour_t(2, 2, 2));
+}
+
+TEST_F(Window, ListsOfPixelsAreDrawn) {
+  window.UpdateImage(
+      {{1, 1, 255, 0, 0}, {2, 1, ImageColour_t(0, 255, 0, 10)}, {-5, 9999, 1, 1, 1}});
   EXPECT_EQ(window.GetPixel(1, 1), ImageColour_t(255, 0, 0));
-  EXPECT_EQ(window.GetPixel(3, 2), ImageColour_t(255, 0, 0));
-  layer.SetTransparency(0.5);
-  EXPECT_DOUBLE_EQ(layer.GetTransparency(), 0.5);
-  window.SetPixel(4, 4, 0, 0, 255);  // the window draws through the layer
-  EXPECT_NEAR(window.GetPixel(4, 4).a, 128, 1);
-  layer.SetTransparency(1.0);
-  layer.SetPixel(5, 5);
-  EXPECT_EQ(window.GetPixel(5, 5).a, 0);
+  EXPECT_EQ(window.GetPixel(2, 1).a, 10);
 }
 
-TEST_F(Window, TransparentColourDrawsNothing) {
-  CCMorse::GridMapLayer& layer = window.GetLayer();
-  EXPECT_FALSE(layer.HasTransparentColour());
-  layer.SetTransparentColour("#ffffff");
-  window.SetPixel(1, 1, 255, 255, 255);
-  EXPECT_EQ(window.GetPixel(1, 1).a, 0);
-  window.SetPixel(1, 1, 255, 255, 254);
-  EXPECT_EQ(window.GetPixel(1, 1).a, 255);
-  layer.ResetTransparentColour();
-  window.SetPixel(2, 2, 255, 255, 255);
-  EXPECT_EQ(window.GetPixel(2, 2).a, 255);
+TEST_F(Window, ResizingKeepsWhatIsDrawnInItsPlace) {
+  window.SetPixelMetres(0.05, 0.05, 255, 0, 0);
+  window.Resize(100, 50);
+  EXPECT_EQ(window.GetWidth(), 100);
+  EXPECT_EQ(window.GetHeight(), 50);
+  EXPECT_EQ(window.GetY(0.05), 47);  // 49 - 2
+  EXPECT_EQ(window.GetPixel(2, 47), ImageColour_t(255, 0, 0));
+  EXPECT_EQ(window.GetImage().size(), 100U * 50 * 4);
+  for (const auto& size : {std::pair(0, 50), std::pair(100, -1), std::pair(8193, 1)}) {
+    EXPECT_EQ(error_code_of([&] { window.Resize(size.first, size.second); }),
+              PlayerError::kBadArgument);
+  }
+  EXPECT_EQ(error_code_of([&] {
+              window.CreateLayer("a");
+              window.Resize(8192, 8192);  // 2^26 cells, twice
+            }),
+            PlayerError::kNotAvailable);
+}
+
+TEST_F(Window, ViewModesGoToTheWorld) {
+  EXPECT_EQ(window.GetViewMode(), CCMorse::GROUND);
+  window.SetViewMode(CCMorse::FULL_SCREEN);
+  EXPECT_EQ(world->view_mode, sim::ViewMode::kFullScreen);
+  EXPECT_EQ(window.GetViewMode(), CCMorse::ViewMode::FULL_SCREEN);
+  window.SetViewMode(CCMorse::MINI_MAP);
+  EXPECT_EQ(window.GetViewMode(), CCMorse::MINI_MAP);
+  world->view_mode_locked = true;
+  EXPECT_EQ(error_code_of([&] { window.SetViewMode(CCMorse::GROUND); }),
+            PlayerError::kNotAvailable);
+  EXPECT_EQ(error_code_of([&] { window.SetViewMode(static_cast<CCMorse::ViewMode>(3)); }),
+            PlayerError::kBadArgument);
+}
+
+TEST_F(Window, PicturesAreSavedByTheWorld) {
+  window.SaveImage("map");
+  window.SaveImage("big.png", 4);
+  EXPECT_THAT(world->saved, ElementsAre(std::pair<std::string, int>("map", 1),
+                                        std::pair<std::string, int>("big.png", 4)));
+}
+
+TEST_F(Window, SeveralThreadsMayDraw) {
+  constexpr int kThreads = 4;
+  constexpr int kRounds = 20000;  // more than the queue holds
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) {
+    threads.emplace_back([this, t] {
+      for (int i = 0; i < kRounds; ++i) window.SetPixel(i % 172, t, t, i % 256, 0);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(window.GetPixel(0, 0).a, 255);
+  EXPECT_EQ(world->drawn, static_cast<std::size_t>(kThreads) * kRounds) << "none is lost";
+  // The last on column 0: i = 172 * 116 = 19952, 19952 % 256 = 240.
+  for (int t = 0; t < kThreads; ++t)
+    EXPECT_EQ(window.GetPixel(0, t), ImageColour_t(uchar(t), 240, 0));
 }
 
 TEST_F(Window, PrintsItsSizeAndLayers) {

@@ -233,7 +233,10 @@ TEST(ShippedWorlds, LoadAndStep) {
   int worlds = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / "worlds")) {
     const std::string file = entry.path().string();
-    if (!file.ends_with(".json") || file.ends_with(".schema.json")) continue;
+    if (!file.ends_with(".json") || file.ends_with(".schema.json") ||
+        file.ends_with(".task.json")) {
+      continue;
+    }
     ++worlds;
     std::optional<Simulation> simulation;
     ASSERT_NO_THROW(simulation.emplace(load_world(file))) << file;

@@ -109,8 +109,11 @@ const BadWorld kBadWorlds[] = {
     {"unknown_obstacle", "world/unknown-obstacle", "/arena/extended/0", 1, "d1, d2",
      "\"d33\" (did you mean \"d3\"?)"},
     {"unknown_value", "world/unknown-value", "/arena/preset", 1, "\"syrotek\"", "\"syrotec\""},
+    {"unknown_view_mode", "world/unknown-value", "/canvas/view_mode", 1,
+     "\"ground\", \"mini-map\" or \"full-screen\"", "\"minimap\" (did you mean \"mini-map\"?)"},
     {"wrong_type", "world/wrong-type", "/robots/0/pose/x", 1, "a number",
      "the text \"0.5\" (a number stands without quotes)"},
+    {"wrong_type_boolean", "world/wrong-type", "/canvas/lock_view_mode", 1, "true or false", "1"},
     {"wrong_type_list", "world/wrong-type", "/robots", 1, "a list", "an object"},
     {"wrong_type_pair", "world/wrong-type", "/arena/size", 1, "two numbers", "a list of 1"},
 };
@@ -167,7 +170,7 @@ std::string content(const fs::path& path) {
 
 TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   const fs::path root(PLAYPEN_SOURCE_DIR);
-  const std::regex in_source("\"((?:file|json|world|device|run)/[a-z0-9-]+)\"");
+  const std::regex in_source("\"((?:file|json|world|device|map|run|task)/[a-z0-9-]+)\"");
   std::set<std::string> used;
   for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {

@@ -3,16 +3,25 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+#include <random>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "canvas/image_file.h"
 
@@ -228,6 +237,58 @@ TEST(DrawScene, TrailAndFanAreDrawnWhenAskedForAndStayOnTheFloor) {
   EXPECT_EQ(pixel_at(drawn, outside), pixel_at(bare, outside));
 }
 
+// Of a trail that is 0.8 opaque at its newest end.
+TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
+  SceneSnapshot scene = small_scene();
+  RobotSnapshot robot = robot_at({0.5, 0.5, 0.0}, {0, 0, 255, 255});
+  for (int i = 0; i <= 20; ++i) robot.trail.push_back({1.05 + 0.1 * i, 2.25});
+  scene.robots = {robot};
+  const Vec2 newest(3.0, 2.25);
+  Canvas canvas(scene.canvas_description);
+
+  // A map of white cells is no drawing of the way: red goes down from 255 to a fifth of it, 51,
+  // and something for the ink that is mixed into the robot's blue.
+  canvas.clear({255, 255, 255, 255});
+  scene.canvas = canvas.data();
+  EXPECT_LT(pixel_at(draw_scene(scene, plain_options()), newest)[0], 70);
+
+  // All of its cells are red: a tenth of the opacity, 0.08, is left; blue comes to 0.08 x 255 = 20.
+  for (int x = 10; x <= 30; ++x) canvas.set_pixel(x, canvas.row(2.25), {220, 0, 0, 255});
+  scene.canvas = canvas.data();
+  const Rgb drawn = pixel_at(draw_scene(scene, plain_options()), newest);
+  EXPECT_GT(drawn[0], 195);
+  EXPECT_LT(drawn[2], 30);
+
+  // Where the canvas is not on the floor, the trail is all there.
+  scene.view_mode = ViewMode::kMiniMap;
+  const Rgb apart = pixel_at(draw_view(scene, plain_options()), newest);
+  EXPECT_LT(apart[0], 70);
+  EXPECT_GT(apart[2], 180);
+}
+
+TEST(DrawScene, FansAreFainterOnAFullCanvas) {
+  SceneSnapshot scene = small_scene();
+  RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
+  robot.scan_origin = {2.0, 2.0};
+  robot.scan_points = {{3.2, 1.0}, {3.2, 3.0}};
+  scene.robots = {robot};
+  RenderOptions bare = plain_options();
+  bare.scans = false;
+  // The robot's colour has no red: what is missing of the floor's is the fan's opacity.
+  const auto opacity = [&] {
+    const Vec2 in_fan(2.75, 2.1);
+    return 1.0 - static_cast<double>(pixel_at(draw_scene(scene, plain_options()), in_fan)[0]) /
+                     pixel_at(draw_scene(scene, bare), in_fan)[0];
+  };
+  const double on_floor = opacity();
+  EXPECT_GT(on_floor, 0.1);
+  Canvas canvas(scene.canvas_description);
+  canvas.clear({255, 255, 255, 255});
+  scene.canvas = canvas.data();
+  // 1 - 0.4 of it; two pixels, each rounded to 1/255.
+  EXPECT_NEAR(opacity(), 0.6 * on_floor, 0.01);
+}
+
 TEST(DrawScene, StalledRobotHasARedRing) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.25, 2.25, 0.0}, {0, 0, 255, 255})};
@@ -281,6 +342,279 @@ TEST(DrawScene, SameSceneGivesTheSameBytes) {
   const std::string bytes = file_bytes(folder.file("a.png"));
   EXPECT_GT(bytes.size(), 1000U);
   EXPECT_TRUE(bytes == file_bytes(folder.file("b.png")));
+}
+
+LayerInfo layer(LayerId id, LayerKind kind, const std::string& name, Colour colour) {
+  LayerInfo info;
+  info.id = id;
+  info.kind = kind;
+  info.style.name = name;
+  info.style.colour = colour;
+  return info;
+}
+
+std::vector<LayerInfo> base_and(std::vector<LayerInfo> others) {
+  others.insert(others.begin(), layer(kBaseLayer, LayerKind::kColour, "canvas", {}));
+  return others;
+}
+
+// Numbers that are the same on every run.
+class Sequence {
+ public:
+  // In [0, end).
+  int below(int end) {
+    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+    return static_cast<int>((state_ >> 33) % static_cast<std::uint64_t>(end));
+  }
+  double in(double low, double high) { return low + (high - low) * below(1000) / 999.0; }
+
+ private:
+  std::uint64_t state_ = 5;
+};
+
+TEST(SceneRenderer, WhatIsKeptGivesTheSameBytesAsAFreshPicture) {
+  Sequence sequence;
+  RenderOptions options;
+  options.size_px = 300;
+  SceneRenderer renderer(options);
+  SceneSnapshot scene = small_scene();
+  scene.arena.docks.resize(1);
+  scene.arena.docks[0].pose = {0.4, 0.4, 0.3};
+  scene.arena.obstacles = {
+      block(ObstacleType::kDynamic, ObstacleState::kExtended, {0.75, 3.25}),
+      block(ObstacleType::kDynamic, ObstacleState::kRetracted, {2.75, 3.25}),
+      block(ObstacleType::kStatic, ObstacleState::kExtended, {2.0, 0.75}),
+  };
+  scene.robots = {robot_at({2.0, 2.0, 0.4}, {0, 90, 255, 255}),
+                  robot_at({1.0, 2.0, 0.4}, {255, 90, 0, 255})};
+  Canvas canvas(scene.canvas_description);
+  scene.canvas = canvas.data();
+  for (int round = 0; round < 120; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      const auto byte = [&] { return static_cast<std::uint8_t>(sequence.below(256)); };
+      canvas.set_pixel(sequence.below(canvas.width()), sequence.below(canvas.height()),
+                       {byte(), byte(), byte(), byte()});
+    }
+    scene.canvas = round % 10 == 9 ? std::vector<std::uint8_t>{} : canvas.data();
+    for (RobotSnapshot& robot : scene.robots) {
+      robot.X_WB = {sequence.in(0.5, 3.5), sequence.in(0.5, 3.5), sequence.in(-3.0, 3.0)};
+      robot.trail.push_back(robot.X_WB.position());
+      robot.scan_origin = robot.X_WB.position();
+      robot.scan_points = {{sequence.in(0.0, 4.0), 0.0}, {4.0, sequence.in(0.0, 4.0)}};
+      robot.stalled = sequence.below(5) == 0;
+      robot.marked = sequence.below(5) == 0;
+    }
+    scene.time_s += 0.1;
+    scene.view_mode = static_cast<ViewMode>(sequence.below(3));
+    if (round % 17 == 16) {  // a block moves
+      ObstacleState& state = scene.arena.obstacles[1].state;
+      state =
+          state == ObstacleState::kRetracted ? ObstacleState::kExtended : ObstacleState::kRetracted;
+    }
+    if (round % 23 == 22) {  // the canvas gets another size
+      scene.canvas_description.width = 20 + sequence.below(60);
+      scene.canvas_description.height = 20 + sequence.below(60);
+      canvas = Canvas(scene.canvas_description);
+      scene.canvas.clear();
+    }
+    if (round == 40) {
+      scene.layers = base_and({layer(1, LayerKind::kGrey, "occupancy", {}),
+                               layer(2, LayerKind::kBinary, "path", {255, 140, 0, 255})});
+    }
+    const Image& kept = renderer.draw(scene);
+    const Image fresh = draw_view(scene, options);
+    ASSERT_EQ(kept.width, fresh.width);
+    ASSERT_EQ(kept.height, fresh.height);
+    ASSERT_TRUE(kept.rgb == fresh.rgb) << "in round " << round;
+  }
+}
+
+TEST(SceneRenderer, RefusesASizeOutOfRangeAndACanvasOfAnotherSize) {
+  RenderOptions options;
+  options.size_px = 63;
+  EXPECT_THROW(SceneRenderer{options}, std::invalid_argument);
+  SceneSnapshot scene = small_scene();
+  scene.canvas.assign(39 * 40 * 4, 0);
+  SceneRenderer renderer;
+  EXPECT_THROW((void)renderer.draw(scene), std::invalid_argument);
+}
+
+TEST(DrawView, AllModesGivePicturesOfOneSize) {
+  for (const Vec2& size_m : {Vec2(3.42, 3.72), Vec2(20.0, 0.3), Vec2(0.3, 20.0)}) {
+    for (const int size_px : {64, 300}) {
+      SceneSnapshot scene = small_scene();
+      scene.arena.size = size_m;
+      scene.canvas.assign(40 * 40 * 4, 200);
+      RenderOptions options;
+      options.size_px = size_px;
+      const Image ground = draw_scene(scene, options);
+      for (const ViewMode mode : {ViewMode::kGround, ViewMode::kMiniMap, ViewMode::kFullScreen}) {
+        scene.view_mode = mode;
+        const Image image = draw_view(scene, options);
+        EXPECT_EQ(image.width, ground.width);
+        EXPECT_EQ(image.height, ground.height);
+      }
+    }
+  }
+}
+
+TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColourAndNoRobots) {
+  SceneSnapshot scene = small_scene();
+  scene.view_mode = ViewMode::kFullScreen;
+  Sequence sequence;
+  const int cells = 40;
+  for (int i = 0; i < cells * cells; ++i) {
+    for (int channel = 0; channel < 3; ++channel) {
+      scene.canvas.push_back(static_cast<std::uint8_t>(sequence.below(256)));
+    }
+    scene.canvas.push_back(255);
+  }
+  const Image image = draw_view(scene, plain_options());
+  // A picture of 1000 x 1000 with a frame of 1 px: 998 / 40 = 24.95, so 24 px a cell, 960 px in
+  // all; 20 px on the left, and (998 - 960) / 2 + 1 = 20 above.
+  for (int y = 0; y < 960; ++y) {
+    for (int x = 0; x < 960; ++x) {
+      const auto at = static_cast<std::size_t>(4 * (y / 24 * cells + x / 24));
+      ASSERT_EQ(pixel(image, 20 + x, 20 + y),
+                (Rgb{scene.canvas[at], scene.canvas[at + 1], scene.canvas[at + 2]}))
+          << x << ", " << y;
+    }
+  }
+  scene.robots = {robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255})};
+  EXPECT_TRUE(draw_view(scene, plain_options()).rgb == image.rgb);
+}
+
+TEST(DrawView, FullScreenShrinksACanvasOfMoreCellsThanPixelsByAWholeNumber) {
+  SceneSnapshot scene = small_scene();
+  scene.view_mode = ViewMode::kFullScreen;
+  scene.canvas_description.width = 3000;
+  scene.canvas_description.height = 3000;
+  scene.canvas_description.cell_size_m = 4.0 / 3000;
+  // Black and white columns in turn. 998 / 3000 = 1 / 3.006, so 4 cells a pixel, 750 px in all:
+  // each pixel has two black and two white ones.
+  for (int i = 0; i < 3000 * 3000; ++i) {
+    const std::uint8_t shade = i % 2 == 0 ? 0 : 255;
+    scene.canvas.insert(scene.canvas.end(), {shade, shade, shade, 255});
+  }
+  const Image image = draw_view(scene, plain_options());
+  for (const int at : {126, 500, 873}) EXPECT_EQ(pixel(image, at, at)[1], 128) << at;
+  EXPECT_NE(pixel(image, 120, 500)[1], 128);
+}
+
+TEST(DrawView, MiniMapShowsTheCanvasInTheCornerThatIsFree) {
+  SceneSnapshot scene = small_scene();
+  scene.view_mode = ViewMode::kMiniMap;
+  for (int i = 0; i < 40 * 40; ++i) {
+    scene.canvas.insert(scene.canvas.end(), {0, 160, 0, 255});
+  }
+  const auto is_green = [](const Rgb& rgb) { return rgb == Rgb{0, 160, 0}; };
+  // Corners as they are tried: top right, top left, bottom right, bottom left; the first that is
+  // free counts. The map reaches from 0.06 m to over 1.2 m from the floor's sides.
+  const std::vector<Vec2> corners = {{3.3, 3.3}, {0.7, 3.3}, {3.3, 0.7}, {0.7, 0.7}};
+  for (std::size_t blocked = 0; blocked < corners.size(); ++blocked) {
+    const Image image = draw_view(scene, plain_options());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      EXPECT_EQ(is_green(pixel_at(image, corners[i])), i == blocked) << i << ", " << blocked;
+    }
+    EXPECT_TRUE(is_light(pixel_at(image, {2.25, 2.25})));  // no canvas on the floor
+    scene.arena.obstacles.push_back(
+        block(ObstacleType::kStatic, ObstacleState::kExtended, corners[blocked]));
+  }
+}
+
+TEST(DrawView, MiniMapShowsWhereRobotsAre) {
+  SceneSnapshot scene = small_scene();
+  scene.view_mode = ViewMode::kMiniMap;
+  scene.canvas.assign(40 * 40 * 4, 255);
+  scene.robots = {robot_at({1.0, 3.0, 0.0}, {0, 0, 255, 255})};
+  const Image image = draw_view(scene, plain_options());
+  // The floor is 924 px wide, a third and a bit of which, 332.64 px, is room for 40 cells: 8 px a
+  // cell, 320 px. It ends 14 px from the right and from the upper side of the floor: at x = 948 and
+  // from y = 52 on. The robot is 10 cells from its left, and as many from its upper side.
+  EXPECT_EQ(pixel(image, 948 - 320 + 80, 52 + 80), (Rgb{0, 0, 255}));
+}
+
+// Rows of the picture that two pictures differ in: first and one past the last.
+std::pair<int, int> rows_that_differ(const Image& a, const Image& b) {
+  std::pair<int, int> rows{a.height, 0};
+  for (int y = 0; y < a.height; ++y) {
+    const auto begin = static_cast<std::ptrdiff_t>(3 * a.width) * y;
+    if (!std::equal(a.rgb.begin() + begin, a.rgb.begin() + begin + 3 * a.width,
+                    b.rgb.begin() + begin)) {
+      rows.first = std::min(rows.first, y);
+      rows.second = y + 1;
+    }
+  }
+  return rows;
+}
+
+// In the footer, which is 66 px high in a full-screen picture of 1000 px.
+bool footer_has(const Image& image, const Rgb& colour) {
+  for (int y = image.height - 64; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (pixel(image, x, y) == colour) return true;
+    }
+  }
+  return false;
+}
+
+TEST(DrawView, LegendNamesTheVisibleLayersButTheBase) {
+  SceneSnapshot scene = small_scene();
+  RenderOptions options;  // of 1000 px, with a footer of 74 px
+  for (const ViewMode mode : {ViewMode::kGround, ViewMode::kMiniMap, ViewMode::kFullScreen}) {
+    scene.view_mode = mode;
+    scene.layers.clear();
+    const Image without = draw_view(scene, options);
+    scene.layers = base_and({});
+    EXPECT_TRUE(draw_view(scene, options).rgb == without.rgb);
+    scene.layers = base_and({layer(1, LayerKind::kGrey, "occupancy", {}),
+                             layer(2, LayerKind::kBinary, "path", {255, 140, 0, 255})});
+    const Image with = draw_view(scene, options);
+    EXPECT_GE(rows_that_differ(with, without).first, with.height - 74);
+    for (const Rgb& colour :
+         {Rgb{255, 255, 255}, Rgb{128, 128, 128}, Rgb{0, 0, 0}, Rgb{255, 140, 0}}) {
+      EXPECT_TRUE(footer_has(with, colour)) << colour[0];
+      EXPECT_FALSE(footer_has(without, colour)) << colour[0];
+    }
+    scene.layers[2].style.visible = false;
+    EXPECT_FALSE(footer_has(draw_view(scene, options), {255, 140, 0}));
+    // Half transparent over white: (255 + 255) / 2, (255 + 140) / 2, (255 + 0) / 2.
+    scene.layers[2].style.visible = true;
+    scene.layers[2].style.transparency = 0.5;
+    EXPECT_TRUE(footer_has(draw_view(scene, options), {255, 198, 128}));
+  }
+}
+
+TEST(DrawView, LegendLeavesOutTheTopmostLayersThatHaveNoRoom) {
+  SceneSnapshot scene = small_scene();
+  RenderOptions options;
+  std::vector<LayerInfo> many;
+  for (int i = 0; i < 40; ++i) {
+    many.push_back(layer(i + 1, LayerKind::kBinary, "a layer of a long name",
+                         {static_cast<std::uint8_t>(i), 200, 10, 255}));
+  }
+  scene.layers = base_and(many);
+  const Image image = draw_view(scene, options);
+  EXPECT_TRUE(footer_has(image, {0, 200, 10}));
+  EXPECT_FALSE(footer_has(image, {39, 200, 10}));
+  scene.layers = base_and({layer(1, LayerKind::kGrey, std::string(5000, 'W'), {})});
+  options.size_px = 200;
+  EXPECT_EQ(std::max(draw_view(scene, options).width, draw_view(scene, options).height), 200);
+}
+
+TEST(DrawScene, MarkedRobotStandsBetweenDarkCorners) {
+  SceneSnapshot scene = small_scene();
+  scene.robots = {robot_at({2.25, 2.25, 0.0}, {0, 0, 255, 255})};
+  // A square about the robot, 13 pixels wider than the circle round its footprint (0.1 m each way).
+  const double reach_m = 0.1 * std::sqrt(2.0) + 13.0 / kPixelsPerMetre;
+  for (const bool marked : {true, false}) {
+    scene.robots[0].marked = marked;
+    const Image image = draw_scene(scene, plain_options());
+    for (const Vec2& side : {Vec2(1, 1), Vec2(1, -1), Vec2(-1, -1), Vec2(-1, 1)}) {
+      const Vec2 corner = Vec2(2.25, 2.25) + reach_m * side;
+      EXPECT_EQ(pixel_at(image, {corner.x(), corner.y()})[0] < 110, marked);
+    }
+  }
 }
 
 TEST(DrawCanvas, ScalesCellsAndShowsTransparentAsWhite) {
@@ -412,6 +746,7 @@ TEST(FilmWriter, WritesFramesThatCanBeReadBack) {
     {
       FilmWriter film(path, 25.0);
       for (int i = 0; i < 7; ++i) film.add(gradient(65, 49));
+      film.finish();
     }
     const FilmContents contents = read_film(path);
     EXPECT_EQ(contents.frames, 7) << name;
@@ -424,12 +759,65 @@ TEST(FilmWriter, ErrorsNameFileAndReason) {
   const TemporaryFolder folder;
   EXPECT_THAT(error_of([&] { FilmWriter(folder.file("film.gif"), 25.0); }),
               HasSubstr("film.gif: cannot write the film: unknown ending \".gif\""));
-  EXPECT_THAT(error_of([&] { FilmWriter(folder.file("film"), 25.0); }),
-              HasSubstr("must end in .mp4 or .avi"));
+  EXPECT_THAT(error_of([&] { FilmWriter("", 25.0); }), HasSubstr("it has no name"));
   EXPECT_THAT(error_of([&] { FilmWriter(folder.file("missing/film.mp4"), 25.0); }),
               HasSubstr("No such file or directory"));
   EXPECT_THAT(error_of([&] { FilmWriter(folder.file("film.mp4"), 0.0); }),
               HasSubstr("frames per second"));
+}
+
+TEST(FilmWriter, AWholeFilmIsFoundWholeWhateverItsLengthAndRate) {
+  const TemporaryFolder folder;
+  for (const char* name : {"film.mp4", "film.avi"}) {
+    for (const double rate : {1.0, 7.5, 29.97, 240.0}) {
+      for (const int frames : {0, 1, 2, 61}) {
+        FilmWriter film(folder.file(name), rate);
+        for (int i = 0; i < frames; ++i) film.add(gradient(16, 16));
+        EXPECT_EQ(error_of([&] { film.finish(); }), "") << name << ", " << rate << ", " << frames;
+      }
+    }
+  }
+}
+
+// While it lives, files cannot grow beyond so many bytes: as on a disk that is full.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &old_limit_);
+    const rlimit limit{bytes, old_limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_limit_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*old_handler_)(int);
+  rlimit old_limit_{};
+};
+
+TEST(FilmWriter, AFilmThatTheDiskDidNotTakeIsAnError) {
+  const TemporaryFolder folder;
+  for (const char* name : {"film.mp4", "film.avi"}) {
+    FilmWriter film(folder.file(name), 25.0);
+    // Noise, which packs badly: some kB a frame, 60 of them.
+    std::minstd_rand random(1);
+    std::string error;
+    {
+      const FileSizeLimit full_disk(20'000);
+      for (int i = 0; i < 60; ++i) {
+        Image noise = gradient(64, 64);
+        for (std::uint8_t& sample : noise.rgb) sample = static_cast<std::uint8_t>(random() >> 8U);
+        film.add(noise);
+      }
+      error = error_of([&] { film.finish(); });
+    }
+    EXPECT_THAT(error, HasSubstr(folder.file(name)));
+    EXPECT_THAT(error, HasSubstr("not whole"));
+  }
 }
 
 TEST(FilmWriter, RefusesAFrameOfAnotherSize) {
@@ -440,11 +828,57 @@ TEST(FilmWriter, RefusesAFrameOfAnotherSize) {
               HasSubstr("a frame is 64 x 50 pixels, those before were 64 x 48"));
 }
 
+TEST(FilmWriter, WritesAFolderOfPicturesAndRemovesThoseOfAnEarlierFilm) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("film/pictures");
+  std::filesystem::create_directories(path);
+  for (const char* name : {"frame_000007.png", "frame_1.png", "notes.txt"}) {
+    std::ofstream(path + "/" + name) << "x";
+  }
+  {
+    FilmWriter film(path, 25.0);
+    for (int i = 0; i < 3; ++i) film.add(gradient(64 + 1, 49));  // odd sides stay
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path)) {
+    names.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre("frame_000001.png", "frame_000002.png",
+                                                   "frame_000003.png", "frame_1.png", "notes.txt"));
+  const cv::Mat read = cv::imread(path + "/frame_000003.png");
+  EXPECT_EQ(read.cols, 65);
+  EXPECT_EQ(read.rows, 49);
+  EXPECT_EQ(read.at<cv::Vec3b>(10, 30)[1], 120);  // 30 * 4
+}
+
+TEST(FilmWriter, SaysWhyAFolderCannotBeMade) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("taken")) << "x";
+  EXPECT_THAT(error_of([&] { FilmWriter(folder.file("taken"), 25.0); }),
+              HasSubstr("taken: cannot write the film: "));
+}
+
+TEST(FilmWriter, TellsFilmsByTheirNames) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.file("run.1"));
+  for (const std::string& name :
+       {std::string("a.mp4"), std::string("A.AVI"), std::string("frames"), std::string("a.gif/"),
+        std::string("out.d/frames"), folder.file("run.1")}) {
+    EXPECT_TRUE(FilmWriter::is_film_name(name)) << name;
+  }
+  for (const char* name : {"", "a.gif", "a.mp4.png"}) {
+    EXPECT_FALSE(FilmWriter::is_film_name(name)) << name;
+  }
+}
+
 TEST(FilmWriter, LeavesNoFileWithoutFrames) {
   const TemporaryFolder folder;
   const std::string path = folder.file("film.mp4");
   { const FilmWriter film(path, 25.0); }
   EXPECT_FALSE(std::filesystem::exists(path));
+  const std::string pictures = folder.file("pictures");
+  { const FilmWriter film(pictures, 25.0); }
+  EXPECT_FALSE(std::filesystem::exists(pictures));
 }
 
 }  // namespace

@@ -308,6 +308,57 @@ TEST(Simulation, PenWithATrailDrawsTheWay) {
   EXPECT_EQ(canvas.pixel(canvas.column(2.5), canvas.row(2.0)), (Colour{0, 0, 0, 0}));
 }
 
+TEST(Simulation, SnapshotComposesTheLayersAndListsThem) {
+  Simulation simulation(room());
+  const LayerId layer = simulation.layers().add(LayerKind::kBinary, {.name = "path"}, 0);
+  const DrawOperation dot{.layer = layer, .x0 = 3, .y0 = 2, .value = CellValue::of(true)};
+  simulation.layers().draw({&dot, 1});
+  simulation.canvas().set_pixel(0, 0, {255, 0, 0, 255});
+  simulation.layers().resize(150, 120);
+  const SceneSnapshot scene = simulation.snapshot();
+  EXPECT_EQ(scene.canvas_description.width, 150);
+  EXPECT_EQ(scene.canvas_description.height, 120);
+  ASSERT_EQ(scene.layers.size(), 2U);
+  EXPECT_EQ(scene.layers[0].style.name, "canvas");
+  EXPECT_EQ(scene.layers[1].style.name, "path");
+  // The canvas had 200 rows: of (0, 0) and (3, 2), 80 rows at the top are gone.
+  EXPECT_EQ(scene.canvas, std::vector<std::uint8_t>(150 * 120 * 4, 0));
+  simulation.layers().resize(200, 200);
+  simulation.layers().draw({&dot, 1});
+  const std::vector<std::uint8_t> canvas = simulation.snapshot().canvas;
+  EXPECT_EQ(canvas[(2 * 200 + 3) * 4 + 3], 255);
+}
+
+TEST(Simulation, LayersAndViewModeLeaveTheHashAlone) {
+  Simulation simulation(room());
+  const std::uint64_t bare = simulation.state_hash();
+  const LayerId layer = simulation.layers().add(LayerKind::kGrey, {.name = "map"}, 0);
+  const DrawOperation dot{.layer = layer, .value = CellValue::of(1.0F)};
+  simulation.layers().draw({&dot, 1});
+  EXPECT_EQ(simulation.set_view_mode(ViewMode::kMiniMap), std::nullopt);
+  EXPECT_EQ(simulation.state_hash(), bare);
+  simulation.canvas().set_pixel(1, 1, {255, 0, 0, 255});
+  EXPECT_NE(simulation.state_hash(), bare);
+}
+
+TEST(Simulation, ViewModeStartsAsTheWorldSaysAndMayBeChanged) {
+  Simulation simulation(room("{}", R"(, "canvas": {"view_mode": "mini-map"})"));
+  EXPECT_EQ(simulation.view_mode(), ViewMode::kMiniMap);
+  EXPECT_EQ(simulation.set_view_mode(ViewMode::kFullScreen), std::nullopt);
+  EXPECT_EQ(simulation.view_mode(), ViewMode::kFullScreen);
+  EXPECT_EQ(simulation.snapshot().view_mode, ViewMode::kFullScreen);
+}
+
+TEST(Simulation, ALockedViewModeStays) {
+  Simulation simulation(
+      room("{}", R"(, "canvas": {"view_mode": "full-screen", "lock_view_mode": true})"));
+  EXPECT_EQ(simulation.set_view_mode(ViewMode::kFullScreen), std::nullopt);
+  EXPECT_EQ(simulation.set_view_mode(ViewMode::kGround),
+            "the view mode cannot be changed to \"ground\": the world locks it at "
+            "\"full-screen\"");
+  EXPECT_EQ(simulation.snapshot().view_mode, ViewMode::kFullScreen);
+}
+
 TEST(Simulation, FinishesAtItsDuration) {
   Simulation simulation(room("{}", R"(, "simulation": {"duration": 0.05})"));
   run(simulation, 4);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "device_table.h"
+#include "sim/world/view_mode.h"
 
 namespace sim::io {
 namespace {
@@ -69,6 +70,8 @@ TEST(ReadWorld, TheEmptyObjectIsTheDefaultWorld) {
   EXPECT_EQ(world.canvas.width, 172);
   EXPECT_EQ(world.canvas.height, 186);
   EXPECT_EQ(world.canvas.cell_size_m, 0.02);
+  EXPECT_EQ(world.canvas.view_mode, ViewMode::kGround);
+  EXPECT_FALSE(world.canvas.view_mode_locked);
   ASSERT_THAT(world.robots, SizeIs(1));
   const RobotDescription& robot = world.robots[0];
   EXPECT_EQ(robot.name, "r1");
@@ -91,7 +94,8 @@ TEST(ReadWorld, ReadsAllThatAFileMaySay) {
                 {"pose": {"x": 2, "y": 0.5}}],
       "dock_separators": [{"center": [2.5, 0.25], "size": [0.3, 0.02]}]},
     "simulation": {"step": 0.02, "seed": 7, "duration": 120, "time": 2.5, "clients": 3},
-    "canvas": {"size": [100, 50], "cell_size": 0.1, "origin": [-2, -2]},
+    "canvas": {"size": [100, 50], "cell_size": 0.1, "origin": [-2, -2],
+      "view_mode": "mini-map", "lock_view_mode": true},
     "robots": [{"name": "bob", "model": "s1r", "pose": {"x": 0.5, "y": -1, "yaw_deg": -90},
       "colour": "#102030", "port": 7000,
       "devices": {"laser": {"frequency": 20, "noise": 0.01}, "pen": null, "odometry": false,
@@ -134,6 +138,8 @@ TEST(ReadWorld, ReadsAllThatAFileMaySay) {
   EXPECT_EQ(world.canvas.height, 50);
   EXPECT_EQ(world.canvas.cell_size_m, 0.1);
   EXPECT_EQ(world.canvas.origin, Vec2(-2, -2));
+  EXPECT_EQ(world.canvas.view_mode, ViewMode::kMiniMap);
+  EXPECT_TRUE(world.canvas.view_mode_locked);
   ASSERT_THAT(world.robots, SizeIs(1));
   const RobotDescription& bob = world.robots[0];
   EXPECT_EQ(bob.name, "bob");
@@ -289,6 +295,19 @@ TEST(ReadWorld, TimeIsAWordOrAFactor) {
 
 TEST(ReadWorld, DurationMayBeNull) {
   EXPECT_FALSE(read(R"({"simulation": {"duration": null}})").simulation.duration_ns.has_value());
+}
+
+TEST(ReadWorld, ViewModesAreReadByTheirNames) {
+  for (const ViewMode mode : kViewModes) {
+    const std::string name(to_string(mode));
+    EXPECT_EQ(parse_view_mode(name), mode);
+    const CanvasDescription canvas = read(R"({"canvas": {"view_mode": ")" + name + R"("}})").canvas;
+    EXPECT_EQ(canvas.view_mode, mode) << name;
+    EXPECT_FALSE(canvas.view_mode_locked);
+  }
+  for (const char* no_mode : {"", "Ground", "mini_map", "ground "}) {
+    EXPECT_EQ(parse_view_mode(no_mode), std::nullopt) << no_mode;
+  }
 }
 
 TEST(ReadWorld, CanvasFollowsTheFloorUnlessTold) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-"""Checks world files against the JSON schema, and that the schema refuses what it can.
+"""Checks world and task files against their JSON schemas, and that these refuse what they can.
 
 Usage: world_schema_test.py SOURCE_DIR
 """
@@ -32,7 +32,9 @@ def main(source):
     validator = jsonschema.Draft202012Validator(schema)
     failures = 0
 
-    good = [p for p in sorted(worlds.rglob("*.json")) if p.parent.name != "schema"]
+    tasks = sorted(worlds.rglob("*.task.json"))
+    good = [p for p in sorted(worlds.rglob("*.json"))
+            if p.parent.name != "schema" and p not in tasks]
     for path in good:
         for error in validator.iter_errors(load(path)):
             print(f"{path}: {error.json_path}: {error.message}")
@@ -40,6 +42,22 @@ def main(source):
     if len(good) < 7:
         print(f"only {len(good)} worlds in {worlds}")
         failures += 1
+
+    task_schema = load(worlds / "schema" / "task.schema.json")
+    jsonschema.Draft202012Validator.check_schema(task_schema)
+    task_validator = jsonschema.Draft202012Validator(task_schema)
+    for path in tasks:
+        for error in task_validator.iter_errors(load(path)):
+            print(f"{path}: {error.json_path}: {error.message}")
+            failures += 1
+    if len(tasks) < 3:
+        print(f"only {len(tasks)} tasks in {worlds}")
+        failures += 1
+    for bad in [{}, {"worlds": []}, {"worlds": [1]}, {"worlds": ["a.json"], "sedes": 3},
+                {"worlds": ["a.json"], "thresholds": {"min_coverage": 98}}]:
+        if task_validator.is_valid(bad):
+            print(f"the task schema accepts {bad}")
+            failures += 1
 
     for name in FORMAL_FAULTS:
         path = source / "tests" / "invalid_worlds" / f"{name}.json"

@@ -1,0 +1,457 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// `playpen run --view` on a display of its own (Xvfb), with keys from xdotool, by what the window
+// shows. Both programs are needed: without them these tests fail.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+// Last: X11's headers define macros of common names.
+#include "x_window.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::Process;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::Screenshot;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int kBarHeight_px = 74;
+constexpr std::chrono::seconds kPatience{60};
+
+/// Two robots without lasers, whose fans would tint the picture, in a room of 2 m x 2 m. The first
+/// is orange, the second blue.
+std::string two_robots(const std::string& view_mode = "ground", bool locked = false) {
+  const json devices = {{"laser", nullptr}};
+  const json world = {
+      {"name", "window"},
+      {"arena", {{"size", {2.0, 2.0}}}},
+      {"canvas", {{"size", {100, 100}}, {"view_mode", view_mode}, {"lock_view_mode", locked}}},
+      {"robots",
+       {{{"name", "r1"},
+         {"colour", "#ff8800"},
+         {"pose", {{"x", 0.4}, {"y", 1.0}, {"yaw_deg", 0.0}}},
+         {"devices", devices}},
+        {{"name", "r2"},
+         {"colour", "#2060ff"},
+         {"pose", {{"x", 1.0}, {"y", 0.4}, {"yaw_deg", 0.0}}},
+         {"devices", devices}}}}};
+  return world.dump();
+}
+
+bool is_green(const Screenshot::Pixel& p) { return p.g > p.r + 80 && p.g > p.b + 80; }
+constexpr Screenshot::Pixel kOrange{0xff, 0x88, 0x00};
+constexpr Screenshot::Pixel kBlue{0x20, 0x60, 0xff};
+bool is_border(const Screenshot::Pixel& p) { return p == Screenshot::Pixel{0x8c, 0x5e, 0x3c}; }
+
+/// A display without a screen.
+class XServer {
+ public:
+  XServer()
+      : server_({"Xvfb", "-displayfd", "1", "-screen", "0", "900x900x24", "-nolisten", "tcp"},
+                {.environment = {}, .folder = {}, .timeout = std::chrono::seconds(290)}) {
+    if (!server_.read_until("\n")) throw std::runtime_error("Xvfb does not start (install xvfb)");
+    name_ = ":" + server_.output().substr(0, server_.output().find('\n'));
+  }
+  ~XServer() { server_.send_signal(SIGTERM); }
+  XServer(const XServer&) = delete;
+  XServer& operator=(const XServer&) = delete;
+
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+ private:
+  Process server_;
+  std::string name_;
+};
+
+class LiveWindow : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { server = std::make_unique<XServer>(); }
+  static void TearDownTestSuite() { server.reset(); }
+
+  void open(const std::string& world_text = two_robots()) {
+    const std::string world = folder.write("window.json", world_text);
+    const ProcessOptions options{
+        // Toolkits leak by design: in builds that look for leaks, that is not what is tested.
+        .environment = {{"DISPLAY", server->name()}, {"ASAN_OPTIONS", "detect_leaks=0"}},
+        .folder = folder.path().string(),
+        .timeout = std::chrono::seconds(200)};
+    run = std::make_unique<Process>(
+        std::vector<std::string>{PLAYPEN_COMMAND, "run", world, "--view", "--out", "out",
+                                 "--duration", "3600", "--", WINDOW_PROGRAM},
+        options);
+    wait_until("the window is there", [&] {
+      window = display.find("Playpen: window").value_or(None);
+      return window != None;
+    });
+    // Without a window manager the window under the pointer has the keyboard.
+    xdotool({"mousemove", "200", "200"});
+    wait_until("the program's picture is shown",
+               [&] { return shot().share([](const auto& p) { return is_green(p); }) > 0.005; });
+  }
+
+  static void wait_until(const std::string& what, const std::function<bool()>& is_so) {
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (!is_so()) {
+      if (std::chrono::steady_clock::now() > deadline) {
+        throw std::runtime_error("waited in vain until " + what);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
+  void xdotool(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "xdotool");
+    const ProcessResult result =
+        test_support::run_process(arguments, {.environment = {{"DISPLAY", server->name()}},
+                                              .folder = {},
+                                              .timeout = std::chrono::seconds(60)});
+    ASSERT_EQ(result.status, 0) << "xdotool (is it installed?): " << result.err;
+  }
+  void press(const std::string& key) const { xdotool({"key", key}); }
+
+  /// The window as it is now.
+  [[nodiscard]] Screenshot shot() const {
+    auto captured = display.capture(window);
+    if (!captured) throw std::runtime_error("the window has gone");
+    return *std::move(captured);
+  }
+  [[nodiscard]] Screenshot picture() const {
+    const Screenshot all = shot();
+    return all.rows(0, all.height - kBarHeight_px);
+  }
+  /// The line that tells robot, time, speed and mode.
+  [[nodiscard]] Screenshot status_line() const {
+    const Screenshot all = shot();
+    return all.rows(all.height - kBarHeight_px, all.height - kBarHeight_px + 32);
+  }
+  [[nodiscard]] double green() const {
+    return picture().share([](const auto& p) { return is_green(p); });
+  }
+  [[nodiscard]] Screenshot::Pixel robot_dot() const { return status_line().at(20, 18); }
+
+  /// Whether the bar has the colour that says that time stands still.
+  [[nodiscard]] bool paused() const {
+    return status_line().at(2, 2) == Screenshot::Pixel{0x63, 0x44, 0x20};
+  }
+  void pause() const {
+    press("space");
+    wait_until("the run is paused", [&] { return paused(); });
+  }
+
+  /// Middle of what has this colour in the picture [pixels]; (-1, -1) if nothing has.
+  [[nodiscard]] std::pair<double, double> middle_of(const Screenshot::Pixel& colour) const {
+    const Screenshot all = picture();
+    double x_sum = 0.0;
+    double y_sum = 0.0;
+    int count = 0;
+    for (int y = 0; y < all.height; ++y) {
+      for (int x = 0; x < all.width; ++x) {
+        if (!(all.at(x, y) == colour)) continue;
+        x_sum += x;
+        y_sum += y;
+        ++count;
+      }
+    }
+    if (count == 0) return {-1.0, -1.0};
+    return {x_sum / count, y_sum / count};
+  }
+  [[nodiscard]] double orange_x() const { return middle_of(kOrange).first; }
+
+  /// Waits for the run's end, which must be a good one with a report.
+  json finished_run() {
+    const ProcessResult result = run->finish();
+    EXPECT_FALSE(result.timed_out);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, Not(HasSubstr("goes on without")));
+    EXPECT_EQ(display.find("Playpen: window"), std::nullopt);
+    return json::parse(read_bytes(folder / "out/report.json"));
+  }
+
+  static std::unique_ptr<XServer> server;
+  const TemporaryFolder folder;
+  const test_support::XDisplay display{server->name()};
+  std::unique_ptr<Process> run;
+  Window window = None;
+};
+
+std::unique_ptr<XServer> LiveWindow::server;
+
+TEST_F(LiveWindow, ShowsTheArenaWithItsCanvasAndRobots) {
+  open();
+  // Of 900 x 900 on the screen, the picture is square, as the arena is: at most 900 - 90 - 74.
+  const Screenshot all = shot();
+  EXPECT_LE(all.height, 900 - 90);
+  EXPECT_GT(all.width, 600);
+  // The floor takes most of the picture, and the program painted it green but for a 25th.
+  EXPECT_GT(green(), 0.6);
+  EXPECT_GT(picture().share([](const auto& p) { return is_border(p); }), 0.01);
+  // r1 stands at 0.4 m of 2 m, left of the middle.
+  EXPECT_GT(orange_x(), 0.1 * all.width);
+  EXPECT_LT(orange_x(), 0.4 * all.width);
+  press("q");
+  finished_run();
+}
+
+TEST_F(LiveWindow, SpaceStopsTimeAndSSavesWhatIsShown) {
+  folder.write("out/view_000001.png", "of an earlier run, which makes room for ours");
+  open();
+  pause();
+  const Screenshot first = shot();
+  press("s");
+  wait_until("the message is shown", [&] {
+    return !(status_line() ==
+             first.rows(first.height - kBarHeight_px, first.height - kBarHeight_px + 32));
+  });
+  // Only the message has come: the picture, in whose corner the time stands, is the same.
+  EXPECT_TRUE(picture() == first.rows(0, first.height - kBarHeight_px));
+
+  const cv::Mat saved = cv::imread(folder / "out/view_000001.png", cv::IMREAD_COLOR);
+  const Screenshot shown = picture();
+  ASSERT_EQ(saved.cols, shown.width);
+  ASSERT_EQ(saved.rows, shown.height);
+  int different = 0;
+  for (int y = 0; y < shown.height; ++y) {
+    for (int x = 0; x < shown.width; ++x) {
+      const auto& bgr = saved.at<cv::Vec3b>(y, x);
+      if (!(shown.at(x, y) == Screenshot::Pixel{bgr[2], bgr[1], bgr[0]})) ++different;
+    }
+  }
+  EXPECT_EQ(different, 0);
+
+  press("space");
+  wait_until("time goes on", [&] { return !paused() && !(picture() == shown); });
+  press("q");
+  finished_run();
+}
+
+TEST_F(LiveWindow, CtrlAndArrowsChangeTheViewMode) {
+  open();
+  const double on_the_floor = green();
+  press("ctrl+Down");
+  // The canvas is a small picture in a corner, the floor is bare.
+  wait_until("the canvas is a mini-map", [&] { return green() < 0.3; });
+  EXPECT_GT(green(), 0.005);
+  EXPECT_GT(picture().share([](const auto& p) { return is_border(p); }), 0.01);
+  press("ctrl+Down");
+  wait_until("the canvas is alone", [&] { return green() > 0.5; });
+  EXPECT_EQ(picture().share([](const auto& p) { return is_border(p); }), 0.0);
+  EXPECT_EQ(orange_x(), -1.0);
+  press("ctrl+Up");
+  press("ctrl+Up");
+  wait_until("the canvas lies on the floor",
+             [&] { return std::abs(green() - on_the_floor) < 0.01 && orange_x() > 0.0; });
+  press("q");
+  finished_run();
+}
+
+TEST_F(LiveWindow, AWorldThatLocksItsViewModeKeepsIt) {
+  open(two_robots("full-screen", true));
+  pause();
+  const Screenshot before = shot();
+  press("ctrl+Down");
+  wait_until("the window says why not", [&] { return !(shot() == before); });
+  EXPECT_TRUE(picture() == before.rows(0, before.height - kBarHeight_px));
+  press("q");
+  finished_run();
+}
+
+TEST_F(LiveWindow, TheRobotIsDrivenWhileAKeyIsHeld) {
+  open();
+  const double start_px = orange_x();
+  xdotool({"keydown", "w"});
+  // 0.5 m/s: 0.5 m are a quarter of the floor, in the picture some 150 pixels.
+  wait_until("the robot has moved", [&] { return orange_x() > start_px + 100.0; });
+  xdotool({"keyup", "w"});
+  double last_px = -1.0;
+  wait_until("the robot stands", [&] {
+    const double before_px = std::exchange(last_px, orange_x());
+    return before_px == last_px;
+  });
+  xdotool({"keydown", "Down"});
+  wait_until("the robot has come back", [&] { return orange_x() < last_px - 20.0; });
+  xdotool({"keyup", "Down"});
+  press("q");
+  const json report = finished_run();
+  EXPECT_GT(report["robots"][0]["path_length"].get<double>(), 0.3);
+  EXPECT_EQ(report["robots"][1]["path_length"], 0.0);
+}
+
+TEST_F(LiveWindow, TabChoosesTheRobotAndTheArrowsDriveIt) {
+  open();
+  EXPECT_EQ(robot_dot(), kOrange);
+  // The middle fifth of the picture, where r1 stands, but not r2 nor the clock in the footer.
+  const auto round_r1 = [this] {
+    const Screenshot all = picture();
+    return all.rows(all.height * 2 / 5, all.height * 3 / 5);
+  };
+  const Screenshot r1_marked = round_r1();
+  press("Tab");
+  wait_until("the other robot is chosen", [&] { return robot_dot() == kBlue; });
+  EXPECT_FALSE(round_r1() == r1_marked);
+
+  const auto [start_x, start_y] = middle_of(kBlue);
+  xdotool({"keydown", "Left", "keydown", "Up"});
+  wait_until("the robot drives a bow to its left",
+             [&, y = start_y] { return middle_of(kBlue).second < y - 20.0; });
+  xdotool({"keyup", "Left", "keyup", "Up"});
+  EXPECT_GT(middle_of(kBlue).first, start_x);
+  press("q");
+  const json report = finished_run();
+  EXPECT_EQ(report["robots"][0]["path_length"], 0.0);
+  EXPECT_GT(report["robots"][1]["path_length"].get<double>(), 0.0);
+}
+
+TEST_F(LiveWindow, PlusAndMinusChangeTheSpeedThatIsShown) {
+  open();
+  pause();
+  const Screenshot once = status_line();
+  press("plus");
+  wait_until("another speed is shown", [&] { return !(status_line() == once); });
+  const Screenshot twice = status_line();
+  press("plus");
+  wait_until("a third speed is shown", [&] {
+    const Screenshot now = status_line();
+    return !(now == once) && !(now == twice);
+  });
+  press("minus");
+  wait_until("the second speed is back", [&] { return status_line() == twice; });
+  press("KP_Subtract");
+  wait_until("the first speed is back", [&] { return status_line() == once; });
+  press("q");
+  finished_run();
+}
+
+TEST_F(LiveWindow, HelpCanBeHidden) {
+  open();
+  const auto help = [&] {
+    const Screenshot all = shot();
+    return all.rows(all.height - kBarHeight_px + 34, all.height);
+  };
+  const Screenshot with_help = help();
+  EXPECT_GT(with_help.share([](const auto& p) { return p.r > 0x80; }), 0.01);
+  press("h");
+  wait_until("the help is hidden",
+             [&] { return help().share([](const auto& p) { return p.r > 0x80; }) == 0.0; });
+  press("F1");
+  wait_until("the help is back", [&] { return help() == with_help; });
+  press("Escape");
+  finished_run();
+}
+
+TEST_F(LiveWindow, ClosingItEndsTheRunWithItsResults) {
+  open();
+  display.ask_to_close(window);
+  const json report = finished_run();
+  EXPECT_GT(report["run"]["sim_time"].get<double>(), 0.0);
+  EXPECT_TRUE(fs::exists(folder / "out/scene.png"));
+}
+
+TEST_F(LiveWindow, CtrlCEndsARunThatIsPaused) {
+  open();
+  pause();
+  run->send_signal(SIGINT);
+  finished_run();
+}
+
+// --- No window
+// ----------------------------------------------------------------------------------
+
+/// A run with --view that cannot be.
+class NoWindow : public testing::Test {
+ protected:
+  ProcessResult run(const std::vector<std::string>& prefix, const std::string& command,
+                    const std::vector<std::string>& options = {}) {
+    std::vector<std::string> call = prefix;
+    call.insert(call.end(), {command, "run", folder.write("window.json", two_robots()), "--view",
+                             "--out", folder / "out"});
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", WINDOW_PROGRAM, folder / "started"});
+    return test_support::run_process(call);
+  }
+  void expect_not_started(const ProcessResult& result) {
+    EXPECT_EQ(result.status, 2);
+    EXPECT_FALSE(fs::exists(folder / "started"));
+    EXPECT_EQ(result.out, "");
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(NoWindow, WithoutADisplayIsAnErrorThatTellsOfFilms) {
+  const ProcessResult result =
+      run({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY"}, PLAYPEN_COMMAND);
+  expect_not_started(result);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("DISPLAY"), HasSubstr("--record film.mp4")));
+}
+
+TEST_F(NoWindow, UnderWaylandAloneSaysThatXIsNeeded) {
+  const ProcessResult result =
+      run({"env", "-u", "DISPLAY", "WAYLAND_DISPLAY=wayland-0"}, PLAYPEN_COMMAND);
+  expect_not_started(result);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("Xwayland"), HasSubstr("--record film.mp4")));
+}
+
+TEST_F(NoWindow, OnADisplayThatDoesNotAnswerIsAnError) {
+  // No server has this number: X's port would be above 65535.
+  const ProcessResult result = run({"env", "DISPLAY=:60000"}, PLAYPEN_COMMAND);
+  expect_not_started(result);
+  EXPECT_THAT(result.err, AllOf(HasSubstr(":60000"), HasSubstr("--record film.mp4")));
+}
+
+TEST_F(NoWindow, WithoutItsProgramIsAnError) {
+  const std::string command = folder.write("bin/playpen", "");
+  fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
+  fs::permissions(command, fs::perms::owner_all);
+  const ProcessResult result = run({"env", "DISPLAY=:60000"}, command);
+  expect_not_started(result);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("playpen-view is missing"), HasSubstr("--record")));
+}
+
+TEST_F(NoWindow, InLockstepIsAnError) {
+  const ProcessResult result =
+      run({"env", "DISPLAY=:60000"}, PLAYPEN_COMMAND, {"--time", "lockstep"});
+  expect_not_started(result);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--view"), HasSubstr("--time lockstep")));
+}
+
+// --- What programs load
+// -------------------------------------------------------------------------
+
+TEST(WindowToolkit, IsLoadedByTheWindowsProcessAlone) {
+  const auto libraries = [](const std::string& program) {
+    const ProcessResult result = test_support::run_process({"ldd", program});
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  };
+  for (const char* program : {PLAYPEN_COMMAND, WINDOW_PROGRAM}) {
+    EXPECT_THAT(libraries(program), AllOf(HasSubstr("opencv_core"), Not(HasSubstr("highgui")),
+                                          Not(HasSubstr("libQt")), Not(HasSubstr("libgtk"))))
+        << program;
+  }
+  EXPECT_THAT(libraries(VIEW_PROGRAM), HasSubstr("highgui"));
+}
+
+}  // namespace

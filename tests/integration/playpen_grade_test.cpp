@@ -1,0 +1,286 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// `playpen grade` as a user runs it, with programs that behave and programs that do not.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::Process;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::room_world;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* kIntroTask = PLAYPEN_SOURCE_DIR "/worlds/tasks/par_intro.task.json";
+
+/// Gradings in a folder of their own, by default of a task on a room with two seeds.
+class PlaypenGrade : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& options,
+                                                   const std::vector<std::string>& program) const {
+    std::vector<std::string> call = {"grade", task_};
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--out", out_, "--"});
+    call.insert(call.end(), program.begin(), program.end());
+    return call;
+  }
+  [[nodiscard]] ProcessResult grade(const std::vector<std::string>& options,
+                                    const std::vector<std::string>& program) const {
+    test_support::ProcessOptions patient;
+    patient.timeout = std::chrono::seconds(200);
+    return playpen(arguments(options, program), patient);
+  }
+  [[nodiscard]] json result() const {
+    return json::parse(read_bytes(fs::path(out_) / "grade.json"));
+  }
+  [[nodiscard]] std::string log(const std::string& run) const {
+    return read_bytes(fs::path(out_) / run / "program.log");
+  }
+
+  TemporaryFolder folder_;
+  std::string world_ = folder_.write("room.json", room_world());
+  std::string task_ = folder_.write(
+      "try.task.json",
+      R"({"worlds": ["room.json"], "seeds": 2, "duration": 5, "thresholds": {"max_collisions": 0}})");
+  std::string out_ = folder_ / "out";
+};
+
+TEST_F(PlaypenGrade, TheIntroductionsSolutionsPass) {
+  task_ = kIntroTask;
+  for (const char* program : {WALL_PROGRAM, AVOID_PROGRAM}) {
+    const ProcessResult run = grade({"--seeds", "2"}, {program});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_THAT(run.out, AllOf(StartsWith("world "), HasSubstr("pass  time over"),
+                               HasSubstr("par_intro: 2 of 2 runs passed"), Not(HasSubstr("FAIL"))));
+    EXPECT_THAT(run.err, IsEmpty()) << "no progress line where nobody looks";
+    const json whole = result();
+    EXPECT_EQ(whole.at("passed"), true);
+    ASSERT_EQ(whole.at("runs").size(), 2U);
+    EXPECT_GT(whole.at("runs").at(0).at("path_length").get<double>(), 12.0);
+    EXPECT_EQ(whole.at("runs").at(1).at("seed"), 2);
+    for (const char* file : {"report.json", "scene.png", "canvas.png", "trajectory.csv"}) {
+      EXPECT_TRUE(fs::exists(fs::path(out_) / "par_intro_seed2" / file)) << file;
+    }
+  }
+}
+
+TEST_F(PlaypenGrade, TheTemplateFailsWithoutCrashing) {
+  task_ = kIntroTask;
+  const ProcessResult run = grade({"--seeds", "1,"}, {TEMPLATE_PROGRAM});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.out, HasSubstr("par_intro seed 1: path 0.00 m, at least 12 m needed"));
+  EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "time-over"}}));
+}
+
+TEST_F(PlaypenGrade, WhatProgramsDoIsAResult) {
+  const std::string script =
+      "echo seed $PLAYPEN_SEED; echo error >&2\n"
+      "case $PLAYPEN_SEED in\n"
+      "1) kill -SEGV $$ ;;\n"
+      "2) exit 3 ;;\n"
+      "3) exit 0 ;;\n"
+      "4) exec " TEMPLATE_PROGRAM
+      " ;;\n"
+      "5) echo '{\"run\": 1}' > \"$PLAYPEN_OUT/report.json\" ;;\n"
+      "esac";
+  const ProcessResult run = grade({"--seeds", "5"}, {"sh", "-c", script});
+  EXPECT_EQ(run.status, 1) << run.err;
+  const json runs = result().at("runs");
+  ASSERT_EQ(runs.size(), 5U);
+  EXPECT_EQ(runs.at(0).at("end"), json({{"kind", "signal"}, {"signal", SIGSEGV}}));
+  EXPECT_EQ(runs.at(1).at("end"), json({{"kind", "bad-status"}, {"status", 3}}));
+  EXPECT_EQ(runs.at(2).at("end"), json({{"kind", "by-itself"}}));
+  EXPECT_THAT(runs.at(2).at("faults").at(0).get<std::string>(), HasSubstr("never connected"));
+  EXPECT_EQ(runs.at(3).at("passed"), true) << "it stands still and hits nothing";
+  EXPECT_THAT(runs.at(4).at("faults").at(0).get<std::string>(), HasSubstr("not as expected"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("room      1  FAIL  signal 11"),
+                             HasSubstr("room      2  FAIL  status 3"),
+                             HasSubstr("room      4  pass  time over"),
+                             HasSubstr("try: 1 of 5 runs passed"), Not(HasSubstr("seed 2\n"))));
+  EXPECT_EQ(log("room_seed2"), "seed 2\nerror\n");
+}
+
+TEST_F(PlaypenGrade, AProgramThatHangsIsEnded) {
+  const ProcessResult run =
+      grade({"--seeds", "1,", "--timeout", "0.2"}, {"sh", "-c", "sleep 1000"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "timeout"}}));
+  EXPECT_THAT(run.out, HasSubstr("timeout: still running after 0.2 s"));
+}
+
+/// Takes wall times out, wherever they stand.
+void drop_wall_times(json& value) {
+  if (value.is_object()) value.erase("wall_time");
+  for (json& part : value) {
+    if (part.is_structured()) drop_wall_times(part);
+  }
+}
+
+TEST_F(PlaypenGrade, SideBySideGivesTheSameAsOneAfterTheOther) {
+  folder_.write("room.json", room_world(0.01));  // so that seeds matter
+  std::vector<json> results;
+  for (const char* jobs : {"1", "4"}) {
+    ASSERT_EQ(grade({"--seeds", "4", "--jobs", jobs}, {WALL_PROGRAM}).status, 0);
+    results.push_back(result());
+    drop_wall_times(results.back());
+  }
+  EXPECT_EQ(results[0], results[1]);
+  const json& runs = results[0].at("runs");
+  EXPECT_NE(runs.at(0).at("path_length"), runs.at(1).at("path_length"));
+  EXPECT_FALSE(runs.at(0).contains("wall_time"));
+}
+
+TEST_F(PlaypenGrade, TakesWorldsSeedsAndArgumentsFromTheTaskAndTheCommandLine) {
+  folder_.write("other.json", room_world());
+  folder_.write("try.task.json", R"({
+    "worlds": [{"world": "room.json", "arguments": ["--in", "a room"]}, "other.json"],
+    "seeds": [3], "arguments": ["--always"]})");
+  const std::vector<std::string> program = {"sh", "-c", "echo \"$0 $@\"", "[x,y]"};
+  EXPECT_EQ(grade({}, program).status, 1);
+  EXPECT_EQ(log("room_seed3"), "[x,y] --always --in a room\n");
+  EXPECT_EQ(log("other_seed3"), "[x,y] --always\n");
+  EXPECT_EQ(result().at("program"), json(program));
+
+  out_ = folder_ / "second";
+  EXPECT_EQ(grade({world_, "default", "--seeds", "8,18446744073709551615"}, program).status, 1);
+  EXPECT_EQ(result().at("runs").size(), 4U);
+  EXPECT_EQ(log("room_seed8"), "[x,y] --always --in a room\n");
+  EXPECT_EQ(log("default_seed18446744073709551615"), "[x,y] --always\n");
+}
+
+TEST_F(PlaypenGrade, ReachingTheGoalIsMeasuredAgainstTheShortestWay) {
+  folder_.write("try.task.json", R"({
+    "worlds": [{"world": "room.json", "goal": {"x": 1.5, "y": 1, "tolerance": 0.05}}],
+    "seeds": 1, "thresholds": {"must_reach": true, "must_end": true, "max_path_ratio": 1.5}})");
+  // Instead of driving, it says where it has been: from (0.5, 1) to the place of its arguments.
+  const std::string script =
+      "echo '{\"run\": {\"sim_time\": 7}, \"robots\": [{\"name\": \"r1\", \"path_length\": '$2',"
+      "\"collisions\": 0, \"least_clearance\": 0.1, \"stalled_time\": 0,"
+      "\"final_pose\": {\"x\": '$1', \"y\": 1, \"yaw\": 0}}]}' > \"$PLAYPEN_OUT/report.json\"";
+  EXPECT_EQ(grade({}, {"sh", "-c", script, "-", "1.48", "1.2"}).status, 0);
+  const json good = result().at("runs").at(0);
+  EXPECT_EQ(good.at("reached"), true);
+  EXPECT_NEAR(good.at("shortest_path").get<double>(), 1.0, 1e-4);
+  EXPECT_NEAR(good.at("path_ratio").get<double>(), 1.2, 1e-3);
+  EXPECT_EQ(grade({}, {"sh", "-c", script, "-", "1.48", "1.6"}).status, 1);
+  EXPECT_THAT(result().at("runs").at(0).at("faults"),
+              ElementsAre("path to shortest path 1.60, at most 1.5 allowed"));
+  const ProcessResult missed = grade({}, {"sh", "-c", script, "-", "1.3", "1"});
+  EXPECT_EQ(missed.status, 1);
+  EXPECT_THAT(missed.out, HasSubstr("goal not reached: 0.20 m away from it at the end"));
+}
+
+TEST_F(PlaypenGrade, ResultsOfAnEarlierGradingDoNotHideThatThereAreNone) {
+  ASSERT_EQ(grade({}, {TEMPLATE_PROGRAM}).status, 0);
+  ASSERT_EQ(grade({}, {"true"}).status, 1);
+  EXPECT_FALSE(fs::exists(fs::path(out_) / "room_seed1/report.json"));
+}
+
+TEST_F(PlaypenGrade, WritesTheJsonFileWhereToldTo) {
+  const std::string file = folder_ / "marks/robot.json";
+  EXPECT_EQ(grade({"--json", file}, {TEMPLATE_PROGRAM}).status, 0);
+  EXPECT_EQ(json::parse(read_bytes(file)).at("task"), "try");
+  EXPECT_FALSE(fs::exists(fs::path(out_) / "grade.json"));
+}
+
+TEST_F(PlaypenGrade, InterruptedItEndsAllProgramsAndWritesWhatThereIs) {
+  const std::string fifo = folder_ / "fifo";
+  ASSERT_EQ(std::system(("mkfifo " + fifo).c_str()), 0);
+  std::vector<std::string> command =
+      arguments({"--seeds", "3", "--jobs", "1"},
+                {"sh", "-c", "exec 3> " + fifo + "; echo up >&3; sleep 1000"});
+  command.insert(command.begin(), PLAYPEN_COMMAND);
+  Process process(command);
+  std::ifstream from_program(fifo);  // opens when the program does
+  std::string word;
+  from_program >> word;
+  EXPECT_EQ(word, "up");
+  process.send_signal(SIGINT);
+  const ProcessResult run = process.finish();
+  EXPECT_FALSE(run.timed_out);
+  EXPECT_EQ(run.status, 1);
+  // Its end comes when neither the shell nor its child holds the other end any more.
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(from_program), {}), "\n");
+  const json runs = result().at("runs");
+  EXPECT_EQ(runs.at(0).at("end"), json({{"kind", "interrupted"}}));
+  EXPECT_EQ(runs.at(1).at("end"), json({{"kind", "not-run"}}));
+  EXPECT_THAT(run.out, HasSubstr("not run: the grader was interrupted"));
+}
+
+TEST_F(PlaypenGrade, BadInputIsExplainedBeforeAnythingRuns) {
+  const std::string text = folder_.write("text.txt", "no program");
+  const std::string bad_task = folder_.write("bad.task.json", R"({"worlds": ["none.json"]})");
+  const std::string bad_world = folder_.write("bad.json", R"({"robotz": []})");
+  const std::string far_goal = folder_.write(
+      "far.task.json", R"({"worlds": [{"world": "room.json", "goal": {"x": 9, "y": 9}}]})");
+  struct Case {
+    std::vector<std::string> arguments;
+    std::string reason;
+  };
+  for (const Case& c :
+       std::vector<Case>{{{task_}, "PROGRAM"},
+                         {{task_, "--"}, "PROGRAM"},
+                         {{task_, "--", folder_ / "none"}, "there is no program"},
+                         {{task_, "--", text}, "no executable file"},
+                         {{folder_ / "no.task.json", "--", "true"}, "a task file"},
+                         {{bad_task, "--", "true"}, "task/unknown-world"},
+                         {{far_goal, "--", "true"}, "task/unreachable-goal"},
+                         {{task_, bad_world, "--", "true"}, "robotz"},
+                         {{task_, folder_ / "none.json", "--", "true"}, "file/missing"},
+                         {{task_, world_, world_, "--", "true"}, "task/duplicate-world"},
+                         {{task_, "--seeds", "0", "--", "true"}, "'0'"},
+                         {{task_, "--seeds", "1,1", "--", "true"}, "'1,1'"},
+                         {{task_, "--seeds", "1,x", "--", "true"}, "'1,x'"},
+                         {{task_, "--seeds", ",", "--", "true"}, "','"},
+                         {{task_, "--jobs", "0", "--", "true"}, "--jobs"},
+                         {{task_, "--timeout", "-1", "--", "true"}, "--timeout"},
+                         {{task_, "--fast", "--", "true"}, "--fast"}}) {
+    std::vector<std::string> call = {"grade"};
+    call.insert(call.end(), c.arguments.begin(), c.arguments.end());
+    call.insert(call.begin() + 1, {"--out", out_});
+    const ProcessResult run = playpen(call);
+    EXPECT_EQ(run.status, 2) << testing::PrintToString(c.arguments);
+    EXPECT_THAT(run.err, HasSubstr(c.reason)) << testing::PrintToString(c.arguments);
+    EXPECT_FALSE(fs::exists(out_)) << testing::PrintToString(c.arguments);
+  }
+}
+
+TEST_F(PlaypenGrade, FindsTheTasksThatAreInstalledBesideIt) {
+  const std::string command = folder_.write("bin/playpen", "");
+  fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
+  fs::permissions(command, fs::perms::owner_all);
+  folder_.write("share/playpen/worlds/tasks/room.json", room_world());
+  folder_.write("share/playpen/worlds/tasks/mine.task.json",
+                R"({"worlds": ["room.json"], "duration": 1})");
+  for (const char* name : {"mine", "tasks/mine", "tasks/mine.task.json"}) {
+    const ProcessResult run = test_support::run_process(
+        {command, "grade", name, "--out", out_, "--seeds", "1,", "--", TEMPLATE_PROGRAM});
+    EXPECT_NE(run.status, 2) << name << ": " << run.err;
+    EXPECT_THAT(run.out, HasSubstr("mine: ")) << name;
+  }
+}
+
+}  // namespace

@@ -1,0 +1,353 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/evaluation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grade/map_score.h"
+#include "sim/core/error.h"
+#include "sim/io/map_file.h"
+#include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
+
+namespace playpen::grade {
+namespace {
+
+using nlohmann::json;
+using playerlike::JobEnd;
+using test_support::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using testing::UnorderedElementsAre;
+
+/// A room of 2 m x 2 m with a robot in the middle of its left half.
+sim::WorldDescription room(const std::string& obstacles = "") {
+  return sim::load_world_text(R"({"arena": {"size": [2, 2], "obstacles": [)" + obstacles + R"(]},
+    "simulation": {"duration": 60},
+    "robots": [{"name": "a", "pose": {"x": 0.5, "y": 1}},
+               {"name": "b", "pose": {"x": 1.5, "y": 1.5}}]})");
+}
+
+Task task_with_goal(double x, double y) {
+  Task task;
+  task.name = "test";
+  task.file = "test.task.json";
+  task.goal = Goal{{x, y}, std::nullopt};
+  return task;
+}
+
+TEST(MakeReference, TakesTheFirstRobotUnlessOneIsNamed) {
+  Task task;
+  EXPECT_EQ(make_reference(task, {"w/room.json", {}, {}}, room()).robot, "a");
+  task.robot = "b";
+  const Reference reference = make_reference(task, {"w/room.json", {}, {}}, room());
+  EXPECT_EQ(reference.robot, "b");
+  EXPECT_EQ(reference.world, "room");
+  EXPECT_EQ(reference.start, sim::Vec2(1.5, 1.5));
+  EXPECT_EQ(reference.duration_s, 60.0);
+  EXPECT_TRUE(reference.truth.cells.empty()) << "nobody asks for a map";
+  task.duration_s = 7.0;
+  EXPECT_EQ(make_reference(task, {"", {}, {}}, room()).duration_s, 7.0);
+}
+
+TEST(MakeReference, TheShortestPathIsStraightInAnEmptyRoom) {
+  const Reference reference = make_reference(task_with_goal(1.5, 1.0), {}, room());
+  ASSERT_TRUE(reference.shortest_path_m);
+  EXPECT_NEAR(*reference.shortest_path_m, 1.0, 1e-4);  // ends are rounded to 1/1024 of 2 cm
+}
+
+TEST(MakeReference, TheShortestPathKeepsTheRobotsInscribedRadius) {
+  // A wall in the middle from the bottom up to y = 1.4; the axle's centre keeps 0.081 m off (half
+  // of the robot's width), so it goes round the end of the wall on an arc about the corners
+  // (0.95, 1.4) and (1.05, 1.4).
+  const Reference reference =
+      make_reference(task_with_goal(1.5, 1.0), {},
+                     room(R"({"name": "w", "center": [1, 0.7], "size": [0.1, 1.4]})"));
+  const double radius = 0.081;
+  const double to_corner = std::hypot(0.45, 0.4);
+  const double tangent = std::sqrt(to_corner * to_corner - radius * radius);
+  // From the direction of the tangent to level.
+  const double turn = std::atan2(0.4, 0.45) + std::asin(radius / to_corner);
+  const double exact = 2.0 * (tangent + radius * turn) + 0.1;
+  ASSERT_TRUE(reference.shortest_path_m);
+  // The round corner is made of cells of 2 cm, and the wall's sides lie within cells.
+  EXPECT_NEAR(*reference.shortest_path_m, exact, 0.05);
+}
+
+TEST(MakeReference, AWorldsOwnGoalGoesBeforeTheTasks) {
+  const TaskWorld world{"", {}, Goal{{0.5, 1.7}, std::nullopt}};
+  const Reference reference = make_reference(task_with_goal(1.5, 1.0), world, room());
+  EXPECT_NEAR(reference.shortest_path_m.value_or(0.0), 0.7, 1e-4);
+}
+
+TEST(MakeReference, RefusesWhatDoesNotGoTogether) {
+  const auto id_of = [](const Task& task, const sim::WorldDescription& world) {
+    try {
+      static_cast<void>(make_reference(task, {"room.json", {}, {}}, world));
+    } catch (const sim::ConfigError& error) {
+      return error.issues().front().id;
+    }
+    return std::string();
+  };
+  Task unknown_robot;
+  unknown_robot.robot = "c";
+  EXPECT_EQ(id_of(unknown_robot, room()), "task/unknown-robot");
+  EXPECT_EQ(id_of({}, sim::load_world_text(R"({"robots": []})")), "task/unknown-robot");
+  Task no_goal;
+  no_goal.thresholds.must_reach = true;
+  EXPECT_EQ(id_of(no_goal, room()), "task/missing-goal");
+  EXPECT_EQ(id_of(task_with_goal(3.0, 1.0), room()), "task/unreachable-goal");
+  // A wall from side to side; then one with a gap of 0.15 m, too narrow for 0.162 m.
+  for (const char* wall : {R"({"name": "w", "center": [1, 1], "size": [0.1, 2]})",
+                           R"({"name": "w", "center": [1, 0.925], "size": [0.1, 1.85]})"}) {
+    EXPECT_EQ(id_of(task_with_goal(1.5, 1.0), room(wall)), "task/unreachable-goal") << wall;
+  }
+  EXPECT_EQ(id_of(task_with_goal(1.5, 1.0),
+                  room(R"({"name": "w", "center": [1, 0.85], "size": [0.1, 1.7]})")),
+            "");
+}
+
+/// Runs in a folder of their own, on the room with a goal at (1.5, 1).
+class EvaluateTest : public testing::Test {
+ protected:
+  void write_report(const json& changes = json::object(), double sim_time_s = 20.0) const {
+    json robot = {{"name", "a"},         {"path_length", 1.25},
+                  {"collisions", 2},     {"least_clearance", 0.0},
+                  {"stalled_time", 0.5}, {"final_pose", {{"x", 1.45}, {"y", 1.0}, {"yaw", 3.0}}}};
+    robot.update(changes);
+    json other = robot;
+    other["name"] = "b";
+    other["path_length"] = 99.0;
+    folder_.write("report.json",
+                  json{{"run", {{"sim_time", sim_time_s}}}, {"robots", {other, robot}}}.dump());
+  }
+
+  [[nodiscard]] GradedRun evaluated(const JobEnd& end = {JobEnd::Kind::kEnded, {}, 1.5}) const {
+    GradedRun run;
+    run.world = "room";
+    run.seed = 3;
+    evaluate(task_, make_reference(task_, {}, room()), end, folder_.path(), run);
+    return run;
+  }
+
+  TemporaryFolder folder_;
+  Task task_ = task_with_goal(1.5, 1.0);
+};
+
+TEST_F(EvaluateTest, TakesTheFiguresOfTheJudgedRobot) {
+  write_report();
+  const GradedRun run = evaluated();
+  EXPECT_TRUE(run.passed()) << "no thresholds, no faults";
+  EXPECT_EQ(run.ending, Ending::kBySelf);
+  EXPECT_EQ(run.wall_time_s, 1.5);
+  const Measures& m = run.measures;
+  EXPECT_EQ(m.path_length_m, 1.25);
+  EXPECT_EQ(m.collisions, 2);
+  EXPECT_EQ(m.least_clearance_m, 0.0);
+  EXPECT_EQ(m.stalled_time_s, 0.5);
+  EXPECT_EQ(m.sim_time_s, 20.0);
+  EXPECT_EQ(m.reached, true);
+  EXPECT_NEAR(m.goal_distance_m.value_or(-1.0), 0.05, 1e-12);
+  EXPECT_NEAR(m.shortest_path_m.value_or(-1.0), 1.0, 1e-4);
+  EXPECT_NEAR(m.path_ratio.value_or(-1.0), 1.25, 1e-3);
+  EXPECT_FALSE(m.coverage);
+  EXPECT_FALSE(m.correctness);
+}
+
+TEST_F(EvaluateTest, TheGoalIsReachedWithinItsTolerances) {
+  write_report();
+  task_.goal->tolerance_m = 0.04;
+  EXPECT_EQ(evaluated().measures.reached, false);
+  EXPECT_FALSE(evaluated().measures.path_ratio) << "a way that leads elsewhere may be short";
+  task_.goal->tolerance_m = 0.06;
+  EXPECT_EQ(evaluated().measures.reached, true);
+  // The robot looks along 3 rad; -3.1 rad is 0.18 rad farther on.
+  task_.goal->yaw_rad = -3.1;
+  task_.goal->yaw_tolerance_rad = 0.15;
+  EXPECT_EQ(evaluated().measures.reached, false);
+  task_.goal->yaw_tolerance_rad = 0.2;
+  EXPECT_EQ(evaluated().measures.reached, true);
+}
+
+TEST_F(EvaluateTest, TellsEndingsApart) {
+  write_report();
+  EXPECT_EQ(evaluated().ending, Ending::kBySelf);
+  write_report(json::object(), 60.0);
+  EXPECT_EQ(evaluated().ending, Ending::kTimeOver);
+  EXPECT_TRUE(evaluated().passed());
+
+  const GradedRun bad = evaluated({JobEnd::Kind::kEnded, {.status = 3, .signal = {}}, 0.0});
+  EXPECT_EQ(bad.ending, Ending::kBadStatus);
+  EXPECT_EQ(bad.status, 3);
+  EXPECT_THAT(bad.faults, ElementsAre("the program ended with status 3"));
+  const GradedRun crashed =
+      evaluated({JobEnd::Kind::kEnded, {.status = 0, .signal = SIGSEGV}, 0.0});
+  EXPECT_EQ(crashed.ending, Ending::kSignal);
+  EXPECT_EQ(crashed.signal, SIGSEGV);
+  EXPECT_THAT(crashed.faults, ElementsAre(HasSubstr("signal 11")));
+  task_.timeout_s = 2.5;
+  // That it then ended well on the polite signal does not help.
+  const GradedRun late = evaluated({JobEnd::Kind::kTimedOut, {}, 2.6});
+  EXPECT_EQ(late.ending, Ending::kTimedOut);
+  EXPECT_THAT(late.faults, ElementsAre("timeout: still running after 2.5 s"));
+  EXPECT_EQ(evaluated({JobEnd::Kind::kInterrupted, {}, 1.0}).ending, Ending::kInterrupted);
+  const GradedRun not_run = evaluated({JobEnd::Kind::kNotStarted, {}, 0.0});
+  EXPECT_EQ(not_run.ending, Ending::kNotRun);
+  EXPECT_FALSE(not_run.passed());
+  EXPECT_FALSE(not_run.measures.path_length_m) << "the report is not this run's";
+}
+
+TEST_F(EvaluateTest, AMissingOrBrokenReportIsAFault) {
+  task_.thresholds.max_collisions = 0;
+  EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("never connected")));
+  for (const char* text : {"", "{", "[]", "{\"run\": {}}", "{\"run\": 7, \"robots\": 8}"}) {
+    folder_.write("report.json", text);
+    EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("not as expected"))) << text;
+  }
+  write_report({{"name", "c"}});
+  EXPECT_THAT(evaluated().faults,
+              ElementsAre("the report has no robot a", "collisions unknown, at most 0 asked for"));
+  write_report({{"least_clearance", nullptr}});  // nothing solid anywhere
+  EXPECT_FALSE(evaluated().measures.least_clearance_m);
+  // A program that crashed is not told of the report too.
+  folder_.write("report.json", "");
+  EXPECT_THAT(evaluated({JobEnd::Kind::kEnded, {.status = 0, .signal = SIGABRT}, 0.0}).faults,
+              SizeIs(1));
+}
+
+TEST_F(EvaluateTest, ScoresTheMapOfTheNamedLayer) {
+  write_report();
+  task_.map_layer = "occupancy";
+  task_.thresholds.min_coverage = 0.98;
+  EXPECT_THAT(evaluated().faults,
+              UnorderedElementsAre("no map: there is no layers/occupancy.yaml",
+                                   "coverage unknown, at least 0.98 asked for"));
+  folder_.write("layers/occupancy.yaml", "nonsense");
+  EXPECT_THAT(evaluated().faults, testing::Contains(HasSubstr("the map can't be read")));
+
+  // The true map, with its lower half unknown.
+  sim::OccupancyMap map = make_truth(room().arena);
+  sim::io::write_map(map, folder_ / "layers/occupancy");
+  const GradedRun good = evaluated();
+  EXPECT_THAT(good.faults, IsEmpty());
+  EXPECT_EQ(good.measures.coverage, 1.0);
+  EXPECT_EQ(good.measures.correctness, 1.0);
+  for (std::size_t i = map.cells.size() / 2; i < map.cells.size(); ++i) map.cells[i] = 0.5F;
+  sim::io::write_map(map, folder_ / "layers/occupancy");
+  const GradedRun half = evaluated();
+  EXPECT_EQ(half.measures.coverage, 0.5);
+  EXPECT_EQ(half.measures.correctness, 1.0);
+  EXPECT_THAT(half.faults, ElementsAre("coverage 0.500, at least 0.98 needed"));
+}
+
+TEST_F(EvaluateTest, AMapThatNoThresholdAsksForMayBeMissing) {
+  write_report();
+  task_.map_layer = "occupancy";
+  EXPECT_TRUE(evaluated().passed());
+}
+
+TEST(FaultsOf, JudgesOnlyWhatHasAThreshold) {
+  EXPECT_THAT(faults_of({}, {}, Ending::kTimeOver), IsEmpty());
+  Measures terrible;
+  terrible.reached = false;
+  terrible.goal_distance_m = 9.0;
+  terrible.collisions = 100;
+  EXPECT_THAT(faults_of({}, terrible, Ending::kTimeOver), IsEmpty());
+}
+
+TEST(FaultsOf, EachThresholdHoldsAtItsLimitAndTellsBeyond) {
+  Measures m;
+  m.coverage = 0.9;
+  m.correctness = 0.8;
+  m.collisions = 2;
+  m.least_clearance_m = 0.05;
+  m.path_length_m = 10.0;
+  m.path_ratio = 1.5;
+  m.sim_time_s = 100.0;
+  m.stalled_time_s = 3.0;
+
+  Thresholds at;
+  at.min_coverage = 0.9;
+  at.min_correctness = 0.8;
+  at.max_collisions = 2;
+  at.min_clearance_m = 0.05;
+  at.min_path_length_m = 10.0;
+  at.max_path_length_m = 10.0;
+  at.max_path_ratio = 1.5;
+  at.max_sim_time_s = 100.0;
+  at.max_stalled_time_s = 3.0;
+  EXPECT_THAT(faults_of(at, m, Ending::kBySelf), IsEmpty());
+
+  Thresholds t;
+  t.min_coverage = 0.95;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("coverage 0.900, at least 0.95 needed"));
+  t = {};
+  t.min_correctness = 0.81;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("map correctness 0.800, at least 0.81 needed"));
+  t = {};
+  t.max_collisions = 1;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf), ElementsAre("collisions 2, at most 1 allowed"));
+  t = {};
+  t.min_clearance_m = 0.06;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("least clearance 0.050 m, at least 0.06 m needed"));
+  t = {};
+  t.min_path_length_m = 12.0;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf), ElementsAre("path 10.00 m, at least 12 m needed"));
+  t = {};
+  t.max_path_length_m = 8.0;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf), ElementsAre("path 10.00 m, at most 8 m allowed"));
+  t = {};
+  t.max_path_ratio = 1.2;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("path to shortest path 1.50, at most 1.2 allowed"));
+  t = {};
+  t.max_sim_time_s = 99.0;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("simulated time 100.0 s, at most 99 s allowed"));
+  t = {};
+  t.max_stalled_time_s = 0.0;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("stalled time 3.00 s, at most 0 s allowed"));
+}
+
+TEST(FaultsOf, ReachingAndEndingAreAskedForInWords) {
+  Thresholds t;
+  t.must_reach = true;
+  t.must_end = true;
+  Measures m;
+  m.reached = false;
+  m.goal_distance_m = 0.416;
+  EXPECT_THAT(faults_of(t, m, Ending::kTimeOver),
+              ElementsAre("the simulated time was over before the program ended",
+                          "goal not reached: 0.42 m away from it at the end"));
+  m.reached = true;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf), IsEmpty());
+  m.reached.reset();
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf), ElementsAre("goal not known to be reached"));
+}
+
+TEST(FaultsOf, NumbersAreWrittenSoThatTheyDifferFromTheLimit) {
+  Thresholds t;
+  t.min_coverage = 0.98;
+  Measures m;
+  m.coverage = 0.97996;
+  EXPECT_THAT(faults_of(t, m, Ending::kBySelf),
+              ElementsAre("coverage 0.97996, at least 0.98 needed"));
+}
+
+}  // namespace
+}  // namespace playpen::grade

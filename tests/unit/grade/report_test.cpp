@@ -1,0 +1,180 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "grade/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "grade/grade.h"
+#include "grade/text.h"
+#include "sim/core/error.h"
+#include "temporary_folder.h"
+
+namespace playpen::grade {
+namespace {
+
+using nlohmann::json;
+using test_support::TemporaryFolder;
+using testing::HasSubstr;
+
+GradedRun good_run() {
+  GradedRun run;
+  run.world = "room";
+  run.seed = 1;
+  run.folder = "room_seed1";
+  run.ending = Ending::kBySelf;
+  run.wall_time_s = 0.25;
+  run.measures.reached = true;
+  run.measures.goal_distance_m = 0.05;
+  run.measures.coverage = 0.9876;
+  run.measures.correctness = 1.0;
+  run.measures.path_length_m = 12.345;
+  run.measures.shortest_path_m = 10.0;
+  run.measures.path_ratio = 1.2345;
+  run.measures.collisions = 0;
+  run.measures.least_clearance_m = 0.0321;
+  run.measures.stalled_time_s = 0.0;
+  run.measures.sim_time_s = 61.04;
+  return run;
+}
+
+GradedRun crashed_run() {
+  GradedRun run;
+  run.world = "long_room";
+  run.seed = 12;
+  run.folder = "long_room_seed12";
+  run.ending = Ending::kSignal;
+  run.signal = SIGSEGV;
+  run.wall_time_s = 1.5;
+  run.faults = {"the program was ended by signal 11 (Segmentation fault)"};
+  return run;
+}
+
+Grade grade_of(std::vector<GradedRun> runs) {
+  Grade grade;
+  grade.task.name = "explore";
+  grade.program = {"./robot", "--fast"};
+  grade.runs = std::move(runs);
+  return grade;
+}
+
+TEST(Table, HasALineARunThenFaultsThenASummary) {
+  EXPECT_EQ(table(grade_of({good_run(), crashed_run()})),
+            "world      seed        end        reached  coverage  correct  path[m]  ratio  coll  "
+            "clear[m]  sim[s]  wall[s]\n"
+            "room          1  pass  by itself      yes     0.988    1.000    12.35   1.23     0  "
+            "   0.032    61.0      0.2\n"
+            "long_room    12  FAIL  signal 11        -         -        -        -      -     -  "
+            "       -       -      1.5\n"
+            "long_room seed 12: the program was ended by signal 11 (Segmentation fault)\n"
+            "explore: 1 of 2 runs passed\n"
+            "  coverage: 0.988 to 0.988, mean 0.988\n"
+            "  map correctness: 1.000 to 1.000, mean 1.000\n"
+            "  path to shortest path: 1.23 to 1.23, mean 1.23\n"
+            "  path [m]: 12.35 to 12.35, mean 12.35\n"
+            "  least clearance [m]: 0.032 to 0.032, mean 0.032\n"
+            "  simulated time [s]: 61.0 to 61.0, mean 61.0\n");
+}
+
+TEST(Table, TellsEndingsInWords) {
+  GradedRun run = good_run();
+  const auto text_for = [&run](Ending ending) {
+    run.ending = ending;
+    run.status = 3;
+    return table(grade_of({run}));
+  };
+  EXPECT_THAT(text_for(Ending::kTimeOver), HasSubstr("  time over  "));
+  EXPECT_THAT(text_for(Ending::kBadStatus), HasSubstr("  status 3  "));
+  EXPECT_THAT(text_for(Ending::kTimedOut), HasSubstr("  timeout  "));
+  EXPECT_THAT(text_for(Ending::kInterrupted), HasSubstr("  interrupted  "));
+  EXPECT_THAT(text_for(Ending::kNotRun), HasSubstr("  not run  "));
+}
+
+TEST(JsonText, HasEverythingMeasuredAndNullForTheRest) {
+  const json whole = json::parse(json_text(grade_of({good_run(), crashed_run()})));
+  EXPECT_EQ(whole.at("task"), "explore");
+  EXPECT_EQ(whole.at("program"), json({"./robot", "--fast"}));
+  EXPECT_EQ(whole.at("passed"), false);
+  EXPECT_EQ(whole.at("summary").at("runs"), 2);
+  EXPECT_EQ(whole.at("summary").at("passed"), 1);
+  EXPECT_EQ(whole.at("summary").at("failed"), 1);
+  EXPECT_EQ(whole.at("summary").at("coverage"),
+            json({{"min", 0.9876}, {"mean", 0.9876}, {"max", 0.9876}}));
+  const json expected = {{"world", "room"},           {"seed", 1},
+                         {"folder", "room_seed1"},    {"passed", true},
+                         {"faults", json::array()},   {"end", {{"kind", "by-itself"}}},
+                         {"reached", true},           {"goal_distance", 0.05},
+                         {"coverage", 0.9876},        {"correctness", 1.0},
+                         {"path_length", 12.345},     {"shortest_path", 10.0},
+                         {"path_ratio", 1.2345},      {"collisions", 0},
+                         {"least_clearance", 0.0321}, {"stalled_time", 0.0},
+                         {"sim_time", 61.04},         {"wall_time", 0.25}};
+  EXPECT_EQ(whole.at("runs").at(0), expected);
+  const json& crashed = whole.at("runs").at(1);
+  EXPECT_EQ(crashed.at("end"), json({{"kind", "signal"}, {"signal", 11}}));
+  EXPECT_EQ(crashed.at("faults").size(), 1U);
+  for (const char* key : {"reached", "coverage", "path_ratio", "collisions", "sim_time"}) {
+    EXPECT_TRUE(crashed.at(key).is_null()) << key;
+  }
+}
+
+TEST(JsonText, SummarizesOverTheRunsThatHaveAMeasure) {
+  GradedRun other = good_run();
+  other.measures.coverage = 0.5;
+  GradedRun none = crashed_run();
+  const json whole = json::parse(json_text(grade_of({good_run(), none, other})));
+  const json& coverage = whole.at("summary").at("coverage");
+  EXPECT_DOUBLE_EQ(coverage.at("min").get<double>(), 0.5);
+  EXPECT_DOUBLE_EQ(coverage.at("max").get<double>(), 0.9876);
+  EXPECT_DOUBLE_EQ(coverage.at("mean").get<double>(), (0.5 + 0.9876) / 2.0);
+  const json failed = json::parse(json_text(grade_of({none})));
+  EXPECT_TRUE(failed.at("summary").at("coverage").is_null());
+}
+
+TEST(JsonText, TakesArgumentsThatAreNoText) {
+  Grade grade = grade_of({good_run()});
+  grade.program = {"./robot", "\xff"};
+  EXPECT_EQ(json::parse(json_text(grade)).at("program").at(1), "\xef\xbf\xbd");  // U+FFFD
+}
+
+TEST(NumberText, IsShortFixedOrTelling) {
+  EXPECT_EQ(short_number(0.98), "0.98");
+  EXPECT_EQ(short_number(12.0), "12");
+  EXPECT_EQ(fixed(2.0, 3), "2.000");
+  EXPECT_EQ(fixed(-0.126, 2), "-0.13");
+  EXPECT_EQ(telling_number(0.5, 0.98, 3), "0.500");
+  EXPECT_EQ(telling_number(0.97996, 0.98, 3), "0.97996");
+  EXPECT_EQ(telling_number(0.98, 0.98, 3), "0.980");
+}
+
+TEST(ChooseWorlds, KeepsWhatTheTaskSaysOfItsOwn) {
+  const TemporaryFolder folder;
+  const std::string a = folder.write("a.json", "{}");
+  const std::string b = folder.write("b.json", "{}");
+  Task task;
+  task.worlds = {{a, {"--for-a"}, Goal{{1, 2}, std::nullopt}}, {folder / "c.json", {}, {}}};
+  choose_worlds(task, {b, folder / "./a.json", ""});
+  ASSERT_EQ(task.worlds.size(), 3U);
+  EXPECT_EQ(task.worlds[0].file, b);
+  EXPECT_TRUE(task.worlds[0].arguments.empty());
+  EXPECT_FALSE(task.worlds[0].goal);
+  EXPECT_THAT(task.worlds[1].arguments, testing::ElementsAre("--for-a"));
+  EXPECT_TRUE(task.worlds[1].goal);
+  EXPECT_EQ(task.worlds[2].file, "");
+}
+
+TEST(ChooseWorlds, RefusesTwoOfTheSameName) {
+  Task task;
+  try {
+    choose_worlds(task, {"x/room.json", "y/room.json"});
+    FAIL() << "accepted";
+  } catch (const sim::ConfigError& error) {
+    EXPECT_EQ(error.issues().front().id, "task/duplicate-world");
+  }
+}
+
+}  // namespace
+}  // namespace playpen::grade

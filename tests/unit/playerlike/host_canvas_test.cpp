@@ -1,0 +1,321 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The canvas and its layers over a host: drawings, their order, and what becomes of layers.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <limits>
+#include <thread>
+
+#include "playerlike/host/host.h"
+#include "temporary_folder.h"
+
+namespace playerlike {
+namespace {
+
+using sim::CellValue;
+using sim::Colour;
+using sim::DrawOperation;
+using sim::LayerId;
+using sim::LayerKind;
+
+constexpr Colour kRed{255, 0, 0, 255};
+constexpr Colour kBlue{0, 0, 255, 255};
+
+sim::WorldDescription two_robots(const std::string& more = "") {
+  return sim::load_world_text(
+      R"({"name": "two", "arena": {"size": [2, 1], "obstacles": [
+           {"name": "box", "type": "static", "center": [1.5, 0.5], "size": [0.2, 0.2]}]},
+          "canvas": {"size": [100, 50], "cell_size": 0.02)" +
+      more +
+      R"(}, "robots": [{"name": "r1", "pose": {"x": 0.3, "y": 0.3}},
+                       {"name": "r2", "pose": {"x": 0.3, "y": 0.7}}]})");
+}
+
+sim::LayerStyle named(const std::string& name) {
+  sim::LayerStyle style;
+  style.name = name;
+  return style;
+}
+
+void dot(Session& session, int column, int row, Colour colour, LayerId layer = sim::kBaseLayer) {
+  DrawOperation operation;
+  operation.layer = layer;
+  operation.x0 = column;
+  operation.y0 = row;
+  operation.value = CellValue::of(colour);
+  session.draw({&operation, 1});
+}
+
+Colour at(Session& session, int column, int row, LayerId layer = sim::kBaseLayer) {
+  const auto value = session.cell(layer, column, row);
+  EXPECT_TRUE(value.has_value());
+  return value ? value->colour() : Colour{};
+}
+
+Colour composed_at(Session& session, int column, int row) {
+  const std::vector<std::uint8_t> rgba = session.canvas_image();
+  const std::size_t i = 4 * static_cast<std::size_t>(row * session.canvas_info().width + column);
+  return {rgba.at(i), rgba.at(i + 1), rgba.at(i + 2), rgba.at(i + 3)};
+}
+
+template <typename Action>
+std::optional<SessionError::Code> refusal(Action action) {
+  try {
+    action();
+  } catch (const SessionError& e) {
+    return e.code();
+  }
+  return std::nullopt;
+}
+constexpr auto kBadArgument = SessionError::Code::kBadArgument;
+constexpr auto kNotAvailable = SessionError::Code::kNotAvailable;
+
+TEST(HostCanvas, DrawingsReachOthersWithTheNextStep) {
+  const auto host = Host::create(two_robots());
+  const auto first = host->connect(6665);
+  const auto second = host->connect(6666);
+  dot(*first, 4, 5, kRed);
+  EXPECT_EQ(at(*second, 4, 5).a, 0);
+  EXPECT_EQ(at(*first, 4, 5), kRed) << "their own client sees them at once";
+  dot(*first, 6, 5, kRed);
+  second->wait();
+  EXPECT_EQ(at(*second, 6, 5), kRed);
+}
+
+TEST(HostCanvas, MoreDrawingsThanFitTheQueueKeepTheirOrder) {
+  const auto host = Host::create(two_robots());
+  const auto session = host->connect(6665);
+  constexpr int kCount = 3 * static_cast<int>(DrawQueue::kCapacity) + 7;
+  for (int i = 0; i < kCount; ++i) {
+    dot(*session, i % 100, i / 100 % 50, {0, static_cast<std::uint8_t>(i % 256), 1, 255});
+  }
+  for (int i = kCount - 5000; i < kCount; ++i) {
+    ASSERT_EQ(at(*session, i % 100, i / 100 % 50).g, i % 256) << i;
+  }
+}
+
+TEST(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
+  const auto host = Host::create(two_robots());
+  const auto session = host->connect(6665);
+  dot(*session, 0, 0, kRed);
+  const std::vector<CellValue> blue(4, CellValue::of(kBlue));
+  session->draw_cells(sim::kBaseLayer, {0, 0, 2, 2}, blue);
+  dot(*session, 1, 1, kRed);
+  EXPECT_EQ(at(*session, 0, 0), kBlue);
+  EXPECT_EQ(at(*session, 1, 1), kRed);
+  session->draw_cells(sim::kBaseLayer, {-1, 49, 2, 2}, blue);  // clipped
+  EXPECT_EQ(at(*session, 0, 49), kBlue);
+  EXPECT_EQ(refusal([&] {
+              session->draw_cells(sim::kBaseLayer, {0, 0, 3, 2}, blue);
+            }),
+            kBadArgument);
+  EXPECT_EQ(refusal([&] {
+              session->draw_cells(sim::kBaseLayer, {0, 0, -2, -2}, blue);
+            }),
+            kBadArgument);
+}
+
+TEST(HostCanvas, LayersBelongToTheirSession) {
+  const auto host = Host::create(two_robots());
+  const auto first = host->connect(6665);
+  const auto second = host->connect(6666);
+  const LayerId layer = first->create_layer(LayerKind::kColour, named("map"));
+  const LayerId other = second->create_layer(LayerKind::kGrey, named("map"));
+  EXPECT_NE(layer, other);
+  EXPECT_EQ(first->layers().size(), 2U);
+  EXPECT_EQ(refusal([&] { second->remove_layer(layer); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { second->set_layer_style(layer, named("x")); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { static_cast<void>(second->cells(layer)); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { static_cast<void>(second->cell(layer, 0, 0)); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { second->draw_cells(layer, {}, {}); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { first->create_layer(LayerKind::kColour, named("map")); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { first->remove_layer(sim::kBaseLayer); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] { first->set_layer_style(sim::kBaseLayer, named("x")); }), kNotAvailable);
+  sim::LayerStyle odd = named("odd");
+  odd.transparency = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refusal([&] { first->create_layer(LayerKind::kColour, odd); }), kBadArgument);
+  first->remove_layer(layer);
+  EXPECT_EQ(first->layers().size(), 1U);
+}
+
+TEST(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
+  const auto host = Host::create(two_robots());
+  const auto first = host->connect(6665);
+  const auto second = host->connect(6666);
+  const LayerId theirs = first->create_layer(LayerKind::kColour, named("map"));
+  const LayerId own = second->create_layer(LayerKind::kColour, named("map"));
+  dot(*second, 1, 1, kRed, theirs);
+  dot(*second, 1, 1, kRed, own);
+  dot(*second, 2, 1, kRed, theirs);
+  dot(*second, 1, 1, kRed);
+  second->wait();
+  EXPECT_EQ(at(*first, 1, 1, theirs).a, 0);
+  EXPECT_EQ(at(*first, 2, 1, theirs).a, 0);
+  EXPECT_EQ(at(*second, 1, 1, own), kRed);
+  EXPECT_EQ(at(*first, 1, 1), kRed);
+}
+
+TEST(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
+  for (const bool swapped : {false, true}) {
+    const auto host = Host::create(two_robots());
+    const auto one = host->connect(swapped ? 6666 : 6665);
+    const auto two = host->connect(swapped ? 6665 : 6666);
+    for (const auto& session : {one.get(), two.get()}) {
+      const LayerId layer = session->create_layer(LayerKind::kColour, named("map"));
+      dot(*session, 3, 3, session->port() == 6665 ? kRed : kBlue, layer);
+      session->flush_drawings();
+    }
+    EXPECT_EQ(composed_at(*one, 3, 3), kBlue) << swapped;
+  }
+}
+
+TEST(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) {
+  const auto host = Host::create(two_robots());
+  const auto watcher = host->connect(kMorsePort);
+  {
+    const auto session = host->connect(6665);
+    dot(*session, 3, 3, kRed, session->create_layer(LayerKind::kColour, named("map")));
+  }
+  EXPECT_EQ(composed_at(*watcher, 3, 3), kRed);
+  const auto elsewhere = host->connect(6666);
+  elsewhere->create_layer(LayerKind::kColour, named("map"));
+  EXPECT_EQ(composed_at(*watcher, 3, 3), kRed);
+  const auto session = host->connect(6665);
+  EXPECT_EQ(session->layers().size(), 1U) << "it is nobody's";
+  session->create_layer(LayerKind::kBinary, named("map"));
+  EXPECT_EQ(composed_at(*watcher, 3, 3).a, 0);
+}
+
+TEST(HostCanvas, ResizingIsSeenByAll) {
+  const auto host = Host::create(two_robots());
+  const auto first = host->connect(6665);
+  const auto second = host->connect(6666);
+  const std::uint64_t before = second->canvas_generation();
+  dot(*second, 0, 49, kRed);  // queued while the canvas has 50 rows: bottom left
+  first->resize_canvas(120, 30);
+  EXPECT_NE(second->canvas_generation(), before);
+  EXPECT_EQ(second->canvas_info().width, 120);
+  EXPECT_EQ(second->canvas_info().height, 30);
+  EXPECT_EQ(at(*second, 0, 29), kRed);
+  EXPECT_EQ(refusal([&] { first->resize_canvas(0, 30); }), kBadArgument);
+  EXPECT_EQ(first->canvas_info().width, 120);
+}
+
+TEST(HostCanvas, LockedViewModesStay) {
+  const auto free = Host::create(two_robots())->connect(6665);
+  free->set_view_mode(sim::ViewMode::kMiniMap);
+  EXPECT_EQ(free->view_mode(), sim::ViewMode::kMiniMap);
+  const auto host =
+      Host::create(two_robots(R"(, "view_mode": "full-screen", "lock_view_mode": true)"));
+  const auto locked = host->connect(6665);
+  EXPECT_EQ(refusal([&] { locked->set_view_mode(sim::ViewMode::kGround); }), kNotAvailable);
+  locked->set_view_mode(sim::ViewMode::kFullScreen);
+  EXPECT_EQ(locked->view_mode(), sim::ViewMode::kFullScreen);
+}
+
+TEST(HostCanvas, PicturesStayInsideTheOutputFolder) {
+  const test_support::TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = (folder.path() / "out").string();
+  const auto host = Host::create(two_robots(), settings);
+  const auto session = host->connect(6665);
+  session->save_image("map");
+  session->save_image("large.png", 3);
+  const std::filesystem::path out(settings.output_folder);
+  EXPECT_TRUE(std::filesystem::exists(out / "map.png"));
+  EXPECT_TRUE(std::filesystem::exists(out / "large.png"));
+  for (const char* name : {"", "../map", "/tmp/map.png", "a/b.png", "..", ".", ".hidden.png",
+                           "a\\b.png", "a\nb.png"}) {
+    EXPECT_EQ(refusal([&] { session->save_image(name); }), kBadArgument) << name;
+  }
+  EXPECT_EQ(refusal([&] { session->save_image("map", 0); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { session->save_image("map", 65); }), kBadArgument);
+  std::filesystem::create_symlink(folder.path() / "elsewhere.png", out / "link.png");
+  EXPECT_EQ(refusal([&] { session->save_image("link"); }), kNotAvailable);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "elsewhere.png"));
+  const auto nowhere = Host::create(two_robots());
+  EXPECT_EQ(refusal([&] { nowhere->connect(6665)->save_image("map"); }), kNotAvailable);
+}
+
+TEST(HostCanvas, WorldMapShowsTheArena) {
+  const auto host = Host::create(two_robots());
+  const auto session = host->connect(6665);
+  const sim::OccupancyMap map = session->world_map(0.1);
+  ASSERT_EQ(map.width, 20);
+  ASSERT_EQ(map.height, 10);
+  // The box spans x 1.4 .. 1.6, y 0.4 .. 0.6: columns 14 and 15, rows 4 and 5.
+  EXPECT_EQ(map.at(14, 4), 1.0F);
+  EXPECT_EQ(map.at(15, 5), 1.0F);
+  EXPECT_EQ(map.at(12, 4), 0.0F);
+  for (const double cell_m : {0.0, -1.0, 1e-9, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(refusal([&] { static_cast<void>(session->world_map(cell_m)); }), kBadArgument);
+  }
+}
+
+TEST(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
+  const auto host = Host::create(two_robots());
+  const auto first = host->connect(6665);
+  const auto second = host->connect(6666);
+  second->join();
+  std::atomic<bool> read{false};
+  std::thread other([&] {
+    first->wait();
+    read = true;
+  });
+  // The clock stands, however long this takes: the other thread waits for this one's client.
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_EQ(host->time().steps, 0U);
+    ASSERT_FALSE(read);
+    std::this_thread::yield();
+  }
+  second->wait();
+  other.join();
+  EXPECT_EQ(host->time().steps, 10U);
+}
+
+TEST(HostCanvas, ClosedSessionsRefuseDrawings) {
+  const auto host = Host::create(two_robots());
+  const auto session = host->connect(6665);
+  dot(*session, 1, 1, kRed);
+  session->close();
+  EXPECT_EQ(refusal([&] { dot(*session, 2, 2, kRed); }), SessionError::Code::kDisconnected);
+  EXPECT_EQ(refusal([&] { static_cast<void>(session->layers()); }),
+            SessionError::Code::kDisconnected);
+  EXPECT_EQ(session->canvas_info().width, 100);
+  EXPECT_EQ(at(*host->connect(6665), 1, 1), kRed) << "what was drawn before is there";
+}
+
+// For the thread sanitizer too: threads that draw on one session while its owner reads, another
+// looks, and layers come and go.
+TEST(HostCanvas, ManyThreadsMayUseOneSession) {
+  const auto host = Host::create(two_robots());
+  const auto session = host->connect(6665);
+  const LayerId layer = session->create_layer(LayerKind::kColour, named("shared"));
+  constexpr int kRounds = 20000;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 3; ++t) {
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < kRounds; ++i) dot(*session, i % 100, t, kRed, layer);
+    });
+  }
+  threads.emplace_back([&] {
+    for (int i = 0; i < 50; ++i) {
+      const LayerId mine = session->create_layer(LayerKind::kGrey, named("mine"));
+      static_cast<void>(session->canvas_image());
+      session->resize_canvas(100, 50 + i % 2);
+      static_cast<void>(session->canvas_info());
+      session->remove_layer(mine);
+    }
+    session->resize_canvas(100, 50);
+  });
+  for (int i = 0; i < 20; ++i) session->wait();
+  for (std::thread& thread : threads) thread.join();
+  // Resizing moves what is drawn by whole rows at most; every thread's last row is there.
+  for (int t = 0; t < 3; ++t) dot(*session, 0, t, kBlue, layer);
+  for (int t = 0; t < 3; ++t) EXPECT_EQ(at(*session, 0, t, layer), kBlue);
+}
+
+}  // namespace
+}  // namespace playerlike

@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/outputs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "playerlike/host/results.h"
+#include "sim/canvas/layers.h"
+#include "sim/io/map_file.h"
+#include "sim/render/render.h"
+#include "temporary_folder.h"
+
+namespace playerlike {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+class Outputs : public testing::Test {
+ protected:
+  sim::LayerId add(sim::LayerKind kind, const std::string& name, int owner) {
+    sim::LayerStyle style;
+    style.name = name;
+    return simulation_.layers().add(kind, style, owner);
+  }
+  void write() const { write_outputs(folder_.path(), simulation_, simulation_.snapshot(), {}); }
+  [[nodiscard]] std::vector<std::string> layer_files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_ / "layers")) {
+      names.push_back(entry.path().filename());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  [[nodiscard]] std::string bytes(const std::string& name) const {
+    return read_bytes(folder_.path() / name);
+  }
+
+  TemporaryFolder folder_;
+  sim::Simulation simulation_{sim::load_world_text(R"({
+      "name": "small", "arena": {"size": [1, 1]}, "canvas": {"size": [20, 30], "cell_size": 0.05},
+      "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5, "yaw_deg": 0}}]})")};
+};
+
+TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
+  const sim::LayerId grey = add(sim::LayerKind::kGrey, "occupancy", 6665);
+  const sim::LayerId path = add(sim::LayerKind::kBinary, "path", 6665);
+  const std::vector<sim::CellValue> wall = {sim::CellValue::of(1.0F)};
+  simulation_.layers().set_cells(grey, {.column = 3, .row = 0, .width = 1, .height = 1}, wall);
+  write();
+  EXPECT_THAT(layer_files(), ElementsAre("canvas.png", "occupancy.pgm", "occupancy.png",
+                                         "occupancy.yaml", "path.png"));
+  // 20 x 30 cells: 1200 / 30 = 40 pixels a cell.
+  sim::render::write_png(sim::render::draw_canvas(simulation_.layers().description(),
+                                                  simulation_.layers().picture(path), 40),
+                         folder_ / "expected.png");
+  EXPECT_TRUE(bytes("layers/path.png") == bytes("expected.png"));
+  const sim::OccupancyMap map = sim::io::read_map(folder_ / "layers/occupancy.yaml");
+  EXPECT_EQ(map.width, 20);
+  EXPECT_EQ(map.height, 30);
+  EXPECT_DOUBLE_EQ(map.cell_size_m, 0.05);
+  EXPECT_GT(map.at(3, 0), 0.95F);
+  EXPECT_NEAR(map.at(4, 0), 0.5, 0.01);  // unknown, in shades of a byte
+}
+
+TEST_F(Outputs, NamesOfLayersAreMadeSafeAndToldApart) {
+  add(sim::LayerKind::kBinary, "../../etc/x", 6665);
+  add(sim::LayerKind::kBinary, "path", 6665);
+  add(sim::LayerKind::kBinary, "Path", 6666);    // the same where case does not count
+  add(sim::LayerKind::kBinary, "canvas", 6666);  // the base is called that
+  add(sim::LayerKind::kBinary, "a b", 6665);
+  add(sim::LayerKind::kBinary, "a.b", 6665);  // and of the same port
+  write();
+  EXPECT_THAT(layer_files(),
+              ElementsAre("Path_6666.png", "______etc_x.png", "a_b_6665.png", "a_b_6665_2.png",
+                          "canvas.png", "canvas_6666.png", "path_6665.png"));
+}
+
+TEST_F(Outputs, EqualRunsGiveEqualBytesAndLayersThatAreGoneLeaveNoFile) {
+  const sim::LayerId grey = add(sim::LayerKind::kGrey, "occupancy", 6665);
+  write();
+  std::vector<std::string> first;
+  const std::vector<std::string> names = layer_files();
+  for (const std::string& name : names) first.push_back(bytes("layers/" + name));
+  write();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_TRUE(bytes("layers/" + names[i]) == first[i]) << names[i];
+  }
+  simulation_.layers().remove(grey);
+  write();
+  EXPECT_THAT(layer_files(), ElementsAre("canvas.png"));
+}
+
+TEST_F(Outputs, ScenePictureShowsTheGroundUnlessTheModeIsMiniMap) {
+  simulation_.canvas().draw_line(0, 0, 19, 29, {255, 0, 0, 255});
+  write();
+  const std::string ground = bytes("scene.png");
+  ASSERT_FALSE(simulation_.set_view_mode(sim::ViewMode::kFullScreen));
+  write();
+  EXPECT_TRUE(bytes("scene.png") == ground);
+  ASSERT_FALSE(simulation_.set_view_mode(sim::ViewMode::kMiniMap));
+  write();
+  EXPECT_FALSE(bytes("scene.png") == ground);
+}
+
+TEST_F(Outputs, RemovingResultsLeavesOtherFiles) {
+  add(sim::LayerKind::kGrey, "occupancy", 6665);
+  write();
+  folder_.write("snapshots/scene_000001.000s.png", "old");
+  folder_.write("notes.txt", "mine");
+  folder_.write("layers/notes.txt", "mine");
+  remove_results(folder_.path());
+  std::vector<std::string> left;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
+    if (entry.is_regular_file()) left.push_back(fs::relative(entry.path(), folder_.path()));
+  }
+  std::sort(left.begin(), left.end());
+  EXPECT_THAT(left, ElementsAre("layers/notes.txt", "notes.txt"));
+  EXPECT_FALSE(fs::exists(folder_ / "snapshots"));
+  remove_results(folder_ / "none");  // nothing to do
+}
+
+}  // namespace
+}  // namespace playerlike

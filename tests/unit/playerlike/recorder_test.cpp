@@ -1,0 +1,182 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/recorder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/core/time.h"
+#include "sim/render/render.h"
+#include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
+
+namespace playerlike {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::ThrowsMessage;
+
+sim::WorldDescription small_world(double step_s = 0.01) {
+  sim::WorldDescription world = sim::load_world_text(R"({
+    "name": "small", "arena": {"size": [1, 1]}, "canvas": {"size": [20, 20]},
+    "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5, "yaw_deg": 0}}]})");
+  world.simulation.step_ns = sim::from_seconds(step_s);
+  return world;
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  if (!fs::is_directory(folder)) return names;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Case {
+  double duration_s;
+  double fps;
+  double speed;
+  double step_s;
+  std::size_t frames;
+};
+
+TEST(Recorder, FilmHasAFrameForEveryPeriodAndOneForTheStart) {
+  // floor(duration * fps / speed) + 1 each.
+  for (const Case& c : std::vector<Case>{
+           {0.4, 25.0, 1.0, 0.01, 11},   // 10 + 1
+           {0.39, 25.0, 1.0, 0.01, 10},  // 9.75
+           {0.5, 30.0, 1.0, 0.01, 16},   // 15 + 1; periods of 33.3 ms lie between steps
+           {2.0, 25.0, 10.0, 0.01, 6},   // 5 + 1
+           {0.1, 25.0, 0.3, 0.01, 9},    // 8.33
+           {0.12, 25.0, 0.3, 0.01, 11},  // 10 + 1: 0.12 * 25 / 0.3 is 10, though not in doubles
+           {0.2, 100.0, 1.0, 0.05, 21},  // 20 + 1: five frames a step
+           {0.0, 25.0, 1.0, 0.01, 1},    // the start
+       }) {
+    const TemporaryFolder folder;
+    RunSettings settings;
+    settings.film = folder / "film";
+    settings.film_fps = c.fps;
+    settings.film_speed = c.speed;
+    sim::Simulation simulation(small_world(c.step_s));
+    Recorder recorder(settings, simulation);
+    while (sim::to_seconds(simulation.now_ns()) < c.duration_s - 1e-9) {
+      simulation.step();
+      recorder.observe(simulation);
+    }
+    recorder.close();
+    EXPECT_EQ(files_in(folder / "film").size(), c.frames)
+        << c.duration_s << " s, " << c.fps << " fps, speed " << c.speed;
+  }
+}
+
+TEST(Recorder, FrameShowsTheSceneOfItsTime) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.film = folder / "film";
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  std::string expected;
+  for (int step = 1; step <= 12; ++step) {
+    simulation.canvas().set_pixel(step, step, {255, 0, 0, 255});
+    simulation.step();
+    recorder.observe(simulation);
+    if (step == 8) {  // 0.08 s = 2 / 25 s: frame 3, as the first one is that of the start
+      const sim::render::Image image =
+          sim::render::draw_view(recorder.scene(simulation), {.size_px = 800});
+      sim::render::write_png(image, folder / "expected.png", sim::render::PngEffort::kQuick);
+      expected = read_bytes(folder / "expected.png");
+    }
+  }
+  recorder.close();
+  EXPECT_TRUE(read_bytes(folder / "film/frame_000003.png") == expected);
+  EXPECT_FALSE(read_bytes(folder / "film/frame_000002.png") == expected);
+}
+
+TEST(Recorder, SnapshotsAreNamedByTheirTimesAndThoseOfEarlierRunsGo) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path();
+  settings.snapshot_period_s = 0.1;
+  folder.write("snapshots/scene_000009.000s.png", "old");
+  folder.write("snapshots/mine.png", "kept");
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  for (int step = 0; step < 25; ++step) {
+    simulation.step();
+    recorder.observe(simulation);
+  }
+  recorder.close();
+  EXPECT_THAT(files_in(folder / "snapshots"),
+              ElementsAre("mine.png", "scene_000000.000s.png", "scene_000000.100s.png",
+                          "scene_000000.200s.png"));
+}
+
+TEST(Recorder, SnapshotsShowTheViewModeOfTheirTime) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path();
+  settings.snapshot_period_s = 0.01;
+  sim::Simulation simulation(small_world());
+  simulation.canvas().set_pixel(3, 3, {255, 0, 0, 255});
+  Recorder recorder(settings, simulation);
+  ASSERT_FALSE(simulation.set_view_mode(sim::ViewMode::kFullScreen));
+  simulation.step();
+  recorder.observe(simulation);
+  const sim::render::Image image =
+      sim::render::draw_view(recorder.scene(simulation), {.size_px = 1200});
+  recorder.close();
+  sim::render::write_png(image, folder / "expected.png");
+  EXPECT_TRUE(read_bytes(folder / "snapshots/scene_000000.010s.png") ==
+              read_bytes(folder / "expected.png"));
+}
+
+TEST(Recorder, WithoutAPeriodThereAreNoSnapshots) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path();
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  recorder.close();
+  EXPECT_THAT(files_in(folder.path()), ElementsAre("trajectory.csv"));
+}
+
+TEST(Recorder, AFailureIsToldAtTheEndAndDoesNotStopTheRun) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.film = folder / "film";
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  fs::remove_all(folder / "film");
+  // The thread may have written frames before the folder went; it can't make any afterwards.
+  for (int step = 0; step < 200; ++step) {
+    simulation.step();
+    recorder.observe(simulation);
+  }
+  EXPECT_THAT([&] { recorder.close(); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("film/frame_0")));
+  recorder.close();  // nothing is left to tell
+}
+
+TEST(Recorder, AFilmThatCannotBeMadeIsAnErrorAtOnce) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.film = folder / "none/film.mp4";
+  const sim::Simulation simulation(small_world());
+  EXPECT_THAT([&] { Recorder(settings, simulation); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("none/film.mp4")));
+}
+
+}  // namespace
+}  // namespace playerlike

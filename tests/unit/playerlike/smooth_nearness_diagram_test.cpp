@@ -1,0 +1,241 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "drivers/smooth_nearness_diagram.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace playerlike {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+using sim::Pose;
+using sim::Vec2;
+
+using Segment = std::pair<Vec2, Vec2>;
+
+std::vector<Segment> box(double x_min, double y_min, double x_max, double y_max) {
+  const Vec2 a(x_min, y_min);
+  const Vec2 b(x_max, y_min);
+  const Vec2 c(x_max, y_max);
+  const Vec2 d(x_min, y_max);
+  return {{a, b}, {b, c}, {c, d}, {d, a}};
+}
+
+// A scan of 270 beams over 270 degrees, from 3.5 cm before the axle, as an S1R's.
+SndScan scan_at(const Pose& X_WB, const std::vector<Segment>& walls) {
+  SndScan scan;
+  scan.X_BL = {0.035, 0.0, 0.0};
+  scan.range_max_m = 5.0;
+  scan.resolution_rad = kPi / 180.0;
+  scan.angle_min_rad = -134.5 * scan.resolution_rad;
+  const Pose X_WL = X_WB * scan.X_BL;
+  for (int i = 0; i < 270; ++i) {
+    const double angle_rad = X_WL.yaw_rad + scan.angle_min_rad + i * scan.resolution_rad;
+    const Vec2 u(std::cos(angle_rad), std::sin(angle_rad));
+    double range_m = scan.range_max_m;
+    for (const auto& [a, b] : walls) {
+      // p + r u = a + s (b - a), solved by Cramer's rule.
+      const Vec2 e = b - a;
+      const Vec2 d = a - X_WL.position();
+      const double det = e.x() * u.y() - e.y() * u.x();
+      if (std::abs(det) < 1e-12) continue;
+      const double r = (e.x() * d.y() - e.y() * d.x()) / det;
+      const double s = (u.x() * d.y() - u.y() * d.x()) / det;
+      if (r >= 0.0 && s >= 0.0 && s <= 1.0) range_m = std::min(range_m, r);
+    }
+    scan.ranges_m.push_back(range_m);
+  }
+  return scan;
+}
+
+double distance_to(const Segment& wall, const Vec2& p) {
+  const Vec2 e = wall.second - wall.first;
+  const double s = std::clamp((p - wall.first).dot(e) / e.squaredNorm(), 0.0, 1.0);
+  return (wall.first + s * e - p).norm();
+}
+
+// Drives an ideal robot until the state is no longer kMoving.
+struct Drive {
+  Pose X_WB;
+  double time_s = 0.0;
+  double least_m = std::numeric_limits<double>::infinity();  // to a wall, from the middle
+  double turned_rad = 0.0;                                   // all turning, both ways
+  double fastest_mps = 0.0;
+
+  void run(SmoothNearnessDiagram& navigation, const std::vector<Segment>& walls, double limit_s) {
+    while (navigation.state() == SndState::kMoving && time_s < limit_s) {
+      time_s += 0.1;
+      const sim::Twist twist = navigation.step(time_s, X_WB, scan_at(X_WB, walls));
+      fastest_mps = std::max(fastest_mps, twist.v_mps);
+      turned_rad += std::abs(twist.omega_radps) * 0.1;
+      for (int i = 0; i < 10; ++i) {
+        X_WB = X_WB * Pose{twist.v_mps * 0.01, 0.0, twist.omega_radps * 0.01};
+        for (const Segment& wall : walls) {
+          least_m = std::min(least_m, distance_to(wall, X_WB.position()));
+        }
+      }
+    }
+  }
+};
+
+TEST(SmoothNearnessDiagram, WithoutAGoalStandsStill) {
+  SmoothNearnessDiagram navigation({});
+  EXPECT_EQ(navigation.state(), SndState::kIdle);
+  const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
+  EXPECT_EQ(twist.v_mps, 0.0);
+  EXPECT_EQ(twist.omega_radps, 0.0);
+}
+
+TEST(SmoothNearnessDiagram, InTheOpenDrivesStraightAtFullSpeed) {
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{2.0, 0.0}, {}});
+  const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
+  EXPECT_DOUBLE_EQ(twist.v_mps, 0.3);
+  EXPECT_EQ(twist.omega_radps, 0.0);
+  Drive drive;
+  drive.run(navigation, {}, 30.0);
+  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_LE((drive.X_WB.position() - Vec2(2.0, 0.0)).norm(), 0.05);
+  // 1.95 m at 0.3 m/s take 6.5 s, and the slow end not a second more than that again.
+  EXPECT_LT(drive.time_s, 8.0);
+}
+
+TEST(SmoothNearnessDiagram, TurnsOnTheSpotToAGoalBehind) {
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{-1.0, 0.1}, {}});
+  const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
+  EXPECT_EQ(twist.v_mps, 0.0);
+  EXPECT_DOUBLE_EQ(twist.omega_radps, 1.5);  // the shorter way round, to the left
+}
+
+TEST(SmoothNearnessDiagram, TurnsToTheGoalsHeadingWhenThere) {
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{1.0, 0.5}, -2.0});
+  Drive drive;
+  drive.run(navigation, {}, 30.0);
+  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_NEAR(drive.X_WB.yaw_rad, -2.0, 0.1);
+}
+
+TEST(SmoothNearnessDiagram, DeflectsFromAWallBesideItAndSlowsDown) {
+  // A wall along the way, 0.15 m to the left of the middle: within 0.1 + 0.15.
+  const std::vector<Segment> wall{{{-3.0, 0.15}, {5.0, 0.15}}};
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{2.0, 0.0}, {}});
+  const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, wall));
+  EXPECT_LT(twist.omega_radps, 0.0);
+  // The greatest threat is (0.1 + 0.15 - 0.15) / 0.15 = 2/3, which leaves a third of the speed, if
+  // nothing is to be turned; the beam that meets the wall squarely is no more than half a degree
+  // off.
+  EXPECT_LT(twist.v_mps, 0.1 + 0.001);
+  EXPECT_GT(twist.v_mps, 0.0);
+}
+
+TEST(SmoothNearnessDiagram, MirrorImagesGiveMirroredTwists) {
+  const std::vector<Segment> left = box(0.5, -0.05, 0.8, 0.4);
+  const std::vector<Segment> right = box(0.5, -0.4, 0.8, 0.05);
+  SmoothNearnessDiagram one({});
+  SmoothNearnessDiagram other({});
+  one.start({{1.5, 0.0}, {}});
+  other.start({{1.5, 0.0}, {}});
+  const sim::Twist a = one.step(0.1, {}, scan_at({}, left));
+  const sim::Twist b = other.step(0.1, {}, scan_at({}, right));
+  EXPECT_LT(a.omega_radps, 0.0);  // round the nearer end, to the right
+  // The sectors are not quite symmetric: each covers its lower bound only. A sector is 0.017 rad.
+  EXPECT_NEAR(a.omega_radps, -b.omega_radps, 3.0 * 0.018);
+  EXPECT_NEAR(a.v_mps, b.v_mps, 0.3 * 0.018);
+}
+
+TEST(SmoothNearnessDiagram, GoesRoundABlockWithoutTouchingIt) {
+  const std::vector<Segment> block = box(0.9, -0.3, 1.1, 0.2);
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{2.0, 0.0}, {}});
+  Drive drive;
+  drive.run(navigation, block, 60.0);
+  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_GT(drive.least_m, 0.1);
+  // "Smooth": it turns out, round and in again by some 40 degrees each, not to and fro.
+  EXPECT_LT(drive.turned_rad, kPi);
+}
+
+TEST(SmoothNearnessDiagram, PassesADoorThatIsWideEnough) {
+  // 0.3 m wide; the disc has 0.2.
+  const std::vector<Segment> walls{{{1.0, -3.0}, {1.0, 0.2}}, {{1.0, 0.5}, {1.0, 3.0}}};
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{2.0, 0.0}, {}});
+  Drive drive;
+  drive.run(navigation, walls, 60.0);
+  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_GT(drive.least_m, 0.1);
+}
+
+TEST(SmoothNearnessDiagram, DoesNotTryADoorThatIsTooNarrow) {
+  // 0.18 m wide, in a room otherwise closed.
+  std::vector<Segment> walls = box(-1.0, -1.0, 3.0, 1.0);
+  walls.push_back({{1.0, -1.0}, {1.0, -0.09}});
+  walls.push_back({{1.0, 0.09}, {1.0, 1.0}});
+  SndSettings settings;
+  settings.patience_s = 5.0;
+  SmoothNearnessDiagram navigation(settings);
+  navigation.start({{2.0, 0.0}, {}});
+  Drive drive;
+  drive.run(navigation, walls, 60.0);
+  EXPECT_EQ(navigation.state(), SndState::kBlocked);
+  EXPECT_GT(drive.least_m, 0.09);
+}
+
+TEST(SmoothNearnessDiagram, GivesUpInAClosedRoomWhenItsPatienceIsOver) {
+  const std::vector<Segment> room = box(-0.5, -0.5, 0.5, 0.5);
+  SndSettings settings;
+  settings.patience_s = 3.0;
+  SmoothNearnessDiagram navigation(settings);
+  navigation.start({{2.0, 0.0}, {}});
+  Drive drive;
+  drive.run(navigation, room, 60.0);
+  EXPECT_EQ(navigation.state(), SndState::kBlocked);
+  // A metre at most at 0.3 m/s and slower, then 3 s.
+  EXPECT_LT(drive.time_s, 15.0);
+  EXPECT_GT(drive.least_m, 0.1);
+  const sim::Twist twist = navigation.step(drive.time_s + 0.1, drive.X_WB, scan_at({}, room));
+  EXPECT_EQ(twist.v_mps, 0.0);
+  EXPECT_EQ(twist.omega_radps, 0.0);
+}
+
+TEST(SmoothNearnessDiagram, ReachesAGoalCloseToAWall) {
+  // 0.148 m from the middle to the wall behind the goal: 5 cm between body and wall.
+  const std::vector<Segment> wall{{{1.0, -3.0}, {1.0, 3.0}}};
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{1.0 - 0.148, 0.3}, {}});
+  Drive drive;
+  drive.run(navigation, wall, 60.0);
+  EXPECT_EQ(navigation.state(), SndState::kReached);
+  EXPECT_GT(drive.least_m, 0.1);
+}
+
+TEST(SmoothNearnessDiagram, CancelledIsIdle) {
+  SmoothNearnessDiagram navigation({});
+  navigation.start({{2.0, 0.0}, {}});
+  navigation.cancel();
+  EXPECT_EQ(navigation.state(), SndState::kIdle);
+  EXPECT_EQ(navigation.step(0.1, {}, scan_at({}, {})).v_mps, 0.0);
+}
+
+TEST(SndSettings, FaultsAreNamedWithTheirRange) {
+  EXPECT_EQ(fault_of({}), "");
+  for (const SndSettingRow& row : snd_setting_table()) {
+    for (const double bad : {0.0, -1.0, 1e9, std::nan("")}) {
+      SndSettings settings;
+      settings.*row.value = bad;
+      EXPECT_NE(fault_of(settings).find(row.key), std::string::npos) << row.key << " = " << bad;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace playerlike

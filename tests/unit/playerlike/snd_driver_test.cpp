@@ -1,0 +1,461 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// SndDriver and the world's drivers table, over a host in this process.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fake_session.h"
+#include "libCCMorse/CCMorse.h"
+#include "playerlike/host/host.h"
+#include "sim/core/error.h"
+
+namespace {
+
+using CCMorse::PlayerClient;
+using CCMorse::PlayerError;
+using CCMorse::Position2dProxy;
+using CCMorse::SndDriver;
+using CCMorse::SndSettings;
+using playerlike::Host;
+using test::error_code_of;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// A room with a block between the robot, which looks along x, and the far side; drivers as given.
+std::string room(const std::string& drivers, const std::string& simulation = "{}") {
+  return R"({"simulation": )" + simulation + R"(,
+    "arena": {"size": [4, 3], "obstacles": [{"center": [2, 1.4], "size": [0.3, 0.3]}]},
+    "robots": [{"name": "r1", "pose": {"x": 0.8, "y": 1.5}, "drivers": )" +
+         drivers + "}]}";
+}
+
+struct SndDriverTest : testing::Test {
+  std::shared_ptr<Host> start(const std::string& text) {
+    return host = Host::create(sim::load_world_text(text), {},
+                               [this](sim::LogLevel, std::string_view line) {
+                                 const std::lock_guard lock(log_mutex);
+                                 log += std::string(line) + '\n';
+                               });
+  }
+  // Nothing may be said: no thread was silent, nothing was refused.
+  void TearDown() override { EXPECT_EQ(log, ""); }
+
+  std::shared_ptr<Host> host;
+  std::mutex log_mutex;
+  std::string log;
+};
+
+TEST_F(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy position(&client, 0);
+  SndDriver driver(&client);
+  EXPECT_EQ(driver.GetStatus(), SndDriver::IDLE);
+  driver.SetGoal(3.2, 1.5, std::numbers::pi / 2.0);
+  EXPECT_EQ(driver.GetStatus(), SndDriver::MOVING);
+  EXPECT_EQ(driver.WaitForGoal(), SndDriver::REACHED);
+  EXPECT_LE(std::hypot(position.GetXPos() - 3.2, position.GetYPos() - 1.5), 0.05);
+  EXPECT_NEAR(position.GetYaw(), std::numbers::pi / 2.0, 0.1);
+  client.Read();
+  EXPECT_EQ(position.GetXSpeed(), 0.0);
+  EXPECT_EQ(position.GetYawSpeed(), 0.0);
+  EXPECT_EQ(host->statistics(0).collisions, 0);
+  EXPECT_GT(host->statistics(0).least_clearance_m, 0.0);
+}
+
+TEST_F(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy position(&client, 0);
+  SndSettings settings;
+  settings.patience = 4.0;
+  SndDriver driver(&client, 0, 0, settings);
+  driver.SetGoal(2.0, 1.4);
+  // About 1.2 m at 0.3 m/s, and the patience.
+  EXPECT_EQ(driver.WaitForGoal(30.0), SndDriver::BLOCKED);
+  client.Read();
+  EXPECT_EQ(position.GetXSpeed(), 0.0);
+  EXPECT_EQ(position.GetYawSpeed(), 0.0);
+  EXPECT_EQ(host->statistics(0).collisions, 0);
+}
+
+TEST_F(SndDriverTest, CancelStopsTheRobotAndIsIdle) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy position(&client, 0);
+  SndDriver driver(&client);
+  driver.SetGoal(3.2, 1.5);
+  EXPECT_EQ(driver.WaitForGoal(1.0), SndDriver::MOVING);
+  EXPECT_GT(position.GetXSpeed(), 0.0);
+  driver.Cancel();
+  EXPECT_EQ(driver.GetStatus(), SndDriver::IDLE);
+  client.Read();
+  EXPECT_EQ(position.GetXSpeed(), 0.0);
+  for (int i = 0; i < 5; ++i) client.Read();
+  EXPECT_EQ(position.GetXSpeed(), 0.0);
+  EXPECT_EQ(driver.WaitForGoal(), SndDriver::IDLE);
+}
+
+TEST_F(SndDriverTest, NewGoalReplacesTheOldOne) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy position(&client, 0);
+  SndDriver driver(&client);
+  driver.SetGoal(3.2, 1.5);
+  EXPECT_EQ(driver.WaitForGoal(1.0), SndDriver::MOVING);
+  driver.SetGoal(0.5, 0.5);
+  EXPECT_EQ(driver.WaitForGoal(), SndDriver::REACHED);
+  EXPECT_LE(std::hypot(position.GetXPos() - 0.5, position.GetYPos() - 0.5), 0.05);
+}
+
+TEST_F(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  SndDriver driver(&client);
+  EXPECT_EQ(error_code_of([&] { driver.SetRobotRadius(0.0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { driver.SetSafetyDistance(-1.0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { driver.SetSpeedLimits(11.0, 1.0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { driver.SetSpeedLimits(0.2, std::nan("")); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { driver.SetGoalTolerances(0.1, 4.0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { driver.SetPatience(std::numeric_limits<double>::infinity()); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { driver.SetGoal(std::nan(""), 0.0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { SndDriver other(nullptr); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { SndDriver other(&client, 5); }), PlayerError::kNoSuchDevice);
+  EXPECT_EQ(error_code_of([&] { SndDriver other(&client, 0, 1); }), PlayerError::kNoSuchDevice);
+  try {
+    driver.SetGoalTolerances(20.0, 0.1);
+    FAIL();
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorFun(), "SndDriver::SetSettings");
+    EXPECT_THAT(e.GetErrorStr(), AllOf(HasSubstr("goal_distance"), HasSubstr("at most 10 m"),
+                                       HasSubstr("but is 20")));
+  }
+  driver.SetGoalTolerances(0.2, 0.3);
+  driver.SetSpeedLimits(0.1, 0.5);
+  EXPECT_EQ(driver.GetSettings().goal_distance, 0.2);
+  EXPECT_EQ(driver.GetSettings().goal_angle, 0.3);
+  EXPECT_EQ(driver.GetSettings().max_speed, 0.1);
+  EXPECT_EQ(driver.GetSettings().max_turn_rate, 0.5);
+  EXPECT_EQ(driver.GetSettings().robot_radius, 0.1);
+}
+
+TEST_F(SndDriverTest, KeepsItsSpeedLimit) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy position(&client, 0);
+  SndDriver driver(&client);
+  driver.SetSpeedLimits(0.1, 1.0);
+  driver.SetGoal(1.5, 2.5);
+  double fastest = 0.0;
+  double sharpest = 0.0;
+  while (driver.GetStatus() == SndDriver::MOVING) {
+    client.Read();
+    fastest = std::max(fastest, position.GetXSpeed());
+    sharpest = std::max(sharpest, std::abs(position.GetYawSpeed()));
+  }
+  EXPECT_EQ(driver.GetStatus(), SndDriver::REACHED);
+  // In the open it drives as fast as it may, and no faster.
+  EXPECT_NEAR(fastest, 0.1, 1e-9);
+  EXPECT_LE(sharpest, 1.0 + 1e-9);
+}
+
+TEST_F(SndDriverTest, ARobotWithoutMotorsIsRefused) {
+  start(R"({"robots": [{"devices": {"motion": null}}]})");
+  PlayerClient client(host->connect(6665));
+  EXPECT_EQ(error_code_of([&] { SndDriver driver(&client); }), PlayerError::kNotAvailable);
+}
+
+TEST_F(SndDriverTest, EndsAtOnceWithoutTimeGoingOn) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy position(&client, 0);
+  client.Read();
+  for (int i = 0; i < 20; ++i) {
+    const auto before_ns = host->time().sim_time_ns;
+    {
+      SndDriver driver(&client);
+      driver.SetGoal(3.2, 1.5);
+    }
+    EXPECT_EQ(host->time().sim_time_ns, before_ns);
+  }
+  {
+    SndDriver driver(&client);
+    driver.SetGoal(3.2, 1.5);
+    EXPECT_EQ(driver.WaitForGoal(1.0), SndDriver::MOVING);
+    EXPECT_GT(position.GetXSpeed(), 0.0);
+  }
+  client.Read();
+  EXPECT_EQ(position.GetXSpeed(), 0.0);  // stopped by its end
+}
+
+TEST_F(SndDriverTest, AloneLetsNoTimePass) {
+  start(room("[]"));
+  PlayerClient client(host->connect(6665));
+  SndDriver driver(&client);
+  driver.SetGoal(3.2, 1.5);
+  // Nobody has read yet: the driver's thread waits, and time with it. Were it not so, a goal
+  // given before the first Read() would count from some moment or other.
+  std::this_thread::yield();
+  EXPECT_EQ(host->time().sim_time_ns, 0);
+  client.Read();
+  // The empty round of a client without proxies lasts a tenth of a second.
+  EXPECT_EQ(host->time().sim_time_ns, 100'000'000);
+}
+
+TEST_F(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
+  start(room("[]", R"({"clients": 2})"));
+  PlayerClient client(host->connect(6665));
+  SndDriver driver(&client);
+  driver.SetGoal(3.2, 1.5);
+  std::promise<void> read;
+  std::thread reader([&] {
+    client.Read();
+    read.set_value();
+  });
+  PlayerClient other(host->connect(6665));
+  // With the driver counted the gate would be open now, with one program.
+  EXPECT_EQ(host->time().sim_time_ns, 0);
+  other.Read();
+  read.get_future().wait();
+  reader.join();
+  EXPECT_EQ(host->time().sim_time_ns, 100'000'000);
+}
+
+TEST_F(SndDriverTest, EndOfTheRunEndsWaiting) {
+  start(room("[]", R"({"duration": 1})"));
+  PlayerClient client(host->connect(6665));
+  SndDriver driver(&client);
+  driver.SetGoal(3.2, 1.5);
+  EXPECT_EQ(error_code_of([&] { driver.WaitForGoal(); }), PlayerError::kRunIsOver);
+}
+
+TEST_F(SndDriverTest, OutlivesItsClientWithoutHarm) {
+  start(room("[]"));
+  auto client = std::make_unique<PlayerClient>(host->connect(6665));
+  SndDriver driver(client.get());
+  driver.SetGoal(3.2, 1.5);
+  client->Read();
+  client.reset();
+  EXPECT_EQ(error_code_of([&] { driver.SetGoal(1.0, 1.0); }), PlayerError::kDisconnected);
+  EXPECT_EQ(error_code_of([&] { driver.GetStatus(); }), PlayerError::kDisconnected);
+}
+
+// A program of two threads: one drives the first robot by goals that it chooses after what the
+// other has measured meanwhile; both read clients of their own.
+std::string two_threads_run() {
+  const auto host = Host::create(sim::load_world_text(R"({
+    "simulation": {"clients": 2, "seed": 5},
+    "arena": {"size": [4, 3], "obstacles": [{"center": [2, 1.4], "size": [0.3, 0.3]}]},
+    "robots": [{"name": "r1", "pose": {"x": 0.8, "y": 1.5},
+                "devices": {"laser": {"noise": 0.01}}},
+               {"name": "r2", "pose": {"x": 3.2, "y": 0.6, "yaw_deg": 180}}]})"));
+  std::ostringstream trace;
+  trace.precision(17);
+  std::atomic<bool> done{false};
+  std::thread other([&] {
+    PlayerClient client(host->connect(6666));
+    Position2dProxy position(&client, 0);
+    SndDriver driver(&client);
+    for (int i = 0; !done; ++i) {
+      driver.SetGoal(i % 2 == 0 ? 0.6 : 3.2, 0.6);
+      for (int k = 0; k < 37 && !done; ++k) client.Read();
+    }
+  });
+  {
+    PlayerClient client(host->connect(6665));
+    Position2dProxy position(&client, 0);
+    SndDriver driver(&client);
+    for (int i = 0; i < 8; ++i) {
+      driver.SetGoal(i % 2 == 0 ? 3.2 : 0.8, 1.0 + 0.1 * i);
+      for (int k = 0; k < 23; ++k) {
+        client.Read();
+        trace << position.GetXPos() << ' ' << position.GetYPos() << ' ' << position.GetYaw() << ' '
+              << driver.GetStatus() << '\n';
+      }
+      if (i == 3) driver.Cancel();
+    }
+    trace << std::hex << host->state_hash() << '\n';
+    done = true;
+  }
+  other.join();
+  return trace.str();
+}
+
+TEST_F(SndDriverTest, ProgramsOfSeveralThreadsRunTheSameEveryTime) {
+  const std::string first = two_threads_run();
+  EXPECT_THAT(first, HasSubstr(" 1\n"));  // something was on its way
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(two_threads_run(), first) << "run " << i + 2;
+}
+
+// --- The world's drivers table
+
+TEST_F(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
+  start(room(R"([{"type": "snd", "max_speed": 0.25}])"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy plain(&client, 0);
+  // Index 0 is the pose, 1 the odometry, so 2 is free.
+  Position2dProxy snd(&client, 2);
+  EXPECT_EQ(snd.GetDriverName(), "snd");
+  snd.GoTo(3.2, 1.5, 0.0);
+  double fastest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    client.Read();
+    EXPECT_TRUE(snd.IsFresh());
+    EXPECT_EQ(snd.GetXPos(), plain.GetXPos());
+    fastest = std::max(fastest, snd.GetXSpeed());
+  }
+  EXPECT_LE(std::hypot(snd.GetXPos() - 3.2, snd.GetYPos() - 1.5), 0.05);
+  EXPECT_NEAR(snd.GetYaw(), 0.0, 0.1);
+  EXPECT_EQ(snd.GetXSpeed(), 0.0);
+  EXPECT_LE(fastest, 0.25 + 1e-9);
+  EXPECT_EQ(host->statistics(0).collisions, 0);
+}
+
+TEST_F(SndDriverTest, GoToTakesSpeedsOfItsOwn) {
+  start(room(R"([{"type": "snd"}])"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy snd(&client, 2);
+  snd.GoTo({1.6, 2.5, 0.0}, {0.1, 0.0, 0.0});
+  double fastest = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    client.Read();
+    fastest = std::max(fastest, snd.GetXSpeed());
+  }
+  EXPECT_NEAR(fastest, 0.1, 1e-9);
+}
+
+TEST_F(SndDriverTest, OtherCommandsGoStraightToTheMotorsAndDropTheGoal) {
+  start(room(R"([{"type": "snd", "index": 7}])"));
+  PlayerClient client(host->connect(6665));
+  Position2dProxy snd(&client, 7);
+  snd.GoTo(3.2, 1.5, 0.0);
+  for (int i = 0; i < 10; ++i) client.Read();
+  EXPECT_GT(snd.GetXSpeed(), 0.0);
+  snd.SetSpeed(-0.05, 0.4);
+  for (int i = 0; i < 5; ++i) {
+    client.Read();
+    EXPECT_DOUBLE_EQ(snd.GetXSpeed(), -0.05);
+    EXPECT_DOUBLE_EQ(snd.GetYawSpeed(), 0.4);
+  }
+  snd.GoTo(3.2, 1.5, 0.0);
+  for (int i = 0; i < 10; ++i) client.Read();
+  snd.SetMotorEnable(false);
+  snd.SetMotorEnable(true);
+  for (int i = 0; i < 5; ++i) {
+    client.Read();
+    EXPECT_EQ(snd.GetXSpeed(), 0.0);
+    EXPECT_EQ(snd.GetYawSpeed(), 0.0);
+  }
+}
+
+TEST_F(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
+  start(room(R"([{"type": "snd"}])"));
+  PlayerClient client(host->connect(6665));
+  PlayerClient second(host->connect(6665));
+  auto a = std::make_unique<Position2dProxy>(&client, 2);
+  Position2dProxy b(&second, 2);
+  a->GoTo(3.2, 1.5, 0.0);
+  a.reset();  // the driver lives on with b
+  for (int i = 0; i < 10; ++i) {
+    client.Read();
+    second.Read();
+  }
+  EXPECT_GT(b.GetXSpeed(), 0.0);
+  b.SetSpeed(0.0, 0.0);  // and it is the same one: this drops the goal
+  for (int i = 0; i < 5; ++i) second.Read();
+  EXPECT_EQ(b.GetXSpeed(), 0.0);
+}
+
+TEST_F(SndDriverTest, ListsAndMessagesNameTheDriversAddress) {
+  start(room(R"([{"type": "snd"}, {"type": "snd", "index": 5}])"));
+  PlayerClient client(host->connect(6665));
+  std::ostringstream out;
+  out << client;
+  EXPECT_THAT(out.str(),
+              AllOf(HasSubstr("position2d\t2\tr1\tsnd"), HasSubstr("position2d\t5\tr1\tsnd")));
+  try {
+    Position2dProxy nothing(&client, 3);
+    FAIL();
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorCode(), PlayerError::kNoSuchDevice);
+    EXPECT_THAT(e.GetErrorStr(),
+                AllOf(HasSubstr("position2d:2 (r1.snd)"), HasSubstr("position2d:5 (r1.snd)")));
+  }
+}
+
+// What the world's author is told.
+std::string fault(const std::string& drivers, const std::string& devices = "{}") {
+  try {
+    playerlike::check_drivers(sim::load_world_text(
+        R"({"robots": [{}, {"devices": )" + devices + R"(, "drivers": )" + drivers + "}]}",
+        "w.json"));
+  } catch (const sim::ConfigError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(SndDriversTable, SettingsAreCheckedWhenTheWorldIsOpened) {
+  EXPECT_EQ(fault(R"([{"type": "snd", "robot_radius": 0.2, "safety_distance": 0.3,
+                       "max_speed": 0.2, "max_turn_rate_deg": 60, "goal_distance": 0.1,
+                       "goal_angle_deg": 10, "patience": 5, "index": 4, "position": 1,
+                       "laser": 0}])"),
+            "");
+  EXPECT_THAT(fault(R"([{"type": "snd"}, {"type": "snd", "robot_radius": -0.1}])"),
+              AllOf(HasSubstr("w.json"), HasSubstr("/robots/1/drivers/1/robot_radius"),
+                    HasSubstr("greater than 0 and at most 10 m"), HasSubstr("found -0.1"),
+                    HasSubstr("world/out-of-range")));
+  EXPECT_THAT(fault(R"([{"type": "snd", "goal_angle_deg": 181}])"),
+              AllOf(HasSubstr("at most 180 degrees"), HasSubstr("found 181")));
+  EXPECT_THAT(fault(R"([{"type": "snd", "max_speed": "fast"}])"),
+              AllOf(HasSubstr("max_speed"), HasSubstr("\"fast\""), HasSubstr("world/wrong-type")));
+  EXPECT_THAT(fault(R"([{"type": "snd", "index": 1.5}])"), HasSubstr("world/wrong-type"));
+  EXPECT_THAT(fault(R"([{"type": "snd", "index": -1}])"), HasSubstr("world/out-of-range"));
+  EXPECT_THAT(fault(R"([{"type": "snd", "max_sped": 0.2}])"),
+              AllOf(HasSubstr("world/unknown-key"), HasSubstr("did you mean \"max_speed\"?")));
+  EXPECT_THAT(fault(R"([{"type": "snt"}])"),
+              AllOf(HasSubstr("/robots/1/drivers/0/type"), HasSubstr("\"snd\""),
+                    HasSubstr("world/unknown-driver")));
+}
+
+TEST(SndDriversTable, IndicesMustBeFreeAndDevicesMustBeThere) {
+  EXPECT_THAT(fault(R"([{"type": "snd", "index": 1}])"), HasSubstr("world/driver-index"));
+  EXPECT_THAT(fault(R"([{"type": "snd", "index": 3}, {"type": "snd", "index": 3}])"),
+              HasSubstr("world/driver-index"));
+  EXPECT_THAT(fault(R"([{"type": "snd", "laser": 1}])"), HasSubstr("world/driver-device"));
+  EXPECT_THAT(fault(R"([{"type": "snd", "position": 2}])"), HasSubstr("world/driver-device"));
+  EXPECT_THAT(fault(R"([{"type": "snd"}])", R"({"laser": null})"),
+              AllOf(HasSubstr("a robot with a laser"), HasSubstr("found none")));
+  EXPECT_THAT(fault(R"([{"type": "snd"}])", R"({"motion": null})"), HasSubstr("motors"));
+}
+
+TEST(SndDriversTable, DriversTakeTheFirstFreeIndex) {
+  const sim::WorldDescription world = sim::load_world_text(
+      R"({"robots": [{"drivers": [{"type": "snd"}, {"type": "snd", "index": 2}, {"type": "snd"}]}]})");
+  const auto drivers = playerlike::read_drivers(world.robots[0], world.file, "/robots/0");
+  ASSERT_EQ(drivers.size(), 3U);
+  EXPECT_EQ(drivers[0].index, 3);
+  EXPECT_EQ(drivers[1].index, 2);
+  EXPECT_EQ(drivers[2].index, 4);
+}
+
+TEST(SndDriversTable, AHostRefusesAWorldWithABadDriver) {
+  EXPECT_THROW(static_cast<void>(Host::create(
+                   sim::load_world_text(R"({"robots": [{"drivers": [{"type": "teapot"}]}]})"))),
+               sim::ConfigError);
+}
+
+}  // namespace
