@@ -1,18 +1,78 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Makes the pictures of the README and the documentation anew.
+# Makes the pictures of the README and the documentation anew: builds what it needs, runs the
+# programs, takes their pictures. Usage: docs/images/make_pictures.sh [FOLDER WITH THE PROGRAMS]
+# With a folder, for example build/dev/bin, nothing is built.
 set -euo pipefail
+given=${1:+$(realpath "$1")}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 cd "$root"
-cmake --preset dev >/dev/null
-cmake --build build/dev --target playpen docs_thirteen par_intro_solution_wall
-bin=build/dev/bin
+for tool in convert import Xvfb xdotool; do
+  if ! command -v "$tool" >/dev/null; then
+    echo "$0: $tool is missing (packages imagemagick, xvfb, xdotool)" >&2
+    exit 1
+  fi
+done
+if [[ -n $given ]]; then
+  bin=$given
+else
+  cmake --preset dev >/dev/null
+  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
+    par_intro_solution_wall par_planning_solution_dijkstra par_planning_solution_theta \
+    par_exploration_solution_nearest
+  bin=build/dev/bin
+fi
 out=out/pictures
-"$bin/playpen" run worlds/examples/thirteen_robots.json --duration 9 --out "$out/thirteen" --quiet \
-  -- "$bin/docs_thirteen"
-"$bin/playpen" run worlds/tasks/par_intro.json --duration 120 --out "$out/wall" --quiet \
-  -- "$bin/par_intro_solution_wall"
-cp "$out/thirteen/scene.png" docs/images/thirteen_robots.png
-cp "$out/wall/scene.png" docs/images/wall_follower.png
-echo "docs/images/thirteen_robots.png, docs/images/wall_follower.png"
+images=docs/images
+
+# run WORLD NAME OPTION... -- PROGRAM: results in out/pictures/NAME.
+run() {
+  local world=$1 name=$2
+  shift 2
+  "$bin/playpen" run "$world" --out "$out/$name" --seed 1 --quiet "$@" >"$out/$name.log" 2>&1 || {
+    cat "$out/$name.log" >&2
+    exit 1
+  }
+}
+
+# take PICTURE NAME: few colours are enough, and half the bytes.
+take() {
+  convert "$out/$1" -strip +dither -colors 200 "$images/$2.png"
+  echo "$images/$2.png"
+}
+
+mkdir -p "$out"
+run worlds/examples/thirteen_robots.json thirteen --duration 9 -- "$bin/docs_thirteen"
+take thirteen/scene.png thirteen_robots
+
+run worlds/tasks/par_intro.json intro --duration 120 -- "$bin/par_intro_solution_wall"
+take intro/scene.png wall_follower
+
+for solution in dijkstra theta; do
+  run worlds/tasks/par_planning.json "planning_$solution" --snapshot-every 4 -- \
+    "$bin/par_planning_solution_$solution"
+  take "planning_$solution/snapshots/scene_000012.000s.png" "planning_$solution"
+done
+run worlds/tasks/par_planning_2.json planning_2 -- "$bin/par_planning_solution_dijkstra"
+take planning_2/scene.png planning_2
+
+run worlds/tasks/par_exploration.json exploration --snapshot-every 4 -- \
+  "$bin/par_exploration_solution_nearest"
+take exploration/snapshots/scene_000024.000s.png exploration
+take exploration/canvas.png exploration_map
+run worlds/tasks/par_exploration.json exploration_corner --snapshot-every 28 --view-mode mini-map -- \
+  "$bin/par_exploration_solution_nearest"
+take exploration_corner/snapshots/scene_000028.000s.png exploration_mini_map
+
+for mode in ground mini-map full-screen; do
+  run default "view-$mode" --duration 45 --view-mode "$mode" --snapshot-every 45 -- "$bin/docs_layers"
+  take "view-$mode/snapshots/scene_000045.000s.png" "view_${mode//-/_}"
+done
+
+run default snd -- "$bin/docs_snd_snd_goals"
+take snd/scene.png snd
+
+"$images/picture_live_window.sh" "$bin/playpen" worlds/examples/thirteen_robots.json "$out/window" \
+  "$images/live_window.png" "$bin/docs_thirteen"
+echo "$images/live_window.png"
