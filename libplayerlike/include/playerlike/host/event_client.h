@@ -1,0 +1,80 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "playerlike/session/session.h"
+#include "sim/simulation/simulation.h"
+
+namespace playerlike {
+
+/// Who thinks while a client does not wait: in lockstep a thinker waits as soon as one of its
+/// clients does, since a thread can only wait for one thing at a time. In this process each thread
+/// is one; a server makes one for each thread of each process that its clients tell it of. Never
+/// given twice; 0 is nobody.
+using ThinkerId = std::uint64_t;
+
+/// A number that no thinker of this process has had. Thread-safe.
+[[nodiscard]] ThinkerId new_thinker() noexcept;
+/// The calling thread's own.
+[[nodiscard]] ThinkerId this_thinker() noexcept;
+
+/// A client of a host without a thread of its own, for event loops: waiting is begun, and its end
+/// is told. See Host::connect_events(). All members may be called from any thread, but by one at a
+/// time.
+class EventClient {
+ public:
+  /// How a wait stands.
+  enum class Outcome {
+    kIdle,      ///< none was begun, or it was cancelled
+    kWaiting,   ///< not over yet
+    kData,      ///< a reading waits to be taken
+    kTime,      ///< the time is over
+    kFinished,  ///< the run is over, and nothing is left to take
+  };
+
+  EventClient() = default;
+  EventClient(const EventClient&) = delete;
+  EventClient& operator=(const EventClient&) = delete;
+  /// Closes the session.
+  virtual ~EventClient() = default;
+
+  /// All that does not wait. Its wait(), peek(), sleep() and join() must not be called.
+  [[nodiscard]] virtual Session& session() noexcept = 0;
+
+  /// As Session::wait(): over with kData or kFinished.
+  /// @return the outcome, kWaiting if it is not over yet; so for the calls below.
+  virtual Outcome begin_wait(ThinkerId thinker) = 0;
+  /// As Session::peek(): over with kData, kTime or kFinished. In a paced simulation it does not end
+  /// by time: who began it cancels it.
+  virtual Outcome begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout) = 0;
+  /// As Session::sleep(): over with kTime or kFinished.
+  /// @throws SessionError kBadArgument.
+  virtual Outcome begin_sleep(ThinkerId thinker, double seconds) = 0;
+  /// As Session::join().
+  virtual void join(ThinkerId thinker) = 0;
+
+  /// How the last wait stands.
+  [[nodiscard]] virtual Outcome outcome() const = 0;
+  /// Ends a wait: outcome() is kIdle then. In lockstep the client thinks again.
+  virtual void cancel() = 0;
+};
+
+/// Something that an event loop waits for besides its clients' readings.
+struct Alarm {
+  std::optional<sim::SimTime> until_ns;  ///< over when simulated time has come so far
+  /// Over when this is so; asked after each step, with the simulation locked. May be empty.
+  std::function<bool(const sim::Simulation&)> condition;
+  bool lets_time_pass = false;  ///< whether lockstep time goes on for it while no client takes part
+  /// Called once when it is over or the run is, with the simulation locked, by whichever thread
+  /// steps: it must do no more than pass the news on. The alarm is gone then.
+  std::function<void()> notify;
+};
+/// Names an alarm; never given twice.
+using AlarmId = std::uint64_t;
+
+}  // namespace playerlike

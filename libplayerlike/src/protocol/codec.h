@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "playerlike/messages/messages.h"
+#include "protocol/framing.h"
+#include "sim/canvas/layers.h"
+#include "sim/world/occupancy_map.h"
+
+/// What passes between client and server, as JSON values; docs/protocol.md is the reference.
+/// Everything that decodes throws ProtocolError protocol/bad-value, which names the key, what was
+/// expected and what was found. Doubles and whole numbers come out as they went in, to the bit.
+namespace playerlike::protocol {
+
+using nlohmann::json;
+
+/// @name Reading objects that came from outside
+/// @{
+[[nodiscard]] const json& require(const json& object, const char* key);
+[[nodiscard]] double require_number(const json& object, const char* key);  ///< finite
+[[nodiscard]] std::int64_t require_integer(const json& object, const char* key, std::int64_t least,
+                                           std::int64_t most);
+[[nodiscard]] bool require_bool(const json& object, const char* key);
+[[nodiscard]] std::string require_text(const json& object, const char* key);
+/// @}
+
+/// @name Bytes: in CBOR a byte string, in JSON a text in base64 (RFC 4648)
+/// @{
+[[nodiscard]] json bytes(std::vector<std::uint8_t> value, Encoding encoding);
+[[nodiscard]] std::vector<std::uint8_t> require_bytes(const json& object, const char* key,
+                                                      Encoding encoding);
+/// @}
+
+/// @name Doubles: in CBOR a typed array of little-endian doubles (RFC 8746, tag 86), in JSON a list
+/// @{
+[[nodiscard]] json doubles(std::span<const double> values, Encoding encoding);
+[[nodiscard]] std::vector<double> require_doubles(const json& object, const char* key,
+                                                  Encoding encoding);
+/// @}
+
+[[nodiscard]] json encode_device_id(DeviceId device);  ///< [robot, device]
+[[nodiscard]] DeviceId require_device_id(const json& object, const char* key);
+
+/// A reading: {"device", "seq", "t" [ns], "type", ...what its type has}.
+/// @param type  of the device, e.g. "laser".
+[[nodiscard]] json encode_reading(DeviceId device, std::string_view type,
+                                  const sim::Reading& reading, Encoding encoding);
+struct DecodedReading {
+  DeviceId device{-1, -1};
+  std::unique_ptr<sim::Reading> reading;
+};
+[[nodiscard]] DecodedReading decode_reading(const json& reading, Encoding encoding);
+
+/// A command: {"kind": "twist", ...}.
+[[nodiscard]] json encode_command(const sim::Command& command);
+[[nodiscard]] sim::Command decode_command(const json& command);
+
+[[nodiscard]] json encode_robots(const std::vector<RobotInfo>& robots);
+[[nodiscard]] std::vector<RobotInfo> decode_robots(const json& robots);
+[[nodiscard]] json encode_canvas(const CanvasInfo& canvas);
+[[nodiscard]] CanvasInfo decode_canvas(const json& canvas);
+[[nodiscard]] json encode_time(const TimeStatistics& time);
+[[nodiscard]] TimeStatistics decode_time(const json& time);
+[[nodiscard]] json encode_layer_kind(sim::LayerKind kind);
+[[nodiscard]] sim::LayerKind decode_layer_kind(const json& kind);
+[[nodiscard]] json encode_style(const sim::LayerStyle& style);
+[[nodiscard]] sim::LayerStyle decode_style(const json& style);
+[[nodiscard]] json encode_layers(const std::vector<sim::LayerInfo>& layers);
+[[nodiscard]] std::vector<sim::LayerInfo> decode_layers(const json& layers);
+[[nodiscard]] json encode_map(const sim::OccupancyMap& map, Encoding encoding);
+[[nodiscard]] sim::OccupancyMap decode_map(const json& map, Encoding encoding);
+
+/// Drawings: in CBOR bytes, 28 a drawing; in JSON a list of lists.
+[[nodiscard]] json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding);
+[[nodiscard]] std::vector<sim::DrawOperation> decode_drawings(const json& drawings,
+                                                              Encoding encoding);
+/// Cells of a rectangle: bytes, four a cell, little-endian (see docs/protocol.md).
+[[nodiscard]] json encode_cells(std::span<const sim::CellValue> cells, Encoding encoding);
+[[nodiscard]] std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding);
+
+/// The stable name of an error that a session can throw, e.g. "session/finished"; and back.
+[[nodiscard]] std::string_view error_id(SessionError::Code code) noexcept;
+[[nodiscard]] std::optional<SessionError::Code> session_error_code(std::string_view id) noexcept;
+
+}  // namespace playerlike::protocol

@@ -1,0 +1,131 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "playerlike/host/host.h"
+#include "playerlike/server/server_settings.h"
+#include "protocol/framing.h"
+#include "sim/core/log.h"
+
+namespace playerlike::server {
+
+/// What a connection may do, by the tokens that it has presented.
+struct Rights {
+  bool connect = false;       ///< use services and read
+  bool watch = false;         ///< watch
+  std::vector<bool> command;  ///< one a robot, by index: command it
+  /// Whether it may do what concerns all robots (reset, pause, quit): it may command each.
+  [[nodiscard]] bool command_all() const;
+};
+
+/// Who may do what. Compares tokens in constant time.
+class Access {
+ public:
+  /// @throws sim::ConfigError access/unknown-robot.
+  Access(AccessSettings settings, const std::vector<RobotInfo>& robots);
+  [[nodiscard]] Rights rights(const std::vector<std::string>& tokens) const;
+
+ private:
+  AccessSettings settings_;
+  std::vector<std::string> robot_tokens_;  ///< by index; "": none
+};
+
+/// The other end of a connection, as those see it who answer. Used by the server's thread only.
+class Peer {
+ public:
+  Peer() = default;
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+  virtual ~Peer() = default;
+
+  /// Sends bytes: an answer, that must not be lost. A peer with too many waiting is closed.
+  virtual void send(std::string bytes) = 0;
+  /// Sends bytes that may be lost: a stream's record, which may go to many peers.
+  /// @return whether it goes out; false: too many bytes wait, the record is dropped.
+  virtual bool send_record(std::shared_ptr<const std::string> bytes) = 0;
+  /// Sends what waits, then `farewell`, then closes. The handler hears on_closed() later.
+  virtual void close(std::string farewell) = 0;
+  /// Requests that are being answered; kept by the handler, limited by the connection: while it
+  /// has too many, nothing is read from it.
+  virtual void set_in_flight(std::size_t requests) = 0;
+  /// What the bytes that follow are encoded in; at first kJson (lines).
+  virtual void set_encoding(protocol::Encoding encoding) = 0;
+  /// "127.0.0.1:51234", for the log.
+  [[nodiscard]] virtual const std::string& name() const noexcept = 0;
+};
+
+/// Understands what one connection says. Used by the server's thread only.
+class Handler {
+ public:
+  Handler() = default;
+  Handler(const Handler&) = delete;
+  Handler& operator=(const Handler&) = delete;
+  virtual ~Handler() = default;
+
+  /// A whole line or frame, without its end or length. ProtocolErrors that escape are answered by
+  /// closing the connection; others must not.
+  virtual void on_message(std::string_view message) = 0;
+  /// A message that is too long or was not whole in time: what to say before closing.
+  [[nodiscard]] virtual std::string farewell(const protocol::ProtocolError& error) = 0;
+};
+
+class Hub;
+
+/// Makes the handler of a new connection.
+using MakeHandler = std::function<std::unique_ptr<Handler>(Peer&, Hub&)>;
+
+/// What all connections of a server share. Used by the server's thread only, but for post().
+class Hub {
+ public:
+  Hub() = default;
+  Hub(const Hub&) = delete;
+  Hub& operator=(const Hub&) = delete;
+  virtual ~Hub() = default;
+
+  [[nodiscard]] virtual Host& host() noexcept = 0;
+  [[nodiscard]] virtual const ServerSettings& settings() const noexcept = 0;
+  [[nodiscard]] virtual const Access& access() const noexcept = 0;
+  virtual void log(sim::LogLevel level, const std::string& text) = 0;
+
+  /// Has something done by the server's thread, soon. From any thread, also with the simulation
+  /// locked.
+  virtual void post(std::function<void()> task) = 0;
+  /// The same, after a time. @return names it for cancel().
+  virtual std::uint64_t after(std::chrono::microseconds delay, std::function<void()> task) = 0;
+  virtual void cancel(std::uint64_t timer) = 0;
+
+  /// To be called when a client has begun to wait, or left: lockstep time may go on now. What is
+  /// over then has been notified when this returns.
+  virtual void pump() = 0;
+
+  /// Opens a further port whose connections get their own handlers.
+  /// @param first  tried first, then the next ones up; 0: any free one.
+  /// @return the port. @throws ProtocolError server/no-port if there is none.
+  virtual int listen(int first, MakeHandler make) = 0;
+  /// Replaces the handler of a connection (from inside its on_message(): after that returns).
+  virtual void hand_over(Peer& peer, std::unique_ptr<Handler> handler) = 0;
+
+  /// A client has asked for the end of the server.
+  virtual void quit() = 0;
+
+  /// Names the thinker of a thread of a client's process, see EventClient.
+  /// @param process  what the process calls itself in its hellos; @param thread  its number there.
+  [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
+};
+
+/// Handler of a new connection to the services' port: MORSE's protocol, and `playpen hello`.
+[[nodiscard]] std::unique_ptr<Handler> make_morse_handler(Peer& peer, Hub& hub);
+
+/// Carries out `playpen hello`: answers, and hands the connection over to Playpen's protocol.
+/// @param id        of the request, to be answered in MORSE's form.
+/// @param argument  what hello was given: an object.
+void say_hello(Peer& peer, Hub& hub, const std::string& id, const nlohmann::json& argument);
+
+}  // namespace playerlike::server
