@@ -2,6 +2,7 @@
 #include "sim/devices/builtin.h"
 
 #include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "sim/devices/battery.h"
@@ -12,6 +13,8 @@
 #include "sim/devices/pen.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
+#include "sim/devices/teleport.h"
+#include "sim/devices/waypoint.h"
 
 namespace sim {
 namespace {
@@ -111,6 +114,11 @@ PoseParams parse_pose(io::Reader& settings, PoseParams p) {
 OdometryParams parse_odometry(io::Reader& settings, OdometryParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   p.noise = settings.number("noise", p.noise, {0.0, 10.0, false, "m after 1 m"});
+  const std::vector<std::string> levels = {"integrated", "differential", "raw"};
+  const std::string level =
+      settings.choice("level", levels[static_cast<std::size_t>(p.level)], levels);
+  p.level =
+      static_cast<OdometryLevel>(std::find(levels.begin(), levels.end(), level) - levels.begin());
   return p;
 }
 
@@ -144,6 +152,19 @@ SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
   parse_ranger(settings, p);
   p.field_of_view_rad =
       settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 180.0, true, "degrees"});
+  return p;
+}
+
+TeleportParams parse_teleport(io::Reader&, TeleportParams p) { return p; }
+
+WaypointParams parse_waypoint(io::Reader& settings, WaypointParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.tolerance_m = settings.number("tolerance", p.tolerance_m, {0.0, 1000.0, true, "m"});
+  p.speed_mps = settings.number("speed", p.speed_mps, {0.0, 20.0, true, "m/s"});
+  p.turn_gain = settings.number("turn_gain", p.turn_gain, {0.0, 50.0, true, "1/s"});
+  p.approach_gain = settings.number("approach_gain", p.approach_gain, {0.0, 50.0, true, "1/s"});
+  p.max_turn_rate_radps = settings.angle_deg("max_turn_rate_deg", p.max_turn_rate_radps,
+                                             {0.0, 3600.0, true, "degrees/s"});
   return p;
 }
 
@@ -200,11 +221,21 @@ Properties describe(const MotionParams& p) {
           {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
 }
 Properties describe(const OdometryParams& p) {
-  return {{"frequency", p.frequency_hz}, {"noise", p.noise}};
+  return {
+      {"frequency", p.frequency_hz}, {"noise", p.noise}, {"level", static_cast<double>(p.level)}};
 }
 Properties describe(const PenParams& p) { return {{"trail", p.trail ? 1.0 : 0.0}}; }
 Properties describe(const PoseParams& p) {
   return {{"frequency", p.frequency_hz}, {"noise", p.noise_m}, {"noise_yaw", p.noise_yaw_rad}};
+}
+Properties describe(const TeleportParams&) { return {}; }
+Properties describe(const WaypointParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"tolerance", p.tolerance_m},
+          {"speed", p.speed_mps},
+          {"turn_gain", p.turn_gain},
+          {"approach_gain", p.approach_gain},
+          {"max_turn_rate", p.max_turn_rate_radps}};
 }
 
 Properties describe(const ProximityParams& p) {
@@ -294,6 +325,14 @@ std::vector<DeviceKind> make_table() {
                         [](D d, const SonarParams& p, R, M model, RandomStream noise) {
                           return make_ranger(d, p, model, std::move(noise));
                         }),
+      kind<TeleportParams>("teleport", parse_teleport,
+                           [](D d, const TeleportParams& p, R, M, const RandomStream&) {
+                             return std::make_unique<Teleport>(d.name, p);
+                           }),
+      kind<WaypointParams>("waypoint", parse_waypoint,
+                           [](D d, const WaypointParams& p, R robot, M, const RandomStream&) {
+                             return std::make_unique<Waypoint>(d.name, p, robot.pose);
+                           }),
   };
 }
 
