@@ -77,6 +77,7 @@ class Handler {
 };
 
 class Hub;
+struct NativeState;  // native_state.h
 
 /// Makes the handler of a new connection.
 using MakeHandler = std::function<std::unique_ptr<Handler>(Peer&, Hub&)>;
@@ -118,6 +119,9 @@ class Hub {
   /// Names the thinker of a thread of a client's process, see EventClient.
   /// @param process  what the process calls itself in its hellos; @param thread  its number there.
   [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
+
+  /// What the connections in Playpen's own protocol share; made for the first one.
+  std::shared_ptr<NativeState> native_state;
 };
 
 /// Handler of a new connection to the services' port: MORSE's protocol, and `playpen hello`.
