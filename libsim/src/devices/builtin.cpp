@@ -1,12 +1,16 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/builtin.h"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/motion.h"
 #include "sim/devices/pen.h"
+#include "sim/devices/teleport.h"
+#include "sim/devices/waypoint.h"
 
 namespace sim {
 namespace {
@@ -49,6 +53,11 @@ PoseParams parse_pose(io::Reader& settings, PoseParams p) {
 OdometryParams parse_odometry(io::Reader& settings, OdometryParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   p.noise = settings.number("noise", p.noise, {0.0, 10.0, false, "m after 1 m"});
+  const std::vector<std::string> levels = {"integrated", "differential", "raw"};
+  const std::string level =
+      settings.choice("level", levels[static_cast<std::size_t>(p.level)], levels);
+  p.level =
+      static_cast<OdometryLevel>(std::find(levels.begin(), levels.end(), level) - levels.begin());
   return p;
 }
 
@@ -68,6 +77,19 @@ MotionParams parse_motion(io::Reader& settings, MotionParams p) {
 PenParams parse_pen(io::Reader& settings, PenParams p) {
   p.colour = settings.colour("colour", p.colour);
   p.trail = settings.boolean("trail", p.trail);
+  return p;
+}
+
+TeleportParams parse_teleport(io::Reader&, TeleportParams p) { return p; }
+
+WaypointParams parse_waypoint(io::Reader& settings, WaypointParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.tolerance_m = settings.number("tolerance", p.tolerance_m, {0.0, 1000.0, true, "m"});
+  p.speed_mps = settings.number("speed", p.speed_mps, {0.0, 20.0, true, "m/s"});
+  p.turn_gain = settings.number("turn_gain", p.turn_gain, {0.0, 50.0, true, "1/s"});
+  p.approach_gain = settings.number("approach_gain", p.approach_gain, {0.0, 50.0, true, "1/s"});
+  p.max_turn_rate_radps = settings.angle_deg("max_turn_rate_deg", p.max_turn_rate_radps,
+                                             {0.0, 3600.0, true, "degrees/s"});
   return p;
 }
 
@@ -103,11 +125,21 @@ Properties describe(const MotionParams& p) {
           {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
 }
 Properties describe(const OdometryParams& p) {
-  return {{"frequency", p.frequency_hz}, {"noise", p.noise}};
+  return {
+      {"frequency", p.frequency_hz}, {"noise", p.noise}, {"level", static_cast<double>(p.level)}};
 }
 Properties describe(const PenParams& p) { return {{"trail", p.trail ? 1.0 : 0.0}}; }
 Properties describe(const PoseParams& p) {
   return {{"frequency", p.frequency_hz}, {"noise", p.noise_m}, {"noise_yaw", p.noise_yaw_rad}};
+}
+Properties describe(const TeleportParams&) { return {}; }
+Properties describe(const WaypointParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"tolerance", p.tolerance_m},
+          {"speed", p.speed_mps},
+          {"turn_gain", p.turn_gain},
+          {"approach_gain", p.approach_gain},
+          {"max_turn_rate", p.max_turn_rate_radps}};
 }
 
 // A row of the table: `parse` reads Params, `make` builds the device from them.
@@ -159,6 +191,14 @@ std::vector<DeviceKind> make_table() {
                          return std::make_unique<PoseSensor>(d.name, p, robot.pose,
                                                              std::move(noise));
                        }),
+      kind<TeleportParams>("teleport", parse_teleport,
+                           [](D d, const TeleportParams& p, R, M, const RandomStream&) {
+                             return std::make_unique<Teleport>(d.name, p);
+                           }),
+      kind<WaypointParams>("waypoint", parse_waypoint,
+                           [](D d, const WaypointParams& p, R robot, M, const RandomStream&) {
+                             return std::make_unique<Waypoint>(d.name, p, robot.pose);
+                           }),
   };
 }
 

@@ -40,6 +40,10 @@ class PhysicsWorld {
   void set_target(int robot, const Twist& target);
   /// Puts a robot somewhere, at rest.
   void set_pose(int robot, const Pose& X_WB);
+  /// Lets a robot stand where it is, at rest, as if it were part of the floor (true), or move
+  /// again. While suspended it has a target of zero; set_pose() still works.
+  void set_suspended(int robot, bool suspended);
+  [[nodiscard]] bool suspended(int robot) const;
   /// Advances by dt_s (> 0).
   void step(double dt_s);
   [[nodiscard]] const BodyState& body(int robot) const;
