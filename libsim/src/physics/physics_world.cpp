@@ -708,6 +708,19 @@ const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noe
   return impl_->contacts;
 }
 
+std::vector<PhysicsWorld::Contact> PhysicsWorld::contacts_of(int robot) const {
+  std::vector<Contact> contacts;
+  const b2Body* body = impl_->robots[static_cast<std::size_t>(robot)].body;
+  for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+    if (!e->contact->IsTouching()) continue;
+    const b2Fixture* a = e->contact->GetFixtureA();
+    const b2Fixture* other = a->GetBody() == body ? e->contact->GetFixtureB() : a;
+    const FixtureInfo& info = info_of(other);
+    contacts.push_back({robot, info.kind, info.index});
+  }
+  return contacts;
+}
+
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)]->SetEnabled(extended);
   impl_->something_was_placed();
@@ -932,6 +945,23 @@ void PhysicsWorld::bare_step(double dt_s) {
     r.body->SetAngularVelocity(static_cast<float>(r.target.omega_radps));
   }
   impl_->world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+}
+
+std::string partner_name(const PhysicsWorld::Contact& contact, const WorldDescription& world) {
+  const auto index = static_cast<std::size_t>(contact.index);
+  switch (contact.kind) {
+    case PhysicsWorld::Contact::Kind::kObstacle:
+      return world.arena.obstacles[index].name;
+    case PhysicsWorld::Contact::Kind::kSeparator:
+      return world.arena.dock_separators[index].name;
+    case PhysicsWorld::Contact::Kind::kBorder:
+      return "border";
+    case PhysicsWorld::Contact::Kind::kWall:
+      return "wall";
+    case PhysicsWorld::Contact::Kind::kRobot:
+      break;
+  }
+  return world.robots[index].name;
 }
 
 }  // namespace sim

@@ -57,6 +57,9 @@ class PhysicsWorld {
   };
   /// Contacts that began in the last step; one between robots is listed for both.
   [[nodiscard]] const std::vector<Contact>& new_contacts() const noexcept;
+  /// Contacts that a robot has now. A partner may be listed more than once (a wall of several
+  /// edges), in no particular order.
+  [[nodiscard]] std::vector<Contact> contacts_of(int robot) const;
 
   /// Extends (true) or retracts a dynamic obstacle, by its index in the arena.
   void set_extended(int obstacle, bool extended);
@@ -89,5 +92,10 @@ class PhysicsWorld {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Name of whom a contact is with: of an obstacle, dock separator or robot of the world; "border"
+/// or "wall".
+[[nodiscard]] std::string partner_name(const PhysicsWorld::Contact& contact,
+                                       const WorldDescription& world);
 
 }  // namespace sim

@@ -179,7 +179,7 @@ struct Simulation::Impl {
     if (body.stalled) robot.statistics.stalled_time_s += dt_s;
     update_clearance(i, dt_s);
     if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, layers.base());
-    const StepContext context{now_ns, body, *physics, index};
+    const StepContext context{now_ns, body, *physics, index, world};
     for (std::size_t k = 0; k < robot.devices.size(); ++k) {
       robot.devices[k]->integrate(context);
       if (robot.sensors[k] != nullptr && robot.sensors[k]->update(context)) {
@@ -220,25 +220,8 @@ struct Simulation::Impl {
       ++s.collisions;
       s.least_clearance_m = 0.0;
       if (collisions.size() == kKeptCollisions) collisions.erase(collisions.begin());
-      collisions.push_back({now_ns, contact.robot, partner_name(contact)});
+      collisions.push_back({now_ns, contact.robot, partner_name(contact, world)});
     }
-  }
-
-  [[nodiscard]] std::string partner_name(const PhysicsWorld::Contact& contact) const {
-    const auto index = static_cast<std::size_t>(contact.index);
-    switch (contact.kind) {
-      case PhysicsWorld::Contact::Kind::kObstacle:
-        return world.arena.obstacles[index].name;
-      case PhysicsWorld::Contact::Kind::kSeparator:
-        return world.arena.dock_separators[index].name;
-      case PhysicsWorld::Contact::Kind::kBorder:
-        return "border";
-      case PhysicsWorld::Contact::Kind::kWall:
-        return "wall";
-      case PhysicsWorld::Contact::Kind::kRobot:
-        break;
-    }
-    return world.robots[index].name;
   }
 
   [[nodiscard]] Device& device(DeviceId id) const {

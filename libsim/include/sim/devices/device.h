@@ -16,13 +16,15 @@
 namespace sim {
 
 class PhysicsWorld;
+struct WorldDescription;
 
 /// What a device may look at when a step has ended.
 struct StepContext {
-  SimTime now_ns;               ///< simulated time at the end of the step
-  const BodyState& body;        ///< of the device's robot
-  const PhysicsWorld& physics;  ///< for range sensing
-  int robot;                    ///< index of the device's robot
+  SimTime now_ns;                 ///< simulated time at the end of the step
+  const BodyState& body;          ///< of the device's robot
+  const PhysicsWorld& physics;    ///< for range sensing, contacts and the other robots' bodies
+  int robot;                      ///< index of the device's robot
+  const WorldDescription& world;  ///< for names, docks and obstacles, with their present state
 };
 
 /// What every sensor's reading begins with.
