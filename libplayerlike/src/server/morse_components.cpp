@@ -235,8 +235,7 @@ sim::Command morse_command(const MorseComponent& component, const json& object,
     return sim::TwistCommand{{number(object, "v"), number(object, "w"), 0.0}};
   }
   if (component.type == "waypoint") {
-    const auto& device =
-        dynamic_cast<const sim::Waypoint&>(simulation.device(id.robot, id.device));
+    const auto& device = dynamic_cast<const sim::Waypoint&>(simulation.device(id.robot, id.device));
     return sim::GotoCommand{{number(object, "x"), number(object, "y")},
                             number(object, "tolerance", device.params().tolerance_m),
                             number(object, "speed", device.params().speed_mps)};
