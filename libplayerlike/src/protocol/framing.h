@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -16,6 +17,11 @@ namespace playerlike::protocol {
 inline constexpr int kVersion = 1;
 /// The server's TCP port unless told otherwise; MORSE's.
 inline constexpr int kDefaultTcpPort = 4000;
+/// Levels of lists and objects that a message may have.
+inline constexpr int kMaxDepth = 32;
+/// Tag of a typed array of little-endian doubles in CBOR (RFC 8746). In a message that is a json
+/// value, such an array is a binary value of this subtype.
+inline constexpr std::uint8_t kDoublesTag = 86;
 
 /// How messages look on the wire.
 enum class Encoding {
@@ -62,6 +68,9 @@ class MessageSplitter {
   void set_limit(std::size_t limit) noexcept { limit_ = limit; }
 
  private:
+  [[nodiscard]] std::optional<std::string_view> next_line();
+  [[nodiscard]] std::optional<std::string_view> next_frame();
+
   Encoding encoding_;
   std::size_t limit_;
   std::string buffer_;
@@ -71,15 +80,26 @@ class MessageSplitter {
 };
 
 /// A message as bytes, with its length or line end. Texts that are no UTF-8 come out with U+FFFD in
-/// place of what is wrong.
+/// place of what is wrong. Numbers are written so that decode() gives them back to the bit.
+/// @pre numbers are finite: JSON has no others (null is written), and decode() refuses them.
 [[nodiscard]] std::string encode(const nlohmann::json& message, Encoding encoding);
 
 /// The message that bytes (from MessageSplitter) hold: an object.
-/// @throws ProtocolError protocol/syntax, protocol/too-deep (more than 32 levels),
-///         protocol/not-an-object, protocol/number (not finite, or too large).
+///
+/// CBOR: integers, finite floats, texts, byte strings, lists, objects with texts as keys, true,
+/// false, null, and byte strings with kDoublesTag whose doubles are finite; lengths must be
+/// definite, other tags and values are refused. Nothing is set aside for a length that is claimed
+/// but not there.
+/// JSON: a list of kLongList or more numbers and nothing else comes out as a typed array of
+/// doubles, see kDoublesTag; require_doubles() takes both.
+/// @throws ProtocolError protocol/syntax, protocol/too-deep (more than kMaxDepth levels),
+///         protocol/duplicate-key, protocol/not-an-object, protocol/number (not finite, or too
+///         large).
 [[nodiscard]] nlohmann::json decode(std::string_view bytes, Encoding encoding);
+/// See decode().
+inline constexpr std::size_t kLongList = 16;
 
-/// As decode(), for any JSON value of a line (MORSE's lists of arguments).
+/// As decode(), for any JSON value of a line (MORSE's lists of arguments); long lists stay lists.
 [[nodiscard]] nlohmann::json decode_json_value(std::string_view text);
 
 }  // namespace playerlike::protocol

@@ -17,7 +17,7 @@ class Farewell {
   ~Farewell() {
     for (const Known& known : hosts_) {
       if (const std::shared_ptr<Host> host = known.host.lock()) {
-        host->thread_ended(std::this_thread::get_id());
+        host->thinker_ended(this_thinker());
       }
     }
   }
@@ -113,7 +113,7 @@ void InProcessSession::send(DeviceId device, const sim::Command& command) {
 
 void InProcessSession::join() {
   farewell.remember(host_);
-  host_->core_->join(*client_);
+  host_->core_->join(*client_, this_thinker());
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {

@@ -1,0 +1,278 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// CBOR (RFC 8949). Written by nlohmann's library, read by a reader of our own: nlohmann's takes
+// bytes one by one, calls itself without bound, and lets NaN and duplicate keys pass.
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "protocol/formats.h"
+#include "protocol/framing.h"
+
+namespace playerlike::protocol {
+namespace {
+
+using nlohmann::json;
+
+/// Whether all texts of a value are UTF-8.
+bool is_sound(const json& value) {
+  if (const auto* text = value.get_ptr<const std::string*>()) return is_utf8(*text);
+  if (const auto* object = value.get_ptr<const json::object_t*>()) {
+    for (const auto& [key, member] : *object) {
+      if (!is_utf8(key) || !is_sound(member)) return false;
+    }
+  } else if (const auto* list = value.get_ptr<const json::array_t*>()) {
+    for (const json& element : *list) {
+      if (!is_sound(element)) return false;
+    }
+  }
+  return true;
+}
+
+std::string mended(const std::string& text) {
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+/// The value with U+FFFD in place of what is no UTF-8.
+json mended(const json& value) {
+  if (const auto* text = value.get_ptr<const std::string*>()) return mended(*text);
+  if (const auto* object = value.get_ptr<const json::object_t*>()) {
+    json copy = json::object();
+    for (const auto& [key, member] : *object) copy[mended(key)] = mended(member);
+    return copy;
+  }
+  if (const auto* list = value.get_ptr<const json::array_t*>()) {
+    json copy = json::array();
+    for (const json& element : *list) copy.push_back(mended(element));
+    return copy;
+  }
+  return value;
+}
+
+/// Half precision (IEEE 754 binary16), finite, as RFC 8949, appendix D has it.
+double half(std::uint64_t bits) {
+  const int exponent = static_cast<int>(bits >> 10U & 0x1fU);
+  const double mantissa = static_cast<double>(bits & 0x3ffU);
+  const double value = exponent == 0    ? std::ldexp(mantissa, -24)
+                       : exponent != 31 ? std::ldexp(mantissa + 1024.0, exponent - 25)
+                                        : std::numeric_limits<double>::infinity();
+  return (bits & 0x8000U) != 0 ? -value : value;
+}
+
+/// Reads one message. Calls itself once a level, and levels are bounded.
+class CborReader {
+ public:
+  explicit CborReader(std::string_view bytes) : rest_(bytes) {}
+
+  json read() {
+    json value = read_value(0);
+    if (!rest_.empty()) refuse("bytes follow the message's end");
+    return value;
+  }
+
+ private:
+  enum Major : std::uint8_t {
+    kUnsigned,
+    kNegative,
+    kBytes,
+    kText,
+    kList,
+    kObject,
+    kTag,
+    kSimple,
+  };
+  /// How an item begins (RFC 8949, section 3).
+  struct Head {
+    Major major;
+    std::uint8_t info;       ///< low five bits of the first byte
+    std::uint64_t argument;  ///< a value, a length or a count
+  };
+
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw ProtocolError("protocol/syntax", "not CBOR as docs/protocol.md wants it: " + what);
+  }
+
+  std::string_view take(std::uint64_t size) {
+    if (size > rest_.size()) refuse("the message ends too early");
+    const std::string_view taken = rest_.substr(0, static_cast<std::size_t>(size));
+    rest_.remove_prefix(taken.size());
+    return taken;
+  }
+
+  Head read_head() {
+    const auto first = static_cast<std::uint8_t>(take(1).front());
+    Head head{static_cast<Major>(first >> 5U), static_cast<std::uint8_t>(first & 0x1fU), 0};
+    if (head.info < 24) {
+      head.argument = head.info;
+    } else if (head.info < 28) {
+      for (const char byte : take(std::uint64_t{1} << (head.info - 24U))) {
+        head.argument = head.argument << 8U | static_cast<std::uint8_t>(byte);
+      }
+    } else {
+      refuse(head.info == 31 ? "an indefinite length" : "a reserved kind of item");
+    }
+    return head;
+  }
+
+  std::vector<std::uint8_t> read_bytes(std::uint64_t size) {
+    const std::string_view bytes = take(size);
+    return {bytes.begin(), bytes.end()};
+  }
+
+  std::string read_text(std::uint64_t size) {
+    const std::string_view text = take(size);
+    if (!is_utf8(text)) refuse("a text that is no UTF-8");
+    return std::string(text);
+  }
+
+  json read_value(int depth) {
+    const Head head = read_head();
+    switch (head.major) {
+      case kUnsigned:
+        return head.argument;
+      case kNegative:
+        if (head.argument > std::uint64_t{std::numeric_limits<std::int64_t>::max()}) {
+          throw ProtocolError("protocol/number", "a whole number is less than -2^63");
+        }
+        return -1 - static_cast<std::int64_t>(head.argument);
+      case kBytes:
+        return json::binary(read_bytes(head.argument));
+      case kText:
+        return read_text(head.argument);
+      case kList:
+        return read_list(head.argument, depth + 1);
+      case kObject:
+        return read_object(head.argument, depth + 1);
+      case kTag:
+        return read_doubles(head.argument);
+      case kSimple:
+        break;
+    }
+    return read_simple(head);
+  }
+
+  // Counts may be lies: each element takes a byte at least, so the message's end is the bound.
+  json read_list(std::uint64_t count, int depth) {
+    require_depth(depth);
+    json::array_t list;
+    for (; count > 0; --count) list.push_back(read_value(depth));
+    return list;
+  }
+
+  json read_object(std::uint64_t count, int depth) {
+    require_depth(depth);
+    json::object_t object;
+    for (; count > 0; --count) {
+      const Head head = read_head();
+      if (head.major != kText) refuse("a key that is no text");
+      const auto [at, is_new] = object.emplace(read_text(head.argument), nullptr);
+      if (!is_new) {
+        throw ProtocolError("protocol/duplicate-key",
+                            "a key stands twice in an object: " + at->first.substr(0, 200));
+      }
+      at->second = read_value(depth);
+    }
+    return object;
+  }
+
+  static void require_depth(int depth) {
+    if (depth <= kMaxDepth) return;
+    throw ProtocolError("protocol/too-deep", "lists and objects are nested more than " +
+                                                 std::to_string(kMaxDepth) + " deep");
+  }
+
+  json read_doubles(std::uint64_t tag) {
+    if (tag != kDoublesTag) refuse("the tag " + std::to_string(tag));
+    const Head head = read_head();
+    if (head.major != kBytes || head.argument % sizeof(double) != 0) {
+      refuse("a typed array that is no byte string of whole doubles");
+    }
+    std::vector<std::uint8_t> bytes = read_bytes(head.argument);
+    // Little-endian: sign and exponent are the last two bytes. All ones: infinite or no number.
+    for (std::size_t i = 6; i < bytes.size(); i += sizeof(double)) {
+      if ((bytes[i] & 0xf0U) == 0xf0U && (bytes[i + 1] & 0x7fU) == 0x7fU) refuse_number();
+    }
+    return json::binary(std::move(bytes), kDoublesTag);
+  }
+
+  [[noreturn]] static void refuse_number() {
+    throw ProtocolError("protocol/number", "a number is not finite");
+  }
+
+  static json read_simple(const Head& head) {
+    double value = 0.0;
+    switch (head.info) {
+      case 20:
+        return false;
+      case 21:
+        return true;
+      case 22:
+        return nullptr;
+      case 25:
+        value = half(head.argument);
+        break;
+      case 26:
+        value = std::bit_cast<float>(static_cast<std::uint32_t>(head.argument));
+        break;
+      case 27:
+        value = std::bit_cast<double>(head.argument);
+        break;
+      default:
+        refuse("a simple value that is not true, false or null");
+    }
+    if (!std::isfinite(value)) refuse_number();
+    return value;
+  }
+
+  std::string_view rest_;
+};
+
+}  // namespace
+
+// Unicode 15.0, table 3-7: well-formed UTF-8 byte sequences.
+bool is_utf8(std::string_view text) noexcept {
+  const auto* at = reinterpret_cast<const unsigned char*>(text.data());
+  const auto* const end = at + text.size();
+  while (at != end) {
+    const unsigned char first = *at++;
+    if (first < 0x80) continue;
+    int more = 0;
+    unsigned char least = 0x80;
+    unsigned char most = 0xbf;
+    if (first >= 0xc2 && first <= 0xdf) {
+      more = 1;
+    } else if (first >= 0xe0 && first <= 0xef) {
+      more = 2;
+      if (first == 0xe0) least = 0xa0;
+      if (first == 0xed) most = 0x9f;
+    } else if (first >= 0xf0 && first <= 0xf4) {
+      more = 3;
+      if (first == 0xf0) least = 0x90;
+      if (first == 0xf4) most = 0x8f;
+    } else {
+      return false;
+    }
+    for (; more > 0; --more) {
+      if (at == end || *at < least || *at > most) return false;
+      ++at;
+      least = 0x80;
+      most = 0xbf;
+    }
+  }
+  return true;
+}
+
+void append_cbor(const json& value, std::string& out) {
+  if (is_sound(value)) {
+    json::to_cbor(value, out);
+  } else {
+    json::to_cbor(mended(value), out);
+  }
+}
+
+json parse_cbor(std::string_view bytes) { return CborReader(bytes).read(); }
+
+}  // namespace playerlike::protocol

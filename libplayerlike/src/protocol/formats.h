@@ -1,0 +1,20 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+/// The two encodings of a message, for framing.cpp, which documents them.
+namespace playerlike::protocol {
+
+void append_json(const nlohmann::json& value, std::string& out);
+void append_cbor(const nlohmann::json& value, std::string& out);
+
+/// @param splice_lists  whether long lists of numbers become typed arrays.
+[[nodiscard]] nlohmann::json parse_json(std::string_view text, bool splice_lists);
+[[nodiscard]] nlohmann::json parse_cbor(std::string_view bytes);
+
+[[nodiscard]] bool is_utf8(std::string_view text) noexcept;
+
+}  // namespace playerlike::protocol
