@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <asio.hpp>
+#include <asio/buffer.hpp>
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
 #include <condition_variable>
 #include <future>
 #include <mutex>
