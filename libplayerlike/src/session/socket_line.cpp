@@ -148,9 +148,7 @@ json SocketLine::ask(json request, Connection::Patience patience) {
 }
 
 json SocketLine::wait(json request) {
-  if (!paced_) {
-    for (const auto& other : simulation()->others(*this)) other->settle();
-  }
+  if (!paced_) settle_others();
   return ask(std::move(request), Connection::Patience::kLiving, true);
 }
 
@@ -169,6 +167,10 @@ void SocketLine::settle() noexcept {
   } catch (const std::exception&) {
     // Its own session will meet the trouble.
   }
+}
+
+void SocketLine::settle_others() noexcept {
+  for (const auto& other : simulation()->others(*this)) other->settle();
 }
 
 void SocketLine::set_paced(bool paced) {

@@ -47,6 +47,8 @@ class SocketLine : public std::enable_shared_from_this<SocketLine> {
   void tell(const nlohmann::json& message);
   /// Sees to it that all that was said has arrived.
   void settle() noexcept;
+  /// The same for all other sessions of the process with the same simulation.
+  void settle_others() noexcept;
 
   /// Whether time follows the wall clock: then drawings are sent soon without being asked for.
   void set_paced(bool paced);

@@ -692,6 +692,7 @@ std::vector<std::uint8_t> SocketSession::canvas_image() {
 }
 
 void SocketSession::resize_canvas(int width, int height) {
+  line_->settle_others();  // what they drew is meant for the size before
   request({{"do", "resize_canvas"}, {"width", width}, {"height", height}});
 }
 
