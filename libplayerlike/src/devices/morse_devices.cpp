@@ -6,15 +6,24 @@
 #include "devices/client_core.h"
 #include "devices/errors.h"
 #include "libCCMorse/MorseActuator.h"
+#include "libCCMorse/MorseBattery.h"
+#include "libCCMorse/MorseCollision.h"
 #include "libCCMorse/MorseDevice.h"
+#include "libCCMorse/MorseInfrared.h"
 #include "libCCMorse/MorseLaser.h"
 #include "libCCMorse/MorseMotionVW.h"
 #include "libCCMorse/MorseOdometry.h"
 #include "libCCMorse/MorsePen.h"
 #include "libCCMorse/MorsePose.h"
+#include "libCCMorse/MorseProximity.h"
 #include "libCCMorse/MorseSensor.h"
+#include "libCCMorse/MorseSonar.h"
+#include "sim/devices/battery.h"
+#include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/proximity.h"
+#include "sim/devices/rangers.h"
 
 namespace CCMorse {
 
@@ -308,6 +317,219 @@ double MorseLaser::GetLeastAngle() const {
 player_pose2d_t MorseLaser::GetMountPose() const {
   return {GetProperty("mount_x", 0.0), GetProperty("mount_y", 0.0), GetProperty("mount_yaw", 0.0)};
 }
+
+// --- MorseCollision
+
+MorseCollision::MorseCollision(const MorseRobot& aRobot, const std::string& aName)
+    : MorseSensor(aRobot, aName, "collision", "MorseCollision"), mCollision(false) {
+  Attach();
+}
+
+MorseCollision::~MorseCollision() { Detach(); }
+
+void MorseCollision::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::CollisionReading*>(&aReading);
+  if (reading == nullptr) return;
+  mCollision = reading->collision;
+  mObjects = reading->objects;
+}
+
+bool MorseCollision::GetCollision() const {
+  const auto lock = Lock("GetCollision");
+  return mCollision;
+}
+
+std::vector<std::string> MorseCollision::GetObjects() const {
+  const auto lock = Lock("GetObjects");
+  return mObjects;
+}
+
+bool MorseCollision::Touches(const std::string& aName) const {
+  const auto lock = Lock("Touches");
+  return std::find(mObjects.begin(), mObjects.end(), aName) != mObjects.end();
+}
+
+// --- MorseBattery
+
+MorseBattery::MorseBattery(const MorseRobot& aRobot, const std::string& aName)
+    : MorseSensor(aRobot, aName, "battery", "MorseBattery"),
+      mCharge(0.0),
+      mVoltage(0.0),
+      mEnergy(0.0),
+      mDocked(false) {
+  Attach();
+}
+
+MorseBattery::~MorseBattery() { Detach(); }
+
+void MorseBattery::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::BatteryReading*>(&aReading);
+  if (reading == nullptr) return;
+  mCharge = reading->charge_percent;
+  mVoltage = reading->voltage_v;
+  mEnergy = reading->energy_wh;
+  mStatus = std::string(sim::to_string(reading->status));
+  mDocked = reading->status != sim::BatteryStatus::kDischarging;
+}
+
+double MorseBattery::GetCharge() const {
+  const auto lock = Lock("GetCharge");
+  return mCharge;
+}
+
+double MorseBattery::GetVoltage() const {
+  const auto lock = Lock("GetVoltage");
+  return mVoltage;
+}
+
+double MorseBattery::GetEnergy() const {
+  const auto lock = Lock("GetEnergy");
+  return mEnergy;
+}
+
+double MorseBattery::GetCapacity() const { return GetProperty("capacity", 0.0); }
+
+std::string MorseBattery::GetStatus() const {
+  const auto lock = Lock("GetStatus");
+  return mStatus;
+}
+
+bool MorseBattery::IsDocked() const {
+  const auto lock = Lock("IsDocked");
+  return mDocked;
+}
+
+// --- MorseProximity
+
+MorseProximity::MorseProximity(const MorseRobot& aRobot, const std::string& aName)
+    : MorseSensor(aRobot, aName, "proximity", "MorseProximity") {
+  Attach();
+}
+
+MorseProximity::~MorseProximity() { Detach(); }
+
+void MorseProximity::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::ProximityReading*>(&aReading);
+  if (reading == nullptr) return;
+  mNear.clear();
+  // Of one name the nearer comes first, and stays.
+  for (const auto& neighbour : reading->near_objects) {
+    mNear.emplace(neighbour.name, neighbour.distance_m);
+  }
+}
+
+std::map<std::string, double> MorseProximity::GetNearObjects() const {
+  const auto lock = Lock("GetNearObjects");
+  return mNear;
+}
+
+bool MorseProximity::IsNear(const std::string& aName) const {
+  const auto lock = Lock("IsNear");
+  return mNear.count(aName) > 0;
+}
+
+double MorseProximity::GetDistance(const std::string& aName) const {
+  const auto lock = Lock("GetDistance");
+  const auto it = mNear.find(aName);
+  if (it != mNear.end()) return it->second;
+  std::string known;
+  for (const auto& [name, distance] : mNear) known += (known.empty() ? "" : ", ") + name;
+  throw PlayerError(Fun("GetDistance"),
+                    "\"" + aName + "\" is not near; near are: " + (known.empty() ? "none" : known),
+                    PlayerError::kBadArgument);
+}
+
+double MorseProximity::GetMaxRange() const { return GetProperty("range", 0.0); }
+
+// --- MorseInfrared, MorseSonar
+
+MorseRanger::MorseRanger(const MorseRobot& aRobot, const std::string& aName, const char* aType,
+                         const char* aClass)
+    : MorseSensor(aRobot, aName, aType, aClass) {
+  // What a server says is not believed without bounds.
+  const auto count = static_cast<std::size_t>(
+      std::clamp(GetProperty("count", 0.0), 0.0, double{sim::RangerParams::kMaxTransducers}));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string number = std::to_string(i);
+    mMounts.push_back({GetProperty(("mount_x_" + number).c_str(), 0.0),
+                       GetProperty(("mount_y_" + number).c_str(), 0.0),
+                       GetProperty(("mount_yaw_" + number).c_str(), 0.0)});
+  }
+  mRanges.assign(count, GetProperty("range_max", 0.0));
+  Attach();
+}
+
+MorseRanger::~MorseRanger() { Detach(); }
+
+void MorseRanger::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading);
+  if (reading == nullptr) return;
+  mRanges = reading->ranges_m;
+}
+
+std::size_t MorseRanger::Checked(uint32_t aIndex, const char* aFunction) const {
+  const std::size_t count = std::min(mRanges.size(), mMounts.size());
+  if (aIndex >= count) {
+    throw PlayerError(Fun(aFunction),
+                      "there is no transducer " + std::to_string(aIndex) + ": the device has " +
+                          std::to_string(count) + ", counted from 0",
+                      PlayerError::kBadArgument);
+  }
+  return aIndex;
+}
+
+uint32_t MorseRanger::GetCount() const {
+  const auto lock = Lock("GetCount");
+  return static_cast<uint32_t>(mRanges.size());
+}
+
+double MorseRanger::GetRange(uint32_t aIndex) const {
+  const auto lock = Lock("GetRange");
+  return mRanges[Checked(aIndex, "GetRange")];
+}
+
+double MorseRanger::operator[](uint32_t aIndex) const { return GetRange(aIndex); }
+
+std::vector<double> MorseRanger::GetRanges() const {
+  const auto lock = Lock("GetRanges");
+  return mRanges;
+}
+
+player_pose2d_t MorseRanger::GetMountPose(uint32_t aIndex) const {
+  const auto lock = Lock("GetMountPose");
+  return mMounts[Checked(aIndex, "GetMountPose")];
+}
+
+player_point_2d_t MorseRanger::GetPoint(uint32_t aIndex) const {
+  const auto lock = Lock("GetPoint");
+  const std::size_t i = Checked(aIndex, "GetPoint");
+  const player_pose2d_t& mount = mMounts[i];
+  return {mount.px + mRanges[i] * std::cos(mount.pa), mount.py + mRanges[i] * std::sin(mount.pa)};
+}
+
+double MorseRanger::GetMaxRange() const { return GetProperty("range_max", 0.0); }
+
+double MorseRanger::GetFieldOfView() const { return GetProperty("field_of_view", 0.0); }
+
+double MorseRanger::GetLeastRange() const {
+  const auto lock = Lock("GetLeastRange");
+  if (mRanges.empty()) return GetProperty("range_max", 0.0);
+  return *std::min_element(mRanges.begin(), mRanges.end());
+}
+
+uint32_t MorseRanger::GetLeastIndex() const {
+  const auto lock = Lock("GetLeastIndex");
+  const auto least = std::min_element(mRanges.begin(), mRanges.end());
+  return static_cast<uint32_t>(least - mRanges.begin());
+}
+
+MorseInfrared::MorseInfrared(const MorseRobot& aRobot, const std::string& aName)
+    : MorseRanger(aRobot, aName, "infrared", "MorseInfrared") {}
+MorseInfrared::~MorseInfrared() = default;
+
+MorseSonar::MorseSonar(const MorseRobot& aRobot, const std::string& aName)
+    : MorseRanger(aRobot, aName, "sonar", "MorseSonar") {}
+MorseSonar::~MorseSonar() = default;
 
 // --- MorseMotionVW
 

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,21 +19,33 @@
 /// What passes between client and server, as JSON values; docs/protocol.md is the reference.
 /// Everything that decodes throws ProtocolError protocol/bad-value, which names the key, what was
 /// expected and what was found. Doubles and whole numbers come out as they went in, to the bit.
+///
+/// What clients send (commands, drawings, styles) is refused with keys that are not known; in what
+/// servers send, those are passed over, so that later versions can add to it.
 namespace playerlike::protocol {
 
 using nlohmann::json;
 
 /// @name Reading objects that came from outside
 /// @{
+
+/// The member of that name. @throws ProtocolError also if `object` is none.
 [[nodiscard]] const json& require(const json& object, const char* key);
 [[nodiscard]] double require_number(const json& object, const char* key);  ///< finite
+/// A whole number from `least` to `most`; 3.0 is whole, 3.5 is not.
 [[nodiscard]] std::int64_t require_integer(const json& object, const char* key, std::int64_t least,
                                            std::int64_t most);
 [[nodiscard]] bool require_bool(const json& object, const char* key);
 [[nodiscard]] std::string require_text(const json& object, const char* key);
+/// Refuses an object (or anything that is none) with keys that are not among those known.
+/// @param what  the object is, for the message: "a command twist".
+void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> known,
+                         std::string_view what);
+/// Throws ProtocolError protocol/bad-value for a value: "KEY: expected ..., found ...".
+[[noreturn]] void refuse_value(std::string_view key, std::string_view expected, const json& found);
 /// @}
 
-/// @name Bytes: in CBOR a byte string, in JSON a text in base64 (RFC 4648)
+/// @name Bytes: in CBOR a byte string, in JSON a text in base64 (RFC 4648, with padding)
 /// @{
 [[nodiscard]] json bytes(std::vector<std::uint8_t> value, Encoding encoding);
 [[nodiscard]] std::vector<std::uint8_t> require_bytes(const json& object, const char* key,
@@ -40,17 +55,22 @@ using nlohmann::json;
 /// @name Doubles: in CBOR a typed array of little-endian doubles (RFC 8746, tag 86), in JSON a list
 /// @{
 [[nodiscard]] json doubles(std::span<const double> values, Encoding encoding);
+/// Takes lists and typed arrays in both encodings.
 [[nodiscard]] std::vector<double> require_doubles(const json& object, const char* key,
                                                   Encoding encoding);
 /// @}
 
 [[nodiscard]] json encode_device_id(DeviceId device);  ///< [robot, device]
 [[nodiscard]] DeviceId require_device_id(const json& object, const char* key);
+[[nodiscard]] json encode_pose(const sim::Pose& pose);  ///< {"x", "y", "yaw"}
+[[nodiscard]] sim::Pose require_pose(const json& object, const char* key);
 
 /// A reading: {"device", "seq", "t" [ns], "type", ...what its type has}.
 /// @param type  of the device, e.g. "laser".
+/// @throws ProtocolError protocol/bad-value if devices of that type make no readings.
 [[nodiscard]] json encode_reading(DeviceId device, std::string_view type,
                                   const sim::Reading& reading, Encoding encoding);
+/// What decode_reading() gives.
 struct DecodedReading {
   DeviceId device{-1, -1};
   std::unique_ptr<sim::Reading> reading;
@@ -70,13 +90,15 @@ struct DecodedReading {
 [[nodiscard]] json encode_layer_kind(sim::LayerKind kind);
 [[nodiscard]] sim::LayerKind decode_layer_kind(const json& kind);
 [[nodiscard]] json encode_style(const sim::LayerStyle& style);
+/// Keys that are left out get the defaults of sim::LayerStyle.
 [[nodiscard]] sim::LayerStyle decode_style(const json& style);
 [[nodiscard]] json encode_layers(const std::vector<sim::LayerInfo>& layers);
 [[nodiscard]] std::vector<sim::LayerInfo> decode_layers(const json& layers);
 [[nodiscard]] json encode_map(const sim::OccupancyMap& map, Encoding encoding);
 [[nodiscard]] sim::OccupancyMap decode_map(const json& map, Encoding encoding);
 
-/// Drawings: in CBOR bytes, 28 a drawing; in JSON a list of lists.
+/// Drawings: in CBOR bytes, 28 a drawing; in JSON a list of lists. What a drawing's kind does not
+/// use is neither looked at nor sent; it comes out as 0.
 [[nodiscard]] json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding);
 [[nodiscard]] std::vector<sim::DrawOperation> decode_drawings(const json& drawings,
                                                               Encoding encoding);

@@ -1,23 +1,88 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/builtin.h"
 
+#include <algorithm>
+#include <numbers>
 #include <utility>
 
+#include "sim/devices/battery.h"
+#include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/motion.h"
 #include "sim/devices/pen.h"
+#include "sim/devices/proximity.h"
+#include "sim/devices/rangers.h"
+#include "sim/devices/teleport.h"
+#include "sim/devices/waypoint.h"
 
 namespace sim {
 namespace {
 
 constexpr io::NumberRange kFrequency{0.0, 1000.0, true, "Hz"};
 constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
+constexpr io::NumberRange kPower_w{0.0, 10000.0, false, "W"};
+constexpr io::NumberRange kVoltage_v{0.0, 1000.0, true, "V"};
 constexpr double kDegrees = std::numbers::pi / 180.0;
 
 RandomStream noise_stream(const DeviceDescription& device, const RobotDescription& robot,
                           std::uint64_t world_seed) {
   return {world_seed, robot.name + "/" + device.name};
+}
+
+BatteryParams parse_battery(io::Reader& settings, BatteryParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.capacity_wh = settings.number("capacity", p.capacity_wh, {0.0, 100000.0, true, "W h"});
+  p.initial_charge_percent =
+      settings.number("initial_charge", p.initial_charge_percent, {0.0, 100.0, false, "percent"});
+  p.idle_power_w = settings.number("idle_power", p.idle_power_w, kPower_w);
+  p.drive_power_ws_per_m = settings.number("drive_power", p.drive_power_ws_per_m,
+                                           {0.0, 10000.0, false, "W for each m/s"});
+  p.charging_power_w = settings.number("charging_power", p.charging_power_w, kPower_w);
+  p.full_voltage_v = settings.number("full_voltage", p.full_voltage_v, kVoltage_v);
+  p.empty_voltage_v = settings.number("empty_voltage", p.empty_voltage_v, kVoltage_v);
+  if (p.empty_voltage_v > p.full_voltage_v) {
+    settings.issue("device/battery-voltage", "an empty_voltage of at most full_voltage",
+                   std::to_string(p.empty_voltage_v) + " V empty, " +
+                       std::to_string(p.full_voltage_v) + " V full");
+  }
+  return p;
+}
+
+CollisionParams parse_collision(io::Reader& settings, CollisionParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  return p;
+}
+
+std::vector<Pose> parse_mounts(io::Reader& settings, const std::vector<Pose>& fallback) {
+  std::vector<Pose> mounts;
+  std::optional<io::Reader> list = settings.child("mounts");
+  if (!list) return fallback;
+  std::vector<io::Reader> elements = settings.array("mounts");
+  if (!list->is_array()) return fallback;
+  if (elements.empty() || elements.size() > RangerParams::kMaxTransducers) {
+    list->issue("device/ranger-mounts",
+                "a list of 1 to " + std::to_string(RangerParams::kMaxTransducers) +
+                    " poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer",
+                "a list of " + std::to_string(elements.size()));
+    return fallback;
+  }
+  for (io::Reader& element : elements) mounts.push_back(element.as_pose({}));
+  return mounts;
+}
+
+// What infrared and sonar have in common.
+void parse_ranger(io::Reader& settings, RangerParams& p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.X_BS = parse_mounts(settings, p.X_BS);
+}
+
+InfraredParams parse_infrared(io::Reader& settings, InfraredParams p) {
+  parse_ranger(settings, p);
+  return p;
 }
 
 LaserParams parse_laser(io::Reader& settings, LaserParams p) {
@@ -49,6 +114,11 @@ PoseParams parse_pose(io::Reader& settings, PoseParams p) {
 OdometryParams parse_odometry(io::Reader& settings, OdometryParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   p.noise = settings.number("noise", p.noise, {0.0, 10.0, false, "m after 1 m"});
+  const std::vector<std::string> levels = {"integrated", "differential", "raw"};
+  const std::string level =
+      settings.choice("level", levels[static_cast<std::size_t>(p.level)], levels);
+  p.level =
+      static_cast<OdometryLevel>(std::find(levels.begin(), levels.end(), level) - levels.begin());
   return p;
 }
 
@@ -71,6 +141,33 @@ PenParams parse_pen(io::Reader& settings, PenParams p) {
   return p;
 }
 
+ProximityParams parse_proximity(io::Reader& settings, ProximityParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.range_m = settings.number("range", p.range_m, {0.0, 1000.0, true, "m"});
+  p.obstacles = settings.boolean("obstacles", p.obstacles);
+  return p;
+}
+
+SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
+  parse_ranger(settings, p);
+  p.field_of_view_rad =
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 180.0, true, "degrees"});
+  return p;
+}
+
+TeleportParams parse_teleport(io::Reader&, TeleportParams p) { return p; }
+
+WaypointParams parse_waypoint(io::Reader& settings, WaypointParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.tolerance_m = settings.number("tolerance", p.tolerance_m, {0.0, 1000.0, true, "m"});
+  p.speed_mps = settings.number("speed", p.speed_mps, {0.0, 20.0, true, "m/s"});
+  p.turn_gain = settings.number("turn_gain", p.turn_gain, {0.0, 50.0, true, "1/s"});
+  p.approach_gain = settings.number("approach_gain", p.approach_gain, {0.0, 50.0, true, "1/s"});
+  p.max_turn_rate_radps = settings.angle_deg("max_turn_rate_deg", p.max_turn_rate_radps,
+                                             {0.0, 3600.0, true, "degrees/s"});
+  return p;
+}
+
 // Whether a mount lies so far within the footprint that no solid reaches it: robots sink into
 // solids by less than 2 mm.
 bool well_within(const Polygon& footprint, const Pose& X_BL) {
@@ -83,7 +180,28 @@ bool well_within(const Polygon& footprint, const Pose& X_BL) {
   return true;
 }
 
+std::unique_ptr<Device> make_ranger(const DeviceDescription& device, const RangerParams& params,
+                                    const RobotModel& model, RandomStream noise) {
+  const bool may_be_inside =
+      !std::all_of(params.X_BS.begin(), params.X_BS.end(),
+                   [&model](const Pose& X_BS) { return well_within(model.footprint, X_BS); });
+  return std::make_unique<Ranger>(device.name, device.type, params, may_be_inside,
+                                  std::move(noise));
+}
+
 using Properties = std::map<std::string, double>;
+
+Properties describe(const BatteryParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"capacity", p.capacity_wh},
+          {"initial_charge", p.initial_charge_percent},
+          {"idle_power", p.idle_power_w},
+          {"drive_power", p.drive_power_ws_per_m},
+          {"charging_power", p.charging_power_w},
+          {"full_voltage", p.full_voltage_v},
+          {"empty_voltage", p.empty_voltage_v}};
+}
+Properties describe(const CollisionParams& p) { return {{"frequency", p.frequency_hz}}; }
 
 Properties describe(const LaserParams& p) {
   return {{"frequency", p.frequency_hz},
@@ -103,11 +221,39 @@ Properties describe(const MotionParams& p) {
           {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
 }
 Properties describe(const OdometryParams& p) {
-  return {{"frequency", p.frequency_hz}, {"noise", p.noise}};
+  return {
+      {"frequency", p.frequency_hz}, {"noise", p.noise}, {"level", static_cast<double>(p.level)}};
 }
 Properties describe(const PenParams& p) { return {{"trail", p.trail ? 1.0 : 0.0}}; }
 Properties describe(const PoseParams& p) {
   return {{"frequency", p.frequency_hz}, {"noise", p.noise_m}, {"noise_yaw", p.noise_yaw_rad}};
+}
+Properties describe(const TeleportParams&) { return {}; }
+Properties describe(const WaypointParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"tolerance", p.tolerance_m},
+          {"speed", p.speed_mps},
+          {"turn_gain", p.turn_gain},
+          {"approach_gain", p.approach_gain},
+          {"max_turn_rate", p.max_turn_rate_radps}};
+}
+
+Properties describe(const ProximityParams& p) {
+  return {
+      {"frequency", p.frequency_hz}, {"range", p.range_m}, {"obstacles", p.obstacles ? 1.0 : 0.0}};
+}
+Properties describe(const RangerParams& p) {
+  Properties properties{
+      {"frequency", p.frequency_hz},          {"noise", p.noise_m},
+      {"range_max", p.range_max_m},           {"height", p.height_m},
+      {"field_of_view", p.field_of_view_rad}, {"count", static_cast<double>(p.X_BS.size())}};
+  for (std::size_t i = 0; i < p.X_BS.size(); ++i) {
+    const std::string number = std::to_string(i);
+    properties["mount_x_" + number] = p.X_BS[i].x_m;
+    properties["mount_y_" + number] = p.X_BS[i].y_m;
+    properties["mount_yaw_" + number] = p.X_BS[i].yaw_rad;
+  }
+  return properties;
 }
 
 // A row of the table: `parse` reads Params, `make` builds the device from them.
@@ -136,6 +282,18 @@ std::vector<DeviceKind> make_table() {
   using R = const RobotDescription&;
   using M = const RobotModel&;
   return {
+      kind<BatteryParams>("battery", parse_battery,
+                          [](D d, const BatteryParams& p, R, M model, const RandomStream&) {
+                            return std::make_unique<Battery>(d.name, p, model.wheel_separation_m);
+                          }),
+      kind<CollisionParams>("collision", parse_collision,
+                            [](D d, const CollisionParams& p, R, M, const RandomStream&) {
+                              return std::make_unique<CollisionSensor>(d.name, p);
+                            }),
+      kind<InfraredParams>("infrared", parse_infrared,
+                           [](D d, const InfraredParams& p, R, M model, RandomStream noise) {
+                             return make_ranger(d, p, model, std::move(noise));
+                           }),
       kind<LaserParams>("laser", parse_laser,
                         [](D d, const LaserParams& p, R, M model, RandomStream noise) {
                           return std::make_unique<Laser>(
@@ -159,6 +317,22 @@ std::vector<DeviceKind> make_table() {
                          return std::make_unique<PoseSensor>(d.name, p, robot.pose,
                                                              std::move(noise));
                        }),
+      kind<ProximityParams>("proximity", parse_proximity,
+                            [](D d, const ProximityParams& p, R, M, const RandomStream&) {
+                              return std::make_unique<Proximity>(d.name, p);
+                            }),
+      kind<SonarParams>("sonar", parse_sonar,
+                        [](D d, const SonarParams& p, R, M model, RandomStream noise) {
+                          return make_ranger(d, p, model, std::move(noise));
+                        }),
+      kind<TeleportParams>("teleport", parse_teleport,
+                           [](D d, const TeleportParams& p, R, M, const RandomStream&) {
+                             return std::make_unique<Teleport>(d.name, p);
+                           }),
+      kind<WaypointParams>("waypoint", parse_waypoint,
+                           [](D d, const WaypointParams& p, R robot, M, const RandomStream&) {
+                             return std::make_unique<Waypoint>(d.name, p, robot.pose);
+                           }),
   };
 }
 

@@ -10,6 +10,17 @@ std::optional<std::string> Device::apply(const Command& command) {
   return "a device of type \"" + type_ + "\" takes no such command";
 }
 
+std::optional<std::string> Device::carry_out(const Command& command, RobotControl& robot) {
+  static_cast<void>(robot);
+  return apply(command);
+}
+
+void Device::set_active(bool active, RobotControl& robot) {
+  if (active == active_) return;
+  active_ = active;
+  if (!active_) deactivated(robot);
+}
+
 Sensor::Sensor(std::string name, std::string type, double frequency_hz)
     : Device(std::move(name), std::move(type)),
       frequency_hz_(frequency_hz),
@@ -23,9 +34,15 @@ bool Sensor::update(const StepContext& context) {
   // A sensor faster than the simulation's step measures once a step; readings it could not make
   // are not caught up on.
   next_due_ns_ += period_ns_ * ((context.now_ns - next_due_ns_) / period_ns_ + 1);
+  if (!active()) return false;
   ++sequence_;
   measure(context);
   return true;
+}
+
+void Sensor::succeed(const Device& before, SimTime now_ns) {
+  sequence_ = dynamic_cast<const Sensor&>(before).sequence_;
+  next_due_ns_ = now_ns + period_ns_;
 }
 
 void Sensor::hash(StateHash& hash) const {

@@ -64,8 +64,10 @@ Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_
 std::optional<std::string> Odometry::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
+  const Pose X_BR = X_SB_.inverse() * X_SR_;
   X_SB_ = set->pose;
   X_SB_.yaw_rad = normalize_angle(X_SB_.yaw_rad);
+  X_SR_ = X_SB_ * X_BR;
   return std::nullopt;
 }
 
@@ -85,6 +87,7 @@ void Odometry::integrate(const StepContext& context) {
   const double chord_m = ds_m * sinc(0.5 * dyaw_rad);
   X_SB_ = {X_SB_.x_m + chord_m * std::cos(heading), X_SB_.y_m + chord_m * std::sin(heading),
            normalize_angle(X_SB_.yaw_rad + dyaw_rad)};
+  path_length_m_ += std::abs(ds_m);
 }
 
 void Odometry::measure(const StepContext& context) {
@@ -93,12 +96,19 @@ void Odometry::measure(const StepContext& context) {
   reading_.twist = context.body.twist;
   reading_.twist.lateral_mps = 0.0;  // wheels do not feel it
   reading_.stalled = context.body.stalled;
+  // A robot that stands has not moved to the bit.
+  reading_.increment = X_SR_ == X_SB_ ? Pose{} : X_SR_.inverse() * X_SB_;
+  reading_.path_length_m = path_length_m_;
+  X_SR_ = X_SB_;
+  path_length_m_ = 0.0;
 }
 
 void Odometry::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
   hash_pose(hash, X_SB_);
+  if (X_SR_ != X_SB_) hash_pose(hash, X_SR_);
+  if (path_length_m_ != 0.0) hash.add(path_length_m_);
 }
 
 }  // namespace sim

@@ -37,6 +37,20 @@ std::optional<std::string> Motion::apply(const Command& command) {
   return Device::apply(command);
 }
 
+std::optional<std::string> Motion::carry_out(const Command& command, RobotControl& robot) {
+  if (enabled_ && std::holds_alternative<TwistCommand>(command)) {
+    static_cast<void>(robot.take_motors(*this));
+  }
+  return apply(command);
+}
+
+void Motion::placed(const Pose&) {
+  commanded_ = {};
+  target_ = {};
+}
+
+void Motion::deactivated(RobotControl&) { commanded_ = {}; }
+
 Twist Motion::next_target(double dt_s) {
   target_.v_mps = ramp(target_.v_mps, commanded_.v_mps, params_.max_acceleration_mps2, dt_s);
   target_.omega_radps =

@@ -7,7 +7,7 @@ Pen::Pen(std::string name, const PenParams& params)
     : Actuator(std::move(name), "pen"), params_(params) {}
 
 void Pen::mark_trail(const Pose& X_WB, Canvas& canvas) {
-  if (!params_.trail) return;
+  if (!params_.trail || !active()) return;
   const int column = canvas.column(X_WB.x_m);
   const int row = canvas.row(X_WB.y_m);
   if (has_last_ && column == last_column_ && row == last_row_) return;

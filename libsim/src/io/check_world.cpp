@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/core/assert.h"
 #include "sim/io/world_io.h"
 #include "sim/world/robot_model.h"
 
@@ -189,6 +190,45 @@ std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
   return solids;
 }
 
+/// A robot by its index, where it stands.
+using StandingRobot = std::pair<std::size_t, Solid>;
+
+/// One thing in the way of a robot.
+struct Blockage {
+  enum class Kind { kOutside, kObstacle, kWall, kRobot };
+  Kind kind;
+  double depth_m = 0.0;               ///< how far the robot reaches into it; unknown for a wall
+  const char* side = "";              ///< of the floor
+  const NamedSolid* solid = nullptr;  ///< the obstacle
+  std::size_t robot = 0;              ///< the other one
+  Vec2 wall = Vec2::Zero();           ///< a point of the wall
+};
+
+/// All that is in the way of a robot whose outline is `body`.
+std::vector<Blockage> blockages(const ArenaDescription& arena,
+                                const std::vector<NamedSolid>& solids,
+                                const std::vector<StandingRobot>& robots, const Solid& body) {
+  std::vector<Blockage> found;
+  const auto note = [&found](Blockage::Kind kind, double depth_m) -> Blockage& {
+    found.push_back({kind, depth_m});
+    return found.back();
+  };
+  const auto [side, beyond_m] = beyond_floor(arena, body.outline);
+  if (beyond_m > 0.0) note(Blockage::Kind::kOutside, beyond_m).side = side;
+  for (const NamedSolid& other : solids) {
+    const double depth_m = overlap_m(body, other.solid);
+    if (depth_m > 0.0) note(Blockage::Kind::kObstacle, depth_m).solid = &other;
+  }
+  if (const std::optional<Vec2> wall = wall_within(arena.walls, body)) {
+    note(Blockage::Kind::kWall, 0.0).wall = *wall;
+  }
+  for (const auto& [index, other] : robots) {
+    const double depth_m = overlap_m(body, other);
+    if (depth_m > 0.0) note(Blockage::Kind::kRobot, depth_m).robot = index;
+  }
+  return found;
+}
+
 /// Collects issues of one world.
 class Checker {
  public:
@@ -303,7 +343,7 @@ class Checker {
 
   void check_robot_poses() {
     const std::vector<NamedSolid> solids = standing_solids(world_.arena);
-    std::vector<std::pair<std::size_t, Solid>> before;
+    std::vector<StandingRobot> before;
     for (std::size_t i = 0; i < world_.robots.size(); ++i) {
       const RobotDescription& robot = world_.robots[i];
       const RobotModel* model = find_robot_model(robot.model);
@@ -313,36 +353,37 @@ class Checker {
       }
       const std::string who = "robot " + robot.name + " at " + place(robot.pose.position());
       Solid body(placed(model->footprint, robot.pose));
-
-      const auto [side, depth_m] = beyond_floor(world_.arena, body.outline);
-      if (depth_m > 0.0) {
-        add("world/robot-outside", pointer, "a place on " + floor_text(world_.arena),
-            who + " sticking out " + metres(depth_m) + " beyond the " + side + " side",
-            "x and y are the middle of the robot; keep 0.1 m from the border");
-      }
-      for (const NamedSolid& other : solids) {
-        const double overlap = overlap_m(body, other.solid);
-        if (overlap == 0.0) continue;
-        const ObstacleDescription& obstacle = *other.obstacle;
-        const bool dynamic = obstacle.type == ObstacleType::kDynamic;
-        add("world/robot-overlaps-obstacle", pointer,
-            std::string("a place clear of ") + (other.separator ? "separator " : "obstacle ") +
-                obstacle.name + ", whose center is " + place(obstacle.center),
-            who + " overlapping it by " + metres(overlap),
-            dynamic ? "move the robot, or leave " + obstacle.name + " retracted"
-                    : "move the robot");
-      }
-      if (const std::optional<Vec2> wall = wall_within(world_.arena.walls, body)) {
-        add("world/robot-overlaps-wall", pointer, "a place clear of the map's walls",
-            who + " in a wall at " + place(*wall), "move the robot to a light part of the map");
-      }
-      for (const auto& [j, other] : before) {
-        const double overlap = overlap_m(body, other);
-        if (overlap == 0.0) continue;
-        add("world/robots-overlap", pointer,
-            "a place clear of robot " + world_.robots[j].name + " at " +
-                place(world_.robots[j].pose.position()),
-            who + " overlapping it by " + metres(overlap), "move one of the two");
+      for (const Blockage& b : blockages(world_.arena, solids, before, body)) {
+        switch (b.kind) {
+          case Blockage::Kind::kOutside:
+            add("world/robot-outside", pointer, "a place on " + floor_text(world_.arena),
+                who + " sticking out " + metres(b.depth_m) + " beyond the " + b.side + " side",
+                "x and y are the middle of the robot; keep 0.1 m from the border");
+            break;
+          case Blockage::Kind::kObstacle: {
+            const ObstacleDescription& obstacle = *b.solid->obstacle;
+            const bool dynamic = obstacle.type == ObstacleType::kDynamic;
+            add("world/robot-overlaps-obstacle", pointer,
+                std::string("a place clear of ") +
+                    (b.solid->separator ? "separator " : "obstacle ") + obstacle.name +
+                    ", whose center is " + place(obstacle.center),
+                who + " overlapping it by " + metres(b.depth_m),
+                dynamic ? "move the robot, or leave " + obstacle.name + " retracted"
+                        : "move the robot");
+            break;
+          }
+          case Blockage::Kind::kWall:
+            add("world/robot-overlaps-wall", pointer, "a place clear of the map's walls",
+                who + " in a wall at " + place(b.wall),
+                "move the robot to a light part of the map");
+            break;
+          case Blockage::Kind::kRobot:
+            add("world/robots-overlap", pointer,
+                "a place clear of robot " + world_.robots[b.robot].name + " at " +
+                    place(world_.robots[b.robot].pose.position()),
+                who + " overlapping it by " + metres(b.depth_m), "move one of the two");
+            break;
+        }
       }
       before.emplace_back(i, std::move(body));
     }
@@ -377,6 +418,38 @@ std::vector<ConfigIssue> check_world_parts(const WorldDescription& world,
 
 std::vector<ConfigIssue> check_world(const WorldDescription& world) {
   return check_world_parts(world, [](const std::string&) { return true; });
+}
+
+std::optional<std::string> blocked_by(const WorldDescription& world, const std::vector<Pose>& poses,
+                                      std::size_t robot, const Pose& X_WB) {
+  std::vector<StandingRobot> others;
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    const RobotModel* model = find_robot_model(world.robots[i].model);
+    if (i == robot || model == nullptr) continue;
+    others.emplace_back(i, Solid(placed(model->footprint, poses.at(i))));
+  }
+  const RobotModel* own = find_robot_model(world.robots.at(robot).model);
+  SIM_ASSERT(own != nullptr);
+  const std::vector<NamedSolid> solids = standing_solids(world.arena);
+  const std::vector<Blockage> found =
+      blockages(world.arena, solids, others, Solid(placed(own->footprint, X_WB)));
+  if (found.empty()) return std::nullopt;
+  const Blockage& first = found.front();
+  switch (first.kind) {
+    case Blockage::Kind::kOutside:
+      return "it would stick out " + metres(first.depth_m) + " beyond the " + first.side +
+             " side of " + floor_text(world.arena);
+    case Blockage::Kind::kObstacle:
+      return std::string(first.solid->separator ? "separator " : "obstacle ") +
+             first.solid->obstacle->name + " stands there, at " +
+             place(first.solid->obstacle->center);
+    case Blockage::Kind::kWall:
+      return "a wall of the map stands there, at " + place(first.wall);
+    case Blockage::Kind::kRobot:
+      break;
+  }
+  return "robot " + world.robots[first.robot].name + " stands there, at " +
+         place(poses[first.robot].position());
 }
 
 std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint) {

@@ -19,6 +19,14 @@ using TrustedPart = std::function<bool(const std::string& pointer)>;
 [[nodiscard]] std::vector<ConfigIssue> check_world_parts(const WorldDescription& world,
                                                          const TrustedPart& trusted);
 
+/// What keeps a robot of `world` from standing at X_WB, in words that go on from "robot r1 cannot
+/// stand at (1.00, 2.00): ", by the same rules as a robot's start; nullopt if nothing.
+/// @param poses  X_WB of all robots now; robot's own is not looked at.
+/// @param robot  index.
+[[nodiscard]] std::optional<std::string> blocked_by(const WorldDescription& world,
+                                                    const std::vector<Pose>& poses,
+                                                    std::size_t robot, const Pose& X_WB);
+
 /// A place on the floor, clear of everything by some centimetres, for a robot with that outline:
 /// in the SyRoTek arena its start pose if free, else as near to the middle of the floor as can be,
 /// looking where it can drive farthest. Robots listed in `world` are in its way.

@@ -394,14 +394,18 @@ double Reader::angle_deg(std::string_view key, double fallback_rad, NumberRange 
 }
 
 Pose Reader::pose(std::string_view key, const Pose& fallback) {
-  std::optional<Reader> member = object(key);
-  if (!member) return fallback;
+  std::optional<Reader> member = child(key);
+  return member ? member->as_pose(fallback) : fallback;
+}
+
+Pose Reader::as_pose(const Pose& fallback) {
+  if (!expect_object()) return fallback;
   const NumberRange position{-1e6, 1e6, false, "m"};
   Pose pose;
-  pose.x_m = member->number("x", fallback.x_m, position);
-  pose.y_m = member->number("y", fallback.y_m, position);
-  pose.yaw_rad = normalize_angle(member->angle_deg("yaw_deg", fallback.yaw_rad));
-  member->finish();
+  pose.x_m = number("x", fallback.x_m, position);
+  pose.y_m = number("y", fallback.y_m, position);
+  pose.yaw_rad = normalize_angle(angle_deg("yaw_deg", fallback.yaw_rad));
+  finish();
   return pose;
 }
 

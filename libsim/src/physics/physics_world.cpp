@@ -100,6 +100,7 @@ struct Robot {
   double radius_m = 0.0;  // of the footprint about B
   Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
   Twist target;
+  bool suspended = false;
   double stall_clock_s = 0.0;
   std::vector<b2Fixture*> candidates;  // all that is nearer than candidates_reach_m
   b2Vec2 nearest_direction{1.0F, 0.0F};
@@ -354,6 +355,10 @@ struct PhysicsWorld::Impl : b2ContactListener {
     for (const auto& [a, b] : near_pairs) {
       if (a != me && b != me) continue;
       const Robot& other = robots[static_cast<std::size_t>(a == me ? b : a)];
+      if (other.suspended) {  // as good as a wall
+        add_constraints(r, other.shape, other.body->GetTransform(), 1.0, dt_s);
+        continue;
+      }
       if (touches(r.body, other.body)) continue;  // pushing: Box2D's solver shares the momentum
       add_constraints(r, other.shape, other.body->GetTransform(), 0.5, dt_s);
     }
@@ -431,6 +436,10 @@ struct PhysicsWorld::Impl : b2ContactListener {
   // Returns how far any point of the robot has moved, at most [m].
   double follow_body(std::size_t index, double dt_s) {
     Robot& r = robots[index];
+    if (r.suspended) {
+      hold(r);
+      return 0.0;
+    }
     const Pose& goal = goals[index];
     const b2Vec2 p = r.body->GetPosition();
     const b2Vec2 wanted = to_box2d(goal.position());
@@ -461,6 +470,16 @@ struct PhysicsWorld::Impl : b2ContactListener {
     r.state.turn_rad += turn;
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
     return moved + std::abs(turn) * r.radius_m;
+  }
+
+  // Takes back what Box2D's solver may have done to a body that is not to move.
+  static void hold(Robot& r) {
+    const b2Vec2 p = to_box2d(r.X_WB.position());
+    const float angle = static_cast<float>(r.X_WB.yaw_rad);
+    if (r.body->GetPosition() == p && r.body->GetAngle() == angle) return;
+    r.body->SetTransform(p, angle);
+    r.body->SetLinearVelocity({0.0F, 0.0F});
+    r.body->SetAngularVelocity(0.0F);
   }
 
   // Keeps angles small, where single precision is fine.
@@ -620,7 +639,32 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 int PhysicsWorld::robot_count() const noexcept { return static_cast<int>(impl_->robots.size()); }
 
 void PhysicsWorld::set_target(int robot, const Twist& target) {
-  impl_->robots[static_cast<std::size_t>(robot)].target = target;
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+  r.target = r.suspended ? Twist{} : target;
+}
+
+void PhysicsWorld::set_suspended(int robot, bool suspended) {
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+  if (suspended == r.suspended) return;
+  r.suspended = suspended;
+  if (!suspended) {
+    r.body->ResetMassData();
+    return;
+  }
+  // A mass beside which all others are nothing, rather than a static body: contacts live on.
+  constexpr float kMore = 1e9F;
+  b2MassData mass;
+  r.body->GetMassData(&mass);
+  mass.mass *= kMore;
+  mass.I *= kMore;
+  r.body->SetMassData(&mass);
+  r.body->SetLinearVelocity({0.0F, 0.0F});
+  r.body->SetAngularVelocity(0.0F);
+  r.target = {};
+}
+
+bool PhysicsWorld::suspended(int robot) const {
+  return impl_->robots[static_cast<std::size_t>(robot)].suspended;
 }
 
 void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
@@ -662,6 +706,19 @@ const BodyState& PhysicsWorld::body(int robot) const {
 
 const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noexcept {
   return impl_->contacts;
+}
+
+std::vector<PhysicsWorld::Contact> PhysicsWorld::contacts_of(int robot) const {
+  std::vector<Contact> contacts;
+  const b2Body* body = impl_->robots[static_cast<std::size_t>(robot)].body;
+  for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+    if (!e->contact->IsTouching()) continue;
+    const b2Fixture* a = e->contact->GetFixtureA();
+    const b2Fixture* other = a->GetBody() == body ? e->contact->GetFixtureB() : a;
+    const FixtureInfo& info = info_of(other);
+    contacts.push_back({robot, info.kind, info.index});
+  }
+  return contacts;
 }
 
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
@@ -858,6 +915,7 @@ void PhysicsWorld::hash(StateHash& hash) const {
         hash.add(static_cast<double>(manifold.points[i].normalImpulse));
       }
     }
+    if (r.suspended) hash.add(std::string_view("suspended"));
   }
   for (const b2Body* body : impl_->obstacle_bodies) hash.add(body->IsEnabled());
 }
@@ -887,6 +945,23 @@ void PhysicsWorld::bare_step(double dt_s) {
     r.body->SetAngularVelocity(static_cast<float>(r.target.omega_radps));
   }
   impl_->world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+}
+
+std::string partner_name(const PhysicsWorld::Contact& contact, const WorldDescription& world) {
+  const auto index = static_cast<std::size_t>(contact.index);
+  switch (contact.kind) {
+    case PhysicsWorld::Contact::Kind::kObstacle:
+      return world.arena.obstacles[index].name;
+    case PhysicsWorld::Contact::Kind::kSeparator:
+      return world.arena.dock_separators[index].name;
+    case PhysicsWorld::Contact::Kind::kBorder:
+      return "border";
+    case PhysicsWorld::Contact::Kind::kWall:
+      return "wall";
+    case PhysicsWorld::Contact::Kind::kRobot:
+      break;
+  }
+  return world.robots[index].name;
 }
 
 }  // namespace sim

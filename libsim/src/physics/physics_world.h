@@ -40,6 +40,10 @@ class PhysicsWorld {
   void set_target(int robot, const Twist& target);
   /// Puts a robot somewhere, at rest.
   void set_pose(int robot, const Pose& X_WB);
+  /// Lets a robot stand where it is, at rest, as if it were part of the floor (true), or move
+  /// again. While suspended it has a target of zero; set_pose() still works.
+  void set_suspended(int robot, bool suspended);
+  [[nodiscard]] bool suspended(int robot) const;
   /// Advances by dt_s (> 0).
   void step(double dt_s);
   [[nodiscard]] const BodyState& body(int robot) const;
@@ -53,6 +57,9 @@ class PhysicsWorld {
   };
   /// Contacts that began in the last step; one between robots is listed for both.
   [[nodiscard]] const std::vector<Contact>& new_contacts() const noexcept;
+  /// Contacts that a robot has now. A partner may be listed more than once (a wall of several
+  /// edges), in no particular order.
+  [[nodiscard]] std::vector<Contact> contacts_of(int robot) const;
 
   /// Extends (true) or retracts a dynamic obstacle, by its index in the arena.
   void set_extended(int obstacle, bool extended);
@@ -85,5 +92,10 @@ class PhysicsWorld {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Name of whom a contact is with: of an obstacle, dock separator or robot of the world; "border"
+/// or "wall".
+[[nodiscard]] std::string partner_name(const PhysicsWorld::Contact& contact,
+                                       const WorldDescription& world);
 
 }  // namespace sim

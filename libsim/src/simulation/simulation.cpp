@@ -1,10 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation/simulation.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "io/check_world.h"
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/error.h"
@@ -39,13 +41,44 @@ struct RobotParts {
 }  // namespace
 
 struct Simulation::Impl {
+  // What the devices of one robot may do to it.
+  class Control final : public RobotControl {
+   public:
+    Control(Impl& owner, std::size_t robot) : impl_(owner), robot_(robot) {}
+
+    [[nodiscard]] const BodyState& body() const override {
+      return impl_.physics->body(static_cast<int>(robot_));
+    }
+    bool take_motors(const Device& device) override {
+      RobotParts& robot = impl_.robots[robot_];
+      if (robot.motion == nullptr) return false;
+      if (dynamic_cast<const Motion*>(&device) != nullptr && &device != robot.motion) return false;
+      for (const auto& other : robot.devices) {
+        if (other.get() != &device) other->motors_taken();
+      }
+      return true;
+    }
+    void drive(const Twist& twist) override {
+      Motion* motion = impl_.robots[robot_].motion;
+      if (motion != nullptr) static_cast<void>(motion->apply(TwistCommand{twist}));
+    }
+    std::optional<std::string> place(const Pose& X_WB) override {
+      return impl_.place(robot_, X_WB);
+    }
+
+   private:
+    Impl& impl_;
+    std::size_t robot_;
+  };
+
   Impl(WorldDescription description, LogHook hook)
       : world(std::move(description)),
         log(std::move(hook)),
-        physics(world.arena),
+        physics(std::make_unique<PhysicsWorld>(world.arena)),
         layers(world.canvas),
         view_mode(world.canvas.view_mode) {
-    for (std::size_t i = 0; i < world.robots.size(); ++i) add_robot(world.robots[i]);
+    for (const ObstacleDescription& o : world.arena.obstacles) start_states.push_back(o.state);
+    for (const RobotDescription& robot : world.robots) add_robot(robot);
     for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
   }
 
@@ -53,7 +86,7 @@ struct Simulation::Impl {
     RobotParts parts;
     parts.model = find_robot_model(robot.model);
     SIM_ASSERT(parts.model != nullptr);
-    const int index = physics.add_robot(*parts.model, robot.pose);
+    const int index = physics->add_robot(*parts.model, robot.pose);
     for (const Vec2& v : parts.model->footprint) {
       parts.radius_m = std::max(parts.radius_m, v.norm());
     }
@@ -77,11 +110,17 @@ struct Simulation::Impl {
   void step() {
     const double dt_s = to_seconds(world.simulation.step_ns);
     for (std::size_t i = 0; i < robots.size(); ++i) {
+      // The command of a suspended robot's motors waits.
+      if (physics->suspended(static_cast<int>(i))) continue;
+      Control control(*this, i);
+      for (const auto& device : robots[i].devices) {
+        if (device->active()) device->act(control);
+      }
       if (robots[i].motion != nullptr) {
-        physics.set_target(static_cast<int>(i), robots[i].motion->next_target(dt_s));
+        physics->set_target(static_cast<int>(i), robots[i].motion->next_target(dt_s));
       }
     }
-    physics.step(dt_s);
+    physics->step(dt_s);
     now_ns += world.simulation.step_ns;
     ++steps;
     record_collisions();
@@ -93,17 +132,54 @@ struct Simulation::Impl {
     for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
   }
 
+  std::optional<std::string> place(std::size_t i, const Pose& X_WB) {
+    std::vector<Pose> poses;
+    for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
+    if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
+      return "robot " + world.robots[i].name + " cannot be put there: " + *what;
+    }
+    physics->set_pose(static_cast<int>(i), X_WB);
+    last_positions[i] = X_WB.position();  // the way there does not count
+    for (const auto& device : robots[i].devices) device->placed(X_WB);
+    forget_clearances();
+    return std::nullopt;
+  }
+
+  void reset() {
+    for (std::size_t i = 0; i < start_states.size(); ++i) {
+      world.arena.obstacles[i].state = start_states[i];
+    }
+    physics = std::make_unique<PhysicsWorld>(world.arena);
+    layers.base().clear();
+    const std::vector<RobotParts> before = std::exchange(robots, {});
+    last_positions.clear();
+    for (const RobotDescription& robot : world.robots) add_robot(robot);
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      robots[i].statistics = before[i].statistics;
+      for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
+        robots[i].devices[k]->succeed(*before[i].devices[k], now_ns);
+      }
+    }
+    updated.clear();
+    forget_clearances();
+  }
+
+  // Something was put somewhere: clearances must be looked at anew.
+  void forget_clearances() {
+    for (RobotParts& robot : robots) robot.clearance_slack_m = 0.0;
+  }
+
   void update_robot(std::size_t i, double dt_s) {
     RobotParts& robot = robots[i];
     const int index = static_cast<int>(i);
-    const BodyState& body = physics.body(index);
+    const BodyState& body = physics->body(index);
     const Vec2 position = body.X_WB.position();
     robot.statistics.path_length_m += (position - last_positions[i]).norm();
     last_positions[i] = position;
     if (body.stalled) robot.statistics.stalled_time_s += dt_s;
     update_clearance(i, dt_s);
     if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, layers.base());
-    const StepContext context{now_ns, body, physics, index};
+    const StepContext context{now_ns, body, *physics, index, world};
     for (std::size_t k = 0; k < robot.devices.size(); ++k) {
       robot.devices[k]->integrate(context);
       if (robot.sensors[k] != nullptr && robot.sensors[k]->update(context)) {
@@ -114,7 +190,7 @@ struct Simulation::Impl {
 
   // How far any point of a robot can have moved in the last step, at most.
   [[nodiscard]] double move_m(std::size_t i, double dt_s) const {
-    const BodyState& body = physics.body(static_cast<int>(i));
+    const BodyState& body = physics->body(static_cast<int>(i));
     return std::abs(body.travel_m) + std::abs(body.twist.lateral_mps) * dt_s +
            std::abs(body.turn_rad) * robots[i].radius_m;
   }
@@ -133,43 +209,32 @@ struct Simulation::Impl {
     RobotParts& robot = robots[i];
     double& least_m = robot.statistics.least_clearance_m;
     const double exact_below_m = steps == 0 ? limit_m : least_m;
-    const double clearance_m = physics.clearance_m(static_cast<int>(i), limit_m, exact_below_m);
+    const double clearance_m = physics->clearance_m(static_cast<int>(i), limit_m, exact_below_m);
     if (steps == 0 || clearance_m < least_m) least_m = clearance_m;
     robot.clearance_slack_m = clearance_m - least_m;
   }
 
   void record_collisions() {
-    for (const PhysicsWorld::Contact& contact : physics.new_contacts()) {
+    for (const PhysicsWorld::Contact& contact : physics->new_contacts()) {
       RobotStatistics& s = robots[static_cast<std::size_t>(contact.robot)].statistics;
       ++s.collisions;
       s.least_clearance_m = 0.0;
       if (collisions.size() == kKeptCollisions) collisions.erase(collisions.begin());
-      collisions.push_back({now_ns, contact.robot, partner_name(contact)});
+      collisions.push_back({now_ns, contact.robot, partner_name(contact, world)});
     }
   }
 
-  [[nodiscard]] std::string partner_name(const PhysicsWorld::Contact& contact) const {
-    const auto index = static_cast<std::size_t>(contact.index);
-    switch (contact.kind) {
-      case PhysicsWorld::Contact::Kind::kObstacle:
-        return world.arena.obstacles[index].name;
-      case PhysicsWorld::Contact::Kind::kSeparator:
-        return world.arena.dock_separators[index].name;
-      case PhysicsWorld::Contact::Kind::kBorder:
-        return "border";
-      case PhysicsWorld::Contact::Kind::kWall:
-        return "wall";
-      case PhysicsWorld::Contact::Kind::kRobot:
-        break;
-    }
-    return world.robots[index].name;
+  [[nodiscard]] Device& device(DeviceId id) const {
+    return *robots.at(static_cast<std::size_t>(id.robot))
+                .devices.at(static_cast<std::size_t>(id.device));
   }
 
   WorldDescription world;
   LogHook log;
-  PhysicsWorld physics;
+  std::unique_ptr<PhysicsWorld> physics;
   LayerStack layers;
   ViewMode view_mode;
+  std::vector<ObstacleState> start_states;  // of the obstacles
   std::vector<RobotParts> robots;
   std::vector<Vec2> last_positions;
   double farthest_move_m = 0.0;  // of any robot in the last step
@@ -207,7 +272,7 @@ const RobotModel& Simulation::model(int robot) const {
 
 const BodyState& Simulation::body(int robot) const {
   SIM_ASSERT(robot >= 0 && robot < robot_count());
-  return impl_->physics.body(robot);
+  return impl_->physics->body(robot);
 }
 
 const RobotStatistics& Simulation::statistics(int robot) const {
@@ -245,9 +310,85 @@ const std::vector<Simulation::DeviceId>& Simulation::updated() const noexcept {
 }
 
 std::optional<std::string> Simulation::apply(DeviceId id, const Command& command) {
-  return impl_->robots.at(static_cast<std::size_t>(id.robot))
-      .devices.at(static_cast<std::size_t>(id.device))
-      ->apply(command);
+  Device& device = impl_->device(id);
+  if (!device.active()) {
+    return "device " + impl_->world.robots[static_cast<std::size_t>(id.robot)].name + "." +
+           device.name() + " is switched off: it takes no commands until it is on again";
+  }
+  Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
+  return device.carry_out(command, control);
+}
+
+void Simulation::reset() { impl_->reset(); }
+
+void Simulation::set_active(DeviceId id, bool active) {
+  Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
+  impl_->device(id).set_active(active, control);
+}
+
+bool Simulation::active(DeviceId id) const { return impl_->device(id).active(); }
+
+std::optional<std::string> Simulation::set_dynamics(bool on) {
+  for (int i = 0; i < robot_count(); ++i) impl_->physics->set_suspended(i, !on);
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::set_robot_dynamics(int robot, bool on) {
+  if (robot < 0 || robot >= robot_count()) {
+    return "there is no robot number " + std::to_string(robot) + "; this world has " +
+           std::to_string(robot_count());
+  }
+  impl_->physics->set_suspended(robot, !on);
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::set_object_dynamics(const std::string& name, bool on) {
+  if (const auto robot = find_robot(name)) return set_robot_dynamics(*robot, on);
+  for (const SceneObject& object : scene_objects()) {
+    if (object.name != name) continue;
+    return object.kind + " \"" + name + "\" has no dynamics: it stands fast and moves for nobody" +
+           (object.dynamic ? ", though it can be extended and retracted" : "");
+  }
+  return "there is no robot or obstacle named \"" + name + "\"";
+}
+
+bool Simulation::robot_dynamics(int robot) const {
+  SIM_ASSERT(robot >= 0 && robot < robot_count());
+  return !impl_->physics->suspended(robot);
+}
+
+std::vector<SceneObject> Simulation::scene_objects() const {
+  const ArenaDescription& arena = impl_->world.arena;
+  std::vector<SceneObject> objects;
+  const auto add_box = [&objects](const ObstacleDescription& o, const char* kind) {
+    objects.push_back({o.name,
+                       kind,
+                       {o.center.x(), o.center.y(), o.yaw_rad},
+                       o.size,
+                       o.type == ObstacleType::kDynamic,
+                       o.state == ObstacleState::kExtended});
+  };
+  for (int i = 0; i < robot_count(); ++i) {
+    Eigen::AlignedBox2d box;
+    for (const Vec2& v : model(i).footprint) box.extend(v);
+    objects.push_back({impl_->world.robots[static_cast<std::size_t>(i)].name, "robot", body(i).X_WB,
+                       box.sizes(), true});
+  }
+  for (const ObstacleDescription& o : arena.obstacles) add_box(o, "block");
+  for (const ObstacleDescription& o : arena.dock_separators) add_box(o, "separator");
+  if (arena.border) {
+    const Vec2 middle = arena.origin + 0.5 * arena.size;
+    objects.push_back({"border", "border", {middle.x(), middle.y(), 0.0}, arena.size});
+  }
+  Eigen::AlignedBox2d walls;
+  for (const WallLoop& loop : arena.walls) {
+    for (const Vec2& v : loop.vertices) walls.extend(v);
+  }
+  if (!walls.isEmpty()) {
+    const Vec2 middle = walls.center();
+    objects.push_back({"wall", "wall", {middle.x(), middle.y(), 0.0}, walls.sizes()});
+  }
+  return objects;
 }
 
 LayerStack& Simulation::layers() noexcept { return impl_->layers; }
@@ -279,12 +420,12 @@ std::optional<std::string> Simulation::set_obstacle_state(const std::string& nam
   const int index = static_cast<int>(it - obstacles.begin());
   const bool extend = state == ObstacleState::kExtended;
   if (it->state == state) return std::nullopt;
-  if (extend && impl_->physics.robot_stands_on(index)) {
+  if (extend && impl_->physics->robot_stands_on(index)) {
     return "obstacle \"" + name + "\" cannot be extended: a robot stands on it";
   }
-  impl_->physics.set_extended(index, extend);
+  impl_->physics->set_extended(index, extend);
   it->state = state;
-  for (RobotParts& robot : impl_->robots) robot.clearance_slack_m = 0.0;
+  impl_->forget_clearances();
   return std::nullopt;
 }
 
@@ -292,9 +433,12 @@ std::uint64_t Simulation::state_hash() const {
   StateHash hash;
   hash.add(impl_->now_ns);
   hash.add(impl_->steps);
-  impl_->physics.hash(hash);
+  impl_->physics->hash(hash);
   for (const RobotParts& robot : impl_->robots) {
-    for (const auto& device : robot.devices) device->hash(hash);
+    for (const auto& device : robot.devices) {
+      device->hash(hash);
+      if (!device->active()) hash.add(std::string_view("off"));
+    }
     hash.add(robot.statistics.path_length_m);
     hash.add(robot.statistics.collisions);
     hash.add(robot.statistics.least_clearance_m);
@@ -315,7 +459,7 @@ SceneSnapshot Simulation::snapshot() const {
   scene.time_s = to_seconds(impl_->now_ns);
   for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
     const RobotParts& robot = impl_->robots[i];
-    const BodyState& body = impl_->physics.body(static_cast<int>(i));
+    const BodyState& body = impl_->physics->body(static_cast<int>(i));
     RobotSnapshot shot;
     shot.name = impl_->world.robots[i].name;
     shot.colour = impl_->world.robots[i].colour;

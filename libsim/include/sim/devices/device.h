@@ -16,13 +16,15 @@
 namespace sim {
 
 class PhysicsWorld;
+struct WorldDescription;
 
 /// What a device may look at when a step has ended.
 struct StepContext {
-  SimTime now_ns;               ///< simulated time at the end of the step
-  const BodyState& body;        ///< of the device's robot
-  const PhysicsWorld& physics;  ///< for range sensing
-  int robot;                    ///< index of the device's robot
+  SimTime now_ns;                 ///< simulated time at the end of the step
+  const BodyState& body;          ///< of the device's robot
+  const PhysicsWorld& physics;    ///< for range sensing, contacts and the other robots' bodies
+  int robot;                      ///< index of the device's robot
+  const WorldDescription& world;  ///< for names, docks and obstacles, with their present state
 };
 
 /// What every sensor's reading begins with.
@@ -50,8 +52,53 @@ struct MotorEnableCommand {
 struct SetPoseCommand {
   Pose pose;
 };
+/// Drive to a point of the world (waypoint). All numbers finite, tolerance and speed > 0.
+struct GotoCommand {
+  Vec2 goal_m;               ///< in W [m]
+  double tolerance_m = 0.5;  ///< so near to it the robot has arrived [m]
+  double speed_mps = 1.0;    ///< forward speed, at most; the motors' limits hold too [m/s]
+};
+/// Stop on the way to the goal, which is kept (waypoint).
+struct StopCommand {};
+/// Go on to the goal that was given last (waypoint).
+struct ResumeCommand {};
+/// Put the robot there, at rest (teleport).
+struct PlaceCommand {
+  Pose pose;  ///< X_WB
+};
+/// Put the robot elsewhere, its heading unchanged, at rest (teleport).
+struct TranslateCommand {
+  Vec2 offset_m;  ///< from where it is, along W's axes, as MORSE has it [m]
+};
+/// Turn the robot where it stands, at once, and leave it at rest (teleport).
+struct RotateCommand {
+  double yaw_rad;  ///< counter-clockwise [rad]
+};
 /// Whatever a device can be told to do.
-using Command = std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand>;
+using Command =
+    std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
+                 ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand>;
+
+class Device;
+
+/// What a device may do to its robot, valid during the call that it is given to.
+class RobotControl {
+ public:
+  virtual ~RobotControl() = default;
+
+  [[nodiscard]] virtual const BodyState& body() const = 0;
+  /// Makes `device` the one that steers from now on: all others of the robot are told
+  /// (Device::motors_taken).
+  /// @return false if there is nothing to steer: the robot has no motors, or `device` is a motion
+  ///         device but not the one that the robot moves by.
+  virtual bool take_motors(const Device& device) = 0;
+  /// Tells the motors which twist to strive for, as a TwistCommand would. Without effect if there
+  /// are none, or if they are switched off.
+  virtual void drive(const Twist& twist) = 0;
+  /// Puts the robot somewhere, at rest. All devices are told (Device::placed).
+  /// @return nothing if done, else why not, naming what stands there.
+  virtual std::optional<std::string> place(const Pose& X_WB) = 0;
+};
 
 /// A part of a robot that clients address by name. Owned by a Simulation; not thread-safe.
 class Device {
@@ -64,19 +111,46 @@ class Device {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const std::string& type() const noexcept { return type_; }
 
+  /// Whether it works; at first it does. One that does not makes no readings, gets no commands and
+  /// does not act.
+  [[nodiscard]] bool active() const noexcept { return active_; }
+  void set_active(bool active, RobotControl& robot);
+
   /// Carries out a command at the step boundary.
   /// @return nothing if done; else why not, e.g. that the device does not take such commands.
   virtual std::optional<std::string> apply(const Command& command);
+  /// The same for a device that does something to its robot; calls apply() by default.
+  virtual std::optional<std::string> carry_out(const Command& command, RobotControl& robot);
 
+  /// Called before each step in which the device is active and its robot may move, in order of
+  /// device: the moment to steer.
+  virtual void act(RobotControl& robot) { static_cast<void>(robot); }
   /// Called once each step, before readings are made (for what must be integrated).
   virtual void integrate(const StepContext& context) { static_cast<void>(context); }
+
+  /// Another device of the robot steers from now on.
+  virtual void motors_taken() {}
+  /// The robot was put at X_WB without driving there, and is at rest.
+  virtual void placed(const Pose& X_WB) { static_cast<void>(X_WB); }
+  /// This device, just made, stands in for one that a reset ended: it goes on with that one's
+  /// counts, and its schedule begins at now_ns.
+  /// @pre `before` has the same class.
+  virtual void succeed(const Device& before, SimTime now_ns) {
+    static_cast<void>(before);
+    static_cast<void>(now_ns);
+  }
 
   /// Adds all that distinguishes this device's future from another's.
   virtual void hash(StateHash& hash) const = 0;
 
+ protected:
+  /// Called when active() has become false: the moment to let go of the robot.
+  virtual void deactivated(RobotControl& robot) { static_cast<void>(robot); }
+
  private:
   std::string name_;
   std::string type_;
+  bool active_ = true;
 };
 
 /// A device that makes readings at its own frequency.
@@ -86,7 +160,8 @@ class Sensor : public Device {
   Sensor(std::string name, std::string type, double frequency_hz);
 
   /// Makes a reading if one is due at context.now_ns. A period that is no multiple of the step is
-  /// kept on average: each reading comes at the first step at or after its time.
+  /// kept on average: each reading comes at the first step at or after its time. While the sensor
+  /// is not active the schedule goes on without readings.
   /// @return whether a reading was made.
   bool update(const StepContext& context);
 
@@ -94,6 +169,7 @@ class Sensor : public Device {
   [[nodiscard]] virtual const Reading& reading() const noexcept = 0;
   [[nodiscard]] double frequency_hz() const noexcept { return frequency_hz_; }
 
+  void succeed(const Device& before, SimTime now_ns) override;
   void hash(StateHash& hash) const override;
 
  protected:

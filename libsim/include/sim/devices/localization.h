@@ -16,11 +16,20 @@ struct PoseParams {
   double noise_yaw_rad = 0.0;  ///< standard deviation of yaw [rad], >= 0
 };
 
+/// How much of its work an odometry device shows to clients that ask by MORSE's protocol. Its
+/// readings hold all of it, whatever the level.
+enum class OdometryLevel {
+  kIntegrated,    ///< the pose since the start
+  kDifferential,  ///< the motion since the last reading
+  kRaw,           ///< the length of the way since the last reading
+};
+
 /// Settings of the wheel odometry.
 struct OdometryParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
   double noise = 0.0;          ///< deviation of a wheel's path [m] after 1 m of it; grows with
                                ///< the root of the path (see Odometry)
+  OdometryLevel level = OdometryLevel::kIntegrated;
 };
 
 /// Where a localisation device thinks its robot is, and how it moves.
@@ -28,6 +37,16 @@ struct PoseReading final : Reading {
   Pose pose;             ///< pose device: X_WB; odometry: X_SB, S the robot's start (or as set)
   Twist twist;           ///< in B, as achieved over the last step
   bool stalled = false;  ///< see BodyState
+
+  /// @name Since the previous reading (the first: since the start); odometry only, else zero
+  /// @{
+  double path_length_m = 0.0;  ///< way of the wheels' midpoint, forth and back both counted [m]
+  Pose increment;  ///< X_RB, R: B at the previous reading. SetPoseCommand leaves it alone
+  /// The same shift along S's axes, in which MORSE's dx and dy are given [m].
+  [[nodiscard]] Vec2 shift_m() const {
+    return pose.position() - (pose * increment.inverse()).position();
+  }
+  /// @}
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<PoseReading>(*this);
@@ -44,6 +63,7 @@ class PoseSensor final : public Sensor {
 
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
+  void placed(const Pose& X_WB) override { X_WB_ = X_WB; }
   [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
@@ -84,6 +104,8 @@ class Odometry final : public Sensor {
   double wheel_separation_m_;
   RandomStream noise_;
   Pose X_SB_;
+  Pose X_SR_;                   ///< B at the last reading
+  double path_length_m_ = 0.0;  ///< since then
   PoseReading reading_;
 };
 

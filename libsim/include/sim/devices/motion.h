@@ -21,6 +21,9 @@ class Motion final : public Actuator {
 
   /// Takes TwistCommand (components clamped to the limits) and MotorEnableCommand.
   std::optional<std::string> apply(const Command& command) override;
+  /// As apply(); a twist also takes the motors from whatever else steers, unless they are off.
+  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  void placed(const Pose& X_WB) override;
 
   /// The twist to strive for during the next step of dt_s, limits applied; advances the ramp.
   [[nodiscard]] Twist next_target(double dt_s);
@@ -29,6 +32,9 @@ class Motion final : public Actuator {
   [[nodiscard]] bool enabled() const noexcept { return enabled_; }
   [[nodiscard]] const Twist& commanded() const noexcept { return commanded_; }
   void hash(StateHash& hash) const override;
+
+ protected:
+  void deactivated(RobotControl& robot) override;
 
  private:
   MotionParams params_;

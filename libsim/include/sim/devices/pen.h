@@ -19,9 +19,13 @@ class Pen final : public Actuator {
   Pen(std::string name, const PenParams& params);
 
   [[nodiscard]] const PenParams& params() const noexcept { return params_; }
-  /// Marks the way from the last position to this one, if the trail is on.
+  /// Marks the way from the last position to this one, if the trail is on and the pen active.
   void mark_trail(const Pose& X_WB, Canvas& canvas);
+  void placed(const Pose&) override { has_last_ = false; }  // no line to there
   void hash(StateHash& hash) const override;
+
+ protected:
+  void deactivated(RobotControl&) override { has_last_ = false; }
 
  private:
   PenParams params_;

@@ -96,6 +96,8 @@ class Reader {
                                  NumberRange range_deg = {-3600.0, 3600.0, false, "degrees"});
   /// {"x", "y", "yaw_deg"}, each of which may be left out; yaw is brought into (-pi, pi].
   [[nodiscard]] Pose pose(std::string_view key, const Pose& fallback);
+  /// As pose(), of this value itself, which must be an object.
+  [[nodiscard]] Pose as_pose(const Pose& fallback);
 
   /// Records an issue at this value (or at its member `key`).
   void issue(std::string id, std::string expected, std::string found, std::string hint = "",

@@ -34,6 +34,16 @@ struct Collision {
   std::string partner;  ///< name of the obstacle or robot; "border" or "wall"
 };
 
+/// A thing of the scene: where it is and how much room it takes.
+struct SceneObject {
+  std::string name;  ///< as in the world; "border" and "wall" (all of a map's) have no other
+  std::string kind;  ///< "robot", "block", "separator", "border" or "wall"
+  Pose pose;         ///< of the box round it in W; a robot's: of its body, X_WB
+  Vec2 size = Vec2::Zero();  ///< of that box along its own axes [m]
+  bool dynamic = false;      ///< a robot, or a block that can be retracted
+  bool extended = true;      ///< false: a block that is retracted into the floor now
+};
+
 /// A world in motion. Owns all of it; single-threaded and deterministic: the same description,
 /// commands and steps give the same state to the bit.
 class Simulation {
@@ -75,8 +85,41 @@ class Simulation {
   [[nodiscard]] const std::vector<DeviceId>& updated() const noexcept;
 
   /// Carries a command out now, between two steps.
-  /// @return nothing if done, else why not.
+  /// @return nothing if done, else why not, e.g. that the device is not active.
   std::optional<std::string> apply(DeviceId id, const Command& command);
+
+  /// Puts everything back to its start: robots, obstacles, devices with their noise, and the base
+  /// canvas, which is blank again but keeps its present size. All devices are active again, all
+  /// dynamics on. From here on, poses and readings are those of a new simulation that gets the same
+  /// commands.
+  /// Not put back: clock and step count, sequence numbers and Waypoint::goal_number(), which go on;
+  /// statistics() and collisions(), which tell of the whole run (the way back to the start does not
+  /// count); view mode and the layers of clients.
+  /// References to devices and readings from before end here.
+  void reset();
+
+  /// Switches a device off or on; at first all are on. One that is off makes no readings, though
+  /// its schedule goes on, refuses commands, and does not act: the motors stop, unless another
+  /// device steers them, a waypoint stops and keeps its goal, a pen leaves no trail.
+  void set_active(DeviceId id, bool active);
+  [[nodiscard]] bool active(DeviceId id) const;
+
+  /// Suspends (false) or restores the dynamics of every robot. A suspended robot stands still like
+  /// a wall, whatever its motors were told and whoever pushes; sensors and the clock go on.
+  /// Restored, it goes on as it was told last. set_robot_dynamics() afterwards makes exceptions.
+  /// @return nothing if done, else why not.
+  std::optional<std::string> set_dynamics(bool on);
+  /// The same for one robot. @return nothing if done, else why not: no such robot.
+  std::optional<std::string> set_robot_dynamics(int robot, bool on);
+  /// The same for a thing by name.
+  /// @return nothing if done, else why not: no such thing, or one that never moves by itself.
+  std::optional<std::string> set_object_dynamics(const std::string& name, bool on);
+  /// Whether the robot may move; true at first.
+  [[nodiscard]] bool robot_dynamics(int robot) const;
+
+  /// Everything solid: robots, blocks, dock separators, then the border and the walls of a map as
+  /// one thing each, if there are any. In the world's order.
+  [[nodiscard]] std::vector<SceneObject> scene_objects() const;
 
   /// The grid-maps: the canvas of all pens, and the layers that clients put over or under it.
   [[nodiscard]] LayerStack& layers() noexcept;

@@ -1,0 +1,757 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// All messages but readings and commands, which are in device_codec.cpp.
+#include "protocol/codec.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace playerlike::protocol {
+namespace {
+
+// Arrays of numbers are little-endian on the wire, and copied as they lie in memory.
+static_assert(std::endian::native == std::endian::little,
+              "bytes must be swapped where this file uses memcpy");
+
+constexpr std::int64_t kLeastInt = std::numeric_limits<int>::min();
+constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
+constexpr std::int64_t kMostInt64 = std::numeric_limits<std::int64_t>::max();
+/// The most cells along a side of a canvas or a map.
+constexpr std::int64_t kMostCells = 8192;
+
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kMost = 60;
+  std::string out = "\"";
+  out += text.substr(0, kMost);
+  out += text.size() > kMost ? "...\"" : "\"";
+  return out;
+}
+
+std::string described(const json& value) {
+  switch (value.type()) {
+    case json::value_t::object:
+      return "an object";
+    case json::value_t::array:
+      return "a list of " + std::to_string(value.size());
+    case json::value_t::binary:
+      return std::to_string(value.get_binary().size()) + " bytes";
+    case json::value_t::string:
+      return in_quotes(value.get_ref<const std::string&>());
+    default:
+      return value.dump();
+  }
+}
+
+const json::array_t& require_list(const json& value, const char* key, const char* expected) {
+  const auto* list = value.get_ptr<const json::array_t*>();
+  if (list == nullptr) refuse_value(key, expected, value);
+  return *list;
+}
+
+int require_int(const json& object, const char* key) {
+  return static_cast<int>(require_integer(object, key, kLeastInt, kMostInt));
+}
+
+/// A whole number that an integer or a float holds; nullopt for anything else.
+std::optional<std::int64_t> whole_number(const json& value) {
+  if (value.is_number_unsigned()) {
+    const auto number = value.get<std::uint64_t>();
+    if (number > std::uint64_t{kMostInt64}) return std::nullopt;
+    return static_cast<std::int64_t>(number);
+  }
+  if (value.is_number_integer()) return value.get<std::int64_t>();
+  if (value.is_number_float()) {
+    constexpr double kMostExact = 9007199254740992.0;  // 2^53
+    const double number = value.get<double>();
+    if (std::abs(number) <= kMostExact && std::trunc(number) == number) {
+      return static_cast<std::int64_t>(number);
+    }
+  }
+  return std::nullopt;
+}
+
+// --- base64, RFC 4648, section 4
+
+constexpr std::string_view kDigits =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+constexpr std::array<std::int8_t, 256> digit_values() {
+  std::array<std::int8_t, 256> values{};
+  values.fill(-1);
+  for (std::size_t i = 0; i < kDigits.size(); ++i) {
+    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
+  }
+  return values;
+}
+
+std::string to_base64(std::span<const std::uint8_t> bytes) {
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = unsigned{bytes[i]} << 16U;
+    if (count > 1) group |= unsigned{bytes[i + 1]} << 8U;
+    if (count > 2) group |= unsigned{bytes[i + 2]};
+    for (std::size_t d = 0; d <= count; ++d) {
+      text[out + d] = kDigits[group >> (18U - 6U * static_cast<unsigned>(d)) & 63U];
+    }
+    out += 4;
+  }
+  return text;
+}
+
+/// nullopt unless the text is base64 as to_base64() would write it.
+std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
+  static constexpr std::array<std::int8_t, 256> kValues = digit_values();
+  if (text.size() % 4 != 0) return std::nullopt;
+  std::size_t padding = 0;
+  while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
+  std::vector<std::uint8_t> bytes(text.size() / 4 * 3 - padding);
+  std::size_t out = 0;
+  for (std::size_t i = 0; i < text.size(); i += 4) {
+    const bool is_last = i + 4 == text.size();
+    const std::size_t digits = is_last ? 4 - padding : 4;
+    unsigned group = 0;
+    for (std::size_t d = 0; d < 4; ++d) {
+      const int value = d < digits ? kValues[static_cast<unsigned char>(text[i + d])] : 0;
+      if (value < 0) return std::nullopt;
+      group = group << 6U | static_cast<unsigned>(value);
+    }
+    for (std::size_t b = 0; b < digits - 1; ++b) {
+      bytes[out++] = static_cast<std::uint8_t>(group >> (16U - 8U * static_cast<unsigned>(b)));
+    }
+    // What the padding cuts off must be zero.
+    if ((group & ((1U << (8U * static_cast<unsigned>(4 - digits))) - 1U)) != 0) {
+      return std::nullopt;
+    }
+  }
+  return bytes;
+}
+
+/// Bytes of a value, which calls itself `key` in messages.
+std::vector<std::uint8_t> bytes_of(const json& value, const char* key, Encoding encoding) {
+  if (encoding == Encoding::kCbor) {
+    if (value.is_binary() && !value.get_binary().has_subtype()) return value.get_binary();
+    refuse_value(key, "a byte string", value);
+  }
+  if (const auto* text = value.get_ptr<const std::string*>()) {
+    if (auto decoded = from_base64(*text)) return std::move(*decoded);
+  }
+  refuse_value(key, "bytes as a text in base64", value);
+}
+
+/// Calls use(span of bytes) with the bytes of a value; in CBOR without copying them.
+template <typename Use>
+auto with_bytes(const json& value, const char* key, Encoding encoding, Use use) {
+  if (encoding == Encoding::kCbor && value.is_binary() && !value.get_binary().has_subtype()) {
+    return use(std::span<const std::uint8_t>(value.get_binary()));
+  }
+  const std::vector<std::uint8_t> copy = bytes_of(value, key, encoding);
+  return use(std::span<const std::uint8_t>(copy));
+}
+
+/// Bytes of numbers as they lie in memory.
+template <typename Number>
+std::vector<std::uint8_t> memory_of(std::span<const Number> numbers) {
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(numbers.data());
+  return {begin, begin + numbers.size_bytes()};
+}
+
+template <typename Number>
+std::vector<Number> numbers_in(std::span<const std::uint8_t> bytes) {
+  std::vector<Number> numbers(bytes.size() / sizeof(Number));
+  if (!numbers.empty()) {
+    std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
+  }
+  return numbers;
+}
+
+// --- colours
+
+json encode_colour(sim::Colour colour) { return sim::to_string(colour); }
+
+sim::Colour decode_colour(const json& value, const char* key) {
+  if (const auto* text = value.get_ptr<const std::string*>()) {
+    if (const auto colour = sim::parse_colour(*text)) return *colour;
+  }
+  refuse_value(key, "a colour like \"#34aaff\" or \"#34aaff80\"", value);
+}
+
+// --- robots
+
+json encode_device(const DeviceInfo& device) {
+  return {{"device", encode_device_id(device.id)},
+          {"name", device.name},
+          {"type", device.type},
+          {"properties", device.properties}};
+}
+
+template <typename Value, typename Decode>
+std::map<std::string, Value> decode_table(const json& object, const char* key, Decode decode) {
+  const auto* table = require(object, key).get_ptr<const json::object_t*>();
+  if (table == nullptr) refuse_value(key, "an object", object.at(key));
+  std::map<std::string, Value> decoded;
+  for (const auto& [name, value] : *table) {
+    decoded.emplace(name, decode(object.at(key), name.c_str()));
+  }
+  return decoded;
+}
+
+DeviceInfo decode_device(const json& device) {
+  return {require_device_id(device, "device"), require_text(device, "name"),
+          require_text(device, "type"), decode_table<double>(device, "properties", require_number)};
+}
+
+/// The key of a driver's setting on the wire, where angles are in radians.
+std::string wire_key(const SndSettingRow& row) {
+  std::string_view key = row.key;
+  if (key.ends_with("_deg")) key.remove_suffix(4);
+  return std::string(key);
+}
+
+json encode_snd_driver(const SndDriverDescription& driver) {
+  json encoded = {{"index", driver.index}, {"position", driver.position}, {"laser", driver.laser}};
+  for (const SndSettingRow& row : snd_setting_table()) {
+    encoded[wire_key(row)] = driver.settings.*row.value;
+  }
+  return encoded;
+}
+
+SndDriverDescription decode_snd_driver(const json& driver) {
+  SndDriverDescription decoded;
+  decoded.index = require_int(driver, "index");
+  decoded.position = require_int(driver, "position");
+  decoded.laser = require_int(driver, "laser");
+  for (const SndSettingRow& row : snd_setting_table()) {
+    decoded.settings.*row.value = require_number(driver, wire_key(row).c_str());
+  }
+  if (const std::string fault = fault_of(decoded.settings); !fault.empty()) {
+    throw ProtocolError("protocol/bad-value", fault);
+  }
+  return decoded;
+}
+
+json encode_robot(const RobotInfo& robot) {
+  json drivers = json::array();
+  for (const sim::DriverDescription& driver : robot.drivers) {
+    drivers.push_back({{"type", driver.type}, {"settings", driver.settings}});
+  }
+  json snd_drivers = json::array();
+  for (const SndDriverDescription& driver : robot.snd_drivers) {
+    snd_drivers.push_back(encode_snd_driver(driver));
+  }
+  json devices = json::array();
+  for (const DeviceInfo& device : robot.devices) devices.push_back(encode_device(device));
+  return {{"name", robot.name},
+          {"model", robot.model},
+          {"colour", encode_colour(robot.colour)},
+          {"initial_pose", encode_pose(robot.initial_pose)},
+          {"port", robot.port},
+          {"length", robot.length_m},
+          {"width", robot.width_m},
+          {"height", robot.height_m},
+          {"max_speed", robot.max_speed_mps},
+          {"max_turn_rate", robot.max_turn_rate_radps},
+          {"proxies", robot.proxies},
+          {"drivers", std::move(drivers)},
+          {"snd_drivers", std::move(snd_drivers)},
+          {"devices", std::move(devices)}};
+}
+
+RobotInfo decode_robot(const json& robot) {
+  RobotInfo decoded;
+  decoded.name = require_text(robot, "name");
+  decoded.model = require_text(robot, "model");
+  decoded.colour = decode_colour(require(robot, "colour"), "colour");
+  decoded.initial_pose = require_pose(robot, "initial_pose");
+  decoded.port = static_cast<int>(require_integer(robot, "port", 0, 65535));
+  decoded.length_m = require_number(robot, "length");
+  decoded.width_m = require_number(robot, "width");
+  decoded.height_m = require_number(robot, "height");
+  decoded.max_speed_mps = require_number(robot, "max_speed");
+  decoded.max_turn_rate_radps = require_number(robot, "max_turn_rate");
+  decoded.proxies = decode_table<int>(robot, "proxies", require_int);
+  for (const json& driver : require_list(require(robot, "drivers"), "drivers", "a list")) {
+    decoded.drivers.push_back({require_text(driver, "type"),
+                               decode_table<std::string>(driver, "settings", require_text)});
+  }
+  for (const json& driver : require_list(require(robot, "snd_drivers"), "snd_drivers", "a list")) {
+    decoded.snd_drivers.push_back(decode_snd_driver(driver));
+  }
+  for (const json& device : require_list(require(robot, "devices"), "devices", "a list")) {
+    decoded.devices.push_back(decode_device(device));
+  }
+  return decoded;
+}
+
+// --- drawings
+
+using DrawKind = sim::DrawOperation::Kind;
+
+/// A drawing in CBOR: whole numbers of 32 bits.
+struct WireDrawing {
+  std::int32_t kind;
+  std::int32_t layer;
+  std::int32_t x0, y0;
+  std::int32_t x1, y1;
+  std::uint32_t value;
+};
+static_assert(sizeof(WireDrawing) == 28);
+
+constexpr std::string_view kDrawKinds[] = {"pixel", "line", "fill"};
+
+json encode_drawing(const sim::DrawOperation& drawing) {
+  json list = json::array({kDrawKinds[static_cast<std::size_t>(drawing.kind)], drawing.layer});
+  if (drawing.kind != DrawKind::kFill) {
+    list.push_back(drawing.x0);
+    list.push_back(drawing.y0);
+  }
+  if (drawing.kind == DrawKind::kLine) {
+    list.push_back(drawing.x1);
+    list.push_back(drawing.y1);
+  }
+  list.push_back(drawing.value.bits);
+  return list;
+}
+
+constexpr const char* kDrawingForms =
+    R"(drawings like ["pixel", layer, x, y, value], ["line", layer, x0, y0, x1, y1, value] or )"
+    R"(["fill", layer, value], in whole numbers)";
+
+sim::DrawOperation decode_drawing(const json& drawing) {
+  const json::array_t& list = require_list(drawing, "drawings", kDrawingForms);
+  const auto* word = list.empty() ? nullptr : list.front().get_ptr<const std::string*>();
+  const auto* const kind = word == nullptr
+                               ? std::end(kDrawKinds)
+                               : std::find(std::begin(kDrawKinds), std::end(kDrawKinds), *word);
+  if (kind == std::end(kDrawKinds)) refuse_value("drawings", kDrawingForms, drawing);
+  std::size_t next = 1;
+  const auto number = [&](std::int64_t least, std::int64_t most) {
+    const std::optional<std::int64_t> value =
+        next < list.size() ? whole_number(list[next]) : std::nullopt;
+    if (!value || *value < least || *value > most) {
+      refuse_value("drawings", kDrawingForms, drawing);
+    }
+    ++next;
+    return *value;
+  };
+  const auto coordinate = [&] { return static_cast<int>(number(kLeastInt, kMostInt)); };
+  sim::DrawOperation decoded;
+  decoded.kind = static_cast<DrawKind>(kind - std::begin(kDrawKinds));
+  decoded.layer = coordinate();
+  if (decoded.kind != DrawKind::kFill) {
+    decoded.x0 = coordinate();
+    decoded.y0 = coordinate();
+  }
+  if (decoded.kind == DrawKind::kLine) {
+    decoded.x1 = coordinate();
+    decoded.y1 = coordinate();
+  }
+  decoded.value.bits =
+      static_cast<std::uint32_t>(number(0, std::numeric_limits<std::uint32_t>::max()));
+  if (next != list.size()) refuse_value("drawings", kDrawingForms, drawing);
+  return decoded;
+}
+
+WireDrawing to_wire(const sim::DrawOperation& drawing) {
+  const bool has_place = drawing.kind != DrawKind::kFill;
+  const bool has_end = drawing.kind == DrawKind::kLine;
+  return {static_cast<std::int32_t>(drawing.kind),
+          drawing.layer,
+          has_place ? drawing.x0 : 0,
+          has_place ? drawing.y0 : 0,
+          has_end ? drawing.x1 : 0,
+          has_end ? drawing.y1 : 0,
+          drawing.value.bits};
+}
+
+sim::DrawOperation from_wire(const WireDrawing& wire) {
+  if (wire.kind < 0 || wire.kind > static_cast<std::int32_t>(DrawKind::kFill)) {
+    refuse_value("drawings", "a kind of drawing from 0 to 2", wire.kind);
+  }
+  const sim::DrawOperation drawing{static_cast<DrawKind>(wire.kind),
+                                   wire.layer,
+                                   wire.x0,
+                                   wire.y0,
+                                   wire.x1,
+                                   wire.y1,
+                                   {wire.value}};
+  const WireDrawing used = to_wire(drawing);
+  return {drawing.kind, used.layer, used.x0, used.y0, used.x1, used.y1, drawing.value};
+}
+
+// --- words
+
+struct ErrorName {
+  SessionError::Code code;
+  std::string_view id;
+};
+constexpr ErrorName kErrorNames[] = {
+    {SessionError::Code::kFinished, "session/finished"},
+    {SessionError::Code::kDisconnected, "session/disconnected"},
+    {SessionError::Code::kNoSuchDevice, "session/no-such-device"},
+    {SessionError::Code::kNotAvailable, "session/not-available"},
+    {SessionError::Code::kBadArgument, "session/bad-argument"},
+};
+
+constexpr std::string_view kLayerKinds[] = {"colour", "binary", "grey"};
+
+}  // namespace
+
+void refuse_value(std::string_view key, std::string_view expected, const json& found) {
+  std::string message(key);
+  message += ": expected ";
+  message += expected;
+  message += ", found ";
+  message += described(found);
+  throw ProtocolError("protocol/bad-value", message);
+}
+
+const json& require(const json& object, const char* key) {
+  if (!object.is_object()) {
+    refuse_value(std::string("what holds ") + in_quotes(key), "an object", object);
+  }
+  const auto member = object.find(key);
+  if (member == object.end()) {
+    throw ProtocolError("protocol/bad-value",
+                        std::string("the key ") + in_quotes(key) + " is missing");
+  }
+  return *member;
+}
+
+double require_number(const json& object, const char* key) {
+  const json& value = require(object, key);
+  if (!value.is_number()) refuse_value(key, "a number", value);
+  const auto number = value.get<double>();
+  if (!std::isfinite(number)) refuse_value(key, "a finite number", value);
+  return number;
+}
+
+std::int64_t require_integer(const json& object, const char* key, std::int64_t least,
+                             std::int64_t most) {
+  const json& value = require(object, key);
+  const std::optional<std::int64_t> number = whole_number(value);
+  if (!number || *number < least || *number > most) {
+    refuse_value(
+        key, "a whole number from " + std::to_string(least) + " to " + std::to_string(most), value);
+  }
+  return *number;
+}
+
+bool require_bool(const json& object, const char* key) {
+  const json& value = require(object, key);
+  if (!value.is_boolean()) refuse_value(key, "true or false", value);
+  return value.get<bool>();
+}
+
+std::string require_text(const json& object, const char* key) {
+  const json& value = require(object, key);
+  if (!value.is_string()) refuse_value(key, "a text", value);
+  return value.get<std::string>();
+}
+
+void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> known,
+                         std::string_view what) {
+  const auto* members = object.get_ptr<const json::object_t*>();
+  if (members == nullptr) refuse_value(what, "an object", object);
+  for (const auto& [key, member] : *members) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (const std::string_view name : known) {
+      list += list.empty() ? "" : ", ";
+      list += name;
+    }
+    throw ProtocolError("protocol/bad-value", std::string(what) + " has the unknown key " +
+                                                  in_quotes(key) + "; it may have: " + list);
+  }
+}
+
+json bytes(std::vector<std::uint8_t> value, Encoding encoding) {
+  if (encoding == Encoding::kCbor) return json::binary(std::move(value));
+  return to_base64(value);
+}
+
+std::vector<std::uint8_t> require_bytes(const json& object, const char* key, Encoding encoding) {
+  return bytes_of(require(object, key), key, encoding);
+}
+
+json doubles(std::span<const double> values, Encoding encoding) {
+  if (encoding == Encoding::kCbor) return json::binary(memory_of(values), kDoublesTag);
+  return json::array_t(values.begin(), values.end());
+}
+
+std::vector<double> require_doubles(const json& object, const char* key, Encoding) {
+  const json& value = require(object, key);
+  std::vector<double> numbers;
+  if (value.is_binary() && value.get_binary().has_subtype() &&
+      value.get_binary().subtype() == kDoublesTag) {
+    numbers = numbers_in<double>(value.get_binary());
+  } else {
+    const json::array_t& list = require_list(value, key, "a list of numbers");
+    numbers.reserve(list.size());
+    for (const json& element : list) {
+      if (!element.is_number()) refuse_value(key, "a list of numbers", element);
+      numbers.push_back(element.get<double>());
+    }
+  }
+  // decode() gives no others, but who knows where a value comes from.
+  const auto is_finite = [](double number) { return std::isfinite(number); };
+  if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) {
+    refuse_value(key, "a list of finite numbers", value);
+  }
+  return numbers;
+}
+
+json encode_device_id(DeviceId device) { return json::array({device.robot, device.device}); }
+
+DeviceId require_device_id(const json& object, const char* key) {
+  constexpr const char* kExpected = "[robot, device], two indices from 0";
+  const json& value = require(object, key);
+  const json::array_t& list = require_list(value, key, kExpected);
+  int indices[2] = {};
+  if (list.size() != std::size(indices)) refuse_value(key, kExpected, value);
+  for (std::size_t i = 0; i < std::size(indices); ++i) {
+    const std::optional<std::int64_t> index = whole_number(list[i]);
+    if (!index || *index < 0 || *index > kMostInt) refuse_value(key, kExpected, list[i]);
+    indices[i] = static_cast<int>(*index);
+  }
+  return {indices[0], indices[1]};
+}
+
+json encode_pose(const sim::Pose& pose) {
+  return {{"x", pose.x_m}, {"y", pose.y_m}, {"yaw", pose.yaw_rad}};
+}
+
+sim::Pose require_pose(const json& object, const char* key) {
+  const json& pose = require(object, key);
+  return {require_number(pose, "x"), require_number(pose, "y"), require_number(pose, "yaw")};
+}
+
+json encode_robots(const std::vector<RobotInfo>& robots) {
+  json list = json::array();
+  for (const RobotInfo& robot : robots) list.push_back(encode_robot(robot));
+  return list;
+}
+
+std::vector<RobotInfo> decode_robots(const json& robots) {
+  std::vector<RobotInfo> decoded;
+  for (const json& robot : require_list(robots, "robots", "a list of robots")) {
+    decoded.push_back(decode_robot(robot));
+    const std::vector<DeviceInfo>& devices = decoded.back().devices;
+    for (std::size_t d = 0; d < devices.size(); ++d) {
+      if (devices[d].id.robot != static_cast<int>(decoded.size()) - 1 ||
+          devices[d].id.device != static_cast<int>(d)) {
+        refuse_value("device", "the indices of the robot and of the device in these lists",
+                     encode_device_id(devices[d].id));
+      }
+    }
+  }
+  return decoded;
+}
+
+json encode_canvas(const CanvasInfo& canvas) {
+  return {{"width", canvas.width},
+          {"height", canvas.height},
+          {"cell_size", canvas.cell_size_m},
+          {"x", canvas.origin_x_m},
+          {"y", canvas.origin_y_m}};
+}
+
+CanvasInfo decode_canvas(const json& canvas) {
+  CanvasInfo decoded;
+  decoded.width = static_cast<int>(require_integer(canvas, "width", 1, kMostCells));
+  decoded.height = static_cast<int>(require_integer(canvas, "height", 1, kMostCells));
+  decoded.cell_size_m = require_number(canvas, "cell_size");
+  if (decoded.cell_size_m <= 0.0) {
+    refuse_value("cell_size", "a number greater than 0", decoded.cell_size_m);
+  }
+  decoded.origin_x_m = require_number(canvas, "x");
+  decoded.origin_y_m = require_number(canvas, "y");
+  return decoded;
+}
+
+json encode_time(const TimeStatistics& time) {
+  return {{"t", time.sim_time_ns},
+          {"steps", time.steps},
+          {"step", time.step_s},
+          {"wall_time", time.wall_time_s},
+          {"real_time_factor", time.real_time_factor},
+          {"duration", time.duration_s ? json(*time.duration_s) : json()},
+          {"mode", time.mode == sim::TimeMode::kLockstep ? "lockstep" : "paced"},
+          {"finished", time.finished}};
+}
+
+TimeStatistics decode_time(const json& time) {
+  TimeStatistics decoded;
+  decoded.sim_time_ns = require_integer(time, "t", 0, kMostInt64);
+  decoded.steps = static_cast<std::uint64_t>(require_integer(time, "steps", 0, kMostInt64));
+  decoded.step_s = require_number(time, "step");
+  decoded.wall_time_s = require_number(time, "wall_time");
+  decoded.real_time_factor = require_number(time, "real_time_factor");
+  if (!require(time, "duration").is_null()) {
+    decoded.duration_s = require_number(time, "duration");
+  }
+  const json& mode = require(time, "mode");
+  if (mode != "lockstep" && mode != "paced") {
+    refuse_value("mode", R"("lockstep" or "paced")", mode);
+  }
+  decoded.mode = mode == "lockstep" ? sim::TimeMode::kLockstep : sim::TimeMode::kPaced;
+  decoded.finished = require_bool(time, "finished");
+  return decoded;
+}
+
+json encode_layer_kind(sim::LayerKind kind) { return kLayerKinds[static_cast<std::size_t>(kind)]; }
+
+sim::LayerKind decode_layer_kind(const json& kind) {
+  if (const auto* word = kind.get_ptr<const std::string*>()) {
+    const auto* const found = std::find(std::begin(kLayerKinds), std::end(kLayerKinds), *word);
+    if (found != std::end(kLayerKinds)) {
+      return static_cast<sim::LayerKind>(found - std::begin(kLayerKinds));
+    }
+  }
+  refuse_value("kind", R"("colour", "binary" or "grey")", kind);
+}
+
+json encode_style(const sim::LayerStyle& style) {
+  return {{"name", style.name},
+          {"colour", encode_colour(style.colour)},
+          {"transparency", style.transparency},
+          {"transparent_colour",
+           style.transparent_colour ? encode_colour(*style.transparent_colour) : json()},
+          {"priority", style.priority},
+          {"visible", style.visible}};
+}
+
+sim::LayerStyle decode_style(const json& style) {
+  refuse_unknown_keys(
+      style, {"name", "colour", "transparency", "transparent_colour", "priority", "visible"},
+      "a style");
+  sim::LayerStyle decoded;
+  if (style.contains("name")) decoded.name = require_text(style, "name");
+  if (style.contains("colour")) decoded.colour = decode_colour(style.at("colour"), "colour");
+  if (style.contains("transparency")) decoded.transparency = require_number(style, "transparency");
+  if (style.contains("transparent_colour") && !style.at("transparent_colour").is_null()) {
+    decoded.transparent_colour =
+        decode_colour(style.at("transparent_colour"), "transparent_colour");
+  }
+  if (style.contains("priority")) decoded.priority = require_int(style, "priority");
+  if (style.contains("visible")) decoded.visible = require_bool(style, "visible");
+  return decoded;
+}
+
+json encode_layers(const std::vector<sim::LayerInfo>& layers) {
+  json list = json::array();
+  for (const sim::LayerInfo& layer : layers) {
+    list.push_back({{"layer", layer.id},
+                    {"kind", encode_layer_kind(layer.kind)},
+                    {"owner", layer.owner},
+                    {"style", encode_style(layer.style)}});
+  }
+  return list;
+}
+
+std::vector<sim::LayerInfo> decode_layers(const json& layers) {
+  std::vector<sim::LayerInfo> decoded;
+  for (const json& layer : require_list(layers, "layers", "a list of layers")) {
+    decoded.push_back({require_int(layer, "layer"), decode_layer_kind(require(layer, "kind")),
+                       require_int(layer, "owner"), decode_style(require(layer, "style"))});
+  }
+  return decoded;
+}
+
+json encode_map(const sim::OccupancyMap& map, Encoding encoding) {
+  return {{"width", map.width},
+          {"height", map.height},
+          {"cell_size", map.cell_size_m},
+          {"x", map.origin.x()},
+          {"y", map.origin.y()},
+          {"cells", bytes(memory_of(std::span<const float>(map.cells)), encoding)}};
+}
+
+sim::OccupancyMap decode_map(const json& map, Encoding encoding) {
+  const CanvasInfo grid = decode_canvas(map);
+  sim::OccupancyMap decoded{
+      grid.width, grid.height, grid.cell_size_m, {grid.origin_x_m, grid.origin_y_m}, {}};
+  const json& cells = require(map, "cells");
+  const std::size_t size =
+      static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height) * sizeof(float);
+  with_bytes(cells, "cells", encoding, [&](std::span<const std::uint8_t> bytes) {
+    if (bytes.size() != size) {
+      refuse_value("cells", std::to_string(size) + " bytes, four a cell", cells);
+    }
+    decoded.cells = numbers_in<float>(bytes);
+  });
+  const auto is_occupancy = [](float value) { return value >= 0.0F && value <= 1.0F; };
+  if (!std::all_of(decoded.cells.begin(), decoded.cells.end(), is_occupancy)) {
+    refuse_value("cells", "numbers in 0..1", cells);
+  }
+  return decoded;
+}
+
+json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding) {
+  if (encoding == Encoding::kJson) {
+    json list = json::array();
+    for (const sim::DrawOperation& drawing : drawings) list.push_back(encode_drawing(drawing));
+    return list;
+  }
+  std::vector<std::uint8_t> out(drawings.size() * sizeof(WireDrawing));
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    const WireDrawing wire = to_wire(drawings[i]);
+    std::memcpy(out.data() + i * sizeof wire, &wire, sizeof wire);
+  }
+  return bytes(std::move(out), encoding);
+}
+
+std::vector<sim::DrawOperation> decode_drawings(const json& drawings, Encoding encoding) {
+  std::vector<sim::DrawOperation> decoded;
+  if (encoding == Encoding::kJson) {
+    const json::array_t& list = require_list(drawings, "drawings", kDrawingForms);
+    decoded.reserve(list.size());
+    for (const json& drawing : list) decoded.push_back(decode_drawing(drawing));
+    return decoded;
+  }
+  with_bytes(drawings, "drawings", encoding, [&](std::span<const std::uint8_t> bytes) {
+    if (bytes.size() % sizeof(WireDrawing) != 0) {
+      refuse_value("drawings", "bytes, 28 a drawing", drawings);
+    }
+    decoded.reserve(bytes.size() / sizeof(WireDrawing));
+    for (std::size_t at = 0; at < bytes.size(); at += sizeof(WireDrawing)) {
+      WireDrawing wire;
+      std::memcpy(&wire, bytes.data() + at, sizeof wire);
+      decoded.push_back(from_wire(wire));
+    }
+  });
+  return decoded;
+}
+
+json encode_cells(std::span<const sim::CellValue> cells, Encoding encoding) {
+  return bytes(memory_of(cells), encoding);
+}
+
+std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding) {
+  return with_bytes(cells, "cells", encoding, [&](std::span<const std::uint8_t> bytes) {
+    if (bytes.size() % sizeof(sim::CellValue) != 0) {
+      refuse_value("cells", "bytes, four a cell", cells);
+    }
+    return numbers_in<sim::CellValue>(bytes);
+  });
+}
+
+std::string_view error_id(SessionError::Code code) noexcept {
+  for (const ErrorName& name : kErrorNames) {
+    if (name.code == code) return name.id;
+  }
+  return "session/bad-argument";  // not reached: all codes are named
+}
+
+std::optional<SessionError::Code> session_error_code(std::string_view id) noexcept {
+  for (const ErrorName& name : kErrorNames) {
+    if (name.id == id) return name.code;
+  }
+  return std::nullopt;
+}
+
+}  // namespace playerlike::protocol

@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/battery.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/core/assert.h"
+
+namespace sim {
+namespace {
+
+constexpr double kJoulesPerWh = 3600.0;
+
+}  // namespace
+
+std::string_view to_string(BatteryStatus status) {
+  switch (status) {
+    case BatteryStatus::kCharged:
+      return "Charged";
+    case BatteryStatus::kCharging:
+      return "Charging";
+    case BatteryStatus::kDischarging:
+      break;
+  }
+  return "Discharging";
+}
+
+double battery_load_w(const BatteryParams& params, const Twist& commanded,
+                      double wheel_separation_m) {
+  const double rim_mps = 0.5 * wheel_separation_m * commanded.omega_radps;
+  const double wheels_mps =
+      0.5 * (std::abs(commanded.v_mps - rim_mps) + std::abs(commanded.v_mps + rim_mps));
+  return params.idle_power_w + params.drive_power_ws_per_m * wheels_mps;
+}
+
+double battery_voltage_v(const BatteryParams& params, double charge) {
+  return params.empty_voltage_v + (params.full_voltage_v - params.empty_voltage_v) * charge;
+}
+
+bool is_on_dock(const DockDescription& dock, const Vec2& p_W) {
+  // Most docks are far away: no need to turn into their frames.
+  if ((p_W - dock.pose.position()).squaredNorm() > 0.25 * dock.size.squaredNorm()) return false;
+  const Vec2 p_D = dock.pose.inverse() * p_W;
+  return std::abs(p_D.x()) <= 0.5 * dock.size.x() && std::abs(p_D.y()) <= 0.5 * dock.size.y();
+}
+
+Battery::Battery(std::string name, const BatteryParams& params, double wheel_separation_m)
+    : Sensor(std::move(name), "battery", params.frequency_hz),
+      params_(params),
+      wheel_separation_m_(wheel_separation_m),
+      energy_j_(params.capacity_wh * kJoulesPerWh * params.initial_charge_percent / 100.0) {
+  SIM_ASSERT(params.capacity_wh > 0.0);
+  reading_.capacity_wh = params.capacity_wh;
+}
+
+void Battery::integrate(const StepContext& context) {
+  const double dt_s = to_seconds(context.world.simulation.step_ns);
+  const Vec2 p_WB = context.body.X_WB.position();
+  const auto& docks = context.world.arena.docks;
+  docked_ = std::any_of(docks.begin(), docks.end(),
+                        [&](const DockDescription& dock) { return is_on_dock(dock, p_WB); });
+  if (docked_) {
+    energy_j_ =
+        std::min(energy_j_ + params_.charging_power_w * dt_s, params_.capacity_wh * kJoulesPerWh);
+  } else {
+    const double load_w = battery_load_w(params_, context.body.commanded, wheel_separation_m_);
+    energy_j_ = std::max(energy_j_ - load_w * dt_s, 0.0);
+  }
+}
+
+void Battery::measure(const StepContext& context) {
+  stamp(context, reading_);
+  const double capacity_j = params_.capacity_wh * kJoulesPerWh;
+  const double charge = energy_j_ / capacity_j;
+  reading_.charge_percent = 100.0 * charge;
+  reading_.voltage_v = battery_voltage_v(params_, charge);
+  reading_.energy_wh = energy_j_ / kJoulesPerWh;
+  if (!docked_) {
+    reading_.status = BatteryStatus::kDischarging;
+  } else {
+    reading_.status = energy_j_ >= capacity_j ? BatteryStatus::kCharged : BatteryStatus::kCharging;
+  }
+}
+
+void Battery::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(energy_j_);
+}
+
+}  // namespace sim

@@ -1,0 +1,41 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/contact_sensors.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "physics/physics_world.h"
+
+namespace sim {
+
+CollisionSensor::CollisionSensor(std::string name, const CollisionParams& params)
+    : Sensor(std::move(name), "collision", params.frequency_hz) {}
+
+void CollisionSensor::integrate(const StepContext& context) {
+  const auto note = [&](const PhysicsWorld::Contact& contact) {
+    std::string name = partner_name(contact, context.world);
+    const auto place = std::lower_bound(touched_.begin(), touched_.end(), name);
+    if (place == touched_.end() || *place != name) touched_.insert(place, std::move(name));
+  };
+  for (const PhysicsWorld::Contact& contact : context.physics.contacts_of(context.robot)) {
+    note(contact);
+  }
+  // A step may be made in several parts: what began in one may have ended in another.
+  for (const PhysicsWorld::Contact& contact : context.physics.new_contacts()) {
+    if (contact.robot == context.robot) note(contact);
+  }
+}
+
+void CollisionSensor::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.objects.swap(touched_);
+  reading_.collision = !reading_.objects.empty();
+  touched_.clear();
+}
+
+void CollisionSensor::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  for (const std::string& name : touched_) hash.add(name);
+}
+
+}  // namespace sim

@@ -1,0 +1,134 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/waypoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sim {
+
+std::string_view to_string(WaypointStatus status) noexcept {
+  switch (status) {
+    case WaypointStatus::kArrived:
+      return "Arrived";
+    case WaypointStatus::kTransit:
+      return "Transit";
+    case WaypointStatus::kStop:
+      break;
+  }
+  return "Stop";
+}
+
+Twist waypoint_twist(const Pose& X_WB, const GotoCommand& goal, const WaypointParams& params) {
+  const Vec2 way = goal.goal_m - X_WB.position();
+  const double distance_m = std::hypot(way.x(), way.y());
+  if (distance_m == 0.0) return {};
+  const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_WB.yaw_rad);
+  return {std::min(goal.speed_mps, params.approach_gain * distance_m) *
+              std::max(0.0, std::cos(bearing_rad)),
+          std::clamp(params.turn_gain * bearing_rad, -params.max_turn_rate_radps,
+                     params.max_turn_rate_radps)};
+}
+
+Waypoint::Waypoint(std::string name, const WaypointParams& params, const Pose& X_WB_start)
+    : Sensor(std::move(name), "waypoint", params.frequency_hz),
+      params_(params),
+      goal_{X_WB_start.position(), params.tolerance_m, params.speed_mps},
+      X_WB_(X_WB_start) {}
+
+double Waypoint::distance_m() const {
+  return std::hypot(goal_.goal_m.x() - X_WB_.x_m, goal_.goal_m.y() - X_WB_.y_m);
+}
+
+std::optional<std::string> Waypoint::carry_out(const Command& command, RobotControl& robot) {
+  if (const auto* go = std::get_if<GotoCommand>(&command)) {
+    if (!go->goal_m.allFinite()) return "a goal must be a point of finite coordinates";
+    if (!(go->tolerance_m > 0.0) || !std::isfinite(go->tolerance_m)) {
+      return "the tolerance of a goal must be a number of metres greater than 0, not " +
+             std::to_string(go->tolerance_m);
+    }
+    if (!(go->speed_mps > 0.0) || !std::isfinite(go->speed_mps)) {
+      return "the speed to a goal must be a number of m/s greater than 0, not " +
+             std::to_string(go->speed_mps);
+    }
+    if (!robot.take_motors(*this)) return "the robot has no motors to drive to a goal with";
+    goal_ = *go;
+    has_goal_ = true;
+    ++goal_number_;
+    status_ = WaypointStatus::kTransit;
+    steers_ = true;
+    return std::nullopt;
+  }
+  if (std::holds_alternative<StopCommand>(command)) {
+    status_ = WaypointStatus::kStop;
+    return std::nullopt;
+  }
+  if (std::holds_alternative<ResumeCommand>(command)) {
+    if (!has_goal_) return "there is no goal to go on to: none was given yet";
+    static_cast<void>(robot.take_motors(*this));
+    status_ = WaypointStatus::kTransit;
+    steers_ = true;
+    return std::nullopt;
+  }
+  return apply(command);
+}
+
+void Waypoint::act(RobotControl& robot) {
+  X_WB_ = robot.body().X_WB;
+  if (status_ == WaypointStatus::kTransit && distance_m() > goal_.tolerance_m) {
+    robot.drive(waypoint_twist(X_WB_, goal_, params_));
+  } else if (steers_) {
+    robot.drive({});
+    steers_ = false;
+  }
+}
+
+void Waypoint::integrate(const StepContext& context) {
+  X_WB_ = context.body.X_WB;
+  if (status_ == WaypointStatus::kTransit && distance_m() <= goal_.tolerance_m) {
+    status_ = WaypointStatus::kArrived;
+  }
+}
+
+void Waypoint::motors_taken() {
+  if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
+  steers_ = false;  // what they do now is the other's
+}
+
+void Waypoint::placed(const Pose& X_WB) {
+  X_WB_ = X_WB;
+  motors_taken();
+}
+
+void Waypoint::succeed(const Device& before, SimTime now_ns) {
+  Sensor::succeed(before, now_ns);
+  const auto& old = dynamic_cast<const Waypoint&>(before);
+  goal_number_ = old.goal_number_ + (old.has_goal_ ? 1 : 0);
+}
+
+void Waypoint::deactivated(RobotControl& robot) {
+  if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
+  if (steers_) robot.drive({});
+  steers_ = false;
+}
+
+void Waypoint::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.status = status_;
+  reading_.goal_number = goal_number_;
+  reading_.goal_m = goal_.goal_m;
+  reading_.distance_m = distance_m();
+}
+
+void Waypoint::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(static_cast<int>(status_));
+  hash.add(goal_number_);
+  hash.add(has_goal_);
+  hash.add(steers_);
+  for (const double x : {goal_.goal_m.x(), goal_.goal_m.y(), goal_.tolerance_m, goal_.speed_mps}) {
+    hash.add(x);
+  }
+}
+
+}  // namespace sim
