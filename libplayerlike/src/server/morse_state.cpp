@@ -27,6 +27,7 @@ MorseState::MorseState(Hub& hub)
 MorseState::~MorseState() {
   postbox_->close();
   for (const auto& [number, pending] : pending_) host().cancel_alarm(pending.alarm);
+  if (synchronisers_ > 0) host().set_step_credit(std::nullopt);
 }
 
 std::shared_ptr<MorseState> MorseState::of(Hub& hub) {
@@ -189,6 +190,14 @@ void MorseState::set_verbose(const std::string& component, bool verbose) {
   } else {
     verbose_.erase(component);
   }
+}
+
+void MorseState::count_synchronisers(int change) {
+  const bool before = synchronisers_ > 0;
+  synchronisers_ += change;
+  if (before == (synchronisers_ > 0)) return;
+  host().set_step_credit(before ? std::nullopt : std::optional<std::uint64_t>(0));
+  hub_.pump();
 }
 
 }  // namespace playerlike::server

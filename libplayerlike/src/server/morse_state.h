@@ -107,6 +107,9 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   }
   /// @}
 
+  /// Steps that clients of the clock synchronisation allow: one more, or one less, is connected.
+  void count_synchronisers(int change);
+
   [[nodiscard]] const std::shared_ptr<Postbox>& postbox() const noexcept { return postbox_; }
 
  private:
@@ -136,6 +139,7 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   std::map<Number, Pending> pending_;
   Number last_number_ = 0;
   std::set<std::string> verbose_;
+  int synchronisers_ = 0;
   std::unique_ptr<MorseStreams> streams_;
 };
 

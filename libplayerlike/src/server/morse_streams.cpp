@@ -38,6 +38,9 @@ class StreamConnection : public Handler {
       : peer_(peer), hub_(hub), state_(hub.morse_state), rights_(hub.access().rights({})) {}
 
   [[nodiscard]] std::string farewell(const protocol::ProtocolError&) override { return ""; }
+  [[nodiscard]] bool may_be_silent() const noexcept override {
+    return rights_.connect || rights_.watch;
+  }
   [[nodiscard]] Peer& peer() noexcept { return peer_; }
 
  protected:
@@ -262,6 +265,56 @@ int MorseStreams::port(const MorseComponent& component) {
   stream.port = state_.hub().listen(next_port_, std::move(make));
   if (next_port_ != 0) next_port_ = stream.port + 1;
   return streams_.emplace(component.name, std::move(stream)).first->second.port;
+}
+
+// --- The clock synchronisation
+
+namespace {
+
+/// Who lets the clock go on, a step for each message.
+class SyncConnection final : public Handler {
+ public:
+  SyncConnection(Peer& peer, Hub& hub) : peer_(peer), hub_(hub), state_(MorseState::of(hub)) {
+    allow(hub_.access().rights({}));
+  }
+  ~SyncConnection() override {
+    if (allowed_) state_->count_synchronisers(-1);
+  }
+  SyncConnection(const SyncConnection&) = delete;
+  SyncConnection& operator=(const SyncConnection&) = delete;
+
+  [[nodiscard]] bool takes_bytes() const noexcept override { return true; }
+
+  // What comes together counts as one message, as in MORSE, but for lines.
+  void on_message(std::string_view bytes) override {
+    if (!allowed_) {
+      const auto token = token_in(bytes);
+      if (token) allow(hub_.access().rights({*token}));
+      if (!allowed_) peer_.close("access/denied: a token that commands all robots is needed\n");
+      return;
+    }
+    const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
+    hub_.host().add_step_credit(static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(1, lines)));
+    hub_.pump();
+  }
+  [[nodiscard]] std::string farewell(const protocol::ProtocolError&) override { return ""; }
+
+ private:
+  void allow(const Rights& rights) {
+    allowed_ = rights.command_all();
+    if (allowed_) state_->count_synchronisers(+1);
+  }
+
+  Peer& peer_;
+  Hub& hub_;
+  std::shared_ptr<MorseState> state_;
+  bool allowed_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Handler> make_sync_handler(Peer& peer, Hub& hub) {
+  return std::make_unique<SyncConnection>(peer, hub);
 }
 
 }  // namespace playerlike::server

@@ -85,6 +85,12 @@ class Handler {
   virtual void on_message(std::string_view message) = 0;
   /// A message that is too long or was not whole in time: what to say before closing.
   [[nodiscard]] virtual std::string farewell(const protocol::ProtocolError& error) = 0;
+  /// Whether on_message() takes bytes as they come, in any pieces, instead of whole messages; asked
+  /// before each piece. Nothing can be too long or late then.
+  [[nodiscard]] virtual bool takes_bytes() const noexcept { return false; }
+  /// Whether it is well that nothing comes from the other end, which only listens: no limit of time
+  /// until the first or the next request holds then. Asked when such a time is over.
+  [[nodiscard]] virtual bool may_be_silent() const noexcept { return false; }
 };
 
 class Hub;
@@ -144,6 +150,9 @@ class Hub {
 
 /// Handler of a new connection to the services' port: MORSE's protocol, and `playpen hello`.
 [[nodiscard]] std::unique_ptr<Handler> make_morse_handler(Peer& peer, Hub& hub);
+
+/// Handler of a new connection to the port of MORSE's clock synchronisation.
+[[nodiscard]] std::unique_ptr<Handler> make_sync_handler(Peer& peer, Hub& hub);
 
 /// Carries out `playpen hello`: answers, and hands the connection over to Playpen's protocol.
 /// @param id        of the request, to be answered in MORSE's form.
