@@ -72,6 +72,12 @@ void pace(playerlike::RunSettings& settings, const sim::WorldDescription& world)
 }  // namespace
 
 int run(RunRequest request) {
+  if (request.world.starts_with("tcp://")) {
+    throw std::runtime_error(
+        "playpen run makes a simulation of its own; for the one of a server, "
+        "start the program itself: PLAYPEN_WORLD=" +
+        request.world + ' ' + request.command.front());
+  }
   const std::string world_file = find_world(request.world);
   sim::WorldDescription world = sim::load_world(world_file);
   request.settings.apply_to(world);  // says what does not go with the world before the run

@@ -63,13 +63,10 @@ Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& rob
     std::string list;
     for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
     const std::string near = sim::nearest_word(name, names);
-    issues.push_back({"access/unknown-robot",
-                      settings.file,
-                      "/robots/" + name,
+    issues.push_back({"access/unknown-robot", settings.file, "/robots/" + name,
                       list.empty() ? "no name, since the world has no robot"
                                    : "the name of a robot of the world (" + list + ')',
-                      '"' + name + '"',
-                      near.empty() ? "" : "did you mean \"" + near + "\"?"});
+                      '"' + name + '"', near.empty() ? "" : "did you mean \"" + near + "\"?"});
   }
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
 }

@@ -281,9 +281,7 @@ void Connection::fail(const protocol::ProtocolError& error) {
   close(std::move(farewell), std::string(error.what()) + " [" + error.id() + "]");
 }
 
-void Connection::close(std::string farewell) {
-  close(std::move(farewell), "the server closed it");
-}
+void Connection::close(std::string farewell) { close(std::move(farewell), "the server closed it"); }
 
 void Connection::close(std::string farewell, std::string reason) {
   if (state_ != State::kOpen) return;
@@ -330,8 +328,7 @@ void Connection::drop_handler() {
 }
 
 void Connection::post(void (Connection::*member)()) {
-  asio::post(socket_.get_executor(),
-             [self = shared_from_this(), member] { ((*self).*member)(); });
+  asio::post(socket_.get_executor(), [self = shared_from_this(), member] { ((*self).*member)(); });
 }
 
 void Connection::hurry(Clock::time_point deadline) {

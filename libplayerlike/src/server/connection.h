@@ -128,21 +128,21 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
   State state_ = State::kOpen;
   bool refused_ = false;
-  bool reading_ = false;           ///< a read is under way
-  bool writing_ = false;           ///< a wait for room to write is under way
-  bool processing_ = false;        ///< inside process()
+  bool reading_ = false;     ///< a read is under way
+  bool writing_ = false;     ///< a wait for room to write is under way
+  bool processing_ = false;  ///< inside process()
   bool process_posted_ = false;
-  bool peer_left_ = false;         ///< it sends no more
-  bool write_ended_ = false;       ///< it has been told that no more follows
+  bool peer_left_ = false;    ///< it sends no more
+  bool write_ended_ = false;  ///< it has been told that no more follows
   std::size_t in_flight_ = 0;
 
   protocol::MessageSplitter splitter_;
-  std::size_t room_;               ///< bytes of the next read
+  std::size_t room_;                  ///< bytes of the next read
   std::array<char, 2048> scratch_{};  ///< what is read while closing, and raw pieces
 
   std::deque<Item> queue_;
-  std::size_t queue_begin_ = 0;    ///< bytes of the first item that were written
-  std::size_t queued_bytes_ = 0;   ///< not written yet
+  std::size_t queue_begin_ = 0;   ///< bytes of the first item that were written
+  std::size_t queued_bytes_ = 0;  ///< not written yet
 
   Clock::time_point opened_ = Clock::now();
   Clock::time_point last_request_ = opened_;
@@ -153,7 +153,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   std::uint64_t bytes_out_ = 0;
   std::uint64_t records_lost_ = 0;
   std::string description_;
-  std::string reason_;             ///< why it is being closed
+  std::string reason_;  ///< why it is being closed
 };
 
 }  // namespace playerlike::server

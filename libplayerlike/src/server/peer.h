@@ -85,9 +85,13 @@ class Handler {
   virtual void on_message(std::string_view message) = 0;
   /// A message that is too long or was not whole in time: what to say before closing.
   [[nodiscard]] virtual std::string farewell(const protocol::ProtocolError& error) = 0;
+  /// Whether on_message() takes bytes as they come, in any pieces, instead of whole messages; asked
+  /// before each piece. Nothing can be too long or late then.
+  [[nodiscard]] virtual bool takes_bytes() const noexcept { return false; }
 };
 
 class Hub;
+class MorseState;    // morse_state.h
 struct NativeState;  // native_state.h
 
 /// Makes the handler of a new connection.
@@ -134,12 +138,18 @@ class Hub {
   /// @param process  what the process calls itself in its hellos; @param thread  its number there.
   [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
 
+  /// What the connections in MORSE's protocol share; made for the first one. To be dropped while
+  /// post() can still be called.
+  std::shared_ptr<MorseState> morse_state;
   /// What the connections in Playpen's own protocol share; made for the first one.
   std::shared_ptr<NativeState> native_state;
 };
 
 /// Handler of a new connection to the services' port: MORSE's protocol, and `playpen hello`.
 [[nodiscard]] std::unique_ptr<Handler> make_morse_handler(Peer& peer, Hub& hub);
+
+/// Handler of a new connection to the port of MORSE's clock synchronisation.
+[[nodiscard]] std::unique_ptr<Handler> make_sync_handler(Peer& peer, Hub& hub);
 
 /// Carries out `playpen hello`: answers, and hands the connection over to Playpen's protocol.
 /// @param id        of the request, to be answered in MORSE's form.

@@ -12,8 +12,8 @@ struct Server::Impl {
 };
 
 Server::Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log)
-    : impl_(new Impl{{std::move(host), std::move(settings), std::move(log),
-                      server::make_morse_handler}}) {}
+    : impl_(new Impl{
+          {std::move(host), std::move(settings), std::move(log), server::make_morse_handler}}) {}
 Server::~Server() = default;
 
 int Server::port() const noexcept { return impl_->hub.port(); }

@@ -17,6 +17,7 @@
 #include <exception>
 #include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <unordered_set>
 #include <utility>
@@ -64,8 +65,7 @@ std::string text_of(const tcp::endpoint& endpoint) {
     ip = asio::ip::make_address_v4(asio::ip::v4_mapped, ip.to_v6());
   }
   const std::string address = ip.to_string();
-  return (ip.is_v6() ? '[' + address + ']' : address) + ':' +
-         std::to_string(endpoint.port());
+  return (ip.is_v6() ? '[' + address + ']' : address) + ':' + std::to_string(endpoint.port());
 }
 
 /// The addresses of this machine that a name stands for.
@@ -272,21 +272,22 @@ void ServerHub::Body::require_token() const {
 
 asio::error_code ServerHub::Body::open_on(const asio::ip::address& address, int port,
                                           Listener& listener) {
-  const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(port));
-  tcp::acceptor acceptor(io_);
-  asio::error_code error;
-  if (acceptor.open(endpoint.protocol(), error)) return error;
-  if (acceptor.set_option(tcp::acceptor::reuse_address(true), error)) return error;
-  if (address.is_v6()) {
+  try {
+    const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(port));
+    tcp::acceptor acceptor(io_);
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(tcp::acceptor::reuse_address(true));
     // "::" serves IPv4 too, if it is the only address; a name may stand for one of each.
-    if (acceptor.set_option(asio::ip::v6_only(addresses_.size() > 1), error)) return error;
+    if (address.is_v6()) acceptor.set_option(asio::ip::v6_only(addresses_.size() > 1));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+    acceptor.non_blocking(true);
+    listener.port = acceptor.local_endpoint().port();
+    listener.acceptors.push_back(std::move(acceptor));
+    return {};
+  } catch (const std::system_error& e) {
+    return e.code();
   }
-  if (acceptor.bind(endpoint, error)) return error;
-  if (acceptor.listen(asio::socket_base::max_listen_connections, error)) return error;
-  if (acceptor.non_blocking(true, error)) return error;
-  listener.port = acceptor.local_endpoint(error).port();
-  listener.acceptors.push_back(std::move(acceptor));
-  return error;
 }
 
 asio::error_code ServerHub::Body::open(int port, Listener& listener) {
@@ -299,8 +300,8 @@ asio::error_code ServerHub::Body::open(int port, Listener& listener) {
     for (const asio::ip::address& address : addresses_) {
       const asio::error_code error = open_on(address, listener.port, listener);
       // A name may stand for an address of a protocol that this machine does not speak.
-      const bool no_such_address = error == asio::error::address_family_not_supported ||
-                                   error.value() == EADDRNOTAVAIL;
+      const bool no_such_address =
+          error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL;
       if (error && !(no_such_address && addresses_.size() > 1)) result = error;
       if (result) break;
     }
@@ -344,9 +345,9 @@ int ServerHub::Body::listen(int first, MakeHandler make) {
     if (!error) return add(std::move(listener));
     if (error != asio::error::address_in_use) break;
   }
-  throw protocol::ProtocolError("server/no-port", "no port can be opened from " +
-                                                      std::to_string(first) +
-                                                      " on: " + error.message());
+  throw protocol::ProtocolError(
+      "server/no-port",
+      "no port can be opened from " + std::to_string(first) + " on: " + error.message());
 }
 
 int ServerHub::Body::add(Listener listener) {
@@ -359,14 +360,14 @@ int ServerHub::Body::add(Listener listener) {
 // --- Connections
 
 void ServerHub::Body::accept(Listener& listener, tcp::acceptor& acceptor) {
-  acceptor.async_accept([this, &listener, &acceptor](const asio::error_code& error,
-                                                     tcp::socket socket) {
-    if (stopping_ || error == asio::error::operation_aborted) return;
-    if (!error) admit(listener, std::move(socket));
-    // Those that were given up before their turn came are nobody's fault.
-    if (!error || error == asio::error::connection_aborted) return accept(listener, acceptor);
-    accept_later(listener, acceptor, error);
-  });
+  acceptor.async_accept(
+      [this, &listener, &acceptor](const asio::error_code& error, tcp::socket socket) {
+        if (stopping_ || error == asio::error::operation_aborted) return;
+        if (!error) admit(listener, std::move(socket));
+        // Those that were given up before their turn came are nobody's fault.
+        if (!error || error == asio::error::connection_aborted) return accept(listener, acceptor);
+        accept_later(listener, acceptor, error);
+      });
 }
 
 // The system has no room, maybe no more descriptors. What knocks waits in the system's queue;
@@ -392,9 +393,9 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   socket.non_blocking(true, error);
   socket.set_option(tcp::no_delay(true), error);
   socket.set_option(asio::socket_base::keep_alive(true), error);
-  for (const auto& [option, value] : {std::pair(TCP_KEEPIDLE, kKeepAliveIdle_s),
-                                      std::pair(TCP_KEEPINTVL, kKeepAliveInterval_s),
-                                      std::pair(TCP_KEEPCNT, kKeepAliveProbes)}) {
+  for (const auto& [option, value] :
+       {std::pair(TCP_KEEPIDLE, kKeepAliveIdle_s), std::pair(TCP_KEEPINTVL, kKeepAliveInterval_s),
+        std::pair(TCP_KEEPCNT, kKeepAliveProbes)}) {
     setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
   }
   const bool full = connections_.size() - refused_ >= limits().connections;
@@ -402,8 +403,8 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   if (full && (refused_ >= kRefused || listener.kind != ConnectionKind::kServices)) {
     return;
   }
-  const auto connection = std::make_shared<Connection>(std::move(socket), text_of(remote),
-                                                       listener.kind, *this);
+  const auto connection = std::make_shared<Connection>(
+      std::move(socket), text_of(remote), listener.kind, static_cast<ConnectionOwner&>(*this));
   connections_.insert(connection);
   if (full) {
     ++refused_;
@@ -544,9 +545,9 @@ std::uint64_t ServerHub::Body::after(std::chrono::microseconds delay, std::funct
 
 ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thread) {
   if (process.size() > kProcessName) {
-    throw protocol::ProtocolError("protocol/bad-value",
-                                  "the name of a process has at most " +
-                                      std::to_string(kProcessName) + " bytes");
+    throw protocol::ProtocolError(
+        "protocol/bad-value",
+        "the name of a process has at most " + std::to_string(kProcessName) + " bytes");
   }
   // Nobody tells that a process has ended, so the one that was heard of least lately makes room.
   if (processes_.size() >= kProcesses && !processes_.contains(process)) {

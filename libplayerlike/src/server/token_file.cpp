@@ -9,8 +9,7 @@
 namespace playerlike {
 namespace {
 
-constexpr const char* kTokenExpected =
-    "8 to 256 English letters, digits or signs, without blanks";
+constexpr const char* kTokenExpected = "8 to 256 English letters, digits or signs, without blanks";
 
 /// The token of a key, "" if there is none or it is not sound.
 std::string read_token(sim::io::Reader& object, const std::string& key) {
