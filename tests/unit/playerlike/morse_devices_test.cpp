@@ -7,6 +7,8 @@
 
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
+#include "playerlike/host/host.h"
+#include "playerlike/messages/messages.h"
 
 namespace {
 
@@ -292,6 +294,148 @@ TEST_F(Morse, ClientPrintsRobotsAndDevices) {
   std::ostringstream out;
   out << client;
   EXPECT_THAT(out.str(), HasSubstr("r1\tlaser\tlaser"));
+}
+
+// The sensors that a world adds, over a session with a simulation behind it. r1 looks along x, with
+// 0.413 m to a block whose face is at x = 1.5, and stands in a dock; r2 is 0.5 m to its left.
+class MorseAddedSensors : public testing::Test {
+ protected:
+  std::shared_ptr<playerlike::Host> host = playerlike::Host::create(sim::load_world_text(R"({
+    "arena": {
+      "size": [3, 3],
+      "docks": [{"pose": {"x": 1, "y": 1}}],
+      "obstacles": [{"name": "block", "center": [1.75, 1], "size": [0.5, 0.5]}]
+    },
+    "robots": [
+      {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {
+        "battery": {"capacity": 0.1, "initial_charge": 50},
+        "collision": {},
+        "infrared": {},
+        "back": {"type": "infrared", "range_max": 2, "mounts": [{"x": -0.05, "yaw_deg": 180}]},
+        "proximity": {"range": 0.6},
+        "sonar": {"mounts": [{"x": 0.05, "y": 0.01, "yaw_deg": -90}, {"x": 0.05}]}
+      }},
+      {"name": "r2", "pose": {"x": 1, "y": 1.5}}
+    ]
+  })"));
+  MorseClient client{host->connect(playerlike::kMorsePort)};
+  MorseRobot robot = client.GetRobot("r1");
+};
+
+TEST_F(MorseAddedSensors, CollisionNamesWhatWasTouched) {
+  MorseCollision bumpers(robot);
+  MorseMotionVW motion(robot);
+  EXPECT_FALSE(bumpers.IsValid());
+  EXPECT_FALSE(bumpers.GetCollision());
+  client.Read();
+  EXPECT_TRUE(bumpers.IsValid());
+  EXPECT_TRUE(bumpers.IsFresh());
+  EXPECT_DOUBLE_EQ(bumpers.GetTime(), 0.1);
+  EXPECT_FALSE(bumpers.GetCollision());
+  EXPECT_THAT(bumpers.GetObjects(), testing::IsEmpty());
+  motion.SetSpeed(0.5, 0.0);
+  for (int i = 0; i < 10; ++i) client.Read();  // 0.5 m, were the way free
+  EXPECT_TRUE(bumpers.GetCollision());
+  EXPECT_THAT(bumpers.GetObjects(), ElementsAre("block"));
+  EXPECT_TRUE(bumpers.Touches("block"));
+  EXPECT_FALSE(bumpers.Touches("r2"));
+}
+
+TEST_F(MorseAddedSensors, BatteryTellsChargeAndStatus) {
+  MorseBattery battery(robot);
+  EXPECT_EQ(battery.GetStatus(), "");
+  EXPECT_DOUBLE_EQ(battery.GetCapacity(), 0.1);
+  EXPECT_DOUBLE_EQ(battery.GetProperties().at("initial_charge"), 50.0);
+  for (int i = 0; i < 10; ++i) client.Read();
+  // 180 of 360 J, and 1 s at 40 W: 220 J.
+  EXPECT_NEAR(battery.GetCharge(), 100.0 * 220.0 / 360.0, 1e-9);
+  EXPECT_NEAR(battery.GetEnergy(), 220.0 / 3600.0, 1e-12);
+  EXPECT_NEAR(battery.GetVoltage(), 9.0 + 3.6 * 220.0 / 360.0, 1e-9);
+  EXPECT_EQ(battery.GetStatus(), "Charging");
+  EXPECT_TRUE(battery.IsDocked());
+  for (int i = 0; i < 40; ++i) client.Read();
+  EXPECT_EQ(battery.GetStatus(), "Charged");
+  MorseMotionVW(robot).SetSpeed(0.5, 0.0);
+  for (int i = 0; i < 5; ++i) client.Read();  // 0.25 m: out of the dock
+  EXPECT_EQ(battery.GetStatus(), "Discharging");
+  EXPECT_FALSE(battery.IsDocked());
+}
+
+TEST_F(MorseAddedSensors, ProximityTellsWhoIsNear) {
+  MorseProximity radio(robot);
+  EXPECT_THAT(radio.GetNearObjects(), testing::IsEmpty());
+  client.Read();
+  EXPECT_THAT(radio.GetNearObjects(), ElementsAre(Pair("r2", 0.5)));
+  EXPECT_TRUE(radio.IsNear("r2"));
+  EXPECT_FALSE(radio.IsNear("r3"));
+  EXPECT_DOUBLE_EQ(radio.GetDistance("r2"), 0.5);
+  EXPECT_DOUBLE_EQ(radio.GetMaxRange(), 0.6);
+  try {
+    static_cast<void>(radio.GetDistance("r3"));
+    FAIL() << "r3 is near";
+  } catch (const MorseError& e) {
+    EXPECT_EQ(e.GetErrorCode(), MorseError::kBadArgument);
+    EXPECT_EQ(e.GetErrorFun(), "MorseProximity::GetDistance");
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("near are: r2"));
+  }
+}
+
+TEST_F(MorseAddedSensors, InfraredShowsItsTransducersAndRanges) {
+  MorseInfrared ring(robot, "infrared");
+  EXPECT_EQ(ring.GetCount(), 8U);
+  EXPECT_THAT(ring.GetRanges(), testing::Each(0.8));
+  EXPECT_DOUBLE_EQ(ring.GetMaxRange(), 0.8);
+  EXPECT_DOUBLE_EQ(ring.GetFieldOfView(), 0.0);
+  EXPECT_DOUBLE_EQ(ring.GetMountPose(2).py, 0.075);
+  EXPECT_DOUBLE_EQ(ring.GetMountPose(2).pa, 90.0 * PI / 180.0);
+  client.Read();
+  EXPECT_NEAR(ring[0], 0.5 - 0.081, 1e-6);                   // to the block
+  EXPECT_NEAR(ring.GetRange(2), 0.5 - 0.075 - 0.081, 1e-6);  // to the side of r2
+  EXPECT_NEAR(ring.GetPoint(2).px, 0.0, 1e-6);
+  EXPECT_NEAR(ring.GetPoint(2).py, 0.5 - 0.081, 1e-6);
+  EXPECT_DOUBLE_EQ(ring[4], 0.8);
+  EXPECT_NEAR(ring.GetLeastRange(), 0.344, 1e-6);
+  EXPECT_EQ(ring.GetLeastIndex(), 2U);
+  try {
+    static_cast<void>(ring[8]);
+    FAIL() << "transducer 8 of 8 exists";
+  } catch (const MorseError& e) {
+    EXPECT_EQ(e.GetErrorCode(), MorseError::kBadArgument);
+    EXPECT_EQ(e.GetErrorFun(), "MorseInfrared::GetRange");
+  }
+}
+
+TEST_F(MorseAddedSensors, OneOfSeveralIsFoundByName) {
+  MorseInfrared back(robot, "back");
+  client.Read();
+  ASSERT_EQ(back.GetCount(), 1U);
+  EXPECT_NEAR(back[0], 0.95, 1e-6);
+  EXPECT_EQ(MorseInfrared(robot).GetName(), "back");  // the first in order of name
+  EXPECT_EQ(error_code_of([&] { MorseSonar sonar(robot, "back"); }), MorseError::kNoSuchDevice);
+}
+
+TEST_F(MorseAddedSensors, SonarShowsItsTransducersAndRanges) {
+  MorseSonar sonar(robot);
+  EXPECT_DOUBLE_EQ(sonar.GetMountPose(0).px, 0.05);
+  EXPECT_DOUBLE_EQ(sonar.GetMountPose(0).pa, -90.0 * PI / 180.0);
+  EXPECT_NEAR(sonar.GetFieldOfView(), 30.0 * PI / 180.0, 1e-12);
+  client.Read();
+  ASSERT_EQ(sonar.GetCount(), 2U);
+  // The border below is 1.01 m away; the block 0.45 m ahead.
+  EXPECT_NEAR(sonar[0], 1.01, 1e-5);
+  EXPECT_NEAR(sonar[1], 0.45, 1e-5);
+  EXPECT_EQ(sonar.GetLeastIndex(), 1U);
+}
+
+TEST_F(MorseAddedSensors, AreToldOfButNoPlayerInterfaceCarriesThem) {
+  EXPECT_THAT(robot.GetDeviceNames(),
+              ElementsAre("back", "battery", "collision", "infrared", "laser", "motion", "odometry",
+                          "pen", "pose", "proximity", "sonar"));
+  EXPECT_DOUBLE_EQ(robot.GetDevice("sonar").properties.at("count"), 2.0);
+  const auto session = host->connect(playerlike::kMorsePort);
+  for (const auto& address : playerlike::list_interfaces(session->robots(), 4000)) {
+    EXPECT_THAT(address.device, testing::AnyOf("laser", "pen", "pose", "world"));
+  }
 }
 
 }  // namespace

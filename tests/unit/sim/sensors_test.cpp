@@ -1,0 +1,551 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The sensors that a world adds to its robots: collision, battery, proximity, infrared and sonar.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "sim/core/error.h"
+#include "sim/devices/battery.h"
+#include "sim/devices/contact_sensors.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/proximity.h"
+#include "sim/devices/rangers.h"
+#include "sim/simulation/simulation.h"
+
+namespace sim {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr double kDegrees = std::numbers::pi / 180.0;
+
+/// A robot as a world file has it.
+std::string robot(const std::string& name, double x, double y, double yaw_deg,
+                  const std::string& devices = "{}") {
+  return R"({"name": ")" + name + R"(", "pose": {"x": )" + std::to_string(x) + R"(, "y": )" +
+         std::to_string(y) + R"(, "yaw_deg": )" + std::to_string(yaw_deg) + R"(}, "devices": )" +
+         devices + "}";
+}
+
+/// A room of 4 x 4 m; `more` goes into the arena.
+WorldDescription room(const std::string& robots, const std::string& more = "") {
+  return load_world_text(R"({"arena": {"size": [4, 4])" + (more.empty() ? "" : ", " + more) +
+                         R"(}, "robots": [)" + robots + "]}");
+}
+
+template <typename ReadingType>
+const ReadingType& reading(const Simulation& simulation, const std::string& device, int robot = 0) {
+  const int index = simulation.find_device(robot, device).value();
+  return dynamic_cast<const ReadingType&>(
+      dynamic_cast<const Sensor&>(simulation.device(robot, index)).reading());
+}
+
+void drive(Simulation& simulation, double v, double omega = 0.0, int robot = 0) {
+  const auto refusal = simulation.apply({robot, simulation.find_device(robot, "motion").value()},
+                                        TwistCommand{{v, omega, 0.0}});
+  ASSERT_FALSE(refusal.has_value()) << *refusal;
+}
+
+void run(Simulation& simulation, int steps) {
+  for (int i = 0; i < steps; ++i) simulation.step();
+}
+
+// --- collision
+
+// The S1R reaches 0.087 m forward, so from x = 1.463 it has 50 mm to a face at x = 1.6.
+constexpr const char* kBlock =
+    R"("obstacles": [{"name": "block", "center": [1.8, 2], "size": [0.4, 0.4]}])";
+
+TEST(CollisionSensor, TellsAContactThatBeganAndEndedBetweenTwoReadings) {
+  Simulation simulation(
+      room(robot("r1", 1.463, 2, 0, R"({"collision": {"frequency": 1}})"), kBlock));
+  drive(simulation, 0.5);
+  run(simulation, 20);  // it would be 100 mm on
+  drive(simulation, -0.2);
+  run(simulation, 80);
+  ASSERT_EQ(reading<CollisionReading>(simulation, "collision").sequence, 1U);
+  ASSERT_LT(simulation.body(0).X_WB.x_m, 1.4);  // long away from the block
+  EXPECT_TRUE(reading<CollisionReading>(simulation, "collision").collision);
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision").objects, ElementsAre("block"));
+  run(simulation, 100);
+  ASSERT_EQ(reading<CollisionReading>(simulation, "collision").sequence, 2U);
+  EXPECT_FALSE(reading<CollisionReading>(simulation, "collision").collision);
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision").objects, IsEmpty());
+}
+
+TEST(CollisionSensor, TellsAContactThatLastsInEachReading) {
+  Simulation simulation(room(robot("r1", 1.463, 2, 0, R"({"collision": {}})"), kBlock));
+  run(simulation, 10);
+  EXPECT_FALSE(reading<CollisionReading>(simulation, "collision").collision);
+  drive(simulation, 0.5);
+  run(simulation, 10);  // it gets there
+  for (int i = 0; i < 5; ++i) {
+    run(simulation, 10);
+    EXPECT_TRUE(reading<CollisionReading>(simulation, "collision").collision) << i;
+  }
+  EXPECT_EQ(simulation.statistics(0).collisions, 1);
+  drive(simulation, 0.0);  // at rest, still touching
+  run(simulation, 100);
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision").objects, ElementsAre("block"));
+}
+
+TEST(CollisionSensor, NamesEachThingOnceInOrder) {
+  // r1 stands 1 mm from the left and the bottom border, and r2 1 mm before it; all are less than
+  // the 2 mm that count as touching.
+  Simulation simulation(room(robot("r1", 0.088, 0.082, 0, R"({"collision": {}})") + "," +
+                             robot("r2", 0.263, 0.082, 0, R"({"collision": {}})")));
+  run(simulation, 10);
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision", 0).objects,
+              ElementsAre("border", "r2"));
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision", 1).objects,
+              ElementsAre("border", "r1"));
+}
+
+TEST(CollisionSensor, KnowsDockSeparatorsAndTheWallsOfAMap) {
+  WorldDescription world = room(
+      robot("r1", 0.912, 1.5, 0, R"({"collision": {}})") + "," +
+          robot("r2", 3, 3, 0, R"({"collision": {}})"),
+      R"("dock_separators": [{"name": "separator1", "center": [3.188, 3], "size": [0.2, 0.2]}])");
+  world.arena.walls.push_back({{{1, 1}, {2, 1}, {2, 2}, {1, 2}}});
+  Simulation simulation(std::move(world));
+  run(simulation, 10);
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision", 0).objects, ElementsAre("wall"));
+  EXPECT_THAT(reading<CollisionReading>(simulation, "collision", 1).objects,
+              ElementsAre("separator1"));
+}
+
+// --- battery
+
+TEST(BatteryLoad, GrowsWithTheSpeedOfTheWheels) {
+  BatteryParams params;
+  params.idle_power_w = 6.0;
+  params.drive_power_ws_per_m = 8.0;
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {}, 0.14), 6.0);
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {0.5, 0.0}, 0.14), 10.0);
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {-0.5, 0.0}, 0.14), 10.0);
+  // On the spot at 3 rad/s: wheels at -+ 3 * 0.07 = 0.21 m/s.
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {0.0, 3.0}, 0.14), 6.0 + 8.0 * 0.21);
+  // Wheels at 0.29 and 0.71 m/s: as fast, in the mean, as the robot.
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {0.5, -3.0}, 0.14), 10.0);
+}
+
+TEST(BatteryVoltage, IsLinearInTheCharge) {
+  const BatteryParams params;
+  EXPECT_DOUBLE_EQ(battery_voltage_v(params, 0.0), 9.0);
+  EXPECT_DOUBLE_EQ(battery_voltage_v(params, 0.5), 10.8);
+  EXPECT_DOUBLE_EQ(battery_voltage_v(params, 1.0), 12.6);
+}
+
+TEST(Dock, HoldsWhatIsOnItsTurnedArea) {
+  DockDescription dock;
+  dock.pose = {1.0, 2.0, 30.0 * kDegrees};
+  dock.size = {0.4, 0.2};
+  EXPECT_TRUE(is_on_dock(dock, {1.0, 2.0}));
+  EXPECT_TRUE(is_on_dock(dock, dock.pose * Vec2(0.199, 0.099)));
+  EXPECT_FALSE(is_on_dock(dock, dock.pose * Vec2(0.201, 0.0)));
+  EXPECT_FALSE(is_on_dock(dock, dock.pose * Vec2(0.0, -0.101)));
+  EXPECT_FALSE(is_on_dock(dock, {1.0 + 0.199, 2.0 + 0.099}));  // on it only if it were not turned
+}
+
+TEST(Battery, DrainsWithTimeAndWithDriving) {
+  Simulation simulation(
+      room(robot("r1", 0.5, 2, 0, R"({"battery": {"capacity": 1, "initial_charge": 60}})")));
+  run(simulation, 1000);
+  drive(simulation, 0.2);
+  run(simulation, 1000);
+  // 60 % of 3600 J, less 10 s at 6 W and 10 s at 6 + 8 * 0.2 W: 2160 - 60 - 76 = 2024 J.
+  const auto& battery = reading<BatteryReading>(simulation, "battery");
+  EXPECT_NEAR(battery.charge_percent, 100.0 * 2024.0 / 3600.0, 1e-9);
+  EXPECT_NEAR(battery.energy_wh, 2024.0 / 3600.0, 1e-11);
+  EXPECT_NEAR(battery.voltage_v, 9.0 + 3.6 * 2024.0 / 3600.0, 1e-10);
+  EXPECT_EQ(battery.capacity_wh, 1.0);
+  EXPECT_EQ(battery.status, BatteryStatus::kDischarging);
+  EXPECT_EQ(battery.sequence, 200U);
+}
+
+TEST(Battery, OfAStalledRobotDrainsAsIfItDrove) {
+  const std::string devices = R"({"battery": {"capacity": 1}})";
+  Simulation simulation(
+      room(robot("r1", 1.5, 2, 0, devices) + "," + robot("r2", 0.5, 1, 0, devices), kBlock));
+  drive(simulation, 0.25, 0.0, 0);
+  drive(simulation, 0.25, 0.0, 1);
+  run(simulation, 500);
+  ASSERT_TRUE(simulation.body(0).stalled);
+  ASSERT_FALSE(simulation.body(1).stalled);
+  EXPECT_EQ(reading<BatteryReading>(simulation, "battery", 0).charge_percent,
+            reading<BatteryReading>(simulation, "battery", 1).charge_percent);
+}
+
+TEST(Battery, FillsInADockAndNowhereElse) {
+  Simulation simulation(
+      room(robot("r1", 1, 1, 0, R"({"battery": {"capacity": 0.02, "initial_charge": 0}})"),
+           R"("docks": [{"pose": {"x": 1, "y": 1, "yaw_deg": 90}}])"));
+  const auto& battery = reading<BatteryReading>(simulation, "battery");
+  run(simulation, 100);  // 1 s at 40 W into 72 J
+  EXPECT_NEAR(battery.charge_percent, 100.0 * 40.0 / 72.0, 1e-9);
+  EXPECT_EQ(battery.status, BatteryStatus::kCharging);
+  run(simulation, 100);  // full after 1.8 s
+  EXPECT_EQ(battery.charge_percent, 100.0);
+  EXPECT_EQ(battery.status, BatteryStatus::kCharged);
+  drive(simulation, 0.5);
+  run(simulation, 20);  // 0.1 m of the 0.12 m to the dock's edge
+  EXPECT_EQ(battery.status, BatteryStatus::kCharged);
+  drive(simulation, 0.5);
+  run(simulation, 10);  // 0.15 m: out since step 25 of these 30, where x = 1.125 m
+  EXPECT_EQ(battery.status, BatteryStatus::kDischarging);
+  drive(simulation, 0.0);
+  run(simulation, 10);
+  // 10 steps (or 11: step 24 ends on the edge itself) at 10 W and 10 at 6 W lie outside.
+  EXPECT_NEAR(battery.energy_wh * 3600.0, 72.0 - 0.6 - 0.65, 0.06);
+}
+
+TEST(Battery, ThatIsEmptyOnlyReadsSo) {
+  Simulation simulation(
+      room(robot("r1", 0.5, 2, 0, R"({"battery": {"capacity": 0.001, "initial_charge": 50}})")));
+  drive(simulation, 0.5);
+  run(simulation, 400);  // 1.8 J at 10 W last 0.18 s
+  EXPECT_EQ(reading<BatteryReading>(simulation, "battery").charge_percent, 0.0);
+  EXPECT_EQ(reading<BatteryReading>(simulation, "battery").voltage_v, 9.0);
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 2.5, 1e-9);
+}
+
+TEST(BatteryStatus, HasMorsesWords) {
+  EXPECT_EQ(to_string(BatteryStatus::kCharged), "Charged");
+  EXPECT_EQ(to_string(BatteryStatus::kCharging), "Charging");
+  EXPECT_EQ(to_string(BatteryStatus::kDischarging), "Discharging");
+}
+
+// --- proximity
+
+using Neighbour = ProximityReading::Neighbour;
+
+TEST(Proximity, TellsRobotsWithinRangeByName) {
+  Simulation simulation(room(robot("me", 1, 1, 0, R"({"proximity": {}})") + "," +
+                             robot("zoe", 1, 2, 0) + "," +        // exactly 1 m: near
+                             robot("amy", 1.375, 1.5, 0) + "," +  // 0.375, 0.5: 0.625 m
+                             robot("far", 2.1, 1, 0)));
+  run(simulation, 10);
+  EXPECT_THAT(reading<ProximityReading>(simulation, "proximity").near_objects,
+              ElementsAre(Neighbour{"amy", 0.625}, Neighbour{"zoe", 1.0}));
+}
+
+TEST(Proximity, FollowsRobotsThatDrive) {
+  Simulation simulation(
+      room(robot("me", 1, 1, 0, R"({"proximity": {}})") + "," + robot("far", 2.1, 1, 180)));
+  drive(simulation, 0.5, 0.0, 1);
+  run(simulation, 50);
+  const auto& near = reading<ProximityReading>(simulation, "proximity").near_objects;
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_NEAR(near[0].distance_m, 1.1 - 0.25, 1e-9);
+}
+
+TEST(Proximity, TellsObstaclesThatStandThereIfAsked) {
+  Simulation simulation(
+      room(robot("me", 1, 1, 0, R"({"proximity": {"obstacles": true, "range": 2}})") + "," +
+               robot("block", 1, 2.5, 0),
+           R"("obstacles": [{"name": "block", "center": [2, 1]},
+                            {"name": "trap", "center": [1, 2], "type": "dynamic",
+                             "state": "retracted"},
+                            {"name": "away", "center": [3.5, 3.5]}],
+              "dock_separators": [{"name": "separator1", "center": [1, 0.5]}])"));
+  run(simulation, 10);
+  // Of two that are called alike, the nearer comes first.
+  EXPECT_THAT(
+      reading<ProximityReading>(simulation, "proximity").near_objects,
+      ElementsAre(Neighbour{"block", 1.0}, Neighbour{"block", 1.5}, Neighbour{"separator1", 0.5}));
+  ASSERT_FALSE(simulation.set_obstacle_state("trap", ObstacleState::kExtended).has_value());
+  run(simulation, 10);
+  EXPECT_EQ(reading<ProximityReading>(simulation, "proximity").near_objects.back(),
+            (Neighbour{"trap", 1.0}));
+}
+
+// --- infrared and sonar
+
+TEST(Infrared, RingSeesTheRoomRoundTheRobot) {
+  Simulation simulation(load_world_text(R"({"arena": {"size": [1, 1]}, "robots": [)" +
+                                        robot("r1", 0.5, 0.5, 0, R"({"infrared": {}})") + "]}"));
+  run(simulation, 10);
+  const auto& ring = reading<RangerReading>(simulation, "infrared");
+  // Ahead 0.5 - 0.081, to the side 0.5 - 0.075, into the corners sqrt(2) (0.5 - 0.061).
+  const double corner = std::sqrt(2.0) * 0.439;
+  const std::vector<double> expected{0.419, corner, 0.425, corner, 0.419, corner, 0.425, corner};
+  ASSERT_EQ(ring.ranges_m.size(), expected.size());
+  ASSERT_EQ(ring.X_BS.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    // The kernel is exact to 1e-6 of the range.
+    EXPECT_NEAR(ring.ranges_m[i], expected[i], 1e-6) << i;
+  }
+  EXPECT_EQ(ring.range_max_m, 0.8);
+  EXPECT_EQ(ring.field_of_view_rad, 0.0);
+}
+
+TEST(Infrared, ReadsTheLimitWhereNothingIsMet) {
+  Simulation simulation(room(robot("r1", 2, 2, 30, R"({"infrared": {"noise": 0.1}})")));
+  run(simulation, 10);
+  for (const double range : reading<RangerReading>(simulation, "infrared").ranges_m) {
+    EXPECT_EQ(range, 0.8);
+  }
+}
+
+TEST(Infrared, LooksOverWhatIsNotHigherThanItself) {
+  const std::string sill =
+      R"("obstacles": [{"name": "sill", "center": [2.5, 2], "size": [0.2, 2], "height": 0.05}])";
+  const std::string mounts = R"("mounts": [{"x": 0.05}])";
+  Simulation over(room(robot("r1", 2, 2, 0, R"({"infrared": {)" + mounts + "}}"), sill));
+  Simulation below(
+      room(robot("r1", 2, 2, 0, R"({"infrared": {"height": 0.04, )" + mounts + "}}"), sill));
+  run(over, 10);
+  run(below, 10);
+  EXPECT_THAT(reading<RangerReading>(over, "infrared").ranges_m, ElementsAre(0.8));
+  // From x = 2.05 to the face at 2.4.
+  EXPECT_NEAR(reading<RangerReading>(below, "infrared").ranges_m[0], 0.35, 1e-6);
+}
+
+TEST(Infrared, ReadsZeroInsideASolidWithThatTransducerAlone) {
+  Simulation simulation(room(
+      robot("r1", 1.4, 2, 0, R"({"infrared": {"mounts": [{"x": 0.3}, {"x": 0.1}]}})"), kBlock));
+  run(simulation, 10);
+  const auto& ranges = reading<RangerReading>(simulation, "infrared").ranges_m;
+  EXPECT_EQ(ranges[0], 0.0);          // at x = 1.7, 0.1 m within the block
+  EXPECT_NEAR(ranges[1], 0.1, 1e-6);  // at x = 1.5
+}
+
+TEST(Infrared, ARobotMayHaveSeveralAndSeesOtherRobotsNotItself) {
+  Simulation simulation(room(robot("r1", 1, 2, 0,
+                                   R"({"front": {"type": "infrared", "mounts": [{"x": -0.05}]},
+                     "rear": {"type": "infrared", "mounts": [{"x": -0.05, "yaw_deg": 180}]}})") +
+                             "," + robot("r2", 1.5, 2, 0)));
+  run(simulation, 10);
+  // From x = 0.95 through its own body to the back of r2 at 1.5 - 0.087.
+  EXPECT_NEAR(reading<RangerReading>(simulation, "front").ranges_m[0], 0.463, 1e-6);
+  EXPECT_EQ(reading<RangerReading>(simulation, "rear").ranges_m[0], 0.8);
+}
+
+TEST(ConeGeometry, HasAQuarterDegreeAtMostAndBothSides) {
+  const scan::ScanGeometry thirty = cone_geometry(30.0 * kDegrees, 3.0);
+  EXPECT_EQ(thirty.beam_count, 121);
+  EXPECT_NEAR(thirty.angle_rad(0), -15.0 * kDegrees, 1e-12);
+  EXPECT_NEAR(thirty.angle_rad(60), 0.0, 1e-12);
+  EXPECT_NEAR(thirty.angle_rad(120), 15.0 * kDegrees, 1e-12);
+  EXPECT_EQ(thirty.range_max_m, 3.0);
+  EXPECT_EQ(cone_geometry(15.0 * kDegrees, 3.0).beam_count, 61);
+  EXPECT_EQ(cone_geometry(0.1 * kDegrees, 3.0).beam_count, 3);
+  EXPECT_EQ(cone_geometry(0.0, 3.0).beam_count, 1);
+  EXPECT_EQ(cone_geometry(180.0 * kDegrees, 3.0).beam_count, 721);
+}
+
+// One transducer in the middle of the robot, with a cone of 30 degrees.
+constexpr const char* kSonar = R"({"sonar": {"mounts": [{}]}})";
+
+double sonar_range(const Simulation& simulation) {
+  return reading<RangerReading>(simulation, "sonar").ranges_m.at(0);
+}
+
+TEST(Sonar, ReadsTheLeastRangeWithinItsCone) {
+  // A wall 2 m ahead. At 10 degrees its foot lies within the cone.
+  Simulation within(room(robot("r1", 2, 2, 10, kSonar)));
+  run(within, 10);
+  EXPECT_NEAR(sonar_range(within), 2.0, 2e-5);
+  // At 20 degrees the cone's side comes nearest, 5 degrees off the foot.
+  Simulation beside(room(robot("r1", 2, 2, 20, kSonar)));
+  run(beside, 10);
+  EXPECT_NEAR(sonar_range(beside), 2.0 / std::cos(5.0 * kDegrees), 1e-5);
+}
+
+TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
+  // A box on its tip: the corner that looks at the robot is at (3, 2.2), 11.3 degrees to the left.
+  const std::string side = std::to_string(0.4 / std::sqrt(2.0));
+  const auto tip = [&](double y) {
+    return R"("obstacles": [{"name": "tip", "center": [3.2, )" + std::to_string(y) +
+           R"(], "yaw_deg": 45, "size": [)" + side + ", " + side + "]}]";
+  };
+  Simulation in_cone(room(robot("r1", 2, 2, 0, kSonar), tip(2.2)));
+  run(in_cone, 10);
+  const double corner = std::hypot(1.0, 0.2);
+  EXPECT_GE(sonar_range(in_cone), corner - 1e-5);
+  EXPECT_LE(sonar_range(in_cone), corner * 1.0022);
+  // 0.5 m further to the left its lowest corner (3.2, 2.5) lies at 22.6 degrees: the wall is seen.
+  Simulation beside(room(robot("r1", 2, 2, 0, kSonar), tip(2.7)));
+  run(beside, 10);
+  EXPECT_NEAR(sonar_range(beside), 2.0, 2e-5);
+}
+
+TEST(Sonar, DefaultLooksLeftAheadAndRight) {
+  Simulation simulation(room(robot("r1", 2, 3.5, 0, R"({"sonar": {}})")));
+  run(simulation, 10);
+  const auto& sonar = reading<RangerReading>(simulation, "sonar");
+  ASSERT_EQ(sonar.ranges_m.size(), 3U);
+  // Left: mounted at y = 3.561, 0.439 m below the border; its cone's upper side rises at 60
+  // degrees.
+  EXPECT_NEAR(sonar.ranges_m[0], 0.439 / std::sin(60.0 * kDegrees), 1e-5);
+  // Ahead, at x = 2.081: the border above is met at 0.5 / sin 15 = 1.93 m, that ahead at 1.919 m.
+  EXPECT_NEAR(sonar.ranges_m[1], 1.919, 2e-5);
+  // Right, at x = 2.061: its cone reaches from -60 to -30 degrees, where the border ahead is near.
+  EXPECT_NEAR(sonar.ranges_m[2], 1.939 / std::cos(30.0 * kDegrees), 1e-5);
+  EXPECT_NEAR(sonar.field_of_view_rad, 30.0 * kDegrees, 1e-12);
+}
+
+TEST(Sonar, ScattersByItsNoise) {
+  Simulation simulation(room(
+      robot("r1", 2, 2, 0, R"({"sonar": {"mounts": [{}], "noise": 0.02, "frequency": 100}})")));
+  constexpr int kReadings = 10000;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (int i = 0; i < kReadings; ++i) {
+    simulation.step();
+    const double error = sonar_range(simulation) - 2.0;
+    sum += error;
+    squares += error * error;
+  }
+  // Four standard errors: of a mean sigma / sqrt(n), of a deviation sigma / sqrt(2 n).
+  EXPECT_NEAR(sum / kReadings, 0.0, 4.0 * 0.02 / std::sqrt(kReadings));
+  EXPECT_NEAR(std::sqrt(squares / kReadings), 0.02, 4.0 * 0.02 / std::sqrt(2.0 * kReadings));
+}
+
+TEST(Sonar, NoiseStaysWithinTheRange) {
+  // 2 m to the wall, and a limit of 2.01 m: half of all errors of 0.1 m would be beyond it.
+  Simulation simulation(room(
+      robot("r1", 2, 2, 0,
+            R"({"sonar": {"mounts": [{}], "noise": 0.1, "range_max": 2.01, "frequency": 100}})")));
+  int at_limit = 0;
+  for (int i = 0; i < 100; ++i) {
+    simulation.step();
+    ASSERT_LE(sonar_range(simulation), 2.01);
+    if (sonar_range(simulation) == 2.01) ++at_limit;
+  }
+  EXPECT_GT(at_limit, 20);
+}
+
+// --- all of them
+
+constexpr const char* kAll =
+    R"({"battery": {}, "collision": {}, "infrared": {"noise": 0.01},
+        "proximity": {"obstacles": true}, "sonar": {"noise": 0.02},
+        "laser": {"noise": 0.01, "beams": 37, "resolution_deg": 5}})";
+
+// Two robots that drive into the block and each other.
+std::uint64_t hash_of_a_drive(WorldDescription world) {
+  Simulation simulation(std::move(world));
+  for (int i = 0; i < 500; ++i) {
+    if (i % 50 == 0) {
+      drive(simulation, 0.5 - 0.01 * (i / 50), 0.3 * ((i / 50) % 3 - 1), 0);
+      drive(simulation, 0.4, -0.2, 1);
+    }
+    simulation.step();
+  }
+  return simulation.state_hash();
+}
+
+TEST(AddedSensors, GiveEqualRunsForEqualSeeds) {
+  WorldDescription world =
+      room(robot("r1", 1.2, 2, 0, kAll) + "," + robot("r2", 1.2, 2.3, -20, kAll), kBlock);
+  const std::uint64_t first = hash_of_a_drive(world);
+  EXPECT_EQ(hash_of_a_drive(world), first);
+  world.simulation.seed = 2;
+  EXPECT_NE(hash_of_a_drive(world), first);
+}
+
+TEST(AddedSensors, AreInTheHash) {
+  const auto hash = [](const std::string& devices) {
+    return hash_of_a_drive(
+        room(robot("r1", 1.2, 2, 0, devices) + "," + robot("r2", 1.2, 2.3, -20), kBlock));
+  };
+  const std::uint64_t without = hash("{}");
+  EXPECT_NE(hash(R"({"collision": {}})"), without);
+  EXPECT_NE(hash(R"({"proximity": {}})"), without);
+  EXPECT_NE(hash(R"({"battery": {}})"), hash(R"({"battery": {"initial_charge": 99}})"));
+  EXPECT_NE(hash(R"({"sonar": {}})"), hash(R"({"sonar": {"noise": 0.01}})"));
+}
+
+TEST(AddedSensors, LeaveTheNoiseOfOthersAlone) {
+  const std::string laser = R"("laser": {"noise": 0.01})";
+  Simulation alone(room(robot("r1", 2, 2, 0, "{" + laser + "}")));
+  Simulation with_sonar(room(robot("r1", 2, 2, 0, "{" + laser + R"(, "sonar": {"noise": 0.02}})")));
+  run(alone, 100);
+  run(with_sonar, 100);
+  EXPECT_EQ(reading<LaserReading>(alone, "laser").ranges_m,
+            reading<LaserReading>(with_sonar, "laser").ranges_m);
+}
+
+/// Settings that are refused, and how.
+struct BadSettings {
+  const char* type;
+  const char* settings;
+  const char* id;
+  const char* place;  ///< below the device's
+  const char* words;
+};
+
+void PrintTo(const BadSettings& bad, std::ostream* out) { *out << bad.type << bad.settings; }
+
+class BadSensor : public testing::TestWithParam<BadSettings> {};
+
+TEST_P(BadSensor, IsRefusedWithIdPlaceAndReason) {
+  const BadSettings& bad = GetParam();
+  try {
+    static_cast<void>(
+        room(robot("r1", 2, 2, 0, std::string("{\"") + bad.type + "\": " + bad.settings + "}")));
+    FAIL() << "these settings were read";
+  } catch (const ConfigError& error) {
+    ASSERT_EQ(error.issues().size(), 1U) << error.what();
+    const ConfigIssue& issue = error.issues()[0];
+    EXPECT_EQ(issue.id, bad.id);
+    EXPECT_EQ(issue.pointer, std::string("/robots/0/devices/") + bad.type + bad.place);
+    EXPECT_THAT(issue.message(), HasSubstr(bad.words));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadSensor,
+    testing::Values(
+        BadSettings{"collision", R"({"frequency": 0})", "world/out-of-range", "/frequency", "Hz"},
+        BadSettings{"battery", R"({"capacity": 0})", "world/out-of-range", "/capacity", "W h"},
+        BadSettings{"battery", R"({"initial_charge": 101})", "world/out-of-range",
+                    "/initial_charge", "from 0 to 100 percent"},
+        BadSettings{"battery", R"({"idle_power": -1})", "world/out-of-range", "/idle_power", "W"},
+        BadSettings{"battery", R"({"empty_voltage": 13})", "device/battery-voltage", "",
+                    "13.000000 V empty, 12.600000 V full"},
+        BadSettings{"proximity", R"({"range": 0})", "world/out-of-range", "/range", "m"},
+        BadSettings{"proximity", R"({"obstacles": 1})", "world/wrong-type", "/obstacles",
+                    "true or false"},
+        BadSettings{"infrared", R"({"field_of_view_deg": 10})", "world/unknown-key",
+                    "/field_of_view_deg", "frequency"},
+        BadSettings{"infrared", R"({"mounts": []})", "device/ranger-mounts", "/mounts",
+                    "a list of 0"},
+        BadSettings{"infrared", R"({"mounts": {"x": 0}})", "world/wrong-type", "/mounts", "a list"},
+        BadSettings{"sonar", R"({"mounts": [{}, 1]})", "world/wrong-type", "/mounts/1",
+                    "an object"},
+        BadSettings{"sonar", R"({"mounts": [{"yaw": 1}]})", "world/unknown-key", "/mounts/0/yaw",
+                    "yaw_deg"},
+        BadSettings{"sonar", R"({"mounts": [{"x": "a"}]})", "world/wrong-type", "/mounts/0/x",
+                    "a number"},
+        BadSettings{"sonar", R"({"field_of_view_deg": 0})", "world/out-of-range",
+                    "/field_of_view_deg", "degrees"},
+        BadSettings{"sonar", R"({"range_max": 0})", "world/out-of-range", "/range_max", "m"},
+        BadSettings{"sonar", R"({"noise": -0.1})", "world/out-of-range", "/noise", "m"}));
+
+TEST(Rangers, HaveNoMoreThanSixtyFourTransducers) {
+  const auto issues = [](int count) {
+    std::string mounts = "{}";
+    for (int i = 1; i < count; ++i) mounts += ", {}";
+    try {
+      static_cast<void>(room(robot("r1", 2, 2, 0, R"({"sonar": {"mounts": [)" + mounts + "]}}")));
+    } catch (const ConfigError& error) {
+      return error.issues();
+    }
+    return std::vector<ConfigIssue>{};
+  };
+  EXPECT_THAT(issues(64), IsEmpty());
+  ASSERT_EQ(issues(65).size(), 1U);
+  EXPECT_EQ(issues(65)[0].id, "device/ranger-mounts");
+  EXPECT_THAT(issues(65)[0].message(), HasSubstr("1 to 64 poses"));
+}
+
+}  // namespace
+}  // namespace sim
