@@ -44,6 +44,14 @@ void require_duration(double sleep_s) {
                      "sleep takes a number of seconds in [0, 1e9]");
 }
 
+// Whether a command undoes an earlier one of its kind that has not been carried out yet. Those that
+// move a robot by some way, or are counted, do not.
+bool replaces_earlier_ones(const sim::Command& command) {
+  return std::holds_alternative<sim::TwistCommand>(command) ||
+         std::holds_alternative<sim::MotorEnableCommand>(command) ||
+         std::holds_alternative<sim::SetPoseCommand>(command);
+}
+
 }  // namespace
 
 ThinkerId new_thinker() noexcept {
@@ -638,8 +646,9 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   touch(client);
   {
     const std::lock_guard input(client.input_mutex);
-    // Of commands in a row of the same kind to the same device only the last counts.
-    if (!client.commands.empty() && client.commands.back().first == device &&
+    // Of such commands in a row to the same device only the last counts.
+    if (replaces_earlier_ones(command) && !client.commands.empty() &&
+        client.commands.back().first == device &&
         client.commands.back().second.index() == command.index()) {
       client.commands.back().second = command;
       return;

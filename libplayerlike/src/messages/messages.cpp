@@ -2,8 +2,11 @@
 #include "playerlike/messages/messages.h"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <sstream>
+#include <variant>
 
 #include "sim/devices/builtin.h"
 
@@ -33,6 +36,28 @@ std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view
   }
   return found;
 }
+
+bool all_finite(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+bool is_finite(const sim::Pose& pose) { return all_finite({pose.x_m, pose.y_m, pose.yaw_rad}); }
+
+// Whether all numbers of a command are finite: one overload a kind.
+bool is_finite(const sim::TwistCommand& c) {
+  return all_finite({c.twist.v_mps, c.twist.omega_radps, c.twist.lateral_mps});
+}
+bool is_finite(const sim::MotorEnableCommand&) { return true; }
+bool is_finite(const sim::SetPoseCommand& c) { return is_finite(c.pose); }
+bool is_finite(const sim::GotoCommand& c) {
+  return all_finite({c.goal_m.x(), c.goal_m.y(), c.tolerance_m, c.speed_mps});
+}
+bool is_finite(const sim::StopCommand&) { return true; }
+bool is_finite(const sim::ResumeCommand&) { return true; }
+bool is_finite(const sim::PlaceCommand& c) { return is_finite(c.pose); }
+bool is_finite(const sim::TranslateCommand& c) {
+  return all_finite({c.offset_m.x(), c.offset_m.y()});
+}
+bool is_finite(const sim::RotateCommand& c) { return all_finite({c.yaw_rad}); }
 
 // What the world itself offers, whatever robots are in it.
 constexpr std::string_view kWorldInterface = "map";
@@ -79,6 +104,12 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
 }
 
 }  // namespace
+
+void require_finite(const sim::Command& command) {
+  if (std::visit([](const auto& c) { return is_finite(c); }, command)) return;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     "a command holds a value that is not a finite number");
+}
 
 bool carries(std::string_view device_type, std::string_view interface) {
   return std::any_of(std::begin(kInterfaces), std::end(kInterfaces), [&](const InterfaceRow& row) {

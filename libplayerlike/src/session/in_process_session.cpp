@@ -95,19 +95,7 @@ bool InProcessSession::peek(std::chrono::milliseconds timeout) {
 
 void InProcessSession::send(DeviceId device, const sim::Command& command) {
   require_device(device);
-  const auto finite = [](std::initializer_list<double> values) {
-    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  };
-  bool good = true;
-  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) {
-    good = finite({twist->twist.v_mps, twist->twist.omega_radps, twist->twist.lateral_mps});
-  } else if (const auto* pose = std::get_if<sim::SetPoseCommand>(&command)) {
-    good = finite({pose->pose.x_m, pose->pose.y_m, pose->pose.yaw_rad});
-  }
-  if (!good) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a command holds a value that is not a finite number");
-  }
+  require_finite(command);
   host_->core_->send(*client_, device, command);
 }
 

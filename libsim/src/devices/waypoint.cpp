@@ -117,6 +117,7 @@ void Waypoint::measure(const StepContext& context) {
   reading_.status = status_;
   reading_.goal_number = goal_number_;
   reading_.goal_m = goal_.goal_m;
+  reading_.position_m = X_WB_.position();
   reading_.distance_m = distance_m();
 }
 

@@ -437,7 +437,7 @@ std::uint64_t Simulation::state_hash() const {
   for (const RobotParts& robot : impl_->robots) {
     for (const auto& device : robot.devices) {
       device->hash(hash);
-      if (!device->active()) hash.add(std::string_view("off"));
+      if (!device->active()) hash.add("off " + device->name());
     }
     hash.add(robot.statistics.path_length_m);
     hash.add(robot.statistics.collisions);

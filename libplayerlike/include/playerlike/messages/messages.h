@@ -89,6 +89,10 @@ class SessionError : public std::runtime_error {
   Code code_;
 };
 
+/// Refuses a command with a number that cannot be meant, before it is sent.
+/// @throws SessionError kBadArgument if any of its numbers is NaN or infinite.
+void require_finite(const sim::Command& command);
+
 /// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 

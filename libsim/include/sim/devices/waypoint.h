@@ -52,9 +52,10 @@ struct WaypointParams {
 /// How a robot is getting on with its goal.
 struct WaypointReading final : Reading {
   WaypointStatus status = WaypointStatus::kArrived;
-  std::uint64_t goal_number = 0;  ///< see Waypoint::goal_number()
-  Vec2 goal_m = Vec2::Zero();     ///< in W [m]; before the first goal: where the robot started
-  double distance_m = 0.0;        ///< from the robot to it [m]
+  std::uint64_t goal_number = 0;   ///< see Waypoint::goal_number()
+  Vec2 goal_m = Vec2::Zero();      ///< in W [m]; before the first goal: where the robot started
+  Vec2 position_m = Vec2::Zero();  ///< of the robot, in W [m]
+  double distance_m = 0.0;         ///< from the robot to the goal [m]
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<WaypointReading>(*this);
