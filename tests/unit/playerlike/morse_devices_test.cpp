@@ -3,12 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
+#include <memory>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
 #include "playerlike/host/host.h"
 #include "playerlike/messages/messages.h"
+#include "sim/devices/waypoint.h"
+#include "sim/simulation/simulation.h"
 
 namespace {
 
@@ -435,6 +441,183 @@ TEST_F(MorseAddedSensors, AreToldOfButNoPlayerInterfaceCarriesThem) {
   const auto session = host->connect(playerlike::kMorsePort);
   for (const auto& address : playerlike::list_interfaces(session->robots(), 4000)) {
     EXPECT_THAT(address.device, testing::AnyOf("laser", "pen", "pose", "world"));
+  }
+}
+
+// --- Over a simulation
+
+// A robot looking along x at (1, 2) in an empty room.
+std::shared_ptr<playerlike::Host> host_of_room() {
+  return playerlike::Host::create(sim::load_world_text(R"({
+      "arena": {"size": [4, 4]},
+      "robots": [{"name": "r1", "pose": {"x": 1, "y": 2, "yaw_deg": 0},
+                  "devices": {"waypoint": {"tolerance": 0.1, "speed": 0.4}, "teleport": {},
+                              "odometry": {"level": "raw"}}}]})"));
+}
+
+class MorseInARoom : public testing::Test {
+ protected:
+  std::shared_ptr<playerlike::Host> host = host_of_room();
+  MorseClient client{host->connect(playerlike::kMorsePort)};
+  MorseRobot robot = client.GetRobot("r1");
+};
+
+TEST_F(MorseInARoom, WaypointDrivesToItsGoal) {
+  MorseWaypoint waypoint(robot);
+  EXPECT_EQ(waypoint.GetStatus(), "Arrived");
+  EXPECT_DOUBLE_EQ(waypoint.GetGoal().px, 1.0);
+  EXPECT_DOUBLE_EQ(waypoint.GetTolerance(), 0.1);
+  EXPECT_DOUBLE_EQ(waypoint.GetSpeed(), 0.4);
+  waypoint.Goto(2.5, 2.0);
+  EXPECT_EQ(waypoint.GetStatus(), "Transit");
+  EXPECT_DOUBLE_EQ(waypoint.GetDistance(), 1.5);
+  int rounds = 0;
+  while (!waypoint.IsArrived() && rounds < 100) {
+    client.Read();
+    ++rounds;
+  }
+  // 3.60 s, see Waypoint.ReachesAGoalAheadInTheExpectedTime; a round is 0.1 s.
+  EXPECT_NEAR(rounds, 36, 1);
+  EXPECT_LE(waypoint.GetDistance(), 0.1);
+  EXPECT_EQ(waypoint.GetGoalNumber(), 1U);
+  EXPECT_DOUBLE_EQ(waypoint.GetGoal().px, 2.5);
+}
+
+TEST_F(MorseInARoom, WaypointStopsAndResumes) {
+  MorseWaypoint waypoint(robot);
+  MorsePose pose(robot);
+  waypoint.Goto(3.0, 2.0, 0.1, 0.2);
+  client.Read();
+  client.Read();
+  waypoint.Stop();
+  EXPECT_EQ(waypoint.GetStatus(), "Stop");
+  client.Read();
+  EXPECT_EQ(waypoint.GetStatus(), "Stop");
+  EXPECT_NEAR(pose.GetX(), 1.04, 1e-9);
+  waypoint.Resume();
+  EXPECT_EQ(waypoint.GetStatus(), "Transit");
+  client.Read();
+  EXPECT_EQ(waypoint.GetStatus(), "Transit");
+  EXPECT_NEAR(pose.GetX(), 1.06, 1e-9);
+  MorseMotionVW(robot).SetSpeed(0.0, 0.1);  // the later order steers
+  client.Read();
+  EXPECT_EQ(waypoint.GetStatus(), "Stop");
+}
+
+TEST_F(MorseInARoom, WaypointTellsOnlyOfItsNewestOrder) {
+  MorseWaypoint waypoint(robot);
+  MorsePose pose(robot);
+  client.Read();
+  // A goal that the robot is at needs no order, unlike Goto().
+  EXPECT_FALSE(waypoint.SetDest(1.05, 2.0));
+  client.Read();
+  EXPECT_EQ(waypoint.GetGoalNumber(), 0U);
+  EXPECT_TRUE(waypoint.SetDest(1.5, 2.0));
+  client.Read();
+  EXPECT_EQ(waypoint.GetGoalNumber(), 1U);
+  waypoint.Goto(1.0, 2.0, 0.5, 0.4);
+  EXPECT_EQ(waypoint.GetStatus(), "Transit");
+  client.Read();
+  EXPECT_EQ(waypoint.GetStatus(), "Arrived");
+  EXPECT_EQ(waypoint.GetGoalNumber(), 2U);
+  EXPECT_EQ(error_code_of([&] { waypoint.Goto(std::nan(""), 0.0); }), MorseError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { waypoint.Goto(1.0, 1.0, 0.0, 1.0); }), MorseError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { waypoint.Goto(1.0, 1.0, 0.1, -1.0); }), MorseError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { waypoint.SetDest(1.0, 3.0, std::nan(""), 1.0); }),
+            MorseError::kBadArgument);
+  EXPECT_EQ(waypoint.GetStatus(), "Arrived");
+}
+
+TEST_F(MorseInARoom, RefusedResumeIsNotTakenForTransit) {
+  MorseWaypoint waypoint(robot);
+  waypoint.Resume();  // no goal was given: a warning
+  client.Read();
+  EXPECT_EQ(waypoint.GetStatus(), "Arrived");
+}
+
+TEST_F(MorseInARoom, TeleportMovesTheRobotAndOdometryDoesNotNotice) {
+  MorseTeleport teleport(robot);
+  MorsePose pose(robot);
+  MorseOdometry odometry(robot);
+  teleport.Place(3.0, 1.0, 0.5 * PI);
+  client.Read();
+  EXPECT_NEAR(pose.GetX(), 3.0, 1e-12);
+  EXPECT_NEAR(pose.GetYaw(), 0.5 * PI, 1e-12);
+  EXPECT_EQ(odometry.GetX(), 0.0);
+  // Relative orders add up, also between two steps.
+  teleport.Translate(-0.5);
+  teleport.Translate(-0.5, 0.25);
+  teleport.Rotate(0.25 * PI);
+  teleport.Rotate(0.25 * PI);
+  client.Read();
+  EXPECT_NEAR(pose.GetX(), 2.0, 1e-12);
+  EXPECT_NEAR(pose.GetY(), 1.25, 1e-12);
+  EXPECT_NEAR(pose.GetYaw(), PI, 1e-12);
+  teleport.Place(9.0, 1.0, 0.0);  // off the floor: a warning
+  client.Read();
+  EXPECT_NEAR(pose.GetX(), 2.0, 1e-12);
+  EXPECT_EQ(error_code_of([&] { teleport.Place(0.0, 0.0, std::nan("")); }),
+            MorseError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { teleport.Translate(std::nan("")); }), MorseError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { teleport.Rotate(INFINITY); }), MorseError::kBadArgument);
+}
+
+TEST_F(MorseInARoom, OdometryShowsThePoseAtAnyLevel) {
+  MorseOdometry odometry(robot);
+  EXPECT_EQ(odometry.GetProperties().at("level"), 2.0);
+  MorseMotionVW(robot).SetSpeed(0.2, 0.0);
+  for (int i = 0; i < 10; ++i) client.Read();
+  EXPECT_NEAR(odometry.GetX(), 0.2, 1e-9);
+}
+
+TEST(MorseGoals, AreNotThereUnlessTheWorldGivesThem) {
+  auto world = make_fake_world();
+  MorseClient client(fake_session(world));
+  const MorseRobot robot = client.GetRobot();
+  EXPECT_EQ(error_code_of([&] { MorseWaypoint waypoint(robot); }), MorseError::kNoSuchDevice);
+  EXPECT_EQ(error_code_of([&] { MorseTeleport teleport(robot); }), MorseError::kNoSuchDevice);
+}
+
+TEST(Commands, WithNumbersThatAreNotFiniteAreRefusedBeforeTheyAreSent) {
+  const auto host = host_of_room();
+  const auto session = host->connect(6665);
+  const double nan = std::nan("");
+  const double good = 1.0;
+  using playerlike::SessionError;
+  for (const sim::Command& bad : std::initializer_list<sim::Command>{
+           sim::TwistCommand{{good, nan, 0.0}}, sim::SetPoseCommand{{nan, good, good}},
+           sim::GotoCommand{{good, nan}}, sim::GotoCommand{{good, good}, nan},
+           sim::GotoCommand{{good, good}, good, INFINITY}, sim::PlaceCommand{{good, good, nan}},
+           sim::TranslateCommand{{nan, good}}, sim::RotateCommand{-INFINITY}}) {
+    try {
+      session->send({0, 0}, bad);
+      ADD_FAILURE() << "command of kind " << bad.index() << " was sent";
+    } catch (const SessionError& e) {
+      EXPECT_EQ(e.code(), SessionError::Code::kBadArgument);
+    }
+  }
+  for (const sim::Command& sound : std::initializer_list<sim::Command>{
+           sim::MotorEnableCommand{true}, sim::GotoCommand{{good, good}}, sim::StopCommand{},
+           sim::ResumeCommand{}, sim::RotateCommand{good}}) {
+    EXPECT_NO_THROW(playerlike::require_finite(sound)) << sound.index();
+  }
+}
+
+// Devices without an interface of Player's are listed, and stand in the way of no other.
+TEST(Interfaces, OfOtherDevicesAreUntouchedByWaypointAndTeleport) {
+  const auto host = host_of_room();
+  const auto session = host->connect(6665);
+  const auto& robots = session->robots();
+  ASSERT_EQ(robots.size(), 1U);
+  std::vector<std::string> types;
+  for (const auto& device : robots[0].devices) types.push_back(device.type);
+  EXPECT_THAT(types,
+              ElementsAre("laser", "motion", "odometry", "pen", "pose", "teleport", "waypoint"));
+  EXPECT_DOUBLE_EQ(robots[0].devices[6].properties.at("speed"), 0.4);
+  EXPECT_EQ(playerlike::find_interface(robots, 6665, "position2d", 1).reading.device, 2);
+  for (const auto& address : playerlike::list_interfaces(robots, 6665)) {
+    EXPECT_NE(address.device, "waypoint");
+    EXPECT_NE(address.device, "teleport");
   }
 }
 
