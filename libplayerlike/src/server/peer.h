@@ -88,6 +88,9 @@ class Handler {
   /// Whether on_message() takes bytes as they come, in any pieces, instead of whole messages; asked
   /// before each piece. Nothing can be too long or late then.
   [[nodiscard]] virtual bool takes_bytes() const noexcept { return false; }
+  /// Whether it is well that nothing comes from the other end, which only listens: no limit of time
+  /// until the first or the next request holds then. Asked when such a time is over.
+  [[nodiscard]] virtual bool may_be_silent() const noexcept { return false; }
 };
 
 class Hub;

@@ -130,6 +130,9 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { begin_stop(); });
     thread_.join();
+    // Alarms of theirs must not reach a hub that goes.
+    morse_state.reset();
+    native_state.reset();
   }
 
   // Hub
