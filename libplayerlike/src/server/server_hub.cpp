@@ -130,9 +130,6 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { begin_stop(); });
     thread_.join();
-    // Alarms of theirs must not reach a hub that goes.
-    morse_state.reset();
-    native_state.reset();
   }
 
   // Hub
@@ -424,7 +421,7 @@ void ServerHub::Body::serve() {
       log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
     }
   }
-  // All handlers are gone; this may still be told of by others until here.
+  // All handlers are gone. Alarms of what they shared must not reach a hub that goes.
   morse_state.reset();
   native_state.reset();
 }
