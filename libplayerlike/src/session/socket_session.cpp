@@ -30,6 +30,8 @@ constexpr int kReadsAfterEnd = 1000;
 constexpr double kLongest_s = 1e9;  // 30 years
 // Of a message that sets cells, besides the cells [bytes].
 constexpr std::size_t kMessageOverhead = 512;
+// Longest side of a rectangle in a message.
+constexpr std::size_t kMaxSide = 8192;
 
 Connection::Clock::duration wall(double seconds) {
   return std::chrono::duration_cast<Connection::Clock::duration>(
@@ -78,12 +80,15 @@ std::string process_name() {
   return random + '-' + std::to_string(getpid());  // not that of a process that this one forked
 }
 
+/// The name of this program, as a server takes it.
 std::string program_name() {
+  constexpr std::size_t kMost = 64;
+  std::string name;
 #ifdef __GLIBC__
-  return program_invocation_short_name;
-#else
-  return "";
+  name = program_invocation_short_name;
 #endif
+  std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });
+  return name.substr(0, kMost);
 }
 
 /// Reads an answer: what it should hold and does not is the server's fault.
@@ -613,9 +618,10 @@ void SocketSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
   const std::size_t most = std::max<std::size_t>(
       (connection->message_limit() - kMessageOverhead) / (encoding == Encoding::kCbor ? 4 : 6), 1);
   const auto width = static_cast<std::size_t>(rect.width);
-  const auto columns = static_cast<int>(std::min(width, most));
-  const auto rows = static_cast<int>(
-      std::min<std::size_t>(most / std::max(columns, 1), static_cast<std::size_t>(rect.height)));
+  const std::size_t most_columns = std::min({width, most, kMaxSide});
+  const auto columns = static_cast<int>(most_columns);
+  const auto rows = static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1),
+                                               kMaxSide, static_cast<std::size_t>(rect.height)}));
   const auto set = [&](const sim::CellRect& part, std::span<const sim::CellValue> cells) {
     request({{"do", "set_cells"},
              {"layer", layer},
