@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "playerlike/messages/messages.h"
+#include "sim/devices/localization.h"
 #include "sim/simulation/simulation.h"
 
 /// What MORSE's clients see of a world: components, and the objects that their streams carry

@@ -38,6 +38,9 @@ class StreamConnection : public Handler {
       : peer_(peer), hub_(hub), state_(hub.morse_state), rights_(hub.access().rights({})) {}
 
   [[nodiscard]] std::string farewell(const protocol::ProtocolError&) override { return ""; }
+  [[nodiscard]] bool may_be_silent() const noexcept override {
+    return rights_.connect || rights_.watch;
+  }
   [[nodiscard]] Peer& peer() noexcept { return peer_; }
 
  protected:

@@ -56,18 +56,14 @@ double require_timeout(const json& request) {
 
 sim::CellRect require_rect(const json& request) {
   const json& rect = protocol::require(request, "rect");
-  const auto side = [&](std::size_t i, std::int64_t least, std::int64_t most) {
-    const json& number = rect[i];
-    if (!number.is_number_integer() || number < least || number > most) {
-      protocol::refuse_value("rect", "[column, row, width, height], whole numbers", rect);
-    }
-    return number.get<int>();
-  };
   if (!rect.is_array() || rect.size() != 4) {
     protocol::refuse_value("rect", "[column, row, width, height]", rect);
   }
-  return {side(0, -kMaxCell, kMaxCell), side(1, -kMaxCell, kMaxCell), side(2, 0, kMaxSide),
-          side(3, 0, kMaxSide)};
+  const auto number = [&](std::size_t i, std::int64_t least, std::int64_t most) {
+    return static_cast<int>(protocol::require_integer({{"rect", rect[i]}}, "rect", least, most));
+  };
+  return {number(0, -kMaxCell, kMaxCell), number(1, -kMaxCell, kMaxCell), number(2, 0, kMaxSide),
+          number(3, 0, kMaxSide)};
 }
 
 }  // namespace
@@ -293,15 +289,12 @@ NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
   if (wait == Wait::kData) return client_->begin_wait(who);
   if (wait == Wait::kSleep) return client_->begin_sleep(who, require_timeout(request));
   const double timeout_s = request.contains("timeout") ? require_timeout(request) : 0.0;
-  // Ends by the wall clock in a paced simulation, see EventClient; asked first, because the
-  // simulation may become paced meanwhile, but never the other way.
-  const bool paced = hub_.host().time().mode == sim::TimeMode::kPaced;
   const std::chrono::milliseconds timeout(std::llround(timeout_s * 1e3));
   const Outcome outcome = client_->begin_peek(who, timeout);
-  if (outcome != Outcome::kWaiting || !paced) return outcome;
-  if (timeout.count() == 0) {
-    client_->cancel();
-    return Outcome::kTime;
+  // In a paced simulation it does not end by itself, see EventClient. Asked afterwards: one that
+  // becomes paced later lets it end by simulated time.
+  if (outcome != Outcome::kWaiting || hub_.host().time().mode != sim::TimeMode::kPaced) {
+    return outcome;
   }
   waiting_->timer = hub_.after(timeout, [weak = std::weak_ptr<NativeHandler*>(self_)] {
     if (const auto self = weak.lock()) (*self)->on_peek_timeout();

@@ -88,6 +88,9 @@ class Handler {
   /// Whether on_message() takes bytes as they come, in any pieces, instead of whole messages; asked
   /// before each piece. Nothing can be too long or late then.
   [[nodiscard]] virtual bool takes_bytes() const noexcept { return false; }
+  /// Whether it is well that nothing comes from the other end, which only listens: no limit of time
+  /// until the first or the next request holds then. Asked when such a time is over.
+  [[nodiscard]] virtual bool may_be_silent() const noexcept { return false; }
 };
 
 class Hub;
@@ -123,8 +126,7 @@ class Hub {
   /// of such a call back, that happens after this has returned, but without another wake-up.
   virtual void pump() = 0;
 
-  /// Opens a further port, on the same addresses, whose connections get their own handlers. Those
-  /// may stay without a request for ever.
+  /// Opens a further port, on the same addresses, whose connections get their own handlers.
   /// @param first  tried first, then the next ones up; 0: any free one.
   /// @return the port. @throws ProtocolError server/no-port if there is none.
   virtual int listen(int first, MakeHandler make) = 0;
