@@ -8,29 +8,69 @@
 #include <variant>
 
 #include "protocol/codec.h"
+#include "sim/devices/battery.h"
+#include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/proximity.h"
+#include "sim/devices/rangers.h"
+#include "sim/devices/waypoint.h"
 
 namespace playerlike::protocol {
 namespace {
 
+constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+
 // --- readings
 
-void write(const sim::PoseReading& reading, json& out, Encoding) {
-  out["x"] = reading.pose.x_m;
-  out["y"] = reading.pose.y_m;
-  out["yaw"] = reading.pose.yaw_rad;
-  out["v"] = reading.twist.v_mps;
-  out["omega"] = reading.twist.omega_radps;
-  out["lateral"] = reading.twist.lateral_mps;
-  out["stalled"] = reading.stalled;
+/// The value among `all` whose name stands under a key.
+template <typename Status>
+Status require_status(const json& in, std::initializer_list<Status> all) {
+  const json& word = require(in, "status");
+  std::string names;
+  for (const Status status : all) {
+    if (word == sim::to_string(status)) return status;
+    names += names.empty() ? "" : ", ";
+    names += sim::to_string(status);
+  }
+  refuse_value("status", "one of " + names, word);
 }
 
-void read(const json& in, Encoding, sim::PoseReading& reading) {
-  reading.pose = {require_number(in, "x"), require_number(in, "y"), require_number(in, "yaw")};
-  reading.twist = {require_number(in, "v"), require_number(in, "omega"),
-                   require_number(in, "lateral")};
-  reading.stalled = require_bool(in, "stalled");
+const json::array_t& require_list(const json& in, const char* key) {
+  const json& value = require(in, key);
+  const auto* list = value.get_ptr<const json::array_t*>();
+  if (list == nullptr) refuse_value(key, "a list", value);
+  return *list;
+}
+
+void write(const sim::BatteryReading& reading, json& out, Encoding) {
+  out["charge"] = reading.charge_percent;
+  out["status"] = sim::to_string(reading.status);
+  out["voltage"] = reading.voltage_v;
+  out["energy"] = reading.energy_wh;
+  out["capacity"] = reading.capacity_wh;
+}
+
+void read(const json& in, Encoding, sim::BatteryReading& reading) {
+  using Status = sim::BatteryStatus;
+  reading.charge_percent = require_number(in, "charge");
+  reading.status = require_status(in, {Status::kCharged, Status::kCharging, Status::kDischarging});
+  reading.voltage_v = require_number(in, "voltage");
+  reading.energy_wh = require_number(in, "energy");
+  reading.capacity_wh = require_number(in, "capacity");
+}
+
+void write(const sim::CollisionReading& reading, json& out, Encoding) {
+  out["collision"] = reading.collision;
+  out["objects"] = reading.objects;
+}
+
+void read(const json& in, Encoding, sim::CollisionReading& reading) {
+  reading.collision = require_bool(in, "collision");
+  for (const json& name : require_list(in, "objects")) {
+    if (!name.is_string()) refuse_value("objects", "a list of names", name);
+    reading.objects.push_back(name.get<std::string>());
+  }
 }
 
 void write(const sim::LaserReading& reading, json& out, Encoding encoding) {
@@ -45,6 +85,80 @@ void read(const json& in, Encoding encoding, sim::LaserReading& reading) {
   reading.angle_min_rad = require_number(in, "angle_min");
   reading.resolution_rad = require_number(in, "resolution");
   reading.range_max_m = require_number(in, "range_max");
+}
+
+void write(const sim::PoseReading& reading, json& out, Encoding) {
+  out["x"] = reading.pose.x_m;
+  out["y"] = reading.pose.y_m;
+  out["yaw"] = reading.pose.yaw_rad;
+  out["v"] = reading.twist.v_mps;
+  out["omega"] = reading.twist.omega_radps;
+  out["lateral"] = reading.twist.lateral_mps;
+  out["stalled"] = reading.stalled;
+  out["path_length"] = reading.path_length_m;
+  out["increment"] = encode_pose(reading.increment);
+}
+
+void read(const json& in, Encoding, sim::PoseReading& reading) {
+  reading.pose = {require_number(in, "x"), require_number(in, "y"), require_number(in, "yaw")};
+  reading.twist = {require_number(in, "v"), require_number(in, "omega"),
+                   require_number(in, "lateral")};
+  reading.stalled = require_bool(in, "stalled");
+  reading.path_length_m = require_number(in, "path_length");
+  reading.increment = require_pose(in, "increment");
+}
+
+void write(const sim::ProximityReading& reading, json& out, Encoding) {
+  json list = json::array();
+  for (const auto& neighbour : reading.near_objects) {
+    list.push_back({{"name", neighbour.name}, {"distance", neighbour.distance_m}});
+  }
+  out["near_objects"] = std::move(list);
+}
+
+void read(const json& in, Encoding, sim::ProximityReading& reading) {
+  for (const json& neighbour : require_list(in, "near_objects")) {
+    reading.near_objects.push_back(
+        {require_text(neighbour, "name"), require_number(neighbour, "distance")});
+  }
+}
+
+void write(const sim::RangerReading& reading, json& out, Encoding encoding) {
+  json mountings = json::array();
+  for (const sim::Pose& X_BS : reading.X_BS) mountings.push_back(encode_pose(X_BS));
+  out["ranges"] = doubles(reading.ranges_m, encoding);
+  out["mountings"] = std::move(mountings);
+  out["range_max"] = reading.range_max_m;
+  out["field_of_view"] = reading.field_of_view_rad;
+}
+
+void read(const json& in, Encoding encoding, sim::RangerReading& reading) {
+  reading.ranges_m = require_doubles(in, "ranges", encoding);
+  for (const json& X_BS : require_list(in, "mountings")) {
+    reading.X_BS.push_back(
+        {require_number(X_BS, "x"), require_number(X_BS, "y"), require_number(X_BS, "yaw")});
+  }
+  if (reading.X_BS.size() != reading.ranges_m.size()) {
+    refuse_value("mountings", "as many as there are ranges", in.at("mountings"));
+  }
+  reading.range_max_m = require_number(in, "range_max");
+  reading.field_of_view_rad = require_number(in, "field_of_view");
+}
+
+void write(const sim::WaypointReading& reading, json& out, Encoding) {
+  out["status"] = sim::to_string(reading.status);
+  out["goal_number"] = reading.goal_number;
+  out["x"] = reading.goal_m.x();
+  out["y"] = reading.goal_m.y();
+  out["distance"] = reading.distance_m;
+}
+
+void read(const json& in, Encoding, sim::WaypointReading& reading) {
+  using Status = sim::WaypointStatus;
+  reading.status = require_status(in, {Status::kArrived, Status::kTransit, Status::kStop});
+  reading.goal_number = static_cast<std::uint64_t>(require_integer(in, "goal_number", 0, kMost));
+  reading.goal_m = {require_number(in, "x"), require_number(in, "y")};
+  reading.distance_m = require_number(in, "distance");
 }
 
 /// How the readings of a type of device are told.
@@ -68,9 +182,15 @@ constexpr ReadingCodec reading_codec(std::string_view type) {
 }
 
 constexpr ReadingCodec kReadingCodecs[] = {
+    reading_codec<sim::BatteryReading>("battery"),
+    reading_codec<sim::CollisionReading>("collision"),
+    reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),
     reading_codec<sim::PoseReading>("odometry"),
     reading_codec<sim::PoseReading>("pose"),
+    reading_codec<sim::ProximityReading>("proximity"),
+    reading_codec<sim::RangerReading>("sonar"),
+    reading_codec<sim::WaypointReading>("waypoint"),
 };
 
 const ReadingCodec& codec_of(std::string_view type) {
@@ -103,6 +223,30 @@ json pose_command(const char* kind, const sim::Pose& pose) {
 
 json to_json(const sim::SetPoseCommand& command) { return pose_command("set_pose", command.pose); }
 
+json to_json(const sim::GotoCommand& command) {
+  return {{"kind", "goto"},
+          {"x", command.goal_m.x()},
+          {"y", command.goal_m.y()},
+          {"tolerance", command.tolerance_m},
+          {"speed", command.speed_mps}};
+}
+
+json to_json(const sim::StopCommand&) { return {{"kind", "stop"}}; }
+
+json to_json(const sim::ResumeCommand&) { return {{"kind", "resume"}}; }
+
+json to_json(const sim::PlaceCommand& command) { return pose_command("place", command.pose); }
+
+json to_json(const sim::TranslateCommand& command) {
+  return {{"kind", "translate"}, {"x", command.offset_m.x()}, {"y", command.offset_m.y()}};
+}
+
+json to_json(const sim::RotateCommand& command) {
+  return {{"kind", "rotate"}, {"yaw", command.yaw_rad}};
+}
+
+sim::Vec2 read_point(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
+
 sim::Pose read_pose(const json& in) {
   return {require_number(in, "x"), require_number(in, "y"), require_number(in, "yaw")};
 }
@@ -130,6 +274,23 @@ const CommandCodec kCommandCodecs[] = {
     {"set_pose",
      {"kind", "x", "y", "yaw"},
      [](const json& in) -> sim::Command { return sim::SetPoseCommand{read_pose(in)}; }},
+    {"goto",
+     {"kind", "x", "y", "tolerance", "speed"},
+     [](const json& in) -> sim::Command {
+       return sim::GotoCommand{read_point(in), require_number(in, "tolerance"),
+                               require_number(in, "speed")};
+     }},
+    {"stop", {"kind"}, [](const json&) -> sim::Command { return sim::StopCommand{}; }},
+    {"resume", {"kind"}, [](const json&) -> sim::Command { return sim::ResumeCommand{}; }},
+    {"place",
+     {"kind", "x", "y", "yaw"},
+     [](const json& in) -> sim::Command { return sim::PlaceCommand{read_pose(in)}; }},
+    {"translate",
+     {"kind", "x", "y"},
+     [](const json& in) -> sim::Command { return sim::TranslateCommand{read_point(in)}; }},
+    {"rotate",
+     {"kind", "yaw"},
+     [](const json& in) -> sim::Command { return sim::RotateCommand{require_number(in, "yaw")}; }},
 };
 
 }  // namespace
@@ -145,7 +306,6 @@ json encode_reading(DeviceId device, std::string_view type, const sim::Reading& 
 }
 
 DecodedReading decode_reading(const json& reading, Encoding encoding) {
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   DecodedReading decoded;
   decoded.device = require_device_id(reading, "device");
   const std::string type = require_text(reading, "type");
