@@ -94,41 +94,8 @@ std::vector<asio::ip::address> addresses_of(asio::io_context& io, const std::str
 struct Listener {
   std::vector<tcp::acceptor> acceptors;
   int port = 0;
-  ConnectionKind kind = ConnectionKind::kServices;
+  bool services = false;  ///< the port that clients connect to first
   MakeHandler make;
-};
-
-/// MORSE's clock synchronisation: while a client is connected, each message lets one step pass.
-///
-/// MORSE (morse/middleware/socket_datastream.py, 1.4) takes whatever one recv() gives as one
-/// message. Messages that end in \n are told apart here although they come together.
-class SyncHandler final : public Handler {
- public:
-  SyncHandler(Peer& peer, Hub& hub, bool& taken) : hub_(hub), taken_(taken) {
-    if (taken_) {
-      throw protocol::ProtocolError("server/sync-taken", "another client synchronises the clock");
-    }
-    taken_ = true;
-    peer.describe("clock synchronisation");
-    hub_.host().set_step_credit(0);
-  }
-  ~SyncHandler() override {
-    taken_ = false;
-    hub_.host().set_step_credit(std::nullopt);
-  }
-
-  void on_message(std::string_view bytes) override {
-    const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
-    hub_.host().add_step_credit(static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(lines, 1)));
-    hub_.pump();
-  }
-  [[nodiscard]] std::string farewell(const protocol::ProtocolError& /*error*/) override {
-    return "";
-  }
-
- private:
-  Hub& hub_;
-  bool& taken_;
 };
 
 }  // namespace
@@ -142,14 +109,10 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
         access_(settings_.access, host_->robots()),
         addresses_(addresses_of(io_, settings_.bind)) {
     require_token();
-    port_ = open_or_throw(settings_.port, ConnectionKind::kServices, std::move(services), "port");
+    port_ = open_or_throw(settings_.port, std::move(services), "port");
+    listeners_.front()->services = true;
     if (settings_.sync_port) {
-      sync_port_ = open_or_throw(
-          *settings_.sync_port, ConnectionKind::kRaw,
-          [this](Peer& peer, Hub& hub) {
-            return std::make_unique<SyncHandler>(peer, hub, sync_taken_);
-          },
-          "sync_port");
+      sync_port_ = open_or_throw(*settings_.sync_port, make_sync_handler, "sync_port");
     }
     tick();
     thread_ = std::thread([this] { serve(); });
@@ -167,9 +130,6 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { begin_stop(); });
     thread_.join();
-    // Alarms of theirs must not reach a hub that goes.
-    morse_state.reset();
-    native_state.reset();
   }
 
   // Hub
@@ -201,7 +161,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
 
   void serve();
   void require_token() const;
-  int open_or_throw(int port, ConnectionKind kind, MakeHandler make, const char* place);
+  int open_or_throw(int port, MakeHandler make, const char* place);
   /// Opens a port on all addresses. @param port  0: any free one. @return what went wrong.
   asio::error_code open(int port, Listener& listener);
   asio::error_code open_on(const asio::ip::address& address, int port, Listener& listener);
@@ -225,7 +185,6 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   std::vector<asio::ip::address> addresses_;
   int port_ = 0;
   int sync_port_ = 0;
-  bool sync_taken_ = false;
 
   std::vector<std::unique_ptr<Listener>> listeners_;
   std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that close
@@ -316,10 +275,8 @@ asio::error_code ServerHub::Body::open(int port, Listener& listener) {
   return result;
 }
 
-int ServerHub::Body::open_or_throw(int port, ConnectionKind kind, MakeHandler make,
-                                   const char* place) {
+int ServerHub::Body::open_or_throw(int port, MakeHandler make, const char* place) {
   Listener listener;
-  listener.kind = kind;
   listener.make = std::move(make);
   const asio::error_code error = open(port, listener);
   if (!error) return add(std::move(listener));
@@ -339,7 +296,6 @@ int ServerHub::Body::open_or_throw(int port, ConnectionKind kind, MakeHandler ma
 
 int ServerHub::Body::listen(int first, MakeHandler make) {
   Listener listener;
-  listener.kind = ConnectionKind::kStream;
   listener.make = std::move(make);
   asio::error_code error;
   const int last = std::min(first == 0 ? 0 : first + kPortsTried, 65535);
@@ -403,15 +359,15 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   }
   const bool full = connections_.size() - refused_ >= limits().connections;
   if (full) warn_of(full_warned_, "all connections are in use, further ones are refused");
-  if (full && (refused_ >= kRefused || listener.kind != ConnectionKind::kServices)) {
+  if (full && (refused_ >= kRefused || !listener.services)) {
     return;
   }
-  const auto connection = std::make_shared<Connection>(
-      std::move(socket), text_of(remote), listener.kind, static_cast<ConnectionOwner&>(*this));
+  const auto connection = std::make_shared<Connection>(std::move(socket), text_of(remote),
+                                                       static_cast<ConnectionOwner&>(*this));
   connections_.insert(connection);
   if (full) {
     ++refused_;
-    connection->refuse("0 FAILED \"server/full: this server has all the " +
+    connection->refuse("- FAILED \"server/full: this server has all the " +
                        std::to_string(limits().connections) + " connections that it takes\"\n");
     return;
   }
@@ -460,11 +416,14 @@ void ServerHub::Body::serve() {
   for (;;) {
     try {
       io_.run();
-      return;
+      break;
     } catch (const std::exception& e) {
       log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
     }
   }
+  // All handlers are gone. Alarms of what they shared must not reach a hub that goes.
+  morse_state.reset();
+  native_state.reset();
 }
 
 void ServerHub::Body::post(std::function<void()> task) {
