@@ -13,6 +13,7 @@
 #include "host/end_of_program.h"
 #include "playerlike/host/event_client.h"
 #include "playerlike/session/layer_book.h"
+#include "session/checks.h"
 #include "session/socket_line.h"
 #include "sim/core/error.h"
 #include "sim/world/view_mode.h"
@@ -330,19 +331,8 @@ int SocketSession::port() const noexcept { return settings_.port; }
 
 bool SocketSession::connected() const noexcept { return !closed_ && !line_->connection()->lost(); }
 
-const DeviceInfo& SocketSession::require_device(DeviceId device) const {
-  for (const RobotInfo& robot : robots_) {
-    for (const DeviceInfo& info : robot.devices) {
-      if (info.id == device) return info;
-    }
-  }
-  throw SessionError(SessionError::Code::kNoSuchDevice,
-                     "the world has no device " + std::to_string(device.device) + " of robot " +
-                         std::to_string(device.robot));
-}
-
 void SocketSession::subscribe(DeviceId device) {
-  require_device(device);
+  require_device(robots_, device);
   request(device_request("subscribe", device));
   const Lock lock(mutex_);
   ++subscriptions_[key_of(device)];
@@ -571,20 +561,8 @@ void SocketSession::set_retries(int limit, double time_s) {
 
 void SocketSession::send(DeviceId device, const sim::Command& command) {
   require_open();
-  require_device(device);
-  const auto finite = [](std::initializer_list<double> values) {
-    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  };
-  bool good = true;
-  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) {
-    good = finite({twist->twist.v_mps, twist->twist.omega_radps, twist->twist.lateral_mps});
-  } else if (const auto* pose = std::get_if<sim::SetPoseCommand>(&command)) {
-    good = finite({pose->pose.x_m, pose->pose.y_m, pose->pose.yaw_rad});
-  }
-  if (!good) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a command holds a value that is not a finite number");
-  }
+  require_device(robots_, device);
+  require_finite(command);
   json message = device_request("command", device);
   message["command"] = protocol::encode_command(command);
   tell(message);
