@@ -31,7 +31,7 @@ build_packages=(
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-highgui-dev libx11-dev
-  nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
+  libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool)
