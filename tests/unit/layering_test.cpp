@@ -156,6 +156,11 @@ std::vector<std::string> violations(const Source& source) {
     }
     const bool is_yaml = include.starts_with("yaml-cpp/");
     if (is_yaml && !path.starts_with("libsim/src/io/")) refuse("YAML belongs in libsim/src/io");
+    const bool is_asio = include == "asio.hpp" || include.starts_with("asio/");
+    if (is_asio && !path.starts_with("libplayerlike/src/server/") &&
+        !path.starts_with("libplayerlike/src/session/")) {
+      refuse("sockets belong in libplayerlike/src/server and libplayerlike/src/session");
+    }
     if (is_public &&
         (is_json || is_yaml || starts_with_any(include, {"spdlog/", "fmt/", "CLI/"}))) {
       refuse("public headers show no third-party types but Eigen's");
@@ -308,6 +313,10 @@ TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
       ElementsAre(HasSubstr("public headers")));
   EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <nlohmann/json.hpp>\n"}),
               IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <asio/ip/tcp.hpp>\n"}),
+              IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/host/x.cpp", "#include <asio/ip/tcp.hpp>\n"}),
+              ElementsAre(HasSubstr("sockets belong")));
   EXPECT_THAT(violations({"libplayerlike/include/libCCMorse/x.h", "#include <sim/core/pose.h>\n"}),
               ElementsAre(HasSubstr("C++14")));
 }
