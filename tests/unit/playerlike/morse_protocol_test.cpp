@@ -841,5 +841,26 @@ TEST(MorsePage, HasARowForEachService) {
   EXPECT_GT(services, 40);
 }
 
+// The telnet session of docs/remote.md: lines with "> " are sent, the others must come.
+TEST_F(MorseProtocol, DialogueOfTheGuideIsAsTold) {
+  const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/remote.md");
+  static const std::regex kBlock("<!-- dialogue: \\S+ -->\n```text\n([^`]*)```");
+  std::smatch block;
+  ASSERT_TRUE(std::regex_search(page, block, kBlock));
+  start();
+  RawClient client("127.0.0.1", server->port());
+  std::istringstream lines(block[1]);
+  int answers = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("> ")) {
+      client.send(line.substr(2) + '\n');
+    } else {
+      EXPECT_EQ(client.line(), line);
+      ++answers;
+    }
+  }
+  EXPECT_GE(answers, 10);
+}
+
 }  // namespace
 }  // namespace playerlike
