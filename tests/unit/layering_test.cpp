@@ -192,6 +192,21 @@ std::vector<std::string> violations(const Source& source) {
       }
     }
     if (in_playerlike) {
+      if (starts_with_any(include, {"asio.hpp", "asio/"}) &&
+          !(path.starts_with("libplayerlike/src/server/") ||
+            path == "libplayerlike/src/session/connection.cpp")) {
+        refuse("Asio belongs to the two ends of a connection");
+      }
+      if (starts_with_any(include, {"server/", "playerlike/server/"}) &&
+          !starts_with_any(
+              path, {"libplayerlike/src/server/", "libplayerlike/include/playerlike/server/"})) {
+        refuse("nothing in the library needs a server");
+      }
+      if (path.starts_with("libplayerlike/src/protocol/") &&
+          starts_with_any(include, {"host/", "session/", "server/", "proxies/", "devices/",
+                                    "drivers/", "playerlike/host/"})) {
+        refuse("the protocol knows messages only");
+      }
       if (include.starts_with("sim/") &&
           starts_with_any(
               path, {"libplayerlike/include/libplayerc++/", "libplayerlike/include/libCCMorse/",
@@ -296,6 +311,17 @@ TEST(LayeringRules, LetDriversUseProxiesAndNotTheOtherWayRound) {
   EXPECT_THAT(
       violations({"libplayerlike/src/proxies/x.cpp", "#include \"drivers/snd_thread.h\"\n"}),
       ElementsAre(HasSubstr("goal_driver.h")));
+}
+
+TEST(LayeringRules, KeepTheNetworkInItsPlaces) {
+  EXPECT_THAT(violations({"libplayerlike/src/host/x.cpp",
+                          "#include <asio/ip/tcp.hpp>\n#include \"playerlike/server/server.h\"\n"}),
+              ElementsAre(HasSubstr("two ends"), HasSubstr("needs a server")));
+  EXPECT_THAT(violations({"libplayerlike/src/protocol/x.cpp", "#include \"session/x.h\"\n"}),
+              ElementsAre(HasSubstr("messages only")));
+  EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp",
+                          "#include <asio.hpp>\n#include \"protocol/codec.h\"\n"}),
+              IsEmpty());
 }
 
 TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
