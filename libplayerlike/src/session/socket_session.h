@@ -97,8 +97,6 @@ class SocketSession final : public Session {
 
   SocketSession(SocketSettings settings, std::optional<std::string> follow);
 
-  /// The device as the world has it. @throws SessionError kNoSuchDevice.
-  const DeviceInfo& require_device(DeviceId device) const;
   void require_open() const;
   [[noreturn]] static void throw_closed();
   [[nodiscard]] nlohmann::json hello() const;
