@@ -28,7 +28,9 @@ struct CoreAccess;
 ///
 /// Hosts: "localhost" and "127.0.0.1" are the simulation of this process, of the world file that
 /// the environment variable PLAYPEN_WORLD names, else of the default arena; "sim:FILE" is the
-/// simulation of that world file. Ports: each robot has its own (6665, 6666, ... in order); on it,
+/// simulation of that world file; "tcp://HOST[:PORT]", or any other host, is the server there
+/// (`playpen serve`), on TCP port 4000 unless told otherwise, as is "localhost" if PLAYPEN_WORLD is
+/// "tcp://HOST[:PORT]". Ports: each robot has its own (6665, 6666, ... in order); on it,
 /// index 0 of an interface is that robot's first device. On port 4000 all robots are seen, and a
 /// device's index is the one the world's proxies table gives, by default the robot's number.
 ///
@@ -46,10 +48,11 @@ class PlayerClient {
   typedef PlayerCc::mutex_t mutex_t;
 
   /// Connects.
-  /// @param transport  PLAYERC_TRANSPORT_TCP or PLAYERC_TRANSPORT_UDP; inside a process it makes no
-  ///                   difference.
+  /// @param aPort      Player port: of a robot, or 4000 for all; not the TCP port of a server.
+  /// @param transport  PLAYERC_TRANSPORT_TCP or PLAYERC_TRANSPORT_UDP; it makes no difference.
   /// @throws PlayerError with what the session said: kNoSuchDevice for a port that no robot has,
-  ///         kBadWorld for a world file that is not sound, ...
+  ///         kBadWorld for a world file that is not sound, kDisconnected for a server that is not
+  ///         there, ...
   PlayerClient(const std::string aHostname = PLAYER_HOSTNAME, uint32_t aPort = PLAYER_PORTNUM,
                int transport = PLAYERC_TRANSPORT_TCP);
 
@@ -105,13 +108,17 @@ class PlayerClient {
   /// Read() if Peek(0), else nothing.
   void ReadIfWaiting();
 
-  /// Kept, without effect inside a process, where answers come at once. @param seconds [s].
+  /// How long a server may take to answer, 10 s at first; one that takes longer counts as gone, and
+  /// the call throws PlayerError kDisconnected. Read() may wait longer, as long as the server shows
+  /// that it lives. Without effect inside a process, where answers come at once.
+  /// @param seconds  [s]; 0 counts as 1.
   void SetRequestTimeout(uint32_t seconds);
-  /// How often to try again to connect; -1: for ever. Kept; a simulation inside the process has no
-  /// connection to lose.
+  /// How often to try again to connect when a server is gone, before a call throws; -1: for ever;
+  /// 0, at first: not at all. Proxies go on with the new connection; layers and what was drawn may
+  /// be lost. Kept, without effect, inside a process.
   void SetRetryLimit(int limit);
   int GetRetryLimit();
-  /// Time between two tries [s]; kept, as above.
+  /// Time between two tries [s], 10 at first; kept, as above.
   void SetRetryTime(double time);
   double GetRetryTime();
 

@@ -4,16 +4,20 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "host/recorder.h"
 #include "host/view_controls.h"
 #include "host/viewer_link.h"
+#include "playerlike/host/event_client.h"
 #include "playerlike/host/host.h"
 #include "playerlike/session/draw_queue.h"
 #include "playerlike/session/layer_book.h"
@@ -43,12 +47,14 @@ struct Client {
   sim::SimTime empty_round_ns = 0;  ///< without subscriptions: when the next round is over
   int looks = 0;                    ///< peek(0) calls in a row
 
-  std::thread::id owner;    ///< the thread that last waited
+  ThinkerId owner = 0;      ///< who last waited; 0: nobody
   bool joined = false;      ///< takes part in the lockstep
   bool silent = false;      ///< thought for too long: does not count until it waits again
-  bool waiting = false;     ///< its owner is inside a wait that nothing has ended yet
+  bool waiting = false;     ///< its owner waits, and nothing has ended that yet
   bool wants_data = false;  ///< data ends the wait
   std::optional<sim::SimTime> wake_ns;  ///< the wait ends then, if set
+  /// Of an EventClient: told when its wait is over. Empty: a thread waits in a call.
+  std::function<void()> notify;
   std::atomic<bool> closed{false};
   std::atomic<WallClock::rep> last_seen{0};
 
@@ -73,10 +79,10 @@ class Host::Core : private ViewedRun {
   /// Closes the window. Not to be called with the lock held.
   void stop_viewer();
 
-  std::shared_ptr<Client> add_client(int port, bool follower = false);
+  std::shared_ptr<Client> add_client(int port, bool follower = false,
+                                     std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
-  /// Forgets that a thread takes part; called when it ends.
-  void thread_ended(std::thread::id thread) noexcept;
+  void thinker_ended(ThinkerId thinker) noexcept;
 
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
@@ -87,6 +93,22 @@ class Host::Core : private ViewedRun {
   int take(Client& client, ReadingSink& sink);
   bool peek(Client& client, std::chrono::milliseconds timeout);
   void sleep(Client& client, double seconds);
+
+  // The same for event clients; see EventClient and Host.
+  EventClient::Outcome begin_wait(Client& client, ThinkerId thinker);
+  EventClient::Outcome begin_peek(Client& client, ThinkerId thinker,
+                                  std::chrono::milliseconds timeout);
+  EventClient::Outcome begin_sleep(Client& client, ThinkerId thinker, double seconds);
+  EventClient::Outcome outcome_of(const Client& client) const;
+  void cancel_wait(Client& client);
+  bool advance_for(std::chrono::microseconds slice);
+  void check_silence();
+  AlarmId set_alarm(Alarm alarm);
+  bool cancel_alarm(AlarmId alarm);
+  void with_simulation(const std::function<void(sim::Simulation&)>& action);
+  void set_step_credit(std::optional<std::uint64_t> steps);
+  void add_step_credit(std::uint64_t steps);
+  std::optional<std::string> set_time_factor(double factor);
 
   void send(Client& client, DeviceId device, const sim::Command& command);
   void flush_drawings(Client& client);
@@ -104,7 +126,7 @@ class Host::Core : private ViewedRun {
   sim::ViewMode view_mode() const;
   void set_view_mode(Client& client, sim::ViewMode mode);
   sim::OccupancyMap world_map(double cell_size_m) const;
-  void join(Client& client);
+  void join(Client& client, ThinkerId thinker);
 
   void prefer_real_time(const std::string& reason);
   TimeStatistics time() const;
@@ -125,7 +147,7 @@ class Host::Core : private ViewedRun {
 
   /// A lock for calls that must not starve behind a thread that steps without pause.
   [[nodiscard]] Lock lock_soon() const;
-  void adopt(Client& client);
+  void adopt(Client& client, ThinkerId thinker);
   void touch(Client& client) const;
   static void require_open(const Client& client);
   [[nodiscard]] bool over() const;
@@ -139,17 +161,28 @@ class Host::Core : private ViewedRun {
   [[nodiscard]] int joined_programs() const;
   [[nodiscard]] bool program_takes_part() const;
   [[nodiscard]] bool all_wait() const;
-  [[nodiscard]] bool thread_waits(std::thread::id thread) const;
+  [[nodiscard]] bool thinker_waits(ThinkerId thinker) const;
+  /// Whether lockstep time may go on by a step now.
+  [[nodiscard]] bool may_advance();
   void wait_for_others(Lock& lock, const Client& client);
+  [[nodiscard]] WallClock::time_point silence_deadline() const;
+  void note_silence();
+  [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
+  EventClient::Outcome begin(Client& client, ThinkerId thinker, bool wants_data,
+                             std::optional<sim::SimTime> wake_ns);
   void advance();
   void apply_inputs(Client& client);
   void carry_out_drawings(Client& client);
   void distribute();
   void release_waiters();
+  void ring_alarms();
   void end_run();
   void write_results();
   void show_progress(bool last);
   void pace();
+  [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
+  /// Holds the pacer while no step may be made.
+  void wait_for_step_credit(Lock& lock);
   /// Holds the pacer while the user has paused the run.
   void wait_while_paused(Lock& lock);
 
@@ -185,6 +218,10 @@ class Host::Core : private ViewedRun {
   std::vector<std::shared_ptr<Client>> clients_;  ///< followers first, each kind in order of number
   int next_number_ = 0;
   bool gate_opened_ = false;
+  WallClock::time_point gate_told_ = WallClock::now();  ///< when it was last said who is missing
+  std::vector<std::pair<AlarmId, Alarm>> alarms_;       ///< in order of number
+  AlarmId next_alarm_ = 1;
+  std::optional<std::uint64_t> step_credit_;  ///< steps that may still be made, if limited
   bool ended_ = false;
   int reads_after_end_ = 0;
   std::optional<WallClock::time_point> first_step_;
@@ -198,7 +235,7 @@ class Host::Core : private ViewedRun {
   bool stop_pacing_ = false;
   double time_factor_ = 1.0;  ///< simulated seconds a wall second, when paced
   bool paused_ = false;       ///< by the user at the window
-  int pace_changes_ = 0;      ///< counts changes of the two above
+  int pace_changes_ = 0;      ///< counts changes of the two above and of step_credit_
 
   std::optional<HandDrive> hand_;  ///< of a run with a window
   bool help_ = true;               ///< shown in the window

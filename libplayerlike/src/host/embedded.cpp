@@ -6,8 +6,10 @@
 #include <map>
 #include <mutex>
 #include <string_view>
+#include <utility>
 
-#include "host/log.h"
+#include "playerlike/host/log.h"
+#include "session/socket_session.h"
 #include "sim/render/render.h"
 
 namespace playerlike {
@@ -71,12 +73,17 @@ std::shared_ptr<Host> host_of(const std::string& file) {
 
 constexpr std::string_view kFilePrefix = "sim:";
 
-SessionError no_socket_yet(const std::string& host) {
-  return SessionError(SessionError::Code::kNotAvailable,
-                      "cannot connect to \"" + host +
-                          "\": simulations across a network are not available in this version; "
-                          "use \"localhost\" for the embedded simulation or \"sim:FILE\" for a "
-                          "world file");
+std::string_view environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+std::unique_ptr<Session> connect_to_server(const std::string& server, int port) {
+  SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
+  const std::string_view run = environment("PLAYPEN_RUN");
+  settings.quiet_end =
+      (!run.empty() && run != "0") || environment("PLAYPEN_WORLD").starts_with(kTcpPrefix);
+  return std::make_unique<SocketSession>(std::move(settings));
 }
 
 }  // namespace
@@ -90,10 +97,9 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     }
     return host_of(file)->connect(port);
   }
-  if (host != "localhost" && host != "127.0.0.1") throw no_socket_yet(host);
-  const char* world = std::getenv("PLAYPEN_WORLD");
-  const std::string file = world == nullptr ? "" : world;
-  if (file.starts_with("tcp://")) throw no_socket_yet(file);
+  if (host != "localhost" && host != "127.0.0.1") return connect_to_server(host, port);
+  const std::string file(environment("PLAYPEN_WORLD"));
+  if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
   return host_of(file)->connect(port);
 }
 

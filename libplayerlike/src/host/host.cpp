@@ -17,6 +17,7 @@
 #include "host/core.h"
 #include "host/end_of_program.h"
 #include "host/outputs.h"
+#include "session/in_process_event_client.h"
 #include "session/in_process_session.h"
 #include "sim/world/view_mode.h"
 
@@ -37,7 +38,23 @@ WallClock::duration wall(double seconds) {
   return std::chrono::duration_cast<WallClock::duration>(std::chrono::duration<double>(seconds));
 }
 
+void require_duration(double sleep_s) {
+  if (sleep_s >= 0.0 && sleep_s <= 1e9) return;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     "sleep takes a number of seconds in [0, 1e9]");
+}
+
 }  // namespace
+
+ThinkerId new_thinker() noexcept {
+  static std::atomic<ThinkerId> last{0};
+  return ++last;
+}
+
+ThinkerId this_thinker() noexcept {
+  thread_local const ThinkerId own = new_thinker();
+  return own;
+}
 
 // --- Construction
 // ---------------------------------------------------------------------------------
@@ -79,9 +96,11 @@ Host::Core::Lock Host::Core::lock_soon() const {
   return lock;
 }
 
-std::shared_ptr<Client> Host::Core::add_client(int port, bool follower) {
+std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
+                                               std::function<void()> notify) {
   const Lock lock = lock_soon();
   auto client = std::make_shared<Client>();
+  client->notify = std::move(notify);
   client->number = next_number_++;
   client->port = port;
   client->follower = follower;
@@ -106,12 +125,11 @@ void Host::Core::remove_client(Client& client) noexcept {
   changed_.notify_all();
 }
 
-void Host::Core::thread_ended(std::thread::id thread) noexcept {
+void Host::Core::thinker_ended(ThinkerId thinker) noexcept {
   const Lock lock = lock_soon();
   for (const auto& client : clients_) {
-    // Its number may be given to a new thread, so it must not stay the owner.
-    if (client->owner != thread) continue;
-    client->owner = {};
+    if (client->owner != thinker) continue;
+    client->owner = 0;
     client->joined = false;
   }
   changed_.notify_all();
@@ -127,10 +145,10 @@ void Host::Core::require_open(const Client& client) {
   }
 }
 
-void Host::Core::adopt(Client& client) {
+void Host::Core::adopt(Client& client, ThinkerId thinker) {
   require_open(client);
   touch(client);
-  client.owner = std::this_thread::get_id();
+  client.owner = thinker;
   client.joined = true;
   client.silent = false;
 }
@@ -200,25 +218,34 @@ int Host::Core::joined_programs() const {
 
 // Whether somebody is there for whom time may go on.
 bool Host::Core::program_takes_part() const {
-  return std::any_of(clients_.begin(), clients_.end(),
-                     [](const auto& c) { return c->joined && !c->silent && !c->follower; });
+  return step_credit_.has_value() ||
+         std::any_of(clients_.begin(), clients_.end(),
+                     [](const auto& c) { return c->joined && !c->silent && !c->follower; }) ||
+         std::any_of(alarms_.begin(), alarms_.end(),
+                     [](const auto& alarm) { return alarm.second.lets_time_pass; });
 }
 
 bool Host::Core::gate_open() {
   if (gate_opened_) return true;
-  gate_opened_ = joined_programs() >= simulation_.world().simulation.start_gate_clients;
+  const int wanted = simulation_.world().simulation.start_gate_clients;
+  gate_opened_ = wanted <= 1 || joined_programs() >= wanted;
   return gate_opened_;
 }
 
-bool Host::Core::thread_waits(std::thread::id thread) const {
+bool Host::Core::thinker_waits(ThinkerId thinker) const {
   return std::any_of(clients_.begin(), clients_.end(),
-                     [&](const auto& c) { return c->waiting && c->owner == thread; });
+                     [&](const auto& c) { return c->waiting && c->owner == thinker; });
 }
 
 bool Host::Core::all_wait() const {
   return std::all_of(clients_.begin(), clients_.end(), [this](const auto& c) {
-    return !c->joined || c->silent || c->waiting || thread_waits(c->owner);
+    return !c->joined || c->silent || c->waiting || thinker_waits(c->owner);
   });
+}
+
+bool Host::Core::may_advance() {
+  return !paced_ && !over() && step_credit_ != 0U && gate_open() && program_takes_part() &&
+         all_wait();
 }
 
 bool Host::Core::wait_is_over(const Client& client) const {
@@ -228,7 +255,7 @@ bool Host::Core::wait_is_over(const Client& client) const {
 
 void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
                             std::optional<sim::SimTime> wake_ns) {
-  adopt(client);
+  adopt(client, this_thinker());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   while (!wait_is_over(client)) {
@@ -238,7 +265,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
     if (paced_) {
       if (began) changed_.notify_all();
       changed_.wait(lock);
-    } else if (gate_open() && program_takes_part() && all_wait()) {
+    } else if (may_advance()) {
       advance();
     } else {
       if (began) changed_.notify_all();
@@ -252,25 +279,36 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
   // A follower does not mind how long programs take.
   if (client.follower) return changed_.wait(lock);
+  if (changed_.wait_until(lock, silence_deadline()) == std::cv_status::timeout) note_silence();
+}
+
+// When it is to be looked whether a client has been silent for too long, if nothing changes.
+WallClock::time_point Host::Core::silence_deadline() const {
   const auto limit = wall(settings_.silence_limit_s);
   auto deadline = WallClock::now() + limit;
-  if (gate_opened_) {
-    for (const auto& c : clients_) {
-      if (!c->joined || c->silent || thread_waits(c->owner)) continue;
-      const WallClock::time_point seen{WallClock::duration(c->last_seen.load())};
-      deadline = std::min(deadline, seen + limit);
-    }
+  if (!gate_opened_) return deadline;
+  for (const auto& c : clients_) {
+    if (!c->joined || c->silent || thinker_waits(c->owner)) continue;
+    const WallClock::time_point seen{WallClock::duration(c->last_seen.load())};
+    deadline = std::min(deadline, seen + limit);
   }
-  if (changed_.wait_until(lock, deadline) != std::cv_status::timeout) return;
+  return deadline;
+}
+
+// Says for whom the others wait, and no longer waits for those who have been silent for too long.
+void Host::Core::note_silence() {
+  const auto now = WallClock::now();
+  const auto limit = wall(settings_.silence_limit_s);
   if (!gate_opened_) {
+    if (now - gate_told_ < limit) return;
+    gate_told_ = now;
     warn("the start gate waits for " +
          std::to_string(simulation_.world().simulation.start_gate_clients) + " clients; " +
          std::to_string(joined_programs()) + " have joined so far");
     return;
   }
-  const auto now = WallClock::now();
   for (const auto& c : clients_) {
-    if (!c->joined || c->silent || thread_waits(c->owner)) continue;
+    if (!c->joined || c->silent || thinker_waits(c->owner)) continue;
     const WallClock::time_point seen{WallClock::duration(c->last_seen.load())};
     if (now - seen < limit) continue;
     c->silent = true;
@@ -289,6 +327,7 @@ void Host::Core::advance() {
   for (const auto& client : clients_) apply_inputs(*client);
   if (hand_) hand_->before_step(simulation_);
   simulation_.step();
+  if (step_credit_) --*step_credit_;
   last_step_ = now;
   recorder_->observe(simulation_);
   distribute();
@@ -359,9 +398,31 @@ void Host::Core::release_waiters() {
     if (!client->waiting || !wait_is_over(*client)) continue;
     client->waiting = false;
     touch(*client);
-    released = released || client->owner != std::this_thread::get_id();
+    if (client->notify) {
+      client->notify();
+    } else {
+      released = released || client->owner != this_thinker();
+    }
   }
   if (released) changed_.notify_all();
+  if (!alarms_.empty()) ring_alarms();
+}
+
+void Host::Core::ring_alarms() {
+  const bool all = over();
+  // Those that are not due stay, in their order.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < alarms_.size(); ++i) {
+    const Alarm& alarm = alarms_[i].second;
+    if (all || (alarm.until_ns && simulation_.now_ns() >= *alarm.until_ns) ||
+        (alarm.condition && alarm.condition(simulation_))) {
+      alarm.notify();
+    } else {
+      if (kept != i) alarms_[kept] = std::move(alarms_[i]);
+      ++kept;
+    }
+  }
+  alarms_.erase(alarms_.begin() + static_cast<std::ptrdiff_t>(kept), alarms_.end());
 }
 
 void Host::Core::wait(Client& client) {
@@ -406,7 +467,7 @@ bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
   require_open(client);
   if (client.has_data || over()) return true;
   if (paced_) {
-    adopt(client);
+    adopt(client, this_thinker());
     client.wants_data = true;
     client.wake_ns.reset();
     client.waiting = true;
@@ -416,21 +477,157 @@ bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
     return client.has_data || over();
   }
   if (timeout.count() == 0 && ++client.looks < 2) return false;
-  const sim::SimTime step_ns = simulation_.world().simulation.step_ns;
-  const sim::SimTime span_ns =
-      std::max<sim::SimTime>(step_ns, std::chrono::nanoseconds(timeout).count());
-  wait_until(lock, client, /*wants_data=*/true, simulation_.now_ns() + span_ns);
+  wait_until(lock, client, /*wants_data=*/true, end_of_peek(timeout));
   return client.has_data || over();
 }
 
+// When a peek of lockstep that begins now is over.
+sim::SimTime Host::Core::end_of_peek(std::chrono::milliseconds timeout) const {
+  const sim::SimTime step_ns = simulation_.world().simulation.step_ns;
+  return simulation_.now_ns() +
+         std::max<sim::SimTime>(step_ns, std::chrono::nanoseconds(timeout).count());
+}
+
 void Host::Core::sleep(Client& client, double duration_s) {
-  if (!(duration_s >= 0.0 && duration_s <= 1e9)) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "sleep takes a number of seconds in [0, 1e9]");
-  }
+  require_duration(duration_s);
   Lock lock(mutex_);
   const sim::SimTime wake_ns = simulation_.now_ns() + sim::from_seconds(duration_s);
   wait_until(lock, client, /*wants_data=*/false, wake_ns);
+}
+
+// --- Event clients
+// --------------------------------------------------------------------------------
+
+EventClient::Outcome Host::Core::begin(Client& client, ThinkerId thinker, bool wants_data,
+                                       std::optional<sim::SimTime> wake_ns) {
+  adopt(client, thinker);
+  client.wants_data = wants_data;
+  client.wake_ns = wake_ns;
+  client.waiting = !wait_is_over(client);
+  if (client.waiting) changed_.notify_all();
+  return outcome(client);
+}
+
+EventClient::Outcome Host::Core::begin_wait(Client& client, ThinkerId thinker) {
+  const Lock lock = lock_soon();
+  return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+}
+
+EventClient::Outcome Host::Core::begin_peek(Client& client, ThinkerId thinker,
+                                            std::chrono::milliseconds timeout) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  client.wants_data = true;
+  client.wake_ns = simulation_.now_ns();  // over at once, unless decided otherwise below
+  if (client.has_data || over()) return outcome(client);
+  if (paced_) {
+    if (timeout.count() == 0) {
+      adopt(client, thinker);
+      return outcome(client);
+    }
+    return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+  }
+  if (timeout.count() == 0 && ++client.looks < 2) return outcome(client);
+  return begin(client, thinker, /*wants_data=*/true, end_of_peek(timeout));
+}
+
+EventClient::Outcome Host::Core::begin_sleep(Client& client, ThinkerId thinker, double seconds) {
+  require_duration(seconds);
+  const Lock lock = lock_soon();
+  return begin(client, thinker, /*wants_data=*/false,
+               simulation_.now_ns() + sim::from_seconds(seconds));
+}
+
+EventClient::Outcome Host::Core::outcome(const Client& client) const {
+  using Outcome = EventClient::Outcome;
+  if (client.waiting) return Outcome::kWaiting;
+  if (client.wants_data && client.has_data) return Outcome::kData;
+  if (client.wake_ns && simulation_.now_ns() >= *client.wake_ns && !over()) return Outcome::kTime;
+  if (client.wants_data || client.wake_ns) return over() ? Outcome::kFinished : Outcome::kIdle;
+  return Outcome::kIdle;
+}
+
+EventClient::Outcome Host::Core::outcome_of(const Client& client) const {
+  const Lock lock = lock_soon();
+  return outcome(client);
+}
+
+void Host::Core::cancel_wait(Client& client) {
+  const Lock lock = lock_soon();
+  client.waiting = false;
+  client.wants_data = false;
+  client.wake_ns.reset();
+  touch(client);
+}
+
+bool Host::Core::advance_for(std::chrono::microseconds slice) {
+  Lock lock = lock_soon();
+  if (!may_advance()) return false;
+  const auto end = WallClock::now() + slice;
+  do {
+    advance();
+    if (!may_advance()) return false;
+    // Others want a word.
+    if (knocking_.load(std::memory_order_relaxed) > 0) return true;
+  } while (WallClock::now() < end);
+  return true;
+}
+
+void Host::Core::check_silence() {
+  const Lock lock = lock_soon();
+  // Nobody waits in vain while time goes on by itself, or while there is nobody for whom it would.
+  if (paced_ || over()) return;
+  const bool somebody_waits =
+      std::any_of(clients_.begin(), clients_.end(), [](const auto& c) { return c->waiting; });
+  if (somebody_waits || program_takes_part()) note_silence();
+}
+
+AlarmId Host::Core::set_alarm(Alarm alarm) {
+  const Lock lock = lock_soon();
+  const AlarmId number = next_alarm_++;
+  alarms_.emplace_back(number, std::move(alarm));
+  ring_alarms();
+  changed_.notify_all();  // lockstep time may go on for it
+  return number;
+}
+
+bool Host::Core::cancel_alarm(AlarmId alarm) {
+  const Lock lock = lock_soon();
+  return std::erase_if(alarms_, [alarm](const auto& a) { return a.first == alarm; }) > 0;
+}
+
+void Host::Core::with_simulation(const std::function<void(sim::Simulation&)>& action) {
+  const Lock lock = lock_soon();
+  action(simulation_);
+}
+
+void Host::Core::set_step_credit(std::optional<std::uint64_t> steps) {
+  const Lock lock = lock_soon();
+  step_credit_ = steps;
+  ++pace_changes_;
+  changed_.notify_all();
+}
+
+void Host::Core::add_step_credit(std::uint64_t steps) {
+  const Lock lock = lock_soon();
+  if (!step_credit_) return;
+  *step_credit_ += steps;
+  ++pace_changes_;
+  changed_.notify_all();
+}
+
+std::optional<std::string> Host::Core::set_time_factor(double factor) {
+  const Lock lock = lock_soon();
+  if (!paced_) {
+    return "time has no speed in lockstep: it goes on when all clients wait";
+  }
+  if (!(factor > 0.0 && std::isfinite(factor))) {
+    return "expected a factor greater than 0, found " + std::to_string(factor);
+  }
+  time_factor_ = factor;
+  ++pace_changes_;
+  changed_.notify_all();
+  return std::nullopt;
 }
 
 // --- Inputs
@@ -524,9 +721,9 @@ sim::OccupancyMap Host::Core::world_map(double cell_size_m) const {
   return sim::true_map(arena, grid);
 }
 
-void Host::Core::join(Client& client) {
+void Host::Core::join(Client& client, ThinkerId thinker) {
   const Lock lock = lock_soon();
-  adopt(client);
+  adopt(client, thinker);
   changed_.notify_all();  // the start gate may have waited for it
 }
 
@@ -548,8 +745,10 @@ void Host::Core::pace() {
   Lock lock(mutex_);
   const double step_s = sim::to_seconds(simulation_.world().simulation.step_ns);
   const auto gate_clients = simulation_.world().simulation.start_gate_clients;
-  changed_.wait(
-      lock, [&] { return stop_pacing_ || (gate_clients <= 1 ? !clients_.empty() : gate_open()); });
+  changed_.wait(lock, [&] {
+    if (stop_pacing_) return true;
+    return gate_clients <= 1 ? settings_.start_at_once || !clients_.empty() : gate_open();
+  });
   // Step number done + 1 since `base` is due at base + (done + 1) * step / factor.
   auto base = WallClock::now();
   std::uint64_t done = 0;
@@ -568,6 +767,17 @@ void Host::Core::pace() {
       done = 0;
       factor = time_factor_;
       changes = pace_changes_;
+    }
+    if (step_credit_ == 0U) {
+      wait_for_step_credit(lock);
+      // Whoever synchronises the clock may be slow: nothing is caught up with, but the step that
+      // was waited for comes at once.
+      const auto now = WallClock::now();
+      if (now > base + wall(static_cast<double>(done + 1) * step_s / factor)) {
+        base = now - wall(step_s / factor);
+        done = 0;
+      }
+      continue;
     }
     const auto due = base + wall(static_cast<double>(done + 1) * step_s / factor);
     const auto now = WallClock::now();
@@ -600,6 +810,10 @@ void Host::Core::wait_while_paused(Lock& lock) {
       release_waiters();
     }
   }
+}
+
+void Host::Core::wait_for_step_credit(Lock& lock) {
+  changed_.wait(lock, [&] { return step_credit_ != 0U || paused_ || stop_pacing_ || over(); });
 }
 
 void Host::Core::stop_pacer() {
@@ -889,7 +1103,7 @@ std::shared_ptr<Host> Host::create(sim::WorldDescription world, RunSettings sett
   return std::shared_ptr<Host>(new Host(std::move(core)));
 }
 
-std::unique_ptr<Session> Host::connect(int port) {
+void Host::require_port(int port) const {
   const auto& robots = core_->robots();
   const bool known =
       port == kMorsePort ||
@@ -903,10 +1117,34 @@ std::unique_ptr<Session> Host::connect(int port) {
         SessionError::Code::kNoSuchDevice,
         "no robot of this world has port " + std::to_string(port) + "; ports it has: " + ports);
   }
+}
+
+std::unique_ptr<Session> Host::connect(int port) {
+  require_port(port);
   return std::make_unique<InProcessSession>(shared_from_this(), core_->add_client(port));
 }
 
-void Host::thread_ended(std::thread::id thread) noexcept { core_->thread_ended(thread); }
+std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()> notify,
+                                                  bool follower) {
+  require_port(port);
+  return std::make_unique<InProcessEventClient>(
+      shared_from_this(), core_->add_client(port, follower, std::move(notify)));
+}
+
+bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
+void Host::check_silence() { core_->check_silence(); }
+void Host::thinker_ended(ThinkerId thinker) noexcept { core_->thinker_ended(thinker); }
+AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm)); }
+bool Host::cancel_alarm(AlarmId alarm) { return core_->cancel_alarm(alarm); }
+void Host::with_simulation(const std::function<void(sim::Simulation&)>& action) {
+  core_->with_simulation(action);
+}
+void Host::set_step_credit(std::optional<std::uint64_t> steps) { core_->set_step_credit(steps); }
+void Host::add_step_credit(std::uint64_t steps) { core_->add_step_credit(steps); }
+std::optional<std::string> Host::set_time_factor(double factor) {
+  return core_->set_time_factor(factor);
+}
+const std::vector<RobotInfo>& Host::robots() const noexcept { return core_->robots(); }
 
 void Host::finish() noexcept {
   core_->finish();

@@ -202,11 +202,14 @@ void PlayerClient::ReadIfWaiting() {
   if (Peek(0)) Read();
 }
 
-void PlayerClient::SetRequestTimeout(uint32_t seconds) { static_cast<void>(seconds); }
+void PlayerClient::SetRequestTimeout(uint32_t seconds) {
+  mCore->session().set_request_timeout(std::max(seconds, 1U));
+}
 
 void PlayerClient::SetRetryLimit(int limit) {
   const mutex_t::scoped_lock lock(mMutex);
   mImpl->retry_limit = limit;
+  mCore->session().set_retries(limit, std::max(mImpl->retry_time_s, 0.0));
 }
 
 int PlayerClient::GetRetryLimit() {
@@ -218,6 +221,7 @@ void PlayerClient::SetRetryTime(double time) {
   playerlike::require_finite("PlayerClient::SetRetryTime", {{"the time between retries", time}});
   const mutex_t::scoped_lock lock(mMutex);
   mImpl->retry_time_s = time;
+  mCore->session().set_retries(mImpl->retry_limit, std::max(time, 0.0));
 }
 
 double PlayerClient::GetRetryTime() {

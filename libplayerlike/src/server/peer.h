@@ -26,15 +26,22 @@ struct Rights {
 };
 
 /// Who may do what. Compares tokens in constant time.
+///
+/// Who presents the server's token, or the token of any robot, may connect; anybody, if the server
+/// has none. A robot with a token is commanded by those who present it, the others by those who
+/// present the server's.
 class Access {
  public:
   /// @throws sim::ConfigError access/unknown-robot.
-  Access(AccessSettings settings, const std::vector<RobotInfo>& robots);
+  Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots);
+  /// @param tokens  those presented; of a list that is much longer than there are robots, only the
+  ///                first ones count.
   [[nodiscard]] Rights rights(const std::vector<std::string>& tokens) const;
 
  private:
-  AccessSettings settings_;
+  std::string server_token_;               ///< "": none
   std::vector<std::string> robot_tokens_;  ///< by index; "": none
+  bool open_watching_ = false;
 };
 
 /// The other end of a connection, as those see it who answer. Used by the server's thread only.
@@ -50,7 +57,8 @@ class Peer {
   /// Sends bytes that may be lost: a stream's record, which may go to many peers.
   /// @return whether it goes out; false: too many bytes wait, the record is dropped.
   virtual bool send_record(std::shared_ptr<const std::string> bytes) = 0;
-  /// Sends what waits, then `farewell`, then closes. The handler hears on_closed() later.
+  /// Sends what waits, then `farewell`, then closes. The handler is destroyed soon, but not before
+  /// this returns; nothing that it sends meanwhile goes out.
   virtual void close(std::string farewell) = 0;
   /// Requests that are being answered; kept by the handler, limited by the connection: while it
   /// has too many, nothing is read from it.
@@ -59,9 +67,12 @@ class Peer {
   virtual void set_encoding(protocol::Encoding encoding) = 0;
   /// "127.0.0.1:51234", for the log.
   [[nodiscard]] virtual const std::string& name() const noexcept = 0;
+  /// What it speaks and who it says it is, for the log: "playpen cbor \"robot\"".
+  virtual void describe(const std::string& /*text*/) {}
 };
 
-/// Understands what one connection says. Used by the server's thread only.
+/// Understands what one connection says. Used by the server's thread only. Destroyed when the
+/// connection is over, whoever ended it; lockstep time is pumped after that.
 class Handler {
  public:
   Handler() = default;
@@ -69,14 +80,22 @@ class Handler {
   Handler& operator=(const Handler&) = delete;
   virtual ~Handler() = default;
 
-  /// A whole line or frame, without its end or length. ProtocolErrors that escape are answered by
-  /// closing the connection; others must not.
+  /// A whole line or frame, without its end or length; valid during the call. ProtocolErrors that
+  /// escape are answered by closing the connection; others must not.
   virtual void on_message(std::string_view message) = 0;
   /// A message that is too long or was not whole in time: what to say before closing.
   [[nodiscard]] virtual std::string farewell(const protocol::ProtocolError& error) = 0;
+  /// Whether on_message() takes bytes as they come, in any pieces, instead of whole messages; asked
+  /// before each piece. Nothing can be too long or late then.
+  [[nodiscard]] virtual bool takes_bytes() const noexcept { return false; }
+  /// Whether it is well that nothing comes from the other end, which only listens: no limit of time
+  /// until the first or the next request holds then. Asked when such a time is over.
+  [[nodiscard]] virtual bool may_be_silent() const noexcept { return false; }
 };
 
 class Hub;
+class MorseState;    // morse_state.h
+struct NativeState;  // native_state.h
 
 /// Makes the handler of a new connection.
 using MakeHandler = std::function<std::unique_ptr<Handler>(Peer&, Hub&)>;
@@ -102,10 +121,12 @@ class Hub {
   virtual void cancel(std::uint64_t timer) = 0;
 
   /// To be called when a client has begun to wait, or left: lockstep time may go on now. What is
-  /// over then has been notified when this returns.
+  /// over then has been notified, and what was posted meanwhile been done, when this returns; so
+  /// the caller may have been called back. Only if time goes on for long (some ms), or from inside
+  /// of such a call back, that happens after this has returned, but without another wake-up.
   virtual void pump() = 0;
 
-  /// Opens a further port whose connections get their own handlers.
+  /// Opens a further port, on the same addresses, whose connections get their own handlers.
   /// @param first  tried first, then the next ones up; 0: any free one.
   /// @return the port. @throws ProtocolError server/no-port if there is none.
   virtual int listen(int first, MakeHandler make) = 0;
@@ -118,10 +139,19 @@ class Hub {
   /// Names the thinker of a thread of a client's process, see EventClient.
   /// @param process  what the process calls itself in its hellos; @param thread  its number there.
   [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
+
+  /// What the connections in MORSE's protocol share; made for the first one. To be dropped while
+  /// post() can still be called.
+  std::shared_ptr<MorseState> morse_state;
+  /// What the connections in Playpen's own protocol share; made for the first one.
+  std::shared_ptr<NativeState> native_state;
 };
 
 /// Handler of a new connection to the services' port: MORSE's protocol, and `playpen hello`.
 [[nodiscard]] std::unique_ptr<Handler> make_morse_handler(Peer& peer, Hub& hub);
+
+/// Handler of a new connection to the port of MORSE's clock synchronisation.
+[[nodiscard]] std::unique_ptr<Handler> make_sync_handler(Peer& peer, Hub& hub);
 
 /// Carries out `playpen hello`: answers, and hands the connection over to Playpen's protocol.
 /// @param id        of the request, to be answered in MORSE's form.

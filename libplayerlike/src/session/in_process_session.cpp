@@ -2,8 +2,9 @@
 #include "session/in_process_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "session/checks.h"
 
 namespace playerlike {
 namespace {
@@ -17,7 +18,7 @@ class Farewell {
   ~Farewell() {
     for (const Known& known : hosts_) {
       if (const std::shared_ptr<Host> host = known.host.lock()) {
-        host->thread_ended(std::this_thread::get_id());
+        host->thinker_ended(this_thinker());
       }
     }
   }
@@ -53,19 +54,8 @@ const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
 int InProcessSession::port() const noexcept { return client_->port; }
 bool InProcessSession::connected() const noexcept { return !client_->closed; }
 
-const DeviceInfo& InProcessSession::require_device(DeviceId device) const {
-  for (const RobotInfo& robot : robots()) {
-    for (const DeviceInfo& info : robot.devices) {
-      if (info.id == device) return info;
-    }
-  }
-  throw SessionError(SessionError::Code::kNoSuchDevice,
-                     "the world has no device " + std::to_string(device.device) + " of robot " +
-                         std::to_string(device.robot));
-}
-
 void InProcessSession::subscribe(DeviceId device) {
-  const DeviceInfo& info = require_device(device);
+  const DeviceInfo& info = require_device(robots(), device);
   if (!host_->core_->is_sensor(device)) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "device " + info.name + " is no sensor: it has no readings");
@@ -94,26 +84,14 @@ bool InProcessSession::peek(std::chrono::milliseconds timeout) {
 }
 
 void InProcessSession::send(DeviceId device, const sim::Command& command) {
-  require_device(device);
-  const auto finite = [](std::initializer_list<double> values) {
-    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  };
-  bool good = true;
-  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) {
-    good = finite({twist->twist.v_mps, twist->twist.omega_radps, twist->twist.lateral_mps});
-  } else if (const auto* pose = std::get_if<sim::SetPoseCommand>(&command)) {
-    good = finite({pose->pose.x_m, pose->pose.y_m, pose->pose.yaw_rad});
-  }
-  if (!good) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a command holds a value that is not a finite number");
-  }
+  require_device(robots(), device);
+  require_finite(command);
   host_->core_->send(*client_, device, command);
 }
 
 void InProcessSession::join() {
   farewell.remember(host_);
-  host_->core_->join(*client_);
+  host_->core_->join(*client_, this_thinker());
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {

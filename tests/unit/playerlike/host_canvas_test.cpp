@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "playerlike/host/host.h"
+#include "reachable_host.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -69,11 +70,28 @@ std::optional<SessionError::Code> refusal(Action action) {
   }
   return std::nullopt;
 }
+class HostCanvas : public testing::TestWithParam<test::Transport> {
+ protected:
+  std::shared_ptr<test::ReachableHost> create(sim::WorldDescription world,
+                                              RunSettings settings = {}) {
+    hosts.push_back(std::make_shared<test::ReachableHost>(
+        Host::create(std::move(world), std::move(settings)), GetParam()));
+    return hosts.back();
+  }
+
+  std::vector<std::shared_ptr<test::ReachableHost>> hosts;
+};
+
+INSTANTIATE_TEST_SUITE_P(Transports, HostCanvas,
+                         testing::Values(test::Transport::kInProcess, test::Transport::kCbor,
+                                         test::Transport::kJson),
+                         [](const auto& info) { return transport_name(info.param); });
+
 constexpr auto kBadArgument = SessionError::Code::kBadArgument;
 constexpr auto kNotAvailable = SessionError::Code::kNotAvailable;
 
-TEST(HostCanvas, DrawingsReachOthersWithTheNextStep) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, DrawingsReachOthersWithTheNextStep) {
+  const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
   dot(*first, 4, 5, kRed);
@@ -84,8 +102,8 @@ TEST(HostCanvas, DrawingsReachOthersWithTheNextStep) {
   EXPECT_EQ(at(*second, 6, 5), kRed);
 }
 
-TEST(HostCanvas, MoreDrawingsThanFitTheQueueKeepTheirOrder) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, MoreDrawingsThanFitTheQueueKeepTheirOrder) {
+  const auto host = create(two_robots());
   const auto session = host->connect(6665);
   constexpr int kCount = 3 * static_cast<int>(DrawQueue::kCapacity) + 7;
   for (int i = 0; i < kCount; ++i) {
@@ -96,8 +114,8 @@ TEST(HostCanvas, MoreDrawingsThanFitTheQueueKeepTheirOrder) {
   }
 }
 
-TEST(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
+  const auto host = create(two_robots());
   const auto session = host->connect(6665);
   dot(*session, 0, 0, kRed);
   const std::vector<CellValue> blue(4, CellValue::of(kBlue));
@@ -117,8 +135,8 @@ TEST(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
             kBadArgument);
 }
 
-TEST(HostCanvas, LayersBelongToTheirSession) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, LayersBelongToTheirSession) {
+  const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
   const LayerId layer = first->create_layer(LayerKind::kColour, named("map"));
@@ -140,8 +158,8 @@ TEST(HostCanvas, LayersBelongToTheirSession) {
   EXPECT_EQ(first->layers().size(), 1U);
 }
 
-TEST(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
+  const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
   const LayerId theirs = first->create_layer(LayerKind::kColour, named("map"));
@@ -157,9 +175,9 @@ TEST(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
   EXPECT_EQ(at(*first, 1, 1), kRed);
 }
 
-TEST(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
+TEST_P(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
   for (const bool swapped : {false, true}) {
-    const auto host = Host::create(two_robots());
+    const auto host = create(two_robots());
     const auto one = host->connect(swapped ? 6666 : 6665);
     const auto two = host->connect(swapped ? 6665 : 6666);
     for (const auto& session : {one.get(), two.get()}) {
@@ -171,8 +189,8 @@ TEST(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
   }
 }
 
-TEST(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) {
+  const auto host = create(two_robots());
   const auto watcher = host->connect(kMorsePort);
   {
     const auto session = host->connect(6665);
@@ -188,13 +206,14 @@ TEST(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) {
   EXPECT_EQ(composed_at(*watcher, 3, 3).a, 0);
 }
 
-TEST(HostCanvas, ResizingIsSeenByAll) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, ResizingIsSeenByAll) {
+  const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
   const std::uint64_t before = second->canvas_generation();
   dot(*second, 0, 49, kRed);  // queued while the canvas has 50 rows: bottom left
   first->resize_canvas(120, 30);
+  static_cast<void>(second->time());  // a session hears of it with any answer
   EXPECT_NE(second->canvas_generation(), before);
   EXPECT_EQ(second->canvas_info().width, 120);
   EXPECT_EQ(second->canvas_info().height, 30);
@@ -203,23 +222,22 @@ TEST(HostCanvas, ResizingIsSeenByAll) {
   EXPECT_EQ(first->canvas_info().width, 120);
 }
 
-TEST(HostCanvas, LockedViewModesStay) {
-  const auto free = Host::create(two_robots())->connect(6665);
+TEST_P(HostCanvas, LockedViewModesStay) {
+  const auto free = create(two_robots())->connect(6665);
   free->set_view_mode(sim::ViewMode::kMiniMap);
   EXPECT_EQ(free->view_mode(), sim::ViewMode::kMiniMap);
-  const auto host =
-      Host::create(two_robots(R"(, "view_mode": "full-screen", "lock_view_mode": true)"));
+  const auto host = create(two_robots(R"(, "view_mode": "full-screen", "lock_view_mode": true)"));
   const auto locked = host->connect(6665);
   EXPECT_EQ(refusal([&] { locked->set_view_mode(sim::ViewMode::kGround); }), kNotAvailable);
   locked->set_view_mode(sim::ViewMode::kFullScreen);
   EXPECT_EQ(locked->view_mode(), sim::ViewMode::kFullScreen);
 }
 
-TEST(HostCanvas, PicturesStayInsideTheOutputFolder) {
+TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = (folder.path() / "out").string();
-  const auto host = Host::create(two_robots(), settings);
+  const auto host = create(two_robots(), settings);
   const auto session = host->connect(6665);
   session->save_image("map");
   session->save_image("large.png", 3);
@@ -235,12 +253,12 @@ TEST(HostCanvas, PicturesStayInsideTheOutputFolder) {
   std::filesystem::create_symlink(folder.path() / "elsewhere.png", out / "link.png");
   EXPECT_EQ(refusal([&] { session->save_image("link"); }), kNotAvailable);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "elsewhere.png"));
-  const auto nowhere = Host::create(two_robots());
+  const auto nowhere = create(two_robots());
   EXPECT_EQ(refusal([&] { nowhere->connect(6665)->save_image("map"); }), kNotAvailable);
 }
 
-TEST(HostCanvas, WorldMapShowsTheArena) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, WorldMapShowsTheArena) {
+  const auto host = create(two_robots());
   const auto session = host->connect(6665);
   const sim::OccupancyMap map = session->world_map(0.1);
   ASSERT_EQ(map.width, 20);
@@ -254,8 +272,8 @@ TEST(HostCanvas, WorldMapShowsTheArena) {
   }
 }
 
-TEST(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
+  const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
   second->join();
@@ -275,8 +293,8 @@ TEST(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
   EXPECT_EQ(host->time().steps, 10U);
 }
 
-TEST(HostCanvas, ClosedSessionsRefuseDrawings) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, ClosedSessionsRefuseDrawings) {
+  const auto host = create(two_robots());
   const auto session = host->connect(6665);
   dot(*session, 1, 1, kRed);
   session->close();
@@ -289,8 +307,8 @@ TEST(HostCanvas, ClosedSessionsRefuseDrawings) {
 
 // For the thread sanitizer too: threads that draw on one session while its owner reads, another
 // looks, and layers come and go.
-TEST(HostCanvas, ManyThreadsMayUseOneSession) {
-  const auto host = Host::create(two_robots());
+TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
+  const auto host = create(two_robots());
   const auto session = host->connect(6665);
   const LayerId layer = session->create_layer(LayerKind::kColour, named("shared"));
   constexpr int kRounds = 20000;

@@ -16,6 +16,7 @@
 #include <mutex>
 #include <thread>
 
+#include "reachable_host.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 
@@ -23,6 +24,8 @@ namespace playerlike {
 namespace {
 
 using std::chrono::milliseconds;
+using test::ReachableHost;
+using test::Transport;
 using testing::HasSubstr;
 
 // Collects the times of the readings of a round, and the newest pose.
@@ -47,13 +50,16 @@ sim::WorldDescription two_robots(const std::string& simulation = "{}") {
 
 class HostTest : public testing::Test {
  protected:
-  std::shared_ptr<Host> start(sim::WorldDescription world, RunSettings settings = {}) {
+  // What tests talk to; sessions must go before the next one is started.
+  std::shared_ptr<ReachableHost> start(sim::WorldDescription world, RunSettings settings = {}) {
+    reachable.reset();
     host = Host::create(std::move(world), std::move(settings),
                         [this](sim::LogLevel, std::string_view text) {
                           const std::lock_guard lock(log_mutex);
                           log += std::string(text) + '\n';
                         });
-    return host;
+    reachable = std::make_shared<ReachableHost>(host, transport);
+    return reachable;
   }
   std::string logged() {
     const std::lock_guard lock(log_mutex);
@@ -84,12 +90,24 @@ class HostTest : public testing::Test {
     return round;
   }
 
-  std::shared_ptr<Host> host;
+  Transport transport = Transport::kInProcess;
   std::mutex log_mutex;
   std::string log;
+  std::shared_ptr<Host> host;
+  std::shared_ptr<ReachableHost> reachable;
 };
 
-TEST_F(HostTest, OneReadIsATenthOfASecond) {
+// What holds whether a session is a matter of calls or of messages.
+class HostOverTest : public HostTest, public testing::WithParamInterface<Transport> {
+ protected:
+  HostOverTest() { transport = GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Transports, HostOverTest,
+                         testing::Values(Transport::kInProcess, Transport::kCbor, Transport::kJson),
+                         [](const auto& info) { return transport_name(info.param); });
+
+TEST_P(HostOverTest, OneReadIsATenthOfASecond) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   for (int i = 1; i <= 20; ++i) {
@@ -98,7 +116,7 @@ TEST_F(HostTest, OneReadIsATenthOfASecond) {
   }
 }
 
-TEST_F(HostTest, TimeStandsStillBetweenReads) {
+TEST_P(HostOverTest, TimeStandsStillBetweenReads) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   read(*session);
@@ -107,7 +125,7 @@ TEST_F(HostTest, TimeStandsStillBetweenReads) {
   EXPECT_EQ(session->time().steps, 10U);
 }
 
-TEST_F(HostTest, CommandsTakeEffectWithTheNextStepAndHold) {
+TEST_P(HostOverTest, CommandsTakeEffectWithTheNextStepAndHold) {
   const auto session = start(two_robots())->connect(6665);
   const InterfaceBinding binding = subscribe_position(*session);
   drive(*session, binding, 0.5);
@@ -115,7 +133,7 @@ TEST_F(HostTest, CommandsTakeEffectWithTheNextStepAndHold) {
   EXPECT_NEAR(read(*session).x_m, 1.10, 1e-9);
 }
 
-TEST_F(HostTest, ReadWithoutSubscriptionsLetsATenthOfASecondPass) {
+TEST_P(HostOverTest, ReadWithoutSubscriptionsLetsATenthOfASecondPass) {
   const auto session = start(two_robots())->connect(6665);
   Collector none;
   session->wait();
@@ -126,7 +144,7 @@ TEST_F(HostTest, ReadWithoutSubscriptionsLetsATenthOfASecondPass) {
   EXPECT_EQ(host->time().steps, 20U);
 }
 
-TEST_F(HostTest, FirstPeekLooksFurtherOnesStep) {
+TEST_P(HostOverTest, FirstPeekLooksFurtherOnesStep) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   read(*session);
@@ -143,7 +161,7 @@ TEST_F(HostTest, FirstPeekLooksFurtherOnesStep) {
   EXPECT_FALSE(session->peek(milliseconds(0)));
 }
 
-TEST_F(HostTest, PeekWithATimeoutWaitsInSimulatedTime) {
+TEST_P(HostOverTest, PeekWithATimeoutWaitsInSimulatedTime) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   read(*session);
@@ -153,7 +171,7 @@ TEST_F(HostTest, PeekWithATimeoutWaitsInSimulatedTime) {
   EXPECT_EQ(host->time().steps, 20U);
 }
 
-TEST_F(HostTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
+TEST_P(HostOverTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
   const auto world = start(two_robots());
   const auto session = world->connect(6665);
   const auto other = world->connect(6666);
@@ -167,7 +185,7 @@ TEST_F(HostTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(400'000'000, 500'000'000, 600'000'000));
 }
 
-TEST_F(HostTest, OneThreadReadsSeveralClientsInTurn) {
+TEST_P(HostOverTest, OneThreadReadsSeveralClientsInTurn) {
   const auto world = start(two_robots());
   const auto first = world->connect(6665);
   const auto second = world->connect(6666);
@@ -181,7 +199,7 @@ TEST_F(HostTest, OneThreadReadsSeveralClientsInTurn) {
 }
 
 // Two threads, each driving its robot by what it reads.
-std::uint64_t two_threads_run(const std::shared_ptr<Host>& host) {
+std::uint64_t two_threads_run(const std::shared_ptr<ReachableHost>& host) {
   const auto program = [&host](int port) {
     const auto session = host->connect(port);
     const auto binding = find_interface(session->robots(), port, "position2d", 0);
@@ -205,13 +223,13 @@ std::uint64_t two_threads_run(const std::shared_ptr<Host>& host) {
   return host->state_hash();
 }
 
-TEST_F(HostTest, TwoThreadsInLockstepGiveTheSameResultEveryTime) {
+TEST_P(HostOverTest, TwoThreadsInLockstepGiveTheSameResultEveryTime) {
   const std::string simulation = R"({"duration": 20, "clients": 2})";
   const std::uint64_t first = two_threads_run(start(two_robots(simulation)));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(two_threads_run(start(two_robots(simulation))), first);
 }
 
-TEST_F(HostTest, StartGateHoldsTheClockUntilAllHaveJoined) {
+TEST_P(HostOverTest, StartGateHoldsTheClockUntilAllHaveJoined) {
   const auto world = start(two_robots(R"({"clients": 2})"));
   const auto first = world->connect(6665);
   const auto second = world->connect(6666);
@@ -224,7 +242,7 @@ TEST_F(HostTest, StartGateHoldsTheClockUntilAllHaveJoined) {
   EXPECT_EQ(host->time().steps, 10U);
 }
 
-TEST_F(HostTest, AClientThatIsDestroyedHoldsUpNobody) {
+TEST_P(HostOverTest, AClientThatIsDestroyedHoldsUpNobody) {
   const auto world = start(two_robots());
   const auto session = world->connect(6665);
   subscribe_position(*session);
@@ -246,7 +264,7 @@ TEST_F(HostTest, AClientThatIsDestroyedHoldsUpNobody) {
   EXPECT_GE(host->time().steps, 60U);
 }
 
-TEST_F(HostTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
+TEST_P(HostOverTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
   const auto world = start(two_robots());
   const auto session = world->connect(6665);
   subscribe_position(*session);
@@ -258,7 +276,7 @@ TEST_F(HostTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
   EXPECT_EQ(logged(), "");  // no wait for the silence limit was needed
 }
 
-TEST_F(HostTest, AClientThatNeverReadsDoesNotTakePart) {
+TEST_P(HostOverTest, AClientThatNeverReadsDoesNotTakePart) {
   const auto world = start(two_robots());
   const auto reader = world->connect(6665);
   subscribe_position(*reader);
@@ -270,7 +288,7 @@ TEST_F(HostTest, AClientThatNeverReadsDoesNotTakePart) {
   EXPECT_NEAR(read(*all).x_m, 1.55, 1e-9);
 }
 
-TEST_F(HostTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
+TEST_P(HostOverTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
   const auto session = start(two_robots())->connect(6665);
   const InterfaceBinding binding = position2d(*session);
   for (int i = 0; i < 20'001; ++i) {  // more than are kept waiting
@@ -281,7 +299,7 @@ TEST_F(HostTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
   EXPECT_NEAR(read(*session).x_m, 1.04, 1e-9);
 }
 
-TEST_F(HostTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
+TEST_P(HostOverTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
   RunSettings settings;
   settings.silence_limit_s = 0.05;
   const auto world = start(two_robots(), settings);
@@ -305,7 +323,7 @@ TEST_F(HostTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
   for (int i = 0; i < 3; ++i) read(*session);
 }
 
-TEST_F(HostTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
+TEST_P(HostOverTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
   const auto session = start(two_robots(R"({"duration": 30})"))->connect(6665);
   const InterfaceBinding binding = subscribe_position(*session);
   std::atomic<bool> stop{false};
@@ -326,7 +344,7 @@ TEST_F(HostTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
   EXPECT_TRUE(host->finished());
 }
 
-TEST_F(HostTest, EndOfTheRunIsToldAfterTheLastReadings) {
+TEST_P(HostOverTest, EndOfTheRunIsToldAfterTheLastReadings) {
   const auto session = start(two_robots(R"({"duration": 0.3})"))->connect(6665);
   subscribe_position(*session);
   for (int i = 0; i < 3; ++i) read(*session);
@@ -339,7 +357,7 @@ TEST_F(HostTest, EndOfTheRunIsToldAfterTheLastReadings) {
   }
 }
 
-TEST_F(HostTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
+TEST_P(HostOverTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   session->sleep(0.25);
@@ -350,7 +368,7 @@ TEST_F(HostTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
   EXPECT_THROW(session->sleep(std::numeric_limits<double>::quiet_NaN()), SessionError);
 }
 
-TEST_F(HostTest, AClosedSessionThrowsAndWakesItsWaiter) {
+TEST_P(HostOverTest, AClosedSessionThrowsAndWakesItsWaiter) {
   const auto world = start(two_robots(R"({"clients": 2})"));
   const auto session = world->connect(6665);
   subscribe_position(*session);
@@ -360,6 +378,248 @@ TEST_F(HostTest, AClosedSessionThrowsAndWakesItsWaiter) {
   EXPECT_FALSE(session->connected());
   EXPECT_THROW(read(*session), SessionError);
   EXPECT_THROW(drive(*session, position2d(*session), 0.1), SessionError);
+}
+
+// --- Clients of event loops
+
+using Outcome = EventClient::Outcome;
+constexpr std::chrono::seconds kLong{60};
+
+// A client of an event loop, on robot 1 or 2.
+struct Looped {
+  Looped(Host& host, int port, bool follower = false)
+      : client(host.connect_events(
+            port, [count = calls] { ++*count; }, follower)) {}
+
+  Session& session() { return client->session(); }
+
+  std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
+  std::unique_ptr<EventClient> client;
+  ThinkerId thinker = new_thinker();
+};
+
+TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
+  start(two_robots());
+  Looped loop(*host, 6665);
+  const InterfaceBinding binding = subscribe_position(loop.session());
+  drive(loop.session(), binding, 0.5);
+  for (int i = 1; i <= 20; ++i) {
+    EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kWaiting);
+    EXPECT_EQ(*loop.calls, i - 1);
+    EXPECT_FALSE(host->advance(kLong));
+    EXPECT_EQ(*loop.calls, i);
+    EXPECT_EQ(loop.client->outcome(), Outcome::kData);
+    EXPECT_FALSE(host->advance(kLong)) << "it thinks";
+    Collector round;
+    EXPECT_EQ(loop.session().take(round), 1);
+    EXPECT_THAT(round.times_ns, testing::ElementsAre(i * 100'000'000));
+    EXPECT_NEAR(round.x_m, 1.0 + 0.05 * i, 1e-9);
+  }
+}
+
+TEST_F(HostTest, AnEventLoopPeeksSleepsAndHearsOfTheEnd) {
+  start(two_robots(R"({"duration": 0.3})"));
+  Looped loop(*host, 6665);
+  subscribe_position(loop.session());
+  EXPECT_EQ(loop.client->outcome(), Outcome::kIdle);
+  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(0)), Outcome::kTime) << "only looks";
+  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(0)), Outcome::kWaiting);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
+  EXPECT_EQ(host->time().steps, 1U);
+  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(50)), Outcome::kWaiting);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
+  EXPECT_EQ(host->time().steps, 6U);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 0.1), Outcome::kWaiting);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
+  EXPECT_EQ(host->time().steps, 16U);
+  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kData) << "of 0.1 s, not taken yet";
+  Collector round;
+  loop.session().take(round);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 10.0), Outcome::kWaiting);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(loop.client->outcome(), Outcome::kFinished);
+  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kData);
+  loop.session().take(round);
+  EXPECT_THAT(round.times_ns, testing::ElementsAre(100'000'000, 300'000'000));
+  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kFinished);
+  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(5)), Outcome::kFinished);
+  EXPECT_THROW(loop.client->begin_sleep(loop.thinker, -1.0), SessionError);
+}
+
+TEST_F(HostTest, AdvanceStopsNowAndThen) {
+  start(two_robots());
+  Looped loop(*host, 6665);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 3600.0), Outcome::kWaiting);
+  EXPECT_TRUE(host->advance(std::chrono::microseconds(0)));
+  EXPECT_EQ(host->time().steps, 1U);
+  loop.client->cancel();
+  EXPECT_EQ(loop.client->outcome(), Outcome::kIdle);
+  EXPECT_FALSE(host->advance(kLong)) << "it thinks";
+  EXPECT_EQ(host->time().steps, 1U);
+}
+
+TEST_F(HostTest, AThinkersClientsDoNotHoldOneAnotherUp) {
+  start(two_robots());
+  Looped a(*host, 6665);
+  Looped b(*host, 6666);
+  subscribe_position(a.session());
+  subscribe_position(b.session());
+  a.client->begin_wait(a.thinker);
+  b.client->begin_wait(b.thinker);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(a.client->outcome(), Outcome::kData);
+  EXPECT_EQ(b.client->outcome(), Outcome::kData);
+  Collector round;
+  a.session().take(round);
+  EXPECT_EQ(a.client->begin_wait(a.thinker), Outcome::kWaiting);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(a.client->outcome(), Outcome::kWaiting) << "b thinks";
+  // b's client comes to a's thinker, which waits already.
+  b.client->join(a.thinker);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(a.client->outcome(), Outcome::kData);
+  EXPECT_EQ(host->time().steps, 20U);
+  // A thinker that has ended takes no part.
+  b.client->join(b.thinker);
+  a.session().take(round);
+  a.client->begin_wait(a.thinker);
+  host->thinker_ended(b.thinker);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(a.client->outcome(), Outcome::kData);
+}
+
+TEST_F(HostTest, AnEventLoopAndAThreadShareTheLockstep) {
+  start(two_robots(R"({"clients": 2})"));
+  Looped loop(*host, 6665);
+  subscribe_position(loop.session());
+  std::thread thread([&] {
+    const auto session = host->connect(6666);
+    subscribe_position(*session);
+    for (int i = 1; i <= 5; ++i) EXPECT_EQ(read(*session).times_ns.back(), i * 100'000'000);
+  });
+  for (int i = 1; i <= 5; ++i) {
+    loop.client->begin_wait(loop.thinker);
+    while (loop.client->outcome() == Outcome::kWaiting) {
+      host->advance(std::chrono::microseconds(100));
+      std::this_thread::yield();
+    }
+    Collector round;
+    loop.session().take(round);
+    EXPECT_EQ(round.times_ns.back(), i * 100'000'000);
+  }
+  loop.client.reset();
+  thread.join();
+  EXPECT_EQ(host->time().steps, 50U);
+}
+
+TEST_F(HostTest, ASilentEventClientIsNamedAndLeftBehind) {
+  RunSettings settings;
+  settings.silence_limit_s = 0.02;
+  start(two_robots(), settings);
+  Looped waiting(*host, 6665);
+  Looped silent(*host, 6666);
+  subscribe_position(waiting.session());
+  silent.client->join(silent.thinker);
+  waiting.client->begin_wait(waiting.thinker);
+  while (waiting.client->outcome() == Outcome::kWaiting) {
+    host->advance(std::chrono::microseconds(100));
+    host->check_silence();
+    std::this_thread::yield();
+  }
+  EXPECT_THAT(logged(), HasSubstr("client 2 (port 6666) has not called Read() for"));
+}
+
+TEST_F(HostTest, AlarmsGoOffOnceAndLetLockstepTimePass) {
+  start(two_robots(R"({"duration": 3})"));
+  std::vector<std::string> rung;
+  const auto alarm = [&](const std::string& name) {
+    Alarm made;
+    made.notify = [&rung, name] { rung.push_back(name); };
+    return made;
+  };
+  Alarm patient = alarm("patient");
+  patient.until_ns = sim::from_seconds(0.2);
+  host->set_alarm(patient);
+  EXPECT_FALSE(host->advance(kLong)) << "nobody for whom time would go on";
+  EXPECT_EQ(host->time().steps, 0U);
+
+  Alarm driving = alarm("moving");
+  driving.lets_time_pass = true;
+  driving.condition = [](const sim::Simulation& simulation) { return simulation.steps() == 50; };
+  host->set_alarm(driving);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(host->time().steps, 50U);
+  EXPECT_THAT(rung, testing::ElementsAre("patient", "moving"));
+
+  Alarm now = alarm("past");
+  now.until_ns = 0;
+  host->set_alarm(now);
+  EXPECT_EQ(rung.back(), "past");
+
+  Alarm never = alarm("cancelled");
+  never.until_ns = sim::from_seconds(1.0);
+  const AlarmId id = host->set_alarm(never);
+  EXPECT_TRUE(host->cancel_alarm(id));
+  EXPECT_FALSE(host->cancel_alarm(id));
+  never = alarm("at the end");
+  never.lets_time_pass = true;
+  never.until_ns = sim::from_seconds(100.0);
+  host->set_alarm(never);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_THAT(rung, testing::ElementsAre("patient", "moving", "past", "at the end"));
+  EXPECT_TRUE(host->finished());
+  host->set_alarm(alarm("after the end"));
+  EXPECT_EQ(rung.back(), "after the end");
+}
+
+TEST_F(HostTest, StepCreditLimitsLockstepTime) {
+  start(two_robots());
+  host->set_step_credit(3);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(host->time().steps, 3U);
+  Looped loop(*host, 6665);
+  subscribe_position(loop.session());
+  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kWaiting);
+  host->add_step_credit(2);
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(loop.client->outcome(), Outcome::kWaiting);
+  EXPECT_EQ(host->time().steps, 5U);
+  host->set_step_credit(std::nullopt);
+  host->add_step_credit(100);  // without a limit that changes nothing
+  EXPECT_FALSE(host->advance(kLong));
+  EXPECT_EQ(host->time().steps, 10U);
+}
+
+TEST_F(HostTest, StepCreditHoldsPacedTime) {
+  RunSettings settings;
+  settings.time_mode = sim::TimeMode::kPaced;
+  settings.time_factor = 100.0;
+  start(two_robots(), settings);
+  host->set_step_credit(0);
+  Looped loop(*host, 6665);  // the clock waits for its first client
+  host->add_step_credit(4);
+  while (host->time().steps < 4) std::this_thread::yield();
+  std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_EQ(host->time().steps, 4U);
+  EXPECT_FALSE(host->advance(kLong)) << "the pacer steps";
+  host->set_step_credit(std::nullopt);
+  while (host->time().steps < 10) std::this_thread::yield();
+}
+
+TEST_F(HostTest, OnlyPacedTimeHasASpeed) {
+  start(two_robots());
+  EXPECT_THAT(host->set_time_factor(2.0).value(), HasSubstr("lockstep"));
+  RunSettings settings;
+  settings.time_mode = sim::TimeMode::kPaced;
+  settings.time_factor = 1e-6;
+  settings.start_at_once = true;
+  start(two_robots(), settings);
+  EXPECT_THAT(host->set_time_factor(0.0).value(), HasSubstr("greater than 0"));
+  EXPECT_EQ(host->set_time_factor(1000.0), std::nullopt);
+  while (host->time().steps < 10) std::this_thread::yield();
 }
 
 TEST_F(HostTest, UnknownPortsAndDevicesAreRefusedNamingWhatThereIs) {
@@ -437,7 +697,7 @@ TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
 }
 
-TEST_F(HostTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
+TEST_P(HostOverTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
   session->prefer_real_time("a test");
@@ -446,7 +706,7 @@ TEST_F(HostTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
   EXPECT_THAT(logged(), HasSubstr("a test"));
 }
 
-TEST_F(HostTest, ATimeModeThatTheWorldChoseIsKept) {
+TEST_P(HostOverTest, ATimeModeThatTheWorldChoseIsKept) {
   const auto session = start(two_robots(R"({"time": "lockstep"})"))->connect(6665);
   subscribe_position(*session);
   session->prefer_real_time("a test");
@@ -455,7 +715,7 @@ TEST_F(HostTest, ATimeModeThatTheWorldChoseIsKept) {
   EXPECT_EQ(logged(), "");
 }
 
-TEST_F(HostTest, ResultsOfARunAreWrittenOnceItEnds) {
+TEST_P(HostOverTest, ResultsOfARunAreWrittenOnceItEnds) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "playpen_host_test";
   std::filesystem::remove_all(folder);

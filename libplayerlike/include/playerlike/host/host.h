@@ -95,6 +95,8 @@ class Host : public std::enable_shared_from_this<Host> {
   friend class InProcessEventClient;
   class Core;
   explicit Host(std::unique_ptr<Core> core);
+  /// @throws SessionError kNoSuchDevice.
+  void require_port(int port) const;
   std::unique_ptr<Core> core_;
 };
 

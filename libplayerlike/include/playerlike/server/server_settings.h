@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "sim/core/log.h"
+
 namespace playerlike {
 
 /// What a server puts up with. A client that goes beyond is told so, and closed or left without
@@ -26,6 +28,7 @@ struct AccessSettings {
   std::map<std::string, std::string> robot_tokens;  ///< by the robot's name: only who presents it
                                                     ///< commands that robot
   bool open_watching = false;                       ///< watching needs no token
+  std::string file;                                 ///< where it is from, for messages
 };
 
 /// How a simulation is offered over TCP.
@@ -39,7 +42,13 @@ struct ServerSettings {
   ServerLimits limits;
 };
 
-/// Reads a token file (docs/remote.md). @throws sim::ConfigError with all that is wrong.
-[[nodiscard]] AccessSettings read_token_file(const std::string& file);
+/// Length of a token in bytes.
+inline constexpr std::size_t kMinToken = 8;
+inline constexpr std::size_t kMaxToken = 256;
+
+/// Reads a token file (docs/remote.md). Tokens are not shown in messages.
+/// @param log  is warned if others may read the file.
+/// @throws sim::ConfigError with all that is wrong: access/token, or as for other settings files.
+[[nodiscard]] AccessSettings read_token_file(const std::string& file, const sim::LogHook& log = {});
 
 }  // namespace playerlike

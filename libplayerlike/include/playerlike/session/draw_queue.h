@@ -44,6 +44,9 @@ class DrawQueue {
     return true;
   }
 
+  /// Whether nothing waits, as far as the calling thread can know.
+  [[nodiscard]] bool empty() const noexcept { return size_.load(std::memory_order_relaxed) == 0; }
+
   /// Makes room, if there is none yet. Calls of this, drain() and close() must be serialised.
   void reserve() {
     if (back_ != nullptr || closed_) return;

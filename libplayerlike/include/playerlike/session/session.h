@@ -171,6 +171,18 @@ class Session {
   /// nobody chose to real time, once, with a warning. See docs/architecture.md.
   virtual void prefer_real_time(const std::string& reason) = 0;
 
+  /// How long an answer may take [s], > 0, before the connection counts as lost. Nothing changes
+  /// where calls are no messages. Waiting for simulated time is not limited by it.
+  virtual void set_request_timeout(double seconds) { static_cast<void>(seconds); }
+  /// What is done about a lost connection: up to `limit` attempts (< 0: for ever; 0, at first:
+  /// none) to connect again, `time_s` apart (>= 0), by the call that meets the loss. The new
+  /// connection has the same subscriptions, and no layers. Nothing changes where there is none to
+  /// lose.
+  virtual void set_retries(int limit, double time_s) {
+    static_cast<void>(limit);
+    static_cast<void>(time_s);
+  }
+
   /// Ends the connection; the client no longer holds up others. Waiting threads throw.
   virtual void close() noexcept = 0;
 };

@@ -1,0 +1,90 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "server/peer.h"
+#include "sim/core/error.h"
+
+namespace playerlike::server {
+namespace {
+
+using PaddedToken = std::array<unsigned char, kMaxToken>;
+
+/// The first bytes of a token, with zeros behind.
+PaddedToken padded(const std::string& token) {
+  PaddedToken bytes{};
+  std::copy_n(token.begin(), std::min(token.size(), bytes.size()), bytes.begin());
+  return bytes;
+}
+
+/// Whether two tokens are equal, in a time that tells nothing of either, not even of the length.
+bool equal(const std::string& a, const std::string& b) {
+  const PaddedToken left = padded(a);
+  const PaddedToken right = padded(b);
+  // Volatile, so that no compiler leaves the loop early.
+  volatile std::size_t difference = a.size() ^ b.size();
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    difference = difference | static_cast<std::size_t>(left[i] ^ right[i]);
+  }
+  return difference == 0;
+}
+
+bool presented(const std::string& token, const std::vector<std::string>& tokens,
+               std::size_t count) {
+  bool found = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool same = equal(token, tokens[i]);
+    found = found || same;
+  }
+  return found;
+}
+
+}  // namespace
+
+bool Rights::command_all() const {
+  return connect && std::all_of(command.begin(), command.end(), [](bool may) { return may; });
+}
+
+Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots)
+    : server_token_(settings.server_token),
+      robot_tokens_(robots.size()),
+      open_watching_(settings.open_watching) {
+  std::vector<std::string> names;
+  names.reserve(robots.size());
+  for (const RobotInfo& robot : robots) names.push_back(robot.name);
+  std::vector<sim::ConfigIssue> issues;
+  for (const auto& [name, token] : settings.robot_tokens) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) {
+      robot_tokens_[static_cast<std::size_t>(found - names.begin())] = token;
+      continue;
+    }
+    std::string list;
+    for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+    const std::string near = sim::nearest_word(name, names);
+    issues.push_back({"access/unknown-robot", settings.file, "/robots/" + name,
+                      list.empty() ? "no name, since the world has no robot"
+                                   : "the name of a robot of the world (" + list + ')',
+                      '"' + name + '"', near.empty() ? "" : "did you mean \"" + near + "\"?"});
+  }
+  if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+}
+
+Rights Access::rights(const std::vector<std::string>& tokens) const {
+  // Bounds the work that a long list can ask for.
+  const std::size_t count = std::min(tokens.size(), robot_tokens_.size() + 16);
+  const bool may_connect = server_token_.empty() || presented(server_token_, tokens, count);
+  Rights rights;
+  rights.connect = may_connect;
+  rights.command.reserve(robot_tokens_.size());
+  for (const std::string& token : robot_tokens_) {
+    const bool may_command = token.empty() ? may_connect : presented(token, tokens, count);
+    rights.command.push_back(may_command);
+    rights.connect = rights.connect || may_command;
+  }
+  rights.watch = rights.connect || open_watching_;
+  return rights;
+}
+
+}  // namespace playerlike::server

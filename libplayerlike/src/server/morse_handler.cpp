@@ -1,0 +1,140 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <utility>
+
+#include "protocol/codec.h"
+#include "server/morse_services.h"
+#include "server/morse_state.h"
+
+namespace playerlike::server {
+namespace {
+
+using nlohmann::json;
+
+/// Of an id, as in MORSE.
+constexpr std::size_t kMaxId = 80;
+/// Tokens that a connection may present.
+constexpr std::size_t kMaxTokens = 64;
+
+constexpr std::string_view kBlanks = " \t\r\v\f";
+
+/// Takes the first word off a text, with the blanks round it.
+std::string_view take_word(std::string_view& text) {
+  const auto begin = std::min(text.find_first_not_of(kBlanks), text.size());
+  const auto end = std::min(text.find_first_of(kBlanks, begin), text.size());
+  const std::string_view word = text.substr(begin, end - begin);
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks, end), text.size()));
+  return word;
+}
+
+std::string_view without_blanks_behind(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+/// An id that can be sent back as it is.
+bool is_sound_id(std::string_view id) {
+  return id.size() <= kMaxId &&
+         std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
+}
+
+/// The arguments of a request.
+json arguments_of(std::string_view text) {
+  if (text.empty()) return json::array();
+  json list = protocol::decode_json_value(text);
+  if (list.is_null()) return json::array();
+  if (!list.is_array()) {
+    throw MorseRefusal(std::string("arguments are a JSON list, found ") + list.type_name());
+  }
+  return list;
+}
+
+}  // namespace
+
+MorseConnection::MorseConnection(Peer& peer, Hub& hub)
+    : peer_(peer), hub_(hub), state_(MorseState::of(hub)), rights_(hub.access().rights({})) {}
+
+MorseConnection::~MorseConnection() { state_->forget(*this); }
+
+void MorseConnection::present(std::string token) {
+  if (tokens_.size() >= kMaxTokens) throw MorseRefusal("access/denied: too many tokens");
+  tokens_.push_back(std::move(token));
+  rights_ = hub_.access().rights(tokens_);
+}
+
+void MorseConnection::answer(const std::string& id, std::string_view status, const json& result) {
+  std::string line = id + ' ' + std::string(status);
+  if (!result.is_null()) line += ' ' + result.dump(-1, ' ', false, json::error_handler_t::replace);
+  peer_.send(line + '\n');
+}
+
+std::string MorseConnection::farewell(const protocol::ProtocolError& error) {
+  return "- FAILED " +
+         json(error.id() + ": " + error.what())
+             .dump(-1, ' ', false, json::error_handler_t::replace) +
+         '\n';
+}
+
+void MorseConnection::on_message(std::string_view line) {
+  std::string_view rest = without_blanks_behind(line);
+  const std::string_view word = take_word(rest);
+  if (word.empty()) return;  // an empty line has no id to answer to
+  if (!is_sound_id(word)) {
+    return answer("-", "FAILED", "Malformed request: an id is 1 to 80 printable ASCII characters");
+  }
+  const std::string id(word);
+  const std::string_view component = take_word(rest);
+  const std::string_view service = take_word(rest);
+  if (component == "cancel" && service.empty()) return state_->cancel(*this, id);
+  if (service.empty()) {
+    return answer(id, "FAILED",
+                  "Malformed request: expected id, component, service and maybe a JSON list of "
+                  "arguments, or id and cancel");
+  }
+  carry_out(id, component, service, rest);
+}
+
+void MorseConnection::carry_out(const std::string& id, std::string_view component,
+                                std::string_view service, std::string_view arguments) {
+  try {
+    const json list = arguments_of(arguments);
+    if (component == "playpen") return playpen(id, service, list);
+    static_cast<void>(state_->session());  // from now on a client is there, whom time may wait for
+    if (auto result = call_service(*state_, *this, id, component, service, list)) {
+      answer(id, "SUCCESS", *result);
+    }
+  } catch (const MorseRefusal& refusal) {
+    answer(id, "FAILED", refusal.what());
+  } catch (const SessionError& error) {
+    answer(id, "FAILED", std::string(protocol::error_id(error.code())) + ": " + error.what());
+  } catch (const protocol::ProtocolError& error) {
+    answer(id, "FAILED", error.id() + ": " + error.what());
+  }
+}
+
+// What is Playpen's own among the requests.
+void MorseConnection::playpen(const std::string& id, std::string_view service,
+                              const json& arguments) {
+  if (service == "hello") {
+    if (arguments.size() > 1) throw MorseRefusal("wrong # of parameters for hello: expected 1");
+    // May hand the connection over: nothing of this handler must be used after that.
+    return say_hello(peer_, hub_, id, arguments.empty() ? json::object() : arguments[0]);
+  }
+  if (service == "token") {
+    if (arguments.size() != 1) throw MorseRefusal("wrong # of parameters for token: expected 1");
+    if (!arguments[0].is_string()) throw MorseRefusal("expected the token, a text");
+    const Rights before = rights_;
+    present(arguments[0].get<std::string>());
+    if (rights_.connect == before.connect && rights_.watch == before.watch &&
+        rights_.command == before.command) {
+      throw MorseRefusal("access/denied: this token gives no rights that are not there already");
+    }
+    return answer(id, "SUCCESS", nullptr);
+  }
+  throw MorseRefusal("there is no playpen " + std::string(service) + ", only hello and token");
+}
+
+std::unique_ptr<Handler> make_morse_handler(Peer& peer, Hub& hub) {
+  return std::make_unique<MorseConnection>(peer, hub);
+}
+
+}  // namespace playerlike::server

@@ -1,0 +1,201 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "server/morse_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/morse_streams.h"
+#include "sim/devices/waypoint.h"
+
+namespace playerlike::server {
+namespace {
+
+constexpr const char* kRunIsOver = "session/finished: the run is over";
+
+const sim::Waypoint& waypoint_of(const sim::Simulation& simulation, DeviceId device) {
+  return dynamic_cast<const sim::Waypoint&>(simulation.device(device.robot, device.device));
+}
+
+}  // namespace
+
+MorseState::MorseState(Hub& hub)
+    : hub_(hub),
+      postbox_(std::make_shared<Postbox>(hub)),
+      components_(morse_components(hub.host().robots())),
+      streams_(std::make_unique<MorseStreams>(*this)) {}
+
+MorseState::~MorseState() {
+  postbox_->close();
+  for (const auto& [number, pending] : pending_) host().cancel_alarm(pending.alarm);
+  if (synchronised_) host().set_step_credit(std::nullopt);
+}
+
+std::shared_ptr<MorseState> MorseState::of(Hub& hub) {
+  if (hub.morse_state == nullptr) hub.morse_state = std::make_shared<MorseState>(hub);
+  return hub.morse_state;
+}
+
+const MorseComponent* MorseState::find(std::string_view name) const noexcept {
+  const auto it = std::find_if(components_.begin(), components_.end(),
+                               [&](const MorseComponent& c) { return c.name == name; });
+  return it != components_.end() ? &*it : nullptr;
+}
+
+Session& MorseState::session() {
+  if (client_ == nullptr) client_ = host().connect_events(kMorsePort, {});
+  return client_->session();
+}
+
+void MorseState::command(DeviceId device, const sim::Command& command) {
+  if (host().finished()) throw MorseRefusal(kRunIsOver);
+  const auto refusal =
+      with([&](sim::Simulation& simulation) { return simulation.apply(device, command); });
+  if (refusal) throw MorseRefusal(*refusal);
+}
+
+// --- Requests that are answered later
+
+void MorseState::wait_for(Pending pending, Alarm alarm) {
+  const Number number = ++last_number_;
+  MorseConnection& from = *pending.from;
+  pending_.emplace(number, std::move(pending));
+  from.peer().set_in_flight(waiting(from));
+  alarm.lets_time_pass = true;
+  alarm.notify = [box = postbox_, weak = weak_from_this(), number] {
+    box->post([weak, number] {
+      if (const auto state = weak.lock()) state->ring(number);
+    });
+  };
+  pending_.at(number).alarm = host().set_alarm(std::move(alarm));
+  hub_.pump();
+}
+
+void MorseState::answer_after(MorseConnection& from, const std::string& id, double seconds) {
+  if (host().finished()) throw MorseRefusal(kRunIsOver);
+  Pending pending;
+  pending.from = &from;
+  pending.id = id;
+  pending.until_ns = host().time().sim_time_ns + sim::from_seconds(seconds);
+  Alarm alarm;
+  alarm.until_ns = pending.until_ns;
+  wait_for(std::move(pending), std::move(alarm));
+}
+
+void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
+                                   const sim::GotoCommand& goal) {
+  if (host().finished()) throw MorseRefusal(kRunIsOver);
+  std::uint64_t goal_number = 0;
+  const auto refusal = with([&](sim::Simulation& simulation) {
+    auto result = simulation.apply(waypoint, goal);
+    goal_number = waypoint_of(simulation, waypoint).goal_number();
+    return result;
+  });
+  if (refusal) throw MorseRefusal(*refusal);
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    it = it->second.waypoint == waypoint ? end(it, "PREEMPTED", nullptr) : std::next(it);
+  }
+  Pending pending;
+  pending.from = &from;
+  pending.id = id;
+  pending.waypoint = waypoint;
+  pending.outcome = std::make_shared<std::atomic<Outcome>>(Outcome::kNone);
+  Alarm alarm;
+  alarm.condition = [waypoint, goal_number,
+                     outcome = pending.outcome](const sim::Simulation& simulation) {
+    const sim::Waypoint& device = waypoint_of(simulation, waypoint);
+    if (device.goal_number() != goal_number) {
+      *outcome = Outcome::kReplaced;
+    } else if (device.status() == sim::WaypointStatus::kArrived) {
+      *outcome = Outcome::kArrived;
+    }
+    return *outcome != Outcome::kNone;
+  };
+  wait_for(std::move(pending), std::move(alarm));
+}
+
+void MorseState::ring(Number number) {
+  const auto it = pending_.find(number);
+  if (it == pending_.end()) return;
+  const Pending& pending = it->second;
+  if (!pending.waypoint) {
+    const bool slept = host().time().sim_time_ns >= pending.until_ns;
+    end(it, slept ? "SUCCESS" : "FAILED", slept ? nlohmann::json() : nlohmann::json(kRunIsOver));
+    return;
+  }
+  switch (pending.outcome->load()) {
+    case Outcome::kArrived:
+      end(it, "SUCCESS", "Arrived");
+      return;
+    case Outcome::kReplaced:
+      end(it, "PREEMPTED", nullptr);
+      return;
+    case Outcome::kNone:
+      end(it, "FAILED", kRunIsOver);
+      return;
+  }
+}
+
+std::map<MorseState::Number, MorseState::Pending>::iterator MorseState::end(
+    std::map<Number, Pending>::iterator pending, std::string_view status,
+    const nlohmann::json& result) {
+  host().cancel_alarm(pending->second.alarm);
+  MorseConnection& from = *pending->second.from;
+  const std::string id = std::move(pending->second.id);
+  const auto next = pending_.erase(pending);
+  from.answer(id, status, result);
+  from.peer().set_in_flight(waiting(from));
+  return next;
+}
+
+void MorseState::cancel(MorseConnection& from, const std::string& id) {
+  std::vector<DeviceId> stopped;
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    if (it->second.from != &from || it->second.id != id) {
+      ++it;
+      continue;
+    }
+    if (it->second.waypoint) stopped.push_back(*it->second.waypoint);
+    it = end(it, "PREEMPTED", nullptr);
+  }
+  for (const DeviceId device : stopped) {
+    // It may be off or the run be over: then the robot does not move anyway.
+    with([&](sim::Simulation& simulation) {
+      return simulation.apply(device, sim::StopCommand{}).has_value();
+    });
+  }
+}
+
+void MorseState::forget(MorseConnection& from) {
+  for (auto it = pending_.begin(); it != pending_.end();) {
+    if (it->second.from == &from) {
+      host().cancel_alarm(it->second.alarm);
+      it = pending_.erase(it);
+    } else {
+      ++it;
+    }
+  }
+}
+
+std::size_t MorseState::waiting(const MorseConnection& from) const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(pending_.begin(), pending_.end(),
+                    [&](const auto& entry) { return entry.second.from == &from; }));
+}
+
+// --- The rest
+
+void MorseState::set_verbose(const std::string& component, bool verbose) {
+  if (verbose) {
+    verbose_.insert(component);
+  } else {
+    verbose_.erase(component);
+  }
+}
+
+void MorseState::set_synchronised(bool synchronised) {
+  synchronised_ = synchronised;
+  host().set_step_credit(synchronised ? std::optional<std::uint64_t>(0) : std::nullopt);
+  hub_.pump();
+}
+
+}  // namespace playerlike::server

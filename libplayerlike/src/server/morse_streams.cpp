@@ -1,0 +1,323 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "server/morse_streams.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "protocol/codec.h"
+#include "server/morse_components.h"
+#include "server/morse_state.h"
+
+namespace playerlike::server {
+namespace {
+
+using nlohmann::json;
+
+/// How often robot_properties is written [simulated time].
+constexpr sim::SimTime kPropertiesPeriod_ns = sim::kNanosecondsPerSecond;
+
+std::string line_of(const json& object) {
+  return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
+}
+
+/// The token that a line {"playpen_token": "..."} presents.
+std::optional<std::string> token_in(std::string_view line) {
+  try {
+    const json object = protocol::decode_json_value(line);
+    return protocol::require_text(object, "playpen_token");
+  } catch (const protocol::ProtocolError&) {
+    return std::nullopt;
+  }
+}
+
+/// A connection to a stream's port, which may have to present a token in its first line.
+class StreamConnection : public Handler {
+ public:
+  StreamConnection(Peer& peer, Hub& hub)
+      : peer_(peer), hub_(hub), state_(hub.morse_state), rights_(hub.access().rights({})) {}
+
+  [[nodiscard]] std::string farewell(const protocol::ProtocolError&) override { return ""; }
+  [[nodiscard]] bool may_be_silent() const noexcept override {
+    return rights_.connect || rights_.watch;
+  }
+  [[nodiscard]] Peer& peer() noexcept { return peer_; }
+
+ protected:
+  /// Takes the first line if it is a token. @return whether it was.
+  bool take_token(std::string_view line) {
+    const bool first = std::exchange(first_line_, false);
+    if (!first) return false;
+    const auto token = token_in(line);
+    if (token) rights_ = hub_.access().rights({*token});
+    return token.has_value();
+  }
+  [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
+  [[nodiscard]] MorseState& state() noexcept { return *state_; }
+  /// Tells the log of it, the first time.
+  void complain(const std::string& component, const std::string& what) {
+    if (std::exchange(complained_, true)) return;
+    hub_.log(sim::LogLevel::kWarning,
+             peer_.name() + ": stream of " + component + ": " + what + " (told once)");
+  }
+
+ private:
+  Peer& peer_;
+  Hub& hub_;
+  std::shared_ptr<MorseState> state_;
+  Rights rights_;
+  bool first_line_ = true;
+  bool complained_ = false;
+};
+
+/// Collects readings as the lines that a stream carries.
+class LineSink final : public ReadingSink {
+ public:
+  explicit LineSink(sim::OdometryLevel level) : level_(level) {}
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading) override {
+    lines.push_back(std::make_shared<const std::string>(line_of(morse_record(reading, level_))));
+    last_sequence = reading.sequence;
+  }
+  std::vector<std::shared_ptr<const std::string>> lines;
+  std::uint64_t last_sequence = 0;
+
+ private:
+  sim::OdometryLevel level_;
+};
+
+}  // namespace
+
+/// What all readers of a sensor get. While there are any it is subscribed to the sensor, and an
+/// alarm tells it of readings; it takes no part in the lockstep.
+class MorseStreams::Source : public std::enable_shared_from_this<Source> {
+ public:
+  Source(MorseState& state, const MorseComponent& component)
+      : state_(state), component_(component) {}
+  ~Source() { stop(); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  void add(StreamConnection& reader) {
+    readers_.push_back(&reader);
+    if (readers_.size() == 1) start();
+  }
+  void remove(StreamConnection& reader) {
+    const auto removed = std::erase(readers_, &reader);
+    if (removed > 0 && readers_.empty()) stop();
+  }
+  [[nodiscard]] const MorseComponent& component() const noexcept { return component_; }
+
+ private:
+  void start() {
+    ++generation_;
+    if (component_.device) {
+      const DeviceId device = *component_.device;
+      client_ = state_.host().connect_events(kMorsePort, {});
+      client_->session().set_replace(std::nullopt, false);
+      client_->session().subscribe(device);
+      sequence_ = state_.with([&](sim::Simulation& simulation) {
+        level_ = odometry_level(simulation, device);
+        return sensor(simulation, device).reading().sequence;
+      });
+    }
+    set_alarm();
+  }
+
+  void stop() {
+    if (alarm_) state_.host().cancel_alarm(*alarm_);
+    alarm_.reset();
+    client_.reset();
+  }
+
+  void set_alarm() {
+    Alarm alarm;
+    if (component_.device) {
+      alarm.condition = [device = *component_.device,
+                         sequence = sequence_](const sim::Simulation& simulation) {
+        return sensor(simulation, device).reading().sequence > sequence;
+      };
+    } else {
+      alarm.until_ns = state_.host().time().sim_time_ns + kPropertiesPeriod_ns;
+    }
+    alarm.notify = [box = state_.postbox(), weak = weak_from_this(), number = generation_] {
+      box->post([weak, number] {
+        const auto source = weak.lock();
+        if (source && source->generation_ == number && !source->readers_.empty()) source->ring();
+      });
+    };
+    alarm_ = state_.host().set_alarm(std::move(alarm));
+  }
+
+  void ring() {
+    alarm_.reset();
+    if (component_.device) {
+      LineSink sink(level_);
+      if (client_->session().take(sink) > 0) sequence_ = sink.last_sequence;
+      for (const auto& line : sink.lines) write(line);
+    } else {
+      write(std::make_shared<const std::string>(properties()));
+    }
+    if (!state_.host().finished()) return set_alarm();
+    for (StreamConnection* reader : readers_) reader->peer().close("");
+  }
+
+  void write(const std::shared_ptr<const std::string>& line) {
+    // One that cannot keep up loses it.
+    for (StreamConnection* reader : readers_) {
+      static_cast<void>(reader->peer().send_record(line));
+    }
+  }
+
+  [[nodiscard]] std::string properties() {
+    const RobotInfo& robot = state_.host().robots()[static_cast<std::size_t>(component_.robot)];
+    return line_of(morse_properties_record(robot, state_.host().time().sim_time_ns));
+  }
+
+  static const sim::Sensor& sensor(const sim::Simulation& simulation, DeviceId device) {
+    return dynamic_cast<const sim::Sensor&>(simulation.device(device.robot, device.device));
+  }
+
+  MorseState& state_;
+  const MorseComponent& component_;
+  std::vector<StreamConnection*> readers_;
+  std::unique_ptr<EventClient> client_;
+  sim::OdometryLevel level_ = sim::OdometryLevel::kIntegrated;
+  std::uint64_t sequence_ = 0;  ///< of the newest reading that was written
+  std::optional<AlarmId> alarm_;
+  std::uint64_t generation_ = 0;  ///< counts starts, so that an alarm of before is known
+};
+
+/// Who reads a sensor's stream. What it writes is ignored, but for a token.
+class MorseStreams::Reader final : public StreamConnection {
+ public:
+  Reader(Peer& peer, Hub& hub, std::shared_ptr<Source> source)
+      : StreamConnection(peer, hub), source_(std::move(source)) {
+    listen_if_allowed();
+  }
+  ~Reader() override { source_->remove(*this); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  void on_message(std::string_view line) override {
+    if (take_token(line)) listen_if_allowed();
+  }
+
+ private:
+  void listen_if_allowed() {
+    if (listens_ || !(rights().connect || rights().watch)) return;
+    listens_ = true;
+    source_->add(*this);
+  }
+
+  std::shared_ptr<Source> source_;
+  bool listens_ = false;
+};
+
+/// Who tells an actuator what to do, line by line.
+class MorseStreams::Writer final : public StreamConnection {
+ public:
+  Writer(Peer& peer, Hub& hub, const MorseComponent& component)
+      : StreamConnection(peer, hub), component_(component) {}
+
+  void on_message(std::string_view line) override {
+    if (line.find_first_not_of(" \t\r") == std::string_view::npos || take_token(line)) return;
+    if (!rights().command.at(static_cast<std::size_t>(component_.robot))) {
+      return complain(component_.name,
+                      "access/denied: the first line must be {\"playpen_token\": \"...\"} with a "
+                      "token for this robot");
+    }
+    try {
+      const json object = protocol::decode_json_value(line);
+      const sim::Command command = state().with([&](const sim::Simulation& simulation) {
+        return morse_command(component_, object, simulation);
+      });
+      state().command(*component_.device, command);
+    } catch (const std::runtime_error& e) {
+      complain(component_.name, e.what());
+    }
+  }
+
+ private:
+  const MorseComponent& component_;
+};
+
+MorseStreams::MorseStreams(MorseState& state)
+    : state_(state), next_port_(state.hub().settings().stream_port) {}
+
+MorseStreams::~MorseStreams() = default;
+
+int MorseStreams::port(const MorseComponent& component) {
+  const auto known = streams_.find(component.name);
+  if (known != streams_.end()) return known->second.port;
+  Stream stream;
+  MakeHandler make;
+  // The components live as long as the state, which each connection holds.
+  if (component.stream == StreamDirection::kOut) {
+    stream.source = std::make_shared<Source>(state_, component);
+    make = [weak = std::weak_ptr(stream.source)](Peer& peer, Hub& hub) -> std::unique_ptr<Handler> {
+      return std::make_unique<Reader>(peer, hub, weak.lock());
+    };
+  } else {
+    make = [&component](Peer& peer, Hub& hub) -> std::unique_ptr<Handler> {
+      return std::make_unique<Writer>(peer, hub, component);
+    };
+  }
+  stream.port = state_.hub().listen(next_port_, std::move(make));
+  if (next_port_ != 0) next_port_ = stream.port + 1;
+  return streams_.emplace(component.name, std::move(stream)).first->second.port;
+}
+
+// --- The clock synchronisation
+
+namespace {
+
+/// Who lets the clock go on, a step for each message. There is one at a time, as in MORSE.
+class SyncConnection final : public Handler {
+ public:
+  SyncConnection(Peer& peer, Hub& hub) : peer_(peer), hub_(hub), state_(MorseState::of(hub)) {
+    if (state_->synchronised()) {
+      throw protocol::ProtocolError("server/sync-taken", "another client synchronises the clock");
+    }
+    allow(hub_.access().rights({}));
+  }
+  ~SyncConnection() override {
+    if (allowed_) state_->set_synchronised(false);
+  }
+  SyncConnection(const SyncConnection&) = delete;
+  SyncConnection& operator=(const SyncConnection&) = delete;
+
+  [[nodiscard]] bool takes_bytes() const noexcept override { return true; }
+
+  // What comes together counts as one message, as in MORSE, but for lines.
+  void on_message(std::string_view bytes) override {
+    if (!allowed_) {
+      const auto token = token_in(bytes);
+      if (token) allow(hub_.access().rights({*token}));
+      if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");
+      return;
+    }
+    const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
+    hub_.host().add_step_credit(static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(1, lines)));
+    hub_.pump();
+  }
+  [[nodiscard]] std::string farewell(const protocol::ProtocolError&) override { return ""; }
+
+ private:
+  void allow(const Rights& rights) {
+    allowed_ = rights.command_all() && !state_->synchronised();
+    if (allowed_) state_->set_synchronised(true);
+  }
+
+  Peer& peer_;
+  Hub& hub_;
+  std::shared_ptr<MorseState> state_;
+  bool allowed_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Handler> make_sync_handler(Peer& peer, Hub& hub) {
+  return std::make_unique<SyncConnection>(peer, hub);
+}
+
+}  // namespace playerlike::server

@@ -1,0 +1,43 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "server/peer.h"
+
+namespace playerlike::server {
+
+class MorseState;
+struct MorseComponent;
+
+/// The data streams of a server: one TCP port for each component that has one, opened when it is
+/// first asked for. Used by the server's thread only.
+class MorseStreams {
+ public:
+  explicit MorseStreams(MorseState& state);
+  ~MorseStreams();
+  MorseStreams(const MorseStreams&) = delete;
+  MorseStreams& operator=(const MorseStreams&) = delete;
+
+  /// The port of a component's stream.
+  /// @pre it has one.
+  /// @throws protocol::ProtocolError server/no-port.
+  int port(const MorseComponent& component);
+
+ private:
+  class Source;
+  class Reader;
+  class Writer;
+  struct Stream {
+    int port = 0;
+    std::shared_ptr<Source> source;  ///< of one that is read
+  };
+
+  MorseState& state_;
+  std::map<std::string, Stream> streams_;  ///< by the component's name
+  int next_port_;
+};
+
+}  // namespace playerlike::server

@@ -1,0 +1,119 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "playerlike/host/event_client.h"
+#include "server/native_state.h"
+#include "server/peer.h"
+
+namespace playerlike::server {
+
+/// Answers one connection in Playpen's own protocol (docs/protocol.md).
+///
+/// Requests are carried out as they come; a `read` that waits is answered when its wait is over,
+/// the others at once. A request that fails has done nothing. Used by the server's thread only.
+class NativeHandler final : public Handler {
+ public:
+  /// What `hello` has agreed upon.
+  struct Terms {
+    protocol::Encoding encoding = protocol::Encoding::kJson;
+    Rights rights;
+    bool session = true;  ///< false: only watches, and takes no part in the simulation
+    int port = kMorsePort;
+    std::string process;  ///< see Hub::thinker(); not empty
+    std::string key;      ///< names the session for its followers; not empty
+    bool follower = false;
+  };
+
+  /// @param hub  lives longer; has a native_state.
+  /// @throws SessionError as Host::connect_events().
+  NativeHandler(Peer& peer, Hub& hub, Terms terms);
+  ~NativeHandler() override;
+
+  void on_message(std::string_view message) override;
+  [[nodiscard]] std::string farewell(const protocol::ProtocolError& error) override;
+
+  /// Size and place of the canvas, of which the client is told herewith.
+  [[nodiscard]] nlohmann::json tell_canvas();
+
+ private:
+  using json = nlohmann::json;
+  using Outcome = EventClient::Outcome;
+  struct Request;
+  class ReadingList;
+
+  enum class Wait { kData, kPeek, kSleep, kJoin, kNone };
+  /// A `read` that is not answered yet.
+  struct Waiting {
+    json id;
+    Wait wait;
+    std::uint64_t timer = 0;  ///< 0: none
+  };
+
+  void carry_out(const json& message, const json& id, std::string& name);
+  void answer(const json& id, json answer);
+  void fail(const json& id, const std::string& name, std::string_view error, const char* message);
+
+  void read(const json& request, const json& id);
+  /// @return how the wait stands.
+  Outcome begin(Wait wait, const json& request);
+  void begin_to_wait(const json& request, const json& id, Wait wait);
+  /// Answers the `read` that waits if its wait is over.
+  void answer_waiting();
+  void on_peek_timeout();
+  json round(Wait wait, Outcome outcome);
+  json readings();
+
+  [[nodiscard]] Session& session() { return client_->session(); }
+  [[nodiscard]] ThinkerId thinker(const json& request);
+  /// @throws ProtocolError access/denied.
+  void require_command(DeviceId device) const;
+  void require_device(DeviceId device) const;
+
+  // One for each request of docs/protocol.md.
+  json subscribe(const json& request);
+  json unsubscribe(const json& request);
+  json replace(const json& request);
+  json command(const json& request);
+  json draw(const json& request);
+  json set_cells(const json& request);
+  json cell(const json& request);
+  json cells(const json& request);
+  json create_layer(const json& request);
+  json remove_layer(const json& request);
+  json set_layer_style(const json& request);
+  json layers(const json& request);
+  json canvas_image(const json& request);
+  json resize_canvas(const json& request);
+  json save_image(const json& request);
+  json view_mode(const json& request);
+  json set_view_mode(const json& request);
+  json world_map(const json& request);
+  json time(const json& request);
+  json prefer_real_time(const json& request);
+  json thread_ended(const json& request);
+  json watch(const json& request);
+  json bye(const json& request);
+
+  /// All of them. @return nullptr for an unknown name.
+  [[nodiscard]] static const Request* find_request(std::string_view name);
+
+  Peer& peer_;
+  Hub& hub_;
+  std::shared_ptr<NativeState> state_;
+  Terms terms_;
+  std::shared_ptr<NativeHandler*> self_;  ///< outlived by what was posted for this one
+  std::unique_ptr<EventClient> client_;   ///< none: only watches
+  std::optional<Waiting> waiting_;
+  bool ending_ = false;                  ///< has said bye
+  std::uint64_t canvas_generation_ = 0;  ///< of which the client knows
+};
+
+}  // namespace playerlike::server

@@ -1,0 +1,593 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "server/server_hub.h"
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <pthread.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/ip/v6_only.hpp>
+#include <asio/post.hpp>
+#include <asio/steady_timer.hpp>
+#include <atomic>
+#include <csignal>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <unordered_set>
+#include <utility>
+
+#include "server/connection.h"
+#include "sim/core/error.h"
+
+namespace playerlike::server {
+namespace {
+
+using asio::ip::tcp;
+using Clock = Connection::Clock;
+
+// How long lockstep time goes on before sockets get their turn.
+constexpr auto kSlice = std::chrono::milliseconds(2);
+constexpr auto kTick = std::chrono::milliseconds(100);
+// How long stop() waits for what is due to clients.
+constexpr auto kStopTime = std::chrono::milliseconds(700);
+// Before connections are accepted again after the system could not.
+constexpr auto kAcceptPause = std::chrono::milliseconds(200);
+// Between warnings of the same thing.
+constexpr auto kWarningPause = std::chrono::seconds(10);
+// Connections that are told that there are too many; further ones are just closed.
+constexpr std::size_t kRefused = 32;
+constexpr int kPortsTried = 1000;
+// What is remembered of clients' processes, and what one may call itself.
+constexpr std::size_t kProcesses = 4096;
+constexpr std::size_t kThreadsOfAProcess = 4096;
+constexpr std::size_t kProcessName = 128;
+
+// Half-open connections show after about a minute.
+constexpr int kKeepAliveIdle_s = 30;
+constexpr int kKeepAliveInterval_s = 10;
+constexpr int kKeepAliveProbes = 3;
+
+[[noreturn]] void throw_issue(std::string id, std::string place, std::string expected,
+                              std::string found, std::string hint) {
+  throw sim::ConfigError(sim::ConfigIssue{std::move(id), "", std::move(place), std::move(expected),
+                                          std::move(found), std::move(hint)});
+}
+
+std::string text_of(const tcp::endpoint& endpoint) {
+  asio::ip::address ip = endpoint.address();
+  if (ip.is_v6() && ip.to_v6().is_v4_mapped()) {
+    ip = asio::ip::make_address_v4(asio::ip::v4_mapped, ip.to_v6());
+  }
+  const std::string address = ip.to_string();
+  return (ip.is_v6() ? '[' + address + ']' : address) + ':' + std::to_string(endpoint.port());
+}
+
+/// The addresses of this machine that a name stands for.
+std::vector<asio::ip::address> addresses_of(asio::io_context& io, const std::string& name) {
+  constexpr const char* kExpected = "an IPv4 or IPv6 address of this machine, or a name of it";
+  asio::error_code error;
+  const asio::ip::address literal = asio::ip::make_address(name, error);
+  if (!error) return {literal};
+  tcp::resolver resolver(io);
+  const auto results = resolver.resolve(name, "", tcp::resolver::passive, error);
+  std::vector<asio::ip::address> addresses;
+  for (const auto& result : results) {
+    const asio::ip::address address = result.endpoint().address();
+    if (std::find(addresses.begin(), addresses.end(), address) == addresses.end()) {
+      addresses.push_back(address);
+    }
+  }
+  if (error || addresses.empty()) {
+    throw_issue("server/address", "bind", kExpected,
+                '"' + name + "\": " + (error ? error.message() : "no address"), "");
+  }
+  return addresses;
+}
+
+void require_token(const ServerSettings& settings,
+                   const std::vector<asio::ip::address>& addresses) {
+  if (settings.open || !settings.access.server_token.empty()) return;
+  for (const asio::ip::address& address : addresses) {
+    if (address.is_loopback()) continue;
+    throw_issue("server/token-needed", "bind",
+                "a token for clients, since other machines can reach this address",
+                '"' + settings.bind + "\" without one",
+                "name a token file that has a \"server\" token, or allow everybody with --open");
+  }
+}
+
+/// The addresses to listen on. @throws sim::ConfigError also if they need a token.
+std::vector<asio::ip::address> sound_addresses(asio::io_context& io,
+                                               const ServerSettings& settings) {
+  std::vector<asio::ip::address> addresses = addresses_of(io, settings.bind);
+  require_token(settings, addresses);
+  return addresses;
+}
+
+/// A port on all addresses of the server.
+struct Listener {
+  std::vector<tcp::acceptor> acceptors;
+  int port = 0;
+  bool services = false;  ///< the port that clients connect to first
+  MakeHandler make;
+};
+
+/// @param alone  whether this is the only address: then "::" serves IPv4 too; a name may stand for
+///               one of each.
+asio::error_code open_on(asio::io_context& io, const asio::ip::address& address, bool alone,
+                         Listener& listener) {
+  try {
+    const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(listener.port));
+    tcp::acceptor acceptor(io);
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(tcp::acceptor::reuse_address(true));
+    if (address.is_v6()) acceptor.set_option(asio::ip::v6_only(!alone));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+    acceptor.non_blocking(true);
+    listener.port = acceptor.local_endpoint().port();
+    listener.acceptors.push_back(std::move(acceptor));
+    return {};
+  } catch (const std::system_error& e) {
+    return e.code();
+  }
+}
+
+/// Opens a port on all addresses. @param port  0: any free one. @return what went wrong.
+asio::error_code open(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
+                      int port, Listener& listener) {
+  asio::error_code result;
+  // With any free port, one that is free on the first address may be taken on another.
+  for (int attempt = 0; attempt < (port == 0 ? 10 : 1); ++attempt) {
+    listener.acceptors.clear();
+    listener.port = port;
+    result.clear();
+    for (const asio::ip::address& address : addresses) {
+      const asio::error_code error = open_on(io, address, addresses.size() == 1, listener);
+      // A name may stand for an address of a protocol that this machine does not speak.
+      const bool no_such_address =
+          error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL;
+      if (error && !(no_such_address && addresses.size() > 1)) result = error;
+      if (result) break;
+    }
+    if (!result && listener.acceptors.empty()) {
+      result = asio::error_code(EADDRNOTAVAIL, asio::system_category());
+    }
+    if (result != asio::error::address_in_use) break;
+  }
+  return result;
+}
+
+/// @param place  the setting that names the port.
+void open_or_throw(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
+                   const ServerSettings& settings, int port, const char* place,
+                   Listener& listener) {
+  const asio::error_code error = open(io, addresses, port, listener);
+  if (!error) return;
+  const std::string where = settings.bind + ':' + std::to_string(port);
+  if (error == asio::error::address_in_use) {
+    throw_issue("server/port-taken", place, "a free TCP port", std::to_string(port) + ", taken",
+                "another playpen serve, MORSE or Player may hold it (ss -ltnp tells); port 0 "
+                "takes any free one");
+  }
+  if (error == asio::error::access_denied) {
+    throw_issue("server/port-not-allowed", place, "a TCP port that this user may open",
+                where + ": " + error.message(), "ports from 1024 on are open to all users");
+  }
+  throw_issue("server/address", "bind", "an address of this machine",
+              where + ": " + error.message(), "");
+}
+
+}  // namespace
+
+class ServerHub::Body final : public Hub, private ConnectionOwner {
+ public:
+  Body(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log, MakeHandler services)
+      : host_(std::move(host)),
+        settings_(std::move(settings)),
+        log_(std::move(log)),
+        access_(settings_.access, host_->robots()),
+        addresses_(sound_addresses(io_, settings_)) {
+    Listener services_port;
+    services_port.services = true;
+    services_port.make = std::move(services);
+    open_or_throw(io_, addresses_, settings_, settings_.port, "port", services_port);
+    port_ = add(std::move(services_port));
+    if (settings_.sync_port) {
+      Listener clock;
+      clock.make = make_sync_handler;
+      open_or_throw(io_, addresses_, settings_, *settings_.sync_port, "sync_port", clock);
+      sync_port_ = add(std::move(clock));
+    }
+    tick();
+    thread_ = std::thread([this] { serve(); });
+  }
+  ~Body() override { stop(); }
+
+  [[nodiscard]] int port() const noexcept { return port_; }
+  [[nodiscard]] int sync_port() const noexcept { return sync_port_; }
+  [[nodiscard]] std::size_t connections() const noexcept { return open_connections_; }
+  [[nodiscard]] bool done() const noexcept {
+    return quit_ || (open_connections_ == 0 && host_->finished());
+  }
+
+  void stop() noexcept {
+    if (!thread_.joinable()) return;
+    asio::post(io_, [this] { begin_stop(); });
+    thread_.join();
+  }
+
+  // Hub
+  [[nodiscard]] Host& host() noexcept override { return *host_; }
+  [[nodiscard]] const ServerSettings& settings() const noexcept override { return settings_; }
+  [[nodiscard]] const Access& access() const noexcept override { return access_; }
+  void log(sim::LogLevel level, const std::string& text) override {
+    if (log_) log_(level, text);
+  }
+  void post(std::function<void()> task) override;
+  std::uint64_t after(std::chrono::microseconds delay, std::function<void()> task) override;
+  void cancel(std::uint64_t timer) override { timers_.erase(timer); }
+  void pump() override;
+  int listen(int first, MakeHandler make) override;
+  void hand_over(Peer& peer, std::unique_ptr<Handler> handler) override {
+    static_cast<Connection&>(peer).hand_over(std::move(handler));
+  }
+  void quit() override { quit_ = true; }
+  [[nodiscard]] ThinkerId thinker(const std::string& process, std::uint64_t thread) override;
+
+ private:
+  // ConnectionOwner
+  [[nodiscard]] const ServerLimits& limits() const noexcept override { return settings_.limits; }
+  void handler_gone() override {
+    --open_connections_;
+    pump();
+  }
+  void ended(Connection& connection) override;
+
+  void serve();
+  int add(Listener listener);
+  void accept(Listener& listener, tcp::acceptor& acceptor);
+  void accept_later(Listener& listener, tcp::acceptor& acceptor, const asio::error_code& error);
+  void warn_of(Clock::time_point& last, const std::string& text);
+  void admit(Listener& listener, tcp::socket socket);
+  void tick();
+  void run_tasks();
+  void run_tasks_soon();
+  void run(const std::function<void()>& task);
+  void begin_stop();
+  void end_stop_when_closed();
+
+  asio::io_context io_{1};
+  std::shared_ptr<Host> host_;
+  ServerSettings settings_;
+  sim::LogHook log_;
+  Access access_;
+  std::vector<asio::ip::address> addresses_;
+  int port_ = 0;
+  int sync_port_ = 0;
+
+  std::vector<std::unique_ptr<Listener>> listeners_;
+  std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that close
+  std::size_t refused_ = 0;  ///< of those, that were never let in
+  std::atomic<std::size_t> open_connections_{0};
+  std::atomic<bool> quit_{false};
+  Clock::time_point accept_warned_{};
+  Clock::time_point full_warned_{};
+
+  asio::steady_timer ticker_{io_};
+  std::map<std::uint64_t, std::unique_ptr<asio::steady_timer>> timers_;
+  std::uint64_t next_timer_ = 1;
+
+  std::mutex task_mutex_;  ///< guards the next two
+  std::vector<std::function<void()>> tasks_;
+  bool run_posted_ = false;
+  bool pumping_ = false;
+  bool pump_again_ = false;
+  bool pump_posted_ = false;
+
+  /// What is known of a process that has clients here.
+  struct Process {
+    std::map<std::uint64_t, ThinkerId> threads;
+    std::uint64_t last_use = 0;
+  };
+  std::map<std::string, Process> processes_;
+  std::uint64_t process_uses_ = 0;
+
+  bool stopping_ = false;
+  Clock::time_point stop_deadline_{};
+  std::atomic<std::thread::id> own_thread_{};
+  std::thread thread_;
+};
+
+// --- Ports
+
+int ServerHub::Body::listen(int first, MakeHandler make) {
+  Listener listener;
+  listener.make = std::move(make);
+  asio::error_code error;
+  const int last = std::min(first == 0 ? 0 : first + kPortsTried, 65535);
+  for (int port = first; port <= last; ++port) {
+    error = open(io_, addresses_, port, listener);
+    if (!error) return add(std::move(listener));
+    if (error != asio::error::address_in_use) break;
+  }
+  throw protocol::ProtocolError(
+      "server/no-port",
+      "no port can be opened from " + std::to_string(first) + " on: " + error.message());
+}
+
+int ServerHub::Body::add(Listener listener) {
+  listeners_.push_back(std::make_unique<Listener>(std::move(listener)));
+  Listener& added = *listeners_.back();
+  for (tcp::acceptor& acceptor : added.acceptors) accept(added, acceptor);
+  return added.port;
+}
+
+// --- Connections
+
+void ServerHub::Body::accept(Listener& listener, tcp::acceptor& acceptor) {
+  acceptor.async_accept(
+      [this, &listener, &acceptor](const asio::error_code& error, tcp::socket socket) {
+        if (stopping_ || error == asio::error::operation_aborted) return;
+        if (!error) admit(listener, std::move(socket));
+        // Those that were given up before their turn came are nobody's fault.
+        if (!error || error == asio::error::connection_aborted) return accept(listener, acceptor);
+        accept_later(listener, acceptor, error);
+      });
+}
+
+// The system has no room, maybe no more descriptors. What knocks waits in the system's queue;
+// trying again at once would only keep the processor busy.
+void ServerHub::Body::accept_later(Listener& listener, tcp::acceptor& acceptor,
+                                   const asio::error_code& error) {
+  warn_of(accept_warned_, "no connection can be accepted for now: " + error.message());
+  after(kAcceptPause, [this, &listener, &acceptor] { accept(listener, acceptor); });
+}
+
+// Not more often than every few seconds.
+void ServerHub::Body::warn_of(Clock::time_point& last, const std::string& text) {
+  const Clock::time_point now = Clock::now();
+  if (last != Clock::time_point{} && now - last < kWarningPause) return;
+  last = now;
+  log(sim::LogLevel::kWarning, text);
+}
+
+void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
+  asio::error_code error;
+  const tcp::endpoint remote = socket.remote_endpoint(error);
+  if (error) return;  // gone already
+  socket.non_blocking(true, error);
+  socket.set_option(tcp::no_delay(true), error);
+  socket.set_option(asio::socket_base::keep_alive(true), error);
+  for (const auto& [option, value] :
+       {std::pair(TCP_KEEPIDLE, kKeepAliveIdle_s), std::pair(TCP_KEEPINTVL, kKeepAliveInterval_s),
+        std::pair(TCP_KEEPCNT, kKeepAliveProbes)}) {
+    setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value);
+  }
+  const bool full = connections_.size() - refused_ >= limits().connections;
+  if (full) warn_of(full_warned_, "all connections are in use, further ones are refused");
+  if (full && (refused_ >= kRefused || !listener.services)) {
+    return;
+  }
+  const auto connection = std::make_shared<Connection>(std::move(socket), text_of(remote),
+                                                       static_cast<ConnectionOwner&>(*this));
+  connections_.insert(connection);
+  if (full) {
+    ++refused_;
+    connection->refuse("- FAILED \"server/full: this server has all the " +
+                       std::to_string(limits().connections) + " connections that it takes\"\n");
+    return;
+  }
+  log(sim::LogLevel::kDebug, connection->name() + ": connected");
+  ++open_connections_;
+  try {
+    connection->start(listener.make(*connection, *this));
+  } catch (const std::exception& e) {
+    --open_connections_;
+    connection->end(e.what());
+  }
+}
+
+void ServerHub::Body::ended(Connection& connection) {
+  if (connection.refused()) --refused_;
+  log(connection.refused() ? sim::LogLevel::kDebug : sim::LogLevel::kInfo, connection.summary());
+  connections_.erase(connection.shared_from_this());
+  if (stopping_) end_stop_when_closed();
+}
+
+void ServerHub::Body::tick() {
+  ticker_.expires_after(kTick);
+  ticker_.async_wait([this](const asio::error_code& error) {
+    if (error) return;
+    const Clock::time_point now = Clock::now();
+    // A copy: what ends is taken out.
+    const std::vector<std::shared_ptr<Connection>> all(connections_.begin(), connections_.end());
+    for (const auto& connection : all) connection->look_after(now);
+    if (stopping_ && now >= stop_deadline_) {
+      for (const auto& connection : all) connection->end("the server ended");
+    }
+    host_->check_silence();
+    pump();
+    tick();
+  });
+}
+
+// --- The thread
+
+void ServerHub::Body::serve() {
+  // Signals are for the program's own threads.
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  own_thread_ = std::this_thread::get_id();
+  for (;;) {
+    try {
+      io_.run();
+      break;
+    } catch (const std::exception& e) {
+      log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
+    }
+  }
+  // All handlers are gone. Alarms of what they shared must not reach a hub that goes.
+  morse_state.reset();
+  native_state.reset();
+}
+
+void ServerHub::Body::post(std::function<void()> task) {
+  // While it pumps, this thread does what was posted afterwards, without another turn.
+  const bool done_soon = own_thread_.load() == std::this_thread::get_id() && pumping_;
+  {
+    const std::lock_guard lock(task_mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  if (!done_soon) run_tasks_soon();
+}
+
+void ServerHub::Body::run_tasks_soon() {
+  {
+    const std::lock_guard lock(task_mutex_);
+    if (run_posted_ || tasks_.empty()) return;
+    run_posted_ = true;
+  }
+  asio::post(io_, [this] {
+    {
+      const std::lock_guard lock(task_mutex_);
+      run_posted_ = false;
+    }
+    run_tasks();
+  });
+}
+
+// Of what is posted meanwhile, the rest waits for another turn.
+void ServerHub::Body::run_tasks() {
+  std::vector<std::function<void()>> tasks;
+  {
+    const std::lock_guard lock(task_mutex_);
+    tasks.swap(tasks_);
+  }
+  for (const auto& task : tasks) run(task);
+}
+
+void ServerHub::Body::run(const std::function<void()>& task) {
+  try {
+    task();
+  } catch (const std::exception& e) {
+    log(sim::LogLevel::kError, std::string("the server: ") + e.what());
+  }
+}
+
+void ServerHub::Body::pump() {
+  if (pumping_) {
+    pump_again_ = true;
+    return;
+  }
+  if (pump_posted_) return;
+  pumping_ = true;
+  const Clock::time_point end = Clock::now() + kSlice;
+  bool more = false;
+  do {
+    pump_again_ = false;
+    run([&] { more = host_->advance(kSlice); });
+    run_tasks();
+  } while (pump_again_ && Clock::now() < end);
+  pumping_ = false;
+  run_tasks_soon();
+  if (more || pump_again_) {
+    pump_posted_ = true;
+    asio::post(io_, [this] {
+      pump_posted_ = false;
+      pump();
+    });
+  }
+}
+
+std::uint64_t ServerHub::Body::after(std::chrono::microseconds delay, std::function<void()> task) {
+  const std::uint64_t id = next_timer_++;
+  auto& timer = timers_[id];
+  timer = std::make_unique<asio::steady_timer>(io_, delay);
+  timer->async_wait([this, id, task = std::move(task)](const asio::error_code& error) {
+    if (error || timers_.erase(id) == 0) return;
+    run(task);
+  });
+  return id;
+}
+
+ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thread) {
+  if (process.size() > kProcessName) {
+    throw protocol::ProtocolError(
+        "protocol/bad-value",
+        "the name of a process has at most " + std::to_string(kProcessName) + " bytes");
+  }
+  // Nobody tells that a process has ended, so the one that was heard of least lately makes room.
+  if (processes_.size() >= kProcesses && !processes_.contains(process)) {
+    processes_.erase(std::min_element(
+        processes_.begin(), processes_.end(),
+        [](const auto& a, const auto& b) { return a.second.last_use < b.second.last_use; }));
+  }
+  Process& known = processes_[process];
+  known.last_use = ++process_uses_;
+  if (known.threads.size() >= kThreadsOfAProcess && !known.threads.contains(thread)) {
+    known.threads.clear();
+  }
+  ThinkerId& id = known.threads[thread];
+  if (id == 0) id = new_thinker();
+  return id;
+}
+
+// --- The end
+
+void ServerHub::Body::begin_stop() {
+  if (stopping_) return;
+  stopping_ = true;
+  stop_deadline_ = Clock::now() + kStopTime;
+  asio::error_code ignored;
+  for (const auto& listener : listeners_) {
+    for (tcp::acceptor& acceptor : listener->acceptors) acceptor.close(ignored);
+  }
+  const std::vector<std::shared_ptr<Connection>> all(connections_.begin(), connections_.end());
+  for (const auto& connection : all) {
+    connection->fail(protocol::ProtocolError("server/closing", "the server ends"));
+    connection->hurry(stop_deadline_);
+  }
+  end_stop_when_closed();
+}
+
+void ServerHub::Body::end_stop_when_closed() {
+  if (connections_.empty()) io_.stop();
+}
+
+// --- The hub
+
+ServerHub::ServerHub(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log,
+                     MakeHandler services)
+    : body_(std::make_unique<Body>(std::move(host), std::move(settings), std::move(log),
+                                   std::move(services))) {}
+ServerHub::~ServerHub() = default;
+
+void ServerHub::check(const ServerSettings& settings, const std::vector<std::string>& robots) {
+  std::vector<RobotInfo> infos(robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) infos[i].name = robots[i];
+  const Access access(settings.access, infos);
+  asio::io_context io;
+  const std::vector<asio::ip::address> addresses = sound_addresses(io, settings);
+  Listener services;
+  Listener clock;
+  open_or_throw(io, addresses, settings, settings.port, "port", services);
+  if (settings.sync_port) {
+    open_or_throw(io, addresses, settings, *settings.sync_port, "sync_port", clock);
+  }
+}
+
+int ServerHub::port() const noexcept { return body_->port(); }
+int ServerHub::sync_port() const noexcept { return body_->sync_port(); }
+std::size_t ServerHub::connections() const noexcept { return body_->connections(); }
+bool ServerHub::done() const noexcept { return body_->done(); }
+void ServerHub::stop() noexcept { body_->stop(); }
+
+}  // namespace playerlike::server

@@ -1,0 +1,41 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/peer.h"
+
+namespace playerlike::server {
+
+/// The body of a server: ports, connections, timers, and the one thread that serves them. What is
+/// said on a connection is left to handlers.
+class ServerHub {
+ public:
+  /// Listens and starts the thread. @param services  makes the handlers of the services' port.
+  /// @throws sim::ConfigError as Server.
+  ServerHub(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log,
+            MakeHandler services);
+  /// As stop().
+  ~ServerHub();
+  ServerHub(const ServerHub&) = delete;
+  ServerHub& operator=(const ServerHub&) = delete;
+
+  /// @name As of Server
+  /// @{
+  static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
+  [[nodiscard]] int port() const noexcept;
+  [[nodiscard]] int sync_port() const noexcept;
+  [[nodiscard]] std::size_t connections() const noexcept;
+  [[nodiscard]] bool done() const noexcept;
+  void stop() noexcept;
+  /// @}
+
+ private:
+  class Body;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace playerlike::server

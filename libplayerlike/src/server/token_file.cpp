@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "playerlike/server/server_settings.h"
+#include "sim/io/settings_file.h"
+
+namespace playerlike {
+namespace {
+
+constexpr const char* kTokenExpected = "8 to 256 English letters, digits or signs, without blanks";
+
+/// The token of a key, "" if there is none or it is not sound.
+std::string read_token(sim::io::Reader& object, const std::string& key) {
+  const auto child = object.child(key);
+  if (!child) return "";
+  if (!child->is_string()) {
+    object.issue("access/token", kTokenExpected, "no text", "", key);
+    return "";
+  }
+  std::string token = child->scalar_text().value_or("");
+  // What is wrong is told without showing the token: messages end up in logs.
+  const bool printable =
+      std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c <= '~'; });
+  if (token.size() >= kMinToken && token.size() <= kMaxToken && printable) return token;
+  object.issue("access/token", kTokenExpected,
+               printable ? std::to_string(token.size()) + " characters" : "other characters", "",
+               key);
+  return "";
+}
+
+void warn_if_shared(const std::string& file, const sim::LogHook& log) {
+  struct stat info {};
+  if (!log || stat(file.c_str(), &info) != 0 || (info.st_mode & S_IROTH) == 0) return;
+  log(sim::LogLevel::kWarning, "every user of this machine may read the tokens in " + file +
+                                   "; chmod 600 makes it yours alone");
+}
+
+}  // namespace
+
+AccessSettings read_token_file(const std::string& file, const sim::LogHook& log) {
+  AccessSettings settings;
+  settings.file = file;
+  sim::io::read_settings(file, "token", [&settings](sim::io::Reader& root) {
+    if (!root.expect_object()) return;
+    settings.server_token = read_token(root, "server");
+    if (auto robots = root.object("robots")) {
+      for (const std::string& name : robots->keys()) {
+        settings.robot_tokens[name] = read_token(*robots, name);
+      }
+      robots->finish();
+    }
+    settings.open_watching = root.boolean("open_watching", false);
+    root.finish();
+  });
+  warn_if_shared(file, log);
+  return settings;
+}
+
+}  // namespace playerlike

@@ -1,0 +1,235 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "session/socket_line.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "protocol/codec.h"
+
+namespace playerlike {
+namespace {
+
+using nlohmann::json;
+using protocol::Encoding;
+using std::chrono::milliseconds;
+
+// Drawings in a paced simulation wait no longer than this for being sent, twice over.
+constexpr milliseconds kFlushPeriod(20);
+// A server that does not say good-bye in return is left without.
+constexpr milliseconds kGoodBye(1000);
+// What a message is besides its drawings, and the most that one takes [bytes].
+constexpr std::size_t kMessageOverhead = 256;
+constexpr std::size_t drawing_bytes(Encoding encoding) {
+  return encoding == Encoding::kCbor ? 28 : 96;
+}
+
+}  // namespace
+
+// --- RemoteSimulation
+
+std::shared_ptr<RemoteSimulation> RemoteSimulation::of(const std::string& name) {
+  // Never destroyed: clients at namespace scope may outlive any static object.
+  struct Known {
+    std::mutex mutex;
+    std::map<std::string, std::weak_ptr<RemoteSimulation>> simulations;
+  };
+  static auto* known = new Known;
+  const std::lock_guard lock(known->mutex);
+  std::erase_if(known->simulations, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<RemoteSimulation>& entry = known->simulations[name];
+  std::shared_ptr<RemoteSimulation> simulation = entry.lock();
+  if (!simulation) entry = simulation = std::make_shared<RemoteSimulation>();
+  return simulation;
+}
+
+void RemoteSimulation::add(const std::shared_ptr<SocketLine>& line) {
+  const std::lock_guard lock(mutex_);
+  lines_.push_back(line);
+}
+
+void RemoteSimulation::remove(const SocketLine& line) noexcept {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(lines_, [&](const auto& weak) {
+    const std::shared_ptr<SocketLine> known = weak.lock();
+    return !known || known.get() == &line;
+  });
+}
+
+std::vector<std::shared_ptr<SocketLine>> RemoteSimulation::others(const SocketLine& line) const {
+  std::vector<std::shared_ptr<SocketLine>> others;
+  const std::lock_guard lock(mutex_);
+  if (lines_.size() < 2) return others;
+  for (const auto& weak : lines_) {
+    std::shared_ptr<SocketLine> other = weak.lock();
+    if (other && other.get() != &line) others.push_back(std::move(other));
+  }
+  return others;
+}
+
+// --- SocketLine
+
+SocketLine::SocketLine(std::shared_ptr<Connection> connection, const std::string& simulation)
+    : connection_(std::move(connection)), simulation_(RemoteSimulation::of(simulation)) {}
+
+SocketLine::~SocketLine() { close(); }
+
+std::shared_ptr<Connection> SocketLine::connection() const {
+  const std::lock_guard lock(connection_mutex_);
+  return connection_;
+}
+
+std::shared_ptr<RemoteSimulation> SocketLine::simulation() const {
+  const std::lock_guard lock(connection_mutex_);
+  return simulation_;
+}
+
+void SocketLine::replace(std::shared_ptr<Connection> connection, const std::string& simulation) {
+  const std::shared_ptr<RemoteSimulation> now = RemoteSimulation::of(simulation);
+  const std::shared_ptr<RemoteSimulation> before = this->simulation();
+  if (before != now) {
+    before->remove(*this);
+    now->add(shared_from_this());
+  }
+  const std::lock_guard lock(connection_mutex_);
+  connection_ = std::move(connection);
+  simulation_ = now;
+  joined_ = false;
+}
+
+std::string SocketLine::take_drawings(Encoding encoding, std::size_t limit) {
+  std::string bytes;
+  const std::size_t room = limit > kMessageOverhead ? limit - kMessageOverhead : 0;
+  const std::size_t most = std::max<std::size_t>(room / drawing_bytes(encoding), 1);
+  drawings_.drain([&](std::span<const sim::DrawOperation> drawings) {
+    while (!drawings.empty()) {
+      const auto part = drawings.first(std::min(drawings.size(), most));
+      drawings = drawings.subspan(part.size());
+      bytes += protocol::encode(
+          json{{"do", "draw"}, {"drawings", protocol::encode_drawings(part, encoding)}}, encoding);
+      said_.fetch_add(1);
+    }
+  });
+  return bytes;
+}
+
+void SocketLine::flush() {
+  const Lock lock(say_mutex_);
+  if (!has_room_) {
+    drawings_.reserve();
+    has_room_ = true;
+    start_flusher();
+  }
+  const std::shared_ptr<Connection> connection = this->connection();
+  const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
+  if (!bytes.empty()) connection->tell(bytes);
+}
+
+json SocketLine::ask(json request, Connection::Patience patience, bool waits) {
+  const std::shared_ptr<Connection> connection = this->connection();
+  std::uint64_t id = 0;
+  std::uint64_t said = 0;
+  {
+    const Lock lock(say_mutex_);
+    std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
+    id = connection->ask(std::move(request), std::move(drawings));
+    said = said_;
+    // Time stands still until the server has read that this client waits.
+    if (waits && joined_) settled_ = said;
+  }
+  json answer = connection->answer(id, patience);
+  settled_ = said;
+  if (waits) joined_ = true;
+  return answer;
+}
+
+json SocketLine::ask(json request, Connection::Patience patience) {
+  return ask(std::move(request), patience, false);
+}
+
+json SocketLine::wait(json request) {
+  if (!paced_) settle_others();
+  return ask(std::move(request), Connection::Patience::kLiving, true);
+}
+
+void SocketLine::tell(const json& message) {
+  const Lock lock(say_mutex_);
+  const std::shared_ptr<Connection> connection = this->connection();
+  said_.fetch_add(1);
+  connection->tell(take_drawings(connection->encoding(), connection->message_limit()) +
+                   protocol::encode(message, connection->encoding()));
+}
+
+void SocketLine::settle() noexcept {
+  if (said_ == settled_ && drawings_.empty()) return;
+  try {
+    ask(json{{"do", "time"}}, Connection::Patience::kTimeout, false);
+  } catch (const std::exception&) {
+    // Its own session will meet the trouble.
+  }
+}
+
+void SocketLine::settle_others() noexcept {
+  for (const auto& other : simulation()->others(*this)) other->settle();
+}
+
+void SocketLine::set_paced(bool paced) {
+  paced_ = paced;
+  const Lock lock(say_mutex_);
+  start_flusher();
+}
+
+// With `say_mutex_` held.
+void SocketLine::start_flusher() {
+  if (!paced_ || !has_room_) return;
+  const Lock lock(flusher_mutex_);
+  if (closing_ || flusher_.joinable()) return;
+  flusher_ = std::thread([this] { flush_now_and_then(); });
+}
+
+void SocketLine::flush_now_and_then() {
+  Lock lock(flusher_mutex_);
+  while (!closing_) {
+    flusher_changed_.wait_for(lock, kFlushPeriod);
+    if (closing_ || drawings_.empty()) continue;
+    lock.unlock();
+    try {
+      flush();
+    } catch (const std::exception&) {
+      // The program's next call will meet the trouble.
+    }
+    lock.lock();
+  }
+}
+
+void SocketLine::close() noexcept {
+  {
+    const Lock lock(flusher_mutex_);
+    if (closing_) return;
+    closing_ = true;
+    flusher_changed_.notify_all();
+  }
+  if (flusher_.joinable()) flusher_.join();
+  const std::shared_ptr<Connection> connection = this->connection();
+  try {
+    if (!connection->lost()) {
+      std::uint64_t id = 0;
+      {
+        const Lock lock(say_mutex_);
+        std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
+        id = connection->ask(json{{"do", "bye"}}, std::move(drawings));
+      }
+      static_cast<void>(connection->answer(id, Connection::Patience::kTimeout, kGoodBye));
+    }
+  } catch (const std::exception&) {
+    // It is gone already.
+  }
+  {
+    const Lock lock(say_mutex_);
+    drawings_.close();
+  }
+  connection->shut("the connection is closed");
+  simulation()->remove(*this);
+}
+
+}  // namespace playerlike

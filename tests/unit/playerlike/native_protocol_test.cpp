@@ -1,0 +1,1026 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Playpen's own protocol, request by request, without sockets: what a client says and is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "protocol/codec.h"
+#include "server/native_handler.h"
+#include "temporary_folder.h"
+
+namespace playerlike::server {
+namespace {
+
+namespace fs = std::filesystem;
+using protocol::Encoding;
+using protocol::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr std::int64_t kSecond_ns = sim::kNanosecondsPerSecond;
+
+sim::WorldDescription two_robots(const std::string& simulation = R"("time": "lockstep")") {
+  return sim::load_world_text(R"({"name": "two", "arena": {"size": [2, 1]}, "simulation": {)" +
+                              simulation + R"(},
+          "canvas": {"size": [100, 50], "cell_size": 0.02},
+          "robots": [{"name": "r1", "pose": {"x": 0.3, "y": 0.3}},
+                     {"name": "r2", "pose": {"x": 0.3, "y": 0.7}}]})");
+}
+
+/// A connection that keeps what it is sent.
+class FakePeer final : public Peer {
+ public:
+  void send(std::string bytes) override { splitter_.add(bytes); }
+  bool send_record(std::shared_ptr<const std::string> bytes) override {
+    if (full) return false;
+    splitter_.add(*bytes);
+    records.push_back(std::move(bytes));
+    return true;
+  }
+  void close(std::string farewell) override {
+    splitter_.add(farewell);
+    closed = true;
+  }
+  void set_in_flight(std::size_t requests) override { in_flight = requests; }
+  void set_encoding(Encoding encoding) override { splitter_.set_encoding(encoding); }
+  [[nodiscard]] const std::string& name() const noexcept override { return name_; }
+  void describe(const std::string& text) override { description = text; }
+
+  /// The next message that it was sent.
+  std::optional<std::string> next() {
+    const auto message = splitter_.next();
+    return message ? std::optional<std::string>(*message) : std::nullopt;
+  }
+
+  bool full = false;  ///< records are lost
+  bool closed = false;
+  std::size_t in_flight = 0;
+  std::string description;
+  std::vector<std::shared_ptr<const std::string>> records;
+
+ private:
+  protocol::MessageSplitter splitter_{Encoding::kJson, std::size_t{1} << 30U};
+  std::string name_ = "fake:1";
+};
+
+/// A server without sockets and without a thread: posted tasks wait for run(), timers for fire().
+class FakeHub final : public Hub {
+ public:
+  explicit FakeHub(std::shared_ptr<Host> host, AccessSettings access = {})
+      : host_(std::move(host)), access_(access, host_->robots()) {}
+
+  Host& host() noexcept override { return *host_; }
+  const ServerSettings& settings() const noexcept override { return settings_; }
+  const Access& access() const noexcept override { return access_; }
+  void log(sim::LogLevel /*level*/, const std::string& text) override { ADD_FAILURE() << text; }
+  void post(std::function<void()> task) override {
+    const std::lock_guard lock(mutex_);
+    tasks_.push_back(std::move(task));
+  }
+  std::uint64_t after(std::chrono::microseconds /*delay*/, std::function<void()> task) override {
+    timers[++last_timer_] = std::move(task);
+    return last_timer_;
+  }
+  void cancel(std::uint64_t timer) override { timers.erase(timer); }
+  void pump() override {
+    while (host_->advance(std::chrono::milliseconds(100))) {
+    }
+    run();
+  }
+  int listen(int /*first*/, MakeHandler /*make*/) override { return 0; }
+  void hand_over(Peer& peer, std::unique_ptr<Handler> handler) override {
+    handlers[&peer] = std::move(handler);
+  }
+  void quit() override {}
+  ThinkerId thinker(const std::string& process, std::uint64_t thread) override {
+    ThinkerId& id = thinkers_[{process, thread}];
+    if (id == 0) id = new_thinker();
+    return id;
+  }
+
+  void run() {
+    std::deque<std::function<void()>> tasks;
+    {
+      const std::lock_guard lock(mutex_);
+      tasks.swap(tasks_);
+    }
+    for (const auto& task : tasks) task();
+  }
+  void fire() {
+    const auto all = std::exchange(timers, {});
+    for (const auto& timer : all) timer.second();
+  }
+
+  std::map<Peer*, std::unique_ptr<Handler>> handlers;
+  std::map<std::uint64_t, std::function<void()>> timers;
+
+ private:
+  std::shared_ptr<Host> host_;
+  ServerSettings settings_;
+  Access access_;
+  std::mutex mutex_;
+  std::deque<std::function<void()>> tasks_;
+  std::uint64_t last_timer_ = 0;
+  std::map<std::pair<std::string, std::uint64_t>, ThinkerId> thinkers_;
+};
+
+/// What a client program sees.
+class Client {
+ public:
+  explicit Client(FakeHub& hub) : hub_(hub) {}
+  Client(FakeHub& hub, Encoding encoding, json hello = json::object()) : hub_(hub) {
+    hello["version"] = 1;
+    hello["encoding"] = protocol::to_string(encoding);
+    say_hello(hello);
+    EXPECT_TRUE(answered_well) << welcome;
+  }
+  ~Client() { leave(); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  /// @return what hello was answered.
+  json say_hello(const json& argument) {
+    server::say_hello(peer, hub_, "7", argument);
+    const std::string line = peer.next().value_or("");
+    const std::string good = "7 SUCCESS ";
+    const std::string bad = "7 FAILED ";
+    answered_well = line.starts_with(good);
+    EXPECT_TRUE(answered_well || line.starts_with(bad)) << line;
+    welcome = json::parse(line.substr(answered_well ? good.size() : bad.size()));
+    if (answered_well) {
+      encoding = *protocol::parse_encoding(welcome["encoding"].get<std::string>());
+    }
+    return welcome;
+  }
+  void leave() {
+    hub_.handlers.erase(&peer);
+    hub_.pump();
+  }
+  void say(const json& message) {
+    std::string bytes = protocol::encode(message, encoding);
+    if (encoding == Encoding::kJson) bytes.pop_back();
+    say_bytes(encoding == Encoding::kCbor ? bytes.substr(4) : bytes);
+  }
+  void say_bytes(const std::string& bytes) { hub_.handlers.at(&peer)->on_message(bytes); }
+  /// The next message from the server; null if there is none.
+  json hear() {
+    const auto message = peer.next();
+    return message ? protocol::decode(*message, encoding) : json();
+  }
+  /// Asks, and gives the answer, which must come at once.
+  json ask(const std::string& name, json request = json::object()) {
+    request["do"] = name;
+    request["id"] = ++last_id_;
+    say(request);
+    json answer = hear();
+    EXPECT_EQ(answer.value("id", 0), last_id_) << name << ": " << answer;
+    return answer;
+  }
+  /// The error that a request is answered; "" if none.
+  std::string error(const std::string& name, json request = json::object()) {
+    return ask(name, std::move(request)).value("error", "");
+  }
+  json read(const std::string& wait, json request = json::object()) {
+    request["wait"] = wait;
+    return ask("read", std::move(request));
+  }
+  /// Pair of indices of a device.
+  json device(const std::string& robot, const std::string& type) const {
+    for (const json& r : welcome["robots"]) {
+      if (r["name"] != robot) continue;
+      for (const json& d : r["devices"]) {
+        if (d["type"] == type) return d["device"];
+      }
+    }
+    ADD_FAILURE() << "no " << type << " of " << robot;
+    return {};
+  }
+  json drawing(int column, int row, sim::Colour colour, int layer = 0) const {
+    sim::DrawOperation operation;
+    operation.layer = layer;
+    operation.x0 = column;
+    operation.y0 = row;
+    operation.value = sim::CellValue::of(colour);
+    return protocol::encode_drawings({&operation, 1}, encoding);
+  }
+  sim::Colour colour_at(int column, int row, int layer = 0) {
+    const json answer = ask("cell", {{"layer", layer}, {"column", column}, {"row", row}});
+    return protocol::decode_cells(answer["cell"], encoding).at(0).colour();
+  }
+  std::vector<std::uint8_t> bytes(const json& object, const char* key) const {
+    return protocol::require_bytes(object, key, encoding);
+  }
+
+  FakePeer peer;
+  Encoding encoding = Encoding::kJson;
+  json welcome;
+  bool answered_well = false;
+
+ private:
+  FakeHub& hub_;
+  int last_id_ = 0;
+};
+
+constexpr sim::Colour kRed{255, 0, 0, 255};
+constexpr sim::Colour kBlue{0, 0, 255, 255};
+
+json twist(double v, double omega = 0.0) { return {{"kind", "twist"}, {"v", v}, {"omega", omega}}; }
+
+/// Both encodings: what is said is the same.
+class NativeProtocol : public testing::TestWithParam<Encoding> {
+ protected:
+  explicit NativeProtocol(const std::string& simulation = R"("time": "lockstep")")
+      : host(Host::create(two_robots(simulation))), hub(host) {}
+  void SetUp() override { client.emplace(hub, GetParam()); }
+  void TearDown() override {
+    client.reset();
+    EXPECT_THAT(hub.handlers, IsEmpty());
+  }
+
+  std::shared_ptr<Host> host;
+  FakeHub hub;
+  std::optional<Client> client;
+};
+INSTANTIATE_TEST_SUITE_P(Encodings, NativeProtocol,
+                         testing::Values(Encoding::kJson, Encoding::kCbor), [](const auto& info) {
+                           return std::string(protocol::to_string(info.param));
+                         });
+
+// --- hello
+
+TEST(NativeHello, AnswersWhatAClientNeeds) {
+  FakeHub hub(Host::create(two_robots()));
+  Client client(hub);
+  const json answer =
+      client.say_hello({{"version", 1}, {"port", 6666}, {"name", "walker"}, {"tokens", {"x"}}});
+  ASSERT_TRUE(client.answered_well) << answer;
+  EXPECT_EQ(answer["version"], 1);
+  EXPECT_EQ(answer["encoding"], "json");
+  EXPECT_EQ(answer["port"], 6666);
+  EXPECT_EQ(answer["session"], 1);
+  EXPECT_EQ(answer["server"]["name"], "playpen");
+  EXPECT_THAT(answer["robots"], SizeIs(2));
+  EXPECT_EQ(answer["canvas"]["width"], 100);
+  EXPECT_EQ(answer["time"]["t"], 0);
+  EXPECT_EQ(answer["limits"]["message_bytes"], 1 << 20);
+  EXPECT_EQ(answer["limits"]["requests_in_flight"], 256);
+  EXPECT_THAT(client.peer.description, HasSubstr("\"walker\""));
+
+  const Client other(hub, Encoding::kCbor);
+  EXPECT_EQ(other.welcome["session"], 2);
+  EXPECT_EQ(other.welcome["port"], 4000);
+  EXPECT_EQ(other.welcome["simulation"], answer["simulation"]);
+  EXPECT_NE(other.welcome["key"], answer["key"]);
+  EXPECT_THAT(other.welcome["key"].get<std::string>(), SizeIs(32));
+}
+
+TEST(NativeHello, RefusesWhatItDoesNotUnderstandAndStaysInMorsesForm) {
+  FakeHub hub(Host::create(two_robots()));
+  const std::vector<std::pair<json, std::string>> bad = {
+      {json::object(), "protocol/bad-value"},
+      {json::array(), "protocol/bad-value"},
+      {{{"version", 2}}, "protocol/version"},
+      {{{"version", "1"}}, "protocol/bad-value"},
+      {{{"version", 1}, {"encoding", "xml"}}, "protocol/bad-value"},
+      {{{"version", 1}, {"port", 6667}}, "session/no-such-device"},
+      {{{"version", 1}, {"port", -1}}, "protocol/bad-value"},
+      {{{"version", 1}, {"tokens", "secret"}}, "protocol/bad-value"},
+      {{{"version", 1}, {"tokens", {1}}}, "protocol/bad-value"},
+      {{{"version", 1}, {"name", "two\nlines"}}, "protocol/bad-value"},
+      {{{"version", 1}, {"name", std::string(65, 'x')}}, "protocol/bad-value"},
+      {{{"version", 1}, {"process", 3}}, "protocol/bad-value"},
+      {{{"version", 1}, {"follow", "nobody"}}, "access/denied"},
+      {{{"version", 1}, {"watch", 1}}, "protocol/bad-value"},
+      {{{"version", 1}, {"watch", true}, {"follow", "x"}}, "protocol/bad-value"},
+      {{{"version", 1}, {"portt", 6665}}, "protocol/bad-value"},
+  };
+  Client client(hub);
+  for (const auto& [argument, error] : bad) {
+    const json answer = client.say_hello(argument);
+    EXPECT_FALSE(client.answered_well) << argument;
+    EXPECT_EQ(answer["error"], error) << argument << ": " << answer;
+    EXPECT_THAT(hub.handlers, IsEmpty());
+  }
+  client.say_hello({{"version", 1}});
+  EXPECT_TRUE(client.answered_well);
+}
+
+AccessSettings guarded() {
+  AccessSettings access;
+  access.server_token = "server-token";
+  access.robot_tokens = {{"r2", "robot-token"}};
+  return access;
+}
+
+TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
+  FakeHub hub(Host::create(two_robots()), guarded());
+  Client stranger(hub);
+  EXPECT_EQ(stranger.say_hello({{"version", 1}})["error"], "access/denied");
+  EXPECT_EQ(stranger.say_hello({{"version", 1}, {"tokens", {"guess"}}})["error"], "access/denied");
+  EXPECT_EQ(stranger.say_hello({{"version", 1}, {"watch", true}})["error"], "access/denied");
+
+  Client client(hub, Encoding::kJson, {{"tokens", {"server-token"}}});
+  const json r1 = {{"device", client.device("r1", "motion")}, {"command", twist(0.1)}};
+  const json r2 = {{"device", client.device("r2", "motion")}, {"command", twist(0.1)}};
+  EXPECT_EQ(client.error("command", r1), "");
+  EXPECT_EQ(client.error("command", r2), "access/denied");
+  EXPECT_EQ(client.error("read", {{"wait", "none"}, {"commands", {r1, r2}}}), "access/denied");
+  const json place = {{"device", client.device("r2", "pose")},
+                      {"command", {{"kind", "set_pose"}, {"x", 0}, {"y", 0}, {"yaw", 0}}}};
+  EXPECT_EQ(client.error("command", place), "access/denied");
+  // Drawing and looking need no robot's token.
+  EXPECT_EQ(client.error("subscribe", {{"device", client.device("r2", "pose")}}), "");
+  EXPECT_EQ(client.error("draw", {{"drawings", client.drawing(1, 1, kRed)}}), "");
+
+  Client holder(hub, Encoding::kJson, {{"tokens", {"server-token", "robot-token"}}});
+  EXPECT_EQ(holder.error("command", r2), "");
+}
+
+TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {
+  AccessSettings access = guarded();
+  access.open_watching = true;
+  FakeHub hub(Host::create(two_robots()), access);
+  Client watcher(hub, Encoding::kJson, {{"watch", true}});
+  EXPECT_FALSE(watcher.welcome.contains("key"));
+  EXPECT_EQ(watcher.welcome["canvas"]["height"], 50);
+  EXPECT_EQ(watcher.error("watch", {{"rate", 10}}), "");
+  EXPECT_EQ(watcher.ask("time")["time"]["t"], 0);
+  EXPECT_EQ(watcher.error("read", {{"wait", "data"}}), "access/denied");
+  EXPECT_EQ(watcher.error("canvas_image"), "access/denied");
+  EXPECT_EQ(watcher.error("draw", {{"drawings", json::array()}}), "access/denied");
+  EXPECT_EQ(watcher.error("bye"), "");
+  EXPECT_TRUE(watcher.peer.closed);
+}
+
+TEST(NativeAccess, FollowersNeedTheKeyAndTheTokensOfTheirLeader) {
+  FakeHub hub(Host::create(two_robots()), guarded());
+  const json both = {"server-token", "robot-token"};
+  Client leader(hub, Encoding::kJson, {{"tokens", both}, {"port", 6666}});
+  const std::string key = leader.welcome["key"];
+  Client follower(hub);
+  json hello = {{"version", 1}, {"tokens", both}, {"follow", key + "0"}};
+  EXPECT_EQ(follower.say_hello(hello)["error"], "access/denied");
+  hello["follow"] = key;
+  hello["tokens"] = {"server-token"};
+  EXPECT_EQ(follower.say_hello(hello)["error"], "access/denied");
+  hello["tokens"] = both;
+  hello["port"] = 6665;
+  EXPECT_EQ(follower.say_hello(hello)["error"], "protocol/bad-value");
+  hello.erase("port");
+  EXPECT_EQ(follower.say_hello(hello)["port"], 6666);
+  EXPECT_TRUE(follower.answered_well);
+  leader.leave();
+  Client late(hub);
+  EXPECT_EQ(late.say_hello(hello)["error"], "access/denied");
+}
+
+// --- reading
+
+TEST_P(NativeProtocol, ReadWaitsForTheReadingsOfSubscribedDevices) {
+  const json pose = client->device("r1", "pose");
+  const json laser = client->device("r1", "laser");
+  EXPECT_EQ(client->error("subscribe", {{"device", pose}}), "");
+  EXPECT_EQ(client->error("subscribe", {{"device", laser}}), "");
+  const json first = client->read("data");
+  EXPECT_EQ(first["t"], kSecond_ns / 10);  // both at 10 Hz
+  EXPECT_EQ(first["data"], true);
+  EXPECT_EQ(first["finished"], false);
+  EXPECT_EQ(first["overflow"], 0);
+  ASSERT_THAT(first["readings"], SizeIs(2));
+  std::map<std::string, json> readings;
+  for (const json& reading : first["readings"]) readings[reading["type"]] = reading;
+  EXPECT_EQ(readings["pose"]["device"], pose);
+  EXPECT_EQ(readings["pose"]["seq"], 1);
+  EXPECT_EQ(readings["pose"]["t"], kSecond_ns / 10);
+  EXPECT_EQ(readings["laser"]["device"], laser);
+  EXPECT_THAT(protocol::require_doubles(readings["laser"], "ranges", GetParam()), SizeIs(682));
+
+  EXPECT_EQ(client->error("unsubscribe", {{"device", laser}}), "");
+  const json second = client->read("data");
+  EXPECT_EQ(second["t"], kSecond_ns / 5);
+  ASSERT_THAT(second["readings"], SizeIs(1));
+  EXPECT_EQ(second["readings"][0]["seq"], 2);
+}
+
+TEST_P(NativeProtocol, ReadWithoutSubscriptionsTakesATenthOfASecond) {
+  const json answer = client->read("data");
+  EXPECT_EQ(answer["t"], kSecond_ns / 10);
+  EXPECT_EQ(answer["data"], true);
+  EXPECT_THAT(answer["readings"], IsEmpty());
+}
+
+TEST_P(NativeProtocol, ReadCarriesOutCommandsAndDrawingsBeforeItWaits) {
+  client->ask("subscribe", {{"device", client->device("r1", "pose")}});
+  const json command = {{"device", client->device("r1", "motion")}, {"command", twist(0.2)}};
+  const json answer =
+      client->read("data", {{"commands", {command}}, {"drawings", client->drawing(3, 4, kRed)}});
+  // Ten steps with a limited acceleration: it has moved, but not as far as 0.1 s * 0.2 m/s.
+  const double x_m = answer["readings"][0]["x"];
+  EXPECT_GT(x_m, 0.3);
+  EXPECT_LE(x_m, 0.32 + 1e-12);
+  EXPECT_EQ(client->colour_at(3, 4), kRed);
+}
+
+TEST_P(NativeProtocol, ReadThatFailsHasDoneNothing) {
+  const json good = {{"device", client->device("r1", "motion")}, {"command", twist(0.2)}};
+  const json unknown = {{"device", {0, 99}}, {"command", twist(0.2)}};
+  const json drawings = client->drawing(3, 4, kRed);
+  EXPECT_EQ(client->error(
+                "read", {{"wait", "data"}, {"commands", {good, unknown}}, {"drawings", drawings}}),
+            "session/no-such-device");
+  EXPECT_EQ(client->error("read", {{"wait", "data"}, {"thread", -1}, {"drawings", drawings}}),
+            "protocol/bad-value");
+  EXPECT_EQ(client->error("read", {{"wait", "sleep"}, {"drawings", drawings}}),
+            "protocol/bad-value");
+  EXPECT_EQ(client->colour_at(3, 4).a, 0);
+  client->ask("subscribe", {{"device", client->device("r1", "pose")}});
+  const json answer = client->read("data");
+  EXPECT_EQ(answer["t"], kSecond_ns / 10);
+  EXPECT_EQ(answer["readings"][0]["v"], 0.0);
+}
+
+TEST_P(NativeProtocol, SleepAndJoinLeaveReadingsForLater) {
+  client->ask("subscribe", {{"device", client->device("r1", "pose")}});
+  const json slept = client->read("sleep", {{"timeout", 0.25}});
+  EXPECT_EQ(slept["t"], kSecond_ns / 4);
+  EXPECT_THAT(slept["readings"], IsEmpty());
+  EXPECT_THAT(client->read("join")["readings"], IsEmpty());
+  const json answer = client->read("none");
+  EXPECT_EQ(answer["t"], kSecond_ns / 4);
+  EXPECT_EQ(answer["data"], true);
+  ASSERT_THAT(answer["readings"], SizeIs(1));
+  EXPECT_EQ(answer["readings"][0]["seq"], 2);
+  const json again = client->read("none");
+  EXPECT_EQ(again["data"], false);
+  EXPECT_THAT(again["readings"], IsEmpty());
+  EXPECT_EQ(client->error("read", {{"wait", "sleep"}, {"timeout", -1.0}}), "protocol/bad-value");
+}
+
+TEST_P(NativeProtocol, ReplaceKeepsTheNewestOrAllReadings) {
+  const json pose = client->device("r1", "pose");
+  client->ask("subscribe", {{"device", pose}});
+  EXPECT_EQ(client->error("replace", {{"device", pose}, {"replace", false}}), "");
+  client->read("sleep", {{"timeout", 0.3}});
+  EXPECT_THAT(client->read("data")["readings"], SizeIs(3));
+  EXPECT_EQ(client->error("replace", {{"device", nullptr}, {"replace", true}}), "");
+  client->read("sleep", {{"timeout", 0.3}});
+  EXPECT_THAT(client->read("data")["readings"], SizeIs(1));
+  // 1000 wait at most.
+  client->ask("replace", {{"replace", false}});
+  client->read("sleep", {{"timeout", 100.5}});
+  const json answer = client->read("data");
+  EXPECT_THAT(answer["readings"], SizeIs(1000));
+  EXPECT_EQ(answer["overflow"], 5);
+}
+
+TEST_P(NativeProtocol, PeekOnlyLooksFirstAndThenLetsAStepPass) {
+  client->ask("subscribe", {{"device", client->device("r1", "pose")}});
+  EXPECT_EQ(client->read("peek")["t"], 0);
+  const json second = client->read("peek", {{"timeout", 0}});
+  EXPECT_EQ(second["t"], kSecond_ns / 100);  // a step of 10 ms
+  EXPECT_EQ(second["data"], false);
+  const json timed = client->read("peek", {{"timeout", 0.05}});
+  EXPECT_EQ(timed["t"], 6 * kSecond_ns / 100);
+  EXPECT_EQ(timed["data"], false);
+  const json some = client->read("peek", {{"timeout", 0.5}});
+  EXPECT_EQ(some["t"], kSecond_ns / 10);
+  EXPECT_EQ(some["data"], true);
+  EXPECT_THAT(some["readings"], SizeIs(1));
+  EXPECT_EQ(client->read("peek")["t"], kSecond_ns / 10);
+}
+
+TEST_P(NativeProtocol, OtherRequestsAreAnsweredWhileAReadWaits) {
+  Client other(hub, Encoding::kJson);
+  EXPECT_EQ(other.read("join")["t"], 0);
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
+  EXPECT_EQ(client->hear(), json()) << "the other one thinks";
+  EXPECT_EQ(client->peer.in_flight, 1U);
+  EXPECT_EQ(client->ask("time")["time"]["t"], 0);
+  EXPECT_EQ(client->error("read", {{"wait", "data"}}), "protocol/busy");
+  EXPECT_EQ(client->error("read", {{"wait", "sleep"}, {"timeout", 1}}), "protocol/busy");
+  EXPECT_EQ(client->error("read", {{"wait", "join"}}), "protocol/busy");
+  EXPECT_EQ(client->error("read", {{"wait", "none"}}), "");
+  // Both are over with the same step.
+  EXPECT_EQ(other.read("data")["t"], kSecond_ns / 10);
+  hub.run();
+  const json answer = client->hear();
+  EXPECT_EQ(answer["id"], 100);
+  EXPECT_EQ(answer["t"], kSecond_ns / 10);
+  EXPECT_EQ(client->peer.in_flight, 0U);
+}
+
+TEST_P(NativeProtocol, ReadThatIsOverIsAnsweredBeforeWhatComesLater) {
+  Client other(hub, Encoding::kJson);
+  other.read("join");
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
+  other.say({{"id", 1}, {"do", "read"}, {"wait", "data"}});
+  // The hub has not got round to tell the client so; it asks for something else first.
+  client->say({{"id", 101}, {"do", "read"}, {"wait", "none"}});
+  EXPECT_EQ(client->hear()["id"], 100);
+  EXPECT_EQ(client->hear()["id"], 101);
+  hub.run();
+  EXPECT_EQ(client->hear(), json()) << "answered twice";
+}
+
+TEST_P(NativeProtocol, ThreadThatWaitsHoldsUpNoneOfItsSessions) {
+  Client first(hub, GetParam(), {{"process", "p"}});
+  Client second(hub, GetParam(), {{"process", "p"}});
+  EXPECT_EQ(first.read("data", {{"thread", 5}})["t"], kSecond_ns / 10);
+  EXPECT_EQ(second.read("data", {{"thread", 5}})["t"], kSecond_ns / 5);
+  EXPECT_EQ(first.read("data", {{"thread", 5}})["t"], 3 * kSecond_ns / 10);
+  // Another thread is somebody else, until it ends.
+  second.say({{"id", 100}, {"do", "read"}, {"wait", "data"}, {"thread", 6}});
+  EXPECT_EQ(second.hear(), json());
+  EXPECT_EQ(first.error("thread_ended", {{"thread", 5}}), "");
+  hub.run();
+  EXPECT_EQ(second.hear()["id"], 100);
+}
+
+TEST_P(NativeProtocol, FollowerHoldsTimeWhileItThinks) {
+  Client follower(hub, GetParam(), {{"follow", client->welcome["key"]}});
+  EXPECT_EQ(follower.read("join")["t"], 0);
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
+  EXPECT_EQ(client->hear(), json());
+  follower.say({{"id", 200}, {"do", "read"}, {"wait", "sleep"}, {"timeout", 100}});
+  hub.run();
+  EXPECT_EQ(client->hear()["t"], kSecond_ns / 10);
+  EXPECT_EQ(follower.hear(), json());
+  // Alone it does not let time go on.
+  client->leave();
+  EXPECT_EQ(host->time().sim_time_ns, kSecond_ns / 10);
+  EXPECT_EQ(follower.hear(), json());
+}
+
+TEST_P(NativeProtocol, ClientThatGoesInTheMiddleOfAWaitHoldsUpNobody) {
+  Client other(hub, Encoding::kCbor);
+  other.read("join");
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
+  EXPECT_EQ(client->hear(), json());
+  client->leave();
+  EXPECT_EQ(other.read("data")["t"], kSecond_ns / 10);
+  // And one that goes while others wait for it.
+  Client third(hub, Encoding::kJson);
+  third.read("join");
+  other.say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
+  EXPECT_EQ(other.hear(), json());
+  third.leave();
+  EXPECT_EQ(other.hear()["id"], 100);
+}
+
+class NativeEnd : public NativeProtocol {
+ protected:
+  NativeEnd() : NativeProtocol(R"("time": "lockstep", "duration": 0.2)") {}
+};
+INSTANTIATE_TEST_SUITE_P(Encodings, NativeEnd, testing::Values(Encoding::kJson, Encoding::kCbor),
+                         [](const auto& info) {
+                           return std::string(protocol::to_string(info.param));
+                         });
+
+TEST_P(NativeEnd, LastReadingsAreTakenBeforeTheEndIsTold) {
+  client->ask("subscribe", {{"device", client->device("r1", "pose")}});
+  EXPECT_EQ(client->read("data")["finished"], false);
+  const json last = client->read("data");
+  EXPECT_EQ(last["t"], kSecond_ns / 5);
+  EXPECT_EQ(last["finished"], true);
+  EXPECT_THAT(last["readings"], SizeIs(1));
+  EXPECT_EQ(client->error("read", {{"wait", "data"}}), "session/finished");
+  const json slept = client->read("sleep", {{"timeout", 1}});
+  EXPECT_EQ(slept["finished"], true);
+  EXPECT_EQ(slept["t"], kSecond_ns / 5);
+  const json looked = client->read("peek", {{"timeout", 1}});
+  EXPECT_EQ(looked["data"], true) << "so that `data` is tried";
+  EXPECT_THAT(looked["readings"], IsEmpty());
+}
+
+TEST_P(NativeEnd, WaitThatTheEndBreaksOffIsAnswered) {
+  Client other(hub, Encoding::kJson);
+  other.read("join");
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
+  EXPECT_EQ(client->hear(), json());
+  host->finish();
+  hub.run();
+  const json answer = client->hear();
+  EXPECT_EQ(answer["id"], 100);
+  EXPECT_EQ(answer["error"], "session/finished");
+}
+
+// So slow that no step comes while the test runs.
+class NativePaced : public NativeProtocol {
+ protected:
+  NativePaced() : NativeProtocol(R"("time": 1e-6)") {}
+};
+INSTANTIATE_TEST_SUITE_P(Encodings, NativePaced, testing::Values(Encoding::kJson, Encoding::kCbor),
+                         [](const auto& info) {
+                           return std::string(protocol::to_string(info.param));
+                         });
+
+TEST_P(NativePaced, PeekEndsByTheWallClock) {
+  EXPECT_EQ(client->read("peek")["data"], false);
+  EXPECT_THAT(hub.timers, IsEmpty());
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "peek"}, {"timeout", 0.5}});
+  EXPECT_EQ(client->hear(), json());
+  ASSERT_THAT(hub.timers, SizeIs(1));
+  hub.fire();
+  const json answer = client->hear();
+  EXPECT_EQ(answer["id"], 100);
+  EXPECT_EQ(answer["data"], false);
+  EXPECT_EQ(client->peer.in_flight, 0U);
+  // The next one is another wait.
+  client->say({{"id", 101}, {"do", "read"}, {"wait", "peek"}, {"timeout", 0.5}});
+  EXPECT_EQ(client->hear(), json());
+  EXPECT_THAT(hub.timers, SizeIs(1));
+  client->leave();
+  EXPECT_THAT(hub.timers, IsEmpty());
+}
+
+TEST_P(NativeProtocol, PreferRealTimeIsForSimulationsWhoseModeNobodyChose) {
+  EXPECT_EQ(client->error("prefer_real_time", {{"reason", "a thread reads"}}), "");
+  EXPECT_EQ(client->ask("time")["time"]["mode"], "lockstep");
+  EXPECT_EQ(client->error("prefer_real_time", {{"reason", "a\nb"}}), "protocol/bad-value");
+  FakeHub undecided(Host::create(two_robots("\"step\": 0.01")));
+  Client other(undecided, GetParam());
+  EXPECT_EQ(other.error("prefer_real_time", {{"reason", "a thread reads"}}), "");
+  EXPECT_EQ(other.ask("time")["time"]["mode"], "paced");
+}
+
+// --- commands and the canvas
+
+TEST_P(NativeProtocol, CommandMovesTheRobot) {
+  client->ask("subscribe", {{"device", client->device("r2", "pose")}});
+  const json motion = client->device("r2", "motion");
+  EXPECT_EQ(client->error("command", {{"device", motion}, {"command", twist(0.1)}}), "");
+  client->read("sleep", {{"timeout", 1}});
+  EXPECT_GT(client->read("data")["readings"][0]["x"].get<double>(), 0.35);
+  EXPECT_EQ(client->error("command", {{"device", {5, 0}}, {"command", twist(0.1)}}),
+            "session/no-such-device");
+  EXPECT_EQ(client->error("command", {{"device", motion}, {"command", {{"kind", "fly"}}}}),
+            "protocol/bad-value");
+  EXPECT_EQ(client->error("command", {{"device", motion}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("subscribe", {{"device", motion}}), "session/bad-argument");
+}
+
+TEST_P(NativeProtocol, CellsAreDrawnAndRead) {
+  EXPECT_EQ(client->error("draw", {{"drawings", client->drawing(2, 1, kRed)}}), "");
+  EXPECT_EQ(client->colour_at(2, 1), kRed);
+  EXPECT_EQ(client->ask("cell", {{"layer", 0}, {"column", -1}, {"row", 0}})["cell"], json());
+  const std::vector<sim::CellValue> cells(6, sim::CellValue::of(kBlue));
+  const json values = protocol::encode_cells(cells, GetParam());
+  EXPECT_EQ(client->error("set_cells", {{"layer", 0}, {"rect", {1, 1, 3, 2}}, {"cells", values}}),
+            "");
+  EXPECT_EQ(client->colour_at(2, 1), kBlue);
+  EXPECT_EQ(client->colour_at(3, 2), kBlue);
+  EXPECT_EQ(client->colour_at(4, 2).a, 0);
+  for (const json& rect : {json{1, 1, 3, 3}, json{1, 1, -3, -2}, json{1, 1, 3}, json{1, 1, 3, 2.5},
+                           json{1, 1, 1 << 20, 1 << 20}, json("all"), json{1e300, 1, 3, 2}}) {
+    const std::string error =
+        client->error("set_cells", {{"layer", 0}, {"rect", rect}, {"cells", values}});
+    EXPECT_TRUE(error == "session/bad-argument" || error == "protocol/bad-value") << rect << error;
+  }
+  const json all = client->ask("cells", {{"layer", 0}});
+  EXPECT_THAT(protocol::decode_cells(all["cells"], GetParam()), SizeIs(100 * 50));
+  const json picture = client->ask("canvas_image");
+  EXPECT_THAT(client->bytes(picture, "image"), SizeIs(100 * 50 * 4));
+  EXPECT_EQ(picture["canvas"]["width"], 100);
+}
+
+TEST_P(NativeProtocol, LayersBelongToTheirSession) {
+  const int layer =
+      client->ask("create_layer", {{"kind", "binary"}, {"style", {{"name", "seen"}}}})["layer"];
+  json layers = client->ask("layers")["layers"];
+  ASSERT_THAT(layers, SizeIs(2));
+  EXPECT_EQ(layers[1]["layer"], layer);
+  EXPECT_EQ(layers[1]["kind"], "binary");
+  EXPECT_EQ(layers[1]["style"]["name"], "seen");
+  EXPECT_EQ(client->error("set_layer_style", {{"layer", layer}, {"style", {{"name", "new"}}}}), "");
+  EXPECT_EQ(client->ask("layers")["layers"][1]["style"]["name"], "new");
+
+  Client other(hub, Encoding::kJson);
+  EXPECT_EQ(other.error("remove_layer", {{"layer", layer}}), "session/bad-argument");
+  EXPECT_EQ(other.error("cells", {{"layer", layer}}), "session/bad-argument");
+  EXPECT_EQ(client->error("remove_layer", {{"layer", layer}}), "");
+  EXPECT_EQ(client->error("remove_layer", {{"layer", 0}}), "session/not-available");
+  EXPECT_EQ(client->error("create_layer", {{"kind", "round"}, {"style", json::object()}}),
+            "protocol/bad-value");
+}
+
+TEST_P(NativeProtocol, EveryClientIsToldOfAnotherSizeOfTheCanvasOnce) {
+  Client other(hub, Encoding::kJson);
+  EXPECT_FALSE(other.ask("time").contains("canvas"));
+  const json resized = client->ask("resize_canvas", {{"width", 120}, {"height", 60}});
+  EXPECT_EQ(resized["canvas"]["width"], 120);
+  EXPECT_FALSE(client->ask("time").contains("canvas"));
+  const json answer = other.read("none");
+  EXPECT_EQ(answer["canvas"]["height"], 60);
+  EXPECT_FALSE(other.read("none").contains("canvas"));
+  EXPECT_EQ(client->error("resize_canvas", {{"width", 0}, {"height", 60}}), "session/bad-argument");
+  const Client late(hub, Encoding::kJson);
+  EXPECT_EQ(late.welcome["canvas"]["width"], 120);
+}
+
+TEST_P(NativeProtocol, ViewModeIsReadAndSet) {
+  EXPECT_EQ(client->ask("view_mode")["mode"], "ground");
+  EXPECT_EQ(client->error("set_view_mode", {{"mode", "mini-map"}}), "");
+  EXPECT_EQ(client->ask("view_mode")["mode"], "mini-map");
+  EXPECT_EQ(client->error("set_view_mode", {{"mode", "3d"}}), "protocol/bad-value");
+}
+
+TEST_P(NativeProtocol, WorldMapShowsTheFloor) {
+  const json map = client->ask("world_map", {{"cell_size", 0.1}})["map"];
+  const sim::OccupancyMap decoded = protocol::decode_map(map, GetParam());
+  EXPECT_EQ(decoded.width, 20);
+  EXPECT_EQ(decoded.height, 10);
+  EXPECT_EQ(client->error("world_map", {{"cell_size", 0}}), "session/bad-argument");
+  EXPECT_EQ(client->error("world_map", {{"cell_size", -1}}), "session/bad-argument");
+  // 2 m x 1 m in cells of half a millimetre are 8 million.
+  EXPECT_EQ(client->error("world_map", {{"cell_size", 0.0005}}), "session/bad-argument");
+}
+
+TEST(NativeFiles, PicturesStayInTheOutputFolder) {
+  const test_support::TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path().string();
+  FakeHub hub(Host::create(two_robots(), settings));
+  Client client(hub, Encoding::kJson);
+  EXPECT_EQ(client.error("save_image", {{"name", "now"}, {"scale", 2}}), "");
+  EXPECT_TRUE(fs::exists(folder.path() / "now.png"));
+  EXPECT_EQ(client.error("save_image", {{"name", "../now"}}), "session/bad-argument");
+  EXPECT_EQ(client.error("save_image", {{"name", "now"}, {"scale", 1000}}), "session/bad-argument");
+}
+
+// --- what is wrong
+
+TEST_P(NativeProtocol, RequestsThatMakeNoSenseAreRefused) {
+  EXPECT_EQ(client->error("dance"), "protocol/unknown-request");
+  EXPECT_EQ(client->error("time", {{"now", true}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("read"), "protocol/bad-value");
+  EXPECT_EQ(client->error("read", {{"wait", "forever"}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("read", {{"wait", "peek"}, {"timeout", "1"}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("read", {{"wait", "sleep"}, {"timeout", 1e10}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("read", {{"wait", "data"}, {"commands", {1}}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("read", {{"wait", "data"}, {"commands", 1}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("subscribe"), "protocol/bad-value");
+  EXPECT_EQ(client->error("subscribe", {{"device", {0, 99}}}), "session/no-such-device");
+  EXPECT_EQ(client->error("replace", {{"device", {7, 0}}, {"replace", true}}),
+            "session/no-such-device");
+  EXPECT_EQ(client->error("cell", {{"layer", 0}, {"column", 1e12}, {"row", 0}}),
+            "protocol/bad-value");
+  EXPECT_EQ(client->error("watch", {{"rate", 61}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("watch", {{"rate", 1e-9}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("thread_ended"), "protocol/bad-value");
+  EXPECT_EQ(client->error("thread_ended", {{"thread", -1}}), "protocol/bad-value");
+  EXPECT_EQ(client->error("time"), "") << "the connection goes on";
+}
+
+TEST_P(NativeProtocol, WithoutAnIdOnlyFailureIsTold) {
+  client->say({{"do", "draw"}, {"drawings", client->drawing(1, 1, kRed)}});
+  EXPECT_EQ(client->hear(), json());
+  client->say({{"do", "dance"}});
+  const json event = client->hear();
+  EXPECT_EQ(event["event"], "error");
+  EXPECT_EQ(event["do"], "dance");
+  EXPECT_EQ(event["error"], "protocol/unknown-request");
+  client->say({{"do", "time"}, {"id", -1}});
+  EXPECT_EQ(client->hear()["event"], "error");
+  client->say({{"id", 5}});
+  EXPECT_EQ(client->hear()["error"], "protocol/bad-value");
+}
+
+TEST_P(NativeProtocol, GarbageIsToldAndForgotten) {
+  for (const std::string& garbage :
+       {std::string("]["), std::string("\xff\x00\x01", 3), std::string(5000, '['), std::string()}) {
+    client->say_bytes(garbage);
+    EXPECT_EQ(client->hear()["event"], "error") << garbage.substr(0, 10);
+  }
+  client->say(json::array({1, 2}));
+  EXPECT_EQ(client->hear()["error"], "protocol/not-an-object");
+  EXPECT_EQ(client->error("time"), "");
+  EXPECT_FALSE(client->peer.closed);
+}
+
+TEST_P(NativeProtocol, ByeIsAnsweredAndEndsTheConnection) {
+  client->say({{"id", 100}, {"do", "read"}, {"wait", "sleep"}, {"timeout", 0}});
+  EXPECT_EQ(client->hear()["id"], 100);
+  EXPECT_EQ(client->error("bye"), "");
+  EXPECT_TRUE(client->peer.closed);
+  client->say({{"id", 1}, {"do", "time"}});
+  EXPECT_EQ(client->hear(), json());
+}
+
+TEST_P(NativeProtocol, FarewellTellsWhy) {
+  Handler& handler = *hub.handlers.at(&client->peer);
+  client->peer.close(handler.farewell(protocol::ProtocolError("protocol/too-long", "too long")));
+  const json event = client->hear();
+  EXPECT_EQ(event["event"], "error");
+  EXPECT_EQ(event["error"], "protocol/too-long");
+  client->peer.close(handler.farewell(protocol::ProtocolError("server/closing", "it ends")));
+  EXPECT_EQ(client->hear()["event"], "bye");
+}
+
+// --- watching
+
+std::vector<std::uint8_t> picture(int width, int height) {
+  return std::vector<std::uint8_t>(static_cast<std::size_t>(width * height) * 4, 0);
+}
+void set(std::vector<std::uint8_t>& rgba, int width, int column, int row) {
+  rgba[static_cast<std::size_t>(row * width + column) * 4] ^= 1U;
+}
+std::vector<std::vector<int>> rects(const CanvasCopy& copy, std::uint64_t since) {
+  std::vector<std::vector<int>> list;
+  for (const sim::CellRect& r : copy.changed_since(since)) {
+    list.push_back({r.column, r.row, r.width, r.height});
+  }
+  return list;
+}
+using Rect = std::vector<int>;
+
+TEST(CanvasCopy, TellsWhatHasChangedSinceEachPicture) {
+  // 40 x 35 cells: three tiles across, of 16, 16 and 8; three down, of 16, 16 and 3.
+  CanvasCopy copy;
+  EXPECT_EQ(copy.count(), 0U);
+  const CanvasInfo info{40, 35, 0.1, 0.0, 0.0};
+  auto now = picture(40, 35);
+  auto given = now;
+  copy.take(info, given);
+  EXPECT_EQ(copy.count(), 1U);
+  EXPECT_THAT(rects(copy, 0), ElementsAre(Rect{0, 0, 40, 35}));
+  EXPECT_THAT(rects(copy, 1), IsEmpty());
+
+  given = now;
+  copy.take(info, given);
+  EXPECT_EQ(copy.count(), 1U) << "it is the same picture";
+
+  set(now, 40, 0, 0);
+  set(now, 40, 39, 34);
+  given = now;
+  copy.take(info, given);
+  EXPECT_EQ(copy.count(), 2U);
+  EXPECT_THAT(rects(copy, 1), ElementsAre(Rect{0, 0, 16, 16}, Rect{32, 32, 8, 3}));
+
+  // A block of two by two tiles is one rectangle; an older picture lacks more.
+  for (const int column : {20, 33}) {
+    for (const int row : {3, 20}) set(now, 40, column, row);
+  }
+  given = now;
+  copy.take(info, given);
+  EXPECT_THAT(rects(copy, 2), ElementsAre(Rect{16, 0, 24, 32}));
+  EXPECT_THAT(rects(copy, 1),
+              ElementsAre(Rect{0, 0, 40, 16}, Rect{16, 16, 24, 16}, Rect{32, 32, 8, 3}));
+  const auto cells = copy.cells({33, 2, 2, 2});
+  EXPECT_THAT(cells, SizeIs(16));
+  EXPECT_EQ(cells[8], 1) << "cell (33, 3)";
+
+  given = picture(20, 70);
+  copy.take({20, 70, 0.1, 0.0, 0.0}, given);
+  EXPECT_THAT(rects(copy, 3), ElementsAre(Rect{0, 0, 20, 70}));
+  EXPECT_TRUE(copy.resized_since(3));
+}
+
+class NativeWatch : public NativeProtocol {
+ protected:
+  /// All are told, whenever they are due.
+  void tick() { hub.native_state->watching.tick(now_ += std::chrono::seconds(200)); }
+  /// Brings the canvas to a picture of its cells.
+  void show(Client& viewer, const json& event, std::map<std::pair<int, int>, sim::Colour>& cells) {
+    for (const json& part : event.value("canvas", json::array())) {
+      const auto values = viewer.bytes(part, "cells");
+      const int width = part["rect"][2];
+      for (int i = 0; i < width * part["rect"][3].get<int>(); ++i) {
+        const auto at = static_cast<std::size_t>(i) * 4;
+        cells[{part["rect"][0].get<int>() + i % width, part["rect"][1].get<int>() + i / width}] = {
+            values.at(at), values.at(at + 1), values.at(at + 2), values.at(at + 3)};
+      }
+    }
+  }
+
+ private:
+  WatchHub::Clock::time_point now_ = WatchHub::Clock::now();
+};
+INSTANTIATE_TEST_SUITE_P(Encodings, NativeWatch, testing::Values(Encoding::kJson, Encoding::kCbor),
+                         [](const auto& info) {
+                           return std::string(protocol::to_string(info.param));
+                         });
+
+TEST_P(NativeWatch, TellsPosesAndChangesOfTheCanvas) {
+  Client viewer(hub, GetParam(), {{"watch", true}});
+  EXPECT_EQ(viewer.error("watch", {{"rate", 20}, {"canvas", true}}), "");
+  EXPECT_EQ(viewer.hear(), json()) << "the answer comes first";
+  hub.fire();  // the first event does not wait
+  std::map<std::pair<int, int>, sim::Colour> seen;
+  const json first = viewer.hear();
+  EXPECT_EQ(first["event"], "watch");
+  EXPECT_EQ(first["t"], 0);
+  EXPECT_EQ(first["finished"], false);
+  ASSERT_THAT(first["poses"], SizeIs(2));
+  EXPECT_EQ(first["poses"][1], (json{0.3, 0.7, 0.0}));
+  EXPECT_EQ(first["canvas_info"]["width"], 100);
+  ASSERT_THAT(first["canvas"], SizeIs(1));
+  EXPECT_EQ(first["canvas"][0]["rect"], (json{0, 0, 100, 50}));
+  show(viewer, first, seen);
+  EXPECT_THAT(seen, SizeIs(5000));
+
+  tick();
+  const json second = viewer.hear();
+  EXPECT_FALSE(second.contains("canvas"));
+  EXPECT_FALSE(second.contains("canvas_info"));
+
+  client->ask("draw", {{"drawings", client->drawing(20, 18, kRed)}});
+  client->read("data");
+  tick();
+  const json third = viewer.hear();
+  EXPECT_EQ(third["t"], kSecond_ns / 10);
+  ASSERT_THAT(third["canvas"], SizeIs(1));
+  EXPECT_EQ(third["canvas"][0]["rect"], (json{16, 16, 16, 16}));
+  show(viewer, third, seen);
+  EXPECT_EQ((seen[{20, 18}]), kRed);
+
+  client->ask("resize_canvas", {{"width", 90}, {"height", 40}});
+  tick();
+  const json fourth = viewer.hear();
+  EXPECT_EQ(fourth["canvas_info"]["height"], 40);
+  EXPECT_EQ(fourth["canvas"][0]["rect"], (json{0, 0, 90, 40}));
+
+  EXPECT_EQ(viewer.error("watch", {{"rate", 0}}), "");
+  tick();
+  EXPECT_EQ(viewer.hear(), json());
+  EXPECT_THAT(hub.timers, IsEmpty());
+}
+
+TEST_P(NativeWatch, WhoHasLostARecordGetsTheWholeCanvasNext) {
+  client->ask("watch", {{"rate", 20}, {"canvas", true}});
+  hub.fire();
+  EXPECT_THAT(client->hear()["canvas"], SizeIs(1));
+  client->peer.full = true;
+  client->ask("draw", {{"drawings", client->drawing(1, 1, kRed)}});
+  client->ask("canvas_image");
+  tick();
+  EXPECT_EQ(client->hear(), json());
+  client->peer.full = false;
+  tick();
+  EXPECT_EQ(client->hear()["canvas"][0]["rect"], (json{0, 0, 100, 50}));
+}
+
+TEST_P(NativeWatch, WhoIsToldTheSameGetsTheSameBytes) {
+  std::deque<Client> viewers;
+  for (int i = 0; i < 3; ++i) viewers.emplace_back(hub, GetParam(), json{{"watch", true}});
+  const Encoding other = GetParam() == Encoding::kJson ? Encoding::kCbor : Encoding::kJson;
+  viewers.emplace_back(hub, other, json{{"watch", true}});
+  for (Client& viewer : viewers) viewer.ask("watch", {{"rate", 10}, {"canvas", true}});
+  hub.fire();
+  tick();
+  for (const Client& viewer : viewers) ASSERT_THAT(viewer.peer.records, SizeIs(2));
+  for (const std::size_t event : {std::size_t{0}, std::size_t{1}}) {
+    EXPECT_EQ(viewers[0].peer.records[event], viewers[1].peer.records[event]);
+    EXPECT_EQ(viewers[0].peer.records[event], viewers[2].peer.records[event]);
+    EXPECT_NE(viewers[0].peer.records[event], viewers[3].peer.records[event]);
+  }
+}
+
+TEST_P(NativeWatch, OnlyThoseAreToldWhoAreDue) {
+  Client rare(hub, GetParam(), {{"watch", true}});
+  client->ask("watch", {{"rate", 50}});
+  rare.ask("watch", {{"rate", 0.01}});
+  hub.fire();
+  EXPECT_FALSE(client->hear().is_null());
+  EXPECT_FALSE(rare.hear().is_null());
+  // 50 Hz: within 20 ms. The other one's period of 100 s has not gone by before 90 s have.
+  hub.native_state->watching.tick(WatchHub::Clock::now() + std::chrono::milliseconds(25));
+  EXPECT_FALSE(client->hear().contains("canvas")) << "not asked for";
+  EXPECT_EQ(rare.hear(), json());
+}
+
+TEST_P(NativeWatch, TooLargeACanvasIsOnlyMeasured) {
+  client->ask("watch", {{"rate", 20}, {"canvas", true}});
+  hub.fire();
+  client->hear();
+  client->ask("resize_canvas", {{"width", 2048}, {"height", 1024}});
+  tick();
+  const json event = client->hear();
+  EXPECT_EQ(event["canvas_info"]["width"], 2048);
+  EXPECT_FALSE(event.contains("canvas"));
+  tick();
+  EXPECT_FALSE(client->hear().contains("canvas_info"));
+  client->ask("resize_canvas", {{"width", 100}, {"height", 50}});
+  tick();
+  EXPECT_EQ(client->hear()["canvas"][0]["rect"], (json{0, 0, 100, 50}));
+}
+
+TEST_P(NativeWatch, WatchersTakeNoPartInTheSimulation) {
+  Client viewer(hub, GetParam(), {{"watch", true}});
+  viewer.ask("watch", {{"rate", 20}});
+  hub.fire();
+  viewer.hear();
+  EXPECT_EQ(client->read("data")["t"], kSecond_ns / 10);
+  tick();
+  EXPECT_EQ(viewer.hear()["t"], kSecond_ns / 10);
+  EXPECT_EQ(host->time().sim_time_ns, kSecond_ns / 10);
+}
+
+}  // namespace
+}  // namespace playerlike::server

@@ -1,0 +1,594 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What only sessions across a network meet: servers that are not there, go away, fall silent or
+// come back. What holds for all sessions is in host_test, host_canvas_test and others.
+#include "session/socket_session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "libplayerc++/playerc++.h"
+#include "playerlike/host/embedded.h"
+#include "playerlike/host/host.h"
+#include "playerlike/server/server.h"
+#include "relay.h"
+#include "sim/core/error.h"
+#include "sim/devices/localization.h"
+
+namespace playerlike {
+namespace {
+
+using std::chrono::milliseconds;
+using test::ListeningSocket;
+using test::Relay;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr auto kDisconnected = SessionError::Code::kDisconnected;
+constexpr auto kBadArgument = SessionError::Code::kBadArgument;
+
+sim::WorldDescription two_robots(const std::string& simulation = "{}") {
+  return sim::load_world_text(R"({"name": "two", "arena": {"size": [20, 4]}, "simulation": )" +
+                              simulation +
+                              R"(, "canvas": {"size": [100, 50], "cell_size": 0.02},
+                      "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}},
+                      {"name": "r2", "pose": {"x": 1, "y": 3}}]})");
+}
+
+/// The error that an action throws.
+template <typename Action>
+SessionError error_of(Action action) {
+  try {
+    action();
+  } catch (const SessionError& e) {
+    return e;
+  }
+  ADD_FAILURE() << "no error";
+  return {SessionError::Code::kFinished, ""};
+}
+
+struct Collector : ReadingSink {
+  void on_reading(DeviceId /*device*/, const sim::Reading& reading) override {
+    times_ns.push_back(reading.time_ns);
+    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) x_m = pose->pose.x_m;
+  }
+  std::vector<sim::SimTime> times_ns;
+  double x_m = 0.0;
+};
+
+Collector read(Session& session) {
+  Collector round;
+  do {
+    session.wait();
+  } while (session.take(round) == 0);
+  return round;
+}
+
+DeviceId subscribe_position(Session& session) {
+  const auto binding = find_interface(session.robots(), session.port(), "position2d", 0);
+  session.subscribe(binding.reading);
+  return binding.motion.value();
+}
+
+/// A host with a server on any free port.
+struct Served {
+  explicit Served(const std::string& simulation = "{}", ServerSettings settings = {})
+      : host(Host::create(two_robots(simulation))) {
+    settings.port = 0;
+    server = std::make_unique<Server>(host, std::move(settings));
+  }
+  [[nodiscard]] int port() const { return server->port(); }
+
+  std::shared_ptr<Host> host;
+  std::unique_ptr<Server> server;
+};
+
+SocketSettings settings_for(int tcp_port, int port = 6665) {
+  SocketSettings settings;
+  settings.server = {"127.0.0.1", tcp_port};
+  settings.port = port;
+  return settings;
+}
+
+std::unique_ptr<SocketSession> connect(int tcp_port, int port = 6665) {
+  return std::make_unique<SocketSession>(settings_for(tcp_port, port));
+}
+
+// --- Names
+
+TEST(ServerAddresses, AreReadInTheirForms) {
+  struct Case {
+    const char* text;
+    const char* host;
+    int port;
+  };
+  for (const Case& c :
+       {Case{"tcp://lab", "lab", 4000}, Case{"tcp://lab:4001", "lab", 4001},
+        Case{"lab.example.org", "lab.example.org", 4000}, Case{"10.0.0.7:99", "10.0.0.7", 99},
+        Case{"tcp://[::1]", "::1", 4000}, Case{"[fe80::1%eth0]:5000", "fe80::1%eth0", 5000}}) {
+    const ServerAddress address = parse_server_address(c.text);
+    EXPECT_EQ(address.host, c.host) << c.text;
+    EXPECT_EQ(address.tcp_port, c.port) << c.text;
+  }
+  EXPECT_EQ((ServerAddress{"::1", 4000}.text()), "[::1]:4000");
+}
+
+TEST(ServerAddresses, ThatAreNoneAreRefusedByWhatIsWrong) {
+  struct Case {
+    const char* text;
+    const char* why;
+  };
+  for (const Case& c :
+       {Case{"tcp://", "the host is missing"}, Case{"", "the host is missing"},
+        Case{"tcp://:4000", "the host is missing"}, Case{"tcp://lab:", "the port must be"},
+        Case{"lab:0", "the port must be"}, Case{"lab:65536", "the port must be"},
+        Case{"lab:40x", "the port must be"}, Case{"tcp://lab:4000/", "the port must be"},
+        Case{"http://lab", "only tcp:// is known"}, Case{"tcp://::1", "in brackets"},
+        Case{"tcp://[::1", "not closed"}, Case{"[::1]4000", "a colon and a port"},
+        Case{"my lab", "a name or an address"}, Case{"lab/x", "a name or an address"}}) {
+    const SessionError error = error_of([&] { static_cast<void>(open_session(c.text, 6665)); });
+    EXPECT_EQ(error.code(), kBadArgument) << c.text;
+    EXPECT_THAT(error.what(), AllOf(HasSubstr(c.why), HasSubstr("tcp://HOST"))) << c.text;
+  }
+}
+
+TEST(SocketSettingsTest, ComeFromTheEnvironment) {
+  setenv("PLAYPEN_TOKEN", "first-token,,second-token", 1);
+  setenv("PLAYPEN_ENCODING", "json", 1);
+  const SocketSettings settings = SocketSettings::from_environment({"lab", 1}, 6666);
+  EXPECT_THAT(settings.tokens, testing::ElementsAre("first-token", "second-token"));
+  EXPECT_EQ(settings.encoding, protocol::Encoding::kJson);
+  EXPECT_EQ(settings.port, 6666);
+  setenv("PLAYPEN_ENCODING", "xml", 1);
+  try {
+    static_cast<void>(SocketSettings::from_environment({"lab", 1}, 6666));
+    FAIL() << "no error";
+  } catch (const sim::ConfigError& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("PLAYPEN_ENCODING"), HasSubstr("\"xml\""),
+                                HasSubstr("run/environment")));
+  }
+  unsetenv("PLAYPEN_ENCODING");
+  unsetenv("PLAYPEN_TOKEN");
+}
+
+// --- Connecting
+
+TEST(SocketSessions, ARefusedConnectionNamesHostPortAndReason) {
+  int port = 0;
+  {
+    const ListeningSocket socket;
+    port = socket.port();
+  }
+  const SessionError error = error_of([&] { connect(port); });
+  EXPECT_EQ(error.code(), kDisconnected);
+  EXPECT_THAT(error.what(), AllOf(HasSubstr("127.0.0.1:" + std::to_string(port)),
+                                  HasSubstr("connection refused"), HasSubstr("playpen serve")));
+  // As a program sees it.
+  try {
+    PlayerCc::PlayerClient client("tcp://127.0.0.1:" + std::to_string(port), 6665);
+    FAIL() << "no error";
+  } catch (const PlayerCc::PlayerError& e) {
+    EXPECT_EQ(e.GetErrorCode(), PlayerCc::PlayerError::kDisconnected);
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("connection refused"));
+  }
+}
+
+TEST(SocketSessions, AHostThatDoesNotExistIsNamed) {
+  SocketSettings settings = settings_for(4000);
+  settings.server.host = "no-such-host.invalid";
+  settings.connect_timeout_s = 5.0;
+  const SessionError error = error_of([&] { SocketSession session(settings); });
+  EXPECT_EQ(error.code(), kDisconnected);
+  EXPECT_THAT(error.what(), HasSubstr("no-such-host.invalid:4000"));
+}
+
+TEST(SocketSessions, AServerThatDoesNotAnswerIsGivenUp) {
+  const ListeningSocket silent;
+  SocketSettings settings = settings_for(silent.port());
+  settings.connect_timeout_s = 0.1;
+  const SessionError error = error_of([&] { SocketSession session(settings); });
+  EXPECT_EQ(error.code(), kDisconnected);
+  EXPECT_THAT(error.what(), HasSubstr("it does not answer"));
+}
+
+TEST(SocketSessions, OtherServersAreToldFromPlaypens) {
+  for (const char* text :
+       {"HTTP/1.1 400 Bad Request\r\n\r\n", "1 FAILED \"no such component\"\n", "1 SUCCESS {}\n",
+        "1 SUCCESS [[[[\n", "1 SUCCESS {\"encoding\": \"xml\"}\n",
+        "1 SUCCESS {\"encoding\": \"json\", \"limits\": {\"message_bytes\": -1}}\n"}) {
+    Relay relay{std::string(text)};
+    const SessionError error = error_of([&] { connect(relay.port()); });
+    EXPECT_EQ(error.code(), kDisconnected) << text;
+    EXPECT_THAT(error.what(), HasSubstr("there is no Playpen server")) << text;
+  }
+}
+
+TEST(SocketSessions, WhatTheServerHasAgainstAClientIsTold) {
+  const Served served;
+  const SessionError error = error_of([&] { connect(served.port(), 7000); });
+  EXPECT_EQ(error.code(), SessionError::Code::kNoSuchDevice);
+  EXPECT_THAT(error.what(), AllOf(HasSubstr("7000"), HasSubstr("6666 (r2)")));
+}
+
+TEST(SocketSessions, TokensOpenServersAndRobots) {
+  ServerSettings settings;
+  settings.access.server_token = "open-sesame";
+  settings.access.robot_tokens["r2"] = "second-robot";
+  const Served served("{}", settings);
+  EXPECT_THAT(error_of([&] { connect(served.port()); }).what(), HasSubstr("token"));
+  SocketSettings with_token = settings_for(served.port(), kMorsePort);
+  with_token.tokens = {"open-sesame"};
+  SocketSession session(with_token);
+  const auto second = find_interface(session.robots(), kMorsePort, "position2d", 1);
+  session.subscribe(second.reading);
+  // A command is not answered: what is wrong with it is told by the next call that is.
+  session.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
+  EXPECT_THAT(error_of([&] { read(session); }).what(), HasSubstr("r2"));
+  EXPECT_EQ(read(session).x_m, 1.0);
+  with_token.tokens.emplace_back("second-robot");
+  SocketSession holder(with_token);
+  holder.subscribe(second.reading);
+  holder.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
+  EXPECT_GT(read(holder).x_m, 1.0);
+}
+
+TEST(SocketSessions, ReachServersByIpv6AndByName) {
+  try {
+    const ListeningSocket probe(/*v6=*/true);
+  } catch (const std::exception&) {
+    GTEST_SKIP() << "this machine has no IPv6";
+  }
+  ServerSettings settings;
+  settings.bind = "::1";
+  const Served served("{}", settings);
+  const auto session = open_session("tcp://[::1]:" + std::to_string(served.port()), 6665);
+  subscribe_position(*session);
+  EXPECT_EQ(read(*session).times_ns.front(), 100'000'000);
+}
+
+TEST(SocketSessions, ANamesAddressesAreTriedInTurn) {
+  const Served served;  // on 127.0.0.1 only, while localhost may be ::1 first
+  const auto session = open_session("localhost:" + std::to_string(served.port()), 6665);
+  EXPECT_TRUE(session->connected());
+}
+
+TEST(SocketSessions, LocalhostIsTheServerThatPlaypenWorldNames) {
+  const Served served;
+  setenv("PLAYPEN_WORLD", ("tcp://127.0.0.1:" + std::to_string(served.port())).c_str(), 1);
+  const auto session = open_session("localhost", 6666);
+  unsetenv("PLAYPEN_WORLD");
+  EXPECT_EQ(session->robots().size(), 2U);
+  EXPECT_EQ(session->port(), 6666);
+}
+
+TEST(SocketSessions, KnowWhatTheyHaveInCommon) {
+  const Served one;
+  const Served other;
+  const auto a = connect(one.port());
+  const auto b = connect(one.port(), 6666);
+  const auto c = connect(other.port());
+  EXPECT_EQ(a->simulation(), b->simulation());
+  EXPECT_NE(a->simulation(), c->simulation());
+}
+
+// --- Servers that go away
+
+TEST(SocketSessions, AServerThatEndsDuringAWaitEndsIt) {
+  Served served(R"({"clients": 2})");  // the gate never opens
+  const auto session = connect(served.port());
+  subscribe_position(*session);
+  std::thread stopper([&] { served.server->stop(); });
+  EXPECT_EQ(error_of([&] { session->wait(); }).code(), kDisconnected);
+  stopper.join();
+  EXPECT_FALSE(session->connected());
+  const DeviceId motion = find_interface(session->robots(), 6665, "position2d", 0).motion.value();
+  EXPECT_EQ(error_of([&] { session->wait(); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->peek(milliseconds(0))); }).code(),
+            kDisconnected);
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->time()); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { session->sleep(1.0); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { session->send(motion, sim::MotorEnableCommand{true}); }).code(),
+            kDisconnected);
+  EXPECT_EQ(error_of([&] { session->flush_drawings(); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { session->draw_cells(sim::kBaseLayer, {}, {}); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->layers()); }).code(), kDisconnected);
+}
+
+TEST(SocketSessions, AConnectionCutInTheMiddleOfAMessageIsLost) {
+  const Served served;
+  Relay relay(served.port());
+  const auto session = connect(relay.port());
+  subscribe_position(*session);
+  read(*session);
+  relay.cut_after(10);
+  const SessionError error = error_of([&] { session->wait(); });
+  EXPECT_EQ(error.code(), kDisconnected);
+  EXPECT_THAT(error.what(), HasSubstr("127.0.0.1:" + std::to_string(relay.port())));
+}
+
+TEST(SocketSessions, AServerThatFallsSilentIsGivenUpDuringAWait) {
+  const Served served;
+  Relay relay(served.port());
+  const auto session = connect(relay.port());
+  subscribe_position(*session);
+  read(*session);
+  session->set_request_timeout(0.1);
+  relay.freeze();
+  EXPECT_THAT(error_of([&] { session->wait(); }).what(), HasSubstr("has not answered for 0.1 s"));
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->time()); }).code(), kDisconnected);
+}
+
+TEST(SocketSessions, AWaitMayTakeLongerThanARequestIfTheServerLives) {
+  const Served served(R"({"clients": 2})");
+  const auto session = connect(served.port());
+  session->set_request_timeout(0.1);
+  subscribe_position(*session);
+  std::thread late([&] {
+    std::this_thread::sleep_for(milliseconds(500));  // five times what a request may take
+    const auto other = connect(served.port(), 6666);
+    subscribe_position(*other);
+    read(*other);
+  });
+  EXPECT_EQ(read(*session).times_ns.front(), 100'000'000);
+  late.join();
+}
+
+TEST(SocketSessions, ClosingWakesWhoWaits) {
+  const Served served(R"({"clients": 2})");
+  const auto session = connect(served.port());
+  std::vector<std::thread> waiters;
+  std::atomic<int> woken{0};
+  for (int i = 0; i < 3; ++i) {
+    waiters.emplace_back([&] {
+      if (error_of([&] { session->wait(); }).code() == kDisconnected) ++woken;
+    });
+  }
+  session->close();
+  for (std::thread& waiter : waiters) waiter.join();
+  EXPECT_EQ(woken, 3);
+}
+
+// --- Coming back
+
+TEST(SocketSessions, ALostConnectionIsMadeAgainIfRetriesAreSet) {
+  auto served = std::make_unique<Served>();
+  Relay relay(served->port());
+  const auto session = connect(relay.port());
+  const DeviceId motion = subscribe_position(*session);
+  session->set_replace(std::nullopt, false);
+  session->set_retries(-1, 0.01);
+  for (int i = 0; i < 3; ++i) read(*session);
+  relay.set_server(0);  // and refuses for a while
+  served.reset();
+  std::thread repair([&] {
+    while (relay.connections() < 4) std::this_thread::yield();
+    served = std::make_unique<Served>();
+    relay.set_server(served->port());
+  });
+  // Another run, from its beginning, with the same subscription and rule.
+  Collector round = read(*session);
+  repair.join();
+  EXPECT_THAT(round.times_ns, testing::ElementsAre(100'000'000));
+  EXPECT_TRUE(session->connected());
+  session->sleep(0.2);
+  EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(200'000'000, 300'000'000));
+  session->send(motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
+  EXPECT_GT(read(*session).x_m, 1.0);
+}
+
+TEST(SocketSessions, RetriesComeToAnEnd) {
+  auto served = std::make_unique<Served>();
+  Relay relay(served->port());
+  PlayerCc::PlayerClient client("tcp://127.0.0.1:" + std::to_string(relay.port()), 6665);
+  client.SetRetryTime(0.01);
+  client.SetRetryLimit(3);
+  client.Read();
+  relay.set_server(0);
+  served.reset();
+  try {
+    client.Read();
+    FAIL() << "no error";
+  } catch (const PlayerCc::PlayerError& e) {
+    EXPECT_EQ(e.GetErrorCode(), PlayerCc::PlayerError::kDisconnected);
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr("3 attempts to connect again failed"));
+  }
+  EXPECT_EQ(relay.connections(), 1 + 3);
+}
+
+TEST(SocketSessions, ClosingEndsRetries) {
+  auto served = std::make_unique<Served>();
+  const auto session = connect(served->port());
+  session->set_retries(-1, 3600.0);
+  served.reset();
+  std::thread closer([&] {
+    while (session->connected()) std::this_thread::yield();
+    session->close();
+  });
+  EXPECT_EQ(error_of([&] { session->wait(); }).code(), kDisconnected);
+  closer.join();
+}
+
+TEST(SocketSessions, AnotherWorldIsNotTakenForTheOldOne) {
+  auto served = std::make_unique<Served>();
+  Relay relay(served->port());
+  const auto session = connect(relay.port());
+  session->set_retries(1, 0.01);
+  served.reset();
+  const auto other = Host::create(sim::load_world_text(
+      R"({"arena": {"size": [4, 4]}, "robots": [{"name": "x", "pose": {"x": 1, "y": 1}}]})"));
+  ServerSettings settings;
+  settings.port = 0;
+  const Server server(other, settings);
+  relay.set_server(server.port());
+  EXPECT_THAT(error_of([&] { session->wait(); }).what(), HasSubstr("does not know"));
+}
+
+// --- Threads
+
+TEST(SocketSessions, SeveralThreadsShareOne) {
+  const Served served(R"({"duration": 20})");
+  const auto session = connect(served.port());
+  const DeviceId motion = subscribe_position(*session);
+  std::atomic<bool> stop{false};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 3; ++t) {
+    threads.emplace_back([&, t] {
+      sim::SimTime last_ns = 0;
+      while (!stop) {
+        const TimeStatistics time = session->time();
+        EXPECT_GE(time.sim_time_ns, last_ns);
+        last_ns = time.sim_time_ns;
+        session->send(motion, sim::TwistCommand{{0.1 * t, 0.0, 0.0}});
+        EXPECT_TRUE(session->cell(sim::kBaseLayer, t, t).has_value());
+        EXPECT_FALSE(session->cell(sim::kBaseLayer, -1, t).has_value());
+      }
+    });
+  }
+  // Two threads that both wait for rounds.
+  threads.emplace_back([&] {
+    EXPECT_EQ(error_of([&] {
+                while (true) read(*session);
+              }).code(),
+              SessionError::Code::kFinished);
+  });
+  EXPECT_EQ(error_of([&] {
+              while (true) read(*session);
+            }).code(),
+            SessionError::Code::kFinished);
+  stop = true;
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_TRUE(served.host->finished());
+}
+
+TEST(SocketSessions, AFollowerHoldsTheClockAndNeverLetsItGoOn) {
+  const Served served;
+  const auto session = connect(served.port());
+  subscribe_position(*session);
+  const std::unique_ptr<Session> follower = session->open_follower();
+  EXPECT_EQ(follower->simulation(), session->simulation());
+  subscribe_position(*follower);
+  std::atomic<int> rounds{0};
+  std::thread thread([&] {
+    const SessionError end = error_of([&] {
+      while (true) {
+        read(*follower);
+        ++rounds;
+      }
+    });
+    EXPECT_EQ(end.code(), kDisconnected);
+  });
+  EXPECT_EQ(served.host->time().steps, 0U);
+  for (int i = 0; i < 5; ++i) read(*session);
+  // It has all rounds but the newest, for which it would have to have voted again.
+  EXPECT_GE(rounds, 3);
+  follower->close();
+  thread.join();
+  EXPECT_EQ(served.host->time().steps, 50U);
+}
+
+TEST(SocketSessions, CommandsOfOneSessionArriveBeforeAnotherLetsTimeGoOn) {
+  const Served served;
+  const auto first = connect(served.port(), 6665);
+  const auto second = connect(served.port(), 6666);
+  const DeviceId motion = subscribe_position(*first);
+  const DeviceId other_motion = subscribe_position(*second);
+  double x_m = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    const double v = i % 2 == 0 ? 0.3 : -0.3;
+    first->send(motion, sim::TwistCommand{{v, 0.0, 0.0}});
+    second->send(other_motion, sim::TwistCommand{{v, 0.0, 0.0}});
+    x_m += 0.1 * v;
+    ASSERT_NEAR(read(*second).x_m, x_m, 1e-9) << i;
+    ASSERT_NEAR(read(*first).x_m, x_m, 1e-9) << i;
+  }
+}
+
+// --- The canvas
+
+std::vector<std::uint8_t> picture_of(Session& session) {
+  sim::LayerStyle style;
+  style.name = "map";
+  style.transparency = 0.25;
+  const sim::LayerId layer = session.create_layer(sim::LayerKind::kColour, style);
+  std::vector<sim::DrawOperation> operations;
+  for (int i = 0; i < 20'000; ++i) {
+    sim::DrawOperation operation;
+    operation.kind =
+        i % 3 == 0 ? sim::DrawOperation::Kind::kLine : sim::DrawOperation::Kind::kPixel;
+    operation.layer = i % 2 == 0 ? layer : sim::kBaseLayer;
+    operation.x0 = i * 7 % 130 - 10;
+    operation.y0 = i * 11 % 60 - 5;
+    operation.x1 = i * 13 % 100;
+    operation.y1 = i * 17 % 50;
+    operation.value = sim::CellValue::of(sim::Colour{static_cast<std::uint8_t>(i % 256), 3,
+                                                     static_cast<std::uint8_t>(i / 256),
+                                                     static_cast<std::uint8_t>(i % 255)});
+    operations.push_back(operation);
+  }
+  session.draw(operations);
+  std::vector<sim::CellValue> cells;
+  for (int i = 0; i < 90 * 40; ++i) {
+    cells.push_back(sim::CellValue::of(sim::Colour{9, static_cast<std::uint8_t>(i % 256), 7, 255}));
+  }
+  session.draw_cells(layer, {20, 20, 90, 40}, cells);
+  return session.canvas_image();
+}
+
+TEST(SocketSessions, DrawTheSameAsInProcess) {
+  const auto host = Host::create(two_robots());
+  const std::vector<std::uint8_t> expected = picture_of(*host->connect(6665));
+  ServerSettings small;
+  small.limits.message_bytes = 1024;  // less than three rows: cut into many messages
+  for (const auto& settings : {ServerSettings{}, small}) {
+    for (const auto encoding : {protocol::Encoding::kCbor, protocol::Encoding::kJson}) {
+      const Served served("{}", settings);
+      SocketSettings client = settings_for(served.port());
+      client.encoding = encoding;
+      SocketSession session(client);
+      EXPECT_TRUE(picture_of(session) == expected) << protocol::to_string(encoding);
+    }
+  }
+}
+
+TEST(SocketSessions, DrawingsInAPacedSimulationArriveWithoutAFurtherCall) {
+  const Served served(R"({"time": "real"})");
+  const auto session = connect(served.port());
+  sim::DrawOperation dot;
+  dot.value = sim::CellValue::of(sim::Colour{255, 0, 0, 255});
+  session->draw({&dot, 1});
+  const auto watcher = served.host->connect(6666);
+  while (watcher->cell(sim::kBaseLayer, 0, 0) != dot.value) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+}
+
+TEST(SocketSessions, SleepInAPacedSimulationLetsOthersReadMeanwhile) {
+  const Served served(R"({"time": 20})");
+  const auto session = connect(served.port());
+  subscribe_position(*session);
+  std::atomic<int> rounds{0};
+  std::atomic<bool> stop{false};
+  std::thread reader([&] {
+    while (!stop) {
+      read(*session);
+      ++rounds;
+    }
+  });
+  const double begin_s = sim::to_seconds(session->time().sim_time_ns);
+  session->sleep(2.0);
+  EXPECT_GE(sim::to_seconds(session->time().sim_time_ns), begin_s + 2.0);
+  stop = true;
+  reader.join();
+  EXPECT_GE(rounds, 2);
+}
+
+}  // namespace
+}  // namespace playerlike
