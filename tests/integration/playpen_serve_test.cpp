@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstddef>
 #include <filesystem>
@@ -223,7 +224,7 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
   };
   for (const Case& c : std::vector<Case>{{"--port", "65536"},
                                          {"--port", "http"},
-                                         {"--stream-port", "-1"},
+                                         {"--stream-port", "70000"},
                                          {"--sync-port", "x"},
                                          {"--clients", "0"},
                                          {"--time", "slow"},
@@ -232,9 +233,9 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
                                          {"--max-connections", "0"},
                                          {"--max-message", "10"},
                                          {"--max-requests", "many"},
-                                         {"--max-queued", "-5"},
+                                         {"--max-queued", "5"},
                                          {"--first-request-timeout", "nan"},
-                                         {"--request-timeout", "-1"},
+                                         {"--request-timeout", "soon"},
                                          {"--idle-timeout", "1e9"}}) {
     const ProcessResult result = playpen(arguments({c.option, c.value}));
     EXPECT_EQ(result.status, 2) << c.option;
