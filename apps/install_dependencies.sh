@@ -14,8 +14,8 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 
 Groups (default: build):
   build   compiler, CMake and the libraries that Playpen links
-  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, and a display without a
-          screen for the live window
+  test    GoogleTest, Google Benchmark, ffprobe, which looks at films, a display without a
+          screen for the live window, and MORSE's client library where there is a package of it
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
 
@@ -31,10 +31,12 @@ build_packages=(
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-highgui-dev libx11-dev
-  nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
+  libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool)
+# Where the system has no such package (Ubuntu 24.04), the tests that want it are skipped.
+optional_test_packages=(python3-morse-simulator)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)
 doc_packages=(doxygen=doxygen)
@@ -50,6 +52,16 @@ is_installed() {
   [[ $1 == *=* ]] && command=${1#*=}
   if [[ -n $command ]] && command -v "$command" >/dev/null 2>&1; then return 0; fi
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]]
+}
+
+# missing_optional PACKAGE...: those that are not installed and that apt knows, one a line.
+missing_optional() {
+  local package
+  for package in "$@"; do
+    if ! is_installed "$package" && apt-cache show "$package" >/dev/null 2>&1; then
+      printf '%s\n' "$package"
+    fi
+  done
 }
 
 # The package that holds the sanitizer and fuzzer runtime of the packaged clang. Its name carries
@@ -96,11 +108,15 @@ done
 ((${#groups[@]} > 0)) || groups=(build)
 
 wanted=()
+optional=()
 with_lint=false
 for group in "${groups[@]}"; do
   case $group in
     build) wanted+=("${build_packages[@]}") ;;
-    test) wanted+=("${test_packages[@]}") ;;
+    test)
+      wanted+=("${test_packages[@]}")
+      optional+=("${optional_test_packages[@]}")
+      ;;
     lint)
       wanted+=("${lint_packages[@]}")
       with_lint=true
@@ -111,6 +127,9 @@ done
 
 if $list_only; then
   printf '%s\n' "${wanted[@]%%=*}"
+  for package in "${optional[@]}"; do
+    if is_installed "$package" || [[ -n $(missing_optional "$package") ]]; then echo "$package"; fi
+  done
   if $with_lint; then clang_runtime_package; fi
   exit 0
 fi
@@ -124,9 +143,10 @@ missing=()
 for entry in "${wanted[@]}"; do
   is_installed "$entry" || missing+=("${entry%%=*}")
 done
+mapfile -t missing_extras < <(missing_optional "${optional[@]}")
 need_runtime=false
 if $with_lint && ! clang_runtime_is_there; then need_runtime=true; fi
-if ((${#missing[@]} == 0)) && ! $need_runtime; then exit 0; fi
+if ((${#missing[@]} + ${#missing_extras[@]} == 0)) && ! $need_runtime; then exit 0; fi
 
 as_root=()
 if ((EUID != 0)); then
@@ -154,6 +174,8 @@ if $need_runtime; then
   runtime=$(clang_runtime_package)
   if [[ -n $runtime ]]; then missing+=("$runtime"); fi
 fi
+mapfile -t missing_extras < <(missing_optional "${optional[@]}")
+missing+=("${missing_extras[@]}")
 ((${#missing[@]} > 0)) || exit 0
 
 unknown=()

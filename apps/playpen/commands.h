@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "playerlike/host/run_settings.h"
+#include "playerlike/server/server_settings.h"
+#include "sim/core/log.h"
 
 /// The commands of `playpen`, behind their arguments. Each prints to the standard streams and
 /// returns an exit status; what goes wrong beyond that is thrown.
@@ -58,6 +60,25 @@ struct GradeRequest {
 ///         started, std::exception if the output folder can't be prepared or there can be no
 ///         window.
 [[nodiscard]] int run(RunRequest request);
+
+/// What `playpen serve` was asked for.
+struct ServeRequest {
+  std::string world;  ///< as the user wrote it, see find_world()
+  playerlike::RunSettings settings;
+  playerlike::ServerSettings server;
+  std::string token_file;      ///< "": no tokens
+  std::optional<int> clients;  ///< of the start gate, instead of the world's
+  sim::LogLevel log_level = sim::LogLevel::kInfo;
+  bool quiet = false;
+  bool view = false;  ///< in a window, in real time unless the settings say otherwise
+};
+
+/// Offers a simulation over TCP until a signal comes, a client says so, or the run is over and its
+/// clients have left. Prints where it listens, and how the run went unless told to be quiet.
+/// @return kOk, or kProgramFailed if results could not be written.
+/// @throws sim::ConfigError for a bad world, token file, address or port; std::exception if the
+///         output folder can't be prepared or there can be no window.
+[[nodiscard]] int serve(ServeRequest request);
 
 /// Validates worlds; prints a line for each sound one and every issue of the others.
 [[nodiscard]] int check(const std::vector<std::string>& worlds);

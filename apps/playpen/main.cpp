@@ -1,12 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,29 +11,18 @@
 #include "commands.h"
 #include "grade_options.h"
 #include "parsed_option.h"
-#include "playerlike/host/run_settings.h"
+#include "run_options.h"
+#include "serve_options.h"
 #include "sim/core/error.h"
-#include "sim/render/render.h"
-#include "sim/world/view_mode.h"
 
 namespace {
 
 using playpen::add_parsed;
 using playpen::parse_number;
 
-void add_view_mode(CLI::App& command, std::optional<sim::ViewMode>& mode) {
-  add_parsed(command, "--view-mode",
-             "How the canvas is shown: ground, mini-map or full-screen [the world's]", "MODE",
-             playerlike::kViewModeExpected, [&mode](const std::string& text) {
-               mode = sim::parse_view_mode(text);
-               return mode.has_value();
-             });
-}
-
 void add_run(CLI::App& app, const std::vector<std::string>& program, int& status) {
   const auto request = std::make_shared<playpen::RunRequest>();
   request->command = program;
-  playerlike::RunSettings& settings = request->settings;
   CLI::App& command = *app.add_subcommand("run", "Run a client program on a world");
   command.footer(
       "After '--' come the client program and its arguments, for example\n"
@@ -46,51 +32,7 @@ void add_run(CLI::App& app, const std::vector<std::string>& program, int& status
                   "World file, or the name of a shipped world (tasks/par_intro), or 'default'")
       ->required()
       ->type_name("");
-  add_parsed(command, "--duration", "Simulated seconds after which the run ends", "S",
-             "a number of seconds above 0", [&settings](const std::string& text) {
-               double seconds = 0.0;
-               const bool good =
-                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
-               if (good) settings.duration_s = seconds;
-               return good;
-             });
-  add_parsed(command, "--seed", "Seed of all noise", "N", "a whole number from 0 to 2^64 - 1",
-             [&settings](const std::string& text) {
-               std::uint64_t seed = 0;
-               const bool good = parse_number(text, seed);
-               if (good) settings.seed = seed;
-               return good;
-             });
-  add_parsed(command, "--time", "lockstep, real, or a factor of real time", "MODE",
-             "lockstep, real, or a factor above 0", [&settings](const std::string& text) {
-               sim::TimeMode mode = sim::TimeMode::kLockstep;
-               const bool good = playerlike::parse_time_mode(text, mode, settings.time_factor);
-               if (good) settings.time_mode = mode;
-               return good;
-             });
-  command.add_option("--out", settings.output_folder, "Folder for results [out/<world's name>]")
-      ->type_name("DIR");
-  add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
-             playerlike::kFilmExpected, [&settings](const std::string& text) {
-               settings.film = text;
-               return sim::render::FilmWriter::is_film_name(text);
-             });
-  add_parsed(command, "--record-fps", "Frames a second of the film [25]", "N",
-             playerlike::kFilmFpsExpected, [&settings](const std::string& text) {
-               return playerlike::parse_film_fps(text, settings.film_fps);
-             });
-  add_parsed(command, "--record-speed", "Simulated seconds a second of the film [1]", "X",
-             playerlike::kFilmSpeedExpected, [&settings](const std::string& text) {
-               return playerlike::parse_film_speed(text, settings.film_speed);
-             });
-  add_parsed(command, "--snapshot-every", "Simulated seconds between pictures in DIR/snapshots",
-             "S", playerlike::kSnapshotPeriodExpected, [&settings](const std::string& text) {
-               double period_s = 0.0;
-               const bool good = playerlike::parse_snapshot_period(text, period_s);
-               if (good) settings.snapshot_period_s = period_s;
-               return good;
-             });
-  add_view_mode(command, settings.view_mode);
+  playpen::add_run_settings(command, request->settings, "the world's, else lockstep");
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time gives a factor");
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
@@ -127,7 +69,7 @@ void add_render(CLI::App& app, int& status) {
                int& size_px = request->size_px;
                return parse_number(text, size_px) && size_px >= 64 && size_px <= 8192;
              });
-  add_view_mode(command, request->view_mode);
+  playpen::add_view_mode(command, request->view_mode);
   CLI::Option* const canvas = command.add_flag("--canvas", request->canvas,
                                                "The canvas alone, a whole number of pixels a cell");
   command
@@ -157,6 +99,7 @@ int main(int argc, char** argv) {
                            : all_end;
     const std::vector<std::string> program(std::min(end + 1, all_end), all_end);
     add_run(app, program, status);
+    playpen::add_serve(app, status);
     playpen::add_grade(app, program, status);
     add_check(app, status);
     add_render(app, status);

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "host/log.h"
+#include "playerlike/host/log.h"
 #include "session/socket_session.h"
 #include "sim/render/render.h"
 

@@ -49,11 +49,9 @@ std::string bytes_text(std::uint64_t bytes) {
 
 }  // namespace
 
-Connection::Connection(asio::ip::tcp::socket socket, std::string name, ConnectionKind kind,
-                       ConnectionOwner& owner)
+Connection::Connection(asio::ip::tcp::socket socket, std::string name, ConnectionOwner& owner)
     : socket_(std::move(socket)),
       name_(std::move(name)),
-      kind_(kind),
       owner_(owner),
       splitter_(protocol::Encoding::kJson, owner.limits().message_bytes),
       room_(kSmallestRoom) {}
@@ -86,9 +84,9 @@ void Connection::read() {
   if (reading_ || state_ == State::kEnded || peer_left_) return;
   if (state_ == State::kOpen && (processing_ || process_posted_ || paused())) return;
   reading_ = true;
-  const bool to_splitter = state_ == State::kOpen && kind_ != ConnectionKind::kRaw;
+  reading_bytes_ = state_ != State::kOpen || handler_->takes_bytes();
   asio::mutable_buffer buffer = asio::buffer(scratch_);
-  if (to_splitter) {
+  if (!reading_bytes_) {
     const auto room = splitter_.room(room_);
     buffer = asio::buffer(room.data(), room.size());
   }
@@ -109,7 +107,7 @@ void Connection::on_read(const asio::error_code& error, std::size_t size) {
   }
   if (state_ == State::kClosing) return read();
   bytes_in_ += size;
-  if (kind_ == ConnectionKind::kRaw) {
+  if (reading_bytes_) {
     guarded([&] { handler_->on_message(std::string_view(scratch_.data(), size)); });
     ++requests_;
     return read();
@@ -358,7 +356,7 @@ void Connection::look_after(Clock::time_point now) {
         "server/partial-request",
         "a request was not whole within " + seconds_text(limits.partial_request_s)));
   }
-  if (kind_ != ConnectionKind::kServices) return;
+  if (handler_->takes_bytes() || handler_->may_be_silent()) return;
   if (requests_ == 0 && too_late(opened_, limits.first_request_s)) {
     return fail(protocol::ProtocolError(
         "server/first-request", "no request came within " + seconds_text(limits.first_request_s)));
@@ -372,11 +370,16 @@ std::string Connection::summary() const {
   std::array<char, 32> time{};
   std::snprintf(time.data(), time.size(), "%.1f s",
                 std::chrono::duration<double>(Clock::now() - opened_).count());
-  std::string text = name_ + (description_.empty() ? "" : " (" + description_ + ')') +
-                     ": closed after " + time.data() + ": " + reason_ + "; " +
+  constexpr std::size_t kLongest = 200;
+  std::string text = name_ +
+                     (description_.empty() ? "" : " (" + description_.substr(0, kLongest) + ')') +
+                     ": closed after " + time.data() + ": " + reason_.substr(0, kLongest) + "; " +
                      std::to_string(requests_) + (requests_ == 1 ? " request, " : " requests, ") +
                      bytes_text(bytes_in_) + " in, " + bytes_text(bytes_out_) + " out";
   if (records_lost_ > 0) text += ", " + std::to_string(records_lost_) + " records lost";
+  // Some of it is in the client's words, which must not look like lines of the log.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;
 }
 

@@ -36,13 +36,6 @@ class ConnectionOwner {
   ~ConnectionOwner() = default;
 };
 
-/// What a connection is for.
-enum class ConnectionKind {
-  kServices,  ///< must make requests
-  kStream,    ///< may stay silent
-  kRaw,       ///< may stay silent; each piece of bytes that comes is a message
-};
-
 /// One connection: reads messages for its handler, and writes what that sends.
 ///
 /// Used by the server's thread only. Reading stops while too many requests are in flight, or too
@@ -53,8 +46,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   using Clock = std::chrono::steady_clock;
 
   /// @param socket  connected. @param name  of the other end.
-  Connection(asio::ip::tcp::socket socket, std::string name, ConnectionKind kind,
-             ConnectionOwner& owner);
+  Connection(asio::ip::tcp::socket socket, std::string name, ConnectionOwner& owner);
 
   /// Begins to read.
   void start(std::unique_ptr<Handler> handler);
@@ -121,16 +113,16 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
 
   asio::ip::tcp::socket socket_;
   std::string name_;
-  ConnectionKind kind_;
   ConnectionOwner& owner_;
   std::unique_ptr<Handler> handler_;
   std::unique_ptr<Handler> next_handler_;
 
   State state_ = State::kOpen;
   bool refused_ = false;
-  bool reading_ = false;     ///< a read is under way
-  bool writing_ = false;     ///< a wait for room to write is under way
-  bool processing_ = false;  ///< inside process()
+  bool reading_ = false;        ///< a read is under way
+  bool reading_bytes_ = false;  ///< ... into scratch_, not into the splitter
+  bool writing_ = false;        ///< a wait for room to write is under way
+  bool processing_ = false;     ///< inside process()
   bool process_posted_ = false;
   bool peer_left_ = false;    ///< it sends no more
   bool write_ended_ = false;  ///< it has been told that no more follows

@@ -27,7 +27,7 @@ MorseState::MorseState(Hub& hub)
 MorseState::~MorseState() {
   postbox_->close();
   for (const auto& [number, pending] : pending_) host().cancel_alarm(pending.alarm);
-  if (synchronisers_ > 0) host().set_step_credit(std::nullopt);
+  if (synchronised_) host().set_step_credit(std::nullopt);
 }
 
 std::shared_ptr<MorseState> MorseState::of(Hub& hub) {
@@ -192,11 +192,9 @@ void MorseState::set_verbose(const std::string& component, bool verbose) {
   }
 }
 
-void MorseState::count_synchronisers(int change) {
-  const bool before = synchronisers_ > 0;
-  synchronisers_ += change;
-  if (before == (synchronisers_ > 0)) return;
-  host().set_step_credit(before ? std::nullopt : std::optional<std::uint64_t>(0));
+void MorseState::set_synchronised(bool synchronised) {
+  synchronised_ = synchronised;
+  host().set_step_credit(synchronised ? std::optional<std::uint64_t>(0) : std::nullopt);
   hub_.pump();
 }
 

@@ -107,8 +107,11 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   }
   /// @}
 
-  /// Steps that clients of the clock synchronisation allow: one more, or one less, is connected.
-  void count_synchronisers(int change);
+  /// @name Whether a client of the clock synchronisation allows each step
+  /// @{
+  void set_synchronised(bool synchronised);
+  [[nodiscard]] bool synchronised() const noexcept { return synchronised_; }
+  /// @}
 
   [[nodiscard]] const std::shared_ptr<Postbox>& postbox() const noexcept { return postbox_; }
 
@@ -139,7 +142,7 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   std::map<Number, Pending> pending_;
   Number last_number_ = 0;
   std::set<std::string> verbose_;
-  int synchronisers_ = 0;
+  bool synchronised_ = false;
   std::unique_ptr<MorseStreams> streams_;
 };
 

@@ -271,14 +271,17 @@ int MorseStreams::port(const MorseComponent& component) {
 
 namespace {
 
-/// Who lets the clock go on, a step for each message.
+/// Who lets the clock go on, a step for each message. There is one at a time, as in MORSE.
 class SyncConnection final : public Handler {
  public:
   SyncConnection(Peer& peer, Hub& hub) : peer_(peer), hub_(hub), state_(MorseState::of(hub)) {
+    if (state_->synchronised()) {
+      throw protocol::ProtocolError("server/sync-taken", "another client synchronises the clock");
+    }
     allow(hub_.access().rights({}));
   }
   ~SyncConnection() override {
-    if (allowed_) state_->count_synchronisers(-1);
+    if (allowed_) state_->set_synchronised(false);
   }
   SyncConnection(const SyncConnection&) = delete;
   SyncConnection& operator=(const SyncConnection&) = delete;
@@ -290,7 +293,7 @@ class SyncConnection final : public Handler {
     if (!allowed_) {
       const auto token = token_in(bytes);
       if (token) allow(hub_.access().rights({*token}));
-      if (!allowed_) peer_.close("access/denied: a token that commands all robots is needed\n");
+      if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");
       return;
     }
     const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
@@ -301,8 +304,8 @@ class SyncConnection final : public Handler {
 
  private:
   void allow(const Rights& rights) {
-    allowed_ = rights.command_all();
-    if (allowed_) state_->count_synchronisers(+1);
+    allowed_ = rights.command_all() && !state_->synchronised();
+    if (allowed_) state_->set_synchronised(true);
   }
 
   Peer& peer_;

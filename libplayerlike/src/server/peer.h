@@ -126,8 +126,7 @@ class Hub {
   /// of such a call back, that happens after this has returned, but without another wake-up.
   virtual void pump() = 0;
 
-  /// Opens a further port, on the same addresses, whose connections get their own handlers. Those
-  /// may stay without a request for ever.
+  /// Opens a further port, on the same addresses, whose connections get their own handlers.
   /// @param first  tried first, then the next ones up; 0: any free one.
   /// @return the port. @throws ProtocolError server/no-port if there is none.
   virtual int listen(int first, MakeHandler make) = 0;

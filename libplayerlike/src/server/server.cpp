@@ -16,6 +16,10 @@ Server::Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook
           {std::move(host), std::move(settings), std::move(log), server::make_morse_handler}}) {}
 Server::~Server() = default;
 
+void Server::check(const ServerSettings& settings, const std::vector<std::string>& robots) {
+  server::ServerHub::check(settings, robots);
+}
+
 int Server::port() const noexcept { return impl_->hub.port(); }
 int Server::sync_port() const noexcept { return impl_->hub.sync_port(); }
 std::size_t Server::connections() const noexcept { return impl_->hub.connections(); }

@@ -90,46 +90,99 @@ std::vector<asio::ip::address> addresses_of(asio::io_context& io, const std::str
   return addresses;
 }
 
+void require_token(const ServerSettings& settings,
+                   const std::vector<asio::ip::address>& addresses) {
+  if (settings.open || !settings.access.server_token.empty()) return;
+  for (const asio::ip::address& address : addresses) {
+    if (address.is_loopback()) continue;
+    throw_issue("server/token-needed", "bind",
+                "a token for clients, since other machines can reach this address",
+                '"' + settings.bind + "\" without one",
+                "name a token file that has a \"server\" token, or allow everybody with --open");
+  }
+}
+
+/// The addresses to listen on. @throws sim::ConfigError also if they need a token.
+std::vector<asio::ip::address> sound_addresses(asio::io_context& io,
+                                               const ServerSettings& settings) {
+  std::vector<asio::ip::address> addresses = addresses_of(io, settings.bind);
+  require_token(settings, addresses);
+  return addresses;
+}
+
 /// A port on all addresses of the server.
 struct Listener {
   std::vector<tcp::acceptor> acceptors;
   int port = 0;
-  ConnectionKind kind = ConnectionKind::kServices;
+  bool services = false;  ///< the port that clients connect to first
   MakeHandler make;
 };
 
-/// MORSE's clock synchronisation: while a client is connected, each message lets one step pass.
-///
-/// MORSE (morse/middleware/socket_datastream.py, 1.4) takes whatever one recv() gives as one
-/// message. Messages that end in \n are told apart here although they come together.
-class SyncHandler final : public Handler {
- public:
-  SyncHandler(Peer& peer, Hub& hub, bool& taken) : hub_(hub), taken_(taken) {
-    if (taken_) {
-      throw protocol::ProtocolError("server/sync-taken", "another client synchronises the clock");
+/// @param alone  whether this is the only address: then "::" serves IPv4 too; a name may stand for
+///               one of each.
+asio::error_code open_on(asio::io_context& io, const asio::ip::address& address, bool alone,
+                         Listener& listener) {
+  try {
+    const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(listener.port));
+    tcp::acceptor acceptor(io);
+    acceptor.open(endpoint.protocol());
+    acceptor.set_option(tcp::acceptor::reuse_address(true));
+    if (address.is_v6()) acceptor.set_option(asio::ip::v6_only(!alone));
+    acceptor.bind(endpoint);
+    acceptor.listen();
+    acceptor.non_blocking(true);
+    listener.port = acceptor.local_endpoint().port();
+    listener.acceptors.push_back(std::move(acceptor));
+    return {};
+  } catch (const std::system_error& e) {
+    return e.code();
+  }
+}
+
+/// Opens a port on all addresses. @param port  0: any free one. @return what went wrong.
+asio::error_code open(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
+                      int port, Listener& listener) {
+  asio::error_code result;
+  // With any free port, one that is free on the first address may be taken on another.
+  for (int attempt = 0; attempt < (port == 0 ? 10 : 1); ++attempt) {
+    listener.acceptors.clear();
+    listener.port = port;
+    result.clear();
+    for (const asio::ip::address& address : addresses) {
+      const asio::error_code error = open_on(io, address, addresses.size() == 1, listener);
+      // A name may stand for an address of a protocol that this machine does not speak.
+      const bool no_such_address =
+          error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL;
+      if (error && !(no_such_address && addresses.size() > 1)) result = error;
+      if (result) break;
     }
-    taken_ = true;
-    peer.describe("clock synchronisation");
-    hub_.host().set_step_credit(0);
+    if (!result && listener.acceptors.empty()) {
+      result = asio::error_code(EADDRNOTAVAIL, asio::system_category());
+    }
+    if (result != asio::error::address_in_use) break;
   }
-  ~SyncHandler() override {
-    taken_ = false;
-    hub_.host().set_step_credit(std::nullopt);
-  }
+  return result;
+}
 
-  void on_message(std::string_view bytes) override {
-    const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
-    hub_.host().add_step_credit(static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(lines, 1)));
-    hub_.pump();
+/// @param place  the setting that names the port.
+void open_or_throw(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
+                   const ServerSettings& settings, int port, const char* place,
+                   Listener& listener) {
+  const asio::error_code error = open(io, addresses, port, listener);
+  if (!error) return;
+  const std::string where = settings.bind + ':' + std::to_string(port);
+  if (error == asio::error::address_in_use) {
+    throw_issue("server/port-taken", place, "a free TCP port", std::to_string(port) + ", taken",
+                "another playpen serve, MORSE or Player may hold it (ss -ltnp tells); port 0 "
+                "takes any free one");
   }
-  [[nodiscard]] std::string farewell(const protocol::ProtocolError& /*error*/) override {
-    return "";
+  if (error == asio::error::access_denied) {
+    throw_issue("server/port-not-allowed", place, "a TCP port that this user may open",
+                where + ": " + error.message(), "ports from 1024 on are open to all users");
   }
-
- private:
-  Hub& hub_;
-  bool& taken_;
-};
+  throw_issue("server/address", "bind", "an address of this machine",
+              where + ": " + error.message(), "");
+}
 
 }  // namespace
 
@@ -140,16 +193,17 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
         settings_(std::move(settings)),
         log_(std::move(log)),
         access_(settings_.access, host_->robots()),
-        addresses_(addresses_of(io_, settings_.bind)) {
-    require_token();
-    port_ = open_or_throw(settings_.port, ConnectionKind::kServices, std::move(services), "port");
+        addresses_(sound_addresses(io_, settings_)) {
+    Listener services_port;
+    services_port.services = true;
+    services_port.make = std::move(services);
+    open_or_throw(io_, addresses_, settings_, settings_.port, "port", services_port);
+    port_ = add(std::move(services_port));
     if (settings_.sync_port) {
-      sync_port_ = open_or_throw(
-          *settings_.sync_port, ConnectionKind::kRaw,
-          [this](Peer& peer, Hub& hub) {
-            return std::make_unique<SyncHandler>(peer, hub, sync_taken_);
-          },
-          "sync_port");
+      Listener clock;
+      clock.make = make_sync_handler;
+      open_or_throw(io_, addresses_, settings_, *settings_.sync_port, "sync_port", clock);
+      sync_port_ = add(std::move(clock));
     }
     tick();
     thread_ = std::thread([this] { serve(); });
@@ -167,9 +221,6 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
     if (!thread_.joinable()) return;
     asio::post(io_, [this] { begin_stop(); });
     thread_.join();
-    // Alarms of theirs must not reach a hub that goes.
-    morse_state.reset();
-    native_state.reset();
   }
 
   // Hub
@@ -200,11 +251,6 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   void ended(Connection& connection) override;
 
   void serve();
-  void require_token() const;
-  int open_or_throw(int port, ConnectionKind kind, MakeHandler make, const char* place);
-  /// Opens a port on all addresses. @param port  0: any free one. @return what went wrong.
-  asio::error_code open(int port, Listener& listener);
-  asio::error_code open_on(const asio::ip::address& address, int port, Listener& listener);
   int add(Listener listener);
   void accept(Listener& listener, tcp::acceptor& acceptor);
   void accept_later(Listener& listener, tcp::acceptor& acceptor, const asio::error_code& error);
@@ -225,7 +271,6 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   std::vector<asio::ip::address> addresses_;
   int port_ = 0;
   int sync_port_ = 0;
-  bool sync_taken_ = false;
 
   std::vector<std::unique_ptr<Listener>> listeners_;
   std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that close
@@ -262,89 +307,13 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
 
 // --- Ports
 
-void ServerHub::Body::require_token() const {
-  if (settings_.open || !settings_.access.server_token.empty()) return;
-  for (const asio::ip::address& address : addresses_) {
-    if (address.is_loopback()) continue;
-    throw_issue("server/token-needed", "bind",
-                "a token for clients, since other machines can reach this address",
-                '"' + settings_.bind + "\" without one",
-                "name a token file that has a \"server\" token, or allow everybody with --open");
-  }
-}
-
-asio::error_code ServerHub::Body::open_on(const asio::ip::address& address, int port,
-                                          Listener& listener) {
-  try {
-    const tcp::endpoint endpoint(address, static_cast<std::uint16_t>(port));
-    tcp::acceptor acceptor(io_);
-    acceptor.open(endpoint.protocol());
-    acceptor.set_option(tcp::acceptor::reuse_address(true));
-    // "::" serves IPv4 too, if it is the only address; a name may stand for one of each.
-    if (address.is_v6()) acceptor.set_option(asio::ip::v6_only(addresses_.size() > 1));
-    acceptor.bind(endpoint);
-    acceptor.listen();
-    acceptor.non_blocking(true);
-    listener.port = acceptor.local_endpoint().port();
-    listener.acceptors.push_back(std::move(acceptor));
-    return {};
-  } catch (const std::system_error& e) {
-    return e.code();
-  }
-}
-
-asio::error_code ServerHub::Body::open(int port, Listener& listener) {
-  asio::error_code result;
-  // With any free port, one that is free on the first address may be taken on another.
-  for (int attempt = 0; attempt < (port == 0 ? 10 : 1); ++attempt) {
-    listener.acceptors.clear();
-    listener.port = port;
-    result.clear();
-    for (const asio::ip::address& address : addresses_) {
-      const asio::error_code error = open_on(address, listener.port, listener);
-      // A name may stand for an address of a protocol that this machine does not speak.
-      const bool no_such_address =
-          error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL;
-      if (error && !(no_such_address && addresses_.size() > 1)) result = error;
-      if (result) break;
-    }
-    if (!result && listener.acceptors.empty()) {
-      result = asio::error_code(EADDRNOTAVAIL, asio::system_category());
-    }
-    if (result != asio::error::address_in_use) break;
-  }
-  return result;
-}
-
-int ServerHub::Body::open_or_throw(int port, ConnectionKind kind, MakeHandler make,
-                                   const char* place) {
-  Listener listener;
-  listener.kind = kind;
-  listener.make = std::move(make);
-  const asio::error_code error = open(port, listener);
-  if (!error) return add(std::move(listener));
-  const std::string where = settings_.bind + ':' + std::to_string(port);
-  if (error == asio::error::address_in_use) {
-    throw_issue("server/port-taken", place, "a free TCP port", std::to_string(port) + ", taken",
-                "another playpen serve, MORSE or Player may hold it (ss -ltnp tells); port 0 "
-                "takes any free one");
-  }
-  if (error == asio::error::access_denied) {
-    throw_issue("server/port-not-allowed", place, "a TCP port that this user may open",
-                where + ": " + error.message(), "ports from 1024 on are open to all users");
-  }
-  throw_issue("server/address", "bind", "an address of this machine",
-              where + ": " + error.message(), "");
-}
-
 int ServerHub::Body::listen(int first, MakeHandler make) {
   Listener listener;
-  listener.kind = ConnectionKind::kStream;
   listener.make = std::move(make);
   asio::error_code error;
   const int last = std::min(first == 0 ? 0 : first + kPortsTried, 65535);
   for (int port = first; port <= last; ++port) {
-    error = open(port, listener);
+    error = open(io_, addresses_, port, listener);
     if (!error) return add(std::move(listener));
     if (error != asio::error::address_in_use) break;
   }
@@ -403,15 +372,15 @@ void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   }
   const bool full = connections_.size() - refused_ >= limits().connections;
   if (full) warn_of(full_warned_, "all connections are in use, further ones are refused");
-  if (full && (refused_ >= kRefused || listener.kind != ConnectionKind::kServices)) {
+  if (full && (refused_ >= kRefused || !listener.services)) {
     return;
   }
-  const auto connection = std::make_shared<Connection>(
-      std::move(socket), text_of(remote), listener.kind, static_cast<ConnectionOwner&>(*this));
+  const auto connection = std::make_shared<Connection>(std::move(socket), text_of(remote),
+                                                       static_cast<ConnectionOwner&>(*this));
   connections_.insert(connection);
   if (full) {
     ++refused_;
-    connection->refuse("0 FAILED \"server/full: this server has all the " +
+    connection->refuse("- FAILED \"server/full: this server has all the " +
                        std::to_string(limits().connections) + " connections that it takes\"\n");
     return;
   }
@@ -460,11 +429,14 @@ void ServerHub::Body::serve() {
   for (;;) {
     try {
       io_.run();
-      return;
+      break;
     } catch (const std::exception& e) {
       log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
     }
   }
+  // All handlers are gone. Alarms of what they shared must not reach a hub that goes.
+  morse_state.reset();
+  native_state.reset();
 }
 
 void ServerHub::Body::post(std::function<void()> task) {
@@ -597,6 +569,20 @@ ServerHub::ServerHub(std::shared_ptr<Host> host, ServerSettings settings, sim::L
     : body_(std::make_unique<Body>(std::move(host), std::move(settings), std::move(log),
                                    std::move(services))) {}
 ServerHub::~ServerHub() = default;
+
+void ServerHub::check(const ServerSettings& settings, const std::vector<std::string>& robots) {
+  std::vector<RobotInfo> infos(robots.size());
+  for (std::size_t i = 0; i < robots.size(); ++i) infos[i].name = robots[i];
+  const Access access(settings.access, infos);
+  asio::io_context io;
+  const std::vector<asio::ip::address> addresses = sound_addresses(io, settings);
+  Listener services;
+  Listener clock;
+  open_or_throw(io, addresses, settings, settings.port, "port", services);
+  if (settings.sync_port) {
+    open_or_throw(io, addresses, settings, *settings.sync_port, "sync_port", clock);
+  }
+}
 
 int ServerHub::port() const noexcept { return body_->port(); }
 int ServerHub::sync_port() const noexcept { return body_->sync_port(); }

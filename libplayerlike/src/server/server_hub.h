@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "server/peer.h"
 
@@ -23,6 +25,7 @@ class ServerHub {
 
   /// @name As of Server
   /// @{
+  static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
   [[nodiscard]] int port() const noexcept;
   [[nodiscard]] int sync_port() const noexcept;
   [[nodiscard]] std::size_t connections() const noexcept;

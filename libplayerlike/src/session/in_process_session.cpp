@@ -2,8 +2,9 @@
 #include "session/in_process_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "session/checks.h"
 
 namespace playerlike {
 namespace {
@@ -53,19 +54,8 @@ const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
 int InProcessSession::port() const noexcept { return client_->port; }
 bool InProcessSession::connected() const noexcept { return !client_->closed; }
 
-const DeviceInfo& InProcessSession::require_device(DeviceId device) const {
-  for (const RobotInfo& robot : robots()) {
-    for (const DeviceInfo& info : robot.devices) {
-      if (info.id == device) return info;
-    }
-  }
-  throw SessionError(SessionError::Code::kNoSuchDevice,
-                     "the world has no device " + std::to_string(device.device) + " of robot " +
-                         std::to_string(device.robot));
-}
-
 void InProcessSession::subscribe(DeviceId device) {
-  const DeviceInfo& info = require_device(device);
+  const DeviceInfo& info = require_device(robots(), device);
   if (!host_->core_->is_sensor(device)) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "device " + info.name + " is no sensor: it has no readings");
@@ -94,7 +84,7 @@ bool InProcessSession::peek(std::chrono::milliseconds timeout) {
 }
 
 void InProcessSession::send(DeviceId device, const sim::Command& command) {
-  require_device(device);
+  require_device(robots(), device);
   require_finite(command);
   host_->core_->send(*client_, device, command);
 }

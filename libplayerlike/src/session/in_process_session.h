@@ -54,9 +54,6 @@ class InProcessSession final : public Session {
   void close() noexcept override;
 
  private:
-  /// Checks that the world has the device. @throws SessionError kNoSuchDevice.
-  const DeviceInfo& require_device(DeviceId device) const;
-
   std::shared_ptr<Host> host_;
   std::shared_ptr<Client> client_;
 };

@@ -13,6 +13,7 @@
 #include "host/end_of_program.h"
 #include "playerlike/host/event_client.h"
 #include "playerlike/session/layer_book.h"
+#include "session/checks.h"
 #include "session/socket_line.h"
 #include "sim/core/error.h"
 #include "sim/world/view_mode.h"
@@ -30,6 +31,8 @@ constexpr int kReadsAfterEnd = 1000;
 constexpr double kLongest_s = 1e9;  // 30 years
 // Of a message that sets cells, besides the cells [bytes].
 constexpr std::size_t kMessageOverhead = 512;
+// Longest side of a rectangle in a message.
+constexpr std::size_t kMaxSide = 8192;
 
 Connection::Clock::duration wall(double seconds) {
   return std::chrono::duration_cast<Connection::Clock::duration>(
@@ -78,12 +81,15 @@ std::string process_name() {
   return random + '-' + std::to_string(getpid());  // not that of a process that this one forked
 }
 
+/// The name of this program, as a server takes it.
 std::string program_name() {
+  constexpr std::size_t kMost = 64;
+  std::string name;
 #ifdef __GLIBC__
-  return program_invocation_short_name;
-#else
-  return "";
+  name = program_invocation_short_name;
 #endif
+  std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });
+  return name.substr(0, kMost);
 }
 
 /// Reads an answer: what it should hold and does not is the server's fault.
@@ -233,8 +239,8 @@ bool SocketSession::pause(double seconds) const {
 }
 
 void SocketSession::resume(Connection& connection) const {
-  const auto carry_out = [&](json request) {
-    static_cast<void>(connection.answer(connection.ask(std::move(request))));
+  const auto carry_out = [&](json& request) {
+    static_cast<void>(connection.answer(connection.ask(request)));
   };
   std::vector<json> requests;
   {
@@ -252,7 +258,7 @@ void SocketSession::resume(Connection& connection) const {
       requests.back()["replace"] = replace;
     }
   }
-  for (json& request : requests) carry_out(std::move(request));
+  for (json& request : requests) carry_out(request);
 }
 
 bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
@@ -290,14 +296,14 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
 
 // --- Saying and asking
 
-json SocketSession::request(const json& request) const {
+json SocketSession::request(json request) const {
   json answer = with_connection([&] { return line_->ask(request); });
   note(answer);
   throw_complaint();
   return answer;
 }
 
-json SocketSession::read(const json& request) const {
+json SocketSession::read(json request) const {
   farewell.remember(line_);
   return with_connection([&] { return line_->wait(request); });
 }
@@ -325,19 +331,8 @@ int SocketSession::port() const noexcept { return settings_.port; }
 
 bool SocketSession::connected() const noexcept { return !closed_ && !line_->connection()->lost(); }
 
-const DeviceInfo& SocketSession::require_device(DeviceId device) const {
-  for (const RobotInfo& robot : robots_) {
-    for (const DeviceInfo& info : robot.devices) {
-      if (info.id == device) return info;
-    }
-  }
-  throw SessionError(SessionError::Code::kNoSuchDevice,
-                     "the world has no device " + std::to_string(device.device) + " of robot " +
-                         std::to_string(device.robot));
-}
-
 void SocketSession::subscribe(DeviceId device) {
-  require_device(device);
+  require_device(robots_, device);
   request(device_request("subscribe", device));
   const Lock lock(mutex_);
   ++subscriptions_[key_of(device)];
@@ -356,13 +351,14 @@ void SocketSession::unsubscribe(DeviceId device) {
   }
   // Not worth another connection: that will not have the subscription.
   require_open();
-  note(line_->ask(device_request("unsubscribe", device)));
+  json request = device_request("unsubscribe", device);
+  note(line_->ask(request));
 }
 
 void SocketSession::set_replace(std::optional<DeviceId> device, bool replace) {
   json message = {{"do", "replace"}, {"device", nullptr}, {"replace", replace}};
   if (device) message["device"] = protocol::encode_device_id(*device);
-  request(message);
+  request(std::move(message));
   const Lock lock(mutex_);
   if (device) {
     replace_[key_of(*device)] = replace;
@@ -566,20 +562,8 @@ void SocketSession::set_retries(int limit, double time_s) {
 
 void SocketSession::send(DeviceId device, const sim::Command& command) {
   require_open();
-  require_device(device);
-  const auto finite = [](std::initializer_list<double> values) {
-    return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  };
-  bool good = true;
-  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) {
-    good = finite({twist->twist.v_mps, twist->twist.omega_radps, twist->twist.lateral_mps});
-  } else if (const auto* pose = std::get_if<sim::SetPoseCommand>(&command)) {
-    good = finite({pose->pose.x_m, pose->pose.y_m, pose->pose.yaw_rad});
-  }
-  if (!good) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a command holds a value that is not a finite number");
-  }
+  require_device(robots_, device);
+  require_finite(command);
   json message = device_request("command", device);
   message["command"] = protocol::encode_command(command);
   tell(message);
@@ -613,9 +597,10 @@ void SocketSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
   const std::size_t most = std::max<std::size_t>(
       (connection->message_limit() - kMessageOverhead) / (encoding == Encoding::kCbor ? 4 : 6), 1);
   const auto width = static_cast<std::size_t>(rect.width);
-  const auto columns = static_cast<int>(std::min(width, most));
-  const auto rows = static_cast<int>(
-      std::min<std::size_t>(most / std::max(columns, 1), static_cast<std::size_t>(rect.height)));
+  const std::size_t most_columns = std::min({width, most, kMaxSide});
+  const auto columns = static_cast<int>(most_columns);
+  const auto rows = static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1),
+                                               kMaxSide, static_cast<std::size_t>(rect.height)}));
   const auto set = [&](const sim::CellRect& part, std::span<const sim::CellValue> cells) {
     request({{"do", "set_cells"},
              {"layer", layer},

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "playerlike/host/host.h"
 #include "playerlike/server/server_settings.h"
@@ -22,6 +24,9 @@ class Server {
   /// @throws sim::ConfigError server/port-taken, server/address, server/token-needed,
   ///         access/unknown-robot.
   Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log = {});
+  /// Throws what the constructor would throw for these settings and robots, and leaves nothing
+  /// behind: for those who have something to tidy up before a simulation can be made.
+  static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
   /// As stop().
   ~Server();
   Server(const Server&) = delete;

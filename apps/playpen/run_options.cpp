@@ -1,0 +1,71 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "run_options.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include "parsed_option.h"
+#include "sim/render/render.h"
+#include "sim/world/view_mode.h"
+
+namespace playpen {
+
+void add_view_mode(CLI::App& command, std::optional<sim::ViewMode>& mode) {
+  add_parsed(command, "--view-mode",
+             "How the canvas is shown: ground, mini-map or full-screen [the world's]", "MODE",
+             playerlike::kViewModeExpected, [&mode](const std::string& text) {
+               mode = sim::parse_view_mode(text);
+               return mode.has_value();
+             });
+}
+
+void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
+                      const std::string& default_time) {
+  add_parsed(command, "--duration", "Simulated seconds after which the run ends", "S",
+             "a number of seconds above 0", [&settings](const std::string& text) {
+               double seconds = 0.0;
+               const bool good =
+                   parse_number(text, seconds) && std::isfinite(seconds) && seconds > 0.0;
+               if (good) settings.duration_s = seconds;
+               return good;
+             });
+  add_parsed(command, "--seed", "Seed of all noise", "N", "a whole number from 0 to 2^64 - 1",
+             [&settings](const std::string& text) {
+               std::uint64_t seed = 0;
+               const bool good = parse_number(text, seed);
+               if (good) settings.seed = seed;
+               return good;
+             });
+  add_parsed(command, "--time", "lockstep, real, or a factor of real time [" + default_time + "]",
+             "MODE", "lockstep, real, or a factor above 0", [&settings](const std::string& text) {
+               sim::TimeMode mode = sim::TimeMode::kLockstep;
+               const bool good = playerlike::parse_time_mode(text, mode, settings.time_factor);
+               if (good) settings.time_mode = mode;
+               return good;
+             });
+  command.add_option("--out", settings.output_folder, "Folder for results [out/<world's name>]")
+      ->type_name("DIR");
+  add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
+             playerlike::kFilmExpected, [&settings](const std::string& text) {
+               settings.film = text;
+               return sim::render::FilmWriter::is_film_name(text);
+             });
+  add_parsed(command, "--record-fps", "Frames a second of the film [25]", "N",
+             playerlike::kFilmFpsExpected, [&settings](const std::string& text) {
+               return playerlike::parse_film_fps(text, settings.film_fps);
+             });
+  add_parsed(command, "--record-speed", "Simulated seconds a second of the film [1]", "X",
+             playerlike::kFilmSpeedExpected, [&settings](const std::string& text) {
+               return playerlike::parse_film_speed(text, settings.film_speed);
+             });
+  add_parsed(command, "--snapshot-every", "Simulated seconds between pictures in DIR/snapshots",
+             "S", playerlike::kSnapshotPeriodExpected, [&settings](const std::string& text) {
+               double period_s = 0.0;
+               const bool good = playerlike::parse_snapshot_period(text, period_s);
+               if (good) settings.snapshot_period_s = period_s;
+               return good;
+             });
+  add_view_mode(command, settings.view_mode);
+}
+
+}  // namespace playpen

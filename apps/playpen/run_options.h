@@ -1,0 +1,22 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "playerlike/host/run_settings.h"
+
+namespace playpen {
+
+/// Adds the options that say how a world is run: --duration, --seed, --time, --out, --record...,
+/// --snapshot-every and --view-mode.
+/// @param settings  gets what they say; lives as long as the command.
+/// @param default_time  what --time is without one, for the help.
+void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
+                      const std::string& default_time);
+
+/// Adds --view-mode.
+void add_view_mode(CLI::App& command, std::optional<sim::ViewMode>& mode);
+
+}  // namespace playpen

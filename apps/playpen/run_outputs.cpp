@@ -1,0 +1,71 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "run_outputs.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+#include <system_error>
+
+#include "playerlike/host/report_summary.h"
+#include "playerlike/host/results.h"
+
+namespace playpen {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path report_of(const playerlike::RunSettings& settings) {
+  return fs::path(settings.output_folder) / "report.json";
+}
+
+/// Where results go unless the user says so: a folder of the world's name in out/.
+std::string default_output_folder(const std::string& world_file) {
+  return "out/" + (world_file.empty() ? "default" : fs::path(world_file).stem().string());
+}
+
+}  // namespace
+
+void prepare_outputs(playerlike::RunSettings& settings, const std::string& world_file) {
+  if (settings.output_folder.empty()) settings.output_folder = default_output_folder(world_file);
+  std::error_code error;
+  fs::create_directories(settings.output_folder, error);
+  if (error || !fs::is_directory(settings.output_folder, error)) {
+    throw std::runtime_error("the output folder '" + settings.output_folder +
+                             "' can't be made: " + error.message());
+  }
+  playerlike::remove_results(settings.output_folder);
+  if (settings.film.empty()) return;
+  // A film that is a folder of pictures ends in a slash, maybe.
+  const fs::path film = fs::absolute(settings.film);
+  const fs::path film_folder = (film.has_filename() ? film : film.parent_path()).parent_path();
+  if (!fs::is_directory(film_folder, error)) {
+    throw std::runtime_error("the folder of the film, '" + film_folder.string() +
+                             "', does not exist");
+  }
+  if (fs::is_regular_file(settings.film, error)) fs::remove(settings.film, error);
+}
+
+bool has_report(const playerlike::RunSettings& settings) { return fs::exists(report_of(settings)); }
+
+void print_results(const playerlike::RunSettings& settings) {
+  const fs::path folder(settings.output_folder);
+  std::cout << playerlike::summarize_report(report_of(settings))
+            << "pictures: " << (folder / "scene.png").string() << ", "
+            << (folder / "canvas.png").string() << ", " << (folder / "layers").string() << '/';
+  if (settings.snapshot_period_s) std::cout << ", " << (folder / "snapshots").string() << '/';
+  std::cout << '\n';
+  if (!settings.film.empty()) std::cout << "film: " << settings.film << '\n';
+}
+
+void pace_for_view(playerlike::RunSettings& settings, const sim::WorldDescription& world) {
+  if (settings.time_mode == sim::TimeMode::kLockstep) {
+    throw std::runtime_error(
+        "--view shows a run in real time, so it can't go with --time lockstep; leave that out, or "
+        "give a factor such as --time 4");
+  }
+  if (settings.time_mode || world.simulation.time_mode == sim::TimeMode::kPaced) return;
+  settings.time_mode = sim::TimeMode::kPaced;
+  settings.time_factor = 1.0;
+}
+
+}  // namespace playpen

@@ -1,0 +1,132 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "serve_options.h"
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "commands.h"
+#include "parsed_option.h"
+#include "run_options.h"
+
+namespace playpen {
+namespace {
+
+bool parse_port(const std::string& text, int& port) {
+  int read = 0;
+  if (!parse_number(text, read) || read < 0 || read > 65535) return false;
+  port = read;
+  return true;
+}
+
+bool parse_log_level(const std::string& text, sim::LogLevel& level) {
+  if (text == "debug") {
+    level = sim::LogLevel::kDebug;
+  } else if (text == "info") {
+    level = sim::LogLevel::kInfo;
+  } else if (text == "warning") {
+    level = sim::LogLevel::kWarning;
+  } else if (text == "error") {
+    level = sim::LogLevel::kError;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void add_count(CLI::App& command, const std::string& name, const std::string& description,
+               const std::string& value_name, std::size_t least, std::size_t most,
+               std::size_t& count) {
+  add_parsed(command, name, description, value_name,
+             "a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+             [least, most, &count](const std::string& text) {
+               return parse_number(text, count) && count >= least && count <= most;
+             });
+}
+
+void add_seconds(CLI::App& command, const std::string& name, const std::string& description,
+                 double& seconds) {
+  add_parsed(command, name, description, "S", "a number of seconds from 0 to 1e6",
+             [&seconds](const std::string& text) {
+               return parse_number(text, seconds) && seconds >= 0.0 && seconds <= 1e6;
+             });
+}
+
+void add_limits(CLI::App& command, playerlike::ServerLimits& limits) {
+  constexpr std::size_t kGiB = std::size_t{1} << 30U;
+  add_count(command, "--max-connections", "Connections at once, of all ports together [256]", "N",
+            1, 100'000, limits.connections);
+  add_count(command, "--max-message", "Bytes of a request [1048576]", "BYTES", 256, kGiB,
+            limits.message_bytes);
+  add_count(command, "--max-requests", "Requests of a client that wait for their answers [256]",
+            "N", 1, 100'000, limits.requests_in_flight);
+  add_count(command, "--max-queued", "Bytes that may wait for a client that reads slowly [8388608]",
+            "BYTES", 4096, kGiB, limits.queued_bytes);
+  add_seconds(command, "--first-request-timeout",
+              "Seconds until a new client's first request; 0: no limit [10]",
+              limits.first_request_s);
+  add_seconds(command, "--request-timeout",
+              "Seconds from the first byte of a request to its last; 0: no limit [10]",
+              limits.partial_request_s);
+  add_seconds(command, "--idle-timeout",
+              "Seconds without a request after which a client is closed; 0: no limit [0]",
+              limits.idle_s);
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, int& status) {
+  const auto request = std::make_shared<ServeRequest>();
+  playerlike::ServerSettings& server = request->server;
+  CLI::App& command = *app.add_subcommand("serve", "Offer a world to client programs over TCP");
+  command.footer(
+      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do; see docs/remote.md.\n"
+      "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
+  command
+      .add_option("world", request->world,
+                  "World file, or the name of a shipped world (tasks/par_intro), or 'default'")
+      ->required()
+      ->type_name("");
+  add_parsed(command, "--port", "TCP port; 0: any free one [4000]", "PORT",
+             "a whole number from 0 to 65535",
+             [&server](const std::string& text) { return parse_port(text, server.port); });
+  command
+      .add_option("--bind", server.bind,
+                  "Address to listen on, or a name of this machine [127.0.0.1]")
+      ->type_name("ADDRESS");
+  command
+      .add_option("--token-file", request->token_file,
+                  "File with the tokens that clients must present")
+      ->type_name("FILE");
+  command.add_flag("--open", server.open, "Let other machines connect without a token");
+  add_parsed(command, "--clients", "Hold time until so many clients have joined [the world's]", "N",
+             "a whole number from 1 to 1000", [request](const std::string& text) {
+               int clients = 0;
+               const bool good = parse_number(text, clients) && clients >= 1 && clients <= 1000;
+               if (good) request->clients = clients;
+               return good;
+             });
+  add_run_settings(command, request->settings, "the world's, else real");
+  add_parsed(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]", "PORT",
+             "a whole number from 0 to 65535",
+             [&server](const std::string& text) { return parse_port(text, server.stream_port); });
+  add_parsed(command, "--sync-port", "Port of MORSE's clock synchronisation; 0: any [none]", "PORT",
+             "a whole number from 0 to 65535", [&server](const std::string& text) {
+               int port = 0;
+               const bool good = parse_port(text, port);
+               if (good) server.sync_port = port;
+               return good;
+             });
+  add_limits(command, server.limits);
+  add_parsed(command, "--log-level", "debug, info, warning or error [info]", "LEVEL",
+             "debug, info, warning or error", [request](const std::string& text) {
+               return parse_log_level(text, request->log_level);
+             });
+  command.add_flag("--view", request->view,
+                   "Watch and steer in a window, in real time unless --time gives a factor");
+  command.add_flag("--quiet", request->quiet, "No summary");
+  command.callback([request, &status] { status = serve(*request); });
+}
+
+}  // namespace playpen

@@ -1,0 +1,19 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "session/checks.h"
+
+#include <string>
+
+namespace playerlike {
+
+const DeviceInfo& require_device(const std::vector<RobotInfo>& robots, DeviceId device) {
+  for (const RobotInfo& robot : robots) {
+    for (const DeviceInfo& info : robot.devices) {
+      if (info.id == device) return info;
+    }
+  }
+  throw SessionError(SessionError::Code::kNoSuchDevice,
+                     "the world has no device " + std::to_string(device.device) + " of robot " +
+                         std::to_string(device.robot));
+}
+
+}  // namespace playerlike

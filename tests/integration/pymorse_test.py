@@ -1,0 +1,270 @@
+#!/usr/bin/python3
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+"""MORSE's own client library, unmodified, against `playpen serve`.
+
+Usage: pymorse_test.py PLAYPEN REPOSITORY
+
+Ends with status 77 (ctest: skipped) if this Python has no pymorse.
+"""
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import warnings
+
+warnings.simplefilter("ignore", DeprecationWarning)  # asyncore, which pymorse uses
+try:
+    import pymorse
+except ImportError as error:
+    print("skipped: %s %s cannot import pymorse (Debian's python3-morse-simulator): %s"
+          % (sys.executable, sys.version.split()[0], error))
+    sys.exit(77)
+
+PLAYPEN, REPOSITORY = sys.argv[1:3]
+WORLD = os.path.join(REPOSITORY, "worlds/examples/remote.json")
+# Whatever takes longer has failed; nothing is measured.
+TIMEOUT = 100
+
+
+class Server:
+    """`playpen serve` on ports that are free."""
+
+    def __init__(self, *options):
+        self.folder = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen(
+            [PLAYPEN, "serve", WORLD, "--port", "0", "--stream-port", "0",
+             "--out", self.folder.name, *options],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, bufsize=1)
+        self.log = ""
+        self.port = None
+        for line in self.process.stdout:
+            self.log += line
+            found = re.search(r"127\.0\.0\.1:(\d+)", line)
+            if found:
+                self.port = int(found.group(1))
+                break
+        if self.port is None:
+            raise RuntimeError("playpen serve did not start:\n" + self.log)
+        # Or the server would wait for room in the pipe.
+        self.reader = threading.Thread(target=self._read)
+        self.reader.start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.log += line
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.stop()
+
+    def stop(self):
+        if self.process.poll() is None:
+            self.process.terminate()
+        try:
+            status = self.process.wait(TIMEOUT)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            status = self.process.wait()
+        self.reader.join()
+        self.process.stdout.close()
+        self.folder.cleanup()
+        return status
+
+
+def wait_for(condition, simu):
+    """Lets simulated time pass until a condition holds."""
+    for _ in range(1000):
+        if condition():
+            return True
+        simu.sleep(0.1)
+    return False
+
+
+class Paced(unittest.TestCase):
+    """At ten times the pace of the clock, as MORSE would run."""
+
+    def setUp(self):
+        self.server = Server("--time", "10")
+        self.simu = pymorse.Morse("localhost", self.server.port)
+
+    def tearDown(self):
+        self.simu.close(cancel_async_services=True)
+        self.server.stop()
+
+    def test_objects_are_built_from_details(self):
+        simu = self.simu
+        self.assertEqual(simu.robots, ["r1", "r2"])
+        self.assertEqual(simu.rpc("simulation", "list_robots"), ["r1", "r2"])
+        self.assertIn("pose", simu.r1)
+        self.assertNotIn("sonar", simu.r2)
+        self.assertTrue(hasattr(simu.r1.pose, "subscribe"))
+        self.assertFalse(hasattr(simu.r1.pose, "publish"))
+        self.assertTrue(hasattr(simu.r1.motion, "publish"))
+        self.assertTrue(callable(simu.r1.pen.set_line))
+        self.assertIn("r1.laser", simu.streams())
+        self.assertGreater(simu.get_stream_port("r1.laser"), 0)
+        self.assertRaises(pymorse.MorseServiceFailed, simu.get_stream_port, "r1.pen")
+
+    def test_streams_are_read(self):
+        simu = self.simu
+        poses = []
+        simu.r2.pose.subscribe(poses.append)
+        scan = simu.r2.laser.get(TIMEOUT)
+        self.assertEqual(len(scan["range_list"]), 682)
+        self.assertEqual(len(scan["point_list"]), 682)
+        pose = simu.r2.pose.get(TIMEOUT)
+        self.assertAlmostEqual(pose["x"], 0.8)
+        self.assertAlmostEqual(pose["y"], 2.2)
+        self.assertTrue(wait_for(lambda: len(poses) >= 3, simu))
+        times = [pose["timestamp"] for pose in poses]
+        self.assertAlmostEqual(times[1] - times[0], 0.1)
+        properties = simu.r1.robot_properties.get(TIMEOUT)
+        self.assertEqual(properties["name"], "r1")
+        for name in ("battery", "collision", "increments", "infrared", "odometry", "proximity",
+                     "sonar", "way"):
+            self.assertIn("timestamp", simu.r1[name].get_local_data().result(TIMEOUT), name)
+        self.assertIn("vx", simu.r1.odometry.get(TIMEOUT))
+        self.assertIn("dS", simu.r1.way.get(TIMEOUT))
+
+    def test_motion_commands_are_published(self):
+        simu = self.simu
+        simu.r1.motion.publish({"v": 0.0, "w": 1.0})
+        self.assertTrue(
+            wait_for(lambda: (simu.r1.odometry.get(TIMEOUT) or {}).get("wz") == 1.0, simu))
+        simu.r1.motion.stop().result(TIMEOUT)
+        simu.sleep(0.5)
+        self.assertEqual(simu.r1.odometry.get_local_data().result(TIMEOUT)["wz"], 0.0)
+        simu.r1.motion.set_speed(0.2, 0.0).result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: simu.r1.odometry.get_local_data().result(TIMEOUT)["vx"] != 0.0, simu))
+
+    def test_goto_runs_to_its_end(self):
+        simu = self.simu
+        self.assertEqual(simu.r1.waypoint.goto(1.6, 1.3, 0.0, 0.1, 0.5).result(TIMEOUT), "Arrived")
+        self.assertEqual(simu.r1.waypoint.get_status().result(TIMEOUT), "Arrived")
+        simu.sleep(0.2)
+        pose = simu.r1.pose.get_local_data().result(TIMEOUT)
+        self.assertLess(math.hypot(pose["x"] - 1.6, pose["y"] - 1.3), 0.1)
+
+    def test_goto_is_cancelled(self):
+        simu = self.simu
+        simu.rpc("simulation", "set_object_dynamics", "r1", False)  # or it might arrive before
+        goto = simu.r1.waypoint.goto(1.6, 1.0, 0.0)
+        self.assertTrue(wait_for(
+            lambda: simu.r1.waypoint.get_status().result(TIMEOUT) == "Transit", simu))
+        self.assertTrue(goto.running())
+        goto.cancel()
+        self.assertRaises(pymorse.MorseServicePreempted, goto.result, TIMEOUT)
+        self.assertEqual(simu.r1.waypoint.get_status().result(TIMEOUT), "Stop")
+
+    def test_goto_is_preempted(self):
+        simu = self.simu
+        simu.rpc("simulation", "suspend_dynamics")
+        first = simu.r1.waypoint.goto(1.6, 1.0, 0.0)
+        self.assertTrue(wait_for(
+            lambda: simu.r1.waypoint.get_status().result(TIMEOUT) == "Transit", simu))
+        second = simu.r1.waypoint.goto(1.2, 1.0, 0.0, 0.1)
+        self.assertRaises(pymorse.MorseServicePreempted, first.result, TIMEOUT)
+        simu.rpc("simulation", "restore_dynamics")
+        self.assertEqual(second.result(TIMEOUT), "Arrived")
+
+    def test_wrong_arguments_are_errors(self):
+        simu = self.simu
+        self.assertRaises(TypeError, simu.r1.motion.set_speed(1.0).result, TIMEOUT)
+        self.assertRaises(TypeError, simu.r1.waypoint.goto().result, TIMEOUT)
+        self.assertRaises(TypeError, simu.rpc, "time", "sleep", 1.0, 2.0)
+        self.assertRaises(pymorse.MorseServiceFailed, simu.r1.motion.set_speed("a", 0.0).result,
+                          TIMEOUT)
+        self.assertRaises(pymorse.MorseServiceFailed, simu.rpc, "r1.pose", "nothing")
+        self.assertRaises(pymorse.MorseServiceFailed, simu.activate, "nobody.nothing")
+
+    def test_sleep_passes_simulated_time(self):
+        before = self.simu.time()
+        self.simu.sleep(2.0)
+        self.assertGreaterEqual(self.simu.time() - before, 2.0)
+
+    def test_pen_draws_and_reads_back(self):
+        pen = self.simu.r1.pen
+        pen.set_pixel(3, 4, 10, 20, 30).result(TIMEOUT)
+        self.assertEqual(pen.get_pixel(3, 4).result(TIMEOUT), [10, 20, 30, 255])
+        width, height = pen.resize_canvas(20, 10).result(TIMEOUT)
+        self.assertEqual([width, height], [20, 10])
+        image = [i % 256 for i in range(width * height * 3)]
+        pen.set_image_data(image).result(TIMEOUT)
+        self.assertEqual(pen.get_image_data().result(TIMEOUT), image)
+        pen.update_image_data([[0, 0, 1, 2, 3], [19, 9, 4, 5, 6]]).result(TIMEOUT)
+        self.assertEqual(pen.get_pixel(19, 9).result(TIMEOUT), [4, 5, 6, 255])
+        pen.save_image_copy("drawing").result(TIMEOUT)
+        self.assertTrue(os.path.exists(os.path.join(self.server.folder.name, "drawing.png")))
+
+    def test_reset_restores_everything(self):
+        simu = self.simu
+        simu.r1.motion.set_speed(0.3, 0.0).result(TIMEOUT)
+        simu.r1.pen.set_pixel(3, 4, 10, 20, 30).result(TIMEOUT)
+        self.assertTrue(wait_for(
+            lambda: simu.r1.pose.get_local_data().result(TIMEOUT)["x"] > 0.85, simu))
+        simu.reset()
+        simu.sleep(0.5)
+        self.assertAlmostEqual(simu.r1.pose.get_local_data().result(TIMEOUT)["x"], 0.8)
+        self.assertEqual(simu.r1.pen.get_pixel(3, 4).result(TIMEOUT), [0, 0, 0, 0])
+
+    def test_quit_ends_the_server(self):
+        simu = self.simu
+        simu.rpc("simulation", "quit")
+        self.assertEqual(self.server.process.wait(TIMEOUT), 0)
+        self.assertTrue(os.path.exists(os.path.join(self.server.folder.name, "report.json")))
+
+
+class Lockstep(unittest.TestCase):
+    """Time passes only while somebody waits for it, so a run is repeatable to the bit."""
+
+    def run_once(self):
+        with Server("--time", "lockstep") as server:
+            simu = pymorse.Morse("localhost", server.port)
+            try:
+                simu.r1.motion.set_speed(0.3, 0.4).result(TIMEOUT)
+                simu.sleep(1.5)
+                turned = simu.r1.pose.get_local_data().result(TIMEOUT)
+                arrived = simu.r1.waypoint.goto(1.8, 1.5, 0.0).result(TIMEOUT)
+                simu.sleep(0.1)
+                end = simu.r1.pose.get_local_data().result(TIMEOUT)
+                return turned, arrived, end, simu.time()
+            finally:
+                simu.close(cancel_async_services=True)
+
+    def test_runs_are_equal(self):
+        first = self.run_once()
+        self.assertEqual(first[0]["timestamp"], 1.5)
+        self.assertEqual(first[1], "Arrived")
+        self.assertEqual(first, self.run_once())
+
+
+class Guide(unittest.TestCase):
+    """The Python programs of docs/remote.md."""
+
+    def test_programs_run(self):
+        with open(os.path.join(REPOSITORY, "docs/remote.md"), encoding="utf-8") as page:
+            programs = re.findall(r"<!-- pymorse: (\S+) -->\n```python\n(.*?)```", page.read(),
+                                  re.DOTALL)
+        self.assertGreaterEqual(len(programs), 1)
+        for name, text in programs:
+            with self.subTest(name), Server("--time", "10") as server:
+                program = os.path.join(server.folder.name, name)
+                with open(program, "w", encoding="utf-8") as file:
+                    file.write(text.replace("4000", str(server.port)))
+                done = subprocess.run([sys.executable, "-W", "ignore", program], timeout=TIMEOUT,
+                                      text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.assertIn("robots: ['r1', 'r2']", done.stdout)
+                self.assertIn("arrived: Arrived", done.stdout)
+                self.assertIn("drawn: [255, 0, 0, 255]", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=2)

@@ -1,0 +1,901 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// MORSE's protocol, service by service and stream by stream: a real server, and raw sockets.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <thread>
+
+#include "playerlike/server/server.h"
+#include "raw_client.h"
+#include "server/morse_services.h"
+#include "temporary_folder.h"
+
+namespace playerlike {
+namespace {
+
+using nlohmann::json;
+using test_support::RawClient;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
+
+/// An answer: its id, status and JSON (null: none).
+struct Answer {
+  std::string id;
+  std::string status;
+  json result;
+};
+
+Answer parse(const std::string& line) {
+  const auto first = line.find(' ');
+  const auto second = line.find(' ', first + 1);
+  Answer answer{line.substr(0, first), line.substr(first + 1, second - first - 1), nullptr};
+  if (second != std::string::npos) answer.result = json::parse(line.substr(second + 1));
+  return answer;
+}
+
+/// What a client of MORSE does.
+class MorseClient {
+ public:
+  explicit MorseClient(int port) : socket_("127.0.0.1", port) {}
+
+  void send(const std::string& line) { socket_.send(line + '\n'); }
+  Answer receive() { return parse(socket_.line()); }
+  /// Sends a request and waits for the next answer, which must be that one's.
+  Answer ask(const std::string& request) {
+    const std::string id = std::to_string(++last_id_);
+    send(id + ' ' + request);
+    const Answer answer = receive();
+    EXPECT_EQ(answer.id, id) << request;
+    return answer;
+  }
+  /// The result of a request that must succeed.
+  json get(const std::string& request) {
+    const Answer answer = ask(request);
+    EXPECT_EQ(answer.status, "SUCCESS") << request << ": " << answer.result;
+    return answer.result;
+  }
+  /// What is said against a request that must fail.
+  std::string refusal(const std::string& request) {
+    const Answer answer = ask(request);
+    EXPECT_EQ(answer.status, "FAILED") << request << ": " << answer.result;
+    return answer.result.is_string() ? answer.result.get<std::string>() : answer.result.dump();
+  }
+  void sleep(double seconds) { get("time sleep [" + std::to_string(seconds) + "]"); }
+  /// What a sensor's get_local_data tells; an empty object before its first reading.
+  json data(const std::string& component) {
+    const Answer answer = ask(component + " get_local_data");
+    return answer.status == "SUCCESS" ? answer.result : json::object();
+  }
+
+ private:
+  RawClient socket_;
+  int last_id_ = 0;
+};
+
+class MorseProtocol : public testing::Test {
+ protected:
+  MorseProtocol() {
+    settings.port = 0;
+    settings.stream_port = 0;
+  }
+  ~MorseProtocol() override {
+    if (server) server->stop();
+  }
+
+  MorseClient start(RunSettings run = {}) {
+    host = Host::create(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/remote.json"),
+                        std::move(run));
+    server = std::make_unique<Server>(host, settings, [this](sim::LogLevel, std::string_view text) {
+      const std::lock_guard lock(mutex_);
+      log_ += std::string(text) + '\n';
+    });
+    return connect();
+  }
+  [[nodiscard]] MorseClient connect() const { return MorseClient(server->port()); }
+  /// A connection to a component's stream, after the server has taken it.
+  RawClient stream(MorseClient& client, const std::string& component) {
+    return accepted(client.get("simulation get_stream_port [\"" + component + "\"]"));
+  }
+  /// A connection to a port, after the server has taken it.
+  RawClient accepted(int port) {
+    const std::size_t before = server->connections();
+    RawClient connection("127.0.0.1", port);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (server->connections() <= before && std::chrono::steady_clock::now() < end) {
+      std::this_thread::yield();
+    }
+    EXPECT_GT(server->connections(), before);
+    return connection;
+  }
+  std::string logged() {
+    const std::lock_guard lock(mutex_);
+    return log_;
+  }
+
+  ServerSettings settings;
+  std::shared_ptr<Host> host;
+  std::unique_ptr<Server> server;
+
+ private:
+  std::mutex mutex_;
+  std::string log_;
+};
+
+// --- Requests
+
+TEST_F(MorseProtocol, LinesAreTakenAsMorseDoes) {
+  MorseClient client = start();
+  client.send("  a1   simulation \t list_robots  \r");
+  Answer answer = client.receive();
+  EXPECT_EQ(answer.id, "a1");
+  EXPECT_EQ(answer.result, json::parse(R"(["r1", "r2"])"));
+  EXPECT_EQ(client.get("simulation list_robots []"), answer.result);
+  EXPECT_EQ(client.get("simulation list_robots null"), answer.result);
+  // Nothing to answer to.
+  client.send("\n   \n");
+  EXPECT_EQ(client.get("time now"), 0.0);
+}
+
+TEST_F(MorseProtocol, BadRequestsAreToldWhatIsWrongAndTheConnectionStays) {
+  MorseClient client = start();
+  for (const auto& [line, id, part] :
+       std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"x", "x", "Malformed request"},
+           {"x simulation", "x", "Malformed request"},
+           {"x nothing at_all", "x", "there is no component \"nothing\""},
+           {"x simulation nothing", "x", "nothing has not been registered for simulation; it has"},
+           {"x r1.pose goto [1, 2, 3]", "x", "goto has not been registered for r1.pose"},
+           {"x simulation details [", "x", "protocol/syntax"},
+           {"x simulation details {\"a\": 1}", "x", "arguments are a JSON list, found object"},
+           {"x simulation details 3", "x", "found number"},
+           {"x simulation details [1e999]", "x", "protocol/"},
+           {"x simulation details [1]", "x", "wrong # of parameters"},
+           {"x r1.motion set_speed", "x", "wrong # of parameters"},
+           {"x r1.motion set_speed [1, 2, 3]", "x", "expected 2 (v, w), found 3"},
+           {"x r1.waypoint goto [1, 2]", "x", "wrong # of parameters"},
+           {"x r1.motion set_speed [true, 0]", "x", "argument 1 of set_speed(v, w)"},
+           {"x r1.motion set_speed [0, \"fast\"]", "x", "found \"fast\""},
+           {"x time sleep [-1]", "x", "expected a number from 0"},
+           {"x playpen nothing", "x", "only hello and token"},
+           {"x playpen hello [1, 2]", "x", "wrong # of parameters"},
+           {"x playpen token [1]", "x", "expected the token"},
+           {"\xff\x01 simulation details", "-", "an id is"},
+           {std::string(81, 'i') + " simulation details", "-", "an id is"},
+       }) {
+    client.send(line);
+    const Answer answer = client.receive();
+    EXPECT_EQ(answer.id, id) << line;
+    EXPECT_EQ(answer.status, "FAILED") << line;
+    EXPECT_THAT(answer.result.get<std::string>(), HasSubstr(part)) << line;
+  }
+  EXPECT_EQ(client.get("time now"), 0.0);
+}
+
+TEST_F(MorseProtocol, TextsThatAreNoUtf8AreRefusedOrShownReplaced) {
+  MorseClient client = start();
+  client.send("1 simulation get_stream_port [\"\xff\xfe\"]");
+  EXPECT_EQ(client.receive().status, "FAILED");
+  client.send("2 \xff\xfe now");
+  EXPECT_THAT(client.receive().result.get<std::string>(), HasSubstr("\xef\xbf\xbd"));
+}
+
+TEST_F(MorseProtocol, LongLinesAreToldAndClosed) {
+  settings.limits.message_bytes = 1000;
+  start();
+  RawClient client("127.0.0.1", server->port());
+  static_cast<void>(client.send_if_open(std::string(5000, 'x')));
+  EXPECT_THAT(client.rest(), StartsWith("- FAILED \"protocol/too-long"));
+}
+
+// --- simulation
+
+TEST_F(MorseProtocol, DetailsTellComponentsServicesAndStreams) {
+  MorseClient client = start();
+  const json details = client.get("simulation details");
+  EXPECT_EQ(details["environment"], "remote");
+  ASSERT_THAT(details["robots"], SizeIs(2));
+  const json& robot = details["robots"][0];
+  EXPECT_EQ(robot["name"], "r1");
+  EXPECT_EQ(robot["type"], "s1r");
+  const json& components = robot["components"];
+  EXPECT_THAT(components, SizeIs(15));
+  const json& pose = components["r1.pose"];
+  EXPECT_EQ(pose["type"], "Pose");
+  EXPECT_EQ(pose["stream_interfaces"], json::parse(R"([["socket", "OUT"]])"));
+  EXPECT_EQ(pose["services"], json::parse(R"(["get_local_data", "get_configurations",
+                                              "get_properties", "set_property"])"));
+  const json& waypoint = components["r1.waypoint"];
+  EXPECT_EQ(waypoint["stream_interfaces"], json::parse(R"([["socket", "IN"]])"));
+  EXPECT_THAT(waypoint["services"].get<std::vector<std::string>>(),
+              AllOf(Contains("goto"), Contains("resume"), Not(Contains("get_local_data"))));
+  EXPECT_FALSE(components["r1.pen"].contains("stream_interfaces"));
+  EXPECT_EQ(components["r1.increments"]["type"], "Odometry");
+  EXPECT_EQ(components["r1.robot_properties"]["stream_interfaces"][0][1], "OUT");
+  EXPECT_FALSE(details["robots"][1]["components"].contains("r2.sonar"));
+}
+
+TEST_F(MorseProtocol, StreamsHavePortsThatStayTheSame) {
+  MorseClient client = start();
+  const auto names = client.get("simulation list_streams").get<std::vector<std::string>>();
+  EXPECT_THAT(names, AllOf(Contains("r1.pose"), Contains("r2.motion"), Not(Contains("r1.pen"))));
+  const json ports = client.get("simulation get_all_stream_ports");
+  EXPECT_THAT(ports, SizeIs(names.size()));
+  EXPECT_EQ(client.get("simulation get_stream_port [\"r1.pose\"]"), ports["r1.pose"]);
+  EXPECT_NE(ports["r1.pose"], ports["r2.pose"]);
+  EXPECT_THAT(client.refusal("simulation get_stream_port [\"r1.pen\"]"),
+              HasSubstr("Stream unavailable for component r1.pen"));
+  EXPECT_THAT(client.refusal("simulation get_stream_port [3]"), HasSubstr("expected a text"));
+}
+
+TEST_F(MorseProtocol, StreamPortsGoUpFromTheFirst) {
+  settings.stream_port = 42'000;  // whether free or not: the next free ones are taken
+  MorseClient client = start();
+  const int first = client.get("simulation get_stream_port [\"r2.pose\"]");
+  const int second = client.get("simulation get_stream_port [\"r1.pose\"]");
+  EXPECT_GE(first, 42'000);
+  EXPECT_GT(second, first);
+}
+
+TEST_F(MorseProtocol, ResetBringsRobotsBackAndEndsGotos) {
+  MorseClient client = start();
+  client.get("r1.motion set_speed [0.3, 0]");
+  client.get("r1.pen set_pixel [3, 4, 1, 2, 3]");
+  client.sleep(1.0);
+  EXPECT_NEAR(client.get("r1.pose get_local_data")["x"], 1.1, 0.01);
+  // It must not arrive before.
+  client.get("simulation set_object_dynamics [\"r1\", false]");
+  client.send("g r1.waypoint goto [2, 1, 0]");
+  client.send("r simulation reset_objects");
+  EXPECT_EQ(client.receive().result, "Objects restored to initial position");
+  const Answer end = client.receive();
+  EXPECT_EQ(end.id, "g");
+  EXPECT_EQ(end.status, "PREEMPTED");
+  client.sleep(0.2);
+  EXPECT_DOUBLE_EQ(client.get("r1.pose get_local_data")["x"], 0.8);
+  EXPECT_EQ(client.get("r1.pen get_pixel [3, 4]"), json::parse("[0, 0, 0, 0]"));
+}
+
+TEST_F(MorseProtocol, QuitAndTerminateAnswerAndEndTheServer) {
+  for (const std::string service : {"quit", "terminate"}) {
+    MorseClient client = start();
+    EXPECT_FALSE(server->done());
+    EXPECT_EQ(client.get("simulation " + service), nullptr);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (!server->done() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+    EXPECT_TRUE(server->done()) << service;
+    server.reset();
+  }
+}
+
+TEST_F(MorseProtocol, DeactivatedComponentsDoNothingUntilTheyAreActivated) {
+  MorseClient client = start();
+  client.get("simulation deactivate [\"r1.pose\"]");
+  client.get("simulation deactivate [\"r1.motion\"]");
+  client.sleep(0.5);
+  EXPECT_THAT(client.refusal("r1.pose get_local_data"), HasSubstr("no reading yet"));
+  EXPECT_THAT(client.refusal("r1.motion set_speed [1, 0]"), Not(IsEmpty()));
+  client.get("simulation activate [\"r1.pose\"]");
+  client.sleep(0.5);
+  EXPECT_DOUBLE_EQ(client.get("r1.pose get_local_data")["timestamp"], 1.0);
+  EXPECT_THAT(client.refusal("simulation activate [\"r1.nothing\"]"), HasSubstr("no component"));
+  EXPECT_THAT(client.refusal("simulation activate [\"r1.robot_properties\"]"),
+              HasSubstr("is no device"));
+}
+
+TEST_F(MorseProtocol, SuspendedDynamicsHoldRobotsStill) {
+  MorseClient client = start();
+  client.get("r1.motion set_speed [0.3, 0]");
+  EXPECT_EQ(client.get("simulation suspend_dynamics"), "Physics is suspended");
+  client.sleep(1.0);
+  EXPECT_DOUBLE_EQ(client.get("r1.pose get_local_data")["x"], 0.8);
+  EXPECT_EQ(client.get("simulation restore_dynamics"), "Physics is resumed");
+  EXPECT_EQ(client.get("simulation set_object_dynamics [\"r1\", false]"), false);
+  client.sleep(1.0);
+  EXPECT_DOUBLE_EQ(client.get("r1.pose get_local_data")["x"], 0.8);
+  EXPECT_EQ(client.get("simulation set_object_dynamics [\"r1\", true]"), true);
+  client.sleep(1.0);
+  EXPECT_GT(client.get("r1.pose get_local_data")["x"], 1.0);
+  EXPECT_THAT(client.refusal("simulation set_object_dynamics [\"nobody\", true]"), Not(IsEmpty()));
+  EXPECT_THAT(client.refusal("simulation set_object_dynamics [\"r1\", 1]"),
+              HasSubstr("expected true or false"));
+}
+
+TEST_F(MorseProtocol, SceneObjectsAndTheirVisibility) {
+  MorseClient client = start();
+  json objects = client.get("simulation get_scene_objects");
+  EXPECT_EQ(objects["r1"], json::parse("[{}, [0.8, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]]"));
+  EXPECT_TRUE(objects.contains("pillar"));
+  EXPECT_TRUE(objects.contains("gate"));
+  const auto visibility = [&](const std::string& name, const std::string& visible) {
+    return client.get("simulation set_object_visibility [\"" + name + "\", " + visible +
+                      ", false]");
+  };
+  const auto gate_is_up = [&] {
+    bool up = false;
+    host->with_simulation([&](const sim::Simulation& simulation) {
+      for (const auto& object : simulation.scene_objects()) {
+        if (object.name == "gate") up = object.extended;
+      }
+    });
+    return up;
+  };
+  EXPECT_FALSE(gate_is_up());
+  EXPECT_EQ(visibility("gate", "true"), true);
+  EXPECT_TRUE(gate_is_up());
+  EXPECT_EQ(visibility("gate", "false"), false);
+  EXPECT_FALSE(gate_is_up());
+  // Cannot be hidden, and it is said so.
+  EXPECT_EQ(visibility("pillar", "false"), true);
+  EXPECT_EQ(visibility("r1", "false"), true);
+  EXPECT_THAT(client.refusal("simulation set_object_visibility [\"ghost\", true, false]"),
+              HasSubstr("does not appear in the scene"));
+  // A robot stands where it would come up.
+  client.get("r1.teleport translate [2.2, -0.4]");
+  EXPECT_THAT(client.refusal("simulation set_object_visibility [\"gate\", true, false]"),
+              HasSubstr("r1"));
+}
+
+TEST_F(MorseProtocol, LogLevelDebugTellsOfAComponentsRequests) {
+  MorseClient client = start();
+  client.get("r1.motion stop");
+  EXPECT_THAT(logged(), Not(HasSubstr("r1.motion stop")));
+  EXPECT_EQ(client.get("simulation set_log_level [\"r1.motion\", \"DEBUG\"]"), nullptr);
+  client.get("r1.motion stop");
+  EXPECT_THAT(logged(), HasSubstr("r1.motion stop []"));
+  client.get("simulation set_log_level [\"time\", 10]");
+  client.get("time now");
+  EXPECT_THAT(logged(), HasSubstr("time now"));
+  EXPECT_THAT(client.refusal("simulation set_log_level [\"time\", \"LOUD\"]"),
+              HasSubstr("expected DEBUG, INFO"));
+  EXPECT_THAT(client.refusal("simulation set_log_level [\"nothing\", 10]"),
+              HasSubstr("no component"));
+}
+
+// --- time
+
+TEST_F(MorseProtocol, TimeTellsAndSleepLetsItPass) {
+  MorseClient client = start();
+  EXPECT_EQ(client.get("time now"), 0.0);
+  EXPECT_EQ(client.get("time mode"), "Fixed Simulation Step");
+  client.sleep(1.25);
+  EXPECT_DOUBLE_EQ(client.get("time now"), 1.25);
+  const json statistics = client.get("time statistics");
+  EXPECT_EQ(statistics["steps"], 125);
+  EXPECT_EQ(statistics["mode"], "lockstep");
+  EXPECT_GT(statistics["mean_time"], 0.0);
+  EXPECT_THAT(client.refusal("time set_time_scale [2]"), HasSubstr("lockstep"));
+  EXPECT_THAT(client.refusal("time set_time_scale [0]"), HasSubstr("expected a number"));
+}
+
+TEST_F(MorseProtocol, TimeScaleChangesAPacedSimulation) {
+  RunSettings run;
+  run.time_mode = sim::TimeMode::kPaced;
+  run.time_factor = 1e-3;
+  run.start_at_once = true;
+  MorseClient client = start(run);
+  EXPECT_EQ(client.get("time set_time_scale [1000]"), true);
+  client.sleep(5.0);  // at the first factor it would take more than an hour
+  EXPECT_GE(client.get("time now"), 5.0);
+  EXPECT_EQ(client.get("time statistics")["mode"], "paced");
+}
+
+TEST_F(MorseProtocol, SleepsStandSideBySide) {
+  settings.sync_port = 0;  // time stands until all of them wait
+  MorseClient client = start();
+  MorseClient other = connect();
+  RawClient clock = accepted(server->sync_port());
+  client.send("long time sleep [3]");
+  client.send("short time sleep [1]");
+  client.get("time now");
+  other.send("short time sleep [2]");
+  other.get("time now");
+  clock.send(std::string(300, '\n'));
+  EXPECT_EQ(client.receive().id, "short");
+  EXPECT_EQ(other.receive().status, "SUCCESS");
+  const Answer answer = client.receive();
+  EXPECT_EQ(answer.id, "long");
+  EXPECT_EQ(answer.status, "SUCCESS");
+  EXPECT_EQ(answer.result, nullptr);
+}
+
+TEST_F(MorseProtocol, CancelledSleepIsPreemptedAndUnknownIdsAreIgnored) {
+  RunSettings run;  // lockstep would be faster than the cancelling
+  run.time_mode = sim::TimeMode::kPaced;
+  MorseClient client = start(run);
+  MorseClient other = connect();
+  client.send("a time sleep [1000]");
+  other.send("a cancel");  // another connection's a: not ours
+  EXPECT_EQ(other.ask("time mode").status, "SUCCESS");
+  client.send("b cancel\na cancel");
+  const Answer answer = client.receive();
+  EXPECT_EQ(answer.id, "a");
+  EXPECT_EQ(answer.status, "PREEMPTED");
+  client.send("a cancel");  // no more
+  client.get("time mode");
+}
+
+TEST_F(MorseProtocol, WhatWaitsAtTheEndOfTheRunFails) {
+  RunSettings run;
+  run.duration_s = 1.0;
+  MorseClient client = start(run);
+  EXPECT_THAT(client.refusal("time sleep [5]"), HasSubstr("session/finished"));
+  EXPECT_THAT(client.refusal("time sleep [5]"), HasSubstr("session/finished"));
+  EXPECT_THAT(client.refusal("r1.waypoint goto [2, 1, 0]"), HasSubstr("session/finished"));
+  EXPECT_THAT(client.refusal("r1.motion set_speed [1, 0]"), HasSubstr("session/finished"));
+  EXPECT_DOUBLE_EQ(client.get("time now"), 1.0);
+}
+
+// --- Actuators
+
+TEST_F(MorseProtocol, MotionDrivesAndStops) {
+  MorseClient client = start();
+  EXPECT_EQ(client.get("r1.motion set_speed [0.2, 0]"), nullptr);
+  client.sleep(1.0);
+  EXPECT_NEAR(client.get("r1.pose get_local_data")["x"], 1.0, 1e-9);
+  client.get("r1.motion stop");
+  client.sleep(1.0);
+  EXPECT_NEAR(client.get("r1.pose get_local_data")["x"], 1.0, 1e-9);
+}
+
+TEST_F(MorseProtocol, GotoAnswersOnArrival) {
+  MorseClient client = start();
+  EXPECT_EQ(client.get("r1.waypoint get_status"), "Arrived");
+  const Answer answer = client.ask("r1.waypoint goto [2, 1.5, 0, 0.1, 0.5]");
+  EXPECT_EQ(answer.status, "SUCCESS");
+  EXPECT_EQ(answer.result, "Arrived");
+  EXPECT_EQ(client.get("r1.waypoint get_status"), "Arrived");
+  client.sleep(0.1);
+  const json pose = client.get("r1.pose get_local_data");
+  EXPECT_LT(std::hypot(pose["x"].get<double>() - 2.0, pose["y"].get<double>() - 1.5), 0.1);
+}
+
+TEST_F(MorseProtocol, GotoIsPreemptedByAnotherOfAnyConnection) {
+  RunSettings run;
+  run.time_mode = sim::TimeMode::kPaced;
+  MorseClient client = start(run);
+  MorseClient other = connect();
+  client.send("first r1.waypoint goto [3.5, 1, 0]");
+  client.get("r1.waypoint get_status");
+  other.send("first r1.waypoint goto [3, 1, 0]");
+  Answer answer = client.receive();
+  EXPECT_EQ(answer.id, "first");
+  EXPECT_EQ(answer.status, "PREEMPTED");
+  EXPECT_EQ(answer.result, nullptr);
+  // setdest is a new goal, too.
+  EXPECT_EQ(client.get("r1.waypoint setdest [3.5, 1, 0, 0.1]"), true);
+  answer = other.receive();
+  EXPECT_EQ(answer.status, "PREEMPTED");
+  EXPECT_EQ(client.get("r1.waypoint setdest [0.8, 1, 0, 2]"), false);  // there already
+  EXPECT_EQ(client.get("r1.waypoint get_status"), "Transit");
+}
+
+TEST_F(MorseProtocol, CancelledGotoStopsTheRobot) {
+  RunSettings run;
+  run.time_mode = sim::TimeMode::kPaced;
+  MorseClient client = start(run);
+  client.send("g r1.waypoint goto [3.5, 1, 0]");
+  client.send("g cancel");
+  const Answer answer = client.receive();
+  EXPECT_EQ(answer.id, "g");
+  EXPECT_EQ(answer.status, "PREEMPTED");
+  EXPECT_EQ(client.get("r1.waypoint get_status"), "Stop");
+}
+
+TEST_F(MorseProtocol, StoppedGotoWaitsUntilItIsResumed) {
+  MorseClient client = start();
+  MorseClient other = connect();
+  client.get("simulation set_object_dynamics [\"r1\", false]");  // or it would be there at once
+  client.send("g r1.waypoint goto [1.5, 1, 0]");
+  client.get("r1.waypoint get_status");
+  EXPECT_EQ(other.get("r1.waypoint stop"), "Stop");
+  other.get("simulation set_object_dynamics [\"r1\", true]");
+  other.sleep(1.0);
+  EXPECT_EQ(other.get("r1.waypoint get_status"), "Stop");
+  EXPECT_EQ(other.get("r1.waypoint resume"), "Transit");
+  const Answer answer = client.receive();
+  EXPECT_EQ(answer.status, "SUCCESS");
+  EXPECT_EQ(answer.result, "Arrived");
+}
+
+TEST_F(MorseProtocol, GotoOfAClientThatLeavesGoesOn) {
+  MorseClient client = start();
+  {
+    MorseClient leaving = connect();
+    leaving.get("simulation set_object_dynamics [\"r1\", false]");
+    leaving.send("g r1.waypoint goto [1.5, 1, 0]");
+    leaving.get("r1.waypoint get_status");
+  }
+  client.get("simulation set_object_dynamics [\"r1\", true]");
+  client.sleep(10.0);
+  EXPECT_EQ(client.get("r1.waypoint get_status"), "Arrived");
+  EXPECT_GT(client.get("r1.pose get_local_data")["x"], 1.3);
+}
+
+TEST_F(MorseProtocol, WaypointChecksItsArguments) {
+  MorseClient client = start();
+  EXPECT_THAT(client.refusal("r1.waypoint goto [1, 1, \"z\"]"), HasSubstr("argument 3 of goto"));
+  EXPECT_THAT(client.refusal("r1.waypoint goto [1, 1, 0, 0]"), HasSubstr("argument 4 of goto"));
+  EXPECT_THAT(client.refusal("r1.waypoint goto [1, 1, 0, 0.1, -1]"),
+              HasSubstr("argument 5 of goto"));
+  EXPECT_THAT(client.refusal("r1.waypoint resume"), Not(IsEmpty()));  // nothing to go on to
+}
+
+TEST_F(MorseProtocol, TeleportMovesAndTurnsOrSaysWhyNot) {
+  MorseClient client = start();
+  client.get("r1.teleport translate [0.5]");
+  client.get("r1.teleport translate [0, -0.25, 0]");
+  client.get("r1.teleport rotate [0, 0, 1.5]");
+  client.sleep(0.1);
+  const json pose = client.get("r1.pose get_local_data");
+  EXPECT_NEAR(pose["x"], 1.3, 1e-9);
+  EXPECT_NEAR(pose["y"], 0.75, 1e-9);
+  EXPECT_NEAR(pose["yaw"], 1.5, 1e-9);
+  EXPECT_THAT(client.refusal("r1.teleport translate [50]"), Not(IsEmpty()));
+  EXPECT_THAT(client.refusal("r1.teleport translate [0, 0, 1]"), HasSubstr("the floor is flat"));
+  EXPECT_THAT(client.refusal("r1.teleport rotate [1]"), HasSubstr("by yaw only"));
+}
+
+// --- The pen
+
+TEST_F(MorseProtocol, PenDrawsAndReadsBack) {
+  MorseClient client = start();
+  client.get("r1.pen set_pixel [1, 2, 10, 20, 30]");
+  EXPECT_EQ(client.get("r1.pen get_pixel [1, 2]"), json::parse("[10, 20, 30, 255]"));
+  client.get("r1.pen set_line [0, 0, 0, 3, 1, 2, 3, 255]");
+  EXPECT_EQ(client.get("r2.pen get_pixel [0, 3]"), json::parse("[1, 2, 3, 255]"));
+  EXPECT_EQ(client.get("r1.pen get_pixel [-1, 0]"), nullptr);
+  client.get("r1.pen update_image_data [[[5, 5, 9, 8, 7], [6, 5, 1, 1, 1, 0]]]");
+  EXPECT_EQ(client.get("r1.pen get_pixel [5, 5]"), json::parse("[9, 8, 7, 255]"));
+  EXPECT_EQ(client.get("r1.pen get_pixel [6, 5]"), json::parse("[0, 0, 0, 0]"));
+  client.get("r1.pen clear");
+  EXPECT_EQ(client.get("r1.pen get_pixel [5, 5]"), json::parse("[0, 0, 0, 0]"));
+  for (const char* bad :
+       {"set_pixel [1, 2, 256, 0, 0]", "set_pixel [1.5, 2, 0, 0, 0]",
+        "set_pixel [3000000000, 2, 0, 0, 0]", "update_image_data [[[1, 2, 3]]]",
+        "update_image_data [[[1, 2, 3, 4, 5.5]]]", "update_image_data [[[1, 2, 3, 4, 700]]]",
+        "update_image_data [[3]]", "update_image_data [3]", "set_image_data [[1, 2]]"}) {
+    EXPECT_THAT(client.refusal("r1.pen " + std::string(bad)), HasSubstr("expected")) << bad;
+  }
+}
+
+TEST_F(MorseProtocol, PenHandsOutAndTakesWholeImages) {
+  MorseClient client = start();
+  EXPECT_EQ(client.get("r1.pen resize_canvas [3, 2]"), json::parse("[3, 2]"));
+  EXPECT_EQ(client.get("r1.pen get_canvas_size"), json::parse("[3, 2]"));
+  json image = json::array();
+  for (int i = 0; i < 18; ++i) image.push_back(i * 10);
+  client.get("r1.pen set_image_data [" + image.dump() + "]");
+  EXPECT_EQ(client.get("r1.pen get_image_data"), image);
+  EXPECT_EQ(client.get("r1.pen get_pixel [2, 1]"), json::parse("[150, 160, 170, 255]"));
+  json with_alpha = json::array();
+  for (int i = 0; i < 24; ++i) with_alpha.push_back(i);
+  client.get("r1.pen set_image_data [" + with_alpha.dump() + "]");
+  EXPECT_EQ(client.get("r1.pen get_image_data [4]"), with_alpha);
+  image[0] = 256;
+  EXPECT_THAT(client.refusal("r1.pen set_image_data [" + image.dump() + "]"),
+              HasSubstr("but there is 256"));
+  EXPECT_THAT(client.refusal("r1.pen resize_canvas [0, 2]"), HasSubstr("from 1 to 8192"));
+  EXPECT_EQ(client.get("r1.pen get_cell_size"), 0.02);
+}
+
+TEST_F(MorseProtocol, PenSavesPicturesIntoTheOutputFolderOnly) {
+  const test_support::TemporaryFolder folder;
+  RunSettings run;
+  run.output_folder = folder.path();
+  MorseClient client = start(run);
+  client.get("r1.pen save_image_copy [\"mine\"]");
+  EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(folder.path()) / "mine.png"));
+  EXPECT_THAT(client.refusal("r1.pen save_image_copy [\"../mine\"]"),
+              HasSubstr("session/bad-argument"));
+  EXPECT_EQ(client.get("r1.pen get_view_mode"), "ground");
+  client.get("r1.pen set_view_mode [\"mini-map\"]");
+  EXPECT_EQ(client.get("r1.pen get_view_mode"), "mini-map");
+  EXPECT_THAT(client.refusal("r1.pen set_view_mode [\"upside-down\"]"), HasSubstr("mini-map"));
+}
+
+// --- Sensors
+
+TEST_F(MorseProtocol, SensorsTellTheirData) {
+  MorseClient client = start();
+  EXPECT_THAT(client.refusal("r1.pose get_local_data"), HasSubstr("no reading yet"));
+  client.get("r1.motion set_speed [0.2, 0]");
+  client.sleep(1.0);
+  const auto data = [&](const std::string& name) {
+    return client.get("r1." + name + " get_local_data");
+  };
+  const json pose = data("pose");
+  EXPECT_NEAR(pose["x"], 1.0, 1e-9);
+  for (const char* zero : {"z", "pitch", "roll"}) EXPECT_EQ(pose[zero], 0.0);
+  EXPECT_DOUBLE_EQ(pose["timestamp"], 1.0);
+  const json odometry = data("odometry");
+  EXPECT_NEAR(odometry["x"], 0.2, 1e-9);
+  EXPECT_NEAR(odometry["vx"], 0.2, 1e-9);
+  EXPECT_NEAR(odometry["wz"], 0.0, 1e-9);
+  const json increments = data("increments");
+  EXPECT_NEAR(increments["dx"], 0.02, 1e-9);  // a tenth of a second of 0.2 m/s
+  EXPECT_FALSE(increments.contains("x"));
+  EXPECT_NEAR(data("way")["dS"], 0.02, 1e-9);
+  const json laser = data("laser");
+  ASSERT_THAT(laser["range_list"], SizeIs(682));
+  ASSERT_THAT(laser["point_list"], SizeIs(682));
+  // The middle beams look at the right border, 4 m - (1 m + 0.035 m) away.
+  EXPECT_NEAR(laser["range_list"][340], 2.965, 0.01);
+  EXPECT_NEAR(laser["point_list"][340][0], 2.965, 0.01);
+  const json infrared = data("infrared");
+  EXPECT_THAT(infrared["range_list"], SizeIs(infrared["point_list"].size()));
+  EXPECT_FALSE(data("sonar")["range_list"].empty());
+  const json collision = data("collision");
+  EXPECT_EQ(collision["collision"], false);
+  EXPECT_EQ(collision["objects"], "");
+  const json battery = data("battery");
+  EXPECT_LT(battery["charge"], 80.0);
+  EXPECT_EQ(battery["status"], "Discharging");
+  EXPECT_NEAR(data("proximity")["near_objects"]["r2"], std::hypot(0.2, 1.2), 1e-9);
+  const json properties = data("robot_properties");
+  EXPECT_EQ(properties["name"], "r1");
+  EXPECT_EQ(properties["port"], 6665);
+  EXPECT_EQ(properties["initial_pose"]["x"], 0.8);
+  EXPECT_EQ(properties["devices"]["laser"]["properties"]["beams"], 682.0);
+}
+
+TEST_F(MorseProtocol, CollisionNamesWhatIsTouched) {
+  MorseClient client = start();
+  client.get("r1.teleport rotate [0, 0, 3.14159]");
+  client.get("r1.motion set_speed [0.5, 0]");
+  client.sleep(3.0);
+  const json collision = client.get("r1.collision get_local_data");
+  EXPECT_EQ(collision["collision"], true);
+  EXPECT_EQ(collision["objects"], "border");
+}
+
+TEST_F(MorseProtocol, RangesWithoutAnEchoHaveThePointZero) {
+  MorseClient client = start();
+  client.sleep(0.1);
+  const json infrared = client.get("r1.infrared get_local_data");
+  ASSERT_FALSE(infrared["range_list"].empty());
+  // Forward nothing is within 0.8 m.
+  EXPECT_DOUBLE_EQ(infrared["range_list"][0], 0.8);
+  EXPECT_EQ(infrared["point_list"][0], json::parse("[0.0, 0.0, 0.0]"));
+}
+
+TEST_F(MorseProtocol, PropertiesAreThoseOfTheWorldAndStaySo) {
+  MorseClient client = start();
+  const json properties = client.get("r1.laser get_properties")["properties"];
+  EXPECT_EQ(properties["range_max"][0], 5.0);
+  EXPECT_EQ(properties["range_max"][3], "range_max");
+  const json configurations = client.get("r1.laser get_configurations")["configurations"];
+  EXPECT_EQ(configurations["beams"], 682.0);
+  EXPECT_EQ(configurations["object_to_robot"]["translation"], json::parse("[0.035, 0.0, 0.125]"));
+  EXPECT_EQ(client.get("r1.laser set_property [\"range_max\", 5]"), nullptr);
+  EXPECT_THAT(client.refusal("r1.laser set_property [\"range_max\", 6]"), HasSubstr("stays so"));
+  EXPECT_THAT(client.refusal("r1.laser set_property [\"colour\", 6]"), HasSubstr("does not exist"));
+  EXPECT_THAT(client.get("r1.robot_properties get_properties")["properties"], IsEmpty());
+}
+
+// --- Streams
+
+TEST_F(MorseProtocol, SensorStreamsCarryEachReading) {
+  MorseClient client = start();
+  RawClient pose = stream(client, "r1.pose");
+  RawClient second = stream(client, "r1.pose");
+  RawClient laser = stream(client, "r1.laser");
+  client.get("r1.motion set_speed [0.2, 0]");
+  client.sleep(0.5);
+  for (int i = 1; i <= 5; ++i) {
+    const std::string line = pose.line();
+    const json record = json::parse(line);
+    EXPECT_NEAR(record["timestamp"], 0.1 * i, 1e-9);
+    EXPECT_NEAR(record["x"], 0.8 + 0.02 * i, 1e-9);
+    EXPECT_EQ(second.line(), line);
+    EXPECT_THAT(json::parse(laser.line())["range_list"], SizeIs(682));
+  }
+  // One that comes later gets what comes later.
+  RawClient late = stream(client, "r1.pose");
+  pose.close();
+  client.sleep(0.1);
+  EXPECT_NEAR(json::parse(late.line())["timestamp"], 0.6, 1e-9);
+}
+
+TEST_F(MorseProtocol, SensorsThatAreOffWriteNothing) {
+  MorseClient client = start();
+  RawClient pose = stream(client, "r1.pose");
+  client.get("simulation deactivate [\"r1.pose\"]");
+  client.sleep(1.0);
+  client.get("simulation activate [\"r1.pose\"]");
+  client.get("simulation reset_objects");
+  client.sleep(0.5);
+  EXPECT_GT(json::parse(pose.line())["timestamp"], 1.0);
+}
+
+TEST_F(MorseProtocol, PropertiesComeEachSecond) {
+  MorseClient client = start();
+  RawClient properties = stream(client, "r1.robot_properties");
+  properties.send("ignored\n");
+  client.sleep(5.0);
+  const json record = json::parse(properties.line());
+  EXPECT_EQ(record["name"], "r1");
+  EXPECT_GE(record["timestamp"], 1.0);
+}
+
+TEST_F(MorseProtocol, StreamsEndWithTheRun) {
+  RunSettings run;
+  run.duration_s = 2.0;
+  MorseClient client = start(run);
+  RawClient pose = stream(client, "r1.pose");
+  EXPECT_THAT(client.refusal("time sleep [5]"), HasSubstr("session/finished"));
+  const std::string records = pose.rest();
+  EXPECT_EQ(std::count(records.begin(), records.end(), '\n'), 20);
+}
+
+/// Lets time pass until a condition holds: what is written to a stream's port arrives some time
+/// after what a request on another connection does.
+template <typename Condition>
+::testing::AssertionResult comes_true(MorseClient& client, Condition condition) {
+  for (int i = 0; i < 2000; ++i) {
+    if (condition()) return ::testing::AssertionSuccess();
+    client.sleep(0.1);
+  }
+  return ::testing::AssertionFailure();
+}
+
+TEST_F(MorseProtocol, MotionStreamTakesTheNewestLine) {
+  MorseClient client = start();
+  RawClient motion = stream(client, "r1.motion");
+  motion.send("{\"v\": 0.4, \"w\": 0.0}\n{\"v\": 0, \"w\": 0.5, \"timestamp\": 3}\n\n");
+  EXPECT_TRUE(
+      comes_true(client, [&] { return client.data("r1.odometry").value("wz", 0.0) == 0.5; }));
+  EXPECT_NEAR(client.get("r1.pose get_local_data")["x"], 0.8, 1e-6);
+}
+
+TEST_F(MorseProtocol, WaypointAndTeleportStreamsSteer) {
+  MorseClient client = start();
+  client.sleep(0.1);
+  RawClient teleport = stream(client, "r1.teleport");
+  teleport.send(R"({"x": 1, "y": 1.5, "z": 7, "yaw": 0, "pitch": 1, "roll": 1})"
+                "\n");
+  EXPECT_TRUE(comes_true(client, [&] { return client.get("r1.pose get_local_data")["y"] == 1.5; }));
+  RawClient waypoint = stream(client, "r1.waypoint");
+  waypoint.send("{\"x\": 2, \"y\": 1.5, \"z\": 0, \"tolerance\": 0.1, \"speed\": 0.5}\n");
+  EXPECT_TRUE(comes_true(client, [&] { return client.get("r1.pose get_local_data")["x"] > 1.85; }));
+}
+
+TEST_F(MorseProtocol, BadLinesOfAStreamAreToldToTheLogOnce) {
+  MorseClient client = start();
+  RawClient motion = stream(client, "r1.motion");
+  motion.send("[1, 2]\n{\"v\": 1}\nrubbish\n{\"v\": \"x\", \"w\": 0}\n");
+  motion.send("{\"v\": 0, \"w\": 0.5}\n");
+  EXPECT_TRUE(
+      comes_true(client, [&] { return client.data("r1.odometry").value("wz", 0.0) == 0.5; }));
+  EXPECT_THAT(logged(), HasSubstr("stream of r1.motion: protocol/bad-value: expected an object"));
+  EXPECT_THAT(logged(), Not(HasSubstr("rubbish")));
+}
+
+// --- Tokens
+
+TEST_F(MorseProtocol, ServerTokenIsWantedForEverything) {
+  settings.access.server_token = "open sesame";
+  MorseClient client = start();
+  EXPECT_THAT(client.refusal("time now"), HasSubstr("access/denied"));
+  EXPECT_THAT(client.refusal("playpen token [\"wrong\"]"), HasSubstr("access/denied"));
+  client.get("playpen token [\"open sesame\"]");
+  EXPECT_EQ(client.get("time now"), 0.0);
+  RawClient silent = stream(client, "r1.pose");
+  RawClient reader = stream(client, "r1.pose");
+  reader.send("{\"playpen_token\": \"open sesame\"}\n");
+  RawClient writer = stream(client, "r1.motion");
+  writer.send("{\"playpen_token\": \"open sesame\"}\n{\"v\": 0, \"w\": 0.5}\n");
+  EXPECT_TRUE(
+      comes_true(client, [&] { return client.data("r1.odometry").value("wz", 0.0) == 0.5; }));
+  EXPECT_THAT(reader.line(), HasSubstr("timestamp"));
+  server->stop();
+  EXPECT_EQ(silent.rest(), "");
+}
+
+TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {
+  settings.access.robot_tokens = {{"r1", "mine"}};
+  MorseClient client = start();
+  EXPECT_THAT(client.refusal("r1.motion set_speed [1, 0]"),
+              AllOf(HasSubstr("access/denied"), HasSubstr("r1")));
+  EXPECT_THAT(client.refusal("simulation reset_objects"), HasSubstr("access/denied"));
+  EXPECT_THAT(client.refusal("simulation deactivate [\"r1.pose\"]"), HasSubstr("access/denied"));
+  EXPECT_THAT(client.refusal("simulation set_object_dynamics [\"r1\", false]"),
+              HasSubstr("access/denied"));
+  client.get("r2.motion set_speed [0.1, 0]");
+  client.sleep(0.2);
+  client.get("r1.pose get_local_data");
+  RawClient stranger = stream(client, "r1.motion");
+  stranger.send("{\"v\": 0, \"w\": 0.7}\n");
+  RawClient owner = stream(client, "r1.motion");
+  owner.send("{\"playpen_token\": \"mine\"}\n{\"v\": 0, \"w\": 0.5}\n");
+  EXPECT_TRUE(comes_true(client, [&] {
+    return client.data("r1.odometry").value("wz", 0.0) == 0.5 &&
+           logged().find("access/denied") != std::string::npos;
+  }));
+  client.get("playpen token [\"mine\"]");
+  EXPECT_THAT(client.refusal("playpen token [\"mine\"]"), HasSubstr("access/denied"));
+  client.get("r1.motion stop");
+  client.get("simulation reset_objects");
+}
+
+// --- The clock synchronisation
+
+TEST_F(MorseProtocol, SynchronisedClockMakesAStepAMessage) {
+  settings.sync_port = 0;
+  MorseClient client = start();
+  RawClient clock = accepted(server->sync_port());
+  clock.send("s");
+  while (client.get("time now") == 0.0) std::this_thread::yield();
+  EXPECT_DOUBLE_EQ(client.get("time now"), 0.01);
+  client.send("held time sleep [0.05]");
+  client.send("q time now");
+  EXPECT_DOUBLE_EQ(client.receive().result, 0.01);  // and not the sleep's answer
+  clock.send("\n\n\n\n\n");
+  EXPECT_EQ(client.receive().id, "held");
+  EXPECT_DOUBLE_EQ(client.get("time now"), 0.06);
+  clock.close();
+  // Others let time go on again, once that was noticed.
+  client.sleep(1.0);
+  EXPECT_DOUBLE_EQ(client.get("time now"), 1.06);
+}
+
+// --- The page
+
+std::string text_of(const std::string& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+TEST(MorsePage, HasARowForEachService) {
+  const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/morse.md");
+  int services = 0;
+  for (const char* kind :
+       {"simulation", "time", "motion", "waypoint", "teleport", "pen", "sensor", "component"}) {
+    for (const server::MorseService& service : server::morse_services(kind)) {
+      ++services;
+      const std::string call =
+          std::string(service.name) + '(' + std::string(service.arguments) + ')';
+      EXPECT_THAT(page, HasSubstr("| `" + call + "` |")) << kind;
+    }
+  }
+  EXPECT_GT(services, 40);
+}
+
+// The telnet session of docs/remote.md: lines with "> " are sent, the others must come.
+TEST_F(MorseProtocol, DialogueOfTheGuideIsAsTold) {
+  const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/remote.md");
+  static const std::regex kBlock("<!-- dialogue: \\S+ -->\n```text\n([^`]*)```");
+  std::smatch block;
+  ASSERT_TRUE(std::regex_search(page, block, kBlock));
+  start();
+  RawClient client("127.0.0.1", server->port());
+  std::istringstream lines(block[1]);
+  int answers = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("> ")) {
+      client.send(line.substr(2) + '\n');
+    } else {
+      EXPECT_EQ(client.line(), line);
+      ++answers;
+    }
+  }
+  EXPECT_GE(answers, 10);
+}
+
+}  // namespace
+}  // namespace playerlike
