@@ -67,12 +67,16 @@ class XDisplay {
   /// What a window shows; nullopt if it has gone.
   [[nodiscard]] std::optional<Screenshot> capture(Window window) const {
     XWindowAttributes attributes;
-    if (XGetWindowAttributes(display_, window, &attributes) == 0 ||
-        attributes.map_state != IsViewable) {
-      return std::nullopt;
+    XImage* image = nullptr;
+    // Nobody may change the window's size in between: more than a window has cannot be read.
+    XGrabServer(display_);
+    if (XGetWindowAttributes(display_, window, &attributes) != 0 &&
+        attributes.map_state == IsViewable) {
+      image = XGetImage(display_, window, 0, 0, static_cast<unsigned>(attributes.width),
+                        static_cast<unsigned>(attributes.height), AllPlanes, ZPixmap);
     }
-    XImage* const image = XGetImage(display_, window, 0, 0, static_cast<unsigned>(attributes.width),
-                                    static_cast<unsigned>(attributes.height), AllPlanes, ZPixmap);
+    XUngrabServer(display_);
+    XSync(display_, False);
     if (image == nullptr) return std::nullopt;
     Screenshot shot{attributes.width, attributes.height, {}};
     for (int y = 0; y < shot.height; ++y) {
@@ -85,6 +89,18 @@ class XDisplay {
     }
     XDestroyImage(image);
     return shot;
+  }
+
+  /// Gives a window the keyboard, wherever the pointer is.
+  void focus(Window window) const {
+    XSetInputFocus(display_, window, RevertToPointerRoot, CurrentTime);
+    XSync(display_, False);
+  }
+  [[nodiscard]] bool has_focus(Window window) const {
+    Window focused = None;
+    int revert_to = 0;
+    XGetInputFocus(display_, &focused, &revert_to);
+    return focused == window;
   }
 
   /// Asks a window to close, as the button in its frame does.

@@ -3,9 +3,11 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -38,7 +40,8 @@ struct ProcessOptions {
 };
 
 /// A running program. Its standard input is a pipe that stays open, and silent, until the end.
-/// Must be started from a program with one thread.
+/// It runs in a process group of its own: who kills it kills what it has started as well, and if
+/// the test is killed it dies, too. Must be started from a program with one thread.
 class Process {
  public:
   /// Starts a program; command[0] is looked up in PATH if it has no slash. If it can't be run,
@@ -51,6 +54,8 @@ class Process {
     child_ = fork();
     if (child_ < 0) throw std::runtime_error("fork failed");
     if (child_ == 0) {
+      setpgid(0, 0);
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
       dup2(stdin_read, STDIN_FILENO);
       dup2(stdout_write, STDOUT_FILENO);
       dup2(stderr_write, STDERR_FILENO);
@@ -67,6 +72,7 @@ class Process {
       }
       _exit(127);
     }
+    setpgid(child_, child_);  // here too: whoever of both comes first
     close(stdin_read);
     close(stdout_write);
     close(stderr_write);
@@ -75,10 +81,7 @@ class Process {
   }
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
-  ~Process() {
-    if (child_ > 0) kill(child_, SIGKILL);
-    static_cast<void>(finish());
-  }
+  ~Process() { static_cast<void>(kill_now()); }
 
   /// Reads until the program's standard output holds the text.
   /// @return whether it came before the program closed its output, or took too long.
@@ -94,13 +97,21 @@ class Process {
 
   void send_signal(int signal) const { kill(child_, signal); }
 
+  /// Kills the program and all that it has started.
+  [[nodiscard]] ProcessResult kill_now() {
+    kill_group();
+    // The pipes end with their last holder, unless one of them went off into another group.
+    deadline_ = std::min(deadline_, std::chrono::steady_clock::now() + std::chrono::seconds(5));
+    return finish();
+  }
+
   /// Waits for the program's end; kills it when the time is over.
   [[nodiscard]] ProcessResult finish() {
     while (pump()) {
     }
     if (child_ > 0) {
       // Output is at its end, or the time is over: then it does not get any more.
-      if (result_.timed_out) kill(child_, SIGKILL);
+      if (result_.timed_out) kill_group();
       int state = 0;
       while (waitpid(child_, &state, 0) < 0 && errno == EINTR) {
       }
@@ -124,6 +135,11 @@ class Process {
     // Closed in the child by exec; dup2 clears that on the copies.
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
     return {ends[0], ends[1]};
+  }
+
+  /// @pre nobody has waited for the program if child_ > 0, so the group is nobody else's.
+  void kill_group() const {
+    if (child_ > 0) kill(-child_, SIGKILL);
   }
 
   static void close_once(int& descriptor) {
