@@ -156,20 +156,15 @@ std::vector<std::string> violations(const Source& source) {
     }
     const bool is_yaml = include.starts_with("yaml-cpp/");
     if (is_yaml && !path.starts_with("libsim/src/io/")) refuse("YAML belongs in libsim/src/io");
-    const bool is_asio = include == "asio.hpp" || include.starts_with("asio/");
-    if (is_asio && !path.starts_with("libplayerlike/src/server/") &&
-        !path.starts_with("libplayerlike/src/session/")) {
-      refuse("sockets belong in libplayerlike/src/server and libplayerlike/src/session");
-    }
     if (is_public &&
         (is_json || is_yaml || starts_with_any(include, {"spdlog/", "fmt/", "CLI/"}))) {
       refuse("public headers show no third-party types but Eigen's");
     }
 
     if (in_sim) {
-      if (starts_with_any(include,
-                          {"playerlike/", "libplayerc++/", "libCCMorse/", "libPlayer/", "imr-h/",
-                           "messages/", "host/", "session/", "proxies/", "drivers/", "server/"})) {
+      if (starts_with_any(include, {"playerlike/", "libplayerc++/", "libCCMorse/", "libPlayer/",
+                                    "imr-h/", "messages/", "protocol/", "host/", "session/",
+                                    "proxies/", "drivers/", "server/"})) {
         refuse("libsim knows no client");
       }
       static const std::set<std::string> kForbidden = {
@@ -192,21 +187,6 @@ std::vector<std::string> violations(const Source& source) {
       }
     }
     if (in_playerlike) {
-      if (starts_with_any(include, {"asio.hpp", "asio/"}) &&
-          !(path.starts_with("libplayerlike/src/server/") ||
-            path == "libplayerlike/src/session/connection.cpp")) {
-        refuse("Asio belongs to the two ends of a connection");
-      }
-      if (starts_with_any(include, {"server/", "playerlike/server/"}) &&
-          !starts_with_any(
-              path, {"libplayerlike/src/server/", "libplayerlike/include/playerlike/server/"})) {
-        refuse("nothing in the library needs a server");
-      }
-      if (path.starts_with("libplayerlike/src/protocol/") &&
-          starts_with_any(include, {"host/", "session/", "server/", "proxies/", "devices/",
-                                    "drivers/", "playerlike/host/"})) {
-        refuse("the protocol knows messages only");
-      }
       if (include.starts_with("sim/") &&
           starts_with_any(
               path, {"libplayerlike/include/libplayerc++/", "libplayerlike/include/libCCMorse/",
@@ -215,6 +195,26 @@ std::vector<std::string> violations(const Source& source) {
       }
       if (include.starts_with("drivers/") && !path.starts_with("libplayerlike/src/drivers/")) {
         refuse("drivers use proxies, not the other way round; see proxies/goal_driver.h");
+      }
+      if (path.starts_with("libplayerlike/src/protocol/") &&
+          !starts_with_any(include, {"protocol/", "playerlike/messages/", "sim/"}) &&
+          include.find('/') != std::string::npos && !is_json) {
+        refuse("the protocol knows messages only, not who sends them");
+      }
+      if (include.starts_with("protocol/") &&
+          !starts_with_any(path, {"libplayerlike/src/protocol/", "libplayerlike/src/server/",
+                                  "libplayerlike/src/session/", "libplayerlike/src/devices/",
+                                  "libplayerlike/src/proxies/"})) {
+        refuse("the protocol is for servers and for those who speak with them");
+      }
+      if (starts_with_any(include, {"server/", "playerlike/server/"}) &&
+          !starts_with_any(
+              path, {"libplayerlike/src/server/", "libplayerlike/include/playerlike/server/"})) {
+        refuse("servers use hosts, not the other way round");
+      }
+      if ((include == "asio.hpp" || include.starts_with("asio/")) &&
+          !starts_with_any(path, {"libplayerlike/src/server/", "libplayerlike/src/session/"})) {
+        refuse("sockets belong in libplayerlike/src/server and libplayerlike/src/session");
       }
     }
   }
@@ -313,15 +313,30 @@ TEST(LayeringRules, LetDriversUseProxiesAndNotTheOtherWayRound) {
       ElementsAre(HasSubstr("goal_driver.h")));
 }
 
-TEST(LayeringRules, KeepTheNetworkInItsPlaces) {
+TEST(LayeringRules, KeepTheProtocolBelowServersAndSockets) {
+  EXPECT_THAT(
+      violations({"libplayerlike/src/protocol/x.cpp",
+                  "#include <nlohmann/json.hpp>\n#include <vector>\n#include \"protocol/codec.h\"\n"
+                  "#include \"playerlike/messages/messages.h\"\n#include \"sim/core/pose.h\"\n"}),
+      IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/protocol/x.cpp",
+                          "#include \"playerlike/host/host.h\"\n#include \"server/peer.h\"\n"}),
+              ElementsAre(HasSubstr("messages only"), HasSubstr("messages only"),
+                          HasSubstr("servers use hosts")));
   EXPECT_THAT(violations({"libplayerlike/src/host/x.cpp",
-                          "#include <asio/ip/tcp.hpp>\n#include \"playerlike/server/server.h\"\n"}),
-              ElementsAre(HasSubstr("two ends"), HasSubstr("needs a server")));
-  EXPECT_THAT(violations({"libplayerlike/src/protocol/x.cpp", "#include \"session/x.h\"\n"}),
-              ElementsAre(HasSubstr("messages only")));
+                          "#include \"protocol/codec.h\"\n#include \"playerlike/server/server.h\"\n"
+                          "#include <asio/ip/tcp.hpp>\n"}),
+              ElementsAre(HasSubstr("for servers"), HasSubstr("servers use hosts"),
+                          HasSubstr("sockets belong")));
   EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp",
+                          "#include <asio.hpp>\n#include \"protocol/codec.h\"\n"
+                          "#include \"playerlike/host/host.h\"\n#include \"server/peer.h\"\n"}),
+              IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/session/x.cpp",
                           "#include <asio.hpp>\n#include \"protocol/codec.h\"\n"}),
               IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/include/playerlike/server/x.h", "#include <asio.hpp>\n"}),
+              ElementsAre(HasSubstr("sockets belong")));
 }
 
 TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
@@ -339,10 +354,6 @@ TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
       ElementsAre(HasSubstr("public headers")));
   EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <nlohmann/json.hpp>\n"}),
               IsEmpty());
-  EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <asio/ip/tcp.hpp>\n"}),
-              IsEmpty());
-  EXPECT_THAT(violations({"libplayerlike/src/host/x.cpp", "#include <asio/ip/tcp.hpp>\n"}),
-              ElementsAre(HasSubstr("sockets belong")));
   EXPECT_THAT(violations({"libplayerlike/include/libCCMorse/x.h", "#include <sim/core/pose.h>\n"}),
               ElementsAre(HasSubstr("C++14")));
 }
