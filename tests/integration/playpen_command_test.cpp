@@ -29,8 +29,8 @@ using testing::Not;
 TEST(PlaypenCommand, HelpNamesTheCommandsAndExitStatuses) {
   const ProcessResult result = playpen({"--help"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.out, AllOf(HasSubstr("run"), HasSubstr("grade"), HasSubstr("check"),
-                                HasSubstr("render"), HasSubstr("Exit status")));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("run"), HasSubstr("serve"), HasSubstr("grade"),
+                                HasSubstr("check"), HasSubstr("render"), HasSubstr("Exit status")));
   EXPECT_THAT(result.err, IsEmpty());
 }
 
@@ -47,7 +47,7 @@ TEST(PlaypenCommand, VersionIsTheProjects) {
 }
 
 TEST(PlaypenCommand, EachCommandHasHelp) {
-  for (const char* command : {"run", "grade", "check", "render"}) {
+  for (const char* command : {"run", "serve", "grade", "check", "render"}) {
     const ProcessResult result = playpen({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr("world")) << command;
@@ -56,7 +56,7 @@ TEST(PlaypenCommand, EachCommandHasHelp) {
 
 TEST(PlaypenCommand, UnknownCommandsAndMissingArgumentsAreBadInput) {
   const std::vector<std::vector<std::string>> calls = {
-      {"fly"}, {"--fly"}, {"check"}, {"run"}, {"run", "x.json"}, {"render", "x.json"},
+      {"fly"}, {"--fly"}, {"check"}, {"run"}, {"serve"}, {"run", "x.json"}, {"render", "x.json"},
   };
   for (const auto& call : calls) {
     const ProcessResult result = playpen(call);

@@ -53,6 +53,9 @@ class ReachableHost {
   [[nodiscard]] playerlike::Server* server() noexcept { return server_.get(); }
   [[nodiscard]] playerlike::Host& host() const noexcept { return *host_; }
   [[nodiscard]] playerlike::TimeStatistics time() const { return host_->time(); }
+  [[nodiscard]] sim::RobotStatistics statistics(int robot) const {
+    return host_->statistics(robot);
+  }
   [[nodiscard]] std::uint64_t state_hash() const { return host_->state_hash(); }
 
  private:

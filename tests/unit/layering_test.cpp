@@ -156,6 +156,11 @@ std::vector<std::string> violations(const Source& source) {
     }
     const bool is_yaml = include.starts_with("yaml-cpp/");
     if (is_yaml && !path.starts_with("libsim/src/io/")) refuse("YAML belongs in libsim/src/io");
+    const bool is_asio = include == "asio.hpp" || include.starts_with("asio/");
+    if (is_asio && !path.starts_with("libplayerlike/src/server/") &&
+        !path.starts_with("libplayerlike/src/session/")) {
+      refuse("sockets belong in libplayerlike/src/server and libplayerlike/src/session");
+    }
     if (is_public &&
         (is_json || is_yaml || starts_with_any(include, {"spdlog/", "fmt/", "CLI/"}))) {
       refuse("public headers show no third-party types but Eigen's");
@@ -187,6 +192,21 @@ std::vector<std::string> violations(const Source& source) {
       }
     }
     if (in_playerlike) {
+      if (starts_with_any(include, {"asio.hpp", "asio/"}) &&
+          !(path.starts_with("libplayerlike/src/server/") ||
+            path == "libplayerlike/src/session/connection.cpp")) {
+        refuse("Asio belongs to the two ends of a connection");
+      }
+      if (starts_with_any(include, {"server/", "playerlike/server/"}) &&
+          !starts_with_any(
+              path, {"libplayerlike/src/server/", "libplayerlike/include/playerlike/server/"})) {
+        refuse("nothing in the library needs a server");
+      }
+      if (path.starts_with("libplayerlike/src/protocol/") &&
+          starts_with_any(include, {"host/", "session/", "server/", "proxies/", "devices/",
+                                    "drivers/", "playerlike/host/"})) {
+        refuse("the protocol knows messages only");
+      }
       if (include.starts_with("sim/") &&
           starts_with_any(
               path, {"libplayerlike/include/libplayerc++/", "libplayerlike/include/libCCMorse/",
@@ -293,6 +313,17 @@ TEST(LayeringRules, LetDriversUseProxiesAndNotTheOtherWayRound) {
       ElementsAre(HasSubstr("goal_driver.h")));
 }
 
+TEST(LayeringRules, KeepTheNetworkInItsPlaces) {
+  EXPECT_THAT(violations({"libplayerlike/src/host/x.cpp",
+                          "#include <asio/ip/tcp.hpp>\n#include \"playerlike/server/server.h\"\n"}),
+              ElementsAre(HasSubstr("two ends"), HasSubstr("needs a server")));
+  EXPECT_THAT(violations({"libplayerlike/src/protocol/x.cpp", "#include \"session/x.h\"\n"}),
+              ElementsAre(HasSubstr("messages only")));
+  EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp",
+                          "#include <asio.hpp>\n#include \"protocol/codec.h\"\n"}),
+              IsEmpty());
+}
+
 TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
   EXPECT_THAT(
       violations({"libsim/src/devices/x.cpp",
@@ -308,6 +339,10 @@ TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
       ElementsAre(HasSubstr("public headers")));
   EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <nlohmann/json.hpp>\n"}),
               IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/server/x.cpp", "#include <asio/ip/tcp.hpp>\n"}),
+              IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/host/x.cpp", "#include <asio/ip/tcp.hpp>\n"}),
+              ElementsAre(HasSubstr("sockets belong")));
   EXPECT_THAT(violations({"libplayerlike/include/libCCMorse/x.h", "#include <sim/core/pose.h>\n"}),
               ElementsAre(HasSubstr("C++14")));
 }

@@ -370,11 +370,16 @@ std::string Connection::summary() const {
   std::array<char, 32> time{};
   std::snprintf(time.data(), time.size(), "%.1f s",
                 std::chrono::duration<double>(Clock::now() - opened_).count());
-  std::string text = name_ + (description_.empty() ? "" : " (" + description_ + ')') +
-                     ": closed after " + time.data() + ": " + reason_ + "; " +
+  constexpr std::size_t kLongest = 200;
+  std::string text = name_ +
+                     (description_.empty() ? "" : " (" + description_.substr(0, kLongest) + ')') +
+                     ": closed after " + time.data() + ": " + reason_.substr(0, kLongest) + "; " +
                      std::to_string(requests_) + (requests_ == 1 ? " request, " : " requests, ") +
                      bytes_text(bytes_in_) + " in, " + bytes_text(bytes_out_) + " out";
   if (records_lost_ > 0) text += ", " + std::to_string(records_lost_) + " records lost";
+  // Some of it is in the client's words, which must not look like lines of the log.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;
 }
 

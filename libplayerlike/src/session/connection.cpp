@@ -382,7 +382,7 @@ void Connection::set_request_timeout(Clock::duration timeout) noexcept {
   impl_->timeout = timeout.count();
 }
 
-std::uint64_t Connection::ask(json request, std::string before) {
+std::uint64_t Connection::ask(json& request, std::string before) {
   std::uint64_t id = 0;
   {
     const std::lock_guard lock(impl_->mutex);
@@ -411,7 +411,7 @@ json Connection::answer(std::uint64_t id, Patience patience,
   const auto slot = c.slots.find(id);
   for (;;) {
     if (slot->second.answer) {
-      const json answer = std::move(*slot->second.answer);
+      json answer = std::move(*slot->second.answer);
       c.slots.erase(slot);
       if (is_error(answer)) throw error_of(answer);
       return answer;

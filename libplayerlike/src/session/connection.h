@@ -63,10 +63,10 @@ class Connection {
     kLiving,   ///< as long as the server shows within each request timeout that it lives; it is
                ///< asked for the time when it has been silent for half of that
   };
-  /// Sends bytes (messages), then a request, in one piece. The request gets its `id` here.
+  /// Sends bytes (messages), then a request, in one piece. Gives the request its `id`.
   /// @return the id, for answer(), which must be called.
   /// @throws ConnectionLost.
-  [[nodiscard]] std::uint64_t ask(nlohmann::json request, std::string before = {});
+  [[nodiscard]] std::uint64_t ask(nlohmann::json& request, std::string before = {});
   /// Waits for an answer.
   /// @param at_most  instead of the request timeout, if shorter.
   /// @throws ConnectionLost; SessionError for an answer that is an error.

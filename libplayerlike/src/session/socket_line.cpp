@@ -125,14 +125,14 @@ void SocketLine::flush() {
   if (!bytes.empty()) connection->tell(bytes);
 }
 
-json SocketLine::ask(json request, Connection::Patience patience, bool waits) {
+json SocketLine::ask(json& request, Connection::Patience patience, bool waits) {
   const std::shared_ptr<Connection> connection = this->connection();
   std::uint64_t id = 0;
   std::uint64_t said = 0;
   {
     const Lock lock(say_mutex_);
     std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
-    id = connection->ask(std::move(request), std::move(drawings));
+    id = connection->ask(request, std::move(drawings));
     said = said_;
     // Time stands still until the server has read that this client waits.
     if (waits && joined_) settled_ = said;
@@ -143,13 +143,13 @@ json SocketLine::ask(json request, Connection::Patience patience, bool waits) {
   return answer;
 }
 
-json SocketLine::ask(json request, Connection::Patience patience) {
-  return ask(std::move(request), patience, false);
+json SocketLine::ask(json& request, Connection::Patience patience) {
+  return ask(request, patience, false);
 }
 
-json SocketLine::wait(json request) {
+json SocketLine::wait(json& request) {
   if (!paced_) settle_others();
-  return ask(std::move(request), Connection::Patience::kLiving, true);
+  return ask(request, Connection::Patience::kLiving, true);
 }
 
 void SocketLine::tell(const json& message) {
@@ -163,7 +163,8 @@ void SocketLine::tell(const json& message) {
 void SocketLine::settle() noexcept {
   if (said_ == settled_ && drawings_.empty()) return;
   try {
-    ask(json{{"do", "time"}}, Connection::Patience::kTimeout, false);
+    json question = {{"do", "time"}};
+    ask(question);
   } catch (const std::exception&) {
     // Its own session will meet the trouble.
   }
@@ -214,10 +215,11 @@ void SocketLine::close() noexcept {
   try {
     if (!connection->lost()) {
       std::uint64_t id = 0;
+      json bye = {{"do", "bye"}};
       {
         const Lock lock(say_mutex_);
         std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
-        id = connection->ask(json{{"do", "bye"}}, std::move(drawings));
+        id = connection->ask(bye, std::move(drawings));
       }
       static_cast<void>(connection->answer(id, Connection::Patience::kTimeout, kGoodBye));
     }

@@ -38,11 +38,11 @@ class SocketLine : public std::enable_shared_from_this<SocketLine> {
   /// Sends what waits in the draw queue, and gives it its first room. @throws ConnectionLost.
   void flush();
   /// Sends drawings and a request, and waits for the answer. @throws as Connection.
-  nlohmann::json ask(nlohmann::json request,
+  nlohmann::json ask(nlohmann::json& request,
                      Connection::Patience patience = Connection::Patience::kTimeout);
   /// A request by which a thread waits: what other sessions of the process have said to the
   /// simulation before has arrived when it is sent, so that a step finds it there.
-  nlohmann::json wait(nlohmann::json request);
+  nlohmann::json wait(nlohmann::json& request);
   /// Sends a message that is not answered. @throws ConnectionLost.
   void tell(const nlohmann::json& message);
   /// Sees to it that all that was said has arrived.
@@ -61,7 +61,7 @@ class SocketLine : public std::enable_shared_from_this<SocketLine> {
   using Lock = std::unique_lock<std::mutex>;
   /// What waits in the draw queue as bytes, ready to be sent. `say_mutex_` is held.
   [[nodiscard]] std::string take_drawings(protocol::Encoding encoding, std::size_t limit);
-  nlohmann::json ask(nlohmann::json request, Connection::Patience patience, bool waits);
+  nlohmann::json ask(nlohmann::json& request, Connection::Patience patience, bool waits);
   void start_flusher();
   void flush_now_and_then();
 

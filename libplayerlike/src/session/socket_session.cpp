@@ -239,8 +239,8 @@ bool SocketSession::pause(double seconds) const {
 }
 
 void SocketSession::resume(Connection& connection) const {
-  const auto carry_out = [&](json request) {
-    static_cast<void>(connection.answer(connection.ask(std::move(request))));
+  const auto carry_out = [&](json& request) {
+    static_cast<void>(connection.answer(connection.ask(request)));
   };
   std::vector<json> requests;
   {
@@ -258,7 +258,7 @@ void SocketSession::resume(Connection& connection) const {
       requests.back()["replace"] = replace;
     }
   }
-  for (json& request : requests) carry_out(std::move(request));
+  for (json& request : requests) carry_out(request);
 }
 
 bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
@@ -296,14 +296,14 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
 
 // --- Saying and asking
 
-json SocketSession::request(const json& request) const {
+json SocketSession::request(json request) const {
   json answer = with_connection([&] { return line_->ask(request); });
   note(answer);
   throw_complaint();
   return answer;
 }
 
-json SocketSession::read(const json& request) const {
+json SocketSession::read(json request) const {
   farewell.remember(line_);
   return with_connection([&] { return line_->wait(request); });
 }
@@ -351,13 +351,14 @@ void SocketSession::unsubscribe(DeviceId device) {
   }
   // Not worth another connection: that will not have the subscription.
   require_open();
-  note(line_->ask(device_request("unsubscribe", device)));
+  json request = device_request("unsubscribe", device);
+  note(line_->ask(request));
 }
 
 void SocketSession::set_replace(std::optional<DeviceId> device, bool replace) {
   json message = {{"do", "replace"}, {"device", nullptr}, {"replace", replace}};
   if (device) message["device"] = protocol::encode_device_id(*device);
-  request(message);
+  request(std::move(message));
   const Lock lock(mutex_);
   if (device) {
     replace_[key_of(*device)] = replace;

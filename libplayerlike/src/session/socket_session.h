@@ -112,9 +112,9 @@ class SocketSession final : public Session {
   bool pause(double seconds) const;
 
   /// Sends drawings and a request; waits for the answer.
-  nlohmann::json request(const nlohmann::json& request) const;
+  nlohmann::json request(nlohmann::json request) const;
   /// A `read` that may let time pass.
-  nlohmann::json read(const nlohmann::json& request) const;
+  nlohmann::json read(nlohmann::json request) const;
   void tell(const nlohmann::json& message) const;
   /// Remembers what any answer may tell.
   void note(const nlohmann::json& answer) const;

@@ -12,7 +12,7 @@
 #include "libCCMorse/CCMorse.h"
 #include "libplayerc++/playerc++.h"
 #include "par_common/text_map.h"
-#include "temporary_folder.h"
+#include "reachable_host.h"
 
 namespace {
 
@@ -32,15 +32,19 @@ constexpr const char* kWorld = R"({
   "robots": [{"name": "r1", "pose": {"x": 0.3, "y": 1.4}},
              {"name": "r2", "pose": {"x": -0.3, "y": 1.4}}]})";
 
-class MapProxyTest : public testing::Test {
+class MapProxyTest : public testing::TestWithParam<test::Transport> {
  protected:
   [[nodiscard]] std::unique_ptr<PlayerClient> client(std::uint32_t port = 6665) const {
-    return std::make_unique<PlayerClient>("sim:" + world_, port);
+    return std::make_unique<PlayerClient>(host_.connect(static_cast<int>(port)));
   }
 
-  test_support::TemporaryFolder folder_;
-  std::string world_ = folder_.write("small.json", kWorld);
+  test::ReachableHost host_{playerlike::Host::create(sim::load_world_text(kWorld)), GetParam()};
 };
+
+INSTANTIATE_TEST_SUITE_P(Transports, MapProxyTest,
+                         testing::Values(test::Transport::kInProcess, test::Transport::kCbor,
+                                         test::Transport::kJson),
+                         [](const auto& info) { return transport_name(info.param); });
 
 template <typename Action>
 PlayerError error_of(Action action) {
@@ -53,7 +57,7 @@ PlayerError error_of(Action action) {
   return PlayerError("", "", 0);
 }
 
-TEST_F(MapProxyTest, HasNoMapUntilItIsRequested) {
+TEST_P(MapProxyTest, HasNoMapUntilItIsRequested) {
   const auto robot = client();
   MapProxy map(robot.get());
   EXPECT_FALSE(map.IsValid());
@@ -68,7 +72,7 @@ TEST_F(MapProxyTest, HasNoMapUntilItIsRequested) {
   map.GetMap(nullptr);  // no cells: nothing to copy
 }
 
-TEST_F(MapProxyTest, TellsTheWorldInPlayersOrder) {
+TEST_P(MapProxyTest, TellsTheWorldInPlayersOrder) {
   const auto robot = client();
   MapProxy map(robot.get());
   map.RequestMap();
@@ -93,7 +97,7 @@ TEST_F(MapProxyTest, TellsTheWorldInPlayersOrder) {
   }
 }
 
-TEST_F(MapProxyTest, RefusesCellsThatAreNotThere) {
+TEST_P(MapProxyTest, RefusesCellsThatAreNotThere) {
   const auto robot = client();
   MapProxy map(robot.get());
   map.RequestMap();
@@ -106,7 +110,7 @@ TEST_F(MapProxyTest, RefusesCellsThatAreNotThere) {
   EXPECT_EQ(error_of([&] { map.GetMap(nullptr); }).GetErrorCode(), PlayerError::kBadArgument);
 }
 
-TEST_F(MapProxyTest, IsOneForAllRobotsWithIndexZeroOnEveryPort) {
+TEST_P(MapProxyTest, IsOneForAllRobotsWithIndexZeroOnEveryPort) {
   for (const std::uint32_t port : {6665U, 6666U, 4000U}) {
     const auto robot = client(port);
     CCMorse::MapProxy map(robot.get(), 0);
@@ -131,7 +135,7 @@ TEST_F(MapProxyTest, IsOneForAllRobotsWithIndexZeroOnEveryPort) {
   }
 }
 
-TEST_F(MapProxyTest, TellsWhichRequestsItKnows) {
+TEST_P(MapProxyTest, TellsWhichRequestsItKnows) {
   const auto robot = client();
   MapProxy map(robot.get());
   EXPECT_NE(map.HasCapability(PLAYER_MSGTYPE_REQ, PLAYER_MAP_REQ_GET_DATA), 0);
@@ -139,7 +143,7 @@ TEST_F(MapProxyTest, TellsWhichRequestsItKnows) {
   EXPECT_EQ(map.HasCapability(PLAYER_MSGTYPE_DATA, PLAYER_MAP_DATA_INFO), 0);
 }
 
-TEST_F(MapProxyTest, PrintsTheMapTheTopRowFirst) {
+TEST_P(MapProxyTest, PrintsTheMapTheTopRowFirst) {
   const auto robot = client();
   MapProxy map(robot.get());
   map.RequestMap();
@@ -148,7 +152,7 @@ TEST_F(MapProxyTest, PrintsTheMapTheTopRowFirst) {
   EXPECT_THAT(out.str(), HasSubstr("..........\n...##.....\n..........\n"));
 }
 
-TEST_F(MapProxyTest, CarriesTheTimeOfTheRequest) {
+TEST_P(MapProxyTest, CarriesTheTimeOfTheRequest) {
   const auto robot = client();
   MapProxy map(robot.get());
   const PlayerCc::Position2dProxy position(robot.get());
@@ -157,7 +161,7 @@ TEST_F(MapProxyTest, CarriesTheTimeOfTheRequest) {
   EXPECT_DOUBLE_EQ(map.GetDataTime(), position.GetDataTime());
 }
 
-TEST_F(MapProxyTest, ThrowsWhenTheClientIsGone) {
+TEST_P(MapProxyTest, ThrowsWhenTheClientIsGone) {
   auto robot = client();
   MapProxy map(robot.get());
   robot.reset();

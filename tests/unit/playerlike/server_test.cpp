@@ -81,6 +81,9 @@ class WordHandler final : public Handler {
         peer_.set_in_flight(static_cast<std::size_t>(--held_));
         peer_.send("later\n");
       });
+    } else if (word == "name") {
+      peer_.describe("a\nname" + std::string(1000, 'x'));
+      peer_.send("named\n");
     } else if (word == "next") {
       hub_.hand_over(peer_, std::make_unique<WordHandler>(peer_, hub_, alive_));
       peer_.send("next\n");
@@ -251,6 +254,17 @@ TEST_F(ServerTest, WhatWasAskedBeforeTheClientStoppedSendingIsAnswered) {
   EXPECT_THAT(log.wait_for("closed"),
               AllOf(HasSubstr("127.0.0.1:"), HasSubstr("it left"), HasSubstr("2 requests")));
   wait_until_empty();
+}
+
+TEST_F(ServerTest, WhatClientsCallThemselvesStaysInItsLineOfTheLog) {
+  start();
+  RawClient client = connect();
+  client.send("name\n");
+  EXPECT_EQ(client.line(), "named");
+  client.close();
+  const std::string line = log.wait_for("closed");
+  EXPECT_THAT(line, AllOf(HasSubstr("(a?name"), Not(HasSubstr("\n"))));
+  EXPECT_LT(line.size(), 400U);
 }
 
 TEST_F(ServerTest, HandsAConnectionOverAndChangesItsEncodingBetweenMessages) {

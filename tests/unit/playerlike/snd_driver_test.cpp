@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// SndDriver and the world's drivers table, over a host in this process.
+// SndDriver and the world's drivers table, over a host in this process, by calls and by messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,6 +18,7 @@
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
 #include "playerlike/host/host.h"
+#include "reachable_host.h"
 #include "sim/core/error.h"
 
 namespace {
@@ -29,6 +30,8 @@ using CCMorse::SndDriver;
 using CCMorse::SndSettings;
 using playerlike::Host;
 using test::error_code_of;
+using test::ReachableHost;
+using test::Transport;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -40,23 +43,29 @@ std::string room(const std::string& drivers, const std::string& simulation = "{}
          drivers + "}]}";
 }
 
-struct SndDriverTest : testing::Test {
-  std::shared_ptr<Host> start(const std::string& text) {
-    return host = Host::create(sim::load_world_text(text), {},
-                               [this](sim::LogLevel, std::string_view line) {
-                                 const std::lock_guard lock(log_mutex);
-                                 log += std::string(line) + '\n';
-                               });
+struct SndDriverTest : testing::TestWithParam<Transport> {
+  void start(const std::string& text) {
+    host =
+        std::make_unique<ReachableHost>(Host::create(sim::load_world_text(text), {},
+                                                     [this](sim::LogLevel, std::string_view line) {
+                                                       const std::lock_guard lock(log_mutex);
+                                                       log += std::string(line) + '\n';
+                                                     }),
+                                        GetParam());
   }
   // Nothing may be said: no thread was silent, nothing was refused.
   void TearDown() override { EXPECT_EQ(log, ""); }
 
-  std::shared_ptr<Host> host;
   std::mutex log_mutex;
   std::string log;
+  std::unique_ptr<ReachableHost> host;
 };
 
-TEST_F(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
+INSTANTIATE_TEST_SUITE_P(Transports, SndDriverTest,
+                         testing::Values(Transport::kInProcess, Transport::kCbor),
+                         [](const auto& info) { return transport_name(info.param); });
+
+TEST_P(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -74,7 +83,7 @@ TEST_F(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
   EXPECT_GT(host->statistics(0).least_clearance_m, 0.0);
 }
 
-TEST_F(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
+TEST_P(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -90,7 +99,7 @@ TEST_F(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
   EXPECT_EQ(host->statistics(0).collisions, 0);
 }
 
-TEST_F(SndDriverTest, CancelStopsTheRobotAndIsIdle) {
+TEST_P(SndDriverTest, CancelStopsTheRobotAndIsIdle) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -107,7 +116,7 @@ TEST_F(SndDriverTest, CancelStopsTheRobotAndIsIdle) {
   EXPECT_EQ(driver.WaitForGoal(), SndDriver::IDLE);
 }
 
-TEST_F(SndDriverTest, NewGoalReplacesTheOldOne) {
+TEST_P(SndDriverTest, NewGoalReplacesTheOldOne) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -119,7 +128,7 @@ TEST_F(SndDriverTest, NewGoalReplacesTheOldOne) {
   EXPECT_LE(std::hypot(position.GetXPos() - 0.5, position.GetYPos() - 0.5), 0.05);
 }
 
-TEST_F(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
+TEST_P(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -152,7 +161,7 @@ TEST_F(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(driver.GetSettings().robot_radius, 0.1);
 }
 
-TEST_F(SndDriverTest, KeepsItsSpeedLimit) {
+TEST_P(SndDriverTest, KeepsItsSpeedLimit) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -172,13 +181,13 @@ TEST_F(SndDriverTest, KeepsItsSpeedLimit) {
   EXPECT_LE(sharpest, 1.0 + 1e-9);
 }
 
-TEST_F(SndDriverTest, ARobotWithoutMotorsIsRefused) {
+TEST_P(SndDriverTest, ARobotWithoutMotorsIsRefused) {
   start(R"({"robots": [{"devices": {"motion": null}}]})");
   PlayerClient client(host->connect(6665));
   EXPECT_EQ(error_code_of([&] { SndDriver driver(&client); }), PlayerError::kNotAvailable);
 }
 
-TEST_F(SndDriverTest, EndsAtOnceWithoutTimeGoingOn) {
+TEST_P(SndDriverTest, EndsAtOnceWithoutTimeGoingOn) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   Position2dProxy position(&client, 0);
@@ -201,7 +210,7 @@ TEST_F(SndDriverTest, EndsAtOnceWithoutTimeGoingOn) {
   EXPECT_EQ(position.GetXSpeed(), 0.0);  // stopped by its end
 }
 
-TEST_F(SndDriverTest, AloneLetsNoTimePass) {
+TEST_P(SndDriverTest, AloneLetsNoTimePass) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -215,7 +224,7 @@ TEST_F(SndDriverTest, AloneLetsNoTimePass) {
   EXPECT_EQ(host->time().sim_time_ns, 100'000'000);
 }
 
-TEST_F(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
+TEST_P(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
   start(room("[]", R"({"clients": 2})"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -234,7 +243,7 @@ TEST_F(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
   EXPECT_EQ(host->time().sim_time_ns, 100'000'000);
 }
 
-TEST_F(SndDriverTest, EndOfTheRunEndsWaiting) {
+TEST_P(SndDriverTest, EndOfTheRunEndsWaiting) {
   start(room("[]", R"({"duration": 1})"));
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
@@ -242,7 +251,7 @@ TEST_F(SndDriverTest, EndOfTheRunEndsWaiting) {
   EXPECT_EQ(error_code_of([&] { driver.WaitForGoal(); }), PlayerError::kRunIsOver);
 }
 
-TEST_F(SndDriverTest, OutlivesItsClientWithoutHarm) {
+TEST_P(SndDriverTest, OutlivesItsClientWithoutHarm) {
   start(room("[]"));
   auto client = std::make_unique<PlayerClient>(host->connect(6665));
   SndDriver driver(client.get());
@@ -255,13 +264,14 @@ TEST_F(SndDriverTest, OutlivesItsClientWithoutHarm) {
 
 // A program of two threads: one drives the first robot by goals that it chooses after what the
 // other has measured meanwhile; both read clients of their own.
-std::string two_threads_run() {
-  const auto host = Host::create(sim::load_world_text(R"({
+std::string two_threads_run(Transport transport) {
+  const auto world = sim::load_world_text(R"({
     "simulation": {"clients": 2, "seed": 5},
     "arena": {"size": [4, 3], "obstacles": [{"center": [2, 1.4], "size": [0.3, 0.3]}]},
     "robots": [{"name": "r1", "pose": {"x": 0.8, "y": 1.5},
                 "devices": {"laser": {"noise": 0.01}}},
-               {"name": "r2", "pose": {"x": 3.2, "y": 0.6, "yaw_deg": 180}}]})"));
+               {"name": "r2", "pose": {"x": 3.2, "y": 0.6, "yaw_deg": 180}}]})");
+  const auto host = std::make_unique<ReachableHost>(Host::create(world), transport);
   std::ostringstream trace;
   trace.precision(17);
   std::atomic<bool> done{false};
@@ -294,15 +304,15 @@ std::string two_threads_run() {
   return trace.str();
 }
 
-TEST_F(SndDriverTest, ProgramsOfSeveralThreadsRunTheSameEveryTime) {
-  const std::string first = two_threads_run();
+TEST_P(SndDriverTest, ProgramsOfSeveralThreadsRunTheSameEveryTime) {
+  const std::string first = two_threads_run(Transport::kInProcess);
   EXPECT_THAT(first, HasSubstr(" 1\n"));  // something was on its way
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(two_threads_run(), first) << "run " << i + 2;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(two_threads_run(GetParam()), first) << "run " << i + 2;
 }
 
 // --- The world's drivers table
 
-TEST_F(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
+TEST_P(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
   start(room(R"([{"type": "snd", "max_speed": 0.25}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy plain(&client, 0);
@@ -324,7 +334,7 @@ TEST_F(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
   EXPECT_EQ(host->statistics(0).collisions, 0);
 }
 
-TEST_F(SndDriverTest, GoToTakesSpeedsOfItsOwn) {
+TEST_P(SndDriverTest, GoToTakesSpeedsOfItsOwn) {
   start(room(R"([{"type": "snd"}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy snd(&client, 2);
@@ -337,7 +347,7 @@ TEST_F(SndDriverTest, GoToTakesSpeedsOfItsOwn) {
   EXPECT_NEAR(fastest, 0.1, 1e-9);
 }
 
-TEST_F(SndDriverTest, OtherCommandsGoStraightToTheMotorsAndDropTheGoal) {
+TEST_P(SndDriverTest, OtherCommandsGoStraightToTheMotorsAndDropTheGoal) {
   start(room(R"([{"type": "snd", "index": 7}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy snd(&client, 7);
@@ -361,7 +371,7 @@ TEST_F(SndDriverTest, OtherCommandsGoStraightToTheMotorsAndDropTheGoal) {
   }
 }
 
-TEST_F(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
+TEST_P(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
   start(room(R"([{"type": "snd"}])"));
   PlayerClient client(host->connect(6665));
   PlayerClient second(host->connect(6665));
@@ -379,7 +389,7 @@ TEST_F(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
   EXPECT_EQ(b.GetXSpeed(), 0.0);
 }
 
-TEST_F(SndDriverTest, ListsAndMessagesNameTheDriversAddress) {
+TEST_P(SndDriverTest, ListsAndMessagesNameTheDriversAddress) {
   start(room(R"([{"type": "snd"}, {"type": "snd", "index": 5}])"));
   PlayerClient client(host->connect(6665));
   std::ostringstream out;

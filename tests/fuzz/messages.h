@@ -1,0 +1,111 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "protocol/codec.h"
+
+/// What the fuzzers of the protocol do with messages. Anything but a ProtocolError ends them.
+namespace playerlike::protocol::fuzz {
+
+/// A bug was found: libFuzzer keeps the input.
+inline void require_true(bool condition) {
+  if (!condition) std::abort();
+}
+
+/// Calls something that may refuse its input.
+template <typename Call>
+void attempt(Call call) {
+  try {
+    call();
+  } catch (const ProtocolError& e) {
+    require_true(!e.id().empty());
+  }
+}
+
+/// What arrives if it is sent on, in any encoding that holds all of it.
+inline json sent_on(const json& message, Encoding encoding) {
+  MessageSplitter splitter(encoding, std::size_t{1} << 26U);
+  splitter.add(encode(message, encoding));
+  const auto bytes = splitter.next();
+  require_true(bytes.has_value());
+  return decode(*bytes, encoding);
+}
+
+/// Reads a value as everything that it could be meant as.
+inline void take_value(const json& value, Encoding encoding) {
+  attempt([&] {
+    const sim::Command command = decode_command(value);
+    const json again = encode_command(command);
+    require_true(encode_command(decode_command(again)) == again);
+  });
+  attempt([&] {
+    const DecodedReading decoded = decode_reading(value, encoding);
+    const json again =
+        encode_reading(decoded.device, require_text(value, "type"), *decoded.reading, encoding);
+    static_cast<void>(decode_reading(again, encoding));
+  });
+  attempt([&] {
+    const auto drawings = decode_drawings(value, encoding);
+    const json again = encode_drawings(drawings, encoding);
+    require_true(encode_drawings(decode_drawings(again, encoding), encoding) == again);
+  });
+  attempt([&] {
+    const auto cells = decode_cells(value, encoding);
+    require_true(encode_cells(cells, encoding) == value);
+  });
+  attempt([&] {
+    const sim::LayerStyle style = decode_style(value);
+    require_true(decode_style(encode_style(style)) == style);
+  });
+  attempt([&] { static_cast<void>(encode_robots(decode_robots(value))); });
+  attempt([&] { static_cast<void>(encode_canvas(decode_canvas(value))); });
+  attempt([&] { static_cast<void>(encode_time(decode_time(value))); });
+  attempt([&] { static_cast<void>(encode_layers(decode_layers(value))); });
+  attempt([&] { static_cast<void>(encode_map(decode_map(value, encoding), encoding)); });
+  attempt([&] { static_cast<void>(decode_layer_kind(value)); });
+}
+
+/// Does with a message what a server or a client might.
+inline void take_message(const json& message, Encoding encoding) {
+  require_true(message.is_object());
+  require_true(sent_on(message, Encoding::kCbor) == message);
+  take_value(message, encoding);
+  attempt([&] { refuse_unknown_keys(message, {"id", "do"}, "a request"); });
+  for (const auto& [key, value] : message.items()) {
+    take_value(value, encoding);
+    const char* name = key.c_str();
+    attempt([&] { static_cast<void>(require_number(message, name)); });
+    attempt([&] { static_cast<void>(require_integer(message, name, -5, 5)); });
+    attempt([&] { static_cast<void>(require_bool(message, name)); });
+    attempt([&] { static_cast<void>(require_text(message, name)); });
+    attempt([&] { static_cast<void>(require_device_id(message, name)); });
+    attempt([&] { static_cast<void>(require_pose(message, name)); });
+    attempt([&] { static_cast<void>(require_doubles(message, name, encoding)); });
+    attempt([&] {
+      const auto data = require_bytes(message, name, encoding);
+      require_true(bytes(data, encoding) == value);
+    });
+  }
+}
+
+/// Feeds a stream in pieces to a splitter and hands on what it gives.
+/// @param piece  bytes of a piece; 0: all at once.
+template <typename Take>
+void split(std::string_view stream, std::size_t piece, Encoding encoding, Take take) {
+  MessageSplitter splitter(encoding, 4096);
+  attempt([&] {
+    while (!stream.empty()) {
+      const std::string_view some = stream.substr(0, piece == 0 ? stream.size() : piece);
+      splitter.add(some);
+      stream.remove_prefix(some.size());
+      while (const auto message = splitter.next()) take(*message);
+    }
+  });
+}
+
+}  // namespace playerlike::protocol::fuzz

@@ -1,0 +1,254 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// `playpen serve` as a user runs it; what it answers to clients is tested with the library.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "raw_client.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::Process;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::RawClient;
+using test_support::read_bytes;
+using test_support::room_world;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+class PlaypenServe : public testing::Test {
+ protected:
+  [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& options) const {
+    std::vector<std::string> call = {"serve", world_, "--out", out_};
+    call.insert(call.end(), options.begin(), options.end());
+    return call;
+  }
+  /// Starts a server on any free port (unless the options name one) and waits until it listens.
+  void start(std::vector<std::string> options, const ProcessOptions& process = {}) {
+    if (std::find(options.begin(), options.end(), "--port") == options.end()) {
+      options.insert(options.end(), {"--port", "0"});
+    }
+    options = arguments(options);
+    options.insert(options.begin(), PLAYPEN_COMMAND);
+    server_.emplace(options, process);
+    ASSERT_TRUE(server_->read_until("\n")) << server_->finish().err;
+    const std::string& line = server_->output();
+    ASSERT_THAT(line, testing::StartsWith("listening on "));
+    port_ = std::stoi(line.substr(line.find(':') + 1));
+  }
+  [[nodiscard]] RawClient connect() const { return RawClient("127.0.0.1", port_); }
+  [[nodiscard]] fs::path result(const std::string& name) const { return fs::path(out_) / name; }
+  [[nodiscard]] json report() const { return json::parse(read_bytes(result("report.json"))); }
+
+  TemporaryFolder folder_;
+  std::string world_ = folder_.write("room.json", room_world());
+  std::string out_ = folder_ / "out";
+  std::optional<Process> server_;
+  int port_ = 0;
+};
+
+TEST_F(PlaypenServe, AnswersUntilASignalThenWritesReportAndPictures) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    start({"--time", "lockstep"});
+    RawClient client = connect();
+    client.send("1 simulation list_robots\n2 r1.motion set_speed [0.1, 0]\n3 time sleep [1]\n");
+    EXPECT_EQ(client.line(), "1 SUCCESS [\"r1\"]");
+    EXPECT_EQ(client.line(), "2 SUCCESS");
+    EXPECT_EQ(client.line(), "3 SUCCESS");
+    server_->send_signal(signal);
+    EXPECT_THAT(client.rest(), AllOf(HasSubstr("- FAILED"), HasSubstr("server/closing")));
+    client.close();
+    const ProcessResult end = server_->finish();
+    EXPECT_EQ(end.status, 0) << end.err;
+    EXPECT_THAT(end.out, AllOf(HasSubstr("1.0 s simulated"), HasSubstr("pictures:")));
+    EXPECT_THAT(end.err, AllOf(HasSubstr("127.0.0.1:"), HasSubstr("3 requests")));
+    EXPECT_EQ(report().at("run").at("steps"), 100);
+    for (const char* file : {"scene.png", "canvas.png", "trajectory.csv"}) {
+      EXPECT_TRUE(fs::exists(result(file))) << file;
+    }
+  }
+}
+
+TEST_F(PlaypenServe, TakesTheClockOnTheWallUnlessTheWorldSaysOtherwise) {
+  const auto mode = [&] {
+    RawClient client = connect();
+    client.send("1 time statistics\n");
+    const json statistics = json::parse(client.line().substr(10));
+    client.send("2 simulation quit\n");
+    EXPECT_EQ(client.line(), "2 SUCCESS");
+    client.close();
+    EXPECT_EQ(server_->finish().status, 0);
+    return statistics.at("mode").get<std::string>();
+  };
+  start({});
+  EXPECT_EQ(mode(), "paced");
+  json world = json::parse(room_world());
+  world["simulation"]["time"] = "lockstep";
+  world_ = folder_.write("lockstep.json", world.dump());
+  start({});
+  EXPECT_EQ(mode(), "lockstep");
+  start({"--time", "4"});
+  EXPECT_EQ(mode(), "paced");
+}
+
+TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
+  start({"--time", "lockstep", "--duration", "0.5", "--record", folder_ / "film/",
+         "--snapshot-every", "0.25", "--quiet"});
+  RawClient client = connect();
+  client.send(
+      "1 playpen hello [{\"version\": 1}]\n{\"id\": 2, \"do\": \"read\", \"wait\": \"sleep\", "
+      "\"timeout\": 10}\n");
+  EXPECT_THAT(client.line(), testing::StartsWith("1 SUCCESS"));
+  EXPECT_THAT(client.line(), HasSubstr("session/finished"));
+  client.close();
+  const ProcessResult end = server_->finish();
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, Not(HasSubstr("simulated")));
+  EXPECT_EQ(report().at("run").at("steps"), 50);
+  const auto files = [](const fs::path& folder) {
+    return std::distance(fs::directory_iterator(folder), {});
+  };
+  EXPECT_EQ(files(folder_ / "film"), 13);  // 0.5 s at 25 a second, and the first one
+  EXPECT_EQ(files(result("snapshots")), 3);
+}
+
+TEST_F(PlaypenServe, EndsAlthoughAClientStaysWhenTheRunIsOver) {
+  start({"--time", "lockstep", "--duration", "0.5"});
+  RawClient client = connect();
+  client.send("1 time sleep [10]\n");
+  EXPECT_THAT(client.rest(), HasSubstr("server/closing"));
+  EXPECT_EQ(server_->finish().status, 0);
+}
+
+TEST_F(PlaypenServe, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
+  start({"--time", "lockstep"});
+  ASSERT_TRUE(fs::exists(result("trajectory.csv")));
+  const ProcessResult second = playpen(arguments({"--port", std::to_string(port_)}));
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.err, AllOf(HasSubstr("server/port-taken"), HasSubstr("--port 0"),
+                                HasSubstr(std::to_string(port_))));
+  EXPECT_THAT(second.out, IsEmpty());
+  EXPECT_TRUE(fs::exists(result("trajectory.csv")));
+  EXPECT_FALSE(fs::exists(result("report.json")));
+}
+
+TEST_F(PlaypenServe, HoldsTimeUntilTheClientsAreThere) {
+  start({"--time", "lockstep", "--clients", "2"});
+  const std::string hello = "1 playpen hello [{\"version\": 1, \"process\": \"P\"}]\n";
+  const std::string sleep = R"({"id": 2, "do": "read", "wait": "sleep", "timeout": 1})"
+                            "\n";
+  RawClient one = connect();
+  one.send(hello + sleep);
+  EXPECT_THAT(one.line(), testing::StartsWith("1 SUCCESS"));
+  RawClient two = connect();
+  two.send("1 playpen hello [{\"version\": 1, \"process\": \"Q\"}]\n" + sleep);
+  EXPECT_THAT(two.line(), testing::StartsWith("1 SUCCESS"));
+  EXPECT_EQ(json::parse(one.line()).at("t"), 1'000'000'000);
+  EXPECT_EQ(json::parse(two.line()).at("t"), 1'000'000'000);
+}
+
+TEST_F(PlaypenServe, WithATokenFileTheRobotObeysItsHolder) {
+  const std::string tokens = folder_.write("tokens.json", R"({"robots": {"r1": "only alice"}})");
+  const ProcessResult blank = playpen(arguments({"--token-file", tokens}));
+  EXPECT_EQ(blank.status, 2);
+  EXPECT_THAT(blank.err, AllOf(HasSubstr("access/token"), Not(HasSubstr("alice"))));
+
+  folder_.write("tokens.json", R"({"robots": {"r9": "only-alice"}})");
+  const ProcessResult unknown = playpen(arguments({"--token-file", tokens}));
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, AllOf(HasSubstr("access/unknown-robot"), HasSubstr("r9")));
+
+  folder_.write("tokens.json", R"({"robots": {"r1": "only-alice"}})");
+  start({"--token-file", tokens});
+  RawClient client = connect();
+  client.send(
+      "1 r1.motion set_speed [0.1, 0]\n2 playpen token [\"only-alice\"]\n"
+      "3 r1.motion set_speed [0.1, 0]\n");
+  EXPECT_THAT(client.line(), HasSubstr("1 FAILED"));
+  EXPECT_EQ(client.line(), "2 SUCCESS");
+  EXPECT_EQ(client.line(), "3 SUCCESS");
+}
+
+TEST_F(PlaypenServe, OtherMachinesNeedATokenOrAnOpenDoor) {
+  const ProcessResult refused = playpen(arguments({"--bind", "0.0.0.0", "--port", "0"}));
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("server/token-needed"), HasSubstr("--open")));
+  start({"--bind", "0.0.0.0", "--open"});
+  RawClient client = connect();
+  client.send("1 time mode\n");
+  EXPECT_THAT(client.line(), testing::StartsWith("1 SUCCESS"));
+}
+
+TEST_F(PlaypenServe, LimitsAreOptions) {
+  start({"--max-message", "300", "--first-request-timeout", "0.3", "--sync-port", "0"});
+  EXPECT_THAT(server_->output(), HasSubstr(", clock synchronisation on "));
+  RawClient silent = connect();
+  EXPECT_THAT(silent.rest(), HasSubstr("server/first-request"));
+  RawClient client = connect();
+  client.send(std::string(400, 'x'));
+  EXPECT_THAT(client.rest(), HasSubstr("protocol/too-long"));
+}
+
+TEST_F(PlaypenServe, TheShellsSettingsOfRunsDoNotCount) {
+  ProcessOptions process;
+  process.environment = {{"PLAYPEN_SEED", "no number"}, {"PLAYPEN_DURATION", "1"}};
+  start({"--time", "lockstep"}, process);
+  RawClient client = connect();
+  client.send("1 time sleep [2]\n");
+  EXPECT_EQ(client.line(), "1 SUCCESS");
+}
+
+TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
+  struct Case {
+    const char* option;
+    const char* value;
+  };
+  for (const Case& c : std::vector<Case>{{"--port", "65536"},
+                                         {"--port", "http"},
+                                         {"--stream-port", "70000"},
+                                         {"--sync-port", "x"},
+                                         {"--clients", "0"},
+                                         {"--time", "slow"},
+                                         {"--duration", "0"},
+                                         {"--log-level", "loud"},
+                                         {"--max-connections", "0"},
+                                         {"--max-message", "10"},
+                                         {"--max-requests", "many"},
+                                         {"--max-queued", "5"},
+                                         {"--first-request-timeout", "nan"},
+                                         {"--request-timeout", "soon"},
+                                         {"--idle-timeout", "1e9"}}) {
+    const ProcessResult result = playpen(arguments({c.option, c.value}));
+    EXPECT_EQ(result.status, 2) << c.option;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(c.option), HasSubstr(c.value))) << c.option;
+  }
+  for (const auto& options :
+       std::vector<std::vector<std::string>>{{"--bind", "203.0.113.7"},
+                                             {"--token-file", "none.json"},
+                                             {"--time", "lockstep", "--view"}}) {
+    const ProcessResult result = playpen(arguments(options));
+    EXPECT_EQ(result.status, 2) << options.front();
+    EXPECT_FALSE(fs::exists(out_)) << options.front();
+  }
+}
+
+}  // namespace

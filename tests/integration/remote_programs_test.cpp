@@ -1,0 +1,191 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Client programs, as they are, against `playpen serve`: the same results as under `playpen run`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::Process;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+
+using Words = std::vector<std::string>;
+using Files = std::map<std::string, std::string>;
+
+std::string task_world(const std::string& name) {
+  return std::string(PLAYPEN_SOURCE_DIR "/worlds/tasks/") + name + ".json";
+}
+
+/// Every file of a run by its name; of the report, all but what tells of wall time.
+Files files_of(const std::string& folder) {
+  Files result;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    result[fs::relative(entry.path(), folder).string()] = read_bytes(entry.path());
+  }
+  json report = json::parse(result.at("report.json"));
+  EXPECT_EQ(report["run"].erase("wall_time"), 1U);
+  EXPECT_EQ(report["run"].erase("real_time_factor"), 1U);
+  result["report.json"] = report.dump(1);
+  return result;
+}
+
+void expect_equal(const Files& remote, const Files& expected) {
+  EXPECT_EQ(remote.at("report.json"), expected.at("report.json"));
+  for (const auto& [name, bytes] : expected) {
+    // Not EXPECT_EQ: pictures do not print well.
+    EXPECT_TRUE(remote.count(name) == 1 && remote.at(name) == bytes) << name << " differs";
+  }
+  EXPECT_EQ(remote.size(), expected.size());
+}
+
+class RemotePrograms : public testing::Test {
+ protected:
+  /// `playpen run WORLD OPTIONS -- PROGRAM`.
+  [[nodiscard]] ProcessResult run(const std::string& world, Words options, const Words& program) {
+    const std::string out = folder_ / "run";
+    options.insert(options.begin(), {"run", world});
+    options.insert(options.end(), {"--quiet", "--out", out, "--"});
+    options.insert(options.end(), program.begin(), program.end());
+    const ProcessResult result = playpen(options);
+    files_ = files_of(out);
+    return result;
+  }
+
+  /// `playpen serve WORLD OPTIONS` and these programs, which it outlives.
+  /// @return how each program ended, and what it printed.
+  [[nodiscard]] std::vector<ProcessResult> serve(const std::string& world, Words options,
+                                                 const std::vector<Words>& programs,
+                                                 const std::string& encoding = "cbor") {
+    const std::string out = folder_ / "serve";
+    options.insert(options.begin(), {PLAYPEN_COMMAND, "serve", world, "--time", "lockstep",
+                                     "--port", "0", "--quiet", "--out", out});
+    Process server(options);
+    EXPECT_TRUE(server.read_until("\n")) << server.finish().err;
+    const std::string said = server.output();
+    EXPECT_THAT(said, HasSubstr("listening on 127.0.0.1:"));
+    ProcessOptions remote;
+    const std::string port = said.substr(said.rfind(':') + 1);
+    remote.environment["PLAYPEN_WORLD"] = "tcp://127.0.0.1:" + port.substr(0, port.find('\n'));
+    remote.environment["PLAYPEN_ENCODING"] = encoding;
+    remote.folder = folder_.path();
+    std::vector<std::unique_ptr<Process>> running;
+    for (const Words& program : programs) {
+      running.push_back(std::make_unique<Process>(program, remote));
+    }
+    std::vector<ProcessResult> results;
+    for (const auto& program : running) results.push_back(program->finish());
+    server.send_signal(SIGTERM);  // it may have ended already, as the run has
+    const ProcessResult end = server.finish();
+    EXPECT_EQ(end.status, 0) << end.err;
+    files_ = files_of(out);
+    return results;
+  }
+
+  /// The files of a run.
+  [[nodiscard]] const Files& files() const { return files_; }
+
+  void expect_the_same_across_a_network(const std::string& world, const Words& options,
+                                        const Words& program,
+                                        const std::string& encoding = "cbor") {
+    const ProcessResult here = run(world, options, program);
+    ASSERT_EQ(here.status, 0) << here.err;
+    const Files expected = files();
+    EXPECT_EQ(expected.count("canvas.png"), 1U);
+    const ProcessResult there = serve(world, options, {program}, encoding).front();
+    EXPECT_EQ(there.status, 0) << there.err;
+    EXPECT_EQ(there.out, here.out);
+    expect_equal(files(), expected);
+  }
+
+  TemporaryFolder folder_;
+  Files files_;
+};
+
+TEST_F(RemotePrograms, OfTheIntroductionDoTheSame) {
+  expect_the_same_across_a_network(task_world("par_intro"), {"--duration", "20"}, {AVOID_PROGRAM});
+  expect_the_same_across_a_network(task_world("par_intro"), {"--duration", "20"}, {WALL_PROGRAM},
+                                   "json");
+}
+
+TEST_F(RemotePrograms, OfPlanningDoTheSame) {
+  for (const char* program : {DIJKSTRA_PROGRAM, THETA_PROGRAM}) {
+    expect_the_same_across_a_network(task_world("par_planning"), {}, {program});
+  }
+}
+
+TEST_F(RemotePrograms, OfExplorationDoTheSame) {
+  for (const char* program : {NEAREST_PROGRAM, GAIN_PROGRAM}) {
+    expect_the_same_across_a_network(task_world("par_exploration"), {"--duration", "30"},
+                                     {program});
+  }
+}
+
+TEST_F(RemotePrograms, AsTheyAreInTheWildDoTheSame) {
+  const std::string world = PLAYPEN_SOURCE_DIR "/worlds/syrotek.json";
+  expect_the_same_across_a_network(world, {}, {PLAYER_PROGRAM});
+  expect_the_same_across_a_network(world, {}, {CCMORSE_PROGRAM});
+}
+
+TEST_F(RemotePrograms, TwoProcessesWithARobotEachDoTheSameEveryTime) {
+  // A wall between the two, so that neither sees, nor draws over, the other.
+  const std::string world = folder_.write("two.json", R"({
+    "arena": {"size": [3.42, 3.72],
+              "obstacles": [{"center": [1.71, 1.86], "size": [0.2, 3.72], "type": "static"}]},
+    "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5}, "devices": {"laser": {"noise": 0.01}}},
+               {"name": "r2", "pose": {"x": 2.9, "y": 3.2},
+                "devices": {"laser": {"noise": 0.01}}}]})");
+  const Words options = {"--clients", "2", "--duration", "15"};
+  const std::vector<Words> programs = {{WALL_PROGRAM, "--port=6665"},
+                                       {AVOID_PROGRAM, "--port=6666"}};
+  Files first;
+  for (int i = 0; i < 2; ++i) {
+    for (const ProcessResult& result : serve(world, options, programs)) {
+      EXPECT_EQ(result.status, 0) << result.err;
+    }
+    const json report = json::parse(files().at("report.json"));
+    for (const json& robot : report.at("robots")) {
+      EXPECT_GT(robot.at("path_length").get<double>(), 0.5);
+    }
+    if (i == 0) {
+      first = files();
+    } else {
+      expect_equal(files(), first);
+    }
+  }
+}
+
+TEST_F(RemotePrograms, SayWhereNoServerIs) {
+  ProcessOptions remote;
+  remote.environment["PLAYPEN_WORLD"] = "tcp://127.0.0.1:1";
+  const ProcessResult result = test_support::run_process({PLAYER_PROGRAM}, remote);
+  EXPECT_NE(result.status, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("127.0.0.1:1"), HasSubstr("playpen serve")));
+}
+
+TEST_F(RemotePrograms, AreNotRunByPlaypenRun) {
+  const ProcessResult result = playpen({"run", "tcp://lab:4000", "--", PLAYER_PROGRAM});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, HasSubstr("PLAYPEN_WORLD=tcp://lab:4000 " PLAYER_PROGRAM));
+}
+
+}  // namespace
