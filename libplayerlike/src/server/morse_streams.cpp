@@ -70,19 +70,12 @@ class StreamConnection : public Handler {
   bool complained_ = false;
 };
 
-/// Collects readings as the lines that a stream carries.
-class LineSink final : public ReadingSink {
- public:
-  explicit LineSink(sim::OdometryLevel level) : level_(level) {}
+/// Keeps readings, to be encoded when the simulation is no longer locked.
+struct ReadingKeeper final : ReadingSink {
   void on_reading(DeviceId /*device*/, const sim::Reading& reading) override {
-    lines.push_back(std::make_shared<const std::string>(line_of(morse_record(reading, level_))));
-    last_sequence = reading.sequence;
+    readings.push_back(reading.clone());
   }
-  std::vector<std::shared_ptr<const std::string>> lines;
-  std::uint64_t last_sequence = 0;
-
- private:
-  sim::OdometryLevel level_;
+  std::vector<std::unique_ptr<sim::Reading>> readings;
 };
 
 }  // namespace
@@ -151,9 +144,12 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   void ring() {
     alarm_.reset();
     if (component_.device) {
-      LineSink sink(level_);
-      if (client_->session().take(sink) > 0) sequence_ = sink.last_sequence;
-      for (const auto& line : sink.lines) write(line);
+      ReadingKeeper kept;
+      static_cast<void>(client_->session().take(kept));
+      for (const auto& reading : kept.readings) {
+        sequence_ = reading->sequence;
+        write(std::make_shared<const std::string>(line_of(morse_record(*reading, level_))));
+      }
     } else {
       write(std::make_shared<const std::string>(properties()));
     }
