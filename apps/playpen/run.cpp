@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "commands.h"
+#include "grade/task.h"
 #include "playerlike/host/program.h"
 #include "playerlike/host/report_summary.h"
 #include "playerlike/host/results.h"
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kReport = "report.json";
 constexpr const char* kTrajectory = "trajectory.csv";  // made when the program connects
-
-/// Where results go unless the user says so: a folder of the world's name in out/.
-std::string default_output_folder(const std::string& world_file) {
-  return "out/" + (world_file.empty() ? "default" : fs::path(world_file).stem().string());
-}
 
 /// Makes the output folder and takes results of earlier runs out of it, so that what lies there
 /// afterwards is of this run.
@@ -77,7 +73,8 @@ int run(RunRequest request) {
   request.settings.apply_to(world);  // says what does not go with the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
   playerlike::RunSettings& settings = request.settings;
-  if (settings.output_folder.empty()) settings.output_folder = default_output_folder(world_file);
+  if (settings.output_folder.empty())
+    settings.output_folder = "out/" + grade::world_name(world_file);
   if (request.view) pace(settings, world);
   settings.progress = !request.quiet;
   settings.quiet_end = true;
