@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "grade/task.h"
 #include "playerlike/host/report_summary.h"
 #include "playerlike/host/results.h"
 
@@ -18,15 +19,12 @@ fs::path report_of(const playerlike::RunSettings& settings) {
   return fs::path(settings.output_folder) / "report.json";
 }
 
-/// Where results go unless the user says so: a folder of the world's name in out/.
-std::string default_output_folder(const std::string& world_file) {
-  return "out/" + (world_file.empty() ? "default" : fs::path(world_file).stem().string());
-}
-
 }  // namespace
 
 void prepare_outputs(playerlike::RunSettings& settings, const std::string& world_file) {
-  if (settings.output_folder.empty()) settings.output_folder = default_output_folder(world_file);
+  if (settings.output_folder.empty()) {
+    settings.output_folder = "out/" + grade::world_name(world_file);
+  }
   std::error_code error;
   fs::create_directories(settings.output_folder, error);
   if (error || !fs::is_directory(settings.output_folder, error)) {

@@ -344,7 +344,10 @@ TEST_F(LiveWindow, TheRobotIsDrivenWhileAKeyIsHeld) {
     return before_px == last_px;
   });
   xdotool({"keydown", "Down"});
-  wait_until("the robot has come back", [&] { return orange_x() < last_px - 20.0; });
+  wait_until("the robot has come back", [&] {
+    const double x = orange_x();
+    return x >= 0.0 && x < last_px - 20.0;
+  });
   xdotool({"keyup", "Down"});
   press("q");
   const json report = finished_run();
@@ -365,12 +368,15 @@ TEST_F(LiveWindow, TabChoosesTheRobotAndTheArrowsDriveIt) {
   wait_until("the other robot is chosen", [&] { return robot_dot() == kBlue; });
   EXPECT_FALSE(round_r1() == r1_marked);
 
-  const auto [start_x, start_y] = middle_of(kBlue);
+  // It looks to the right: to get up in the picture it must turn and drive. Where it is sideways
+  // is not sure: it turns on the spot until the second key comes, and circles until it is seen.
+  const double start_y = middle_of(kBlue).second;
   xdotool({"keydown", "Left", "keydown", "Up"});
-  wait_until("the robot drives a bow to its left",
-             [&, y = start_y] { return middle_of(kBlue).second < y - 20.0; });
+  wait_until("the robot drives a bow to its left", [&] {
+    const double y = middle_of(kBlue).second;
+    return y >= 0.0 && y < start_y - 20.0;
+  });
   xdotool({"keyup", "Left", "keyup", "Up"});
-  EXPECT_GT(middle_of(kBlue).first, start_x);
   press("q");
   const json report = finished_run();
   EXPECT_EQ(report["robots"][0]["path_length"], 0.0);

@@ -3,10 +3,6 @@
 
 #include <algorithm>
 
-imr::CConfig& CRobot::getConfig(imr::CConfig& config) { return CExplorer::getConfig(config); }
-
-CRobot::CRobot(imr::CConfig& cfg) : CExplorer(cfg) {}
-
 CRobot::~CRobot() {
   stop();
   join();

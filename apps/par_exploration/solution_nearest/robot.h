@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "explorer.h"
-#include "imr-h/imr_config.h"
 #include "par_common/occupancy_grid.h"
 
 // Explores by going to the nearest frontier, the classic (B. Yamauchi, "A frontier-based approach
 // for autonomous exploration", CIRA 1997). Simple, and hard to beat by much.
 class CRobot : public CExplorer {
  public:
-  static imr::CConfig& getConfig(imr::CConfig& config);
-
-  explicit CRobot(imr::CConfig& cfg);
+  using CExplorer::CExplorer;
   ~CRobot() override;
 
  protected:

@@ -31,22 +31,6 @@ std::optional<double> optional_number(Reader& reader, const char* key, const Num
   return reader.number(key, 0.0, range);
 }
 
-bool require(Reader& reader, const char* key, const char* what) {
-  if (reader.has(key)) return true;
-  reader.issue("world/missing-key", "the key \"" + std::string(key) + "\": " + what, "none");
-  return false;
-}
-
-std::vector<Reader> bounded_array(Reader& parent, const char* key) {
-  std::vector<Reader> elements = parent.array(key);
-  if (elements.size() > kMaxItems) {
-    parent.issue("world/too-many", "at most " + std::to_string(kMaxItems) + " of them",
-                 std::to_string(elements.size()), "", key);
-    elements.clear();
-  }
-  return elements;
-}
-
 class TaskReader {
  public:
   explicit TaskReader(const std::string& file) {
@@ -79,8 +63,8 @@ class TaskReader {
 
  private:
   void read_worlds(Reader& root) {
-    if (!require(root, "worlds", "a list of world files, relative to this file")) return;
-    std::vector<Reader> elements = bounded_array(root, "worlds");
+    if (!root.require("worlds", "a list of world files, relative to this file")) return;
+    std::vector<Reader> elements = root.array("worlds", kMaxItems);
     if (elements.empty()) {
       const std::optional<Reader> list = root.child("worlds");
       if (list->is_array()) {
@@ -94,7 +78,7 @@ class TaskReader {
       if (element.is_string()) {
         name = element.scalar_text().value_or("");
       } else if (element.is_object()) {
-        if (require(element, "world", "the world's file, relative to this file")) {
+        if (element.require("world", "the world's file, relative to this file")) {
           name = element.string("world", "");
         }
         world.arguments = read_arguments(element);
@@ -138,7 +122,7 @@ class TaskReader {
       }
       return;
     }
-    std::vector<Reader> elements = bounded_array(root, "seeds");
+    std::vector<Reader> elements = root.array("seeds", kMaxItems);
     if (elements.empty()) {
       root.issue("world/out-of-range", "at least one seed", "none", "", "seeds");
       return;
@@ -165,7 +149,7 @@ class TaskReader {
 
   static std::vector<std::string> read_arguments(Reader& reader) {
     std::vector<std::string> arguments;
-    for (Reader& element : bounded_array(reader, "arguments")) {
+    for (Reader& element : reader.array("arguments", kMaxItems)) {
       if (element.is_string()) {
         arguments.push_back(element.scalar_text().value_or(""));
       } else {
@@ -181,7 +165,7 @@ class TaskReader {
     if (!reader) return std::nullopt;
     Goal goal;
     for (const char* key : {"x", "y"}) {
-      if (require(*reader, key, "where the robot is to be, in m")) {
+      if (reader->require(key, "where the robot is to be, in m")) {
         (*key == 'x' ? goal.position.x() : goal.position.y()) = reader->number(key, 0.0, kPosition);
       }
     }

@@ -202,6 +202,12 @@ std::optional<std::string> Reader::scalar_text() const {
   }
 }
 
+bool Reader::require(std::string_view key, const char* what) {
+  if (has(key)) return true;
+  issue("world/missing-key", "the key \"" + std::string(key) + "\": " + what, "none");
+  return false;
+}
+
 bool Reader::expect_object() {
   if (is_object()) return true;
   state_->wrong_type(state_->pointer, *state_->value, "an object {...}");
@@ -228,6 +234,16 @@ std::vector<Reader> Reader::array(std::string_view key) {
     return {};
   }
   return member->elements();
+}
+
+std::vector<Reader> Reader::array(std::string_view key, std::size_t most) {
+  std::vector<Reader> elements = array(key);
+  if (elements.size() > most) {
+    issue("world/too-many", "at most " + std::to_string(most) + " of them",
+          std::to_string(elements.size()), "", key);
+    elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(most), elements.end());
+  }
+  return elements;
 }
 
 std::vector<Reader> Reader::elements() const {

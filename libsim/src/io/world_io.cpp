@@ -69,24 +69,6 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return near.empty() ? "" : "did you mean " + in_quotes(near) + "?";
 }
 
-/// Elements of a list, of which there may be so many.
-std::vector<Reader> bounded_array(Reader& parent, std::string_view key, std::size_t most) {
-  std::vector<Reader> elements = parent.array(key);
-  if (elements.size() > most) {
-    parent.issue("world/too-many", "at most " + std::to_string(most) + " of them",
-                 std::to_string(elements.size()), "", key);
-    elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(most), elements.end());
-  }
-  return elements;
-}
-
-/// Whether a key that must be there is; if not, that is recorded.
-bool require(Reader& reader, std::string_view key, const char* what) {
-  if (reader.has(key)) return true;
-  reader.issue("world/missing-key", "the key \"" + std::string(key) + "\": " + what, "none");
-  return false;
-}
-
 class WorldReader {
  public:
   WorldReader(Reader::Document& document, const std::vector<DeviceType>& device_types)
@@ -149,11 +131,11 @@ class WorldReader {
   void read_blocks(Reader& arena, const char* key, const char* prefix, bool separators,
                    std::vector<ObstacleDescription>& blocks) {
     std::vector<std::size_t> unnamed;
-    for (Reader& reader : bounded_array(arena, key, kMaxObstacles)) {
+    for (Reader& reader : arena.array(key, kMaxObstacles)) {
       ObstacleDescription block;
       if (reader.expect_object()) {
         block.name = reader.name("name", "");
-        if (require(reader, "center", "[x, y] of the middle of the box, in m")) {
+        if (reader.require("center", "[x, y] of the middle of the box, in m")) {
           block.center = reader.vec2("center", block.center, kPosition);
         }
         block.size = reader.vec2("size", block.size, kLength);
@@ -188,11 +170,11 @@ class WorldReader {
   void read_docks(Reader& arena) {
     std::vector<std::size_t> unnamed;
     std::vector<DockDescription>& docks = world_.arena.docks;
-    for (Reader& reader : bounded_array(arena, "docks", kMaxObstacles)) {
+    for (Reader& reader : arena.array("docks", kMaxObstacles)) {
       DockDescription dock;
       if (reader.expect_object()) {
         dock.name = reader.name("name", "");
-        if (require(reader, "pose", "{\"x\", \"y\", \"yaw_deg\"} of its middle")) {
+        if (reader.require("pose", "{\"x\", \"y\", \"yaw_deg\"} of its middle")) {
           dock.pose = reader.pose("pose", dock.pose);
         }
         dock.size = reader.vec2("size", dock.size, kLength);
@@ -263,7 +245,7 @@ class WorldReader {
     std::optional<Reader> reader = arena_reader.object("map");
     if (!reader) return;
     MapDescription map;
-    const bool named = require(*reader, "image", "a PNG or PGM file, relative to this file");
+    const bool named = reader->require("image", "a PNG or PGM file, relative to this file");
     map.image = reader->string("image", "");
     map.resolution_m = reader->number("resolution", map.resolution_m, {0.0, 10.0, true, "m"});
     map.origin = reader->vec2("origin", arena.origin, kPosition);
@@ -396,7 +378,7 @@ class WorldReader {
       world_.robots.push_back(std::move(robot));
       unplaced.push_back(0);
     } else {
-      for (Reader& reader : bounded_array(root, "robots", kMaxRobots)) {
+      for (Reader& reader : root.array("robots", kMaxRobots)) {
         RobotDescription robot;
         robot.colour = kPalette[world_.robots.size() % kPalette.size()];
         if (reader.expect_object()) {
@@ -482,7 +464,7 @@ class WorldReader {
         robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
       }
     }
-    for (Reader& driver : bounded_array(reader, "drivers", 100)) {
+    for (Reader& driver : reader.array("drivers", 100)) {
       if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));
     }
     reader.finish();
@@ -490,7 +472,7 @@ class WorldReader {
 
   static DriverDescription read_driver(Reader& reader) {
     DriverDescription driver;
-    if (require(reader, "type", "which driver, for example \"snd\"")) {
+    if (reader.require("type", "which driver, for example \"snd\"")) {
       driver.type = reader.name("type", "");
     }
     for (const std::string& key : reader.keys()) {

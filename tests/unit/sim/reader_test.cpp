@@ -11,6 +11,7 @@
 namespace sim::io {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -73,6 +74,24 @@ TEST_F(ReaderTest, MissingMembersGiveTheFallbackAndNoIssue) {
   EXPECT_EQ(root.pose("p", {1, 2, 3}), (Pose{1, 2, 3}));
   root.finish();
   EXPECT_THAT(document_.issues, SizeIs(0));
+}
+
+TEST_F(ReaderTest, WhatIsRequiredMustBeThere) {
+  Reader root = parse(R"({"there": null})");
+  EXPECT_TRUE(root.require("there", "anything"));
+  EXPECT_THAT(document_.issues, SizeIs(0));
+  EXPECT_FALSE(root.require("size", "[x, y], in m"));
+  EXPECT_THAT(only_issue(), AllOf(HasSubstr("the key \"size\": [x, y], in m"), HasSubstr("none")));
+}
+
+TEST_F(ReaderTest, ABoundedListGivesTheFirstElementsAndAnIssue) {
+  Reader root = parse(R"({"list": ["a", "b", "c"]})");
+  EXPECT_THAT(root.array("list", 3), SizeIs(3));
+  EXPECT_THAT(document_.issues, SizeIs(0));
+  const std::vector<Reader> two = root.array("list", 2);
+  ASSERT_THAT(two, SizeIs(2));
+  EXPECT_EQ(two[1].scalar_text(), "b");
+  EXPECT_THAT(only_issue(), AllOf(HasSubstr("at most 2"), HasSubstr("3")));
 }
 
 TEST_F(ReaderTest, KeepsTheOrderOfKeysAndTheNumbersAsWritten) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -46,6 +47,9 @@ class Reader {
   Reader& operator=(Reader&&) noexcept;
 
   [[nodiscard]] bool has(std::string_view key);  ///< also marks the key as known
+  /// Whether the member of that name, which must be there, is; if not, that is recorded.
+  /// @param what  what it is to hold, for the message.
+  [[nodiscard]] bool require(std::string_view key, const char* what);
   [[nodiscard]] bool is_object() const;
   [[nodiscard]] bool is_array() const;
   [[nodiscard]] bool is_string() const;
@@ -68,6 +72,8 @@ class Reader {
   [[nodiscard]] std::optional<Reader> object(std::string_view key);
   /// Elements of the member, which must be an array; otherwise an issue and none.
   [[nodiscard]] std::vector<Reader> array(std::string_view key);
+  /// As array(key), but of more than `most` elements only the first so many, and an issue.
+  [[nodiscard]] std::vector<Reader> array(std::string_view key, std::size_t most);
   [[nodiscard]] std::vector<Reader> elements() const;   ///< of an array; else none
   [[nodiscard]] std::vector<std::string> keys() const;  ///< of an object, in the file's order
 
