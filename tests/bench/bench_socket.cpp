@@ -161,8 +161,8 @@ double canvases(const std::string& host, const char* encoding) {
   std::array<std::vector<std::uint8_t>, 2> images;  // RGBA
   for (std::size_t i = 0; i < images.size(); ++i) {
     for (int cell = 0; cell < kWidth * kHeight; ++cell) {
-      images[i].insert(images[i].end(), {static_cast<std::uint8_t>(cell + 7 * static_cast<int>(i)),
-                                         100, 200, 255});
+      images[i].insert(images[i].end(),
+                       {static_cast<std::uint8_t>(cell + 7 * static_cast<int>(i)), 100, 200, 255});
     }
   }
   constexpr int kCanvases = 100;
@@ -234,8 +234,7 @@ class Watchers {
     std::vector<pollfd> polls;
     for (int i = 0; i < count; ++i) {
       connections.push_back(std::make_unique<Connection>(port));
-      connections.back()->write_all(
-          "1 playpen hello [{\"version\": 1, \"encoding\": \"cbor\"}]\n");
+      connections.back()->write_all("1 playpen hello [{\"version\": 1, \"encoding\": \"cbor\"}]\n");
       connections.back()->read_lines(1);
       // {"id": 1, "do": "watch", "rate": 10, "canvas": true} as CBOR
       constexpr std::string_view kWatch =
@@ -295,10 +294,7 @@ void watch_figures() {
 }  // namespace
 }  // namespace sim::bench
 
-int main(int argc, char** argv) {
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
+int main() {
   sim::bench::read_figures();
   sim::bench::canvas_figures();
   sim::bench::watch_figures();
