@@ -135,9 +135,9 @@ class FakeHub final : public Hub {
 class Client {
  public:
   explicit Client(FakeHub& hub) : hub_(hub) {}
-  Client(FakeHub& hub, Encoding encoding, json hello = json::object()) : hub_(hub) {
+  Client(FakeHub& hub, Encoding agreed, json hello = json::object()) : hub_(hub) {
     hello["version"] = 1;
-    hello["encoding"] = protocol::to_string(encoding);
+    hello["encoding"] = protocol::to_string(agreed);
     say_hello(hello);
     EXPECT_TRUE(answered_well) << welcome;
   }
@@ -233,6 +233,10 @@ constexpr sim::Colour kBlue{0, 0, 255, 255};
 
 json twist(double v, double omega = 0.0) { return {{"kind", "twist"}, {"v", v}, {"omega", omega}}; }
 
+std::string encoding_name(const testing::TestParamInfo<Encoding>& tested) {
+  return std::string(protocol::to_string(tested.param));
+}
+
 /// Both encodings: what is said is the same.
 class NativeProtocol : public testing::TestWithParam<Encoding> {
  protected:
@@ -249,9 +253,7 @@ class NativeProtocol : public testing::TestWithParam<Encoding> {
   std::optional<Client> client;
 };
 INSTANTIATE_TEST_SUITE_P(Encodings, NativeProtocol,
-                         testing::Values(Encoding::kJson, Encoding::kCbor), [](const auto& info) {
-                           return std::string(protocol::to_string(info.param));
-                         });
+                         testing::Values(Encoding::kJson, Encoding::kCbor), encoding_name);
 
 // --- hello
 
@@ -579,9 +581,7 @@ class NativeEnd : public NativeProtocol {
   NativeEnd() : NativeProtocol(R"("time": "lockstep", "duration": 0.2)") {}
 };
 INSTANTIATE_TEST_SUITE_P(Encodings, NativeEnd, testing::Values(Encoding::kJson, Encoding::kCbor),
-                         [](const auto& info) {
-                           return std::string(protocol::to_string(info.param));
-                         });
+                         encoding_name);
 
 TEST_P(NativeEnd, LastReadingsAreTakenBeforeTheEndIsTold) {
   client->ask("subscribe", {{"device", client->device("r1", "pose")}});
@@ -617,9 +617,7 @@ class NativePaced : public NativeProtocol {
   NativePaced() : NativeProtocol(R"("time": 1e-6)") {}
 };
 INSTANTIATE_TEST_SUITE_P(Encodings, NativePaced, testing::Values(Encoding::kJson, Encoding::kCbor),
-                         [](const auto& info) {
-                           return std::string(protocol::to_string(info.param));
-                         });
+                         encoding_name);
 
 TEST_P(NativePaced, PeekEndsByTheWallClock) {
   EXPECT_EQ(client->read("peek")["data"], false);
@@ -903,9 +901,7 @@ class NativeWatch : public NativeProtocol {
   WatchHub::Clock::time_point now_ = WatchHub::Clock::now();
 };
 INSTANTIATE_TEST_SUITE_P(Encodings, NativeWatch, testing::Values(Encoding::kJson, Encoding::kCbor),
-                         [](const auto& info) {
-                           return std::string(protocol::to_string(info.param));
-                         });
+                         encoding_name);
 
 TEST_P(NativeWatch, TellsPosesAndChangesOfTheCanvas) {
   Client viewer(hub, GetParam(), {{"watch", true}});
