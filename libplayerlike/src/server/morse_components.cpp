@@ -155,10 +155,14 @@ std::vector<MorseComponent> morse_components(const std::vector<RobotInfo>& robot
   return all;
 }
 
-json morse_record(const sim::Reading& reading, sim::OdometryLevel level) {
+json morse_record(const sim::Reading& reading, std::optional<sim::OdometryLevel> level) {
   json object{{"timestamp", sim::to_seconds(reading.time_ns)}};
   if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) {
-    put_odometry(object, *pose, level);
+    if (level) {
+      put_odometry(object, *pose, *level);
+    } else {
+      put_pose(object, pose->pose);
+    }
   } else if (const auto* laser = dynamic_cast<const sim::LaserReading*>(&reading)) {
     put_ranges(object, laser->ranges_m, laser->range_max_m, [&](std::size_t beam, double range_m) {
       const double angle_rad =
@@ -218,13 +222,16 @@ json morse_properties_record(const RobotInfo& robot, sim::SimTime now_ns) {
           {"devices", std::move(devices)}};
 }
 
-sim::OdometryLevel odometry_level(const sim::Simulation& simulation, DeviceId device) {
-  const std::any& params = simulation.world()
-                               .robots.at(static_cast<std::size_t>(device.robot))
-                               .devices.at(static_cast<std::size_t>(device.device))
-                               .params;
-  const auto* odometry = std::any_cast<sim::OdometryParams>(&params);
-  return odometry != nullptr ? odometry->level : sim::OdometryLevel::kIntegrated;
+std::optional<sim::OdometryLevel> odometry_level(const sim::Simulation& simulation,
+                                                 DeviceId device) {
+  const sim::DeviceDescription& description =
+      simulation.world()
+          .robots.at(static_cast<std::size_t>(device.robot))
+          .devices.at(static_cast<std::size_t>(device.device));
+  if (description.type != "odometry") return std::nullopt;
+  // A device that the world leaves as it is has no settings of its own.
+  const auto* params = std::any_cast<sim::OdometryParams>(&description.params);
+  return params != nullptr ? params->level : sim::OdometryParams{}.level;
 }
 
 sim::Command morse_command(const MorseComponent& component, const json& object,

@@ -39,13 +39,16 @@ struct MorseComponent {
 
 /// The object that a sensor's stream carries for a reading. Lengths in m, angles in rad, times in
 /// s of simulated time.
-[[nodiscard]] nlohmann::json morse_record(const sim::Reading& reading, sim::OdometryLevel level);
+/// @param level  of an odometry device; none for all others.
+[[nodiscard]] nlohmann::json morse_record(const sim::Reading& reading,
+                                          std::optional<sim::OdometryLevel> level);
 
 /// The same for robot_properties: the robot as the world describes it.
 [[nodiscard]] nlohmann::json morse_properties_record(const RobotInfo& robot, sim::SimTime now_ns);
 
-/// The level of an odometry device; kIntegrated for any other.
-[[nodiscard]] sim::OdometryLevel odometry_level(const sim::Simulation& simulation, DeviceId device);
+/// The level of an odometry device; nullopt for any other.
+[[nodiscard]] std::optional<sim::OdometryLevel> odometry_level(const sim::Simulation& simulation,
+                                                               DeviceId device);
 
 /// What a line written to a device's stream tells it to do; keys that it does not need are ignored.
 /// @param type  of the device: "motion", "waypoint" or "teleport".

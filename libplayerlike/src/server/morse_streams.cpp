@@ -177,7 +177,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   const MorseComponent& component_;
   std::vector<StreamConnection*> readers_;
   std::unique_ptr<EventClient> client_;
-  sim::OdometryLevel level_ = sim::OdometryLevel::kIntegrated;
+  std::optional<sim::OdometryLevel> level_;
   std::uint64_t sequence_ = 0;  ///< of the newest reading that was written
   std::optional<AlarmId> alarm_;
   std::uint64_t generation_ = 0;  ///< counts starts, so that an alarm of before is known
