@@ -86,6 +86,11 @@ def wait_for(condition, simu):
     return False
 
 
+def close(simu):
+    # Waiting for publishers fails in pymorse 1.4 itself: dir() of a component calls its lazy_init().
+    simu.close(cancel_async_services=True, wait_publishers=False)
+
+
 class Paced(unittest.TestCase):
     """At ten times the pace of the clock, as MORSE would run."""
 
@@ -94,7 +99,7 @@ class Paced(unittest.TestCase):
         self.simu = pymorse.Morse("localhost", self.server.port)
 
     def tearDown(self):
-        self.simu.close(cancel_async_services=True)
+        close(self.simu)
         self.server.stop()
 
     def test_objects_are_built_from_details(self):
@@ -236,7 +241,7 @@ class Lockstep(unittest.TestCase):
                 end = simu.r1.pose.get_local_data().result(TIMEOUT)
                 return turned, arrived, end, simu.time()
             finally:
-                simu.close(cancel_async_services=True)
+                close(simu)
 
     def test_runs_are_equal(self):
         first = self.run_once()
