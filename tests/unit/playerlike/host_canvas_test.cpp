@@ -85,7 +85,7 @@ class HostCanvas : public testing::TestWithParam<test::Transport> {
 INSTANTIATE_TEST_SUITE_P(Transports, HostCanvas,
                          testing::Values(test::Transport::kInProcess, test::Transport::kCbor,
                                          test::Transport::kJson),
-                         [](const auto& info) { return transport_name(info.param); });
+                         [](const auto& instance) { return transport_name(instance.param); });
 
 constexpr auto kBadArgument = SessionError::Code::kBadArgument;
 constexpr auto kNotAvailable = SessionError::Code::kNotAvailable;

@@ -105,7 +105,7 @@ class HostOverTest : public HostTest, public testing::WithParamInterface<Transpo
 
 INSTANTIATE_TEST_SUITE_P(Transports, HostOverTest,
                          testing::Values(Transport::kInProcess, Transport::kCbor, Transport::kJson),
-                         [](const auto& info) { return transport_name(info.param); });
+                         [](const auto& instance) { return transport_name(instance.param); });
 
 TEST_P(HostOverTest, OneReadIsATenthOfASecond) {
   const auto session = start(two_robots())->connect(6665);

@@ -44,7 +44,7 @@ class MapProxyTest : public testing::TestWithParam<test::Transport> {
 INSTANTIATE_TEST_SUITE_P(Transports, MapProxyTest,
                          testing::Values(test::Transport::kInProcess, test::Transport::kCbor,
                                          test::Transport::kJson),
-                         [](const auto& info) { return transport_name(info.param); });
+                         [](const auto& instance) { return transport_name(instance.param); });
 
 template <typename Action>
 PlayerError error_of(Action action) {

@@ -63,7 +63,7 @@ struct SndDriverTest : testing::TestWithParam<Transport> {
 
 INSTANTIATE_TEST_SUITE_P(Transports, SndDriverTest,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
-                         [](const auto& info) { return transport_name(info.param); });
+                         [](const auto& instance) { return transport_name(instance.param); });
 
 TEST_P(SndDriverTest, DrivesRoundABlockToAHeadingAndStandsThere) {
   start(room("[]"));
