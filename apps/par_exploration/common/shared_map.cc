@@ -30,7 +30,8 @@ bool CSharedMap::waitFor(double time, Observation& observation) {
   ScopedLock lk(mtx);
   changed.wait(lk, [&] { return isClosed || newest.time > time - SAME_TIME; });
   observation = newest;
-  return !isClosed;
+  // What came before it was closed counts, whichever thread was faster.
+  return newest.time > time - SAME_TIME;
 }
 
 par::OccupancyGrid CSharedMap::copy() const {

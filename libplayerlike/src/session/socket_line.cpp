@@ -122,7 +122,7 @@ void SocketLine::flush() {
   }
   const std::shared_ptr<Connection> connection = this->connection();
   const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
-  if (!bytes.empty()) connection->tell(bytes);
+  connection->tell(bytes);  // also if there is nothing to send: it says whether it is lost
 }
 
 json SocketLine::ask(json& request, Connection::Patience patience, bool waits) {

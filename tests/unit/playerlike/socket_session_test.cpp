@@ -330,10 +330,10 @@ TEST(SocketSessions, AServerThatFallsSilentIsGivenUpDuringAWait) {
 TEST(SocketSessions, AWaitMayTakeLongerThanARequestIfTheServerLives) {
   const Served served(R"({"clients": 2})");
   const auto session = connect(served.port());
-  session->set_request_timeout(0.1);
+  session->set_request_timeout(1.0);
   subscribe_position(*session);
   std::thread late([&] {
-    std::this_thread::sleep_for(milliseconds(500));  // five times what a request may take
+    std::this_thread::sleep_for(milliseconds(2000));  // twice what a request may take
     const auto other = connect(served.port(), 6666);
     subscribe_position(*other);
     read(*other);
