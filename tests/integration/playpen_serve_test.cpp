@@ -116,9 +116,17 @@ TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
   RawClient client = connect();
   client.send(
       "1 playpen hello [{\"version\": 1}]\n{\"id\": 2, \"do\": \"read\", \"wait\": \"sleep\", "
-      "\"timeout\": 10}\n");
+      "\"timeout\": 10}\n{\"id\": 3, \"do\": \"time\"}\n");
   EXPECT_THAT(client.line(), testing::StartsWith("1 SUCCESS"));
-  EXPECT_THAT(client.line(), HasSubstr("session/finished"));
+  // Of the two answers to come, that of the sleep is the one that tells of the end.
+  std::string answer = client.line();
+  if (answer.find("\"id\":3") != std::string::npos) answer = client.line();
+  EXPECT_THAT(answer, AllOf(HasSubstr("\"id\":2"), HasSubstr("\"finished\":true")));
+  client.send("{\"id\": 4, \"do\": \"read\", \"wait\": \"data\"}\n");
+  do {
+    answer = client.line();
+  } while (answer.find("\"id\":4") == std::string::npos);
+  EXPECT_THAT(answer, HasSubstr("session/finished"));
   client.close();
   const ProcessResult end = server_->finish();
   EXPECT_EQ(end.status, 0) << end.err;
@@ -144,7 +152,7 @@ TEST_F(PlaypenServe, APortThatIsTakenIsToldBeforeResultsAreRemoved) {
   ASSERT_TRUE(fs::exists(result("trajectory.csv")));
   const ProcessResult second = playpen(arguments({"--port", std::to_string(port_)}));
   EXPECT_EQ(second.status, 2);
-  EXPECT_THAT(second.err, AllOf(HasSubstr("server/port-taken"), HasSubstr("--port 0"),
+  EXPECT_THAT(second.err, AllOf(HasSubstr("server/port-taken"), HasSubstr("port 0 takes any"),
                                 HasSubstr(std::to_string(port_))));
   EXPECT_THAT(second.out, IsEmpty());
   EXPECT_TRUE(fs::exists(result("trajectory.csv")));

@@ -49,12 +49,21 @@ class FakePeer final : public Peer {
     closed = true;
   }
   void set_in_flight(std::size_t requests) override { in_flight = requests; }
-  void set_encoding(Encoding encoding) override { splitter_.set_encoding(encoding); }
+  void set_encoding(Encoding encoding) override {
+    // What was sent so far was encoded as before.
+    while (const auto message = splitter_.next()) earlier_.emplace_back(*message);
+    splitter_.set_encoding(encoding);
+  }
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description = text; }
 
   /// The next message that it was sent.
   std::optional<std::string> next() {
+    if (!earlier_.empty()) {
+      std::string message = std::move(earlier_.front());
+      earlier_.pop_front();
+      return message;
+    }
     const auto message = splitter_.next();
     return message ? std::optional<std::string>(*message) : std::nullopt;
   }
@@ -67,6 +76,7 @@ class FakePeer final : public Peer {
 
  private:
   protocol::MessageSplitter splitter_{Encoding::kJson, std::size_t{1} << 30U};
+  std::deque<std::string> earlier_;  ///< sent before the encoding changed
   std::string name_ = "fake:1";
 };
 
