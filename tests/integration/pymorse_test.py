@@ -211,6 +211,7 @@ class Paced(unittest.TestCase):
 
     def test_reset_restores_everything(self):
         simu = self.simu
+        simu.sleep(0.2)  # there is a reading
         simu.r1.motion.set_speed(0.3, 0.0).result(TIMEOUT)
         simu.r1.pen.set_pixel(3, 4, 10, 20, 30).result(TIMEOUT)
         self.assertTrue(wait_for(

@@ -34,13 +34,20 @@ SndThread::SndThread(std::unique_ptr<Session> session, int position, int laser,
 }
 
 SndThread::~SndThread() {
+  // Opened while the session is: once that is closed, it opens no other.
+  std::unique_ptr<Session> last;
+  try {
+    if (state() == SndState::kMoving) last = session().open_follower();
+  } catch (const SessionError&) {
+    // The server has gone.
+  }
   PlayerCc::detail::CoreAccess::get(client_)->close();  // the thread finds its connection closed
   thread_.join();
-  if (state() != SndState::kMoving) return;
+  if (!last || state() != SndState::kMoving) return;
   try {
     // What a session asked for last is still done when it closes.
-    PlayerCc::PlayerClient last(session().open_follower());
-    PlayerCc::Position2dProxy(&last, position_.GetIndex()).SetSpeed(0.0, 0.0);
+    PlayerCc::PlayerClient client(std::move(last));
+    PlayerCc::Position2dProxy(&client, position_.GetIndex()).SetSpeed(0.0, 0.0);
   } catch (const PlayerError&) {
     // The run is over: there is nobody left to be stopped.
   }

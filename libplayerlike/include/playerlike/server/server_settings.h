@@ -42,9 +42,8 @@ struct ServerSettings {
   ServerLimits limits;
 };
 
-/// Length of a token in bytes.
-inline constexpr std::size_t kMinToken = 8;
-inline constexpr std::size_t kMaxToken = 256;
+inline constexpr std::size_t kMinToken = 8;    ///< bytes of a token at least
+inline constexpr std::size_t kMaxToken = 256;  ///< bytes of a token at most
 
 /// Reads a token file (docs/remote.md). Tokens are not shown in messages.
 /// @param log  is warned if others may read the file.
