@@ -122,10 +122,12 @@ TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
   std::string answer = client.line();
   if (answer.find("\"id\":3") != std::string::npos) answer = client.line();
   EXPECT_THAT(answer, AllOf(HasSubstr("\"id\":2"), HasSubstr("\"finished\":true")));
+  // The round that the end cut short, and then the news that there is no other.
   client.send("{\"id\": 4, \"do\": \"read\", \"wait\": \"data\"}\n");
+  client.send("{\"id\": 5, \"do\": \"read\", \"wait\": \"data\"}\n");
   do {
     answer = client.line();
-  } while (answer.find("\"id\":4") == std::string::npos);
+  } while (answer.find("\"id\":5") == std::string::npos);
   EXPECT_THAT(answer, HasSubstr("session/finished"));
   client.close();
   const ProcessResult end = server_->finish();

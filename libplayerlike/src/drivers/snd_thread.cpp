@@ -2,6 +2,7 @@
 #include "drivers/snd_thread.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -153,7 +154,13 @@ SndSettings SndThread::settings() const {
 
 SndState SndThread::state() const {
   const std::lock_guard lock(mutex_);
-  const Outcome& outcome = newest_.time_ns < session().time().sim_time_ns ? newest_ : before_;
+  sim::SimTime now_ns = std::numeric_limits<sim::SimTime>::max();
+  try {
+    now_ns = session().time().sim_time_ns;
+  } catch (const SessionError&) {
+    // The connection is closed: no further round comes.
+  }
+  const Outcome& outcome = newest_.time_ns < now_ns ? newest_ : before_;
   return outcome.number == last_number_ ? outcome.state : asked_for_;
 }
 

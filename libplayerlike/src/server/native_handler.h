@@ -44,7 +44,7 @@ class NativeHandler final : public Handler {
   [[nodiscard]] nlohmann::json tell_canvas();
 
  private:
-  using json = nlohmann::json;
+  using json = nlohmann::json;  // NOLINT(readability-identifier-naming): as it is named there
   using Outcome = EventClient::Outcome;
   struct Request;
   class ReadingList;

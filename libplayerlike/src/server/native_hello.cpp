@@ -32,7 +32,7 @@ std::string unguessable() {
 /// A text that may be logged.
 std::string name_or_empty(const json& argument, const char* key) {
   if (!argument.contains(key)) return "";
-  const std::string text = protocol::require_text(argument, key);
+  std::string text = protocol::require_text(argument, key);
   const auto prints = [](unsigned char c) { return c >= ' ' && c != 127; };
   if (text.size() > kMaxName || !std::all_of(text.begin(), text.end(), prints)) {
     protocol::refuse_value(key, "at most 64 bytes, all printable", argument[key]);
