@@ -188,11 +188,16 @@ WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
     }
     if (!may_copy) return;
     sim::LayerStack& layers = simulation.layers();
-    if (canvas_.count() != 0 && layers.version() == stack_version_) return;
+    canvas = layers.description();
+    // The version alone does not tell two sizes apart of which neither was composed.
+    const CanvasInfo& known = canvas_.info();
+    if (canvas_.count() != 0 && layers.version() == stack_version_ && canvas.width == known.width &&
+        canvas.height == known.height) {
+      return;
+    }
     begin = Clock::now();
     copied = true;
     stack_version_ = layers.version();
-    canvas = layers.description();
     if (std::int64_t{canvas.width} * canvas.height > kMaxCells) {
       scratch_.clear();
     } else {
