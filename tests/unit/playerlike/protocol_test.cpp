@@ -993,7 +993,7 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
                   "protocol/bad-value")
             << type << " without " << key;
         for (const json& wrong : {json(nullptr), json("no such word"), json::object(), json(-1.5),
-                                  json({json::object()}), json({nullptr})}) {
+                                  json({json::object()}), json::array({nullptr})}) {
           if (wrong.type() == value.type() && !value.is_string()) continue;
           changed[key] = wrong;
           EXPECT_EQ(error_of([&] { static_cast<void>(decode_reading(changed, encoding)); }),
