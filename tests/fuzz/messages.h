@@ -88,7 +88,7 @@ inline void take_message(const json& message, Encoding encoding) {
     attempt([&] { static_cast<void>(require_doubles(message, name, encoding)); });
     attempt([&] {
       const auto data = require_bytes(message, name, encoding);
-      require_true(bytes(data, encoding) == value);
+      require_true(bytes(data, encoding) == message.at(name));
     });
   }
 }
