@@ -1280,10 +1280,10 @@ TEST(Drawings, LookAsTheReferenceSays) {
 
 TEST(Drawings, AreRefusedWhenTheyAreWrong) {
   for (const json& wrong :
-       {json(1), json{1}, json{json::array()}, json{{"dot", 0, 1, 1, 0}}, json{{"pixel", 0, 1, 1}},
-        json{{"pixel", 0, 1, 1, 0, 0}}, json{{"pixel", 0, 1.5, 1, 0}}, json{{"pixel", 0, 1, 1, -1}},
-        json{{"pixel", 0, 1, 1, 4294967296}}, json{{"pixel", 0, 2147483648, 1, 0}},
-        json{{"fill", "0", 1}}, json{{0, 0, 1, 1, 0}}}) {
+       {json(1), json::array({1}), json::array({json::array()}), json{{"dot", 0, 1, 1, 0}},
+        json{{"pixel", 0, 1, 1}}, json{{"pixel", 0, 1, 1, 0, 0}}, json{{"pixel", 0, 1.5, 1, 0}},
+        json{{"pixel", 0, 1, 1, -1}}, json{{"pixel", 0, 1, 1, 4294967296}},
+        json{{"pixel", 0, 2147483648, 1, 0}}, json{{"fill", "0", 1}}, json{{0, 0, 1, 1, 0}}}) {
     EXPECT_EQ(error_of([&] { static_cast<void>(decode_drawings(wrong, Encoding::kJson)); }),
               "protocol/bad-value")
         << wrong;
