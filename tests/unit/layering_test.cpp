@@ -162,9 +162,9 @@ std::vector<std::string> violations(const Source& source) {
     }
 
     if (in_sim) {
-      if (starts_with_any(include, {"playerlike/", "libplayerc++/", "libCCMorse/", "libPlayer/",
-                                    "imr-h/", "messages/", "protocol/", "host/", "session/",
-                                    "proxies/", "drivers/", "server/"})) {
+      if (starts_with_any(include, {"playerlike/", "libplayerc", "libplayerinterface/",
+                                    "libCCMorse/", "libPlayer/", "imr-h/", "messages/", "protocol/",
+                                    "host/", "session/", "proxies/", "drivers/", "server/"})) {
         refuse("libsim knows no client");
       }
       static const std::set<std::string> kForbidden = {
@@ -188,9 +188,9 @@ std::vector<std::string> violations(const Source& source) {
     }
     if (in_playerlike) {
       if (include.starts_with("sim/") &&
-          starts_with_any(
-              path, {"libplayerlike/include/libplayerc++/", "libplayerlike/include/libCCMorse/",
-                     "libplayerlike/include/libPlayer/", "libplayerlike/include/imr-h/"})) {
+          starts_with_any(path,
+                          {"libplayerlike/include/libplayer", "libplayerlike/include/libCCMorse/",
+                           "libplayerlike/include/libPlayer/", "libplayerlike/include/imr-h/"})) {
         refuse("clients are C++14, libsim's headers are C++20");
       }
       if (include.starts_with("drivers/") && !path.starts_with("libplayerlike/src/drivers/")) {
