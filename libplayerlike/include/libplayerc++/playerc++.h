@@ -9,6 +9,7 @@
 #include "libplayerc++/clientproxy.h"
 #include "libplayerc++/graphics2dproxy.h"
 #include "libplayerc++/laserproxy.h"
+#include "libplayerc++/localizeproxy.h"
 #include "libplayerc++/mapproxy.h"
 #include "libplayerc++/mutex.h"
 #include "libplayerc++/otherproxies.h"

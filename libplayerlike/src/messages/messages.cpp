@@ -18,12 +18,15 @@ struct InterfaceRow {
   std::string_view interface;
   std::string_view device_type;
 };
-constexpr InterfaceRow kInterfaces[] = {
+// clang-format off
+constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
     {"graphics2d", "pen"},
     {"laser", "laser"},
+    {"localize", "pose"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
 };
+// clang-format on
 
 // The robot's devices that carry the interface, in the table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
