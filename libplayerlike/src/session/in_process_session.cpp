@@ -5,41 +5,13 @@
 #include <utility>
 
 #include "session/checks.h"
+#include "session/farewell.h"
 
 namespace playerlike {
 namespace {
 
-// Tells the hosts that a thread has waited on when that thread ends, so that nobody waits for it.
-class Farewell {
- public:
-  Farewell() = default;
-  Farewell(const Farewell&) = delete;
-  Farewell& operator=(const Farewell&) = delete;
-  ~Farewell() {
-    for (const Known& known : hosts_) {
-      if (const std::shared_ptr<Host> host = known.host.lock()) {
-        host->thinker_ended(this_thinker());
-      }
-    }
-  }
-
-  void remember(const std::shared_ptr<Host>& host) {
-    for (const Known& known : hosts_) {
-      if (known.address == host.get() && !known.host.expired()) return;
-    }
-    std::erase_if(hosts_, [](const Known& known) { return known.host.expired(); });
-    hosts_.push_back({host.get(), host});
-  }
-
- private:
-  struct Known {
-    const Host* address;
-    std::weak_ptr<Host> host;
-  };
-  std::vector<Known> hosts_;
-};
-
-thread_local Farewell farewell;
+// Nobody is to wait for a thread that has ended.
+thread_local Farewell<Host> farewell([](Host& host) { host.thinker_ended(this_thinker()); });
 
 }  // namespace
 

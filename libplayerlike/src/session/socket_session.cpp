@@ -14,6 +14,7 @@
 #include "playerlike/host/event_client.h"
 #include "playerlike/session/layer_book.h"
 #include "session/checks.h"
+#include "session/farewell.h"
 #include "session/socket_line.h"
 #include "sim/core/error.h"
 #include "sim/world/view_mode.h"
@@ -39,38 +40,14 @@ Connection::Clock::duration wall(double seconds) {
       Seconds(std::clamp(seconds, 0.0, kLongest_s)));
 }
 
-// Tells the servers that a thread has waited for when that thread ends, so that nobody waits for
-// it.
-class Farewell {
- public:
-  Farewell() = default;
-  Farewell(const Farewell&) = delete;
-  Farewell& operator=(const Farewell&) = delete;
-  ~Farewell() {
-    for (const std::weak_ptr<SocketLine>& known : lines_) {
-      const std::shared_ptr<SocketLine> line = known.lock();
-      if (!line) continue;
-      try {
-        line->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
-      } catch (const std::exception&) {
-        // The server notices that it has lost the connection.
-      }
-    }
+// Nobody is to wait for a thread that has ended.
+thread_local Farewell<SocketLine> farewell([](SocketLine& line) {
+  try {
+    line.tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+  } catch (const std::exception&) {
+    // The server notices that it has lost the connection.
   }
-
-  void remember(const std::shared_ptr<SocketLine>& line) {
-    for (const std::weak_ptr<SocketLine>& known : lines_) {
-      if (!known.owner_before(line) && !line.owner_before(known)) return;
-    }
-    std::erase_if(lines_, [](const auto& known) { return known.expired(); });
-    lines_.push_back(line);
-  }
-
- private:
-  std::vector<std::weak_ptr<SocketLine>> lines_;
-};
-
-thread_local Farewell farewell;
+});
 
 /// What no other process calls itself.
 std::string process_name() {
