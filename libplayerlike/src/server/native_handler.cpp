@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "protocol/codec.h"
+#include "session/checks.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike::server {
@@ -378,20 +379,8 @@ json NativeHandler::readings() {
 
 // --- Commands
 
-void NativeHandler::require_device(DeviceId device) const {
-  const auto& robots = hub_.host().robots();
-  const auto robot = static_cast<std::size_t>(device.robot);
-  if (device.robot >= 0 && robot < robots.size() && device.device >= 0 &&
-      static_cast<std::size_t>(device.device) < robots[robot].devices.size()) {
-    return;
-  }
-  throw SessionError(SessionError::Code::kNoSuchDevice, "the world has no device [" +
-                                                            std::to_string(device.robot) + ", " +
-                                                            std::to_string(device.device) + "]");
-}
-
 void NativeHandler::require_command(DeviceId device) const {
-  require_device(device);
+  require_device(hub_.host().robots(), device);
   const auto robot = static_cast<std::size_t>(device.robot);
   if (robot < terms_.rights.command.size() && terms_.rights.command[robot]) return;
   throw ProtocolError("access/denied", "robot " + hub_.host().robots()[robot].name +
@@ -420,7 +409,7 @@ json NativeHandler::replace(const json& request) {
   std::optional<DeviceId> device;
   if (request.contains("device") && !request["device"].is_null()) {
     device = protocol::require_device_id(request, "device");
-    require_device(*device);
+    require_device(hub_.host().robots(), *device);
   }
   session().set_replace(device, protocol::require_bool(request, "replace"));
   return json::object();
@@ -530,9 +519,7 @@ json NativeHandler::time(const json& /*request*/) {
 json NativeHandler::prefer_real_time(const json& request) {
   const std::string reason = protocol::require_text(request, "reason");
   // It is logged.
-  if (reason.size() > kMaxReason || std::any_of(reason.begin(), reason.end(), [](unsigned char c) {
-        return c < ' ' || c == 127;
-      })) {
+  if (reason.size() > kMaxReason || !is_printable(reason)) {
     protocol::refuse_value("reason", "at most 200 printable bytes", request["reason"]);
   }
   session().prefer_real_time(reason);

@@ -75,7 +75,6 @@ class NativeHandler final : public Handler {
   [[nodiscard]] ThinkerId thinker(const json& request);
   /// @throws ProtocolError access/denied.
   void require_command(DeviceId device) const;
-  void require_device(DeviceId device) const;
 
   // One for each request of docs/protocol.md.
   json subscribe(const json& request);
