@@ -162,7 +162,7 @@ std::vector<std::string> violations(const Source& source) {
     }
 
     if (in_sim) {
-      if (starts_with_any(include, {"playerlike/", "libplayerc", "libplayerinterface/",
+      if (starts_with_any(include, {"playerlike/", "libplayerc", "libplayerinterface/", "player-",
                                     "libCCMorse/", "libPlayer/", "imr-h/", "messages/", "protocol/",
                                     "host/", "session/", "proxies/", "drivers/", "server/"})) {
         refuse("libsim knows no client");

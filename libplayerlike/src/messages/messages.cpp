@@ -76,6 +76,14 @@ std::vector<std::string_view> interface_names() {
   return names;
 }
 
+// The end of a message about an interface that a port does not have.
+std::string where_else(std::string_view interface) {
+  const std::string world = example_world(interface);
+  return world.empty()
+             ? "; no world that comes with Playpen has a device for " + std::string(interface)
+             : "; of the worlds that come with Playpen, worlds/" + world + " has one";
+}
+
 // Calls visit(interface, index, robot, device, driver) for every address of a port; driver is null
 // but for the positions that a robot's drivers offer, which only its own port has.
 template <typename Visit>
@@ -115,6 +123,14 @@ bool carries(std::string_view device_type, std::string_view interface) {
   return std::any_of(std::begin(kInterfaces), std::end(kInterfaces), [&](const InterfaceRow& row) {
     return row.device_type == device_type && row.interface == interface;
   });
+}
+
+std::string example_world(std::string_view interface) {
+  // Each kind of device has a world of its name; the tests see to it.
+  for (const InterfaceRow& row : kInterfaces) {
+    if (row.interface == interface) return "devices/" + std::string(row.device_type) + ".json";
+  }
+  return "";
 }
 
 std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
@@ -164,12 +180,14 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
   std::optional<InterfaceBinding> found;
   std::ostringstream known;
+  bool has_others = interface == kWorldInterface;  // of the interface, with another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
                        const SndDriverDescription* driver) {
                      if (name == interface && i == index && !found) {
                        found = InterfaceBinding{device.id, std::nullopt, robot, driver};
                      }
+                     has_others = has_others || name == interface;
                      known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
                            << robots[static_cast<std::size_t>(robot)].name << '.'
                            << (driver == nullptr ? device.name : "snd") << ')';
@@ -183,7 +201,8 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                        "there is no device " + std::string(interface) + ':' +
                            std::to_string(index) + " on port " + std::to_string(port) +
                            "; this world has there: " +
-                           (known.tellp() > 0 ? known.str() : std::string("nothing")));
+                           (known.tellp() > 0 ? known.str() : std::string("nothing")) +
+                           (has_others ? "" : where_else(interface)));
   }
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(found->robot)].devices) {
     if (device.type == "motion") {

@@ -237,6 +237,8 @@ void PlayerClient::SetDataMode(uint32_t aMode) {
                     PlayerError::kBadArgument);
 }
 
+void PlayerClient::SetFrequency(uint32_t aFreq) { static_cast<void>(aFreq); }
+
 void PlayerClient::SetReplaceRule(bool aReplace, int aType, int aSubtype, int aInterf) {
   static_cast<void>(aSubtype);
   if (aType != -1 && aType != PLAYER_MSGTYPE_DATA) return;

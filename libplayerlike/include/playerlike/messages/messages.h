@@ -96,6 +96,12 @@ void require_finite(const sim::Command& command);
 /// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 
+/// The world that comes with Playpen for trying an interface: it has a robot with a device that
+/// carries it.
+/// @return its name in the folder of worlds, e.g. "devices/laser.json"; "" if no device carries the
+///         interface.
+[[nodiscard]] std::string example_world(std::string_view interface);
+
 /// Builds what clients are told of a simulation's robots.
 /// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
@@ -119,7 +125,8 @@ struct InterfaceBinding {
 /// `proxies` table gives, by default the robot's number counted from 0.
 /// Interfaces known: "position2d" (pose, then odometry devices), "laser" and "graphics2d" (pens);
 /// and "map", the world's own, with index 0 on every port.
-/// @throws SessionError kNoSuchDevice, naming the addresses that exist.
+/// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
+///         of the interface, the world that does (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                               std::string_view interface, int index);
 
