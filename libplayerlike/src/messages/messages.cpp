@@ -18,14 +18,24 @@ struct InterfaceRow {
   std::string_view interface;
   std::string_view device_type;
 };
-constexpr InterfaceRow kInterfaces[] = {
+// clang-format off
+constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
+    {"bumper", "bumper"},
     {"graphics2d", "pen"},
+    {"ir", "infrared"},
     {"laser", "laser"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
+    {"power", "battery"},
+    {"ranger", "laser"},
+    {"ranger", "sonar"},
+    {"ranger", "infrared"},
+    {"sonar", "sonar"},
 };
+// clang-format on
 
-// The robot's devices that carry the interface, in the table's order.
+// The robot's devices that carry the interface: those that the robot names, then the others in the
+// table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
   std::vector<const DeviceInfo*> found;
   for (const InterfaceRow& row : kInterfaces) {
@@ -34,6 +44,14 @@ std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view
       if (device.type == row.device_type) found.push_back(&device);
     }
   }
+  const auto named = robot.interfaces.find(std::string(interface));
+  if (named == robot.interfaces.end()) return found;
+  const std::vector<std::string>& names = named->second;
+  const auto place = [&](const DeviceInfo* device) {
+    return std::find(names.begin(), names.end(), device->name) - names.begin();
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const DeviceInfo* a, const DeviceInfo* b) { return place(a) < place(b); });
   return found;
 }
 
@@ -133,6 +151,40 @@ std::string example_world(std::string_view interface) {
   return "";
 }
 
+void check_interfaces(const sim::WorldDescription& world) {
+  const std::vector<std::string_view> interfaces = interface_names();
+  std::string known;
+  for (const std::string_view name : interfaces) {
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  std::vector<sim::ConfigIssue> issues;
+  for (std::size_t r = 0; r < world.robots.size(); ++r) {
+    const std::vector<sim::DeviceDescription>& devices = world.robots[r].devices;
+    for (const auto& order : world.robots[r].interfaces) {
+      const std::string& interface = order.first;
+      const std::string pointer = "/robots/" + std::to_string(r) + "/interfaces/" + interface;
+      if (std::find(interfaces.begin(), interfaces.end(), interface) == interfaces.end()) {
+        issues.push_back({"world/interface-device", world.file, pointer,
+                          "an interface that devices have: " + known, '"' + interface + '"', ""});
+        continue;
+      }
+      for (std::size_t i = 0; i < order.second.size(); ++i) {
+        const std::string& name = order.second[i];
+        const auto device = std::find_if(devices.begin(), devices.end(),
+                                         [&name](const auto& d) { return d.name == name; });
+        if (device != devices.end() && carries(device->type, interface)) continue;
+        issues.push_back({"world/interface-device", world.file, pointer + '/' + std::to_string(i),
+                          "a device of the robot that has the interface " + interface,
+                          '"' + name + '"' +
+                              (device == devices.end() ? ", which it does not have"
+                                                       : ", of type " + device->type),
+                          ""});
+      }
+    }
+  }
+  if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+}
+
 std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
   std::vector<RobotInfo> robots;
   for (int r = 0; r < simulation.robot_count(); ++r) {
@@ -149,6 +201,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     robot.max_speed_mps = model.max_speed_mps;
     robot.max_turn_rate_radps = model.max_turn_rate_radps;
     robot.proxies = description.proxies;
+    robot.interfaces = description.interfaces;
     robot.drivers = description.drivers;
     robot.snd_drivers =
         read_drivers(description, simulation.world().file, "/robots/" + std::to_string(r));
@@ -167,7 +220,12 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
       info.name = device.name;
       info.type = device.type;
       for (const sim::DeviceKind& kind : sim::device_kinds()) {
-        if (kind.name == device.type) info.properties = kind.properties(device.params);
+        if (kind.name != device.type) continue;
+        info.properties = kind.properties(device.params);
+        if (!kind.model_properties) continue;
+        for (const auto& [key, value] : kind.model_properties(device.params, model)) {
+          info.properties[key] = value;
+        }
       }
       robot.devices.push_back(std::move(info));
     }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -141,7 +143,10 @@ class WorldReader {
         block.size = reader.vec2("size", block.size, kLength);
         block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
         block.height_m = reader.number("height", block.height_m, kHeight);
-        if (!separators) read_kind(reader, block);
+        if (!separators) {
+          read_kind(reader, block);
+          block.fiducial = read_fiducial(reader);
+        }
         reader.finish();
       }
       if (block.name.empty()) unnamed.push_back(blocks.size());
@@ -165,6 +170,12 @@ class WorldReader {
                      "state");
       }
     }
+  }
+
+  /// What fiducial devices read of an obstacle or a robot.
+  static int read_fiducial(Reader& reader) {
+    return static_cast<int>(
+        reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
   }
 
   void read_docks(Reader& arena) {
@@ -463,10 +474,45 @@ class WorldReader {
         robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
       }
     }
+    robot.fiducial = read_fiducial(reader);
+    read_interfaces(reader, robot);
     for (Reader& driver : reader.array("drivers", 100)) {
       if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));
     }
     reader.finish();
+  }
+
+  /// Which device has which index; whether it has the interface at all is for clients' libraries
+  /// to know.
+  static void read_interfaces(Reader& robot_reader, RobotDescription& robot) {
+    robot.interfaces = find_robot_model(robot.model)->interfaces;
+    std::vector<std::string> known;
+    for (const DeviceDescription& device : robot.devices) known.push_back(device.name);
+    // A model's order holds for those of its devices that the robot has kept.
+    for (auto& [interface, names] : robot.interfaces) {
+      std::erase_if(names, [&](const std::string& name) {
+        return std::find(known.begin(), known.end(), name) == known.end();
+      });
+    }
+    std::optional<Reader> reader = robot_reader.object("interfaces");
+    if (!reader) return;
+    for (const std::string& interface : reader->keys()) {
+      std::vector<std::string> names;
+      for (Reader& element : reader->array(interface, 64)) {
+        const std::string name = element.is_string() ? element.scalar_text().value_or("") : "";
+        if (std::find(known.begin(), known.end(), name) == known.end()) {
+          element.issue("world/unknown-device",
+                        "the name of a device of this robot: " + list_text(known),
+                        element.described(), did_you_mean(name, known));
+        } else if (std::find(names.begin(), names.end(), name) != names.end()) {
+          element.issue("world/duplicate-name", "each device once", in_quotes(name) + " again",
+                        "a device has one index of an interface");
+        } else {
+          names.push_back(name);
+        }
+      }
+      robot.interfaces[interface] = std::move(names);
+    }
   }
 
   static DriverDescription read_driver(Reader& reader) {

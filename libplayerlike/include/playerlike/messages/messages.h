@@ -46,6 +46,8 @@ struct RobotInfo {
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so
+  std::map<std::string, std::vector<std::string>>
+      interfaces;  ///< interface -> names of devices in order of index, where the world says so
   std::vector<sim::DriverDescription> drivers;    ///< as the world file has them
   std::vector<SndDriverDescription> snd_drivers;  ///< the same, understood
   std::vector<DeviceInfo> devices;
@@ -102,6 +104,11 @@ void require_finite(const sim::Command& command);
 ///         interface.
 [[nodiscard]] std::string example_world(std::string_view interface);
 
+/// Checks the orders of devices that robots give for interfaces.
+/// @throws sim::ConfigError naming each interface that there is not, and each device that does not
+///         carry the one it is listed for.
+void check_interfaces(const sim::WorldDescription& world);
+
 /// Builds what clients are told of a simulation's robots.
 /// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
@@ -120,11 +127,13 @@ struct InterfaceBinding {
 };
 
 /// Finds the device behind (port, interface, index). On a robot's own port, index i is that
-/// robot's i-th device with the interface, and drivers have the indices that the world gives them
+/// robot's i-th device with the interface, in the order that its `interfaces` give or else in order
+/// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
-/// Interfaces known: "position2d" (pose, then odometry devices), "laser" and "graphics2d" (pens);
-/// and "map", the world's own, with index 0 on every port.
+/// Interfaces known: "position2d" (pose, then odometry devices), "laser", "sonar", "ir", "ranger"
+/// (lasers, then sonar, then infrared), "bumper", "power", "graphics2d" (pens) and
+/// those of further devices; and "map", the world's own, with index 0 on every port.
 /// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
 ///         of the interface, the world that does (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,

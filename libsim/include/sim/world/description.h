@@ -37,6 +37,7 @@ struct ObstacleDescription {
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
+  int fiducial = 0;  ///< what fiducial devices read of it; 0: they do not see it
 };
 
 /// A charging dock: a marked place on the floor, no obstacle.
@@ -112,7 +113,11 @@ struct RobotDescription {
   int port = 0;  ///< Player port; the reader gives 6665, 6666, ... by default
   std::vector<DeviceDescription> devices;  ///< in order of name
   std::map<std::string, int> proxies;      ///< interface name -> index on port 4000
+  std::map<std::string, std::vector<std::string>>
+      interfaces;  ///< interface name -> names of devices, by index on the robot's own port; those
+                   ///< not named follow in the usual order
   std::vector<DriverDescription> drivers;
+  int fiducial = 0;  ///< what fiducial devices of other robots read of it; 0: they do not see it
 };
 
 /// How the grid-map is shown in pictures, films and windows.

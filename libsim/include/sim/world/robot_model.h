@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct RobotModel {
   double max_speed_mps = 0.5;              ///< [m/s]
   double max_turn_rate_radps = 3.0;        ///< [rad/s]
   std::vector<DeviceDescription> devices;  ///< with default settings, in order of name
+  std::map<std::string, std::vector<std::string>>
+      interfaces;  ///< as RobotDescription has it, for interfaces that a robot says nothing of
 };
 
 /// The S1R of SyRoTek (DESIGN: footprint an octagon round the axle's centre), without devices.
