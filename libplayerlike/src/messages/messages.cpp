@@ -25,7 +25,8 @@ constexpr InterfaceRow kInterfaces[] = {
     {"position2d", "odometry"},
 };
 
-// The robot's devices that carry the interface, in the table's order.
+// The robot's devices that carry the interface: those that the robot names, then the others in the
+// table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
   std::vector<const DeviceInfo*> found;
   for (const InterfaceRow& row : kInterfaces) {
@@ -34,6 +35,14 @@ std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view
       if (device.type == row.device_type) found.push_back(&device);
     }
   }
+  const auto named = robot.interfaces.find(std::string(interface));
+  if (named == robot.interfaces.end()) return found;
+  const std::vector<std::string>& names = named->second;
+  const auto place = [&](const DeviceInfo* device) {
+    return std::find(names.begin(), names.end(), device->name) - names.begin();
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const DeviceInfo* a, const DeviceInfo* b) { return place(a) < place(b); });
   return found;
 }
 
@@ -58,6 +67,13 @@ bool is_finite(const sim::TranslateCommand& c) {
   return all_finite({c.offset_m.x(), c.offset_m.y()});
 }
 bool is_finite(const sim::RotateCommand& c) { return all_finite({c.yaw_rad}); }
+bool is_finite(const sim::HeadingCommand& c) {
+  return all_finite({c.v_mps, c.lateral_mps, c.yaw_rad});
+}
+bool is_finite(const sim::PositionCommand& c) {
+  return is_finite(c.goal) && all_finite({c.max_speed_mps, c.max_turn_rate_radps});
+}
+bool is_finite(const sim::CarCommand& c) { return all_finite({c.v_mps, c.steering_rad}); }
 
 // What the world itself offers, whatever robots are in it.
 constexpr std::string_view kWorldInterface = "map";
@@ -125,7 +141,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     const sim::RobotModel& model = simulation.model(r);
     RobotInfo robot;
     robot.name = description.name;
-    robot.model = description.model;
+    robot.model = model.name;
     robot.colour = description.colour;
     robot.initial_pose = description.pose;
     robot.port = description.port;
@@ -133,6 +149,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     robot.max_speed_mps = model.max_speed_mps;
     robot.max_turn_rate_radps = model.max_turn_rate_radps;
     robot.proxies = description.proxies;
+    robot.interfaces = description.interfaces;
     robot.drivers = description.drivers;
     robot.snd_drivers =
         read_drivers(description, simulation.world().file, "/robots/" + std::to_string(r));
@@ -144,6 +161,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     }
     robot.length_m = high.x() - low.x();
     robot.width_m = high.y() - low.y();
+    robot.center_m = 0.5 * (low + high);
     for (std::size_t d = 0; d < description.devices.size(); ++d) {
       const sim::DeviceDescription& device = description.devices[d];
       DeviceInfo info;

@@ -38,14 +38,17 @@ struct RobotInfo {
   std::string name;
   std::string model;
   sim::Colour colour;
-  sim::Pose initial_pose;  ///< X_WB at the start
-  int port = 0;            ///< its Player port
-  double length_m = 0.0;   ///< of the footprint's bounding box along x, B [m]
-  double width_m = 0.0;    ///< along y [m]
-  double height_m = 0.0;   ///< [m]
+  sim::Pose initial_pose;                  ///< X_WB at the start
+  int port = 0;                            ///< its Player port
+  double length_m = 0.0;                   ///< of the footprint's bounding box along x, B [m]
+  double width_m = 0.0;                    ///< along y [m]
+  double height_m = 0.0;                   ///< [m]
+  sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so
+  std::map<std::string, std::vector<std::string>>
+      interfaces;  ///< interface -> names of devices in order of index, where the world says so
   std::vector<sim::DriverDescription> drivers;    ///< as the world file has them
   std::vector<SndDriverDescription> snd_drivers;  ///< the same, understood
   std::vector<DeviceInfo> devices;
@@ -114,7 +117,8 @@ struct InterfaceBinding {
 };
 
 /// Finds the device behind (port, interface, index). On a robot's own port, index i is that
-/// robot's i-th device with the interface, and drivers have the indices that the world gives them
+/// robot's i-th device with the interface, in the order that its `interfaces` give or else in order
+/// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
 /// Interfaces known: "position2d" (pose, then odometry devices), "laser" and "graphics2d" (pens);
