@@ -4,8 +4,10 @@
 /// @file
 /// Player's C++ client library: the one header that client programs include.
 
+#include "libplayerc++/bumperproxy.h"
 #include "libplayerc++/clientproxy.h"
 #include "libplayerc++/graphics2dproxy.h"
+#include "libplayerc++/irproxy.h"
 #include "libplayerc++/laserproxy.h"
 #include "libplayerc++/mapproxy.h"
 #include "libplayerc++/mutex.h"
@@ -15,5 +17,8 @@
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "libplayerc++/position2dproxy.h"
+#include "libplayerc++/powerproxy.h"
+#include "libplayerc++/rangerproxy.h"
 #include "libplayerc++/readsignal.h"
+#include "libplayerc++/sonarproxy.h"
 #include "libplayerc++/utility.h"

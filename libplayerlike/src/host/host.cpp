@@ -73,7 +73,9 @@ ThinkerId this_thinker() noexcept {
 Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
-      simulation_((check_drivers(world), settings_.apply_to(world), std::move(world)), log_),
+      simulation_((check_drivers(world), check_interfaces(world), settings_.apply_to(world),
+                   std::move(world)),
+                  log_),
       robots_(describe_robots(simulation_)) {
   if (!settings_.output_folder.empty()) {
     std::filesystem::create_directories(settings_.output_folder);

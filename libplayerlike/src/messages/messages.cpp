@@ -18,12 +18,21 @@ struct InterfaceRow {
   std::string_view interface;
   std::string_view device_type;
 };
-constexpr InterfaceRow kInterfaces[] = {
+// clang-format off
+constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
+    {"bumper", "bumper"},
     {"graphics2d", "pen"},
+    {"ir", "infrared"},
     {"laser", "laser"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
+    {"power", "battery"},
+    {"ranger", "laser"},
+    {"ranger", "sonar"},
+    {"ranger", "infrared"},
+    {"sonar", "sonar"},
 };
+// clang-format on
 
 // The robot's devices that carry the interface: those that the robot names, then the others in the
 // table's order.
@@ -133,6 +142,40 @@ bool carries(std::string_view device_type, std::string_view interface) {
   });
 }
 
+void check_interfaces(const sim::WorldDescription& world) {
+  const std::vector<std::string_view> interfaces = interface_names();
+  std::string known;
+  for (const std::string_view name : interfaces) {
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  std::vector<sim::ConfigIssue> issues;
+  for (std::size_t r = 0; r < world.robots.size(); ++r) {
+    const std::vector<sim::DeviceDescription>& devices = world.robots[r].devices;
+    for (const auto& order : world.robots[r].interfaces) {
+      const std::string& interface = order.first;
+      const std::string pointer = "/robots/" + std::to_string(r) + "/interfaces/" + interface;
+      if (std::find(interfaces.begin(), interfaces.end(), interface) == interfaces.end()) {
+        issues.push_back({"world/interface-device", world.file, pointer,
+                          "an interface that devices have: " + known, '"' + interface + '"', ""});
+        continue;
+      }
+      for (std::size_t i = 0; i < order.second.size(); ++i) {
+        const std::string& name = order.second[i];
+        const auto device = std::find_if(devices.begin(), devices.end(),
+                                         [&name](const auto& d) { return d.name == name; });
+        if (device != devices.end() && carries(device->type, interface)) continue;
+        issues.push_back({"world/interface-device", world.file, pointer + '/' + std::to_string(i),
+                          "a device of the robot that has the interface " + interface,
+                          '"' + name + '"' +
+                              (device == devices.end() ? ", which it does not have"
+                                                       : ", of type " + device->type),
+                          ""});
+      }
+    }
+  }
+  if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+}
+
 std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
   std::vector<RobotInfo> robots;
   for (int r = 0; r < simulation.robot_count(); ++r) {
@@ -169,7 +212,12 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
       info.name = device.name;
       info.type = device.type;
       for (const sim::DeviceKind& kind : sim::device_kinds()) {
-        if (kind.name == device.type) info.properties = kind.properties(device.params);
+        if (kind.name != device.type) continue;
+        info.properties = kind.properties(device.params);
+        if (!kind.model_properties) continue;
+        for (const auto& [key, value] : kind.model_properties(device.params, model)) {
+          info.properties[key] = value;
+        }
       }
       robot.devices.push_back(std::move(info));
     }

@@ -9,6 +9,7 @@
 
 #include "protocol/codec.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -49,6 +50,7 @@ void write(const sim::BatteryReading& reading, json& out, Encoding) {
   out["voltage"] = reading.voltage_v;
   out["energy"] = reading.energy_wh;
   out["capacity"] = reading.capacity_wh;
+  out["power"] = reading.power_w;
 }
 
 void read(const json& in, Encoding, sim::BatteryReading& reading) {
@@ -58,6 +60,19 @@ void read(const json& in, Encoding, sim::BatteryReading& reading) {
   reading.voltage_v = require_number(in, "voltage");
   reading.energy_wh = require_number(in, "energy");
   reading.capacity_wh = require_number(in, "capacity");
+  reading.power_w = require_number(in, "power");
+}
+
+void write(const sim::BumperReading& reading, json& out, Encoding) {
+  out["pressed"] = reading.pressed;
+}
+
+void read(const json& in, Encoding, sim::BumperReading& reading) {
+  for (const json& number : require_list(in, "pressed")) {
+    const bool fits = number.is_number_integer() && number >= 0 && number <= 255;
+    if (!fits) refuse_value("pressed", "a list of numbers from 0 to 255", number);
+    reading.pressed.push_back(number.get<std::uint8_t>());
+  }
 }
 
 void write(const sim::CollisionReading& reading, json& out, Encoding) {
@@ -183,6 +198,7 @@ constexpr ReadingCodec reading_codec(std::string_view type) {
 
 constexpr ReadingCodec kReadingCodecs[] = {
     reading_codec<sim::BatteryReading>("battery"),
+    reading_codec<sim::BumperReading>("bumper"),
     reading_codec<sim::CollisionReading>("collision"),
     reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),

@@ -6,6 +6,7 @@
 
 #include "devices/errors.h"
 #include "libplayerc++/laserproxy.h"
+#include "proxies/beam_window.h"
 #include "proxies/link.h"
 #include "sim/devices/laser.h"
 
@@ -16,8 +17,6 @@ namespace {
 // What the S1R's Hokuyo URG-04LX reports of itself, by its data sheet.
 constexpr double kHokuyoRangeResolution_m = 0.001;
 constexpr player_bbox3d_t kHokuyoSize_m = {0.05, 0.05, 0.07};
-// Angles that differ by less than this part of a beam are the same to Configure().
-constexpr double kSameBeam = 1e-6;
 
 }  // namespace
 
@@ -196,23 +195,12 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
                              {{"the least angle", aMinAngle}, {"the greatest angle", aMaxAngle}});
   const scoped_lock_t lock(LockData(fun));
   // Beams are numbered from the first measured one; a window may reach beyond the scan.
-  const double last = static_cast<double>(mNativeCount) - 1.0;
-  const double begin = std::max(0.0, std::ceil((aMinAngle - mNativeMin) / mNativeRes - kSameBeam));
-  const double end = std::min(last, std::floor((aMaxAngle - mNativeMin) / mNativeRes + kSameBeam));
-  if (!(begin <= end)) {
-    throw PlayerError(fun,
-                      "no beam lies between " + std::to_string(aMinAngle) + " and " +
-                          std::to_string(aMaxAngle) + " rad; this laser's lie from " +
-                          std::to_string(mNativeMin) + " to " +
-                          std::to_string(mNativeMin + last * mNativeRes) + " rad",
-                      PlayerError::kBadArgument);
-  }
-  const double wish_rad = aScanRes * 0.01 * M_PI / 180.0;
-  const auto stride =
-      static_cast<std::size_t>(std::clamp(std::round(wish_rad / mNativeRes), 1.0, last + 1.0));
-  mFirst = static_cast<std::size_t>(begin);
-  mStride = stride;
-  mShown = static_cast<std::size_t>(end - begin) / stride + 1;
+  const detail::BeamWindow window =
+      detail::window_of(fun, aMinAngle, aMaxAngle, aScanRes * 0.01 * M_PI / 180.0, mNativeCount,
+                        mNativeMin, mNativeRes);
+  mFirst = window.first;
+  mStride = window.stride;
+  mShown = window.shown;
   mRangeRes = aRangeRes * 0.001;
   View();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "sim/devices/battery.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -51,6 +52,36 @@ BatteryParams parse_battery(io::Reader& settings, BatteryParams p) {
   return p;
 }
 
+BumperSegment parse_segment(io::Reader& reader) {
+  BumperSegment segment;
+  if (!reader.expect_object()) return segment;
+  constexpr io::NumberRange kPlace_m{-100.0, 100.0, false, "m"};
+  segment.X_BS = {reader.number("x", 0.0, kPlace_m), reader.number("y", 0.0, kPlace_m),
+                  normalize_angle(reader.angle_deg("yaw_deg", 0.0))};
+  segment.length_m = reader.number("length", segment.length_m, {0.0, 100.0, true, "m"});
+  segment.radius_m = reader.number("radius", segment.radius_m, {0.0, 100.0, false, "m"});
+  if (segment.radius_m > 0.0 &&
+      segment.length_m > 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
+    reader.issue("device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
+                 std::to_string(segment.length_m) + " m long with a radius of " +
+                     std::to_string(segment.radius_m) + " m");
+  }
+  reader.finish();
+  return segment;
+}
+
+BumperParams parse_bumper(io::Reader& settings, BumperParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.reach_m = settings.number("reach", p.reach_m, {0.0, 1.0, true, "m"});
+  const std::optional<io::Reader> list = settings.child("segments");
+  if (!list) return p;
+  std::vector<io::Reader> elements = settings.array("segments", BumperParams::kMaxSegments);
+  if (!list->is_array()) return p;
+  p.segments.clear();
+  for (io::Reader& element : elements) p.segments.push_back(parse_segment(element));
+  return p;
+}
+
 CollisionParams parse_collision(io::Reader& settings, CollisionParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   return p;
@@ -84,6 +115,9 @@ void parse_ranger(io::Reader& settings, RangerParams& p) {
 
 InfraredParams parse_infrared(io::Reader& settings, InfraredParams p) {
   parse_ranger(settings, p);
+  p.voltage_gain_vm =
+      settings.number("voltage_gain", p.voltage_gain_vm, {0.0, 1000.0, true, "V m"});
+  p.voltage_shift_m = settings.number("voltage_shift", p.voltage_shift_m, {0.0, 10.0, true, "m"});
   return p;
 }
 
@@ -221,6 +255,21 @@ Properties describe(const BatteryParams& p) {
           {"full_voltage", p.full_voltage_v},
           {"empty_voltage", p.empty_voltage_v}};
 }
+// With segments: those that are set, or those that the model gives.
+Properties describe(const BumperParams& p) {
+  Properties properties{{"frequency", p.frequency_hz},
+                        {"reach", p.reach_m},
+                        {"count", static_cast<double>(p.segments.size())}};
+  for (std::size_t i = 0; i < p.segments.size(); ++i) {
+    const std::string number = std::to_string(i);
+    properties["mount_x_" + number] = p.segments[i].X_BS.x_m;
+    properties["mount_y_" + number] = p.segments[i].X_BS.y_m;
+    properties["mount_yaw_" + number] = p.segments[i].X_BS.yaw_rad;
+    properties["length_" + number] = p.segments[i].length_m;
+    properties["radius_" + number] = p.segments[i].radius_m;
+  }
+  return properties;
+}
 Properties describe(const CollisionParams& p) { return {{"frequency", p.frequency_hz}}; }
 
 Properties describe(const LaserParams& p) {
@@ -280,6 +329,13 @@ Properties describe(const RangerParams& p) {
   return properties;
 }
 
+Properties describe(const InfraredParams& p) {
+  Properties properties = describe(static_cast<const RangerParams&>(p));
+  properties["voltage_gain"] = p.voltage_gain_vm;
+  properties["voltage_shift"] = p.voltage_shift_m;
+  return properties;
+}
+
 // A row of the table: `parse` reads Params, `make` builds the device from them.
 template <typename Params, typename Parse, typename Make>
 DeviceKind kind(std::string name, Parse parse, Make make) {
@@ -301,6 +357,22 @@ DeviceKind kind(std::string name, Parse parse, Make make) {
   return row;
 }
 
+DeviceKind bumper_kind() {
+  DeviceKind row =
+      kind<BumperParams>("bumper", parse_bumper,
+                         [](const DeviceDescription& d, const BumperParams& p,
+                            const RobotDescription&, const RobotModel& model, const RandomStream&) {
+                           return std::make_unique<Bumper>(d.name, p, model.footprint);
+                         });
+  row.model_properties = [](const std::any& params, const RobotModel& model) {
+    BumperParams p =
+        params.has_value() ? std::any_cast<const BumperParams&>(params) : BumperParams{};
+    if (p.segments.empty()) p.segments = segments_round(model.footprint);
+    return describe(p);
+  };
+  return row;
+}
+
 std::vector<DeviceKind> make_table() {
   using D = const DeviceDescription&;
   using R = const RobotDescription&;
@@ -311,6 +383,7 @@ std::vector<DeviceKind> make_table() {
                             return std::make_unique<Battery>(d.name, p,
                                                              model.drive.wheel_separation_m);
                           }),
+      bumper_kind(),
       kind<CollisionParams>("collision", parse_collision,
                             [](D d, const CollisionParams& p, R, M, const RandomStream&) {
                               return std::make_unique<CollisionSensor>(d.name, p);

@@ -134,25 +134,6 @@ DriveDescription read_drive(Reader& model) {
   return drive;
 }
 
-void read_interfaces(Reader& model_reader, RobotModel& model) {
-  std::optional<Reader> reader = model_reader.object("interfaces");
-  if (!reader) return;
-  std::vector<std::string> known;
-  for (const DeviceDescription& device : model.devices) known.push_back(device.name);
-  for (const std::string& interface : reader->keys()) {
-    for (Reader& element : reader->array(interface)) {
-      const std::string name = element.is_string() ? element.scalar_text().value_or("") : "";
-      if (std::find(known.begin(), known.end(), name) != known.end()) {
-        model.interfaces[interface].push_back(name);
-      } else {
-        element.issue("world/unknown-device",
-                      "the name of a device of this model: " + list_text(known),
-                      element.described(), did_you_mean(name, known));
-      }
-    }
-  }
-}
-
 RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& types) {
   RobotModel model;
   if (!root.expect_object()) return model;
@@ -167,7 +148,7 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   model.max_turn_rate_radps = root.angle_deg("max_turn_rate_deg", model.max_turn_rate_radps,
                                              {0.0, 3600.0, true, "degrees/s"});
   model.devices = read_devices(root, {}, types);
-  read_interfaces(root, model);
+  model.interfaces = read_interfaces(root, model.devices, {});
   root.finish();
   return model;
 }
@@ -233,6 +214,40 @@ std::vector<DeviceDescription> read_devices(Reader& owner, std::vector<DeviceDes
   std::vector<DeviceDescription> all;
   for (auto& [name, device] : devices) all.push_back(std::move(device));
   return all;
+}
+
+std::map<std::string, std::vector<std::string>> read_interfaces(
+    Reader& owner, const std::vector<DeviceDescription>& devices,
+    const std::map<std::string, std::vector<std::string>>& base) {
+  std::vector<std::string> known;
+  for (const DeviceDescription& device : devices) known.push_back(device.name);
+  // A model's order holds for those of its devices that the robot has kept.
+  std::map<std::string, std::vector<std::string>> interfaces = base;
+  for (auto& [interface, names] : interfaces) {
+    std::erase_if(names, [&](const std::string& name) {
+      return std::find(known.begin(), known.end(), name) == known.end();
+    });
+  }
+  std::optional<Reader> reader = owner.object("interfaces");
+  if (!reader) return interfaces;
+  for (const std::string& interface : reader->keys()) {
+    std::vector<std::string> names;
+    for (Reader& element : reader->array(interface, 64)) {
+      const std::string name = element.is_string() ? element.scalar_text().value_or("") : "";
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        element.issue("world/unknown-device",
+                      "the name of a device of this robot: " + list_text(known),
+                      element.described(), did_you_mean(name, known));
+      } else if (std::find(names.begin(), names.end(), name) != names.end()) {
+        element.issue("world/duplicate-name", "each device once", in_quotes(name) + " again",
+                      "a device has one index of an interface");
+      } else {
+        names.push_back(name);
+      }
+    }
+    interfaces[interface] = std::move(names);
+  }
+  return interfaces;
 }
 
 std::optional<RobotModel> read_model(Reader& robot, const std::string& name,

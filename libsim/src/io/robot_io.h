@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,14 @@ namespace sim::io {
 [[nodiscard]] std::vector<DeviceDescription> read_devices(Reader& owner,
                                                           std::vector<DeviceDescription> base,
                                                           const std::vector<DeviceType>& types);
+
+/// Reads the member "interfaces" of a robot or model: which device has which index. Whether it has
+/// the interface at all is for clients' libraries to know.
+/// @param base  what holds for interfaces that are not named; devices that there are not are left
+///              out of it.
+[[nodiscard]] std::map<std::string, std::vector<std::string>> read_interfaces(
+    Reader& owner, const std::vector<DeviceDescription>& devices,
+    const std::map<std::string, std::vector<std::string>>& base);
 
 /// Reads the model that a robot of a world names: one of shipped_models(), or, if the name has a
 /// '/' or ends in ".json", a file, relative to the folder of the world's file.

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -125,7 +127,10 @@ class WorldReader {
         block.size = reader.vec2("size", block.size, kLength);
         block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
         block.height_m = reader.number("height", block.height_m, kHeight);
-        if (!separators) read_kind(reader, block);
+        if (!separators) {
+          read_kind(reader, block);
+          block.fiducial = read_fiducial(reader);
+        }
         reader.finish();
       }
       if (block.name.empty()) unnamed.push_back(blocks.size());
@@ -149,6 +154,12 @@ class WorldReader {
                      "state");
       }
     }
+  }
+
+  /// What fiducial devices read of an obstacle or a robot.
+  static int read_fiducial(Reader& reader) {
+    return static_cast<int>(
+        reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
   }
 
   void read_docks(Reader& arena) {
@@ -449,13 +460,14 @@ class WorldReader {
     }
     if (!model_is_sound) return;  // of what depends on the model nothing can be said
     const RobotModel& model = *find_robot_model(world_, robot.model);
-    robot.interfaces = model.interfaces;
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
     if (std::optional<Reader> proxies = reader.object("proxies")) {
       for (const std::string& interface : proxies->keys()) {
         robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
       }
     }
+    robot.fiducial = read_fiducial(reader);
+    robot.interfaces = read_interfaces(reader, robot.devices, model.interfaces);
     for (Reader& driver : reader.array("drivers", 100)) {
       if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));
     }

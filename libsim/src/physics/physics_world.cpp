@@ -576,9 +576,22 @@ struct PhysicsWorld::Impl : b2ContactListener {
       contacts.push_back({mine.index, theirs.kind, theirs.index});
     }
   }
+  // What a contact's points span, for one of the two robots that may be in it.
+  static void add_touch(const b2Contact& contact, int robot, std::vector<Touch>& into) {
+    const int32 count = contact.GetManifold()->pointCount;
+    if (count == 0) return;
+    b2WorldManifold points;
+    contact.GetWorldManifold(&points);
+    const auto in_metres = [](const b2Vec2& p) { return Vec2(metres(p.x), metres(p.y)); };
+    into.push_back({robot, in_metres(points.points[0]), in_metres(points.points[count - 1])});
+  }
   void BeginContact(b2Contact* contact) override {
     count_contact(contact->GetFixtureA(), contact->GetFixtureB(), 1);
     count_contact(contact->GetFixtureB(), contact->GetFixtureA(), 1);
+    for (const b2Fixture* fixture : {contact->GetFixtureA(), contact->GetFixtureB()}) {
+      const FixtureInfo& info = info_of(fixture);
+      if (info.kind == Contact::Kind::kRobot) add_touch(*contact, info.index, new_touches);
+    }
   }
   void EndContact(b2Contact* contact) override {
     count_contact(contact->GetFixtureA(), contact->GetFixtureB(), -1);
@@ -610,6 +623,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
   std::vector<Twist> twists;  // by which twist
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
+  std::vector<Touch> new_touches;
 };
 
 PhysicsWorld::PhysicsWorld(const ArenaDescription& arena) : impl_(std::make_unique<Impl>(arena)) {
@@ -699,6 +713,7 @@ void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
 void PhysicsWorld::step(double dt_s) {
   Impl& d = *impl_;
   d.contacts.clear();
+  d.new_touches.clear();
   double travel_m = 0.0;
   for (Robot& r : d.robots) {
     r.state.travel_m = 0.0;
@@ -734,6 +749,19 @@ std::vector<PhysicsWorld::Contact> PhysicsWorld::contacts_of(int robot) const {
     contacts.push_back({robot, info.kind, info.index});
   }
   return contacts;
+}
+
+std::vector<PhysicsWorld::Touch> PhysicsWorld::touches_of(int robot) const {
+  std::vector<Touch> touches;
+  const b2Body* body = impl_->robots[static_cast<std::size_t>(robot)].body;
+  for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+    if (e->contact->IsTouching()) Impl::add_touch(*e->contact, robot, touches);
+  }
+  // A step may be made in several parts: what began in one may have ended in another.
+  for (const Touch& touch : impl_->new_touches) {
+    if (touch.robot == robot) touches.push_back(touch);
+  }
+  return touches;
 }
 
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
@@ -886,6 +914,37 @@ void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double senso
                  sensor_height_m, edges);
   }
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
+}
+
+bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const {
+  return impl_->inside_solid(p_W, height_m, own_robot);
+}
+
+bool PhysicsWorld::is_line_free(const Vec2& from_W, const Vec2& to_W, double height_m,
+                                int own_robot, const Contact& target) const {
+  struct Blocked : b2RayCastCallback {
+    float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
+      const FixtureInfo& info = info_of(fixture);
+      const bool own = info.kind == Contact::Kind::kRobot && info.index == own_robot;
+      const bool wanted = info.kind == target_kind && info.index == target_index;
+      if (own || wanted || info.height_m <= height_m) return -1.0F;
+      blocked = true;
+      return 0.0F;
+    }
+    double height_m = 0.0;
+    int own_robot = -1;
+    Contact::Kind target_kind = Contact::Kind::kRobot;
+    int target_index = -1;
+    bool blocked = false;
+  } callback;
+  callback.height_m = height_m;
+  callback.own_robot = own_robot;
+  callback.target_kind = target.kind;
+  callback.target_index = target.index;
+  // Box2D takes no line without a length.
+  if ((to_W - from_W).squaredNorm() <= 0.0) return true;
+  impl_->world.RayCast(&callback, to_box2d(from_W), to_box2d(to_W));
+  return !callback.blocked;
 }
 
 bool PhysicsWorld::Impl::inside_solid(const Vec2& p_W, double height_m, int own_robot) {

@@ -20,6 +20,7 @@
 #include "protocol/framing.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/builtin.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -206,6 +207,12 @@ template <typename F>
 void each(sim::BatteryReading& v, F& f) {
   each_of_reading(v, f);
   f(v.charge_percent), f(v.status), f(v.voltage_v), f(v.energy_wh), f(v.capacity_wh);
+  f(v.power_w);
+}
+template <typename F>
+void each(sim::BumperReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.pressed);
 }
 template <typename F>
 void each(sim::CollisionReading& v, F& f) {
@@ -947,6 +954,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     ++sensors;
     EXPECT_EQ(sensor->type(), kind.name);
     EXPECT_TRUE(arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BumperReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
                 arrives_if<sim::LaserReading>(*sensor, GetParam()) ||
                 arrives_if<sim::PoseReading>(*sensor, GetParam()) ||
@@ -988,6 +996,7 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
   const std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> readings = [] {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
+    all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
     all.emplace_back("collision", std::make_unique<sim::CollisionReading>());
     all.emplace_back("laser", std::make_unique<sim::LaserReading>());
     all.emplace_back("odometry", std::make_unique<sim::PoseReading>());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
 #include "sim/simulation/simulation.h"
@@ -95,6 +96,13 @@ TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
     EXPECT_NEAR(laser.resolution_rad * (laser.beam_count - 1), M_PI, 1e-9);
     EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);
     EXPECT_LT(laser.height_m, model.height_m);  // so Pioneers see one another
+  }
+  for (const char* name : {"pioneer2dx", "pioneer3dx"}) {
+    const auto bumper = settings_of<BumperParams>(world_with(name), "bumper");
+    ASSERT_EQ(bumper.segments.size(), 10U);
+    for (std::size_t i = 0; i < 10; ++i) {  // the first five before the middle
+      EXPECT_EQ(bumper.segments[i].X_BS.x_m > 0.0, i < 5) << i;
+    }
   }
   const RobotModel model = model_of(world_with("pioneer3dx"));
   Vec2 low = model.footprint[0];

@@ -99,6 +99,11 @@ void require_finite(const sim::Command& command);
 /// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 
+/// Checks the orders of devices that robots give for interfaces.
+/// @throws sim::ConfigError naming each interface that there is not, and each device that does not
+///         carry the one it is listed for.
+void check_interfaces(const sim::WorldDescription& world);
+
 /// Builds what clients are told of a simulation's robots.
 /// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
@@ -121,8 +126,9 @@ struct InterfaceBinding {
 /// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
-/// Interfaces known: "position2d" (pose, then odometry devices), "laser" and "graphics2d" (pens);
-/// and "map", the world's own, with index 0 on every port.
+/// Interfaces known: "position2d" (pose, then odometry devices), "laser", "sonar", "ir", "ranger"
+/// (lasers, then sonar, then infrared), "bumper", "power", "graphics2d" (pens) and
+/// those of further devices; and "map", the world's own, with index 0 on every port.
 /// @throws SessionError kNoSuchDevice, naming the addresses that exist.
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                               std::string_view interface, int index);

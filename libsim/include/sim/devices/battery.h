@@ -40,6 +40,7 @@ struct BatteryReading final : Reading {
   double voltage_v = 0.0;    ///< see battery_voltage_v() [V]
   double energy_wh = 0.0;    ///< what is left [W h]
   double capacity_wh = 0.0;  ///< of a full battery, as set [W h]
+  double power_w = 0.0;      ///< that goes into the battery; negative: that it gives [W]
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<BatteryReading>(*this);
@@ -83,6 +84,7 @@ class Battery final : public Sensor {
   BatteryParams params_;
   double wheel_separation_m_;
   double energy_j_;
+  double power_w_ = 0.0;  ///< in the last step, see BatteryReading
   bool docked_ = false;
   BatteryReading reading_;
 };

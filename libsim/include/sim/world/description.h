@@ -38,6 +38,7 @@ struct ObstacleDescription {
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
+  int fiducial = 0;  ///< what fiducial devices read of it; 0: they do not see it
 };
 
 /// A charging dock: a marked place on the floor, no obstacle.
@@ -120,6 +121,7 @@ struct RobotDescription {
       interfaces;  ///< interface name -> names of devices, by index on the robot's own port; those
                    ///< not named follow in the usual order
   std::vector<DriverDescription> drivers;
+  int fiducial = 0;  ///< what fiducial devices of other robots read of it; 0: they do not see it
 };
 
 /// How the grid-map is shown in pictures, films and windows.
