@@ -21,7 +21,7 @@ struct Arena {
         kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m}),
         ranges(static_cast<std::size_t>(laser.beam_count)) {
     for (const RobotDescription& description : world.robots) {
-      physics.add_robot(*find_robot_model(description.model), description.pose);
+      physics.add_robot(*find_robot_model(world, description.model), description.pose);
     }
   }
 

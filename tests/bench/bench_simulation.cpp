@@ -27,7 +27,7 @@ struct Bare {
         kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m}),
         ranges(static_cast<std::size_t>(laser.beam_count)) {
     for (const RobotDescription& robot : world.robots) {
-      physics.add_robot(*find_robot_model(robot.model), robot.pose);
+      physics.add_robot(*find_robot_model(world, robot.model), robot.pose);
     }
   }
   void scan_all() {

@@ -48,6 +48,9 @@ void require_duration(double sleep_s) {
 // move a robot by some way, or are counted, do not.
 bool replaces_earlier_ones(const sim::Command& command) {
   return std::holds_alternative<sim::TwistCommand>(command) ||
+         std::holds_alternative<sim::HeadingCommand>(command) ||
+         std::holds_alternative<sim::PositionCommand>(command) ||
+         std::holds_alternative<sim::CarCommand>(command) ||
          std::holds_alternative<sim::MotorEnableCommand>(command) ||
          std::holds_alternative<sim::SetPoseCommand>(command);
 }

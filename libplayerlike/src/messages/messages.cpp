@@ -76,6 +76,13 @@ bool is_finite(const sim::TranslateCommand& c) {
   return all_finite({c.offset_m.x(), c.offset_m.y()});
 }
 bool is_finite(const sim::RotateCommand& c) { return all_finite({c.yaw_rad}); }
+bool is_finite(const sim::HeadingCommand& c) {
+  return all_finite({c.v_mps, c.lateral_mps, c.yaw_rad});
+}
+bool is_finite(const sim::PositionCommand& c) {
+  return is_finite(c.goal) && all_finite({c.max_speed_mps, c.max_turn_rate_radps});
+}
+bool is_finite(const sim::CarCommand& c) { return all_finite({c.v_mps, c.steering_rad}); }
 
 // What the world itself offers, whatever robots are in it.
 constexpr std::string_view kWorldInterface = "map";
@@ -193,7 +200,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     const sim::RobotModel& model = simulation.model(r);
     RobotInfo robot;
     robot.name = description.name;
-    robot.model = description.model;
+    robot.model = model.name;
     robot.colour = description.colour;
     robot.initial_pose = description.pose;
     robot.port = description.port;
@@ -213,6 +220,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     }
     robot.length_m = high.x() - low.x();
     robot.width_m = high.y() - low.y();
+    robot.center_m = 0.5 * (low + high);
     for (std::size_t d = 0; d < description.devices.size(); ++d) {
       const sim::DeviceDescription& device = description.devices[d];
       DeviceInfo info;

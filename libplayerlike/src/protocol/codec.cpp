@@ -262,6 +262,8 @@ json encode_robot(const RobotInfo& robot) {
           {"length", robot.length_m},
           {"width", robot.width_m},
           {"height", robot.height_m},
+          {"center_x", robot.center_m.x()},
+          {"center_y", robot.center_m.y()},
           {"max_speed", robot.max_speed_mps},
           {"max_turn_rate", robot.max_turn_rate_radps},
           {"proxies", robot.proxies},
@@ -281,6 +283,7 @@ RobotInfo decode_robot(const json& robot) {
   decoded.length_m = require_number(robot, "length");
   decoded.width_m = require_number(robot, "width");
   decoded.height_m = require_number(robot, "height");
+  decoded.center_m = {require_number(robot, "center_x"), require_number(robot, "center_y")};
   decoded.max_speed_mps = require_number(robot, "max_speed");
   decoded.max_turn_rate_radps = require_number(robot, "max_turn_rate");
   decoded.proxies = decode_table<int>(robot, "proxies", require_int);

@@ -261,6 +261,35 @@ json to_json(const sim::RotateCommand& command) {
   return {{"kind", "rotate"}, {"yaw", command.yaw_rad}};
 }
 
+json to_json(const sim::HeadingCommand& command) {
+  return {{"kind", "heading"},
+          {"v", command.v_mps},
+          {"lateral", command.lateral_mps},
+          {"yaw", command.yaw_rad},
+          {"frame", command.frame}};
+}
+
+json to_json(const sim::PositionCommand& command) {
+  json out = pose_command("position", command.goal);
+  out["max_speed"] = command.max_speed_mps;
+  out["max_turn_rate"] = command.max_turn_rate_radps;
+  out["frame"] = command.frame;
+  return out;
+}
+
+json to_json(const sim::CarCommand& command) {
+  return {{"kind", "car"}, {"v", command.v_mps}, {"steering", command.steering_rad}};
+}
+
+int read_frame(const json& in) {
+  using Limits = std::numeric_limits<int>;
+  return static_cast<int>(require_integer(in, "frame", Limits::min(), Limits::max()));
+}
+
+double read_lateral(const json& in) {
+  return in.contains("lateral") ? require_number(in, "lateral") : 0.0;
+}
+
 sim::Vec2 read_point(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
 
 sim::Pose read_pose(const json& in) {
@@ -278,9 +307,8 @@ const CommandCodec kCommandCodecs[] = {
     {"twist",
      {"kind", "v", "omega", "lateral"},
      [](const json& in) -> sim::Command {
-       const double lateral_mps = in.contains("lateral") ? require_number(in, "lateral") : 0.0;
        return sim::TwistCommand{
-           {require_number(in, "v"), require_number(in, "omega"), lateral_mps}};
+           {require_number(in, "v"), require_number(in, "omega"), read_lateral(in)}};
      }},
     {"motors",
      {"kind", "on"},
@@ -307,6 +335,23 @@ const CommandCodec kCommandCodecs[] = {
     {"rotate",
      {"kind", "yaw"},
      [](const json& in) -> sim::Command { return sim::RotateCommand{require_number(in, "yaw")}; }},
+    {"heading",
+     {"kind", "v", "lateral", "yaw", "frame"},
+     [](const json& in) -> sim::Command {
+       return sim::HeadingCommand{require_number(in, "v"), read_lateral(in),
+                                  require_number(in, "yaw"), read_frame(in)};
+     }},
+    {"position",
+     {"kind", "x", "y", "yaw", "max_speed", "max_turn_rate", "frame"},
+     [](const json& in) -> sim::Command {
+       return sim::PositionCommand{read_pose(in), require_number(in, "max_speed"),
+                                   require_number(in, "max_turn_rate"), read_frame(in)};
+     }},
+    {"car",
+     {"kind", "v", "steering"},
+     [](const json& in) -> sim::Command {
+       return sim::CarCommand{require_number(in, "v"), require_number(in, "steering")};
+     }},
 };
 
 }  // namespace

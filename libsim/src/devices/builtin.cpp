@@ -25,6 +25,8 @@ constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
 constexpr io::NumberRange kPower_w{0.0, 10000.0, false, "W"};
 constexpr io::NumberRange kVoltage_v{0.0, 1000.0, true, "V"};
 constexpr double kDegrees = std::numbers::pi / 180.0;
+// Of robots that have no steering: beyond it the turn rate has long reached its limit.
+constexpr double kMostSteering_rad = 80.0 * kDegrees;
 
 RandomStream noise_stream(const DeviceDescription& device, const RobotDescription& robot,
                           std::uint64_t world_seed) {
@@ -166,6 +168,11 @@ MotionParams parse_motion(io::Reader& settings, MotionParams p) {
       settings.angle_deg("max_turn_acceleration_deg", p.max_turn_acceleration_radps2,
                          {0.0, 1e6, false, "degrees/s^2"});
   p.enabled_at_start = settings.boolean("enabled", p.enabled_at_start);
+  p.approach_gain = settings.number("approach_gain", p.approach_gain, {0.0, 50.0, true, "1/s"});
+  p.turn_gain = settings.number("turn_gain", p.turn_gain, {0.0, 50.0, true, "1/s"});
+  p.tolerance_m = settings.number("tolerance", p.tolerance_m, {0.0, 1000.0, true, "m"});
+  p.heading_tolerance_rad = settings.angle_deg("heading_tolerance_deg", p.heading_tolerance_rad,
+                                               {0.0, 180.0, true, "degrees"});
   return p;
 }
 
@@ -223,6 +230,19 @@ std::unique_ptr<Device> make_ranger(const DeviceDescription& device, const Range
                                   std::move(noise));
 }
 
+// The drive as its motors are told of it: a robot that is no car pretends to be one as long as
+// itself when it is told to drive like one.
+DriveDescription drive_of(const RobotModel& model) {
+  DriveDescription drive = model.drive;
+  if (drive.kind == DriveKind::kCar || model.footprint.empty()) return drive;
+  const auto [rear, front] =
+      std::minmax_element(model.footprint.begin(), model.footprint.end(),
+                          [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+  drive.wheelbase_m = front->x() - rear->x();
+  drive.max_steering_rad = kMostSteering_rad;
+  return drive;
+}
+
 using Properties = std::map<std::string, double>;
 
 Properties describe(const BatteryParams& p) {
@@ -267,7 +287,11 @@ Properties describe(const MotionParams& p) {
   return {{"max_speed", p.max_speed_mps},
           {"max_turn_rate", p.max_turn_rate_radps},
           {"max_acceleration", p.max_acceleration_mps2},
-          {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
+          {"max_turn_acceleration", p.max_turn_acceleration_radps2},
+          {"approach_gain", p.approach_gain},
+          {"turn_gain", p.turn_gain},
+          {"tolerance", p.tolerance_m},
+          {"heading_tolerance", p.heading_tolerance_rad}};
 }
 Properties describe(const OdometryParams& p) {
   return {
@@ -356,7 +380,8 @@ std::vector<DeviceKind> make_table() {
   return {
       kind<BatteryParams>("battery", parse_battery,
                           [](D d, const BatteryParams& p, R, M model, const RandomStream&) {
-                            return std::make_unique<Battery>(d.name, p, model.wheel_separation_m);
+                            return std::make_unique<Battery>(d.name, p,
+                                                             model.drive.wheel_separation_m);
                           }),
       bumper_kind(),
       kind<CollisionParams>("collision", parse_collision,
@@ -373,13 +398,14 @@ std::vector<DeviceKind> make_table() {
                               d.name, p, !well_within(model.footprint, p.X_BL), std::move(noise));
                         }),
       kind<MotionParams>("motion", parse_motion,
-                         [](D d, const MotionParams& p, R, M, const RandomStream&) {
-                           return std::make_unique<Motion>(d.name, p);
+                         [](D d, const MotionParams& p, R, M model, const RandomStream&) {
+                           return std::make_unique<Motion>(d.name, p, drive_of(model));
                          }),
       kind<OdometryParams>("odometry", parse_odometry,
                            [](D d, const OdometryParams& p, R, M model, RandomStream noise) {
-                             return std::make_unique<Odometry>(d.name, p, model.wheel_separation_m,
-                                                               std::move(noise));
+                             return std::make_unique<Odometry>(
+                                 d.name, p, model.drive.wheel_separation_m,
+                                 model.drive.kind == DriveKind::kOmnidirectional, std::move(noise));
                            }),
       kind<PenParams>("pen", parse_pen,
                       [](D d, const PenParams& p, R, M, const RandomStream&) {

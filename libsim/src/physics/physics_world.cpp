@@ -94,6 +94,7 @@ struct Robot {
   b2Body* body = nullptr;
   b2PolygonShape shape;
   b2PolygonShape reaching_shape;  // the same with a wide skin, which finds contacts ahead
+  DriveKind drive = DriveKind::kDifferential;
   double height_m = 0.0;
   double mass_kg = 0.0;
   double inertia_kgm2 = 0.0;
@@ -308,7 +309,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
       const double rx = metres(points.points[i].x) - r.X_WB.x_m;
       const double ry = metres(points.points[i].y) - r.X_WB.y_m;
       constraints.push_back({nx * c + ny * s, rx * ny - ry * nx,
-                             share * std::max(0.0, gap_m - kRestingGap_m) / dt_s});
+                             share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, ny * c - nx * s});
     }
   }
 
@@ -340,7 +341,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
 
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
     Robot& r = robots[index];
-    if (r.target.v_mps == 0.0 && r.target.omega_radps == 0.0) return r.target;
+    if (r.target == Twist{}) return r.target;
     // Even if another robot comes to meet it, nothing is reached in this step.
     if (r.free_m > 2.0 * kMaxTravel_m + kRestingGap_m) return r.target;
     constraints.clear();
@@ -363,6 +364,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
       add_constraints(r, other.shape, other.body->GetTransform(), 0.5, dt_s);
     }
     if (constraints.empty()) return r.target;
+    switch (r.drive) {
+      case DriveKind::kOmnidirectional:
+        return feasible_planar_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
+      case DriveKind::kCar:
+        return feasible_share(r.target, constraints);
+      case DriveKind::kDifferential:
+        break;
+    }
     return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
   }
 
@@ -380,12 +389,15 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return false;
   }
 
-  // Where an unhindered robot gets to: along the exact arc of the twist.
+  // Where an unhindered robot gets to: along the exact arc of the twist (the exponential map of
+  // SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
   [[nodiscard]] static Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
     const double half_turn = 0.5 * twist.omega_radps * dt_s;
     const double chord = twist.v_mps * dt_s * sinc(half_turn);
+    const double side = twist.lateral_mps * dt_s * sinc(half_turn);
     const double heading = X_WB.yaw_rad + half_turn;
-    return {X_WB.x_m + chord * std::cos(heading), X_WB.y_m + chord * std::sin(heading),
+    return {X_WB.x_m + chord * std::cos(heading) - side * std::sin(heading),
+            X_WB.y_m + chord * std::sin(heading) + side * std::cos(heading),
             X_WB.yaw_rad + twist.omega_radps * dt_s};
   }
 
@@ -452,9 +464,11 @@ struct PhysicsWorld::Impl : b2ContactListener {
         std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
       r.X_WB = goal;
       const double travel = twists[index].v_mps * dt_s;
+      const double side = twists[index].lateral_mps * dt_s;
       turn = twists[index].omega_radps * dt_s;
-      moved = std::abs(travel);
+      moved = side == 0.0 ? std::abs(travel) : std::hypot(travel, side);
       r.state.travel_m += travel;
+      r.state.side_m += side;
     } else {
       const Pose before = r.X_WB;
       r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
@@ -465,7 +479,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
       // The wheels' path is the arc whose chord this is.
       r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
       moved = std::hypot(dx, dy);
-      lateral_m[index] += dy * std::cos(heading) - dx * std::sin(heading);
+      r.state.side_m += dy * std::cos(heading) - dx * std::sin(heading);
     }
     r.state.turn_rad += turn;
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
@@ -488,14 +502,16 @@ struct PhysicsWorld::Impl : b2ContactListener {
     r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
   }
 
-  void finish_step(Robot& r, std::size_t index, double dt_s) {
+  static void finish_step(Robot& r, double dt_s) {
     BodyState& s = r.state;
     s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
-    s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, lateral_m[index] / dt_s};
+    s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, s.side_m / dt_s};
     s.commanded = r.target;
     const bool achieved =
         std::abs(s.twist.v_mps - r.target.v_mps) <= kSpeedTolerance_mps &&
-        std::abs(s.twist.omega_radps - r.target.omega_radps) <= kTurnTolerance_radps;
+        std::abs(s.twist.omega_radps - r.target.omega_radps) <= kTurnTolerance_radps &&
+        (r.drive != DriveKind::kOmnidirectional ||
+         std::abs(s.twist.lateral_mps - r.target.lateral_mps) <= kSpeedTolerance_mps);
     r.stall_clock_s = achieved ? 0.0 : r.stall_clock_s + dt_s;
     s.stalled = r.stall_clock_s >= kStallDelay_s - 1e-9;
   }
@@ -605,7 +621,6 @@ struct PhysicsWorld::Impl : b2ContactListener {
   std::vector<std::pair<int, int>> near_pairs;
   std::vector<Pose> goals;    // where each robot gets to in this step if nothing hinders it
   std::vector<Twist> twists;  // by which twist
-  std::vector<double> lateral_m;
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
   std::vector<Touch> new_touches;
@@ -624,6 +639,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.shape = polygon_shape(model.footprint);
   r.reaching_shape = r.shape;
   r.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  r.drive = model.drive.kind;
   r.height_m = model.height_m;
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
   r.X_WB = X_WB;
@@ -643,7 +659,6 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 
   d.largest_radius_m = std::max(d.largest_radius_m, r.radius_m);
   d.order.push_back(index);
-  d.lateral_m.push_back(0.0);
   d.robots.push_back(std::move(r));
   d.something_was_placed();
   d.robot_edges_fresh = false;
@@ -700,18 +715,18 @@ void PhysicsWorld::step(double dt_s) {
   d.contacts.clear();
   d.new_touches.clear();
   double travel_m = 0.0;
-  for (std::size_t i = 0; i < d.robots.size(); ++i) {
-    Robot& r = d.robots[i];
+  for (Robot& r : d.robots) {
     r.state.travel_m = 0.0;
     r.state.turn_rad = 0.0;
-    d.lateral_m[i] = 0.0;
-    travel_m = std::max(
-        travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.omega_radps) * r.radius_m) * dt_s);
+    r.state.side_m = 0.0;
+    travel_m = std::max(travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
+                                   std::abs(r.target.omega_radps) * r.radius_m) *
+                                      dt_s);
   }
   const double longest_m = d.any_robots_touch() ? kMaxShove_m : kMaxTravel_m;
   const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / longest_m)));
   for (int i = 0; i < substeps; ++i) d.substep(dt_s / substeps);
-  for (std::size_t i = 0; i < d.robots.size(); ++i) d.finish_step(d.robots[i], i, dt_s);
+  for (Robot& r : d.robots) Impl::finish_step(r, dt_s);
   d.robot_edges_fresh = false;
 }
 
@@ -974,6 +989,7 @@ void PhysicsWorld::hash(StateHash& hash) const {
         hash.add(static_cast<double>(manifold.points[i].normalImpulse));
       }
     }
+    if (r.target.lateral_mps != 0.0) hash.add(r.target.lateral_mps);
     if (r.suspended) hash.add(std::string_view("suspended"));
   }
   for (const b2Body* body : impl_->obstacle_bodies) hash.add(body->IsEnabled());

@@ -49,6 +49,12 @@ struct Simulation::Impl {
     [[nodiscard]] const BodyState& body() const override {
       return impl_.physics->body(static_cast<int>(robot_));
     }
+    [[nodiscard]] std::optional<Pose> pose_by(int device) const override {
+      const auto& devices = impl_.robots[robot_].devices;
+      const auto index = static_cast<std::size_t>(device);
+      if (device < 0 || index >= devices.size()) return std::nullopt;
+      return devices[index]->believed_pose();
+    }
     bool take_motors(const Device& device) override {
       RobotParts& robot = impl_.robots[robot_];
       if (robot.motion == nullptr) return false;
@@ -84,7 +90,7 @@ struct Simulation::Impl {
 
   void add_robot(const RobotDescription& robot) {
     RobotParts parts;
-    parts.model = find_robot_model(robot.model);
+    parts.model = find_robot_model(world, robot.model);
     SIM_ASSERT(parts.model != nullptr);
     const int index = physics->add_robot(*parts.model, robot.pose);
     for (const Vec2& v : parts.model->footprint) {

@@ -282,6 +282,18 @@ void each(sim::RotateCommand& v, F& f) {
   f(v.yaw_rad);
 }
 template <typename F>
+void each(sim::HeadingCommand& v, F& f) {
+  f(v.v_mps), f(v.lateral_mps), f(v.yaw_rad), f(v.frame);
+}
+template <typename F>
+void each(sim::PositionCommand& v, F& f) {
+  f(v.goal), f(v.max_speed_mps), f(v.max_turn_rate_radps), f(v.frame);
+}
+template <typename F>
+void each(sim::CarCommand& v, F& f) {
+  f(v.v_mps), f(v.steering_rad);
+}
+template <typename F>
 void each(DeviceInfo& v, F& f) {  // the id follows from the place
   f(v.name), f(v.type), f(v.properties);
 }
@@ -296,7 +308,8 @@ void each(SndDriverDescription& v, F& f) {
 template <typename F>
 void each(RobotInfo& v, F& f) {
   f(v.name), f(v.model), f(v.colour), f(v.initial_pose);
-  f(v.length_m), f(v.width_m), f(v.height_m), f(v.max_speed_mps), f(v.max_turn_rate_radps);
+  f(v.length_m), f(v.width_m), f(v.height_m), f(v.center_m);
+  f(v.max_speed_mps), f(v.max_turn_rate_radps);
   f(v.proxies), f(v.interfaces), f(v.drivers), f(v.snd_drivers), f(v.devices);
 }
 template <typename F>

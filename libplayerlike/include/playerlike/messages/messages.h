@@ -38,11 +38,12 @@ struct RobotInfo {
   std::string name;
   std::string model;
   sim::Colour colour;
-  sim::Pose initial_pose;  ///< X_WB at the start
-  int port = 0;            ///< its Player port
-  double length_m = 0.0;   ///< of the footprint's bounding box along x, B [m]
-  double width_m = 0.0;    ///< along y [m]
-  double height_m = 0.0;   ///< [m]
+  sim::Pose initial_pose;                  ///< X_WB at the start
+  int port = 0;                            ///< its Player port
+  double length_m = 0.0;                   ///< of the footprint's bounding box along x, B [m]
+  double width_m = 0.0;                    ///< along y [m]
+  double height_m = 0.0;                   ///< [m]
+  sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so

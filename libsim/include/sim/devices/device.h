@@ -74,10 +74,30 @@ struct TranslateCommand {
 struct RotateCommand {
   double yaw_rad;  ///< counter-clockwise [rad]
 };
+/// Drive with this speed and turn to a heading, and hold that, until told otherwise (motion).
+struct HeadingCommand {
+  double v_mps = 0.0;        ///< forward [m/s]
+  double lateral_mps = 0.0;  ///< to the left [m/s]; drives that cannot ignore it
+  double yaw_rad = 0.0;      ///< heading in `frame`, counter-clockwise [rad]
+  int frame = -1;  ///< index of the robot's localisation device (pose, odometry) in whose frame the
+                   ///< heading is; -1: W
+};
+/// Drive to a pose and stand there, by the motors' own control (motion).
+struct PositionCommand {
+  Pose goal;                         ///< of B in `frame`
+  double max_speed_mps = 0.0;        ///< on the way; 0: the motors' limit. The sign does not matter
+  double max_turn_rate_radps = 0.0;  ///< the same [rad/s]
+  int frame = -1;                    ///< as of HeadingCommand
+};
+/// Drive as a car does, until told otherwise (motion).
+struct CarCommand {
+  double v_mps = 0.0;         ///< forward speed [m/s]
+  double steering_rad = 0.0;  ///< angle of the front wheels, counter-clockwise [rad]
+};
 /// Whatever a device can be told to do.
-using Command =
-    std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
-                 ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand>;
+using Command = std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand,
+                             StopCommand, ResumeCommand, PlaceCommand, TranslateCommand,
+                             RotateCommand, HeadingCommand, PositionCommand, CarCommand>;
 
 class Device;
 
@@ -87,6 +107,9 @@ class RobotControl {
   virtual ~RobotControl() = default;
 
   [[nodiscard]] virtual const BodyState& body() const = 0;
+  /// Where the robot's device of that index thinks the robot is (Device::believed_pose); nullopt if
+  /// there is no such device, or it does not know.
+  [[nodiscard]] virtual std::optional<Pose> pose_by(int device) const = 0;
   /// Makes `device` the one that steers from now on: all others of the robot are told
   /// (Device::motors_taken).
   /// @return false if there is nothing to steer: the robot has no motors, or `device` is a motion
@@ -139,6 +162,10 @@ class Device {
     static_cast<void>(before);
     static_cast<void>(now_ns);
   }
+
+  /// Where a localisation device thinks its robot is now, in its own frame, without the noise of
+  /// single readings; nullopt for others.
+  [[nodiscard]] virtual std::optional<Pose> believed_pose() const { return std::nullopt; }
 
   /// Adds all that distinguishes this device's future from another's.
   virtual void hash(StateHash& hash) const = 0;

@@ -4,6 +4,7 @@
 #include <any>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,7 @@ struct MapDescription {
   double resolution_m = 0.05;       ///< side of a pixel [m]
   Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
   double occupied_threshold = 0.5;  ///< pixels darker than this share of white are walls, (0, 1)
+  double simplify_m = 0.0;  ///< outlines may be straightened by so much [m]; 0: pixel by pixel
 };
 
 /// The room: floor from `origin` to `origin + size`, borders round it unless turned off.
@@ -104,11 +106,13 @@ struct DriverDescription {
   std::map<std::string, std::string> settings;
 };
 
+struct RobotModel;
+
 /// A robot as the world starts: model, place, devices and how clients reach it.
 struct RobotDescription {
-  std::string name;  ///< unique in the world; letters, digits, _ and -
-  std::string model = "s1r";
-  Pose pose;  ///< X_WB at the start
+  std::string name;           ///< unique in the world; letters, digits, _ and -
+  std::string model = "s1r";  ///< see find_robot_model()
+  Pose pose;                  ///< X_WB at the start
   Colour colour{0xff, 0x88, 0x00, 0xff};
   int port = 0;  ///< Player port; the reader gives 6665, 6666, ... by default
   std::vector<DeviceDescription> devices;  ///< in order of name
@@ -143,6 +147,8 @@ struct WorldDescription {
   std::string file;  ///< where it was read from, "" if nowhere
   ArenaDescription arena;
   SimulationDescription simulation;
+  /// The kinds of robot that are not the library's own, by what RobotDescription::model says.
+  std::map<std::string, std::shared_ptr<const RobotModel>> models;
   std::vector<RobotDescription> robots;
   CanvasDescription canvas;
 };
