@@ -8,6 +8,9 @@
 
 namespace playerlike {
 
+/// The calling thread takes part in a simulation: it is told when the thread ends.
+void remember_host_of_thread(const std::shared_ptr<Host>& host);
+
 /// A session with a simulation in this process: calls, not messages.
 class InProcessSession final : public Session {
  public:
@@ -54,6 +57,9 @@ class InProcessSession final : public Session {
   void close() noexcept override;
 
  private:
+  [[nodiscard]] InsideCore core() const noexcept;
+  void note_wait() const;
+
   std::shared_ptr<Host> host_;
   std::shared_ptr<Client> client_;
 };
