@@ -46,3 +46,4 @@ install(FILES
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenOpenCV.cmake"
   DESTINATION "${_playpen_package_dir}")
+include(playpen_pkgconfig)

@@ -11,6 +11,7 @@
 #include "libplayerc++/graphics2dproxy.h"
 #include "libplayerc++/irproxy.h"
 #include "libplayerc++/laserproxy.h"
+#include "libplayerc++/localizeproxy.h"
 #include "libplayerc++/mapproxy.h"
 #include "libplayerc++/mutex.h"
 #include "libplayerc++/otherproxies.h"

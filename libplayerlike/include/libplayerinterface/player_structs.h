@@ -716,7 +716,7 @@ typedef struct player_wifi_iwspy_addr_req {
   char address[32];
 } player_wifi_iwspy_addr_req_t;
 
-/// A pose that is thought possible [m, rad], its covariance (xx, yy, aa, xy, xa, ya) [m^2, rad^2, m
+/// A pose that is thought possible [m, rad], its covariance (xx, yy, aa, xy, ya, xa) [m^2, rad^2, m
 /// rad], and its weight, 0 to 1.
 typedef struct player_localize_hypoth {
   player_pose2d_t mean;

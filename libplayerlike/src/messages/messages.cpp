@@ -24,6 +24,7 @@ constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for r
     {"graphics2d", "pen"},
     {"ir", "infrared"},
     {"laser", "laser"},
+    {"localize", "pose"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
     {"power", "battery"},

@@ -4,10 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -30,6 +33,13 @@ using test::pose_reading;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
+
+template <typename T>
+std::string printed(const T& value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
 
 class PlayerApi : public testing::Test {
  protected:
@@ -58,7 +68,8 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
   EXPECT_EQ(
       error.GetErrorStr(),
       "there is no device camera:0 on port 6665; this world has there: graphics2d:0 (r1.pen), "
-      "laser:0 (r1.laser), position2d:0 (r1.pose), position2d:1 (r1.odometry), map:0 (the "
+      "laser:0 (r1.laser), localize:0 (r1.pose), position2d:0 (r1.pose), position2d:1 "
+      "(r1.odometry), map:0 (the "
       "world); no world that comes with Playpen has a device for camera");
 }
 
@@ -132,6 +143,86 @@ TEST_F(PlayerApi, EveryExampleWorldHasItsInterface) {
     EXPECT_TRUE(found) << interface << " in " << file;
   }
   EXPECT_GE(count, 3);  // at least laser, position2d and graphics2d
+}
+
+// --- Localisation
+
+// As a course's programs read it, which 20 of them do.
+player_pose2d_t read_position(LocalizeProxy& lp) {
+  player_localize_hypoth_t hypothesis;
+  player_pose2d_t pose = {0.0, 0.0, 0.0};
+  uint32_t count = lp.GetHypothCount();
+  if (count > 0) {
+    hypothesis = lp.GetHypoth(0);
+    pose = hypothesis.mean;
+  }
+  return pose;
+}
+
+TEST_F(PlayerApi, LocalizationHasOneHypothesisOnceThereIsAReading) {
+  LocalizeProxy localize(&client, 0);
+  EXPECT_EQ(localize.GetHypothCount(), 0U);
+  EXPECT_EQ(localize.GetParticles(), -1);
+  EXPECT_EQ(error_code_of([&] { localize.GetHypoth(0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(read_position(localize).px, 0.0);
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  client.Read();
+  EXPECT_TRUE(localize.IsFresh());
+  EXPECT_EQ(localize.GetHypothCount(), 1U);
+  EXPECT_EQ(localize.GetNumHypoths(), 1U);
+  EXPECT_EQ(printed(read_position(localize)), "1, 2, 0.5");
+  EXPECT_DOUBLE_EQ(localize.GetHypoth(0).alpha, 1.0);
+  EXPECT_EQ(error_code_of([&] { localize.GetHypoth(1); }), PlayerError::kBadArgument);
+  EXPECT_EQ(localize.GetPendingCount(), 0U);
+  EXPECT_EQ(localize.GetMapSizeX() + localize.GetMapSizeY(), 0U);
+  EXPECT_THAT(printed(localize), HasSubstr("localize:0 valid, fresh\n"));
+  EXPECT_THAT(printed(localize), HasSubstr("\n1\t1\t2\t0.5\n"));
+  EXPECT_EQ(localize.HasCapability(PLAYER_MSGTYPE_DATA, PLAYER_LOCALIZE_DATA_HYPOTHS), 1);
+  EXPECT_EQ(localize.HasCapability(PLAYER_MSGTYPE_CMD, 1), 0);
+}
+
+TEST_F(PlayerApi, LocalizationsParticleIsItsHypothesis) {
+  LocalizeProxy localize(&client, 0);
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  client.Read();
+  EXPECT_EQ(localize.GetNumParticles(), 0U);
+  EXPECT_EQ(error_code_of([&] { localize.GetParticlePose(0); }), PlayerError::kBadArgument);
+  EXPECT_EQ(localize.GetParticles(), 0);
+  ASSERT_EQ(localize.GetNumParticles(), 1U);
+  EXPECT_DOUBLE_EQ(localize.GetParticlePose(0).py, 2.0);
+  EXPECT_EQ(error_code_of([&] { localize.GetParticlePose(-1); }), PlayerError::kBadArgument);
+}
+
+TEST_F(PlayerApi, LocalizationIsNotLedAstrayByAFirstGuess) {
+  LocalizeProxy localize(&client, 0);
+  double pose[3] = {7.0, 8.0, 0.0};
+  double covariance[3] = {0.2, 0.2, 0.1};  // as Player 2.1 has it: nothing behind may be looked at
+  localize.SetPose(pose, covariance);
+  EXPECT_TRUE(world->sent.empty());
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
+  client.Read();
+  EXPECT_DOUBLE_EQ(localize.GetHypoth(0).mean.px, 1.0);
+  pose[1] = std::nan("");
+  EXPECT_EQ(error_code_of([&] { localize.SetPose(pose, covariance); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { localize.SetPose(nullptr, covariance); }),
+            PlayerError::kBadArgument);
+}
+
+TEST(Localization, TellsTheCovarianceOfItsNoise) {
+  const auto host = playerlike::Host::create(sim::load_world_text(
+      R"({"arena": {"size": [2, 2]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1},
+          "devices": {"pose": {"noise": 0.02, "noise_yaw_deg": 3}}}]})"));
+  PlayerClient client(host->connect(6665));
+  LocalizeProxy localize(&client);
+  client.Read();
+  const player_localize_hypoth_t hypoth = localize.GetHypoth(0);
+  EXPECT_NEAR(hypoth.mean.px, 1.0, 5.0 * 0.02);  // five standard deviations
+  EXPECT_DOUBLE_EQ(hypoth.cov[0], 0.0004);
+  EXPECT_DOUBLE_EQ(hypoth.cov[1], 0.0004);
+  EXPECT_NEAR(hypoth.cov[2], dtor(3.0) * dtor(3.0), 1e-12);
+  EXPECT_EQ(hypoth.cov[3], 0.0);
+  EXPECT_EQ(hypoth.cov[4], 0.0);
+  EXPECT_EQ(hypoth.cov[5], 0.0);
 }
 
 // --- Programs' own proxies
@@ -266,13 +357,6 @@ TEST(OldTypes, PoseAndBoxOfPlayer20AreThoseOfTheirSuccessors) {
 }
 
 // --- Printing
-
-template <typename T>
-std::string printed(const T& value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 TEST_F(PlayerApi, DataTypesPrintTheirFields) {
   EXPECT_EQ(printed(player_point_2d_t{1.0, 2.5}), "1, 2.5");

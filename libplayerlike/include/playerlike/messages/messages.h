@@ -132,9 +132,10 @@ struct InterfaceBinding {
 /// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
-/// Interfaces known: "position2d" (pose, then odometry devices), "laser", "sonar", "ir", "ranger"
-/// (lasers, then sonar, then infrared), "bumper", "power", "graphics2d" (pens) and
-/// those of further devices; and "map", the world's own, with index 0 on every port.
+/// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices),
+/// "laser", "sonar", "ir", "ranger" (lasers, then sonar, then infrared), "bumper", "power",
+/// "graphics2d" (pens) and those of further devices; and "map", the world's own, with index 0 on
+/// every port.
 /// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
 ///         of the interface, the world that does (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
