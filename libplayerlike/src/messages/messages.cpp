@@ -21,7 +21,10 @@ struct InterfaceRow {
 // clang-format off
 constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
     {"bumper", "bumper"},
+    {"fiducial", "fiducial"},
+    {"gps", "gps"},
     {"graphics2d", "pen"},
+    {"imu", "imu"},
     {"ir", "infrared"},
     {"laser", "laser"},
     {"localize", "pose"},
@@ -32,6 +35,7 @@ constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for r
     {"ranger", "sonar"},
     {"ranger", "infrared"},
     {"sonar", "sonar"},
+    {"wifi", "wifi"},
 };
 // clang-format on
 
