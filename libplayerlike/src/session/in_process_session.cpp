@@ -181,6 +181,28 @@ sim::OccupancyMap InProcessSession::world_map(double cell_size_m) {
   return host_->core_->world_map(cell_size_m);
 }
 
+ObjectPose InProcessSession::object_pose(const std::string& name) {
+  return host_->core_->object_pose(*client_, name);
+}
+
+void InProcessSession::place_object(const std::string& name, const sim::Pose& pose) {
+  host_->core_->place_object(*client_, name, pose);
+}
+
+PropertyValue InProcessSession::object_property(const std::string& name,
+                                                const std::string& property) {
+  return host_->core_->object_property(*client_, name, property);
+}
+
+void InProcessSession::set_object_property(const std::string& name, const std::string& property,
+                                           const PropertyValue& value) {
+  host_->core_->set_object_property(*client_, name, property, value);
+}
+
+LogStatus InProcessSession::control_log(const LogControl& changes) {
+  return host_->core_->control_log(*client_, changes);
+}
+
 TimeStatistics InProcessSession::time() const { return host_->core_->time(); }
 
 void InProcessSession::sleep(double seconds) {
