@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "host/recorder.h"
+#include "host/run_log.h"
 #include "host/view_controls.h"
 #include "host/viewer_link.h"
 #include "playerlike/host/event_client.h"
@@ -141,6 +143,13 @@ class Host::Core : private ViewedRun {
   sim::ViewMode view_mode() const;
   void set_view_mode(Client& client, sim::ViewMode mode);
   sim::OccupancyMap world_map(double cell_size_m) const;
+  ObjectPose object_pose(const Client& client, const std::string& name) const;
+  void place_object(const Client& client, const std::string& name, const sim::Pose& pose);
+  PropertyValue object_property(const Client& client, const std::string& name,
+                                const std::string& property) const;
+  void set_object_property(const Client& client, const std::string& name,
+                           const std::string& property, const PropertyValue& value);
+  LogStatus control_log(const Client& client, const LogControl& changes);
   void join(Client& client, ThinkerId thinker);
 
   /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
@@ -212,6 +221,9 @@ class Host::Core : private ViewedRun {
   void apply_inputs(Client& client);
   void carry_out_drawings(Client& client);
   void distribute();
+  void distribute(const sim::Reading& reading, Client::Subscription& subscription, Client& client);
+  [[nodiscard]] RunLog* log_of(int port);
+  void require_unlocked() const;
   void release_waiters();
   void ring_alarms();
   void end_run();
@@ -249,6 +261,7 @@ class Host::Core : private ViewedRun {
   LayerBook layer_book_;
   std::atomic<std::uint64_t> canvas_generation_{0};
   std::unique_ptr<Recorder> recorder_;
+  std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   mutable std::mutex mutex_;
   mutable std::atomic<int> knocking_{0};  ///< threads in lock_soon()

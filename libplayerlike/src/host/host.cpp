@@ -18,6 +18,7 @@
 
 #include "host/core.h"
 #include "host/end_of_program.h"
+#include "host/object_properties.h"
 #include "host/outputs.h"
 #include "session/in_process_event_client.h"
 #include "session/in_process_session.h"
@@ -250,8 +251,7 @@ void Host::Core::set_replace(Client& client, std::optional<DeviceId> device, boo
     s.replace = replace;
     // What waits keeps waiting, in the form that the new rule takes.
     if (replace && !s.queue.empty()) {
-      s.queue.clear();
-      s.fresh = true;
+      s.queue.erase(s.queue.begin(), s.queue.end() - 1);
     } else if (!replace && s.fresh) {
       s.fresh = false;
       const auto& sensor =
@@ -479,6 +479,9 @@ void Host::Core::advance() {
   if (step_credit_) --*step_credit_;
   last_step_ = now;
   recorder_->observe(simulation_);
+  for (auto& [port, log] : logs_) {
+    if (const auto problem = log.observe(simulation_)) warn(*problem);
+  }
   distribute();
   if (simulation_.finished()) last_step_ = WallClock::now();
   if (settings_.progress && simulation_.steps() % 64 == 0) show_progress(false);
@@ -520,24 +523,47 @@ void Host::Core::distribute() {
       if (simulation_.now_ns() >= client->empty_round_ns) client->has_data = true;
       continue;
     }
+    const RunLog* log = log_of(client->port);
+    const bool replay = log != nullptr && log->replaying();
     for (Client::Subscription& s : client->subscriptions) {
+      if (replay) {
+        for (const RunLog::Entry* entry : log->due()) {
+          if (entry->device == s.device) distribute(*entry->reading, s, *client);
+        }
+        continue;
+      }
       for (const DeviceId& updated : simulation_.updated()) {
         if (!(updated == s.device)) continue;
-        client->has_data = true;
         if (s.replace) {
+          client->has_data = true;
           s.fresh = true;
+          s.queue.clear();
           continue;
-        }
-        if (s.queue.size() == kQueueLimit) {
-          s.queue.erase(s.queue.begin());
-          ++client->overflow;
         }
         const auto& sensor =
             dynamic_cast<const sim::Sensor&>(simulation_.device(s.device.robot, s.device.device));
-        s.queue.push_back(sensor.reading().clone());
+        distribute(sensor.reading(), s, *client);
       }
     }
   }
+}
+
+void Host::Core::distribute(const sim::Reading& reading, Client::Subscription& subscription,
+                            Client& client) {
+  client.has_data = true;
+  if (subscription.replace) {
+    subscription.fresh = false;
+    subscription.queue.clear();
+  } else if (subscription.queue.size() == kQueueLimit) {
+    subscription.queue.erase(subscription.queue.begin());
+    ++client.overflow;
+  }
+  subscription.queue.push_back(reading.clone());
+}
+
+RunLog* Host::Core::log_of(int port) {
+  const auto it = logs_.find(port);
+  return it == logs_.end() ? nullptr : &it->second;
 }
 
 // A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
@@ -945,23 +971,58 @@ void Host::Core::set_view_mode(Client& client, sim::ViewMode mode) {
 }
 
 sim::OccupancyMap Host::Core::world_map(double cell_size_m) const {
-  constexpr int kMaxSide = 8192;
   const Lock lock = lock_soon();
   const sim::ArenaDescription& arena = simulation_.world().arena;
-  // A side that is a whole number of cells long is not to get another one by rounding.
-  const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
-  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a map of this arena needs a cell size of at least " +
-                           std::to_string(arena.size.maxCoeff() / kMaxSide) + " m, but it is " +
-                           std::to_string(cell_size_m));
-  }
-  sim::CanvasDescription grid;
-  grid.width = static_cast<int>(cells.x());
-  grid.height = static_cast<int>(cells.y());
-  grid.cell_size_m = cell_size_m;
-  grid.origin = arena.origin;
-  return sim::true_map(arena, grid);
+  return sim::true_map(arena, map_grid(arena, cell_size_m));
+}
+
+// --- Objects by name, and the log
+// ---------------------------------------------------------------------------------------
+
+void Host::Core::require_unlocked() const {
+  if (!simulation_.world().simulation.objects_locked) return;
+  throw SessionError(SessionError::Code::kNotAvailable,
+                     "this world keeps its robots and obstacles where and as they are "
+                     "(\"lock_objects\" in its \"simulation\"): they can only be looked at");
+}
+
+ObjectPose Host::Core::object_pose(const Client& client, const std::string& name) const {
+  const Lock lock = lock_soon();
+  require_open(client);
+  return {require_object(simulation_, name).pose, simulation_.now_ns()};
+}
+
+void Host::Core::place_object(const Client& client, const std::string& name,
+                              const sim::Pose& pose) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  static_cast<void>(require_object(simulation_, name));
+  require_unlocked();
+  playerlike::place_object(simulation_, name, pose);
+}
+
+PropertyValue Host::Core::object_property(const Client& client, const std::string& name,
+                                          const std::string& property) const {
+  const Lock lock = lock_soon();
+  require_open(client);
+  return playerlike::object_property(simulation_, name, property);
+}
+
+void Host::Core::set_object_property(const Client& client, const std::string& name,
+                                     const std::string& property, const PropertyValue& value) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  static_cast<void>(playerlike::object_property(simulation_, name, property));  // is it there?
+  require_unlocked();
+  playerlike::set_object_property(simulation_, name, property, value);
+}
+
+LogStatus Host::Core::control_log(const Client& client, const LogControl& changes) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  RunLog& log =
+      logs_.try_emplace(client.port, settings_.output_folder, client.port, robots_).first->second;
+  return log.control(changes, simulation_);
 }
 
 void Host::Core::join(Client& client, ThinkerId thinker) {
@@ -1121,6 +1182,9 @@ void Host::Core::write_results() {
     recorder_->close();
   } catch (const std::exception& e) {
     warn(std::string("the recording is not complete: ") + e.what());
+  }
+  for (auto& [port, log] : logs_) {
+    if (const auto problem = log.close()) warn(*problem);
   }
   if (settings_.output_folder.empty()) return;
   write_outputs(settings_.output_folder, simulation_, recorder_->scene(simulation_), time_locked());

@@ -33,9 +33,7 @@ void InProcessSession::note_wait() const {
   if (!client_->follower) virtual_time::note_wait();
 }
 
-const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
-  return core()->robots();
-}
+const std::vector<RobotInfo>& InProcessSession::robots() const noexcept { return core()->robots(); }
 int InProcessSession::port() const noexcept { return client_->port; }
 bool InProcessSession::connected() const noexcept { return !client_->closed; }
 
@@ -80,8 +78,8 @@ void InProcessSession::join() {
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {
-  return std::make_unique<InProcessSession>(
-      host_, core()->add_client(client_->port, /*follower=*/true));
+  return std::make_unique<InProcessSession>(host_,
+                                            core()->add_client(client_->port, /*follower=*/true));
 }
 
 const void* InProcessSession::simulation() const noexcept { return host_.get(); }
@@ -158,12 +156,32 @@ void InProcessSession::save_image(const std::string& name, int scale) {
 
 sim::ViewMode InProcessSession::view_mode() const { return core()->view_mode(); }
 
-void InProcessSession::set_view_mode(sim::ViewMode mode) {
-  core()->set_view_mode(*client_, mode);
-}
+void InProcessSession::set_view_mode(sim::ViewMode mode) { core()->set_view_mode(*client_, mode); }
 
 sim::OccupancyMap InProcessSession::world_map(double cell_size_m) {
   return core()->world_map(cell_size_m);
+}
+
+ObjectPose InProcessSession::object_pose(const std::string& name) {
+  return core()->object_pose(*client_, name);
+}
+
+void InProcessSession::place_object(const std::string& name, const sim::Pose& pose) {
+  core()->place_object(*client_, name, pose);
+}
+
+PropertyValue InProcessSession::object_property(const std::string& name,
+                                                const std::string& property) {
+  return core()->object_property(*client_, name, property);
+}
+
+void InProcessSession::set_object_property(const std::string& name, const std::string& property,
+                                           const PropertyValue& value) {
+  core()->set_object_property(*client_, name, property, value);
+}
+
+LogStatus InProcessSession::control_log(const LogControl& changes) {
+  return core()->control_log(*client_, changes);
 }
 
 TimeStatistics InProcessSession::time() const { return core()->time(); }

@@ -456,6 +456,13 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
          place(poses[first.robot].position());
 }
 
+std::optional<std::string> outside_floor(const ArenaDescription& arena,
+                                         const ObstacleDescription& obstacle) {
+  const auto [side, depth_m] = beyond_floor(arena, box_of(obstacle));
+  if (depth_m == 0.0) return std::nullopt;
+  return "stick out " + metres(depth_m) + " beyond the " + side + " side of " + floor_text(arena);
+}
+
 std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint,
                                    std::size_t& places_tried) {
   constexpr double kMargin = 1.3;  // of the footprint: 2 to 3 cm for an S1R

@@ -27,6 +27,11 @@ using TrustedPart = std::function<bool(const std::string& pointer)>;
                                                     const std::vector<Pose>& poses,
                                                     std::size_t robot, const Pose& X_WB);
 
+/// What is against an obstacle's standing where it does, in words that go on from "obstacle o1
+/// would "; nullopt if nothing.
+[[nodiscard]] std::optional<std::string> outside_floor(const ArenaDescription& arena,
+                                                       const ObstacleDescription& obstacle);
+
 /// A place on the floor, clear of everything by some centimetres, for a robot with that outline:
 /// in the SyRoTek arena its start pose if free, else as near to the middle of the floor as can be,
 /// looking where it can drive farthest. Robots listed in `world` are in its way.
