@@ -29,8 +29,10 @@ std::string_view to_string(BatteryStatus status) {
 double battery_load_w(const BatteryParams& params, const Twist& commanded,
                       double wheel_separation_m) {
   const double rim_mps = 0.5 * wheel_separation_m * commanded.omega_radps;
-  const double wheels_mps =
-      0.5 * (std::abs(commanded.v_mps - rim_mps) + std::abs(commanded.v_mps + rim_mps));
+  const double v_mps = commanded.lateral_mps == 0.0
+                           ? commanded.v_mps
+                           : std::hypot(commanded.v_mps, commanded.lateral_mps);
+  const double wheels_mps = 0.5 * (std::abs(v_mps - rim_mps) + std::abs(v_mps + rim_mps));
   return params.idle_power_w + params.drive_power_ws_per_m * wheels_mps;
 }
 

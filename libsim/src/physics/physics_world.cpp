@@ -345,6 +345,12 @@ struct PhysicsWorld::Impl : b2ContactListener {
       }
     }
     std::sort(near_pairs.begin(), near_pairs.end());
+    near_to.resize(robots.size());
+    for (std::vector<int>& others : near_to) others.clear();
+    for (const auto& [a, b] : near_pairs) {
+      near_to[static_cast<std::size_t>(a)].push_back(b);
+      near_to[static_cast<std::size_t>(b)].push_back(a);
+    }
   }
 
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
@@ -360,10 +366,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
       if (info_of(other).kind == Contact::Kind::kRobot) continue;
       add_constraints(r, *other->GetShape(), other->GetBody()->GetTransform(), 1.0, dt_s);
     }
-    const int me = static_cast<int>(index);
-    for (const auto& [a, b] : near_pairs) {
-      if (a != me && b != me) continue;
-      const Robot& other = robots[static_cast<std::size_t>(a == me ? b : a)];
+    for (const int near : near_to[index]) {
+      const Robot& other = robots[static_cast<std::size_t>(near)];
       if (other.suspended) {  // as good as a wall
         add_constraints(r, other.shape, other.body->GetTransform(), 1.0, dt_s);
         continue;
@@ -627,6 +631,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
   double largest_radius_m = 0.0;
   std::vector<int> order;  // robots by x
   std::vector<std::pair<int, int>> near_pairs;
+  std::vector<std::vector<int>> near_to;  // the same by robot, in the same order
   std::vector<Pose> goals;    // where each robot gets to in this step if nothing hinders it
   std::vector<Twist> twists;  // by which twist
   std::vector<TwistConstraint> constraints;

@@ -300,9 +300,16 @@ struct Simulation::Impl {
       RobotStatistics& s = robots[static_cast<std::size_t>(contact.robot)].statistics;
       ++s.collisions;
       s.least_clearance_m = 0.0;
-      if (collisions.size() == kKeptCollisions) collisions.erase(collisions.begin());
+      if (collisions.size() == 2 * kKeptCollisions) forget_old_collisions();
       collisions.push_back({now_ns, contact.robot, partner_name(contact, world)});
     }
+  }
+
+  // Not with each one, which would move all that are kept.
+  void forget_old_collisions() {
+    if (collisions.size() <= kKeptCollisions) return;
+    collisions.erase(collisions.begin(),
+                     collisions.end() - static_cast<std::ptrdiff_t>(kKeptCollisions));
   }
 
   [[nodiscard]] Device& device(DeviceId id) const {
@@ -362,7 +369,10 @@ const RobotStatistics& Simulation::statistics(int robot) const {
   return impl_->robots.at(static_cast<std::size_t>(robot)).statistics;
 }
 
-const std::vector<Collision>& Simulation::collisions() const noexcept { return impl_->collisions; }
+const std::vector<Collision>& Simulation::collisions() const noexcept {
+  impl_->forget_old_collisions();
+  return impl_->collisions;
+}
 
 const std::vector<Utterance>& Simulation::said() const noexcept { return impl_->said; }
 

@@ -108,7 +108,7 @@ const BadWorld kBadWorlds[] = {
      "laser, motion", "\"sonar\""},
     {"unknown_key", "world/unknown-key", "/robots/0/pose/yaw", 3, "x, y or yaw_deg",
      "unknown key \"yaw\" (did you mean \"yaw_deg\"?)"},
-    {"unknown_model", "world/unknown-model", "/robots/0/model", 1, "pioneer2dx, pioneer3dx",
+    {"unknown_model", "world/unknown-model", "/robots/0/model", 1, "pioneer2dx or pioneer3dx",
      "\"pioneer4dx\" (did you mean"},
     {"unknown_obstacle", "world/unknown-obstacle", "/arena/extended/0", 1, "d1, d2",
      "\"d33\" (did you mean \"d3\"?)"},

@@ -137,6 +137,8 @@ TEST(BatteryLoad, GrowsWithTheSpeedOfTheWheels) {
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.0, 3.0}, 0.14), 6.0 + 8.0 * 0.21);
   // Wheels at 0.29 and 0.71 m/s: as fast, in the mean, as the robot.
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.5, -3.0}, 0.14), 10.0);
+  // To its side and ahead, 0.5 m/s in all.
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {0.3, 0.0, -0.4}, 0.14), 10.0);
 }
 
 TEST(BatteryVoltage, IsLinearInTheCharge) {

@@ -48,7 +48,7 @@ struct BatteryReading final : Reading {
 };
 
 /// Power that a robot draws: idle + drive (|v_left| + |v_right|) / 2, of its wheels' speeds
-/// v -+ omega separation / 2.
+/// v -+ omega separation / 2; for v an omnidirectional drive's speed whichever way.
 /// @param commanded           what the motors strive for, so that a stalled robot draws as much as
 ///                            one that drives, and one that is shoved no more than at rest.
 /// @param wheel_separation_m  between the wheels' planes [m].
