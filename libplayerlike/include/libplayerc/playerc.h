@@ -21,6 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "libplayercommon/playercommon.h"
 #include "libplayerinterface/player.h"
 
 #ifdef __cplusplus
@@ -32,11 +33,6 @@ extern "C" {
 
 /// Number of a cell of a map (playerc_map_t*) in its array, by column and row.
 #define PLAYERC_MAP_INDEX(dev, i, j) (((dev)->width) * (j) + (i))
-
-/// Truth values of properties: 0 or 1.
-#ifndef BOOL
-#define BOOL int
-#endif
 
 struct _playerc_client_t;
 struct _playerc_device_t;

@@ -42,7 +42,9 @@ void Device::subscribe(int access) {
   common_.addr.robot = player.GetPort();
   common_.subscribed = 1;
   client_->apply_replace_rules(*this);
-  made->ConnectReadSignal([this] { client_->note_arrival(*this); });
+  made->ConnectReadSignal([this] {
+    if (has_news()) client_->note_arrival(*this);
+  });
 }
 
 void Device::unsubscribe() noexcept {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "libplayerc++/clientproxy.h"
 #include "libplayerc/playerc.h"
@@ -42,6 +43,8 @@ class Device {
   /// Makes the proxy, for the address in the common part.
   virtual void attach(PlayerCc::PlayerClient& player) = 0;
   virtual void detach() noexcept = 0;
+  /// Whether what the proxy has read is to be told of; called after each round.
+  [[nodiscard]] virtual bool has_news() { return true; }
   /// Copies new data from the proxy to the struct.
   virtual void refresh() = 0;
 
@@ -91,6 +94,20 @@ template <typename T>
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
   return guarded(fun, [&] { return action(device_of<T>(device)); });
+}
+
+/// Fills an array that a struct points to. @return where it is; null if it is empty.
+template <typename T, typename Element>
+[[nodiscard]] T* copied(std::vector<T>& array, uint32_t count, Element element) {
+  array.resize(count);
+  for (uint32_t i = 0; i < count; ++i) array[i] = element(i);
+  return count == 0 ? nullptr : array.data();
+}
+
+/// Gives a result to a caller who has said where, or not.
+template <typename T, typename Value>
+void tell(T* where, Value value) {
+  if (where != nullptr) *where = static_cast<T>(value);
 }
 
 /// The four functions that all devices have.

@@ -11,6 +11,7 @@
 
 namespace {
 
+using playerlike::clib::tell;
 using playerlike::clib::with_device;
 
 class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::LaserProxy> {
@@ -76,11 +77,6 @@ uint32_t in_units(const char* name, double value, double units) {
     playerlike::clib::refuse(std::string(name) + " must be between 0 and 1000");
   }
   return static_cast<uint32_t>(std::lround(value * units));
-}
-
-template <typename T, typename Value>
-void tell(T* where, Value value) {
-  if (where != nullptr) *where = static_cast<T>(value);
 }
 
 }  // namespace

@@ -177,9 +177,6 @@ int playerc_blinkenlight_blink(playerc_blinkenlight_t* /*device*/, uint32_t /*id
 
 PLAYERLIKE_CLIB_FRAME(blobfinder, Missing<playerc_blobfinder_t>, PLAYER_BLOBFINDER_CODE)
 
-PLAYERLIKE_CLIB_FRAME(bumper, Missing<playerc_bumper_t>, PLAYER_BUMPER_CODE)
-int playerc_bumper_get_geom(playerc_bumper_t* /*device*/) { return refused(__func__); }
-
 PLAYERLIKE_CLIB_FRAME(camera, Missing<playerc_camera_t>, PLAYER_CAMERA_CODE)
 void playerc_camera_decompress(playerc_camera_t* /*device*/) { refused(__func__); }
 void playerc_camera_save(playerc_camera_t* /*device*/, const char* /*filename*/) {
@@ -263,9 +260,6 @@ void playerc_gripper_printout(playerc_gripper_t* /*device*/, const char* /*prefi
 int playerc_gripper_get_geom(playerc_gripper_t* /*device*/) { return refused(__func__); }
 
 PLAYERLIKE_CLIB_FRAME(health, Missing<playerc_health_t>, PLAYER_HEALTH_CODE)
-
-PLAYERLIKE_CLIB_FRAME(ir, Missing<playerc_ir_t>, PLAYER_IR_CODE)
-int playerc_ir_get_geom(playerc_ir_t* /*device*/) { return refused(__func__); }
 
 PLAYERLIKE_CLIB_FRAME(joystick, Missing<playerc_joystick_t>, PLAYER_JOYSTICK_CODE)
 
@@ -418,8 +412,6 @@ int playerc_position3d_set_odom(playerc_position3d_t* /*device*/, double /*ox*/,
 }
 int playerc_position3d_reset_odom(playerc_position3d_t* /*device*/) { return refused(__func__); }
 
-PLAYERLIKE_CLIB_FRAME(power, Missing<playerc_power_t>, PLAYER_POWER_CODE)
-
 PLAYERLIKE_CLIB_FRAME(ptz, Missing<playerc_ptz_t>, PLAYER_PTZ_CODE)
 int playerc_ptz_set(playerc_ptz_t* /*device*/, double /*pan*/, double /*tilt*/, double /*zoom*/) {
   return refused(__func__);
@@ -432,28 +424,6 @@ int playerc_ptz_set_ws(playerc_ptz_t* /*device*/, double /*pan*/, double /*tilt*
 int playerc_ptz_set_control_mode(playerc_ptz_t* /*device*/, int /*mode*/) {
   return refused(__func__);
 }
-
-PLAYERLIKE_CLIB_FRAME(ranger, Missing<playerc_ranger_t>, PLAYER_RANGER_CODE)
-int playerc_ranger_get_geom(playerc_ranger_t* /*device*/) { return refused(__func__); }
-int playerc_ranger_power_config(playerc_ranger_t* /*device*/, uint8_t /*value*/) {
-  return refused(__func__);
-}
-int playerc_ranger_intns_config(playerc_ranger_t* /*device*/, uint8_t /*value*/) {
-  return refused(__func__);
-}
-int playerc_ranger_set_config(playerc_ranger_t* /*device*/, double /*min_angle*/,
-                              double /*max_angle*/, double /*angular_res*/, double /*min_range*/,
-                              double /*max_range*/, double /*range_res*/, double /*frequency*/) {
-  return refused(__func__);
-}
-int playerc_ranger_get_config(playerc_ranger_t* /*device*/, double* /*min_angle*/,
-                              double* /*max_angle*/, double* /*angular_res*/, double* /*min_range*/,
-                              double* /*max_range*/, double* /*range_res*/, double* /*frequency*/) {
-  return refused(__func__);
-}
-
-PLAYERLIKE_CLIB_FRAME(sonar, Missing<playerc_sonar_t>, PLAYER_SONAR_CODE)
-int playerc_sonar_get_geom(playerc_sonar_t* /*device*/) { return refused(__func__); }
 
 PLAYERLIKE_CLIB_FRAME(wifi, Missing<playerc_wifi_t>, PLAYER_WIFI_CODE)
 playerc_wifi_link_t* playerc_wifi_get_link(playerc_wifi_t* /*device*/, int /*link*/) {

@@ -5,14 +5,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <numbers>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "libplayerc++/playerc++.h"
 #include "playerlike/host/embedded.h"
 #include "reachable_host.h"
 #include "sim/simulation/simulation.h"
@@ -31,7 +34,9 @@ constexpr const char* kWorld = R"({
   "arena": {"size": [4, 3], "obstacles": [{"name": "b", "center": [3.5, 0.5], "size": [0.4, 0.4]}]},
   "canvas": {"size": [40, 30], "cell_size": 0.1},
   "simulation": {"duration": 20},
-  "robots": [{"name": "r1", "pose": {"x": 1, "y": 1.5}},
+  "robots": [{"name": "r1", "pose": {"x": 1, "y": 1.5},
+              "devices": {"laser": {}, "pose": {}, "odometry": {}, "motion": {}, "pen": {},
+                          "sonar": {}, "infrared": {}, "bumper": {}, "battery": {}}},
              {"name": "r2", "pose": {"x": 2, "y": 0.5, "yaw_deg": 90}}]})";
 
 struct Free {
@@ -41,6 +46,11 @@ struct Free {
   void operator()(playerc_laser_t* l) const { playerc_laser_destroy(l); }
   void operator()(playerc_map_t* m) const { playerc_map_destroy(m); }
   void operator()(playerc_graphics2d_t* g) const { playerc_graphics2d_destroy(g); }
+  void operator()(playerc_ranger_t* r) const { playerc_ranger_destroy(r); }
+  void operator()(playerc_sonar_t* s) const { playerc_sonar_destroy(s); }
+  void operator()(playerc_ir_t* i) const { playerc_ir_destroy(i); }
+  void operator()(playerc_bumper_t* b) const { playerc_bumper_destroy(b); }
+  void operator()(playerc_power_t* p) const { playerc_power_destroy(p); }
 };
 template <typename T>
 using Owned = std::unique_ptr<T, Free>;
@@ -525,7 +535,9 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   EXPECT_NEAR(range_res, 0.01, 1e-12);
   EXPECT_EQ(intensity, 0);
   ASSERT_EQ(playerc_client_read(robot.get()), scanner.get());
-  EXPECT_EQ(scanner->scan_count, 228);  // 2 * 90 / 0.79178 = 227.3 beams apart, and one
+  // On each side beams stand (k + 0.5) 0.39589 degrees off; 227 of them within 90 degrees. Half of
+  // the 454 are shown.
+  EXPECT_EQ(scanner->scan_count, 227);
   EXPECT_EQ(playerc_laser_set_config(scanner.get(), 0.0, 0.1, -1.0, 0.0, 0, 10.0), -1);
   EXPECT_EQ(playerc_laser_get_id(scanner.get()), 0);
 }
@@ -560,6 +572,134 @@ TEST_F(Playerc, DrawsOnASheet) {
   EXPECT_EQ(playerc_graphics2d_draw_points(sheet.get(), nullptr, 3), -1);
   EXPECT_EQ(playerc_graphics2d_clear(sheet.get()), 0);
   EXPECT_EQ(playerc_graphics2d_unsubscribe(sheet.get()), 0);
+}
+
+// The sensors of distance, against the proxies of a client that reads the same data.
+class PlayercSensors : public Playerc {
+ protected:
+  [[nodiscard]] static bool same(const player_pose3d_t& a, const player_pose3d_t& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+  }
+  void read() {
+    ASSERT_NE(playerc_client_read(robot_.get()), nullptr) << playerc_error_str();
+    other_.Read();
+  }
+
+  Owned<playerc_client_t> robot_{client()};
+  PlayerCc::PlayerClient other_{name_, 6665};
+};
+
+TEST_F(PlayercSensors, RangerOfALaser) {
+  const Owned<playerc_ranger_t> ranger(playerc_ranger_create(robot_.get(), 0));
+  PlayerCc::RangerProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_ranger_subscribe(ranger.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_ranger_get_geom(ranger.get()), 0);
+  ASSERT_EQ(ranger->element_count, 1U);
+  EXPECT_NEAR(ranger->device_pose.px, 0.035, 1e-9);
+  EXPECT_TRUE(same(ranger->element_poses[0], proxy.GetElementPose(0)));
+  EXPECT_EQ(ranger->element_sizes[0].sw, proxy.GetElementSize(0).sw);
+  double low = 0.0;
+  double most = 0.0;
+  ASSERT_EQ(playerc_ranger_get_config(ranger.get(), &low, nullptr, nullptr, nullptr, &most, nullptr,
+                                      nullptr),
+            0);
+  EXPECT_EQ(low, proxy.GetMinAngle());
+  EXPECT_EQ(most, 5.0);
+  EXPECT_EQ(ranger->frequency, 10.0);
+  read();
+  ASSERT_EQ(ranger->ranges_count, 682U);
+  ASSERT_EQ(ranger->points_count, 682U);
+  ASSERT_EQ(ranger->bearings_count, 682U);
+  EXPECT_EQ(ranger->intensities_count, 0U);
+  EXPECT_NEAR(ranger->bearings[681], -low, 1e-9);
+  for (const uint32_t i : {0U, 100U, 681U}) {
+    EXPECT_EQ(ranger->ranges[i], proxy.GetRange(i));
+    EXPECT_NEAR(ranger->points[i].px, ranger->ranges[i] * std::cos(ranger->bearings[i]), 1e-9);
+    EXPECT_NEAR(ranger->points[i].py, ranger->ranges[i] * std::sin(ranger->bearings[i]), 1e-9);
+  }
+  ASSERT_EQ(playerc_ranger_set_config(ranger.get(), -1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 10.0), 0);
+  EXPECT_EQ(ranger->max_range, 1.0);
+  read();
+  EXPECT_LT(ranger->ranges_count, 682U);
+  EXPECT_EQ(*std::max_element(ranger->ranges, ranger->ranges + ranger->ranges_count), 1.0);
+  EXPECT_EQ(playerc_ranger_power_config(ranger.get(), 1), 0);
+  EXPECT_EQ(playerc_ranger_intns_config(ranger.get(), 1), 0);
+}
+
+TEST_F(PlayercSensors, SonarAndItsRanger) {
+  const Owned<playerc_sonar_t> sonar(playerc_sonar_create(robot_.get(), 0));
+  const Owned<playerc_ranger_t> ranger(playerc_ranger_create(robot_.get(), 1));
+  PlayerCc::SonarProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_sonar_subscribe(sonar.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_ranger_subscribe(ranger.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_sonar_get_geom(sonar.get()), 0);
+  ASSERT_GT(sonar->pose_count, 0);
+  ASSERT_EQ(static_cast<uint32_t>(sonar->pose_count), proxy.GetPoseCount());
+  ASSERT_TRUE(read_until(robot_.get(), sonar.get()));
+  ASSERT_TRUE(read_until(robot_.get(), ranger.get()));
+  other_.Read();
+  ASSERT_EQ(sonar->scan_count, sonar->pose_count);
+  ASSERT_EQ(ranger->ranges_count, static_cast<uint32_t>(sonar->scan_count));
+  for (uint32_t i = 0; i < proxy.GetCount(); ++i) {
+    EXPECT_TRUE(same(sonar->poses[i], proxy.GetPose(i)));
+    EXPECT_EQ(sonar->scan[i], proxy.GetScan(i));
+    EXPECT_EQ(ranger->ranges[i], proxy.GetScan(i));
+    EXPECT_NEAR(ranger->bearings[i], sonar->poses[i].pyaw, 1e-12);
+  }
+}
+
+TEST_F(PlayercSensors, Infrared) {
+  const Owned<playerc_ir_t> infrared(playerc_ir_create(robot_.get(), 0));
+  PlayerCc::IrProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_ir_subscribe(infrared.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_ir_get_geom(infrared.get()), 0);
+  read();
+  ASSERT_GT(proxy.GetCount(), 0U);
+  ASSERT_EQ(infrared->poses.poses_count, proxy.GetPoseCount());
+  ASSERT_EQ(infrared->data.ranges_count, proxy.GetCount());
+  ASSERT_EQ(infrared->data.voltages_count, proxy.GetCount());
+  for (uint32_t i = 0; i < proxy.GetCount(); ++i) {
+    EXPECT_TRUE(same(infrared->poses.poses[i], proxy.GetPose(i)));
+    EXPECT_FLOAT_EQ(infrared->data.ranges[i], static_cast<float>(proxy.GetRange(i)));
+    EXPECT_FLOAT_EQ(infrared->data.voltages[i], static_cast<float>(proxy.GetVoltage(i)));
+  }
+}
+
+TEST_F(PlayercSensors, Bumpers) {
+  const Owned<playerc_bumper_t> bumper(playerc_bumper_create(robot_.get(), 0));
+  PlayerCc::BumperProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_bumper_subscribe(bumper.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_bumper_get_geom(bumper.get()), 0);
+  const auto base = position(robot_.get());
+  ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.5, 0.0, 0.0, 1), 0);
+  bool bumped = false;
+  for (int i = 0; i < 150 && !bumped; ++i) {
+    ASSERT_TRUE(read_until(robot_.get(), bumper.get())) << playerc_error_str();
+    other_.Read();
+    ASSERT_GT(bumper->bumper_count, 0);
+    ASSERT_EQ(static_cast<uint32_t>(bumper->bumper_count), proxy.GetCount());
+    for (uint32_t k = 0; k < proxy.GetCount(); ++k) {
+      EXPECT_EQ(bumper->bumpers[k], proxy.IsBumped(k));
+      bumped = bumped || bumper->bumpers[k] != 0;
+    }
+  }
+  EXPECT_TRUE(bumped);  // by the wall 2.9 m ahead
+  ASSERT_EQ(static_cast<uint32_t>(bumper->pose_count), proxy.GetPoseCount());
+  EXPECT_TRUE(same(bumper->poses[0].pose, proxy.GetPose(0).pose));
+}
+
+TEST_F(PlayercSensors, Battery) {
+  const Owned<playerc_power_t> power(playerc_power_create(robot_.get(), 0));
+  PlayerCc::PowerProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_power_subscribe(power.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  EXPECT_EQ(power->valid, 0);
+  read();
+  EXPECT_TRUE((power->valid & PLAYER_POWER_MASK_PERCENT) != 0);
+  EXPECT_NEAR(power->percent, 100.0, 0.01);
+  EXPECT_EQ(power->charge, proxy.GetCharge());
+  EXPECT_EQ(power->joules, proxy.GetJoules());
+  EXPECT_EQ(power->watts, proxy.GetWatts());
+  EXPECT_EQ(power->charging, 0);
 }
 
 }  // namespace
