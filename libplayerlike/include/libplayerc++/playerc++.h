@@ -6,7 +6,10 @@
 
 #include "libplayerc++/bumperproxy.h"
 #include "libplayerc++/clientproxy.h"
+#include "libplayerc++/fiducialproxy.h"
+#include "libplayerc++/gpsproxy.h"
 #include "libplayerc++/graphics2dproxy.h"
+#include "libplayerc++/imuproxy.h"
 #include "libplayerc++/irproxy.h"
 #include "libplayerc++/laserproxy.h"
 #include "libplayerc++/mapproxy.h"
@@ -22,3 +25,4 @@
 #include "libplayerc++/readsignal.h"
 #include "libplayerc++/sonarproxy.h"
 #include "libplayerc++/utility.h"
+#include "libplayerc++/wifiproxy.h"

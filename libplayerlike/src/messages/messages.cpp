@@ -21,7 +21,10 @@ struct InterfaceRow {
 // clang-format off
 constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
     {"bumper", "bumper"},
+    {"fiducial", "fiducial"},
+    {"gps", "gps"},
     {"graphics2d", "pen"},
+    {"imu", "imu"},
     {"ir", "infrared"},
     {"laser", "laser"},
     {"position2d", "pose"},
@@ -31,6 +34,7 @@ constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for r
     {"ranger", "sonar"},
     {"ranger", "infrared"},
     {"sonar", "sonar"},
+    {"wifi", "wifi"},
 };
 // clang-format on
 

@@ -2,6 +2,8 @@
 // Readings and commands. A new sensor gets a pair of functions and a row in kReadingCodecs, a new
 // command a row in kCommandCodecs.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
 #include <iterator>
 #include <limits>
@@ -11,11 +13,15 @@
 #include "sim/devices/battery.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/fiducial.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
+#include "sim/devices/wifi.h"
 
 namespace playerlike::protocol {
 namespace {
@@ -63,15 +69,16 @@ void read(const json& in, Encoding, sim::BatteryReading& reading) {
   reading.power_w = require_number(in, "power");
 }
 
-void write(const sim::BumperReading& reading, json& out, Encoding) {
-  out["pressed"] = reading.pressed;
+void write(const sim::BumperReading& reading, json& out, Encoding encoding) {
+  out["pressed"] =
+      doubles(std::vector<double>(reading.pressed.begin(), reading.pressed.end()), encoding);
 }
 
-void read(const json& in, Encoding, sim::BumperReading& reading) {
-  for (const json& number : require_list(in, "pressed")) {
-    const bool fits = number.is_number_integer() && number >= 0 && number <= 255;
-    if (!fits) refuse_value("pressed", "a list of numbers from 0 to 255", number);
-    reading.pressed.push_back(number.get<std::uint8_t>());
+void read(const json& in, Encoding encoding, sim::BumperReading& reading) {
+  for (const double number : require_doubles(in, "pressed", encoding)) {
+    const bool fits = number >= 0.0 && number <= 255.0 && number == std::floor(number);
+    if (!fits) refuse_value("pressed", "whole numbers from 0 to 255", json(number));
+    reading.pressed.push_back(static_cast<std::uint8_t>(number));
   }
 }
 
@@ -86,6 +93,75 @@ void read(const json& in, Encoding, sim::CollisionReading& reading) {
     if (!name.is_string()) refuse_value("objects", "a list of names", name);
     reading.objects.push_back(name.get<std::string>());
   }
+}
+
+void write(const sim::FiducialReading& reading, json& out, Encoding) {
+  json list = json::array();
+  for (const auto& mark : reading.marks) {
+    json entry = encode_pose(mark.X_ST);
+    entry["id"] = mark.id;
+    list.push_back(std::move(entry));
+  }
+  out["marks"] = std::move(list);
+}
+
+void read(const json& in, Encoding, sim::FiducialReading& reading) {
+  for (const json& mark : require_list(in, "marks")) {
+    reading.marks.push_back(
+        {static_cast<int>(require_integer(mark, "id", std::numeric_limits<int>::min(),
+                                          std::numeric_limits<int>::max())),
+         {require_number(mark, "x"), require_number(mark, "y"), require_number(mark, "yaw")}});
+  }
+}
+
+void write(const sim::GpsReading& reading, json& out, Encoding) {
+  out["latitude"] = reading.latitude_rad;
+  out["longitude"] = reading.longitude_rad;
+  out["altitude"] = reading.altitude_m;
+  out["speed"] = reading.speed_mps;
+  out["course"] = reading.course_rad;
+  out["utm_easting"] = reading.utm_easting_m;
+  out["utm_northing"] = reading.utm_northing_m;
+  out["satellites"] = reading.satellites;
+  out["quality"] = reading.quality;
+}
+
+void read(const json& in, Encoding, sim::GpsReading& reading) {
+  constexpr int kLeast = std::numeric_limits<int>::min();
+  constexpr int kGreatest = std::numeric_limits<int>::max();
+  reading.latitude_rad = require_number(in, "latitude");
+  reading.longitude_rad = require_number(in, "longitude");
+  reading.altitude_m = require_number(in, "altitude");
+  reading.speed_mps = require_number(in, "speed");
+  reading.course_rad = require_number(in, "course");
+  reading.utm_easting_m = require_number(in, "utm_easting");
+  reading.utm_northing_m = require_number(in, "utm_northing");
+  reading.satellites = static_cast<int>(require_integer(in, "satellites", kLeast, kGreatest));
+  reading.quality = static_cast<int>(require_integer(in, "quality", kLeast, kGreatest));
+}
+
+json encode_vector(const std::array<double, 3>& v) {
+  return {{"x", v[0]}, {"y", v[1]}, {"z", v[2]}};
+}
+
+std::array<double, 3> require_vector(const json& in, const char* key) {
+  const json& vector = require(in, key);
+  if (!vector.is_object()) refuse_value(key, "an object {\"x\", \"y\", \"z\"}", vector);
+  return {require_number(vector, "x"), require_number(vector, "y"), require_number(vector, "z")};
+}
+
+void write(const sim::ImuReading& reading, json& out, Encoding) {
+  out["acceleration"] = encode_vector(reading.acceleration_mps2);
+  out["rate"] = encode_vector(reading.rate_radps);
+  out["field"] = encode_vector(reading.field_ut);
+  out["yaw"] = reading.yaw_rad;
+}
+
+void read(const json& in, Encoding, sim::ImuReading& reading) {
+  reading.acceleration_mps2 = require_vector(in, "acceleration");
+  reading.rate_radps = require_vector(in, "rate");
+  reading.field_ut = require_vector(in, "field");
+  reading.yaw_rad = require_number(in, "yaw");
 }
 
 void write(const sim::LaserReading& reading, json& out, Encoding encoding) {
@@ -176,6 +252,34 @@ void read(const json& in, Encoding, sim::WaypointReading& reading) {
   reading.distance_m = require_number(in, "distance");
 }
 
+void write(const sim::WifiReading& reading, json& out, Encoding) {
+  json list = json::array();
+  for (const auto& link : reading.links) {
+    list.push_back({{"name", link.name},
+                    {"mac", link.mac},
+                    {"ip", link.ip},
+                    {"access_point", link.access_point},
+                    {"level", link.level_dbm}});
+  }
+  out["links"] = std::move(list);
+  out["own"] = {{"ip", reading.own_ip}};
+  out["floor"] = reading.floor_dbm;
+  out["channel"] = reading.channel_mhz;
+}
+
+void read(const json& in, Encoding, sim::WifiReading& reading) {
+  for (const json& link : require_list(in, "links")) {
+    reading.links.push_back({require_text(link, "name"), require_text(link, "mac"),
+                             require_text(link, "ip"), require_bool(link, "access_point"),
+                             require_number(link, "level")});
+  }
+  const json& own = require(in, "own");
+  if (!own.is_object()) refuse_value("own", "an object {\"ip\"}", own);
+  reading.own_ip = require_text(own, "ip");
+  reading.floor_dbm = require_number(in, "floor");
+  reading.channel_mhz = require_number(in, "channel");
+}
+
 /// How the readings of a type of device are told.
 struct ReadingCodec {
   std::string_view type;
@@ -200,6 +304,9 @@ constexpr ReadingCodec kReadingCodecs[] = {
     reading_codec<sim::BatteryReading>("battery"),
     reading_codec<sim::BumperReading>("bumper"),
     reading_codec<sim::CollisionReading>("collision"),
+    reading_codec<sim::FiducialReading>("fiducial"),
+    reading_codec<sim::GpsReading>("gps"),
+    reading_codec<sim::ImuReading>("imu"),
     reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),
     reading_codec<sim::PoseReading>("odometry"),
@@ -207,6 +314,7 @@ constexpr ReadingCodec kReadingCodecs[] = {
     reading_codec<sim::ProximityReading>("proximity"),
     reading_codec<sim::RangerReading>("sonar"),
     reading_codec<sim::WaypointReading>("waypoint"),
+    reading_codec<sim::WifiReading>("wifi"),
 };
 
 const ReadingCodec& codec_of(std::string_view type) {

@@ -93,14 +93,12 @@ bool LaserProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
 
 // With the client's mutex held, as the next two.
 double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
+  if (mRanges.empty()) return 0.0;
   if (aIndex >= mRanges.size()) {
-    throw PlayerError(
-        aFun,
-        "there is no beam " + std::to_string(aIndex) + ": " +
-            (mRanges.empty()
-                 ? std::string("the laser has made no scan yet (call Read() first)")
-                 : "the scan has " + std::to_string(mRanges.size()) + ", counted from 0"),
-        PlayerError::kBadArgument);
+    throw PlayerError(aFun,
+                      "there is no beam " + std::to_string(aIndex) + ": the scan has " +
+                          std::to_string(mRanges.size()) + ", counted from 0",
+                      PlayerError::kBadArgument);
   }
   return mRanges[aIndex];
 }
@@ -171,7 +169,7 @@ double LaserProxy::GetBearing(uint32_t aIndex) const {
   const char* fun = "LaserProxy::GetBearing";
   const scoped_lock_t lock(LockData(fun));
   static_cast<void>(CheckedRange(aIndex, fun));
-  return Bearing(aIndex);
+  return mRanges.empty() ? 0.0 : Bearing(aIndex);
 }
 
 int LaserProxy::GetIntensity(uint32_t aIndex) const {

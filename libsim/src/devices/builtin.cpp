@@ -8,6 +8,9 @@
 #include "sim/devices/battery.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/fiducial.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/motion.h"
@@ -16,6 +19,7 @@
 #include "sim/devices/rangers.h"
 #include "sim/devices/teleport.h"
 #include "sim/devices/waypoint.h"
+#include "sim/devices/wifi.h"
 
 namespace sim {
 namespace {
@@ -24,6 +28,7 @@ constexpr io::NumberRange kFrequency{0.0, 1000.0, true, "Hz"};
 constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
 constexpr io::NumberRange kPower_w{0.0, 10000.0, false, "W"};
 constexpr io::NumberRange kVoltage_v{0.0, 1000.0, true, "V"};
+constexpr io::NumberRange kNorth{-360.0, 360.0, false, "degrees"};
 constexpr double kDegrees = std::numbers::pi / 180.0;
 // Of robots that have no steering: beyond it the turn rate has long reached its limit.
 constexpr double kMostSteering_rad = 80.0 * kDegrees;
@@ -84,6 +89,53 @@ BumperParams parse_bumper(io::Reader& settings, BumperParams p) {
 
 CollisionParams parse_collision(io::Reader& settings, CollisionParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  return p;
+}
+
+FiducialParams parse_fiducial(io::Reader& settings, FiducialParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.range_max_id_m = settings.number("range_max_id", p.range_max_id_m, {0.0, 1000.0, false, "m"});
+  p.field_of_view_rad =
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 360.0, true, "degrees"});
+  p.X_BS = settings.pose("pose", p.X_BS);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.noise_bearing_rad =
+      settings.angle_deg("noise_bearing_deg", p.noise_bearing_rad, {0.0, 180.0, false, "degrees"});
+  p.noise_yaw_rad =
+      settings.angle_deg("noise_yaw_deg", p.noise_yaw_rad, {0.0, 360.0, false, "degrees"});
+  return p;
+}
+
+GpsParams parse_gps(io::Reader& settings, GpsParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  // Snyder's series are for Mercator's part of the world, as UTM is.
+  p.latitude_rad =
+      settings.angle_deg("latitude_deg", p.latitude_rad, {-84.0, 84.0, false, "degrees"});
+  p.longitude_rad =
+      settings.angle_deg("longitude_deg", p.longitude_rad, {-180.0, 180.0, false, "degrees"});
+  p.altitude_m = settings.number("altitude", p.altitude_m, {-1000.0, 100'000.0, false, "m"});
+  p.north_rad = settings.angle_deg("north_deg", p.north_rad, kNorth);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.noise_vertical_m = settings.number("noise_vertical", p.noise_vertical_m, kNoise_m);
+  p.satellites = static_cast<int>(settings.integer("satellites", p.satellites, 0, 64));
+  return p;
+}
+
+ImuParams parse_imu(io::Reader& settings, ImuParams p) {
+  constexpr io::NumberRange kError_mps2{0.0, 1000.0, false, "m/s^2"};
+  constexpr io::NumberRange kError_deg{0.0, 3600.0, false, "degrees/s"};
+  constexpr io::NumberRange kField_ut{0.0, 1000.0, false, "uT"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_mps2 = settings.number("noise_acceleration", p.noise_mps2, kError_mps2);
+  p.noise_radps = settings.angle_deg("noise_rate_deg", p.noise_radps, kError_deg);
+  p.noise_ut = settings.number("noise_field", p.noise_ut, kField_ut);
+  p.bias_mps2 = settings.number("bias_acceleration", p.bias_mps2, kError_mps2);
+  p.bias_radps = settings.angle_deg("bias_rate_deg", p.bias_radps, kError_deg);
+  p.field_horizontal_ut = settings.number("field_horizontal", p.field_horizontal_ut, kField_ut);
+  p.field_down_ut = settings.number("field_down", p.field_down_ut, {-1000.0, 1000.0, false, "uT"});
+  p.north_rad = settings.angle_deg("north_deg", p.north_rad, kNorth);
   return p;
 }
 
@@ -209,6 +261,35 @@ WaypointParams parse_waypoint(io::Reader& settings, WaypointParams p) {
   return p;
 }
 
+WifiParams parse_wifi(io::Reader& settings, WifiParams p) {
+  constexpr io::NumberRange kLevel_dbm{-200.0, 100.0, false, "dBm"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.level_1m_dbm = settings.number("level_1m", p.level_1m_dbm, kLevel_dbm);
+  p.exponent = settings.number("exponent", p.exponent, {0.0, 10.0, true, ""});
+  p.noise_db = settings.number("noise", p.noise_db, {0.0, 100.0, false, "dB"});
+  p.floor_dbm = settings.number("floor", p.floor_dbm, kLevel_dbm);
+  p.least_dbm = settings.number("least", p.least_dbm, kLevel_dbm);
+  p.channel_mhz = settings.number("channel", p.channel_mhz, {0.0, 100'000.0, true, "MHz"});
+  const std::optional<io::Reader> list = settings.child("access_points");
+  if (!list) return p;
+  std::vector<io::Reader> elements = settings.array("access_points", 64);
+  if (!list->is_array()) return p;
+  p.access_points.clear();
+  for (io::Reader& element : elements) {
+    AccessPoint point;
+    if (element.expect_object()) {
+      if (element.require("name", "the name of its network")) {
+        point.name = element.name("name", "");
+      }
+      constexpr io::NumberRange kPlace_m{-1e6, 1e6, false, "m"};
+      point.p_W = {element.number("x", 0.0, kPlace_m), element.number("y", 0.0, kPlace_m)};
+      element.finish();
+    }
+    p.access_points.push_back(std::move(point));
+  }
+  return p;
+}
+
 // Whether a mount lies so far within the footprint that no solid reaches it: robots sink into
 // solids by less than 2 mm.
 bool well_within(const Polygon& footprint, const Pose& X_BL) {
@@ -272,6 +353,40 @@ Properties describe(const BumperParams& p) {
 }
 Properties describe(const CollisionParams& p) { return {{"frequency", p.frequency_hz}}; }
 
+Properties describe(const FiducialParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"range_max", p.range_max_m},
+          {"range_max_id", p.range_max_id_m},
+          {"field_of_view", p.field_of_view_rad},
+          {"mount_x", p.X_BS.x_m},
+          {"mount_y", p.X_BS.y_m},
+          {"mount_yaw", p.X_BS.yaw_rad},
+          {"height", p.height_m},
+          {"noise", p.noise_m},
+          {"noise_bearing", p.noise_bearing_rad},
+          {"noise_yaw", p.noise_yaw_rad}};
+}
+Properties describe(const GpsParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"latitude", p.latitude_rad},
+          {"longitude", p.longitude_rad},
+          {"altitude", p.altitude_m},
+          {"north", p.north_rad},
+          {"noise", p.noise_m},
+          {"noise_vertical", p.noise_vertical_m},
+          {"satellites", static_cast<double>(p.satellites)}};
+}
+Properties describe(const ImuParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"noise_acceleration", p.noise_mps2},
+          {"noise_rate", p.noise_radps},
+          {"noise_field", p.noise_ut},
+          {"bias_acceleration", p.bias_mps2},
+          {"bias_rate", p.bias_radps},
+          {"field_horizontal", p.field_horizontal_ut},
+          {"field_down", p.field_down_ut},
+          {"north", p.north_rad}};
+}
 Properties describe(const LaserParams& p) {
   return {{"frequency", p.frequency_hz},
           {"noise", p.noise_m},
@@ -309,6 +424,17 @@ Properties describe(const WaypointParams& p) {
           {"turn_gain", p.turn_gain},
           {"approach_gain", p.approach_gain},
           {"max_turn_rate", p.max_turn_rate_radps}};
+}
+
+Properties describe(const WifiParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"level_1m", p.level_1m_dbm},
+          {"exponent", p.exponent},
+          {"noise", p.noise_db},
+          {"floor", p.floor_dbm},
+          {"least", p.least_dbm},
+          {"channel", p.channel_mhz},
+          {"access_points", static_cast<double>(p.access_points.size())}};
 }
 
 Properties describe(const ProximityParams& p) {
@@ -388,6 +514,19 @@ std::vector<DeviceKind> make_table() {
                             [](D d, const CollisionParams& p, R, M, const RandomStream&) {
                               return std::make_unique<CollisionSensor>(d.name, p);
                             }),
+      kind<FiducialParams>("fiducial", parse_fiducial,
+                           [](D d, const FiducialParams& p, R, M, RandomStream noise) {
+                             return std::make_unique<FiducialFinder>(d.name, p, std::move(noise));
+                           }),
+      kind<GpsParams>("gps", parse_gps,
+                      [](D d, const GpsParams& p, R, M, RandomStream noise) {
+                        return std::make_unique<Gps>(d.name, p, std::move(noise));
+                      }),
+      kind<ImuParams>("imu", parse_imu,
+                      [](D d, const ImuParams& p, R robot, M, RandomStream noise) {
+                        return std::make_unique<Imu>(d.name, p, robot.pose.yaw_rad,
+                                                     std::move(noise));
+                      }),
       kind<InfraredParams>("infrared", parse_infrared,
                            [](D d, const InfraredParams& p, R, M model, RandomStream noise) {
                              return make_ranger(d, p, model, std::move(noise));
@@ -432,6 +571,10 @@ std::vector<DeviceKind> make_table() {
                            [](D d, const WaypointParams& p, R robot, M, const RandomStream&) {
                              return std::make_unique<Waypoint>(d.name, p, robot.pose);
                            }),
+      kind<WifiParams>("wifi", parse_wifi,
+                       [](D d, const WifiParams& p, R, M, RandomStream noise) {
+                         return std::make_unique<Wifi>(d.name, p, std::move(noise));
+                       }),
   };
 }
 

@@ -672,6 +672,10 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 
 int PhysicsWorld::robot_count() const noexcept { return static_cast<int>(impl_->robots.size()); }
 
+double PhysicsWorld::height_m(int robot) const {
+  return impl_->robots[static_cast<std::size_t>(robot)].height_m;
+}
+
 void PhysicsWorld::set_target(int robot, const Twist& target) {
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
   r.target = r.suspended ? Twist{} : target;

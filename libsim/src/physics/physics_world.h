@@ -35,6 +35,7 @@ class PhysicsWorld {
   /// Adds a robot; the first has index 0.
   int add_robot(const RobotModel& model, const Pose& X_WB);
   [[nodiscard]] int robot_count() const noexcept;
+  [[nodiscard]] double height_m(int robot) const;
 
   /// The twist that a robot strives for in the next step.
   void set_target(int robot, const Twist& target);
