@@ -15,7 +15,8 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 Groups (default: build):
   build   compiler, CMake and the libraries that Playpen links
   test    GoogleTest, Google Benchmark, ffprobe, which looks at films, a display without a
-          screen for the live window, and MORSE's client library where there is a package of it
+          screen for the live window, Python and pkg-config, and MORSE's client library where
+          there is a package of it
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
 
@@ -34,7 +35,8 @@ build_packages=(
   libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
 )
 test_packages=(
-  libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool)
+  libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
+  python3=python3 pkg-config=pkg-config)
 # Where the system has no such package (Ubuntu 24.04), the tests that want it are skipped.
 optional_test_packages=(python3-morse-simulator)
 lint_packages=(

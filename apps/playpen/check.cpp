@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "playerlike/messages/messages.h"
 #include "playerlike/messages/snd_settings.h"
 #include "sim/core/error.h"
 #include "sim/simulation/simulation.h"

@@ -53,6 +53,11 @@ class LaserProxy : public ClientProxy {
   /// @throws PlayerError kBadArgument for angles that are no numbers or hold no beam.
   void Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes, uint32_t aRangeRes,
                  bool aIntensity, double aScanningFrequency);
+  /// @deprecated Of Player 2.0, without a frequency: the same as Configure() with the present one.
+  void Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes, uint32_t aRangeRes,
+                 bool aIntensity) {
+    Configure(aMinAngle, aMaxAngle, aScanRes, aRangeRes, aIntensity, GetScanningFrequency());
+  }
   /// Asks for the settings. They are known from the start, so nothing changes.
   void RequestConfigure();
   /// Asks for GetID(); known from the start.

@@ -4,19 +4,26 @@
 /// @file
 /// What client programs take for granted once they have included playerc++.h: the standard headers
 /// that half of them rely on without naming them, the type `uint` (sys/types.h), and Player's
-/// macros. A macro that the program has defined before is left alone.
+/// macros, those of libplayercommon/playercommon.h too. A macro that the program has defined before
+/// is left alone.
 
+#include <sys/time.h>
 #include <sys/types.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <iostream>
 #include <list>
+#include <map>
+#include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -55,3 +62,6 @@
 #ifndef NORMALIZE
 #define NORMALIZE(z) (std::atan2(std::sin(z), std::cos(z)))
 #endif
+
+// Last, since it leaves alone what is defined above.
+#include "libplayercommon/playercommon.h"

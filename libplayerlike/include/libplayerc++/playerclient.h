@@ -7,7 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "libplayerc++/boostnames.h"
 #include "libplayerc++/mutex.h"
+#include "libplayerc++/playerc++config.h"
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "libplayerc++/utility.h"
@@ -126,6 +128,10 @@ class PlayerClient {
   /// Read() hands over all that has arrived.
   /// @throws PlayerError kBadArgument for another mode.
   void SetDataMode(uint32_t aMode);
+  /// @deprecated Of Player 2.0, where clients chose how often data are sent. Here each device has a
+  /// frequency of its own, which the world sets, so this changes nothing.
+  /// @param aFreq  [Hz].
+  void SetFrequency(uint32_t aFreq);
   /// Whether a newer reading replaces one that was not read yet (the default), or all of them are
   /// kept (at most 1000 a device) and Read() hands them over in order; a proxy then shows the
   /// newest. Rules for message types other than data, or for subtypes that a device does not send,

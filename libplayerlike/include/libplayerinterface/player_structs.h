@@ -80,7 +80,7 @@ typedef struct player_bbox3d {
   double sh;
 } player_bbox3d_t;
 
-/// Part of messages of the player interface: blackboard entry.
+/// A value of a blackboard under its key and group, with the time of its last change.
 typedef struct player_blackboard_entry {
   uint32_t key_count;
   char* key;
@@ -128,34 +128,34 @@ typedef struct player_uint32 {
   uint32_t value;
 } player_uint32_t;
 
-/// Request to a player device: capabilities.
+/// Asks whether a device knows a message of this type and subtype (PLAYER_CAPABILITIES_REQ).
 typedef struct player_capabilities_req {
   uint32_t type;
   uint32_t subtype;
 } player_capabilities_req_t;
 
-/// Request to a player device: boolprop.
+/// Asks for a property that is a truth value, or sets it, by its name.
 typedef struct player_boolprop_req {
   uint32_t key_count;
   char* key;
   char value;
 } player_boolprop_req_t;
 
-/// Request to a player device: intprop.
+/// Asks for a property that is a whole number, or sets it, by its name.
 typedef struct player_intprop_req {
   uint32_t key_count;
   char* key;
   int32_t value;
 } player_intprop_req_t;
 
-/// Request to a player device: dblprop.
+/// Asks for a property that is a number, or sets it, by its name.
 typedef struct player_dblprop_req {
   uint32_t key_count;
   char* key;
   double value;
 } player_dblprop_req_t;
 
-/// Request to a player device: strprop.
+/// Asks for a property that is a text, or sets it, by its name.
 typedef struct player_strprop_req {
   uint32_t key_count;
   char* key;
@@ -163,20 +163,20 @@ typedef struct player_strprop_req {
   char* value;
 } player_strprop_req_t;
 
-/// Part of messages of the player interface: device devlist.
+/// Addresses of all devices of a server.
 typedef struct player_device_devlist {
   uint32_t devices_count;
   player_devaddr_t devices[PLAYER_MAX_DEVICES];
 } player_device_devlist_t;
 
-/// Part of messages of the player interface: device driverinfo.
+/// Name of the driver behind a device.
 typedef struct player_device_driverinfo {
   player_devaddr_t addr;
   uint32_t driver_name_count;
   char driver_name[PLAYER_MAX_DRIVER_STRING_LEN];
 } player_device_driverinfo_t;
 
-/// Request to a player device: device.
+/// Asks for access to a device, or gives it back; the answer has the driver's name.
 typedef struct player_device_req {
   player_devaddr_t addr;
   uint8_t access;
@@ -184,25 +184,25 @@ typedef struct player_device_req {
   char driver_name[PLAYER_MAX_DRIVER_STRING_LEN];
 } player_device_req_t;
 
-/// Request to a player device: device datamode.
+/// Asks for data whenever there are some, or on request: PLAYER_DATAMODE_PUSH or _PULL.
 typedef struct player_device_datamode_req {
   uint8_t mode;
 } player_device_datamode_req_t;
 
-/// Request to a player device: device auth.
+/// A password.
 typedef struct player_device_auth_req {
   uint32_t auth_key_count;
   uint8_t auth_key[PLAYER_KEYLEN];
 } player_device_auth_req_t;
 
-/// Request to a player device: device nameservice.
+/// Asks for the port of a robot by its name.
 typedef struct player_device_nameservice_req {
   uint32_t name_count;
   uint8_t name[PLAYER_MAX_DRIVER_STRING_LEN];
   uint16_t port;
 } player_device_nameservice_req_t;
 
-/// Request to a player device: add replace rule.
+/// Sets whether messages of a kind replace older ones that wait; -1 stands for any.
 typedef struct player_add_replace_rule_req {
   int32_t interf;
   int32_t index;
@@ -211,7 +211,8 @@ typedef struct player_add_replace_rule_req {
   int32_t replace;
 } player_add_replace_rule_req_t;
 
-/// Reading of a power device.
+/// State of a battery: which fields are valid (bits PLAYER_POWER_MASK_...), voltage [V], charge [%]
+/// and [J], power taken [W], whether it is being charged.
 typedef struct player_power_data {
   uint32_t valid;
   float volts;
@@ -221,13 +222,14 @@ typedef struct player_power_data {
   int32_t charging;
 } player_power_data_t;
 
-/// Request to a power device: chargepolicy.
+/// Sets whether a battery may be charged, and may charge others.
 typedef struct player_power_chargepolicy_config {
   uint8_t enable_input;
   uint8_t enable_output;
 } player_power_chargepolicy_config_t;
 
-/// Geometry of a gripper device.
+/// Pose [m, rad] and sizes [m] of a gripper, and how many break beams and places to store things it
+/// has.
 typedef struct player_gripper_geom {
   player_pose3d_t pose;
   player_bbox3d_t outer_size;
@@ -236,33 +238,33 @@ typedef struct player_gripper_geom {
   uint8_t capacity;
 } player_gripper_geom_t;
 
-/// Reading of a position2d device.
+/// Pose [m, rad] and velocity [m/s, rad/s] of a robot, and whether it is stuck.
 typedef struct player_position2d_data {
   player_pose2d_t pos;
   player_pose2d_t vel;
   uint8_t stall;
 } player_position2d_data_t;
 
-/// Command to a position2d device: vel.
+/// Sets velocities [m/s, rad/s], and whether the motors are on.
 typedef struct player_position2d_cmd_vel {
   player_pose2d_t vel;
   uint8_t state;
 } player_position2d_cmd_vel_t;
 
-/// Command to a position2d device: pos.
+/// Sets a pose to go to [m, rad], the velocity to go with, and whether the motors are on.
 typedef struct player_position2d_cmd_pos {
   player_pose2d_t pos;
   player_pose2d_t vel;
   uint8_t state;
 } player_position2d_cmd_pos_t;
 
-/// Command to a position2d device: car.
+/// Sets the speed [m/s] and the steering angle [rad] of a car.
 typedef struct player_position2d_cmd_car {
   double velocity;
   double angle;
 } player_position2d_cmd_car_t;
 
-/// Command to a position2d device: vel head.
+/// Sets the speed [m/s] and the heading [rad] to turn to.
 typedef struct player_position2d_cmd_vel_head {
   double velocity;
   double angle;
@@ -274,59 +276,59 @@ typedef struct player_position2d_geom {
   player_bbox3d_t size;
 } player_position2d_geom_t;
 
-/// Request to a position2d device: power.
+/// Switches the motors on or off.
 typedef struct player_position2d_power_config {
   uint8_t state;
 } player_position2d_power_config_t;
 
-/// Request to a position2d device: velocity mode.
+/// Selects how velocities are kept.
 typedef struct player_position2d_velocity_mode_config {
   uint32_t value;
 } player_position2d_velocity_mode_config_t;
 
-/// Request to a position2d device: position mode.
+/// Selects between control of velocity (0) and of position (1).
 typedef struct player_position2d_position_mode_req {
   uint32_t state;
 } player_position2d_position_mode_req_t;
 
-/// Request to a position2d device: set odom.
+/// Sets the odometry to a pose [m, rad].
 typedef struct player_position2d_set_odom_req {
   player_pose2d_t pose;
 } player_position2d_set_odom_req_t;
 
-/// Request to a position2d device: speed pid.
+/// Sets the factors of the controller of velocity.
 typedef struct player_position2d_speed_pid_req {
   float kp;
   float ki;
   float kd;
 } player_position2d_speed_pid_req_t;
 
-/// Request to a position2d device: position pid.
+/// Sets the factors of the controller of position.
 typedef struct player_position2d_position_pid_req {
   float kp;
   float ki;
   float kd;
 } player_position2d_position_pid_req_t;
 
-/// Request to a position2d device: speed prof.
+/// Sets the greatest speed and acceleration on the way to a pose.
 typedef struct player_position2d_speed_prof_req {
   float speed;
   float acc;
 } player_position2d_speed_prof_req_t;
 
-/// Reading of a sonar device.
+/// Ranges of a ring of sonars [m].
 typedef struct player_sonar_data {
   uint32_t ranges_count;
   float* ranges;
 } player_sonar_data_t;
 
-/// Geometry of a sonar device.
+/// Poses of the sonars of a ring on the robot [m, rad].
 typedef struct player_sonar_geom {
   uint32_t poses_count;
   player_pose3d_t* poses;
 } player_sonar_geom_t;
 
-/// Request to a sonar device: power.
+/// Switches the sonars on or off.
 typedef struct player_sonar_power_config {
   uint8_t state;
 } player_sonar_power_config_t;
@@ -344,13 +346,13 @@ typedef struct player_laser_data {
   uint32_t id;
 } player_laser_data_t;
 
-/// Reading of a laser device: scanpose.
+/// Scan of a laser with the pose of the robot at that time [m, rad].
 typedef struct player_laser_data_scanpose {
   player_laser_data_t scan;
   player_pose2d_t pose;
 } player_laser_data_scanpose_t;
 
-/// Reading of a laser device: scanangle.
+/// Scan of a laser with beams at any angles [rad].
 typedef struct player_laser_data_scanangle {
   float max_range;
   uint32_t ranges_count;
@@ -379,24 +381,24 @@ typedef struct player_laser_config {
   float scanning_frequency;
 } player_laser_config_t;
 
-/// Request to a laser device: power.
+/// Switches a laser on or off.
 typedef struct player_laser_power_config {
   uint8_t state;
 } player_laser_power_config_t;
 
-/// Request to a laser device: get id.
+/// Serial number of a laser.
 typedef struct player_laser_get_id_config {
   uint32_t serial_number;
 } player_laser_get_id_config_t;
 
-/// Request to a laser device: set filter.
+/// Sets how ranges are filtered.
 typedef struct player_laser_set_filter_config {
   uint8_t filter_type;
   uint32_t parameters_count;
   float parameters[PLAYER_LASER_MAX_FILTER_PARAMS];
 } player_laser_set_filter_config_t;
 
-/// Part of messages of the blobfinder interface: blob.
+/// A blob of one colour in an image: middle, edges and area [pixels], range [m].
 typedef struct player_blobfinder_blob {
   uint32_t id;
   uint32_t color;
@@ -410,7 +412,7 @@ typedef struct player_blobfinder_blob {
   float range;
 } player_blobfinder_blob_t;
 
-/// Reading of a blobfinder device.
+/// Blobs that a camera sees, and the size of its image [pixels].
 typedef struct player_blobfinder_data {
   uint32_t width;
   uint32_t height;
@@ -418,7 +420,7 @@ typedef struct player_blobfinder_data {
   player_blobfinder_blob_t* blobs;
 } player_blobfinder_data_t;
 
-/// Request to a blobfinder device: color.
+/// Sets the range of colours that a channel looks for.
 typedef struct player_blobfinder_color_config {
   uint32_t channel;
   uint32_t rmin;
@@ -429,7 +431,7 @@ typedef struct player_blobfinder_color_config {
   uint32_t bmax;
 } player_blobfinder_color_config_t;
 
-/// Request to a blobfinder device: imager.
+/// Sets brightness, contrast and the like of the camera.
 typedef struct player_blobfinder_imager_config {
   int32_t brightness;
   int32_t contrast;
@@ -437,7 +439,7 @@ typedef struct player_blobfinder_imager_config {
   int32_t autogain;
 } player_blobfinder_imager_config_t;
 
-/// Reading of a ptz device.
+/// Where a camera looks [rad], how fast it turns [rad/s], and its state.
 typedef struct player_ptz_data {
   float pan;
   float tilt;
@@ -447,7 +449,7 @@ typedef struct player_ptz_data {
   uint32_t status;
 } player_ptz_data_t;
 
-/// Command to a ptz device.
+/// Sets where a camera looks [rad], or how fast it turns [rad/s].
 typedef struct player_ptz_cmd {
   float pan;
   float tilt;
@@ -456,36 +458,37 @@ typedef struct player_ptz_cmd {
   float tiltspeed;
 } player_ptz_cmd_t;
 
-/// Request to a ptz device: req status.
+/// State of a camera that turns.
 typedef struct player_ptz_req_status {
   uint32_t status;
 } player_ptz_req_status_t;
 
-/// Geometry of a ptz device.
+/// Pose [m, rad] and size [m] of a camera that turns.
 typedef struct player_ptz_geom {
   player_pose3d_t pos;
   player_bbox3d_t size;
 } player_ptz_geom_t;
 
-/// Request to a ptz device: req generic.
+/// Words for the camera itself, and its answer.
 typedef struct player_ptz_req_generic {
   uint32_t config_count;
   uint32_t* config;
 } player_ptz_req_generic_t;
 
-/// Request to a ptz device: req control mode.
+/// Selects between control of position and of velocity.
 typedef struct player_ptz_req_control_mode {
   uint32_t mode;
 } player_ptz_req_control_mode_t;
 
-/// Part of messages of the audio interface: wav.
+/// A sound, in a format PLAYER_AUDIO_FORMAT_...
 typedef struct player_audio_wav {
   uint32_t data_count;
   uint8_t* data;
   uint32_t format;
 } player_audio_wav_t;
 
-/// Part of messages of the audio interface: seq item.
+/// A tone: frequency [Hz], duration [s], amplitude 0 to 1, and whether the next one follows without
+/// a break.
 typedef struct player_audio_seq_item {
   float freq;
   float duration;
@@ -493,33 +496,33 @@ typedef struct player_audio_seq_item {
   player_bool_t link;
 } player_audio_seq_item_t;
 
-/// Part of messages of the audio interface: seq.
+/// A sequence of tones.
 typedef struct player_audio_seq {
   uint32_t tones_count;
   player_audio_seq_item_t* tones;
 } player_audio_seq_t;
 
-/// Part of messages of the audio interface: mixer channel.
+/// Level of a channel of a mixer, 0 to 1, and whether it is on.
 typedef struct player_audio_mixer_channel {
   float amplitude;
   player_bool_t active;
   uint32_t index;
 } player_audio_mixer_channel_t;
 
-/// Part of messages of the audio interface: mixer channel list.
+/// Levels of several channels of a mixer.
 typedef struct player_audio_mixer_channel_list {
   uint32_t channels_count;
   player_audio_mixer_channel_t* channels;
 } player_audio_mixer_channel_list_t;
 
-/// Part of messages of the audio interface: mixer channel detail.
+/// Name of a channel of a mixer, and what it can do.
 typedef struct player_audio_mixer_channel_detail {
   uint32_t name_count;
   char* name;
   uint8_t caps;
 } player_audio_mixer_channel_detail_t;
 
-/// Part of messages of the audio interface: mixer channel list detail.
+/// All channels of a mixer, and those used by default.
 typedef struct player_audio_mixer_channel_list_detail {
   uint32_t details_count;
   player_audio_mixer_channel_detail_t* details;
@@ -527,67 +530,69 @@ typedef struct player_audio_mixer_channel_list_detail {
   int32_t default_input;
 } player_audio_mixer_channel_list_detail_t;
 
-/// Part of messages of the audio interface: sample.
+/// A sound to be stored in a device, or fetched from it.
 typedef struct player_audio_sample {
   player_audio_wav_t sample;
   int32_t index;
 } player_audio_sample_t;
 
-/// Part of messages of the audio interface: sample item.
+/// Number of a sound stored in a device.
 typedef struct player_audio_sample_item {
   int32_t index;
 } player_audio_sample_item_t;
 
-/// Request to a audio device: sample rec.
+/// Asks for a sound to be recorded into a device, of this length [ms].
 typedef struct player_audio_sample_rec_req {
   int32_t index;
   uint32_t length;
 } player_audio_sample_rec_req_t;
 
-/// Part of messages of the audio interface: state.
+/// What a device of sound does: bits PLAYER_AUDIO_STATE_...
 typedef struct player_audio_state {
   uint32_t state;
 } player_audio_state_t;
 
-/// Part of messages of the fiducial interface: item.
+/// A fiducial that is seen: number (-1: unknown), pose in the sensor's frame [m, rad], and how sure
+/// that is.
 typedef struct player_fiducial_item {
   int32_t id;
   player_pose3d_t pose;
   player_pose3d_t upose;
 } player_fiducial_item_t;
 
-/// Reading of a fiducial device.
+/// Fiducials that are seen.
 typedef struct player_fiducial_data {
   uint32_t fiducials_count;
   player_fiducial_item_t* fiducials;
 } player_fiducial_data_t;
 
-/// Geometry of a fiducial device.
+/// Pose [m, rad] and size [m] of a sensor of fiducials, and size of the fiducials [m].
 typedef struct player_fiducial_geom {
   player_pose3d_t pose;
   player_bbox3d_t size;
   player_bbox2d_t fiducial_size;
 } player_fiducial_geom_t;
 
-/// Part of messages of the fiducial interface: fov.
+/// Ranges [m] and angle of view [rad] of a sensor of fiducials.
 typedef struct player_fiducial_fov {
   float min_range;
   float max_range;
   float view_angle;
 } player_fiducial_fov_t;
 
-/// Part of messages of the fiducial interface: id.
+/// Number of the fiducial that stands for the robot itself.
 typedef struct player_fiducial_id {
   uint32_t id;
 } player_fiducial_id_t;
 
-/// Command to a speech device.
+/// A text to be said.
 typedef struct player_speech_cmd {
   uint32_t string_count;
   char* string;
 } player_speech_cmd_t;
 
-/// Reading of a gps device.
+/// Where a receiver is on the Earth: time [s, us], latitude and longitude [1e-7 degrees], altitude
+/// [mm], UTM [m], and how good that is.
 typedef struct player_gps_data {
   uint32_t time_sec;
   uint32_t time_usec;
@@ -606,50 +611,51 @@ typedef struct player_gps_data {
   double err_vert;
 } player_gps_data_t;
 
-/// Reading of a bumper device.
+/// Which bumpers are pressed: one byte each.
 typedef struct player_bumper_data {
   uint32_t bumpers_count;
   uint8_t* bumpers;
 } player_bumper_data_t;
 
-/// Part of messages of the bumper interface: define.
+/// Pose of a bumper's middle on the robot [m, rad], its length [m] and radius [m]; radius 0 is
+/// straight.
 typedef struct player_bumper_define {
   player_pose3d_t pose;
   float length;
   float radius;
 } player_bumper_define_t;
 
-/// Geometry of a bumper device.
+/// Poses and shapes of all bumpers.
 typedef struct player_bumper_geom {
   uint32_t bumper_def_count;
   player_bumper_define_t* bumper_def;
 } player_bumper_geom_t;
 
-/// Reading of a dio device.
+/// Digital inputs: how many, and a bit each.
 typedef struct player_dio_data {
   uint32_t count;
   uint32_t bits;
 } player_dio_data_t;
 
-/// Command to a dio device.
+/// Sets digital outputs: how many, and a bit each.
 typedef struct player_dio_cmd {
   uint32_t count;
   uint32_t digout;
 } player_dio_cmd_t;
 
-/// Reading of a aio device.
+/// Voltages of analogue inputs [V].
 typedef struct player_aio_data {
   uint32_t voltages_count;
   float* voltages;
 } player_aio_data_t;
 
-/// Command to a aio device.
+/// Sets the voltage of an analogue output [V].
 typedef struct player_aio_cmd {
   uint32_t id;
   float voltage;
 } player_aio_cmd_t;
 
-/// Reading of a ir device.
+/// Voltages [V] and ranges [m] of infra-red sensors.
 typedef struct player_ir_data {
   uint32_t voltages_count;
   float* voltages;
@@ -657,18 +663,19 @@ typedef struct player_ir_data {
   float* ranges;
 } player_ir_data_t;
 
-/// Part of messages of the ir interface: pose.
+/// Poses of infra-red sensors on the robot [m, rad].
 typedef struct player_ir_pose {
   uint32_t poses_count;
   player_pose3d_t* poses;
 } player_ir_pose_t;
 
-/// Request to a ir device: power.
+/// Switches infra-red sensors on or off.
 typedef struct player_ir_power_req {
   uint8_t state;
 } player_ir_power_req_t;
 
-/// Part of messages of the wifi interface: link.
+/// A radio link: addresses, name, mode, frequency, and quality, level and noise in the units that
+/// the data say.
 typedef struct player_wifi_link {
   uint32_t mac_count;
   uint8_t mac[32];
@@ -684,7 +691,7 @@ typedef struct player_wifi_link {
   uint32_t noise;
 } player_wifi_link_t;
 
-/// Reading of a wifi device.
+/// Radio links that are heard, and which units their figures have.
 typedef struct player_wifi_data {
   uint32_t links_count;
   player_wifi_link_t* links;
@@ -698,25 +705,26 @@ typedef struct player_wifi_data {
   char ap[32];
 } player_wifi_data_t;
 
-/// Request to a wifi device: mac.
+/// Asks for the address of the radio itself; nothing to say with it.
 typedef struct player_wifi_mac_req {
   uint32_t mac_count;
   uint8_t mac[32];
 } player_wifi_mac_req_t;
 
-/// Request to a wifi device: iwspy addr.
+/// Address of a radio to be watched.
 typedef struct player_wifi_iwspy_addr_req {
   char address[32];
 } player_wifi_iwspy_addr_req_t;
 
-/// Part of messages of the localize interface: hypoth.
+/// A pose that is thought possible [m, rad], its covariance (xx, yy, aa, xy, ya, xa) [m^2, rad^2, m
+/// rad], and its weight, 0 to 1.
 typedef struct player_localize_hypoth {
   player_pose2d_t mean;
   double cov[6];
   double alpha;
 } player_localize_hypoth_t;
 
-/// Reading of a localize device.
+/// Poses that are thought possible, and how many readings wait to be looked at.
 typedef struct player_localize_data {
   uint32_t pending_count;
   double pending_time;
@@ -724,19 +732,19 @@ typedef struct player_localize_data {
   player_localize_hypoth_t* hypoths;
 } player_localize_data_t;
 
-/// Part of messages of the localize interface: set pose.
+/// Sets the pose [m, rad] and its covariance.
 typedef struct player_localize_set_pose {
   player_pose2d_t mean;
   double cov[6];
 } player_localize_set_pose_t;
 
-/// Part of messages of the localize interface: particle.
+/// A particle: pose [m, rad] and weight.
 typedef struct player_localize_particle {
   player_pose2d_t pose;
   double alpha;
 } player_localize_particle_t;
 
-/// Part of messages of the localize interface: get particles.
+/// All particles, with their mean and variance.
 typedef struct player_localize_get_particles {
   player_pose2d_t mean;
   double variance;
@@ -744,90 +752,91 @@ typedef struct player_localize_get_particles {
   player_localize_particle_t* particles;
 } player_localize_get_particles_t;
 
-/// Reading of a position3d device.
+/// Pose [m, rad] and velocity [m/s, rad/s] in space, and whether the robot is stuck.
 typedef struct player_position3d_data {
   player_pose3d_t pos;
   player_pose3d_t vel;
   uint8_t stall;
 } player_position3d_data_t;
 
-/// Command to a position3d device: pos.
+/// Sets a pose to go to [m, rad] and a velocity to go with.
 typedef struct player_position3d_cmd_pos {
   player_pose3d_t pos;
   player_pose3d_t vel;
   uint8_t state;
 } player_position3d_cmd_pos_t;
 
-/// Command to a position3d device: vel.
+/// Sets velocities [m/s, rad/s].
 typedef struct player_position3d_cmd_vel {
   player_pose3d_t vel;
   uint8_t state;
 } player_position3d_cmd_vel_t;
 
-/// Geometry of a position3d device.
+/// Pose [m, rad] and size [m] of a robot in space.
 typedef struct player_position3d_geom {
   player_pose3d_t pose;
   player_bbox3d_t size;
 } player_position3d_geom_t;
 
-/// Request to a position3d device: power.
+/// Switches the motors on or off.
 typedef struct player_position3d_power_config {
   uint8_t state;
 } player_position3d_power_config_t;
 
-/// Request to a position3d device: position mode.
+/// Selects between control of velocity (0) and of position (1).
 typedef struct player_position3d_position_mode_req {
   uint32_t value;
 } player_position3d_position_mode_req_t;
 
-/// Request to a position3d device: velocity mode.
+/// Selects how velocities are kept.
 typedef struct player_position3d_velocity_mode_config {
   uint32_t value;
 } player_position3d_velocity_mode_config_t;
 
-/// Request to a position3d device: set odom.
+/// Sets the odometry to a pose [m, rad].
 typedef struct player_position3d_set_odom_req {
   player_pose3d_t pos;
 } player_position3d_set_odom_req_t;
 
-/// Request to a position3d device: speed pid.
+/// Sets the factors of the controller of velocity.
 typedef struct player_position3d_speed_pid_req {
   float kp;
   float ki;
   float kd;
 } player_position3d_speed_pid_req_t;
 
-/// Request to a position3d device: position pid.
+/// Sets the factors of the controller of position.
 typedef struct player_position3d_position_pid_req {
   float kp;
   float ki;
   float kd;
 } player_position3d_position_pid_req_t;
 
-/// Request to a position3d device: speed prof.
+/// Sets the greatest speed and acceleration on the way to a pose.
 typedef struct player_position3d_speed_prof_req {
   float speed;
   float acc;
 } player_position3d_speed_prof_req_t;
 
-/// Reading of a simulation device.
+/// Data of a simulation: none that means anything.
 typedef struct player_simulation_data {
   uint8_t data;
 } player_simulation_data_t;
 
-/// Command to a simulation device.
+/// A command to a simulation: none that means anything.
 typedef struct player_simulation_cmd {
   uint8_t cmd;
 } player_simulation_cmd_t;
 
-/// Request to a simulation device: pose2d.
+/// Asks for the pose of a thing by its name [m, rad], or sets it.
 typedef struct player_simulation_pose2d_req {
   uint32_t name_count;
   char* name;
   player_pose2d_t pose;
 } player_simulation_pose2d_req_t;
 
-/// Request to a simulation device: pose3d.
+/// Asks for the pose in space of a thing by its name [m, rad], or sets it; with the simulated time
+/// [s].
 typedef struct player_simulation_pose3d_req {
   uint32_t name_count;
   char* name;
@@ -835,7 +844,8 @@ typedef struct player_simulation_pose3d_req {
   double simtime;
 } player_simulation_pose3d_req_t;
 
-/// Request to a simulation device: property.
+/// Asks for a property of a thing by their names, or sets it; what its bytes mean is the property's
+/// matter.
 typedef struct player_simulation_property_req {
   uint32_t name_count;
   char* name;
@@ -846,7 +856,7 @@ typedef struct player_simulation_property_req {
   char* value;
 } player_simulation_property_req_t;
 
-/// Reading of a blinkenlight device.
+/// State of a light: whether it is on, period [s], part of it that it shines, colour.
 typedef struct player_blinkenlight_data {
   uint8_t enable;
   float period;
@@ -854,7 +864,7 @@ typedef struct player_blinkenlight_data {
   player_color_t color;
 } player_blinkenlight_data_t;
 
-/// Command to a blinkenlight device.
+/// Sets all of a light: whether it is on, period [s], part of it that it shines, colour.
 typedef struct player_blinkenlight_cmd {
   uint16_t id;
   uint8_t enable;
@@ -863,26 +873,26 @@ typedef struct player_blinkenlight_cmd {
   player_color_t color;
 } player_blinkenlight_cmd_t;
 
-/// Command to a blinkenlight device: power.
+/// Switches a light on or off.
 typedef struct player_blinkenlight_cmd_power {
   uint16_t id;
   uint8_t enable;
 } player_blinkenlight_cmd_power_t;
 
-/// Command to a blinkenlight device: color.
+/// Sets the colour of a light.
 typedef struct player_blinkenlight_cmd_color {
   uint16_t id;
   player_color_t color;
 } player_blinkenlight_cmd_color_t;
 
-/// Command to a blinkenlight device: flash.
+/// Lets a light flash: period [s], and the part of it that it shines.
 typedef struct player_blinkenlight_cmd_flash {
   uint16_t id;
   float period;
   float dutycycle;
 } player_blinkenlight_cmd_flash_t;
 
-/// Reading of a camera device.
+/// An image: size [pixels], bits a pixel, PLAYER_CAMERA_FORMAT_... and PLAYER_CAMERA_COMPRESS_...
 typedef struct player_camera_data {
   uint32_t width;
   uint32_t height;
@@ -894,14 +904,14 @@ typedef struct player_camera_data {
   uint8_t* image;
 } player_camera_data_t;
 
-/// Part of messages of the camera interface: source.
+/// Selects the norm and the input of a camera.
 typedef struct player_camera_source {
   uint32_t norm_count;
   char* norm;
   int32_t source;
 } player_camera_source_t;
 
-/// Part of messages of the map interface: info.
+/// Size of a map [cells], side of a cell [m], and pose of its lower left corner [m, rad].
 typedef struct player_map_info {
   float scale;
   uint32_t width;
@@ -909,7 +919,8 @@ typedef struct player_map_info {
   player_pose2d_t origin;
 } player_map_info_t;
 
-/// Reading of a map device.
+/// A tile of a map: its place and size [cells], and for each cell -1 free, 0 unknown, 1 occupied,
+/// or as data_range says.
 typedef struct player_map_data {
   uint32_t col;
   uint32_t row;
@@ -920,7 +931,7 @@ typedef struct player_map_data {
   int8_t* data;
 } player_map_data_t;
 
-/// Reading of a map device: vector.
+/// A map as line segments [m].
 typedef struct player_map_data_vector {
   float minx;
   float maxx;
@@ -930,7 +941,8 @@ typedef struct player_map_data_vector {
   player_segment_t* segments;
 } player_map_data_vector_t;
 
-/// Reading of a planner device.
+/// State of a planner: whether there is a way, whether it is done, pose, goal and next point [m,
+/// rad].
 typedef struct player_planner_data {
   uint8_t valid;
   uint8_t done;
@@ -941,46 +953,46 @@ typedef struct player_planner_data {
   uint32_t waypoints_count;
 } player_planner_data_t;
 
-/// Command to a planner device.
+/// Sets the goal [m, rad].
 typedef struct player_planner_cmd {
   player_pose2d_t goal;
 } player_planner_cmd_t;
 
-/// Request to a planner device: waypoints.
+/// The points of the way [m, rad], and its length [m].
 typedef struct player_planner_waypoints_req {
   double waypoints_distance;
   uint32_t waypoints_count;
   player_pose2d_t* waypoints;
 } player_planner_waypoints_req_t;
 
-/// Request to a planner device: enable.
+/// Lets the robot drive, or stops it.
 typedef struct player_planner_enable_req {
   uint8_t state;
 } player_planner_enable_req_t;
 
-/// Part of messages of the log interface: set write state.
+/// Starts or stops writing a log.
 typedef struct player_log_set_write_state {
   uint8_t state;
 } player_log_set_write_state_t;
 
-/// Part of messages of the log interface: set read state.
+/// Starts or stops reading a log.
 typedef struct player_log_set_read_state {
   uint8_t state;
 } player_log_set_read_state_t;
 
-/// Part of messages of the log interface: get state.
+/// Whether a log is read or written (PLAYER_LOG_TYPE_...), and whether that goes on.
 typedef struct player_log_get_state {
   uint8_t type;
   uint8_t state;
 } player_log_get_state_t;
 
-/// Part of messages of the log interface: set filename.
+/// Sets the file of a log.
 typedef struct player_log_set_filename {
   uint32_t filename_count;
   char filename[256];
 } player_log_set_filename_t;
 
-/// Reading of a joystick device.
+/// Axes of a joystick with their scales, and a bit for each button.
 typedef struct player_joystick_data {
   int32_t pos[8];
   int32_t scale[8];
@@ -988,19 +1000,20 @@ typedef struct player_joystick_data {
   uint32_t axes_count;
 } player_joystick_data_t;
 
-/// Reading of a speech_recognition device.
+/// What somebody said.
 typedef struct player_speech_recognition_data {
   uint32_t text_count;
   char* text;
 } player_speech_recognition_data_t;
 
-/// Reading of a opaque device.
+/// Bytes whose meaning is the devices' and programs' own matter.
 typedef struct player_opaque_data {
   uint32_t data_count;
   uint8_t* data;
 } player_opaque_data_t;
 
-/// Reading of a position1d device.
+/// Position and velocity of a single axis [m or rad, and each second], whether it is stuck, and
+/// bits PLAYER_POSITION1D_STATUS_...
 typedef struct player_position1d_data {
   float pos;
   float vel;
@@ -1008,71 +1021,72 @@ typedef struct player_position1d_data {
   uint8_t status;
 } player_position1d_data_t;
 
-/// Command to a position1d device: vel.
+/// Sets the velocity [m/s or rad/s].
 typedef struct player_position1d_cmd_vel {
   float vel;
   uint8_t state;
 } player_position1d_cmd_vel_t;
 
-/// Command to a position1d device: pos.
+/// Sets a position to go to [m or rad] and a velocity to go with.
 typedef struct player_position1d_cmd_pos {
   float pos;
   float vel;
   uint8_t state;
 } player_position1d_cmd_pos_t;
 
-/// Geometry of a position1d device.
+/// Pose [m, rad] and size [m] of a single axis.
 typedef struct player_position1d_geom {
   player_pose3d_t pose;
   player_bbox3d_t size;
 } player_position1d_geom_t;
 
-/// Request to a position1d device: power.
+/// Switches the motor on or off.
 typedef struct player_position1d_power_config {
   uint8_t state;
 } player_position1d_power_config_t;
 
-/// Request to a position1d device: velocity mode.
+/// Selects how the velocity is kept.
 typedef struct player_position1d_velocity_mode_config {
   uint32_t value;
 } player_position1d_velocity_mode_config_t;
 
-/// Request to a position1d device: reset odom.
+/// Sets the position to 0.
 typedef struct player_position1d_reset_odom_config {
   uint32_t value;
 } player_position1d_reset_odom_config_t;
 
-/// Request to a position1d device: position mode.
+/// Selects between control of velocity (0) and of position (1).
 typedef struct player_position1d_position_mode_req {
   uint32_t state;
 } player_position1d_position_mode_req_t;
 
-/// Request to a position1d device: set odom.
+/// Sets what the present position is called [m or rad].
 typedef struct player_position1d_set_odom_req {
   float pos;
 } player_position1d_set_odom_req_t;
 
-/// Request to a position1d device: speed pid.
+/// Sets the factors of the controller of velocity.
 typedef struct player_position1d_speed_pid_req {
   float kp;
   float ki;
   float kd;
 } player_position1d_speed_pid_req_t;
 
-/// Request to a position1d device: position pid.
+/// Sets the factors of the controller of position.
 typedef struct player_position1d_position_pid_req {
   float kp;
   float ki;
   float kd;
 } player_position1d_position_pid_req_t;
 
-/// Request to a position1d device: speed prof.
+/// Sets the greatest speed and acceleration on the way to a position.
 typedef struct player_position1d_speed_prof_req {
   float speed;
   float acc;
 } player_position1d_speed_prof_req_t;
 
-/// Part of messages of the actarray interface: actuator.
+/// State of an actuator: position [m or rad], speed, acceleration, current [A], and
+/// PLAYER_ACTARRAY_ACTSTATE_...
 typedef struct player_actarray_actuator {
   float position;
   float speed;
@@ -1081,14 +1095,14 @@ typedef struct player_actarray_actuator {
   uint8_t state;
 } player_actarray_actuator_t;
 
-/// Reading of a actarray device.
+/// State of all actuators of a row, and whether they are on.
 typedef struct player_actarray_data {
   uint32_t actuators_count;
   player_actarray_actuator_t* actuators;
   uint8_t motor_state;
 } player_actarray_data_t;
 
-/// Part of messages of the actarray interface: actuatorgeom.
+/// Kind, size, axis and limits of an actuator [m or rad].
 typedef struct player_actarray_actuatorgeom {
   uint8_t type;
   float length;
@@ -1102,7 +1116,7 @@ typedef struct player_actarray_actuatorgeom {
   uint8_t hasbrakes;
 } player_actarray_actuatorgeom_t;
 
-/// Geometry of a actarray device.
+/// Kinds and sizes of all actuators of a row, and where it begins [m, rad].
 typedef struct player_actarray_geom {
   uint32_t actuators_count;
   player_actarray_actuatorgeom_t* actuators;
@@ -1110,70 +1124,71 @@ typedef struct player_actarray_geom {
   player_orientation_3d_t base_orientation;
 } player_actarray_geom_t;
 
-/// Command to a actarray device: position.
+/// Sends an actuator to a position [m or rad]; joint -1: all.
 typedef struct player_actarray_position_cmd {
   int32_t joint;
   float position;
 } player_actarray_position_cmd_t;
 
-/// Command to a actarray device: multi position.
+/// Sends the first actuators to positions [m or rad].
 typedef struct player_actarray_multi_position_cmd {
   uint32_t positions_count;
   float* positions;
 } player_actarray_multi_position_cmd_t;
 
-/// Command to a actarray device: speed.
+/// Moves an actuator at a speed [m/s or rad/s]; joint -1: all.
 typedef struct player_actarray_speed_cmd {
   int32_t joint;
   float speed;
 } player_actarray_speed_cmd_t;
 
-/// Command to a actarray device: multi speed.
+/// Moves the first actuators at speeds [m/s or rad/s].
 typedef struct player_actarray_multi_speed_cmd {
   uint32_t speeds_count;
   float* speeds;
 } player_actarray_multi_speed_cmd_t;
 
-/// Command to a actarray device: home.
+/// Sends an actuator home; joint -1: all.
 typedef struct player_actarray_home_cmd {
   int32_t joint;
 } player_actarray_home_cmd_t;
 
-/// Command to a actarray device: current.
+/// Sets the current of an actuator [A]; joint -1: all.
 typedef struct player_actarray_current_cmd {
   int32_t joint;
   float current;
 } player_actarray_current_cmd_t;
 
-/// Command to a actarray device: multi current.
+/// Sets the currents of the first actuators [A].
 typedef struct player_actarray_multi_current_cmd {
   uint32_t currents_count;
   float* currents;
 } player_actarray_multi_current_cmd_t;
 
-/// Request to a actarray device: power.
+/// Switches all actuators on or off.
 typedef struct player_actarray_power_config {
   uint8_t value;
 } player_actarray_power_config_t;
 
-/// Request to a actarray device: brakes.
+/// Puts all brakes on or off.
 typedef struct player_actarray_brakes_config {
   uint8_t value;
 } player_actarray_brakes_config_t;
 
-/// Request to a actarray device: speed.
+/// Sets the speed of an actuator for going to positions; joint -1: all.
 typedef struct player_actarray_speed_config {
   int32_t joint;
   float speed;
 } player_actarray_speed_config_t;
 
-/// Request to a actarray device: accel.
+/// Sets the acceleration of an actuator; joint -1: all.
 typedef struct player_actarray_accel_config {
   int32_t joint;
   float accel;
 } player_actarray_accel_config_t;
 
-/// Reading of a limb device.
+/// Position of an arm's end [m], the vectors along which and how turned it is, and
+/// PLAYER_LIMB_STATE_...
 typedef struct player_limb_data {
   player_point_3d_t position;
   player_point_3d_t approach;
@@ -1181,59 +1196,59 @@ typedef struct player_limb_data {
   uint8_t state;
 } player_limb_data_t;
 
-/// Command to a limb device: setpose.
+/// Moves an arm's end to a position [m] with an approach and an orientation.
 typedef struct player_limb_setpose_cmd {
   player_point_3d_t position;
   player_point_3d_t approach;
   player_point_3d_t orientation;
 } player_limb_setpose_cmd_t;
 
-/// Command to a limb device: setposition.
+/// Moves an arm's end to a position [m], however turned.
 typedef struct player_limb_setposition_cmd {
   player_point_3d_t position;
 } player_limb_setposition_cmd_t;
 
-/// Command to a limb device: vecmove.
+/// Moves an arm's end along a direction by a length [m].
 typedef struct player_limb_vecmove_cmd {
   player_point_3d_t direction;
   float length;
 } player_limb_vecmove_cmd_t;
 
-/// Request to a limb device: power.
+/// Switches an arm on or off.
 typedef struct player_limb_power_req {
   uint8_t value;
 } player_limb_power_req_t;
 
-/// Request to a limb device: brakes.
+/// Puts an arm's brakes on or off.
 typedef struct player_limb_brakes_req {
   uint8_t value;
 } player_limb_brakes_req_t;
 
-/// Request to a limb device: geom.
+/// Where an arm stands on the robot [m].
 typedef struct player_limb_geom_req {
   player_point_3d_t basePos;
 } player_limb_geom_req_t;
 
-/// Request to a limb device: speed.
+/// Sets the speed of an arm's end [m/s].
 typedef struct player_limb_speed_req {
   float speed;
 } player_limb_speed_req_t;
 
-/// Command to a graphics2d device: points.
+/// Draws points [m] in a colour.
 typedef struct player_graphics2d_cmd_points {
   uint32_t points_count;
   player_point_2d_t* points;
   player_color_t color;
 } player_graphics2d_cmd_points_t;
 
-/// Command to a graphics2d device: polyline.
+/// Draws a line through points [m] in a colour.
 typedef struct player_graphics2d_cmd_polyline {
   uint32_t points_count;
   player_point_2d_t* points;
   player_color_t color;
 } player_graphics2d_cmd_polyline_t;
 
-/// Command to a graphics2d device: polygon.
+/// Draws a polygon [m] with the colours of its edge and its inside, if that is filled.
 typedef struct player_graphics2d_cmd_polygon {
   uint32_t points_count;
   player_point_2d_t* points;
@@ -1242,27 +1257,27 @@ typedef struct player_graphics2d_cmd_polygon {
   uint8_t filled;
 } player_graphics2d_cmd_polygon_t;
 
-/// Command to a graphics2d device: multiline.
+/// Draws a line between every two points [m] in a colour.
 typedef struct player_graphics2d_cmd_multiline {
   uint32_t points_count;
   player_point_2d_t* points;
   player_color_t color;
 } player_graphics2d_cmd_multiline_t;
 
-/// Part of messages of the rfid interface: tag.
+/// A radio tag: its kind and its number as bytes.
 typedef struct player_rfid_tag {
   uint32_t type;
   uint32_t guid_count;
   char* guid;
 } player_rfid_tag_t;
 
-/// Reading of a rfid device.
+/// Radio tags in reach.
 typedef struct player_rfid_data {
   uint32_t tags_count;
   player_rfid_tag_t* tags;
 } player_rfid_data_t;
 
-/// Part of messages of the wsn interface: node data.
+/// Readings of a node of a sensor network; -1 for what it does not measure.
 typedef struct player_wsn_node_data {
   float light;
   float mic;
@@ -1276,7 +1291,7 @@ typedef struct player_wsn_node_data {
   float battery;
 } player_wsn_node_data_t;
 
-/// Reading of a wsn device.
+/// Kind and numbers of a node of a sensor network, with its readings.
 typedef struct player_wsn_data {
   uint32_t node_type;
   uint32_t node_id;
@@ -1284,7 +1299,7 @@ typedef struct player_wsn_data {
   player_wsn_node_data_t data_packet;
 } player_wsn_data_t;
 
-/// Command to a wsn device.
+/// Switches a device of nodes on or off.
 typedef struct player_wsn_cmd {
   int32_t node_id;
   int32_t group_id;
@@ -1292,19 +1307,19 @@ typedef struct player_wsn_cmd {
   uint8_t enable;
 } player_wsn_cmd_t;
 
-/// Request to a wsn device: power.
+/// Switches nodes on or off.
 typedef struct player_wsn_power_config {
   int32_t node_id;
   int32_t group_id;
   uint8_t value;
 } player_wsn_power_config_t;
 
-/// Request to a wsn device: datatype.
+/// Selects whether readings are raw (0) or in SI units (1).
 typedef struct player_wsn_datatype_config {
   uint8_t value;
 } player_wsn_datatype_config_t;
 
-/// Request to a wsn device: datafreq.
+/// Sets how often nodes tell of their readings [Hz].
 typedef struct player_wsn_datafreq_config {
   int32_t node_id;
   int32_t group_id;
@@ -1325,7 +1340,7 @@ typedef enum player_graphics3d_draw_mode {
   PLAYER_DRAW_POLYGON
 } player_graphics3d_draw_mode_t;
 
-/// Command to a graphics3d device: draw.
+/// Draws points in space [m], or lines and faces between them, in a colour.
 typedef struct player_graphics3d_cmd_draw {
   uint32_t draw_mode;
   uint32_t points_count;
@@ -1333,14 +1348,14 @@ typedef struct player_graphics3d_cmd_draw {
   player_color_t color;
 } player_graphics3d_cmd_draw_t;
 
-/// Command to a graphics3d device: translate.
+/// Moves the frame of what is drawn [m].
 typedef struct player_graphics3d_cmd_translate {
   double x;
   double y;
   double z;
 } player_graphics3d_cmd_translate_t;
 
-/// Command to a graphics3d device: rotate.
+/// Turns the frame of what is drawn by an angle [rad] about an axis.
 typedef struct player_graphics3d_cmd_rotate {
   double a;
   double x;
@@ -1348,33 +1363,34 @@ typedef struct player_graphics3d_cmd_rotate {
   double z;
 } player_graphics3d_cmd_rotate_t;
 
-/// Part of messages of the health interface: cpu.
+/// Load of a processor [%].
 typedef struct player_health_cpu {
   float idle;
   float system;
   float user;
 } player_health_cpu_t;
 
-/// Part of messages of the health interface: memory.
+/// Memory of a machine [kB].
 typedef struct player_health_memory {
   int64_t total;
   int64_t used;
   int64_t free;
 } player_health_memory_t;
 
-/// Reading of a health device.
+/// Load of a machine: processor, memory and swap space.
 typedef struct player_health_data {
   player_health_cpu_t cpu_usage;
   player_health_memory_t mem;
   player_health_memory_t swap;
 } player_health_data_t;
 
-/// Reading of a imu device: state.
+/// Pose as an inertial unit knows it [m, rad].
 typedef struct player_imu_data_state {
   player_pose3d_t pose;
 } player_imu_data_state_t;
 
-/// Reading of a imu device: calib.
+/// Accelerations [m/s^2], rates of turn [rad/s] and magnetic field along the axes of an inertial
+/// unit.
 typedef struct player_imu_data_calib {
   float accel_x;
   float accel_y;
@@ -1387,7 +1403,7 @@ typedef struct player_imu_data_calib {
   float magn_z;
 } player_imu_data_calib_t;
 
-/// Reading of a imu device: quat.
+/// The same with the orientation as a quaternion: w, x, y, z.
 typedef struct player_imu_data_quat {
   player_imu_data_calib_t calib_data;
   float q0;
@@ -1396,47 +1412,47 @@ typedef struct player_imu_data_quat {
   float q3;
 } player_imu_data_quat_t;
 
-/// Reading of a imu device: euler.
+/// The same with the orientation as roll, pitch and yaw [rad].
 typedef struct player_imu_data_euler {
   player_imu_data_calib_t calib_data;
   player_orientation_3d_t orientation;
 } player_imu_data_euler_t;
 
-/// Reading of a imu device: fullstate.
+/// Pose, velocity and acceleration in space [m, rad, s].
 typedef struct player_imu_data_fullstate {
   player_pose3d_t pose;
   player_pose3d_t vel;
   player_pose3d_t acc;
 } player_imu_data_fullstate_t;
 
-/// Request to a imu device: datatype.
+/// Selects the kind of data that are sent, by its subtype.
 typedef struct player_imu_datatype_config {
   uint8_t value;
 } player_imu_datatype_config_t;
 
-/// Request to a imu device: reset orientation.
+/// Resets the orientation.
 typedef struct player_imu_reset_orientation_config {
   uint32_t value;
 } player_imu_reset_orientation_config_t;
 
-/// Request to a imu device: reset euler.
+/// Sets the orientation [rad].
 typedef struct player_imu_reset_euler_config {
   player_pose3d_t orientation;
 } player_imu_reset_euler_config_t;
 
-/// Part of messages of the pointcloud3d interface: element.
+/// A point in space [m] with its colour.
 typedef struct player_pointcloud3d_element {
   player_point_3d_t point;
   player_color_t color;
 } player_pointcloud3d_element_t;
 
-/// Reading of a pointcloud3d device.
+/// Points in space.
 typedef struct player_pointcloud3d_data {
   uint32_t points_count;
   player_pointcloud3d_element_t* points;
 } player_pointcloud3d_data_t;
 
-/// Settings of a ranger device.
+/// Settings of a ranger: angles [rad], ranges [m], their resolutions, and frequency [Hz].
 typedef struct player_ranger_config {
   double min_angle;
   double max_angle;
@@ -1447,7 +1463,7 @@ typedef struct player_ranger_config {
   double frequency;
 } player_ranger_config_t;
 
-/// Geometry of a ranger device.
+/// Pose [m, rad] and size [m] of a ranger, and of each of its elements.
 typedef struct player_ranger_geom {
   player_pose3d_t pose;
   player_bbox3d_t size;
@@ -1457,13 +1473,13 @@ typedef struct player_ranger_geom {
   player_bbox3d_t* element_sizes;
 } player_ranger_geom_t;
 
-/// Reading of a ranger device: range.
+/// Ranges [m].
 typedef struct player_ranger_data_range {
   uint32_t ranges_count;
   double* ranges;
 } player_ranger_data_range_t;
 
-/// Reading of a ranger device: rangestamped.
+/// Ranges [m] with the geometry and the settings that they were measured with, where those changed.
 typedef struct player_ranger_data_rangestamped {
   player_ranger_data_range_t data;
   uint8_t have_geom;
@@ -1472,13 +1488,14 @@ typedef struct player_ranger_data_rangestamped {
   player_ranger_config_t config;
 } player_ranger_data_rangestamped_t;
 
-/// Reading of a ranger device: intns.
+/// Intensities of what came back.
 typedef struct player_ranger_data_intns {
   uint32_t intensities_count;
   double* intensities;
 } player_ranger_data_intns_t;
 
-/// Reading of a ranger device: intnsstamped.
+/// Intensities with the geometry and the settings that they were measured with, where those
+/// changed.
 typedef struct player_ranger_data_intnsstamped {
   player_ranger_data_intns_t data;
   uint8_t have_geom;
@@ -1487,17 +1504,17 @@ typedef struct player_ranger_data_intnsstamped {
   player_ranger_config_t config;
 } player_ranger_data_intnsstamped_t;
 
-/// Request to a ranger device: power.
+/// Switches a ranger on or off.
 typedef struct player_ranger_power_config {
   uint8_t state;
 } player_ranger_power_config_t;
 
-/// Request to a ranger device: intns.
+/// Sets whether intensities are measured.
 typedef struct player_ranger_intns_config {
   uint8_t state;
 } player_ranger_intns_config_t;
 
-/// Part of messages of the vectormap interface: feature data.
+/// A feature of a map: its name, its shape as well-known binary, and its attributes.
 typedef struct player_vectormap_feature_data {
   uint32_t name_count;
   char* name;
@@ -1507,14 +1524,14 @@ typedef struct player_vectormap_feature_data {
   char* attrib;
 } player_vectormap_feature_data_t;
 
-/// Part of messages of the vectormap interface: layer info.
+/// Name and extent of a map's layer [m].
 typedef struct player_vectormap_layer_info {
   uint32_t name_count;
   char* name;
   player_extent2d_t extent;
 } player_vectormap_layer_info_t;
 
-/// Part of messages of the vectormap interface: layer data.
+/// All features of a map's layer.
 typedef struct player_vectormap_layer_data {
   uint32_t name_count;
   char* name;
@@ -1522,7 +1539,7 @@ typedef struct player_vectormap_layer_data {
   player_vectormap_feature_data_t* features;
 } player_vectormap_layer_data_t;
 
-/// Part of messages of the vectormap interface: info.
+/// All layers of a map, and its frame by number.
 typedef struct player_vectormap_info {
   uint32_t srid;
   uint32_t layers_count;
@@ -1530,7 +1547,7 @@ typedef struct player_vectormap_info {
   player_extent2d_t extent;
 } player_vectormap_info_t;
 
-/// Part of messages of the stereo interface: pointcloud3d element.
+/// A point that a stereo camera sees [m], with its colour.
 typedef struct player_pointcloud3d_stereo_element {
   float px;
   float py;
@@ -1540,7 +1557,7 @@ typedef struct player_pointcloud3d_stereo_element {
   uint8_t blue;
 } player_pointcloud3d_stereo_element_t;
 
-/// Reading of a stereo device.
+/// Images of a stereo camera, their difference, and the points found in them.
 typedef struct player_stereo_data {
   player_camera_data_t left_channel;
   player_camera_data_t right_channel;
@@ -1550,14 +1567,14 @@ typedef struct player_stereo_data {
   uint32_t mode;
 } player_stereo_data_t;
 
-/// Part of messages of the coopobject interface: header.
+/// Which node of a sensor network a message comes from.
 typedef struct player_coopobject_header {
   uint8_t origin;
   uint16_t id;
   uint16_t parent_id;
 } player_coopobject_header_t;
 
-/// Part of messages of the coopobject interface: rssi.
+/// Strength of a node's signal, with the time of the measurement and the place of the node [m].
 typedef struct player_coopobject_rssi {
   player_coopobject_header_t header;
   uint16_t sender_id;
@@ -1570,7 +1587,7 @@ typedef struct player_coopobject_rssi {
   float z;
 } player_coopobject_rssi_t;
 
-/// Part of messages of the coopobject interface: position.
+/// Place [m] and state of a node.
 typedef struct player_coopobject_position {
   player_coopobject_header_t header;
   float x;
@@ -1579,20 +1596,20 @@ typedef struct player_coopobject_position {
   uint8_t status;
 } player_coopobject_position_t;
 
-/// Part of messages of the coopobject interface: sensor.
+/// A reading of a node's sensor, or an alarm.
 typedef struct player_coopobject_sensor {
   uint8_t type;
   int16_t value;
 } player_coopobject_sensor_t;
 
-/// Reading of a coopobject device: sensor.
+/// Readings, or alarms, of a node.
 typedef struct player_coopobject_data_sensor {
   player_coopobject_header_t header;
   uint32_t data_count;
   player_coopobject_sensor_t* data;
 } player_coopobject_data_sensor_t;
 
-/// Reading of a coopobject device: userdefined.
+/// Bytes of a node whose meaning is the programs' own matter.
 typedef struct player_coopobject_data_userdefined {
   player_coopobject_header_t header;
   uint8_t type;
@@ -1600,7 +1617,7 @@ typedef struct player_coopobject_data_userdefined {
   uint8_t* data;
 } player_coopobject_data_userdefined_t;
 
-/// Settings of a coopobject device.
+/// A request to a node with its parameters.
 typedef struct player_coopobject_req {
   player_coopobject_header_t header;
   uint8_t request;
@@ -1608,10 +1625,17 @@ typedef struct player_coopobject_req {
   uint8_t* parameters;
 } player_coopobject_req_t;
 
-/// Command to a coopobject device.
+/// A command to a node with its parameters.
 typedef struct player_coopobject_cmd {
   player_coopobject_header_t header;
   uint8_t command;
   uint32_t parameters_count;
   uint8_t* parameters;
 } player_coopobject_cmd_t;
+
+// Names of Player 2.0.
+
+/// @deprecated Player 2.0's name of player_pose2d_t.
+typedef player_pose2d_t player_pose_t;
+/// @deprecated Player 2.0's name of player_bbox2d_t.
+typedef player_bbox2d_t player_bbox_t;

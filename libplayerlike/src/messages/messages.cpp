@@ -20,13 +20,18 @@ struct InterfaceRow {
 };
 // clang-format off
 constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
+    {"aio", "aio"},
+    {"blinkenlight", "blinkenlight"},
     {"bumper", "bumper"},
+    {"dio", "dio"},
     {"fiducial", "fiducial"},
     {"gps", "gps"},
     {"graphics2d", "pen"},
     {"imu", "imu"},
     {"ir", "infrared"},
     {"laser", "laser"},
+    {"localize", "pose"},
+    {"opaque", "opaque"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
     {"power", "battery"},
@@ -34,6 +39,7 @@ constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for r
     {"ranger", "sonar"},
     {"ranger", "infrared"},
     {"sonar", "sonar"},
+    {"speech", "speech"},
     {"wifi", "wifi"},
 };
 // clang-format on
@@ -87,9 +93,21 @@ bool is_finite(const sim::PositionCommand& c) {
   return is_finite(c.goal) && all_finite({c.max_speed_mps, c.max_turn_rate_radps});
 }
 bool is_finite(const sim::CarCommand& c) { return all_finite({c.v_mps, c.steering_rad}); }
+bool is_finite(const sim::SayCommand&) { return true; }
+bool is_finite(const sim::DigitalOutputCommand&) { return true; }
+bool is_finite(const sim::AnalogOutputCommand& c) { return all_finite({c.voltage_v}); }
+bool is_finite(const sim::LightCommand& c) {
+  return all_finite({c.period_s.value_or(0.0), c.duty_cycle.value_or(0.0)});
+}
+bool is_finite(const sim::OpaqueCommand&) { return true; }
 
 // What the world itself offers, whatever robots are in it.
-constexpr std::string_view kWorldInterface = "map";
+constexpr std::string_view kWorldInterfaces[] = {"log", "map", "simulation"};
+
+bool is_of_world(std::string_view interface) {
+  return std::find(std::begin(kWorldInterfaces), std::end(kWorldInterfaces), interface) !=
+         std::end(kWorldInterfaces);
+}
 
 // Whether clients can connect to a port.
 bool is_open(const std::vector<RobotInfo>& robots, int port) {
@@ -103,6 +121,14 @@ std::vector<std::string_view> interface_names() {
     if (names.empty() || names.back() != row.interface) names.push_back(row.interface);
   }
   return names;
+}
+
+// The end of a message about an interface that a port does not have.
+std::string where_else(std::string_view interface) {
+  const std::string world = example_world(interface);
+  return world.empty()
+             ? "; no world that comes with Playpen has a device for " + std::string(interface)
+             : "; of the worlds that come with Playpen, worlds/" + world + " has one";
 }
 
 // Calls visit(interface, index, robot, device, driver) for every address of a port; driver is null
@@ -144,6 +170,14 @@ bool carries(std::string_view device_type, std::string_view interface) {
   return std::any_of(std::begin(kInterfaces), std::end(kInterfaces), [&](const InterfaceRow& row) {
     return row.device_type == device_type && row.interface == interface;
   });
+}
+
+std::string example_world(std::string_view interface) {
+  // Each kind of device has a world of its name; the tests see to it.
+  for (const InterfaceRow& row : kInterfaces) {
+    if (row.interface == interface) return "devices/" + std::string(row.device_type) + ".json";
+  }
+  return "";
 }
 
 void check_interfaces(const sim::WorldDescription& world) {
@@ -230,30 +264,53 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
   return robots;
 }
 
+sim::CanvasDescription map_grid(const sim::ArenaDescription& arena, double cell_size_m) {
+  constexpr int kMaxSide = 8192;
+  // A side that is a whole number of cells long is not to get another one by rounding.
+  const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
+  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a map of this arena needs a cell size of at least " +
+                           std::to_string(arena.size.maxCoeff() / kMaxSide) + " m, but it is " +
+                           std::to_string(cell_size_m));
+  }
+  sim::CanvasDescription grid;
+  grid.width = static_cast<int>(cells.x());
+  grid.height = static_cast<int>(cells.y());
+  grid.cell_size_m = cell_size_m;
+  grid.origin = arena.origin;
+  return grid;
+}
+
 InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
   std::optional<InterfaceBinding> found;
   std::ostringstream known;
+  bool has_others = interface == kWorldInterface;  // of the interface, with another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
                        const SndDriverDescription* driver) {
                      if (name == interface && i == index && !found) {
                        found = InterfaceBinding{device.id, std::nullopt, robot, driver};
                      }
+                     has_others = has_others || name == interface;
                      known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
                            << robots[static_cast<std::size_t>(robot)].name << '.'
                            << (driver == nullptr ? device.name : "snd") << ')';
                    });
   if (is_open(robots, port)) {
-    if (interface == kWorldInterface && index == 0) return {};
-    known << (known.tellp() > 0 ? ", " : "") << kWorldInterface << ":0 (the world)";
+    if (is_of_world(interface) && index == 0) return {};
+    for (const std::string_view name : kWorldInterfaces) {
+      known << (known.tellp() > 0 ? ", " : "") << name << ":0 (the world)";
+    }
   }
   if (!found) {
     throw SessionError(SessionError::Code::kNoSuchDevice,
                        "there is no device " + std::string(interface) + ':' +
                            std::to_string(index) + " on port " + std::to_string(port) +
                            "; this world has there: " +
-                           (known.tellp() > 0 ? known.str() : std::string("nothing")));
+                           (known.tellp() > 0 ? known.str() : std::string("nothing")) +
+                           (has_others ? "" : where_else(interface)));
   }
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(found->robot)].devices) {
     if (device.type == "motion") {
@@ -273,7 +330,10 @@ std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robo
         addresses.push_back({std::string(name), i, robots[static_cast<std::size_t>(robot)].name,
                              driver == nullptr ? device.name : "snd"});
       });
-  if (is_open(robots, port)) addresses.push_back({std::string(kWorldInterface), 0, "", "world"});
+  if (!is_open(robots, port)) return addresses;
+  for (const std::string_view name : kWorldInterfaces) {
+    addresses.push_back({std::string(name), 0, "", "world"});
+  }
   return addresses;
 }
 

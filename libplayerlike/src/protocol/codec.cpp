@@ -705,6 +705,29 @@ sim::OccupancyMap decode_map(const json& map, Encoding encoding) {
   return decoded;
 }
 
+json encode_property(const PropertyValue& value) {
+  return std::visit([](const auto& what) { return json(what); }, value);
+}
+
+PropertyValue require_property(const json& object, const char* key) {
+  const json& value = require(object, key);
+  if (value.is_string()) return value.get<std::string>();
+  constexpr std::size_t kMost = 64;
+  const bool numbers =
+      value.is_array() && value.size() <= kMost &&
+      std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); });
+  if (!numbers) refuse_value(key, "a text or a list of at most 64 numbers", value);
+  return value.get<std::vector<double>>();
+}
+
+json encode_log(const LogStatus& log) {
+  return {{"replay", log.replay}, {"running", log.running}, {"file", log.file}};
+}
+
+LogStatus decode_log(const json& log) {
+  return {require_bool(log, "replay"), require_bool(log, "running"), require_text(log, "file")};
+}
+
 json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding) {
   if (encoding == Encoding::kJson) {
     json list = json::array();

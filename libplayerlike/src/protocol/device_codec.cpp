@@ -10,14 +10,18 @@
 #include <variant>
 
 #include "protocol/codec.h"
+#include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/blinkenlight.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/opaque.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
@@ -50,6 +54,24 @@ const json::array_t& require_list(const json& in, const char* key) {
   return *list;
 }
 
+sim::Colour require_colour(const json& in, const char* key) {
+  const std::optional<sim::Colour> colour = sim::parse_colour(require_text(in, key));
+  if (!colour) refuse_value(key, "#rgb, #rrggbb or #rrggbbaa", in.at(key));
+  return *colour;
+}
+
+constexpr std::int64_t kAllBits = 0xffffffff;
+
+void write(const sim::AioReading& reading, json& out, Encoding encoding) {
+  out["inputs"] = doubles(reading.inputs_v, encoding);
+  out["outputs"] = doubles(reading.outputs_v, encoding);
+}
+
+void read(const json& in, Encoding encoding, sim::AioReading& reading) {
+  reading.inputs_v = require_doubles(in, "inputs", encoding);
+  reading.outputs_v = require_doubles(in, "outputs", encoding);
+}
+
 void write(const sim::BatteryReading& reading, json& out, Encoding) {
   out["charge"] = reading.charge_percent;
   out["status"] = sim::to_string(reading.status);
@@ -80,6 +102,22 @@ void read(const json& in, Encoding encoding, sim::BumperReading& reading) {
     if (!fits) refuse_value("pressed", "whole numbers from 0 to 255", json(number));
     reading.pressed.push_back(static_cast<std::uint8_t>(number));
   }
+}
+
+void write(const sim::BlinkenlightReading& reading, json& out, Encoding) {
+  out["on"] = reading.enabled;
+  out["colour"] = sim::to_string(reading.colour);
+  out["period"] = reading.period_s;
+  out["duty_cycle"] = reading.duty_cycle;
+  out["lit"] = reading.lit;
+}
+
+void read(const json& in, Encoding, sim::BlinkenlightReading& reading) {
+  reading.enabled = require_bool(in, "on");
+  reading.colour = require_colour(in, "colour");
+  reading.period_s = require_number(in, "period");
+  reading.duty_cycle = require_number(in, "duty_cycle");
+  reading.lit = require_bool(in, "lit");
 }
 
 void write(const sim::CollisionReading& reading, json& out, Encoding) {
@@ -164,6 +202,21 @@ void read(const json& in, Encoding, sim::ImuReading& reading) {
   reading.yaw_rad = require_number(in, "yaw");
 }
 
+void write(const sim::DioReading& reading, json& out, Encoding) {
+  out["count"] = reading.input_count;
+  out["inputs"] = reading.inputs;
+  out["output_count"] = reading.output_count;
+  out["outputs"] = reading.outputs;
+}
+
+void read(const json& in, Encoding, sim::DioReading& reading) {
+  constexpr int kLines = sim::DioParams::kMaxLines;
+  reading.input_count = static_cast<int>(require_integer(in, "count", 0, kLines));
+  reading.inputs = static_cast<std::uint32_t>(require_integer(in, "inputs", 0, kAllBits));
+  reading.output_count = static_cast<int>(require_integer(in, "output_count", 0, kLines));
+  reading.outputs = static_cast<std::uint32_t>(require_integer(in, "outputs", 0, kAllBits));
+}
+
 void write(const sim::LaserReading& reading, json& out, Encoding encoding) {
   out["ranges"] = doubles(reading.ranges_m, encoding);
   out["angle_min"] = reading.angle_min_rad;
@@ -176,6 +229,18 @@ void read(const json& in, Encoding encoding, sim::LaserReading& reading) {
   reading.angle_min_rad = require_number(in, "angle_min");
   reading.resolution_rad = require_number(in, "resolution");
   reading.range_max_m = require_number(in, "range_max");
+}
+
+void write(const sim::OpaqueReading& reading, json& out, Encoding encoding) {
+  out["data"] = bytes(reading.data, encoding);
+  out["number"] = reading.number;
+  out["lost"] = reading.lost;
+}
+
+void read(const json& in, Encoding encoding, sim::OpaqueReading& reading) {
+  reading.data = require_bytes(in, "data", encoding);
+  reading.number = static_cast<std::uint64_t>(require_integer(in, "number", 0, kMost));
+  reading.lost = static_cast<std::uint64_t>(require_integer(in, "lost", 0, kMost));
 }
 
 void write(const sim::PoseReading& reading, json& out, Encoding) {
@@ -301,15 +366,19 @@ constexpr ReadingCodec reading_codec(std::string_view type) {
 }
 
 constexpr ReadingCodec kReadingCodecs[] = {
+    reading_codec<sim::AioReading>("aio"),
     reading_codec<sim::BatteryReading>("battery"),
+    reading_codec<sim::BlinkenlightReading>("blinkenlight"),
     reading_codec<sim::BumperReading>("bumper"),
     reading_codec<sim::CollisionReading>("collision"),
+    reading_codec<sim::DioReading>("dio"),
     reading_codec<sim::FiducialReading>("fiducial"),
     reading_codec<sim::GpsReading>("gps"),
     reading_codec<sim::ImuReading>("imu"),
     reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),
     reading_codec<sim::PoseReading>("odometry"),
+    reading_codec<sim::OpaqueReading>("opaque"),
     reading_codec<sim::PoseReading>("pose"),
     reading_codec<sim::ProximityReading>("proximity"),
     reading_codec<sim::RangerReading>("sonar"),
@@ -398,6 +467,30 @@ double read_lateral(const json& in) {
   return in.contains("lateral") ? require_number(in, "lateral") : 0.0;
 }
 
+json to_json(const sim::SayCommand& command) { return {{"kind", "say"}, {"text", command.text}}; }
+
+json to_json(const sim::DigitalOutputCommand& command) {
+  return {{"kind", "digital"}, {"count", command.count}, {"outputs", command.bits}};
+}
+
+json to_json(const sim::AnalogOutputCommand& command) {
+  return {{"kind", "analog"}, {"output", command.channel}, {"voltage", command.voltage_v}};
+}
+
+json to_json(const sim::LightCommand& command) {
+  json out = {{"kind", "light"}};
+  if (command.enabled) out["on"] = *command.enabled;
+  if (command.colour) out["colour"] = sim::to_string(*command.colour);
+  if (command.period_s) out["period"] = *command.period_s;
+  if (command.duty_cycle) out["duty_cycle"] = *command.duty_cycle;
+  return out;
+}
+
+// A command has no encoding of its own to know: in CBOR, too, its bytes are a text in base64.
+json to_json(const sim::OpaqueCommand& command) {
+  return {{"kind", "opaque"}, {"data", bytes(command.data, Encoding::kJson)}};
+}
+
 sim::Vec2 read_point(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
 
 sim::Pose read_pose(const json& in) {
@@ -459,6 +552,40 @@ const CommandCodec kCommandCodecs[] = {
      {"kind", "v", "steering"},
      [](const json& in) -> sim::Command {
        return sim::CarCommand{require_number(in, "v"), require_number(in, "steering")};
+     }},
+    {"say",
+     {"kind", "text"},
+     [](const json& in) -> sim::Command { return sim::SayCommand{require_text(in, "text")}; }},
+    {"digital",
+     {"kind", "count", "outputs"},
+     [](const json& in) -> sim::Command {
+       constexpr int kLines = sim::DioParams::kMaxLines;
+       return sim::DigitalOutputCommand{
+           static_cast<int>(require_integer(in, "count", 0, kLines)),
+           static_cast<std::uint32_t>(require_integer(in, "outputs", 0, kAllBits))};
+     }},
+    {"analog",
+     {"kind", "output", "voltage"},
+     [](const json& in) -> sim::Command {
+       constexpr int kLines = sim::AioParams::kMaxLines;
+       return sim::AnalogOutputCommand{
+           static_cast<int>(require_integer(in, "output", 0, kLines - 1)),
+           require_number(in, "voltage")};
+     }},
+    {"light",
+     {"kind", "on", "colour", "period", "duty_cycle"},
+     [](const json& in) -> sim::Command {
+       sim::LightCommand command;
+       if (in.contains("on")) command.enabled = require_bool(in, "on");
+       if (in.contains("colour")) command.colour = require_colour(in, "colour");
+       if (in.contains("period")) command.period_s = require_number(in, "period");
+       if (in.contains("duty_cycle")) command.duty_cycle = require_number(in, "duty_cycle");
+       return command;
+     }},
+    {"opaque",
+     {"kind", "data"},
+     [](const json& in) -> sim::Command {
+       return sim::OpaqueCommand{require_bytes(in, "data", Encoding::kJson)};
      }},
 };
 

@@ -2,21 +2,28 @@
 #include "sim/devices/builtin.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/blinkenlight.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/motion.h"
+#include "sim/devices/opaque.h"
 #include "sim/devices/pen.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
+#include "sim/devices/speech.h"
 #include "sim/devices/teleport.h"
 #include "sim/devices/waypoint.h"
 #include "sim/devices/wifi.h"
@@ -36,6 +43,68 @@ constexpr double kMostSteering_rad = 80.0 * kDegrees;
 RandomStream noise_stream(const DeviceDescription& device, const RobotDescription& robot,
                           std::uint64_t world_seed) {
   return {world_seed, robot.name + "/" + device.name};
+}
+
+// "ROBOT.DEVICE.INDEX" or "DEVICE.INDEX".
+std::optional<Wire> parse_wire(const std::string& text) {
+  const std::size_t last = text.rfind('.');
+  if (last == std::string::npos || last == 0) return std::nullopt;
+  const std::size_t first = text.find('.');
+  Wire wire;
+  if (first != last) wire.robot = text.substr(0, first);
+  wire.device = first == last ? text.substr(0, last) : text.substr(first + 1, last - first - 1);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + last + 1, end, wire.index);
+  const bool whole = error == std::errc() && stop == end && wire.index >= 0;
+  if (!whole || wire.device.empty() || first == 0 || wire.device.find('.') != std::string::npos) {
+    return std::nullopt;
+  }
+  return wire;
+}
+
+// The members of a list of inputs; read(element) gives one, or nullopt if it makes no sense.
+template <typename Source, typename Read>
+std::vector<Source> parse_inputs(io::Reader& settings, std::vector<Source> fallback, int most,
+                                 const char* what, Read read) {
+  const std::optional<io::Reader> list = settings.child("inputs");
+  if (!list) return fallback;
+  std::vector<io::Reader> elements = settings.array("inputs", static_cast<std::size_t>(most));
+  if (!list->is_array()) return fallback;
+  std::vector<Source> sources;
+  for (io::Reader& element : elements) {
+    if (std::optional<Source> source = read(element)) {
+      sources.push_back(std::move(*source));
+    } else {
+      element.issue("device/input", what, element.described());
+    }
+  }
+  return sources;
+}
+
+AioParams parse_aio(io::Reader& settings, AioParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_v = settings.number("noise", p.noise_v, {0.0, 1000.0, false, "V"});
+  p.inputs = parse_inputs(
+      settings, p.inputs, AioParams::kMaxLines,
+      "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's name), or a "
+      "wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\"",
+      [](const io::Reader& element) -> std::optional<AnalogSource> {
+        const std::optional<std::string> text = element.scalar_text();
+        if (!text || text->empty() || element.is_boolean()) return std::nullopt;
+        if (element.is_number()) {
+          double voltage_v = 0.0;
+          std::from_chars(text->data(), text->data() + text->size(), voltage_v);
+          if (!(std::abs(voltage_v) <= AioParams::kMaxVolts)) return std::nullopt;
+          return voltage_v;
+        }
+        if (*text == "speed") return AnalogSignal::kSpeed;
+        if (*text == "turn_rate") return AnalogSignal::kTurnRate;
+        if (text->find('.') == std::string::npos) return BatteryTap{*text};
+        if (std::optional<Wire> wire = parse_wire(*text)) return std::move(*wire);
+        return std::nullopt;
+      });
+  p.outputs = static_cast<int>(settings.integer("outputs", p.outputs, 0, AioParams::kMaxLines));
+  return p;
 }
 
 BatteryParams parse_battery(io::Reader& settings, BatteryParams p) {
@@ -84,6 +153,16 @@ BumperParams parse_bumper(io::Reader& settings, BumperParams p) {
   if (!list->is_array()) return p;
   p.segments.clear();
   for (io::Reader& element : elements) p.segments.push_back(parse_segment(element));
+  return p;
+}
+
+BlinkenlightParams parse_blinkenlight(io::Reader& settings, BlinkenlightParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.colour = settings.colour("colour", p.colour);
+  p.enabled = settings.boolean("enabled", p.enabled);
+  p.period_s = settings.number("period", p.period_s, {0.0, 1e6, false, "s"});
+  p.duty_cycle = settings.number("duty_cycle", p.duty_cycle, {0.0, 1.0, false, ""});
+  p.p_BL = settings.vec2("position", p.p_BL, {-100.0, 100.0, false, "m"});
   return p;
 }
 
@@ -136,6 +215,26 @@ ImuParams parse_imu(io::Reader& settings, ImuParams p) {
   p.field_horizontal_ut = settings.number("field_horizontal", p.field_horizontal_ut, kField_ut);
   p.field_down_ut = settings.number("field_down", p.field_down_ut, {-1000.0, 1000.0, false, "uT"});
   p.north_rad = settings.angle_deg("north_deg", p.north_rad, kNorth);
+  return p;
+}
+
+DioParams parse_dio(io::Reader& settings, DioParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.inputs =
+      parse_inputs(settings, p.inputs, DioParams::kMaxLines,
+                   "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
+                   "\"ROBOT.DEVICE.INDEX\"",
+                   [](const io::Reader& element) -> std::optional<DigitalSource> {
+                     const std::optional<std::string> text = element.scalar_text();
+                     if (!text || element.is_number()) return std::nullopt;
+                     if (element.is_boolean()) return *text == "true";
+                     if (*text == "contact") return DigitalSignal::kContact;
+                     if (*text == "stalled") return DigitalSignal::kStalled;
+                     if (*text == "dock") return DigitalSignal::kDock;
+                     if (std::optional<Wire> wire = parse_wire(*text)) return std::move(*wire);
+                     return std::nullopt;
+                   });
+  p.outputs = static_cast<int>(settings.integer("outputs", p.outputs, 0, DioParams::kMaxLines));
   return p;
 }
 
@@ -228,6 +327,21 @@ MotionParams parse_motion(io::Reader& settings, MotionParams p) {
   return p;
 }
 
+OpaqueParams parse_opaque(io::Reader& settings, OpaqueParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  if (!settings.has("from")) return p;
+  p.from.clear();
+  for (io::Reader& element : settings.array("from", OpaqueParams::kMaxSenders)) {
+    const std::optional<std::string> text = element.scalar_text();
+    if (element.is_string() && text && !text->empty()) {
+      p.from.push_back(*text);
+    } else {
+      element.issue("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\"", element.described());
+    }
+  }
+  return p;
+}
+
 PenParams parse_pen(io::Reader& settings, PenParams p) {
   p.colour = settings.colour("colour", p.colour);
   p.trail = settings.boolean("trail", p.trail);
@@ -245,6 +359,11 @@ SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
   parse_ranger(settings, p);
   p.field_of_view_rad =
       settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 180.0, true, "degrees"});
+  return p;
+}
+
+SpeechParams parse_speech(io::Reader& settings, SpeechParams p) {
+  p.shown_s = settings.number("shown", p.shown_s, {0.0, 1000.0, true, "s"});
   return p;
 }
 
@@ -351,6 +470,29 @@ Properties describe(const BumperParams& p) {
   }
   return properties;
 }
+Properties describe(const AioParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"noise", p.noise_v},
+          {"inputs", static_cast<double>(p.inputs.size())},
+          {"outputs", static_cast<double>(p.outputs)}};
+}
+Properties describe(const BlinkenlightParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"enabled", p.enabled ? 1.0 : 0.0},
+          {"period", p.period_s},
+          {"duty_cycle", p.duty_cycle},
+          {"x", p.p_BL.x()},
+          {"y", p.p_BL.y()}};
+}
+Properties describe(const DioParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"inputs", static_cast<double>(p.inputs.size())},
+          {"outputs", static_cast<double>(p.outputs)}};
+}
+Properties describe(const OpaqueParams& p) {
+  return {{"frequency", p.frequency_hz}, {"from", static_cast<double>(p.from.size())}};
+}
+Properties describe(const SpeechParams& p) { return {{"shown", p.shown_s}}; }
 Properties describe(const CollisionParams& p) { return {{"frequency", p.frequency_hz}}; }
 
 Properties describe(const FiducialParams& p) {
@@ -504,12 +646,20 @@ std::vector<DeviceKind> make_table() {
   using R = const RobotDescription&;
   using M = const RobotModel&;
   return {
+      kind<AioParams>("aio", parse_aio,
+                      [](D d, const AioParams& p, R, M, RandomStream noise) {
+                        return std::make_unique<Aio>(d.name, p, std::move(noise));
+                      }),
       kind<BatteryParams>("battery", parse_battery,
                           [](D d, const BatteryParams& p, R, M model, const RandomStream&) {
                             return std::make_unique<Battery>(d.name, p,
                                                              model.drive.wheel_separation_m);
                           }),
       bumper_kind(),
+      kind<BlinkenlightParams>("blinkenlight", parse_blinkenlight,
+                               [](D d, const BlinkenlightParams& p, R, M, const RandomStream&) {
+                                 return std::make_unique<Blinkenlight>(d.name, p);
+                               }),
       kind<CollisionParams>("collision", parse_collision,
                             [](D d, const CollisionParams& p, R, M, const RandomStream&) {
                               return std::make_unique<CollisionSensor>(d.name, p);
@@ -526,6 +676,10 @@ std::vector<DeviceKind> make_table() {
                       [](D d, const ImuParams& p, R robot, M, RandomStream noise) {
                         return std::make_unique<Imu>(d.name, p, robot.pose.yaw_rad,
                                                      std::move(noise));
+                      }),
+      kind<DioParams>("dio", parse_dio,
+                      [](D d, const DioParams& p, R, M, const RandomStream&) {
+                        return std::make_unique<Dio>(d.name, p);
                       }),
       kind<InfraredParams>("infrared", parse_infrared,
                            [](D d, const InfraredParams& p, R, M model, RandomStream noise) {
@@ -546,6 +700,10 @@ std::vector<DeviceKind> make_table() {
                                  d.name, p, model.drive.wheel_separation_m,
                                  model.drive.kind == DriveKind::kOmnidirectional, std::move(noise));
                            }),
+      kind<OpaqueParams>("opaque", parse_opaque,
+                         [](D d, const OpaqueParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Opaque>(d.name, p);
+                         }),
       kind<PenParams>("pen", parse_pen,
                       [](D d, const PenParams& p, R, M, const RandomStream&) {
                         return std::make_unique<Pen>(d.name, p);
@@ -563,6 +721,10 @@ std::vector<DeviceKind> make_table() {
                         [](D d, const SonarParams& p, R, M model, RandomStream noise) {
                           return make_ranger(d, p, model, std::move(noise));
                         }),
+      kind<SpeechParams>("speech", parse_speech,
+                         [](D d, const SpeechParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Speech>(d.name, p);
+                         }),
       kind<TeleportParams>("teleport", parse_teleport,
                            [](D d, const TeleportParams& p, R, M, const RandomStream&) {
                              return std::make_unique<Teleport>(d.name, p);

@@ -456,7 +456,15 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
          place(poses[first.robot].position());
 }
 
-std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint) {
+std::optional<std::string> outside_floor(const ArenaDescription& arena,
+                                         const ObstacleDescription& obstacle) {
+  const auto [side, depth_m] = beyond_floor(arena, box_of(obstacle));
+  if (depth_m == 0.0) return std::nullopt;
+  return "stick out " + metres(depth_m) + " beyond the " + side + " side of " + floor_text(arena);
+}
+
+std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint,
+                                   std::size_t& places_tried) {
   constexpr double kMargin = 1.3;  // of the footprint: 2 to 3 cm for an S1R
   constexpr double kSpacing_m = 0.1;
   constexpr int kMostSteps = 40;
@@ -499,7 +507,8 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
   std::stable_sort(places.begin(), places.end(), [&middle](const Vec2& a, const Vec2& b) {
     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
   });
-  for (const Vec2& p : places) {
+  for (; places_tried < places.size(); ++places_tried) {
+    const Vec2& p = places[places_tried];
     std::optional<Pose> best;
     double farthest_m = -1.0;
     for (const double yaw_rad :

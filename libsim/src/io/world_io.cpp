@@ -304,6 +304,7 @@ class WorldReader {
     }
     simulation.start_gate_clients =
         static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
+    simulation.objects_locked = reader->boolean("lock_objects", simulation.objects_locked);
     if (const std::optional<Reader> time = reader->child("time")) {
       simulation.time_mode_given = true;
       if (time->is_string()) {
@@ -416,17 +417,16 @@ class WorldReader {
         others.robots.push_back(world_.robots[i]);
       }
     }
-    bool full = false;
+    // Where there was no room for a model before, there is none now.
+    std::map<const RobotModel*, std::size_t> places_tried;
     for (const std::size_t i : unplaced) {
       RobotDescription& robot = world_.robots[i];
       const std::string pointer = "/robots/" + std::to_string(i);
       const RobotModel* model = find_robot_model(world_, robot.model);
       if (model == nullptr || document_.has_issue_at(pointer + "/pose")) continue;
-      // Where one found no place the next will not find one either.
       const std::optional<Pose> pose =
-          full ? std::nullopt : find_free_pose(others, model->footprint);
+          find_free_pose(others, model->footprint, places_tried[model]);
       if (!pose) {
-        full = true;
         ConfigIssue issue{"world/no-free-place",
                           document_.file,
                           pointer,

@@ -261,6 +261,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
+  // The first robot whose footprint overlaps a shape; -1 if none does.
+  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const {
+    const auto it = std::find_if(robots.begin(), robots.end(), [&](const Robot& r) {
+      return b2TestOverlap(&shape, 0, &r.shape, 0, xf, r.body->GetTransform());
+    });
+    return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
+  }
+
   // The edges that are there now, for worlds small enough to sweep.
   void rebuild_fixed_edges() {
     sweep = all_edges.edges.size() <= kSweepLimit;
@@ -781,13 +789,33 @@ void PhysicsWorld::set_extended(int obstacle, bool extended) {
 
 bool PhysicsWorld::robot_stands_on(int obstacle) const {
   const b2Body* block = impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)];
-  const b2Shape* shape = block->GetFixtureList()->GetShape();
-  for (const Robot& r : impl_->robots) {
-    if (b2TestOverlap(shape, 0, &r.shape, 0, block->GetTransform(), r.body->GetTransform())) {
-      return true;
-    }
+  return impl_->robot_within(*block->GetFixtureList()->GetShape(), block->GetTransform()) >= 0;
+}
+
+void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now) {
+  Impl& d = *impl_;
+  b2Body* body = d.obstacle_bodies[static_cast<std::size_t>(obstacle)];
+  b2Fixture* before = body->GetFixtureList();
+  auto* info = reinterpret_cast<FixtureInfo*>(before->GetUserData().pointer);
+  info->height_m = now.height_m;
+  const std::vector<Vec2> corners = box_corners(now.center, now.size, now.yaw_rad);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& a = corners[i];
+    const Vec2& b = corners[(i + 1) % corners.size()];
+    d.all_edges.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
+    d.all_edges.heights_m[info->first_edge + i] = now.height_m;
   }
-  return false;
+  d.all_edges.least_height_m = std::min(d.all_edges.least_height_m, now.height_m);
+  body->DestroyFixture(before);
+  d.attach(body, polygon_shape(corners), info, 0.0F);
+  d.something_was_placed();
+  d.rebuild_fixed_edges();
+}
+
+int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
+  b2Transform here;
+  here.SetIdentity();
+  return impl_->robot_within(polygon_shape(box_corners(box.center, box.size, box.yaw_rad)), here);
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {

@@ -77,6 +77,11 @@ class PhysicsWorld {
   void set_extended(int obstacle, bool extended);
   /// Whether any robot's footprint overlaps the obstacle's place.
   [[nodiscard]] bool robot_stands_on(int obstacle) const;
+  /// Gives an obstacle, by its index, another place, turn, size or height; extended or retracted it
+  /// stays as it is.
+  void change_obstacle(int obstacle, const ObstacleDescription& now);
+  /// The first robot whose footprint overlaps a box; -1 if none does.
+  [[nodiscard]] int robot_within(const ObstacleDescription& box) const;
 
   /// Distance of a robot's footprint to the nearest solid, at most limit_m [m]; exact where it is
   /// below exact_below_m, otherwise a lower bound that is at least that.

@@ -67,15 +67,16 @@ TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
   EXPECT_TRUE(client.GetDeviceList().empty());
   client.RequestDeviceList();
   const std::list<playerc_device_info_t> list = client.GetDeviceList();
-  // graphics2d:0 (pen), laser:0, position2d:0 (pose), position2d:1 (odometry) and the world's
+  // graphics2d:0 (pen), laser:0, localize:0 and position2d:0 (pose), position2d:1 (odometry) and
+  // the world's
   // map:0.
   std::vector<std::string> found;
   for (const playerc_device_info_t& info : list) {
     found.push_back(client.LookupName(info.addr.interf) + ':' + std::to_string(info.addr.index) +
                     ' ' + info.drivername);
   }
-  EXPECT_THAT(found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "position2d:0 pose",
-                                 "position2d:1 odometry", "map:0 world"));
+  EXPECT_THAT(found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "localize:0 pose",
+                                 "position2d:0 pose", "position2d:1 odometry", "map:0 world"));
 }
 
 TEST_F(Proxies, ClientKeepsItsRetrySettings) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "playerlike/messages/snd_settings.h"
@@ -75,6 +76,29 @@ struct TimeStatistics {
   bool finished = false;
 };
 
+/// Where a robot or an obstacle is.
+struct ObjectPose {
+  sim::Pose pose;            ///< X_WB of a robot; the middle of anything else, in W
+  sim::SimTime time_ns = 0;  ///< now
+};
+
+/// A property of a robot or an obstacle: numbers (SI units and radians), or a text.
+using PropertyValue = std::variant<std::vector<double>, std::string>;
+
+/// What the log of a port does.
+struct LogStatus {
+  bool replay = false;  ///< readings come from the log, not from the devices; else they are written
+  bool running = false;  ///< it does so now
+  std::string file;      ///< in the run's output folder
+};
+/// What to change of it, in this order; what has no value stays.
+struct LogControl {
+  std::optional<std::string> file;  ///< a plain name; ".jsonl" is added unless it is there
+  std::optional<bool> replay;
+  bool rewind = false;  ///< a replay begins anew
+  std::optional<bool> running;
+};
+
 /// A call that could not be carried out. Player's layer turns it into PlayerCc::PlayerError.
 class SessionError : public std::runtime_error {
  public:
@@ -99,6 +123,12 @@ void require_finite(const sim::Command& command);
 /// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 
+/// The world that comes with Playpen for trying an interface: it has a robot with a device that
+/// carries it.
+/// @return its name in the folder of worlds, e.g. "devices/laser.json"; "" if no device carries the
+///         interface.
+[[nodiscard]] std::string example_world(std::string_view interface);
+
 /// Checks the orders of devices that robots give for interfaces.
 /// @throws sim::ConfigError naming each interface that there is not, and each device that does not
 ///         carry the one it is listed for.
@@ -107,6 +137,11 @@ void check_interfaces(const sim::WorldDescription& world);
 /// Builds what clients are told of a simulation's robots.
 /// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
+
+/// The cells of the map of an arena's whole floor.
+/// @throws SessionError kBadArgument as Session::world_map().
+[[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
+                                              double cell_size_m);
 
 /// Which devices stand behind a Player device address.
 struct InterfaceBinding {
@@ -126,10 +161,13 @@ struct InterfaceBinding {
 /// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
-/// Interfaces known: "position2d" (pose, then odometry devices), "laser", "sonar", "ir", "ranger"
-/// (lasers, then sonar, then infrared), "bumper", "power", "graphics2d" (pens) and
-/// those of further devices; and "map", the world's own, with index 0 on every port.
-/// @throws SessionError kNoSuchDevice, naming the addresses that exist.
+/// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices),
+/// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"
+/// (batteries), "graphics2d" (pens); those of the devices that have their names ("aio",
+/// "blinkenlight", "bumper", "dio", "fiducial", "gps", "imu", "opaque", "speech", "wifi"); and
+/// "log", "map" and "simulation", the world's own, with index 0 on every port.
+/// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
+///         of the interface, the world that does (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                               std::string_view interface, int index);
 

@@ -39,6 +39,7 @@ struct ObstacleDescription {
   double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
   int fiducial = 0;  ///< what fiducial devices read of it; 0: they do not see it
+  std::optional<Colour> colour = {};               ///< in pictures; none: that of its type
 };
 
 /// A charging dock: a marked place on the floor, no obstacle.
@@ -90,6 +91,8 @@ struct SimulationDescription {
                                  ///< playerlike::Session::prefer_real_time
   double time_factor = 1.0;      ///< paced: simulated seconds a wall second, > 0
   int start_gate_clients = 1;    ///< the clock waits until so many clients have joined, >= 1
+  bool objects_locked = false;   ///< clients may look at robots and obstacles by name, but not move
+                                 ///< or change them
 };
 
 /// A sensor or actuator of a robot.
