@@ -17,13 +17,15 @@ class Farewell {
   Farewell& operator=(const Farewell&) = delete;
   ~Farewell() {
     said_ = true;
-    virtual_time::note_thread_ends();
+    if (in_virtual_time_) virtual_time::note_thread_ends();
     for (const Known& known : hosts_) {
       if (const std::shared_ptr<Host> host = known.host.lock()) {
-        InsideCore(VirtualTimeAccess::core(*host))->thinker_ended(this_thinker(), pthread_self());
+        host->thinker_ended(this_thinker());
       }
     }
   }
+
+  void remember_virtual_time() { in_virtual_time_ = true; }
 
   void remember(const std::shared_ptr<Host>& host) {
     if (said_) return;  // by what is destroyed later: nothing is left that could remember
@@ -40,6 +42,7 @@ class Farewell {
     std::weak_ptr<Host> host;
   };
   std::vector<Known> hosts_;
+  bool in_virtual_time_ = false;
   static thread_local bool said_;  // outlives the rest
 };
 
@@ -48,7 +51,7 @@ thread_local Farewell farewell;
 
 }  // namespace
 
-void remember_host_of_thread(const std::shared_ptr<Host>& host) { farewell.remember(host); }
+void remember_thread() { farewell.remember_virtual_time(); }
 
 InProcessSession::InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
     : host_(std::move(host)), client_(std::move(client)) {}
@@ -60,7 +63,9 @@ InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->c
 void InProcessSession::note_wait() const {
   farewell.remember(host_);
   // Drivers are Playpen's own.
-  if (!client_->follower) virtual_time::note_wait();
+  if (client_->follower || !virtual_time::active()) return;
+  farewell.remember_virtual_time();
+  virtual_time::note_wait();
 }
 
 const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
