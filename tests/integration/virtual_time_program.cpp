@@ -189,7 +189,6 @@ void read_in_own_thread() {
       ++count;
     }
   });
-  usleep(500000);  // from here on, all three take part
   double last = position.GetXPos();
   int last_count = 0;
   {
@@ -283,6 +282,8 @@ void wait_in_background_for_a_place() {
   PlayerClient robot("localhost", 6665);
   Position2dProxy position(&robot, 0);
   robot.StartThread();
+  while (!position.IsFresh()) {
+  }
   const double start = position.GetXPos();
   position.SetSpeed(0.1, 0.0);
   while (position.GetXPos() < start + 0.2) {

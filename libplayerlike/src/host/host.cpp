@@ -87,10 +87,16 @@ ThinkerId new_thinker() noexcept {
   return ++last;
 }
 
-ThinkerId this_thinker() noexcept {
-  thread_local const ThinkerId own = new_thinker();
-  return own;
+namespace {
+constinit thread_local ThinkerId own_thinker = 0;
 }
+
+ThinkerId this_thinker() noexcept {
+  if (own_thinker == 0) own_thinker = new_thinker();
+  return own_thinker;
+}
+
+void set_this_thinker(ThinkerId thinker) noexcept { own_thinker = thinker; }
 
 // --- Construction
 // ---------------------------------------------------------------------------------
@@ -726,7 +732,7 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   });
   if (settings_.quiet_end &&
       (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
-    if (log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+    if (settings_.progress && log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     lock.unlock();
     end_program_quietly();
   }
@@ -751,6 +757,19 @@ bool Host::Core::begin_join(pthread_t awaited) {
   }
   changed_.notify_all();
   return away;
+}
+
+void Host::Core::add_thread(ThinkerId thinker) {
+  const Lock lock = lock_soon();
+  if (!turns_ || paced_) return;
+  const std::shared_ptr<Client> helper = helper_of(thinker);
+  helper->joined = true;
+  touch(*helper);
+}
+
+void Host::Core::note_thread_begun() {
+  const Lock lock = lock_soon();
+  if (turns_) helper_of(this_thinker())->owner_thread = this_thread();
 }
 
 void Host::Core::end_join() {

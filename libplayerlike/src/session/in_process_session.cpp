@@ -12,13 +12,13 @@ namespace {
 
 // Nobody is to wait for a thread that has ended.
 thread_local Farewell<Host> farewell([](Host& host) {
-  virtual_time::note_thread_ends();
-  InsideCore(VirtualTimeAccess::core(host))->thinker_ended(this_thinker(), pthread_self());
+  if (virtual_time::active()) virtual_time::note_thread_ends();
+  host.thinker_ended(this_thinker());
 });
 
 }  // namespace
 
-void remember_host_of_thread(const std::shared_ptr<Host>& host) { farewell.remember(host); }
+void remember_thread() { farewell.remember_virtual_time(); }
 
 InProcessSession::InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
     : host_(std::move(host)), client_(std::move(client)) {}
