@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commands.h"
+#include "playerlike/messages/messages.h"
 #include "playerlike/messages/snd_settings.h"
 #include "sim/core/error.h"
 #include "sim/simulation/simulation.h"
@@ -42,6 +43,7 @@ int check(const std::vector<std::string>& worlds) {
       // First all that may throw, then the line.
       const sim::WorldDescription description = sim::load_world(find_world(world));
       playerlike::check_drivers(description);
+      playerlike::check_interfaces(description);
       const std::string what = describe(description);
       std::cout << world << ": ok (" << what << ")\n";
     } catch (const sim::ConfigError& error) {

@@ -35,6 +35,8 @@ void add_run(CLI::App& app, const std::vector<std::string>& program, int& status
   playpen::add_run_settings(command, request->settings, "the world's, else lockstep");
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time gives a factor");
+  command.add_flag("--real-sleep", request->real_sleep,
+                   "In lockstep: the program's sleeps and clocks are real, not simulated time");
   command.add_flag("--quiet", request->quiet, "No progress, no summary");
   command.callback([request, &status] {
     if (request->command.empty()) throw CLI::RequiredError("-- PROGRAM");

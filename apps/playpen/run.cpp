@@ -5,6 +5,7 @@
 
 #include "commands.h"
 #include "playerlike/host/program.h"
+#include "preload.h"
 #include "run_outputs.h"
 #include "sim/simulation/simulation.h"
 #include "viewer_process.h"
@@ -13,6 +14,10 @@ namespace playpen {
 namespace {
 
 constexpr const char* kTrajectory = "trajectory.csv";  // made when the program connects
+
+bool in_lockstep(const playerlike::RunSettings& settings, const sim::WorldDescription& world) {
+  return settings.time_mode.value_or(world.simulation.time_mode) == sim::TimeMode::kLockstep;
+}
 
 }  // namespace
 
@@ -40,8 +45,11 @@ int run(RunRequest request) {
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
 
   const std::string& program = request.command.front();
-  const playerlike::ProgramEnd end =
-      playerlike::run_program(request.command, playerlike::run_environment(world_file, settings));
+  std::optional<PreloadedLibrary> virtual_time;
+  settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
+  playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
+  if (settings.virtual_time) virtual_time.emplace().add_to(environment);
+  const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment);
 
   viewer.reset();  // it has nothing to show any more
 

@@ -63,7 +63,9 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
       unsetenv(name.c_str());
     }
   }
-  return playerlike::RunSettings::from_environment();
+  playerlike::RunSettings result = playerlike::RunSettings::from_environment();
+  result.start_at_once = settings.start_at_once;  // no matter of the environment
+  return result;
 }
 
 std::string address_text(const std::string& bind, int port) {
@@ -94,7 +96,10 @@ int serve(ServeRequest request) {
     settings.time_factor = 1.0;
   }
   settings.apply_to(world);
-  if (request.clients) world.simulation.start_gate_clients = *request.clients;
+  if (request.clients) {
+    world.simulation.start_gate_clients = std::max(*request.clients, 1);
+    settings.start_at_once = *request.clients == 0;
+  }
 
   const sim::LogHook log = playerlike::log_to_stderr(request.log_level);
   if (!request.token_file.empty()) {

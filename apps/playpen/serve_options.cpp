@@ -100,10 +100,11 @@ void add_serve(CLI::App& app, int& status) {
                   "File with the tokens that clients must present")
       ->type_name("FILE");
   command.add_flag("--open", server.open, "Let other machines connect without a token");
-  add_parsed(command, "--clients", "Hold time until so many clients have joined [the world's]", "N",
-             "a whole number from 1 to 1000", [request](const std::string& text) {
+  add_parsed(command, "--clients",
+             "Hold time until so many clients have joined; 0: do not wait [the world's]", "N",
+             "a whole number from 0 to 1000", [request](const std::string& text) {
                int clients = 0;
-               const bool good = parse_number(text, clients) && clients >= 1 && clients <= 1000;
+               const bool good = parse_number(text, clients) && clients >= 0 && clients <= 1000;
                if (good) request->clients = clients;
                return good;
              });

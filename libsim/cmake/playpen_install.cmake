@@ -27,6 +27,8 @@ if(TARGET playpen)
   set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${_playpen_lib_from_bin}")
   # The window's program is looked for beside the command.
   install(TARGETS playpen playpen-view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS playpen_virtual_time
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/playpen")
 endif()
 
 install(EXPORT playpenTargets NAMESPACE playpen:: DESTINATION "${_playpen_package_dir}")

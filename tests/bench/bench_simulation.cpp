@@ -8,8 +8,11 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "crowd.h"
 #include "figures.h"
 #include "physics/physics_world.h"
 #include "realtime.h"
@@ -27,7 +30,7 @@ struct Bare {
         kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m}),
         ranges(static_cast<std::size_t>(laser.beam_count)) {
     for (const RobotDescription& robot : world.robots) {
-      physics.add_robot(*find_robot_model(robot.model), robot.pose);
+      physics.add_robot(*find_robot_model(world, robot.model), robot.pose);
     }
   }
   void scan_all() {
@@ -148,7 +151,28 @@ BENCHMARK_CAPTURE(BM_Step, thirteen_robots, kThirteen)->Unit(benchmark::kMicrose
 }  // namespace
 }  // namespace sim::bench
 
+// With --world FILE: only the cost of a robot among so many, for each --robots N (default 1, 10, 50
+// and 200) that is given. --devices TYPE,TYPE... leaves its robots only devices of those types.
 int main(int argc, char** argv) {
+  std::string world;
+  std::vector<int> counts;
+  std::vector<std::string> types;
+  for (int i = 1; i + 1 < argc; ++i) {
+    const std::string option = argv[i];
+    if (option == "--world")
+      world = argv[++i];
+    else if (option == "--robots")
+      counts.push_back(std::stoi(argv[++i]));
+    else if (option == "--devices") {
+      std::stringstream list(argv[++i]);
+      for (std::string type; std::getline(list, type, ',');) types.push_back(type);
+    }
+  }
+  if (!world.empty()) {
+    if (counts.empty()) counts = {1, 10, 50, 200};
+    sim::bench::print_crowd(world.c_str(), counts, types);
+    return 0;
+  }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -176,6 +176,13 @@ TEST_F(PlaypenServe, HoldsTimeUntilTheClientsAreThere) {
   EXPECT_EQ(json::parse(two.line()).at("t"), 1'000'000'000);
 }
 
+TEST_F(PlaypenServe, StartsWithoutClientsIfItIsToWaitForNone) {
+  start({"--time", "1000", "--clients", "0", "--duration", "1"});
+  const ProcessResult end = server_->finish();
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(report().at("run").at("steps"), 100);
+}
+
 TEST_F(PlaypenServe, WithATokenFileTheRobotObeysItsHolder) {
   const std::string tokens = folder_.write("tokens.json", R"({"robots": {"r1": "only alice"}})");
   const ProcessResult blank = playpen(arguments({"--token-file", tokens}));
@@ -236,7 +243,7 @@ TEST_F(PlaypenServe, BadOptionsAreRefusedByNameAndValue) {
                                          {"--port", "http"},
                                          {"--stream-port", "70000"},
                                          {"--sync-port", "x"},
-                                         {"--clients", "0"},
+                                         {"--clients", "-1"},
                                          {"--time", "slow"},
                                          {"--duration", "0"},
                                          {"--log-level", "loud"},

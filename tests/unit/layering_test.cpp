@@ -162,9 +162,10 @@ std::vector<std::string> violations(const Source& source) {
     }
 
     if (in_sim) {
-      if (starts_with_any(include, {"playerlike/", "libplayerc", "libplayerinterface/", "player-",
-                                    "libCCMorse/", "libPlayer/", "imr-h/", "messages/", "protocol/",
-                                    "host/", "session/", "proxies/", "drivers/", "server/"})) {
+      if (starts_with_any(include,
+                          {"playerlike/", "libplayerc", "libplayerinterface/", "player-",
+                           "libCCMorse/", "libPlayer/", "imr-h/", "messages/", "protocol/", "host/",
+                           "session/", "proxies/", "playerc/", "drivers/", "server/"})) {
         refuse("libsim knows no client");
       }
       static const std::set<std::string> kForbidden = {
@@ -195,6 +196,9 @@ std::vector<std::string> violations(const Source& source) {
       }
       if (include.starts_with("drivers/") && !path.starts_with("libplayerlike/src/drivers/")) {
         refuse("drivers use proxies, not the other way round; see proxies/goal_driver.h");
+      }
+      if (include.starts_with("playerc/") && !path.starts_with("libplayerlike/src/playerc/")) {
+        refuse("the C library stands on proxies, not the other way round");
       }
       if (path.starts_with("libplayerlike/src/protocol/") &&
           !starts_with_any(include, {"protocol/", "playerlike/messages/", "sim/"}) &&
@@ -307,6 +311,10 @@ TEST(LayeringRules, RefuseClientsThreadsAndClocksInTheSimulator) {
 TEST(LayeringRules, LetDriversUseProxiesAndNotTheOtherWayRound) {
   EXPECT_THAT(violations({"libplayerlike/src/drivers/x.cpp",
                           "#include \"drivers/x.h\"\n#include \"proxies/link.h\"\n"}),
+              IsEmpty());
+  EXPECT_THAT(violations({"libplayerlike/src/proxies/x.cpp", "#include \"playerc/device.h\"\n"}),
+              ElementsAre(HasSubstr("the C library stands on proxies")));
+  EXPECT_THAT(violations({"libplayerlike/src/playerc/x.cpp", "#include \"playerc/device.h\"\n"}),
               IsEmpty());
   EXPECT_THAT(
       violations({"libplayerlike/src/proxies/x.cpp", "#include \"drivers/snd_thread.h\"\n"}),

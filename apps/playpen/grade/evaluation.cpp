@@ -197,7 +197,7 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
   }
   if (!task.map_layer.empty() || reference.goal) reference.truth = make_truth(world.arena);
   if (reference.goal) {
-    const double radius_m = inscribed_radius(sim::find_robot_model(robot->model)->footprint);
+    const double radius_m = inscribed_radius(sim::find_robot_model(world, robot->model)->footprint);
     // What stands beside a wall is up to a cell's diagonal deeper in the inflated map; a goal
     // need only be met within its tolerance.
     const double slip_m = std::max(2.0 * kTruthCell_m, reference.goal->tolerance_m);

@@ -19,6 +19,7 @@
 #include "libCCMorse/MorseError.h"
 #include "libCCMorse/MorseInfrared.h"
 #include "libCCMorse/MorseLaser.h"
+#include "libCCMorse/MorseLight.h"
 #include "libCCMorse/MorseMotionVW.h"
 #include "libCCMorse/MorseOdometry.h"
 #include "libCCMorse/MorsePen.h"

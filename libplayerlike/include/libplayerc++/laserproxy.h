@@ -16,7 +16,9 @@ namespace PlayerCc {
 /// meets nothing reads GetMaxRange(). Before the first reading there are 0 beams, while the
 /// settings (angles, resolution, greatest range, frequency, poses) are known from the start.
 ///
-/// Errors: an index that is not below GetCount() is refused with PlayerError kBadArgument.
+/// Errors: from the first reading on an index that is not below GetCount() is refused with
+/// PlayerError kBadArgument. Before it each beam reads 0, as in Player, so that programs which look
+/// before their first Read() live.
 class LaserProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.

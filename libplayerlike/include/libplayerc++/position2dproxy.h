@@ -11,16 +11,18 @@ namespace PlayerCc {
 
 /// A robot that drives in a plane: where it is, and how it is told to move.
 ///
-/// Frames: positions are of the body B (the middle of the wheels' axle; x forward, y left) in the
-/// frame that the localisation reports in: index 0 is the arena's localisation, so the world W;
-/// index 1, if the robot has it, is the odometry, so the pose B had at the start. Yaw is
+/// Frames: positions are of the body B (x forward, y left; its origin is the middle of the wheels'
+/// axle, of a car the rear one) in the frame that the index's localisation reports in. Which device
+/// has index 0 is up to the robot's model and the world (docs/robot_models.md): of an S1R the
+/// arena's localisation, so the world W, then, as index 1, the odometry; of Pioneers and the other
+/// models the odometry, so the pose B had at the start, then the localisation. Yaw is
 /// counter-clockwise in (-pi, pi].
 ///
-/// Commands are carried out from the next step on and hold until the next one. Values beyond
-/// the robot's limits are clamped to them; NaN and infinity are refused with PlayerError
-/// kBadArgument. The robots have differential drives: sideways speeds are ignored. Of SetVelHead()
-/// and GoTo() the control runs in this library, once for each new reading, so only while the client
-/// reads.
+/// Commands are carried out from the next step on and hold until the next one, which ends them;
+/// they need no Read(). Values beyond the robot's limits are clamped to them; NaN and infinity are
+/// refused with PlayerError kBadArgument. Speeds to the left are for omnidirectional drives; others
+/// ignore them. The control behind SetVelHead() and GoTo() runs in the simulation, once a step
+/// (docs/devices/motion.md says by which law).
 ///
 /// An index that the world's `drivers` table gives a driver (docs/snd.md) reports what that
 /// driver's own position device does. Its GoTo() hands the goal to the driver, which drives round
@@ -32,37 +34,45 @@ class Position2dProxy : public ClientProxy {
   Position2dProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~Position2dProxy() override;
 
-  /// Drive. @param aXSpeed forward [m/s]; aYSpeed ignored; aYawSpeed counter-clockwise [rad/s].
+  /// Drive.
+  /// @param aXSpeed    forward [m/s].
+  /// @param aYSpeed    to the left [m/s], if the drive is omnidirectional.
+  /// @param aYawSpeed  counter-clockwise [rad/s]; a car steers to get it, standing it cannot.
   void SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed);
-  void SetSpeed(double aXSpeed, double aYawSpeed);
-  void SetSpeed(player_pose2d_t vel);
+  void SetSpeed(double aXSpeed, double aYawSpeed);  ///< the same without a speed to the left
+  void SetSpeed(player_pose2d_t vel);               ///< the same: px, py, pa are the speeds
 
-  /// Drive at aXSpeed [m/s], turning towards the heading aYawHead [rad], at a rate proportional
-  /// to what is missing (see kGain_per_s in the source).
+  /// Drive at these speeds [m/s], turning to the heading aYawHead [rad], in the frame that GetYaw()
+  /// is in, and holding it: the turn rate is `turn_gain` times what is missing.
   void SetVelHead(double aXSpeed, double aYSpeed, double aYawHead);
-  void SetVelHead(double aXSpeed, double aYawHead);
+  void SetVelHead(double aXSpeed, double aYawHead);  ///< the same without a speed to the left
 
   /// Drive to a pose in the frame that GetXPos() is in: turn towards it, drive there straight (to
-  /// within 1 cm), turn to the heading (to within 0.01 rad), stop. It goes straight, also into
-  /// obstacles, unless the index is a driver's.
+  /// within the `tolerance` of the motors), turn to the heading (to within
+  /// `heading_tolerance_deg`), stand. An omnidirectional robot does both at once; a car comes to
+  /// the point on an arc, with whatever heading that ends. It goes on until it is there, also
+  /// against obstacles, unless the index is a driver's.
   /// @param pos  where to.
-  /// @param vel  px: highest forward speed [m/s]; pa: highest turn rate [rad/s]; 0 for the robot's
-  ///             own limits; signs do not matter, py is ignored.
+  /// @param vel  speeds on the way, as in Player: px and py the highest speed as a vector [m/s], pa
+  ///             the highest turn rate [rad/s]; 0 for the motors' own limits. Signs do not matter.
   void GoTo(player_pose2d_t pos, player_pose2d_t vel);
-  void GoTo(player_pose2d_t pos);
-  void GoTo(double aX, double aY, double aYaw);
+  void GoTo(player_pose2d_t pos);                ///< the same at the motors' own speeds
+  void GoTo(double aX, double aY, double aYaw);  ///< the same, [m, m, rad]
 
-  /// Drive as a car with its wheelbase as long as the robot would: the turn rate is
-  /// aXSpeed tan(aDriveAngle) / length [rad/s].
+  /// Drive as a car does. A robot that is none turns as one with a wheelbase of its own length
+  /// would: at aXSpeed tan(aDriveAngle) / length [rad/s].
   /// @param aXSpeed      forward [m/s].
-  /// @param aDriveAngle  steering angle, counter-clockwise, in (-pi/2, pi/2) [rad].
+  /// @param aDriveAngle  steering angle, counter-clockwise [rad]; clamped to what the car's
+  ///                     steering allows, of others to 80 degrees either way.
   void SetCarlike(double aXSpeed, double aDriveAngle);
 
   /// Asks for the geometry. It is known from the start, so nothing changes.
   void RequestGeom();
-  /// Pose of the body's middle in B: zero.
+  /// Pose of the middle of the body's bounding box in B [m].
   player_pose3d_t GetOffset();
-  /// Size of the body.
+  /// Name of GetOffset() in Player 2.0. @deprecated Use GetOffset().
+  player_pose3d_t GetPose();
+  /// Size of the body's bounding box [m].
   player_bbox3d_t GetSize();
 
   /// Switches the motors on or off. Off stops the robot, ends GoTo() and SetVelHead(), and lets
@@ -87,13 +97,10 @@ class Position2dProxy : public ClientProxy {
   void Subscribe(uint32_t aIndex) override;
   void Unsubscribe() override;
   void HandleReading(const sim::Reading& aReading) override;
-  void HandleRound() override;
   bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
 
  private:
   struct Control;
-  void Drive(double aXSpeed, double aYawSpeed, const char* aFun);
-  void Send(double aXSpeed, double aYawSpeed, const char* aFun);
   player_position2d_data_t mData;
   std::unique_ptr<Control> mControl;
 };

@@ -34,21 +34,37 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
 }
 
 void ClientCore::read(const std::atomic<bool>* stop) {
-  std::vector<std::function<void()>> notifications;
+  Notifications notifications;
   for (bool done = false; !done;) {
     session_->wait();
     const std::lock_guard lock(mutex_);
     if (stop != nullptr && *stop) return;
-    const int count = session_->take(*this);
+    const int count = hand_out(notifications);
     // Another thread of this client may have taken the round: then there is one more to wait for.
     done = count > 0 || entries_.empty();
-    for (Entry& entry : entries_) {
-      if (!std::exchange(entry.updated, false)) continue;
-      entry.listener->on_round();
-      if (auto call = entry.listener->notification()) notifications.push_back(std::move(call));
-    }
   }
   for (const auto& call : notifications) call();
+}
+
+bool ClientCore::read_what_waits() {
+  Notifications notifications;
+  int count = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    count = hand_out(notifications);
+  }
+  for (const auto& call : notifications) call();
+  return count > 0;
+}
+
+int ClientCore::hand_out(Notifications& notifications) {
+  const int count = session_->take(*this);
+  for (Entry& entry : entries_) {
+    if (!std::exchange(entry.updated, false)) continue;
+    entry.listener->on_round();
+    if (auto call = entry.listener->notification()) notifications.push_back(std::move(call));
+  }
+  return count;
 }
 
 void ClientCore::on_reading(DeviceId device, const sim::Reading& reading) {

@@ -50,6 +50,9 @@ class ClientCore final : private ReadingSink {
   /// Waits for a round and hands its readings to the listeners, then calls their notifications.
   /// @param stop  if it is true after the wait, nothing is handed out.
   void read(const std::atomic<bool>* stop = nullptr);
+  /// The same for what has arrived, without waiting, and without letting simulated time go on.
+  /// @return whether there was anything.
+  bool read_what_waits();
   [[nodiscard]] bool peek(std::chrono::milliseconds timeout) { return session_->peek(timeout); }
 
   /// Ends the session; listeners stay listed, for nothing more to come. Takes the mutex.
@@ -103,7 +106,11 @@ class ClientCore final : private ReadingSink {
     bool absolute;
   };
 
+  using Notifications = std::vector<std::function<void()>>;
+
   void on_reading(DeviceId device, const sim::Reading& reading) override;
+  /// Hands out what has arrived; the mutex is held. @return how many readings.
+  int hand_out(Notifications& notifications);
 
   PlayerCc::mutex_t mutex_;
   const std::unique_ptr<Session> session_;

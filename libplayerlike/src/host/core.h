@@ -1,11 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pthread.h>
+
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -15,6 +18,7 @@
 #include <vector>
 
 #include "host/recorder.h"
+#include "host/run_log.h"
 #include "host/view_controls.h"
 #include "host/viewer_link.h"
 #include "playerlike/host/event_client.h"
@@ -22,6 +26,7 @@
 #include "playerlike/session/draw_queue.h"
 #include "playerlike/session/layer_book.h"
 #include "sim/world/occupancy_map.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike {
 
@@ -40,6 +45,9 @@ struct Client {
   int number = 0;  ///< in order of connection; fixes the order of commands
   int port = 0;
   bool follower = false;                    ///< see Session::open_follower()
+  /// Made by the host for a thread that sleeps in virtual time: no session is behind it.
+  bool helper = false;
+  ThinkerId creator = 0;  ///< who connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -53,6 +61,14 @@ struct Client {
   bool waiting = false;     ///< its owner waits, and nothing has ended that yet
   bool wants_data = false;  ///< data ends the wait
   std::optional<sim::SimTime> wake_ns;  ///< the wait ends then, if set
+
+  // In virtual time, see docs/virtual_time.md.
+  pid_t owner_thread = 0;              ///< the owner's number for the system
+  bool starts_background = false;      ///< its owner has called StartThread()
+  std::optional<pthread_t> joins;      ///< silent until that thread ends
+  std::uint64_t blocked_switches = 0;  ///< when its owner was first seen asleep, thinking, and ...
+  std::optional<WallClock::time_point> blocked_since;  ///< ... since when it has been
+
   /// Of an EventClient: told when its wait is over. Empty: a thread waits in a call.
   std::function<void()> notify;
   std::atomic<bool> closed{false};
@@ -82,7 +98,8 @@ class Host::Core : private ViewedRun {
   std::shared_ptr<Client> add_client(int port, bool follower = false,
                                      std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
-  void thinker_ended(ThinkerId thinker) noexcept;
+  /// @param thread  the thinker, if it is one of this process.
+  void thinker_ended(ThinkerId thinker, std::optional<pthread_t> thread = {}) noexcept;
 
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
@@ -126,7 +143,31 @@ class Host::Core : private ViewedRun {
   sim::ViewMode view_mode() const;
   void set_view_mode(Client& client, sim::ViewMode mode);
   sim::OccupancyMap world_map(double cell_size_m) const;
+  ObjectPose object_pose(const Client& client, const std::string& name) const;
+  void place_object(const Client& client, const std::string& name, const sim::Pose& pose);
+  PropertyValue object_property(const Client& client, const std::string& name,
+                                const std::string& property) const;
+  void set_object_property(const Client& client, const std::string& name,
+                           const std::string& property, const PropertyValue& value);
+  LogStatus control_log(const Client& client, const LogControl& changes);
   void join(Client& client, ThinkerId thinker);
+
+  /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
+  /// @return how far the moment lies ahead then; nullopt if the thread is to sleep for real.
+  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns);
+  /// Virtual time: the calling thread waits for the end of another one, and holds up nobody until
+  /// that has ended. @return whether so: then end_join() is to be called.
+  bool begin_join(pthread_t awaited);
+  /// Virtual time: the program starts a thread. Time stands until that has waited for something.
+  void add_thread(ThinkerId thinker);
+  /// The calling thread is one of these, and has begun.
+  void note_thread_begun();
+  void end_join();
+  /// Simulated time and the time of a step, without a lock.
+  [[nodiscard]] sim::SimTime now_ns() const noexcept {
+    return now_ns_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] sim::SimTime step_ns() const noexcept { return step_ns_; }
 
   void prefer_real_time(const std::string& reason);
   TimeStatistics time() const;
@@ -155,6 +196,16 @@ class Host::Core : private ViewedRun {
   /// Waits until the client has data (if wants_data), simulated time wake_ns has come (if set) or
   /// the run is over.
   void wait_until(Lock& lock, Client& client, bool wants_data, std::optional<sim::SimTime> wake_ns);
+  /// The same in virtual time, where threads take turns.
+  void wait_for_turn(Lock& lock, Client& client);
+  /// Whether a thread thinks for whom time stands.
+  [[nodiscard]] bool somebody_thinks() const;
+  /// Lets the first of those go on whose wait is over, if nobody thinks. @return whether one did.
+  bool give_turn();
+  [[nodiscard]] std::shared_ptr<Client> helper_of(ThinkerId thinker);
+  void note_blocked_threads();
+  void sleep_after_end(Lock& lock, ThinkerId thinker);
+  void start_pacing(const std::string& warning);
   /// Whether what the client waits for is there.
   [[nodiscard]] bool wait_is_over(const Client& client) const;
   [[nodiscard]] bool gate_open();
@@ -174,6 +225,9 @@ class Host::Core : private ViewedRun {
   void apply_inputs(Client& client);
   void carry_out_drawings(Client& client);
   void distribute();
+  void distribute(const sim::Reading& reading, Client::Subscription& subscription, Client& client);
+  [[nodiscard]] RunLog* log_of(int port);
+  void require_unlocked() const;
   void release_waiters();
   void ring_alarms();
   void end_run();
@@ -211,6 +265,7 @@ class Host::Core : private ViewedRun {
   LayerBook layer_book_;
   std::atomic<std::uint64_t> canvas_generation_{0};
   std::unique_ptr<Recorder> recorder_;
+  std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   mutable std::mutex mutex_;
   mutable std::atomic<int> knocking_{0};  ///< threads in lock_soon()
@@ -224,6 +279,13 @@ class Host::Core : private ViewedRun {
   std::optional<std::uint64_t> step_credit_;  ///< steps that may still be made, if limited
   bool ended_ = false;
   int reads_after_end_ = 0;
+  const bool turns_;              ///< virtual time: threads go on one by one, in a fixed order
+  const sim::SimTime step_ns_;
+  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
+  bool end_told_ = false;         ///< a session has thrown because the run is over
+  bool ended_by_program_ = false;
+  int sleeps_after_end_ = 0;
+  std::vector<pthread_t> ended_threads_;  ///< that took part in virtual time
   std::optional<WallClock::time_point> first_step_;
   std::optional<WallClock::time_point> last_step_;
   WallClock::time_point last_progress_;
@@ -243,6 +305,22 @@ class Host::Core : private ViewedRun {
   WallClock::time_point message_end_{};
   int pictures_ = 0;  ///< number of the newest picture that the user saved
   std::unique_ptr<ViewerLink> viewer_;
+};
+
+/// A call of a host's body by a thread of a program: what that does with clocks and locks is real.
+class InsideCore {
+ public:
+  explicit InsideCore(Host::Core& core) noexcept : core_(core) {}
+  Host::Core* operator->() const noexcept { return &core_; }
+
+ private:
+  virtual_time::Inside inside_;
+  Host::Core& core_;
+};
+
+/// A host's body, for virtual time.
+struct VirtualTimeAccess {
+  [[nodiscard]] static Host::Core& core(const Host& host) noexcept { return *host.core_; }
 };
 
 }  // namespace playerlike

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/embedded.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -11,6 +13,7 @@
 #include "playerlike/host/log.h"
 #include "session/socket_session.h"
 #include "sim/render/render.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike {
 namespace {
@@ -21,6 +24,7 @@ struct Registry {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Host>> hosts;  // by the world file's full path
   int results = 0;                                     // hosts that write results
+  const pid_t process = getpid();
 
   static Registry& instance() {
     static Registry* registry = [] {
@@ -34,6 +38,7 @@ struct Registry {
 
   static void finish_all() {
     Registry& registry = instance();
+    if (getpid() != registry.process) return;  // a forked child: the run is not its own
     const std::lock_guard lock(registry.mutex);
     for (const auto& [key, host] : registry.hosts) host->finish();
   }
@@ -60,10 +65,25 @@ std::shared_ptr<Host> host_of(const std::string& file) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);
       }
     }
+    // A program has one clock, the first world's.
+    const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
+    settings.virtual_time = virtual_time_wanted && virtual_time::active();
     // The window is this process's own: programs that it starts must not take it for theirs.
     unsetenv("PLAYPEN_VIEW");
-    host = Host::create(sim::load_world(file), settings, log_to_stderr());
+    const sim::LogHook log = log_to_stderr();
+    host = Host::create(sim::load_world(file), settings, log);
     ++registry.results;
+    if (settings.virtual_time) {
+      if (host->time().mode == sim::TimeMode::kLockstep) {
+        virtual_time::attach(host);
+      } else {
+        virtual_time::give_up();
+      }
+    } else if (virtual_time_wanted) {
+      log(sim::LogLevel::kWarning,
+          "the library that makes time virtual is not loaded into this program (is it linked "
+          "statically?), so its sleeps take real time");
+    }
   } catch (...) {
     registry.hosts.erase(full_path(file));
     throw;
@@ -79,6 +99,8 @@ std::string_view environment(const char* name) {
 }
 
 std::unique_ptr<Session> connect_to_server(const std::string& server, int port) {
+  // What the server does takes the time it takes.
+  if (virtual_time::active()) virtual_time::give_up();
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
   const std::string_view run = environment("PLAYPEN_RUN");
   settings.quiet_end =
@@ -89,6 +111,7 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
 }  // namespace
 
 std::unique_ptr<Session> open_session(const std::string& host, int port) {
+  const virtual_time::Inside inside;
   if (host.starts_with(kFilePrefix)) {
     const std::string file = host.substr(kFilePrefix.size());
     if (file.empty()) {
@@ -106,7 +129,10 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
 void close_embedded_hosts() {
   Registry& registry = Registry::instance();
   const std::lock_guard lock(registry.mutex);
-  for (const auto& [key, host] : registry.hosts) host->finish();
+  for (const auto& [key, host] : registry.hosts) {
+    virtual_time::detach(*host);
+    host->finish();
+  }
   registry.hosts.clear();
   registry.results = 0;
 }

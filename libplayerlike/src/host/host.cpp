@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/host.h"
 
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,16 +11,19 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <system_error>
 #include <utility>
 
 #include "host/core.h"
 #include "host/end_of_program.h"
+#include "host/object_properties.h"
 #include "host/outputs.h"
 #include "session/in_process_event_client.h"
 #include "session/in_process_session.h"
 #include "sim/world/view_mode.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike {
 namespace {
@@ -31,6 +35,11 @@ constexpr std::size_t kCommandLimit = 1 << 12;
 constexpr sim::SimTime kEmptyRound_ns = sim::kNanosecondsPerSecond / 10;
 // A program that ignores the end of the run this often is ended.
 constexpr int kReadsAfterEnd = 1000;
+// The same for one that sleeps in virtual time, a millisecond each; it may have others to wait for.
+constexpr int kSleepsAfterEnd = 1000;
+// Virtual time: how often it is looked whether a thread is blocked, and when it is.
+constexpr std::chrono::milliseconds kLookForBlocked(20);
+constexpr std::chrono::milliseconds kBlocked(100);
 
 double seconds(WallClock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -48,8 +57,27 @@ void require_duration(double sleep_s) {
 // move a robot by some way, or are counted, do not.
 bool replaces_earlier_ones(const sim::Command& command) {
   return std::holds_alternative<sim::TwistCommand>(command) ||
+         std::holds_alternative<sim::HeadingCommand>(command) ||
+         std::holds_alternative<sim::PositionCommand>(command) ||
+         std::holds_alternative<sim::CarCommand>(command) ||
          std::holds_alternative<sim::MotorEnableCommand>(command) ||
          std::holds_alternative<sim::SetPoseCommand>(command);
+}
+
+pid_t this_thread() { return static_cast<pid_t>(syscall(SYS_gettid)); }
+
+// How often a thread has gone to sleep by itself, if it sleeps now.
+std::optional<std::uint64_t> sleeps_since(pid_t thread) {
+  std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");
+  bool asleep = false;
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("State:")) asleep = line.find("S (") != std::string::npos;
+    constexpr std::string_view kSwitches = "voluntary_ctxt_switches:";
+    if (asleep && line.starts_with(kSwitches)) {
+      return std::strtoull(line.c_str() + kSwitches.size(), nullptr, 10);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -59,10 +87,16 @@ ThinkerId new_thinker() noexcept {
   return ++last;
 }
 
-ThinkerId this_thinker() noexcept {
-  thread_local const ThinkerId own = new_thinker();
-  return own;
+namespace {
+constinit thread_local ThinkerId own_thinker = 0;
 }
+
+ThinkerId this_thinker() noexcept {
+  if (own_thinker == 0) own_thinker = new_thinker();
+  return own_thinker;
+}
+
+void set_this_thinker(ThinkerId thinker) noexcept { own_thinker = thinker; }
 
 // --- Construction
 // ---------------------------------------------------------------------------------
@@ -70,8 +104,13 @@ ThinkerId this_thinker() noexcept {
 Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
-      simulation_((check_drivers(world), settings_.apply_to(world), std::move(world)), log_),
-      robots_(describe_robots(simulation_)) {
+      simulation_((check_drivers(world), check_interfaces(world), settings_.apply_to(world),
+                   std::move(world)),
+                  log_),
+      robots_(describe_robots(simulation_)),
+      turns_(settings_.virtual_time &&
+             simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
+      step_ns_(simulation_.world().simulation.step_ns) {
   if (!settings_.output_folder.empty()) {
     std::filesystem::create_directories(settings_.output_folder);
   }
@@ -112,11 +151,13 @@ std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
   client->number = next_number_++;
   client->port = port;
   client->follower = follower;
+  client->creator = this_thinker();
   client->empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
   touch(*client);
-  const auto programs =
-      std::find_if(clients_.begin(), clients_.end(), [](const auto& c) { return !c->follower; });
-  clients_.insert(follower ? programs : clients_.end(), client);
+  const auto place = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
+    return c->helper || (follower && !c->follower);
+  });
+  clients_.insert(place, client);
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
@@ -133,8 +174,19 @@ void Host::Core::remove_client(Client& client) noexcept {
   changed_.notify_all();
 }
 
-void Host::Core::thinker_ended(ThinkerId thinker) noexcept {
+void Host::Core::thinker_ended(ThinkerId thinker, std::optional<pthread_t> thread) noexcept {
   const Lock lock = lock_soon();
+  std::erase_if(clients_, [&](const auto& c) { return c->helper && c->owner == thinker; });
+  if (turns_ && thread) {
+    ended_threads_.push_back(*thread);
+    // Who waits for its end goes on thinking now, not only when the system has buried it.
+    for (const auto& client : clients_) {
+      if (!client->joins || pthread_equal(*client->joins, *thread) == 0) continue;
+      client->joins.reset();
+      client->silent = false;
+      touch(*client);
+    }
+  }
   for (const auto& client : clients_) {
     if (client->owner != thinker) continue;
     client->owner = 0;
@@ -159,6 +211,13 @@ void Host::Core::adopt(Client& client, ThinkerId thinker) {
   client.owner = thinker;
   client.joined = true;
   client.silent = false;
+  if (turns_) {
+    client.owner_thread = this_thread();
+    client.blocked_since.reset();
+    // The number of a thread that has ended is given to others.
+    std::erase_if(ended_threads_,
+                  [](pthread_t t) { return pthread_equal(t, pthread_self()) != 0; });
+  }
 }
 
 void Host::Core::subscribe(Client& client, DeviceId device) {
@@ -198,8 +257,7 @@ void Host::Core::set_replace(Client& client, std::optional<DeviceId> device, boo
     s.replace = replace;
     // What waits keeps waiting, in the form that the new rule takes.
     if (replace && !s.queue.empty()) {
-      s.queue.clear();
-      s.fresh = true;
+      s.queue.erase(s.queue.begin(), s.queue.end() - 1);
     } else if (!replace && s.fresh) {
       s.fresh = false;
       const auto& sensor =
@@ -221,7 +279,9 @@ bool Host::Core::over() const { return ended_ || simulation_.finished(); }
 
 int Host::Core::joined_programs() const {
   return static_cast<int>(std::count_if(clients_.begin(), clients_.end(),
-                                        [](const auto& c) { return c->joined && !c->follower; }));
+                                        [](const auto& c) {
+                                          return c->joined && !c->follower && !c->helper;
+                                        }));
 }
 
 // Whether somebody is there for whom time may go on.
@@ -266,6 +326,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   adopt(client, this_thinker());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
+  if (turns_ && !paced_) return wait_for_turn(lock, client);
   while (!wait_is_over(client)) {
     require_open(client);
     // Said once: threads that all only tell each other that they wait would never sleep.
@@ -283,8 +344,61 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.waiting = false;
 }
 
+// One thread at a time: what programs do between two steps, with what their threads share, then does
+// not depend on which of them the system lets run first.
+void Host::Core::wait_for_turn(Lock& lock, Client& client) {
+  if (wait_is_over(client)) return;
+  client.waiting = true;
+  while (client.waiting) {
+    if (client.closed) {
+      client.waiting = false;
+      changed_.notify_all();
+      require_open(client);
+    }
+    if (over()) break;
+    if (paced_) {
+      if (wait_is_over(client)) break;
+      changed_.wait(lock);
+    } else if (give_turn()) {
+      if (client.waiting) changed_.notify_all();
+    } else if (may_advance()) {
+      advance();
+    } else {
+      changed_.notify_all();
+      wait_for_others(lock, client);
+    }
+  }
+  client.waiting = false;
+}
+
+bool Host::Core::somebody_thinks() const {
+  return std::any_of(clients_.begin(), clients_.end(), [this](const auto& c) {
+    return c->joined && !c->silent && !c->waiting && !thinker_waits(c->owner);
+  });
+}
+
+// Those who wait for data before those who sleep: a program that sleeps while another of its threads
+// reads finds the data of that moment.
+bool Host::Core::give_turn() {
+  if (somebody_thinks()) return false;
+  for (const auto& client : clients_) {
+    if (!client->waiting || !wait_is_over(*client)) continue;
+    client->waiting = false;
+    touch(*client);
+    return true;
+  }
+  return false;
+}
+
 // Waits for a change, and no longer than until a client has been silent for too long.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
+  if (turns_) {
+    if (changed_.wait_for(lock, kLookForBlocked) == std::cv_status::timeout) {
+      note_blocked_threads();
+      if (!client.follower) note_silence();
+    }
+    return;
+  }
   // A follower does not mind how long programs take.
   if (client.follower) return changed_.wait(lock);
   if (changed_.wait_until(lock, silence_deadline()) == std::cv_status::timeout) note_silence();
@@ -320,9 +434,41 @@ void Host::Core::note_silence() {
     const WallClock::time_point seen{WallClock::duration(c->last_seen.load())};
     if (now - seen < limit) continue;
     c->silent = true;
+    if (c->helper) {
+      warn("a thread of the program has neither read nor slept for " +
+           std::to_string(settings_.silence_limit_s) +
+           " s of wall time; simulated time goes on without it until it does");
+      continue;
+    }
     warn("client " + std::to_string(c->number + 1) + " (port " + std::to_string(c->port) +
          ") has not called Read() for " + std::to_string(settings_.silence_limit_s) +
          " s of wall time; simulated time goes on without it until it does");
+  }
+}
+
+// A thread that the system has put to sleep for something else than simulated time, another thread
+// or a key, holds up nobody meanwhile. One that computes, or waits for a processor, does.
+void Host::Core::note_blocked_threads() {
+  if (paced_ || over()) return;
+  const auto now = WallClock::now();
+  for (const auto& c : clients_) {
+    if (!c->joined || c->silent || c->waiting || c->owner_thread == 0 || thinker_waits(c->owner)) {
+      continue;
+    }
+    const auto switches = sleeps_since(c->owner_thread);
+    if (!switches || !c->blocked_since || *switches != c->blocked_switches) {
+      c->blocked_since = switches ? std::optional(now) : std::nullopt;
+      c->blocked_switches = switches.value_or(0);
+      continue;
+    }
+    if (now - *c->blocked_since < kBlocked) continue;
+    if (c->starts_background && !mode_chosen_) {
+      return start_pacing(
+          "the program reads in the background (StartThread) while its own thread waits for "
+          "something else than simulated time, the keyboard maybe: simulated time now follows the "
+          "wall clock (--time lockstep decides otherwise)");
+    }
+    c->silent = true;
   }
 }
 
@@ -335,9 +481,13 @@ void Host::Core::advance() {
   for (const auto& client : clients_) apply_inputs(*client);
   if (hand_) hand_->before_step(simulation_);
   simulation_.step();
+  now_ns_.store(simulation_.now_ns(), std::memory_order_release);
   if (step_credit_) --*step_credit_;
   last_step_ = now;
   recorder_->observe(simulation_);
+  for (auto& [port, log] : logs_) {
+    if (const auto problem = log.observe(simulation_)) warn(*problem);
+  }
   distribute();
   if (simulation_.finished()) last_step_ = WallClock::now();
   if (settings_.progress && simulation_.steps() % 64 == 0) show_progress(false);
@@ -379,28 +529,56 @@ void Host::Core::distribute() {
       if (simulation_.now_ns() >= client->empty_round_ns) client->has_data = true;
       continue;
     }
+    const RunLog* log = log_of(client->port);
+    const bool replay = log != nullptr && log->replaying();
     for (Client::Subscription& s : client->subscriptions) {
+      if (replay) {
+        for (const RunLog::Entry* entry : log->due()) {
+          if (entry->device == s.device) distribute(*entry->reading, s, *client);
+        }
+        continue;
+      }
       for (const DeviceId& updated : simulation_.updated()) {
         if (!(updated == s.device)) continue;
-        client->has_data = true;
         if (s.replace) {
+          client->has_data = true;
           s.fresh = true;
+          s.queue.clear();
           continue;
-        }
-        if (s.queue.size() == kQueueLimit) {
-          s.queue.erase(s.queue.begin());
-          ++client->overflow;
         }
         const auto& sensor =
             dynamic_cast<const sim::Sensor&>(simulation_.device(s.device.robot, s.device.device));
-        s.queue.push_back(sensor.reading().clone());
+        distribute(sensor.reading(), s, *client);
       }
     }
   }
 }
 
+void Host::Core::distribute(const sim::Reading& reading, Client::Subscription& subscription,
+                            Client& client) {
+  client.has_data = true;
+  if (subscription.replace) {
+    subscription.fresh = false;
+    subscription.queue.clear();
+  } else if (subscription.queue.size() == kQueueLimit) {
+    subscription.queue.erase(subscription.queue.begin());
+    ++client.overflow;
+  }
+  subscription.queue.push_back(reading.clone());
+}
+
+RunLog* Host::Core::log_of(int port) {
+  const auto it = logs_.find(port);
+  return it == logs_.end() ? nullptr : &it->second;
+}
+
 // A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
 void Host::Core::release_waiters() {
+  if (turns_ && !paced_) {
+    // Each in its turn, but for the end, which is for all.
+    if (over()) changed_.notify_all();
+    return;
+  }
   bool released = false;
   for (const auto& client : clients_) {
     if (!client->waiting || !wait_is_over(*client)) continue;
@@ -439,6 +617,7 @@ void Host::Core::wait(Client& client) {
   Lock lock(mutex_);
   wait_until(lock, client, /*wants_data=*/true, std::nullopt);
   if (client.has_data) return;
+  end_told_ = true;
   if (settings_.quiet_end && ++reads_after_end_ > kReadsAfterEnd) {
     lock.unlock();
     end_program_quietly();
@@ -501,6 +680,106 @@ void Host::Core::sleep(Client& client, double duration_s) {
   Lock lock(mutex_);
   const sim::SimTime wake_ns = simulation_.now_ns() + sim::from_seconds(duration_s);
   wait_until(lock, client, /*wants_data=*/false, wake_ns);
+}
+
+// --- Virtual time
+// ---------------------------------------------------------------------------------
+
+std::shared_ptr<Client> Host::Core::helper_of(ThinkerId thinker) {
+  const auto found = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
+    return c->helper && c->owner == thinker;
+  });
+  if (found != clients_.end()) return *found;
+  auto helper = std::make_shared<Client>();
+  helper->number = -1;
+  helper->helper = true;
+  helper->owner = thinker;
+  clients_.push_back(helper);
+  return helper;
+}
+
+std::optional<sim::SimTime> Host::Core::pass_time(sim::SimTime target_ns) {
+  const ThinkerId thinker = this_thinker();
+  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+  Lock lock(mutex_);
+  if (!turns_ || paced_ || ended_by_program_) return std::nullopt;
+  const std::shared_ptr<Client> helper = helper_of(thinker);
+  // A program that never reads takes part with the clients it has made.
+  for (const auto& client : clients_) {
+    if (client->creator == thinker && client->owner == 0 && !client->follower) {
+      adopt(*client, thinker);
+    }
+  }
+  const sim::SimTime wake_ns = target_ns - target_ns % step_ns_;
+  if (over()) {
+    adopt(*helper, thinker);
+  } else {
+    wait_until(lock, *helper, /*wants_data=*/false, wake_ns);
+  }
+  const sim::SimTime left_ns = target_ns - simulation_.now_ns();
+  if (over() && simulation_.now_ns() < wake_ns) {
+    if (ended_by_program_) return std::nullopt;
+    sleep_after_end(lock, thinker);
+  }
+  return left_ns;
+}
+
+// Nobody can throw out of a sleep. A program that only sleeps ends here; one that reads as well, or
+// has threads that do, is told by that, and is left some time to end by itself.
+void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
+  const bool others = std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
+    return c->joined && !c->silent && c->owner != thinker;
+  });
+  if (settings_.quiet_end &&
+      (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+    if (settings_.progress && log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+    lock.unlock();
+    end_program_quietly();
+  }
+  lock.unlock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+bool Host::Core::begin_join(pthread_t awaited) {
+  const Lock lock = lock_soon();
+  if (!turns_ || paced_ || over()) return false;
+  // One that is about to end keeps nobody waiting for long.
+  if (std::erase_if(ended_threads_,
+                    [&](pthread_t t) { return pthread_equal(t, awaited) != 0; }) > 0) {
+    return false;
+  }
+  bool away = false;
+  for (const auto& client : clients_) {
+    if (client->owner != this_thinker() || !client->joined) continue;
+    client->joins = awaited;
+    client->silent = true;
+    away = true;
+  }
+  changed_.notify_all();
+  return away;
+}
+
+void Host::Core::add_thread(ThinkerId thinker) {
+  const Lock lock = lock_soon();
+  if (!turns_ || paced_) return;
+  const std::shared_ptr<Client> helper = helper_of(thinker);
+  helper->joined = true;
+  touch(*helper);
+}
+
+void Host::Core::note_thread_begun() {
+  const Lock lock = lock_soon();
+  if (turns_) helper_of(this_thinker())->owner_thread = this_thread();
+}
+
+void Host::Core::end_join() {
+  const Lock lock = lock_soon();
+  for (const auto& client : clients_) {
+    if (client->owner != this_thinker()) continue;
+    client->joins.reset();
+    client->silent = false;
+    touch(*client);
+  }
 }
 
 // --- Event clients
@@ -711,23 +990,58 @@ void Host::Core::set_view_mode(Client& client, sim::ViewMode mode) {
 }
 
 sim::OccupancyMap Host::Core::world_map(double cell_size_m) const {
-  constexpr int kMaxSide = 8192;
   const Lock lock = lock_soon();
   const sim::ArenaDescription& arena = simulation_.world().arena;
-  // A side that is a whole number of cells long is not to get another one by rounding.
-  const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
-  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a map of this arena needs a cell size of at least " +
-                           std::to_string(arena.size.maxCoeff() / kMaxSide) + " m, but it is " +
-                           std::to_string(cell_size_m));
-  }
-  sim::CanvasDescription grid;
-  grid.width = static_cast<int>(cells.x());
-  grid.height = static_cast<int>(cells.y());
-  grid.cell_size_m = cell_size_m;
-  grid.origin = arena.origin;
-  return sim::true_map(arena, grid);
+  return sim::true_map(arena, map_grid(arena, cell_size_m));
+}
+
+// --- Objects by name, and the log
+// ---------------------------------------------------------------------------------------
+
+void Host::Core::require_unlocked() const {
+  if (!simulation_.world().simulation.objects_locked) return;
+  throw SessionError(SessionError::Code::kNotAvailable,
+                     "this world keeps its robots and obstacles where and as they are "
+                     "(\"lock_objects\" in its \"simulation\"): they can only be looked at");
+}
+
+ObjectPose Host::Core::object_pose(const Client& client, const std::string& name) const {
+  const Lock lock = lock_soon();
+  require_open(client);
+  return {require_object(simulation_, name).pose, simulation_.now_ns()};
+}
+
+void Host::Core::place_object(const Client& client, const std::string& name,
+                              const sim::Pose& pose) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  static_cast<void>(require_object(simulation_, name));
+  require_unlocked();
+  playerlike::place_object(simulation_, name, pose);
+}
+
+PropertyValue Host::Core::object_property(const Client& client, const std::string& name,
+                                          const std::string& property) const {
+  const Lock lock = lock_soon();
+  require_open(client);
+  return playerlike::object_property(simulation_, name, property);
+}
+
+void Host::Core::set_object_property(const Client& client, const std::string& name,
+                                     const std::string& property, const PropertyValue& value) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  static_cast<void>(playerlike::object_property(simulation_, name, property));  // is it there?
+  require_unlocked();
+  playerlike::set_object_property(simulation_, name, property, value);
+}
+
+LogStatus Host::Core::control_log(const Client& client, const LogControl& changes) {
+  const Lock lock = lock_soon();
+  require_open(client);
+  RunLog& log =
+      logs_.try_emplace(client.port, settings_.output_folder, client.port, robots_).first->second;
+  return log.control(changes, simulation_);
 }
 
 void Host::Core::join(Client& client, ThinkerId thinker) {
@@ -741,16 +1055,31 @@ void Host::Core::join(Client& client, ThinkerId thinker) {
 
 void Host::Core::prefer_real_time(const std::string& reason) {
   const Lock lock = lock_soon();
+  if (turns_ && !paced_) {
+    // The caller's sleeps are part of the lockstep, from now on.
+    const std::shared_ptr<Client> helper = helper_of(this_thinker());
+    adopt(*helper, this_thinker());
+    helper->starts_background = true;
+    virtual_time::note_background();
+    return;
+  }
   if (mode_chosen_ || ended_ || paced_) return;
+  start_pacing(reason +
+               ": simulated time now follows the wall clock (under `playpen run` the program's "
+               "sleeps move simulated time instead; PLAYPEN_TIME=lockstep, or a time mode in the "
+               "world file's \"simulation\", decides otherwise)");
+}
+
+void Host::Core::start_pacing(const std::string& warning) {
   paced_ = true;
-  warn(reason +
-       ": simulated time now follows the wall clock (PLAYPEN_TIME=lockstep, or a time "
-       "mode in the world file's \"simulation\", decides otherwise)");
+  if (turns_) virtual_time::give_up();
+  warn(warning);
   pacer_ = std::thread([this] { pace(); });
   changed_.notify_all();
 }
 
 void Host::Core::pace() {
+  const virtual_time::Inside inside;
   Lock lock(mutex_);
   const double step_s = sim::to_seconds(simulation_.world().simulation.step_ns);
   const auto gate_clients = simulation_.world().simulation.start_gate_clients;
@@ -840,6 +1169,7 @@ void Host::Core::stop_pacer() {
 void Host::Core::finish() noexcept {
   try {
     const Lock lock = lock_soon();
+    ended_by_program_ = true;
     if (!ended_) {
       for (const auto& client : clients_) apply_inputs(*client);
       end_run();
@@ -871,6 +1201,9 @@ void Host::Core::write_results() {
     recorder_->close();
   } catch (const std::exception& e) {
     warn(std::string("the recording is not complete: ") + e.what());
+  }
+  for (auto& [port, log] : logs_) {
+    if (const auto problem = log.close()) warn(*problem);
   }
   if (settings_.output_folder.empty()) return;
   write_outputs(settings_.output_folder, simulation_, recorder_->scene(simulation_), time_locked());
@@ -1106,6 +1439,7 @@ Host::~Host() = default;
 
 std::shared_ptr<Host> Host::create(sim::WorldDescription world, RunSettings settings,
                                    sim::LogHook log) {
+  const virtual_time::Inside inside;
   auto core = std::make_unique<Core>(std::move(world), std::move(settings), std::move(log));
   core->start_viewer_if_needed();
   core->start_pacer_if_needed();
@@ -1142,7 +1476,7 @@ std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()
 
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
 void Host::check_silence() { core_->check_silence(); }
-void Host::thinker_ended(ThinkerId thinker) noexcept { core_->thinker_ended(thinker); }
+void Host::thinker_ended(ThinkerId thinker) noexcept { InsideCore(*core_)->thinker_ended(thinker); }
 AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm)); }
 bool Host::cancel_alarm(AlarmId alarm) { return core_->cancel_alarm(alarm); }
 void Host::with_simulation(const std::function<void(sim::Simulation&)>& action) {
@@ -1156,14 +1490,14 @@ std::optional<std::string> Host::set_time_factor(double factor) {
 const std::vector<RobotInfo>& Host::robots() const noexcept { return core_->robots(); }
 
 void Host::finish() noexcept {
-  core_->finish();
-  core_->stop_viewer();
-  core_->stop_pacer();
+  InsideCore(*core_)->finish();
+  InsideCore(*core_)->stop_viewer();
+  InsideCore(*core_)->stop_pacer();
 }
 
-bool Host::finished() const { return core_->finished(); }
-TimeStatistics Host::time() const { return core_->time(); }
-sim::RobotStatistics Host::statistics(int robot) const { return core_->statistics(robot); }
-std::uint64_t Host::state_hash() const { return core_->state_hash(); }
+bool Host::finished() const { return InsideCore(*core_)->finished(); }
+TimeStatistics Host::time() const { return InsideCore(*core_)->time(); }
+sim::RobotStatistics Host::statistics(int robot) const { return InsideCore(*core_)->statistics(robot); }
+std::uint64_t Host::state_hash() const { return InsideCore(*core_)->state_hash(); }
 
 }  // namespace playerlike

@@ -145,6 +145,12 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
                       {"stalled_time", s.stalled_time_s},
                       {"final_pose", {{"x", X_WB.x_m}, {"y", X_WB.y_m}, {"yaw", X_WB.yaw_rad}}}});
   }
+  nlohmann::ordered_json said = nlohmann::ordered_json::array();
+  for (const sim::Utterance& u : simulation.said()) {
+    said.push_back({{"time", sim::to_seconds(u.time_ns)},
+                    {"robot", simulation.world().robots[static_cast<std::size_t>(u.robot)].name},
+                    {"text", u.text}});
+  }
   return {{"run",
            {{"world", simulation.world().name},
             {"seed", simulation.world().simulation.seed},
@@ -153,7 +159,8 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
             {"wall_time", time.wall_time_s},
             {"real_time_factor", time.real_time_factor},
             {"state_hash", hex(simulation.state_hash())}}},
-          {"robots", robots}};
+          {"robots", robots},
+          {"said", said}};
 }
 
 }  // namespace
@@ -202,28 +209,32 @@ void write_outputs(const std::string& folder, const sim::Simulation& simulation,
   // Last, so that a report means that all is there.
   const std::string file = (out / "report.json").string();
   std::ofstream stream(file, std::ios::trunc);
-  stream << report(simulation, time).dump(2) << '\n';
+  // What robots said may be any bytes.
+  stream << report(simulation, time).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+         << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file);
 }
 
+bool is_plain_file_name(const std::string& name) {
+  return !name.empty() && name.size() <= kMaxFileName && name.front() != '.' &&
+         std::none_of(name.begin(), name.end(), [](char c) {
+           const auto byte = static_cast<unsigned char>(c);
+           return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7f;
+         });
+}
+
 std::string picture_file(const std::string& folder, const std::string& name, int scale) {
-  constexpr std::size_t kMaxName = 100;
   constexpr int kMaxScale = 64;
-  const bool plain = !name.empty() && name.size() <= kMaxName && name.front() != '.' &&
-                     std::none_of(name.begin(), name.end(), [](char c) {
-                       const auto byte = static_cast<unsigned char>(c);
-                       return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7f;
-                     });
-  if (!plain) {
+  if (!is_plain_file_name(name)) {
     throw SessionError(
         SessionError::Code::kBadArgument,
         "a picture is saved in the run's output folder, under a plain file name of 1 "
         "to " +
-            std::to_string(kMaxName) +
+            std::to_string(kMaxFileName) +
             " characters such as \"map.png\", without folders and no dot in front; "
             "but the name is \"" +
-            name.substr(0, kMaxName) + '"');
+            name.substr(0, kMaxFileName) + '"');
   }
   if (scale < 1 || scale > kMaxScale) {
     throw SessionError(SessionError::Code::kBadArgument,

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -27,6 +28,11 @@ void remove_snapshots(const std::string& folder);
 /// @throws std::runtime_error naming the file that could not be written.
 void write_outputs(const std::string& folder, const sim::Simulation& simulation,
                    const sim::SceneSnapshot& scene, const TimeStatistics& time);
+
+inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
+/// Whether a name is that of a file in a folder, and no way out of it: 1 to kMaxFileName bytes
+/// without separators and control characters, and no dot in front.
+[[nodiscard]] bool is_plain_file_name(const std::string& name);
 
 /// Where a picture goes that a client wants saved.
 /// @throws SessionError as Session::save_image().

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host/picture_sizes.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike {
 namespace {
@@ -53,6 +54,7 @@ void PictureThread::end_thread() {
 }
 
 void PictureThread::work() {
+  const virtual_time::Inside inside;
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return !jobs_.empty() || last_; });

@@ -342,6 +342,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   if (settings.time_mode == sim::TimeMode::kLockstep) time = "lockstep";
   if (settings.time_mode == sim::TimeMode::kPaced) time = number_text(settings.time_factor);
   changes["PLAYPEN_PROGRESS"] = settings.progress ? std::optional<std::string>("1") : std::nullopt;
+  changes["PLAYPEN_VIRTUAL_TIME"] =
+      settings.virtual_time ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_RUN"] = settings.quiet_end ? std::optional<std::string>("1") : std::nullopt;
   return changes;
 }

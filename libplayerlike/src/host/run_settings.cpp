@@ -151,6 +151,7 @@ RunSettings RunSettings::from_environment() {
   }
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
+  settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
   return settings;
 }

@@ -139,8 +139,8 @@ bool HandDrive::any_held() const noexcept {
 }
 
 void HandDrive::note_command(DeviceId device, const sim::Command& command) {
-  if (!program_twist_ || !(device == motors())) return;
-  if (const auto* twist = std::get_if<sim::TwistCommand>(&command)) program_twist_ = twist->twist;
+  if (!program_command_ || !(device == motors())) return;
+  if (!std::holds_alternative<sim::MotorEnableCommand>(command)) program_command_ = command;
 }
 
 void HandDrive::before_step(sim::Simulation& simulation) {
@@ -149,7 +149,7 @@ void HandDrive::before_step(sim::Simulation& simulation) {
   if (!active()) {
     const auto& motion =
         dynamic_cast<const sim::Motion&>(simulation.device(device.robot, device.device));
-    program_twist_ = motion.commanded();
+    program_command_ = motion.present_command();
     twist_ = {};
   }
   const sim::SimTime step_ns = simulation.world().simulation.step_ns;
@@ -175,9 +175,9 @@ void HandDrive::before_step(sim::Simulation& simulation) {
 }
 
 void HandDrive::hand_back(sim::Simulation& simulation) {
-  if (!program_twist_) return;
-  static_cast<void>(simulation.apply(motors(), sim::TwistCommand{*program_twist_}));
-  program_twist_.reset();
+  if (!program_command_) return;
+  static_cast<void>(simulation.apply(motors(), *program_command_));
+  program_command_.reset();
   still_ns_ = 0;
 }
 

@@ -57,7 +57,7 @@ class HandDrive {
   void hold(ViewAction action, bool pressed) noexcept;
   void release_all() noexcept { held_.fill(false); }
   /// Whether the chosen robot is steered by hand now.
-  [[nodiscard]] bool active() const noexcept { return program_twist_.has_value(); }
+  [[nodiscard]] bool active() const noexcept { return program_command_.has_value(); }
 
   /// To be told of every command of a program before it is applied.
   void note_command(DeviceId device, const sim::Command& command);
@@ -79,10 +79,10 @@ class HandDrive {
   };
   std::vector<Motors> motors_;  ///< by robot
   int chosen_ = -1;
-  std::array<bool, 4> held_{};               ///< forward, backward, left, right
-  std::optional<sim::Twist> program_twist_;  ///< what the program wants; set while we steer
-  sim::Twist twist_;                         ///< ours
-  sim::SimTime still_ns_ = 0;                ///< how long no key has been held
+  std::array<bool, 4> held_{};                   ///< forward, backward, left, right
+  std::optional<sim::Command> program_command_;  ///< what the program wants; set while we steer
+  sim::Twist twist_;                             ///< ours
+  sim::SimTime still_ns_ = 0;                    ///< how long no key has been held
 };
 
 /// The next faster or slower time factor, twice or half the present one, within 1/16 .. 64.

@@ -20,15 +20,32 @@ struct InterfaceRow {
 };
 // clang-format off
 constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
+    {"aio", "aio"},
+    {"blinkenlight", "blinkenlight"},
+    {"bumper", "bumper"},
+    {"dio", "dio"},
+    {"fiducial", "fiducial"},
+    {"gps", "gps"},
     {"graphics2d", "pen"},
+    {"imu", "imu"},
+    {"ir", "infrared"},
     {"laser", "laser"},
     {"localize", "pose"},
+    {"opaque", "opaque"},
     {"position2d", "pose"},
     {"position2d", "odometry"},
+    {"power", "battery"},
+    {"ranger", "laser"},
+    {"ranger", "sonar"},
+    {"ranger", "infrared"},
+    {"sonar", "sonar"},
+    {"speech", "speech"},
+    {"wifi", "wifi"},
 };
 // clang-format on
 
-// The robot's devices that carry the interface, in the table's order.
+// The robot's devices that carry the interface: those that the robot names, then the others in the
+// table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
   std::vector<const DeviceInfo*> found;
   for (const InterfaceRow& row : kInterfaces) {
@@ -37,6 +54,14 @@ std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view
       if (device.type == row.device_type) found.push_back(&device);
     }
   }
+  const auto named = robot.interfaces.find(std::string(interface));
+  if (named == robot.interfaces.end()) return found;
+  const std::vector<std::string>& names = named->second;
+  const auto place = [&](const DeviceInfo* device) {
+    return std::find(names.begin(), names.end(), device->name) - names.begin();
+  };
+  std::stable_sort(found.begin(), found.end(),
+                   [&](const DeviceInfo* a, const DeviceInfo* b) { return place(a) < place(b); });
   return found;
 }
 
@@ -61,9 +86,28 @@ bool is_finite(const sim::TranslateCommand& c) {
   return all_finite({c.offset_m.x(), c.offset_m.y()});
 }
 bool is_finite(const sim::RotateCommand& c) { return all_finite({c.yaw_rad}); }
+bool is_finite(const sim::HeadingCommand& c) {
+  return all_finite({c.v_mps, c.lateral_mps, c.yaw_rad});
+}
+bool is_finite(const sim::PositionCommand& c) {
+  return is_finite(c.goal) && all_finite({c.max_speed_mps, c.max_turn_rate_radps});
+}
+bool is_finite(const sim::CarCommand& c) { return all_finite({c.v_mps, c.steering_rad}); }
+bool is_finite(const sim::SayCommand&) { return true; }
+bool is_finite(const sim::DigitalOutputCommand&) { return true; }
+bool is_finite(const sim::AnalogOutputCommand& c) { return all_finite({c.voltage_v}); }
+bool is_finite(const sim::LightCommand& c) {
+  return all_finite({c.period_s.value_or(0.0), c.duty_cycle.value_or(0.0)});
+}
+bool is_finite(const sim::OpaqueCommand&) { return true; }
 
 // What the world itself offers, whatever robots are in it.
-constexpr std::string_view kWorldInterface = "map";
+constexpr std::string_view kWorldInterfaces[] = {"log", "map", "simulation"};
+
+bool is_of_world(std::string_view interface) {
+  return std::find(std::begin(kWorldInterfaces), std::end(kWorldInterfaces), interface) !=
+         std::end(kWorldInterfaces);
+}
 
 // Whether clients can connect to a port.
 bool is_open(const std::vector<RobotInfo>& robots, int port) {
@@ -136,6 +180,40 @@ std::string example_world(std::string_view interface) {
   return "";
 }
 
+void check_interfaces(const sim::WorldDescription& world) {
+  const std::vector<std::string_view> interfaces = interface_names();
+  std::string known;
+  for (const std::string_view name : interfaces) {
+    known += (known.empty() ? "" : ", ") + std::string(name);
+  }
+  std::vector<sim::ConfigIssue> issues;
+  for (std::size_t r = 0; r < world.robots.size(); ++r) {
+    const std::vector<sim::DeviceDescription>& devices = world.robots[r].devices;
+    for (const auto& order : world.robots[r].interfaces) {
+      const std::string& interface = order.first;
+      const std::string pointer = "/robots/" + std::to_string(r) + "/interfaces/" + interface;
+      if (std::find(interfaces.begin(), interfaces.end(), interface) == interfaces.end()) {
+        issues.push_back({"world/interface-device", world.file, pointer,
+                          "an interface that devices have: " + known, '"' + interface + '"', ""});
+        continue;
+      }
+      for (std::size_t i = 0; i < order.second.size(); ++i) {
+        const std::string& name = order.second[i];
+        const auto device = std::find_if(devices.begin(), devices.end(),
+                                         [&name](const auto& d) { return d.name == name; });
+        if (device != devices.end() && carries(device->type, interface)) continue;
+        issues.push_back({"world/interface-device", world.file, pointer + '/' + std::to_string(i),
+                          "a device of the robot that has the interface " + interface,
+                          '"' + name + '"' +
+                              (device == devices.end() ? ", which it does not have"
+                                                       : ", of type " + device->type),
+                          ""});
+      }
+    }
+  }
+  if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+}
+
 std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
   std::vector<RobotInfo> robots;
   for (int r = 0; r < simulation.robot_count(); ++r) {
@@ -144,7 +222,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     const sim::RobotModel& model = simulation.model(r);
     RobotInfo robot;
     robot.name = description.name;
-    robot.model = description.model;
+    robot.model = model.name;
     robot.colour = description.colour;
     robot.initial_pose = description.pose;
     robot.port = description.port;
@@ -152,6 +230,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     robot.max_speed_mps = model.max_speed_mps;
     robot.max_turn_rate_radps = model.max_turn_rate_radps;
     robot.proxies = description.proxies;
+    robot.interfaces = description.interfaces;
     robot.drivers = description.drivers;
     robot.snd_drivers =
         read_drivers(description, simulation.world().file, "/robots/" + std::to_string(r));
@@ -163,6 +242,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     }
     robot.length_m = high.x() - low.x();
     robot.width_m = high.y() - low.y();
+    robot.center_m = 0.5 * (low + high);
     for (std::size_t d = 0; d < description.devices.size(); ++d) {
       const sim::DeviceDescription& device = description.devices[d];
       DeviceInfo info;
@@ -170,7 +250,12 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
       info.name = device.name;
       info.type = device.type;
       for (const sim::DeviceKind& kind : sim::device_kinds()) {
-        if (kind.name == device.type) info.properties = kind.properties(device.params);
+        if (kind.name != device.type) continue;
+        info.properties = kind.properties(device.params);
+        if (!kind.model_properties) continue;
+        for (const auto& [key, value] : kind.model_properties(device.params, model)) {
+          info.properties[key] = value;
+        }
       }
       robot.devices.push_back(std::move(info));
     }
@@ -179,11 +264,29 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
   return robots;
 }
 
+sim::CanvasDescription map_grid(const sim::ArenaDescription& arena, double cell_size_m) {
+  constexpr int kMaxSide = 8192;
+  // A side that is a whole number of cells long is not to get another one by rounding.
+  const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
+  if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a map of this arena needs a cell size of at least " +
+                           std::to_string(arena.size.maxCoeff() / kMaxSide) + " m, but it is " +
+                           std::to_string(cell_size_m));
+  }
+  sim::CanvasDescription grid;
+  grid.width = static_cast<int>(cells.x());
+  grid.height = static_cast<int>(cells.y());
+  grid.cell_size_m = cell_size_m;
+  grid.origin = arena.origin;
+  return grid;
+}
+
 InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
   std::optional<InterfaceBinding> found;
   std::ostringstream known;
-  bool has_others = interface == kWorldInterface;  // of the interface, with another index
+  bool has_others = is_of_world(interface);  // of the interface, with another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
                        const SndDriverDescription* driver) {
@@ -196,8 +299,10 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                            << (driver == nullptr ? device.name : "snd") << ')';
                    });
   if (is_open(robots, port)) {
-    if (interface == kWorldInterface && index == 0) return {};
-    known << (known.tellp() > 0 ? ", " : "") << kWorldInterface << ":0 (the world)";
+    if (is_of_world(interface) && index == 0) return {};
+    for (const std::string_view name : kWorldInterfaces) {
+      known << (known.tellp() > 0 ? ", " : "") << name << ":0 (the world)";
+    }
   }
   if (!found) {
     throw SessionError(SessionError::Code::kNoSuchDevice,
@@ -225,7 +330,10 @@ std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robo
         addresses.push_back({std::string(name), i, robots[static_cast<std::size_t>(robot)].name,
                              driver == nullptr ? device.name : "snd"});
       });
-  if (is_open(robots, port)) addresses.push_back({std::string(kWorldInterface), 0, "", "world"});
+  if (!is_open(robots, port)) return addresses;
+  for (const std::string_view name : kWorldInterfaces) {
+    addresses.push_back({std::string(name), 0, "", "world"});
+  }
   return addresses;
 }
 

@@ -200,6 +200,15 @@ std::map<std::string, Value> decode_table(const json& object, const char* key, D
   return decoded;
 }
 
+std::vector<std::string> require_texts(const json& object, const char* key) {
+  std::vector<std::string> texts;
+  for (const json& text : require_list(object.at(key), key, "a list of texts")) {
+    if (!text.is_string()) refuse_value(key, "a list of texts", text);
+    texts.push_back(text.get<std::string>());
+  }
+  return texts;
+}
+
 DeviceInfo decode_device(const json& device) {
   return {require_device_id(device, "device"), require_text(device, "name"),
           require_text(device, "type"), decode_table<double>(device, "properties", require_number)};
@@ -253,9 +262,12 @@ json encode_robot(const RobotInfo& robot) {
           {"length", robot.length_m},
           {"width", robot.width_m},
           {"height", robot.height_m},
+          {"center_x", robot.center_m.x()},
+          {"center_y", robot.center_m.y()},
           {"max_speed", robot.max_speed_mps},
           {"max_turn_rate", robot.max_turn_rate_radps},
           {"proxies", robot.proxies},
+          {"interfaces", robot.interfaces},
           {"drivers", std::move(drivers)},
           {"snd_drivers", std::move(snd_drivers)},
           {"devices", std::move(devices)}};
@@ -271,9 +283,11 @@ RobotInfo decode_robot(const json& robot) {
   decoded.length_m = require_number(robot, "length");
   decoded.width_m = require_number(robot, "width");
   decoded.height_m = require_number(robot, "height");
+  decoded.center_m = {require_number(robot, "center_x"), require_number(robot, "center_y")};
   decoded.max_speed_mps = require_number(robot, "max_speed");
   decoded.max_turn_rate_radps = require_number(robot, "max_turn_rate");
   decoded.proxies = decode_table<int>(robot, "proxies", require_int);
+  decoded.interfaces = decode_table<std::vector<std::string>>(robot, "interfaces", require_texts);
   for (const json& driver : require_list(require(robot, "drivers"), "drivers", "a list")) {
     decoded.drivers.push_back({require_text(driver, "type"),
                                decode_table<std::string>(driver, "settings", require_text)});
@@ -689,6 +703,29 @@ sim::OccupancyMap decode_map(const json& map, Encoding encoding) {
     refuse_value("cells", "numbers in 0..1", cells);
   }
   return decoded;
+}
+
+json encode_property(const PropertyValue& value) {
+  return std::visit([](const auto& what) { return json(what); }, value);
+}
+
+PropertyValue require_property(const json& object, const char* key) {
+  const json& value = require(object, key);
+  if (value.is_string()) return value.get<std::string>();
+  constexpr std::size_t kMost = 64;
+  const bool numbers =
+      value.is_array() && value.size() <= kMost &&
+      std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); });
+  if (!numbers) refuse_value(key, "a text or a list of at most 64 numbers", value);
+  return value.get<std::vector<double>>();
+}
+
+json encode_log(const LogStatus& log) {
+  return {{"replay", log.replay}, {"running", log.running}, {"file", log.file}};
+}
+
+LogStatus decode_log(const json& log) {
+  return {require_bool(log, "replay"), require_bool(log, "running"), require_text(log, "file")};
 }
 
 json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding) {

@@ -97,6 +97,12 @@ struct DecodedReading {
 [[nodiscard]] json encode_map(const sim::OccupancyMap& map, Encoding encoding);
 [[nodiscard]] sim::OccupancyMap decode_map(const json& map, Encoding encoding);
 
+/// A property of an object: a list of numbers, or a text.
+[[nodiscard]] json encode_property(const PropertyValue& value);
+[[nodiscard]] PropertyValue require_property(const json& object, const char* key);
+[[nodiscard]] json encode_log(const LogStatus& log);
+[[nodiscard]] LogStatus decode_log(const json& log);
+
 /// Drawings: in CBOR bytes, 28 a drawing; in JSON a list of lists. What a drawing's kind does not
 /// use is neither looked at nor sent; it comes out as 0.
 [[nodiscard]] json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding);

@@ -2,19 +2,30 @@
 // Readings and commands. A new sensor gets a pair of functions and a row in kReadingCodecs, a new
 // command a row in kCommandCodecs.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <variant>
 
 #include "protocol/codec.h"
+#include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/blinkenlight.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/dio.h"
+#include "sim/devices/fiducial.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/opaque.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
+#include "sim/devices/wifi.h"
 
 namespace playerlike::protocol {
 namespace {
@@ -43,12 +54,31 @@ const json::array_t& require_list(const json& in, const char* key) {
   return *list;
 }
 
+sim::Colour require_colour(const json& in, const char* key) {
+  const std::optional<sim::Colour> colour = sim::parse_colour(require_text(in, key));
+  if (!colour) refuse_value(key, "#rgb, #rrggbb or #rrggbbaa", in.at(key));
+  return *colour;
+}
+
+constexpr std::int64_t kAllBits = 0xffffffff;
+
+void write(const sim::AioReading& reading, json& out, Encoding encoding) {
+  out["inputs"] = doubles(reading.inputs_v, encoding);
+  out["outputs"] = doubles(reading.outputs_v, encoding);
+}
+
+void read(const json& in, Encoding encoding, sim::AioReading& reading) {
+  reading.inputs_v = require_doubles(in, "inputs", encoding);
+  reading.outputs_v = require_doubles(in, "outputs", encoding);
+}
+
 void write(const sim::BatteryReading& reading, json& out, Encoding) {
   out["charge"] = reading.charge_percent;
   out["status"] = sim::to_string(reading.status);
   out["voltage"] = reading.voltage_v;
   out["energy"] = reading.energy_wh;
   out["capacity"] = reading.capacity_wh;
+  out["power"] = reading.power_w;
 }
 
 void read(const json& in, Encoding, sim::BatteryReading& reading) {
@@ -58,6 +88,36 @@ void read(const json& in, Encoding, sim::BatteryReading& reading) {
   reading.voltage_v = require_number(in, "voltage");
   reading.energy_wh = require_number(in, "energy");
   reading.capacity_wh = require_number(in, "capacity");
+  reading.power_w = require_number(in, "power");
+}
+
+void write(const sim::BumperReading& reading, json& out, Encoding encoding) {
+  out["pressed"] =
+      doubles(std::vector<double>(reading.pressed.begin(), reading.pressed.end()), encoding);
+}
+
+void read(const json& in, Encoding encoding, sim::BumperReading& reading) {
+  for (const double number : require_doubles(in, "pressed", encoding)) {
+    const bool fits = number >= 0.0 && number <= 255.0 && number == std::floor(number);
+    if (!fits) refuse_value("pressed", "whole numbers from 0 to 255", json(number));
+    reading.pressed.push_back(static_cast<std::uint8_t>(number));
+  }
+}
+
+void write(const sim::BlinkenlightReading& reading, json& out, Encoding) {
+  out["on"] = reading.enabled;
+  out["colour"] = sim::to_string(reading.colour);
+  out["period"] = reading.period_s;
+  out["duty_cycle"] = reading.duty_cycle;
+  out["lit"] = reading.lit;
+}
+
+void read(const json& in, Encoding, sim::BlinkenlightReading& reading) {
+  reading.enabled = require_bool(in, "on");
+  reading.colour = require_colour(in, "colour");
+  reading.period_s = require_number(in, "period");
+  reading.duty_cycle = require_number(in, "duty_cycle");
+  reading.lit = require_bool(in, "lit");
 }
 
 void write(const sim::CollisionReading& reading, json& out, Encoding) {
@@ -73,6 +133,90 @@ void read(const json& in, Encoding, sim::CollisionReading& reading) {
   }
 }
 
+void write(const sim::FiducialReading& reading, json& out, Encoding) {
+  json list = json::array();
+  for (const auto& mark : reading.marks) {
+    json entry = encode_pose(mark.X_ST);
+    entry["id"] = mark.id;
+    list.push_back(std::move(entry));
+  }
+  out["marks"] = std::move(list);
+}
+
+void read(const json& in, Encoding, sim::FiducialReading& reading) {
+  for (const json& mark : require_list(in, "marks")) {
+    reading.marks.push_back(
+        {static_cast<int>(require_integer(mark, "id", std::numeric_limits<int>::min(),
+                                          std::numeric_limits<int>::max())),
+         {require_number(mark, "x"), require_number(mark, "y"), require_number(mark, "yaw")}});
+  }
+}
+
+void write(const sim::GpsReading& reading, json& out, Encoding) {
+  out["latitude"] = reading.latitude_rad;
+  out["longitude"] = reading.longitude_rad;
+  out["altitude"] = reading.altitude_m;
+  out["speed"] = reading.speed_mps;
+  out["course"] = reading.course_rad;
+  out["utm_easting"] = reading.utm_easting_m;
+  out["utm_northing"] = reading.utm_northing_m;
+  out["satellites"] = reading.satellites;
+  out["quality"] = reading.quality;
+}
+
+void read(const json& in, Encoding, sim::GpsReading& reading) {
+  constexpr int kLeast = std::numeric_limits<int>::min();
+  constexpr int kGreatest = std::numeric_limits<int>::max();
+  reading.latitude_rad = require_number(in, "latitude");
+  reading.longitude_rad = require_number(in, "longitude");
+  reading.altitude_m = require_number(in, "altitude");
+  reading.speed_mps = require_number(in, "speed");
+  reading.course_rad = require_number(in, "course");
+  reading.utm_easting_m = require_number(in, "utm_easting");
+  reading.utm_northing_m = require_number(in, "utm_northing");
+  reading.satellites = static_cast<int>(require_integer(in, "satellites", kLeast, kGreatest));
+  reading.quality = static_cast<int>(require_integer(in, "quality", kLeast, kGreatest));
+}
+
+json encode_vector(const std::array<double, 3>& v) {
+  return {{"x", v[0]}, {"y", v[1]}, {"z", v[2]}};
+}
+
+std::array<double, 3> require_vector(const json& in, const char* key) {
+  const json& vector = require(in, key);
+  if (!vector.is_object()) refuse_value(key, "an object {\"x\", \"y\", \"z\"}", vector);
+  return {require_number(vector, "x"), require_number(vector, "y"), require_number(vector, "z")};
+}
+
+void write(const sim::ImuReading& reading, json& out, Encoding) {
+  out["acceleration"] = encode_vector(reading.acceleration_mps2);
+  out["rate"] = encode_vector(reading.rate_radps);
+  out["field"] = encode_vector(reading.field_ut);
+  out["yaw"] = reading.yaw_rad;
+}
+
+void read(const json& in, Encoding, sim::ImuReading& reading) {
+  reading.acceleration_mps2 = require_vector(in, "acceleration");
+  reading.rate_radps = require_vector(in, "rate");
+  reading.field_ut = require_vector(in, "field");
+  reading.yaw_rad = require_number(in, "yaw");
+}
+
+void write(const sim::DioReading& reading, json& out, Encoding) {
+  out["count"] = reading.input_count;
+  out["inputs"] = reading.inputs;
+  out["output_count"] = reading.output_count;
+  out["outputs"] = reading.outputs;
+}
+
+void read(const json& in, Encoding, sim::DioReading& reading) {
+  constexpr int kLines = sim::DioParams::kMaxLines;
+  reading.input_count = static_cast<int>(require_integer(in, "count", 0, kLines));
+  reading.inputs = static_cast<std::uint32_t>(require_integer(in, "inputs", 0, kAllBits));
+  reading.output_count = static_cast<int>(require_integer(in, "output_count", 0, kLines));
+  reading.outputs = static_cast<std::uint32_t>(require_integer(in, "outputs", 0, kAllBits));
+}
+
 void write(const sim::LaserReading& reading, json& out, Encoding encoding) {
   out["ranges"] = doubles(reading.ranges_m, encoding);
   out["angle_min"] = reading.angle_min_rad;
@@ -85,6 +229,18 @@ void read(const json& in, Encoding encoding, sim::LaserReading& reading) {
   reading.angle_min_rad = require_number(in, "angle_min");
   reading.resolution_rad = require_number(in, "resolution");
   reading.range_max_m = require_number(in, "range_max");
+}
+
+void write(const sim::OpaqueReading& reading, json& out, Encoding encoding) {
+  out["data"] = bytes(reading.data, encoding);
+  out["number"] = reading.number;
+  out["lost"] = reading.lost;
+}
+
+void read(const json& in, Encoding encoding, sim::OpaqueReading& reading) {
+  reading.data = require_bytes(in, "data", encoding);
+  reading.number = static_cast<std::uint64_t>(require_integer(in, "number", 0, kMost));
+  reading.lost = static_cast<std::uint64_t>(require_integer(in, "lost", 0, kMost));
 }
 
 void write(const sim::PoseReading& reading, json& out, Encoding) {
@@ -161,6 +317,34 @@ void read(const json& in, Encoding, sim::WaypointReading& reading) {
   reading.distance_m = require_number(in, "distance");
 }
 
+void write(const sim::WifiReading& reading, json& out, Encoding) {
+  json list = json::array();
+  for (const auto& link : reading.links) {
+    list.push_back({{"name", link.name},
+                    {"mac", link.mac},
+                    {"ip", link.ip},
+                    {"access_point", link.access_point},
+                    {"level", link.level_dbm}});
+  }
+  out["links"] = std::move(list);
+  out["own"] = {{"ip", reading.own_ip}};
+  out["floor"] = reading.floor_dbm;
+  out["channel"] = reading.channel_mhz;
+}
+
+void read(const json& in, Encoding, sim::WifiReading& reading) {
+  for (const json& link : require_list(in, "links")) {
+    reading.links.push_back({require_text(link, "name"), require_text(link, "mac"),
+                             require_text(link, "ip"), require_bool(link, "access_point"),
+                             require_number(link, "level")});
+  }
+  const json& own = require(in, "own");
+  if (!own.is_object()) refuse_value("own", "an object {\"ip\"}", own);
+  reading.own_ip = require_text(own, "ip");
+  reading.floor_dbm = require_number(in, "floor");
+  reading.channel_mhz = require_number(in, "channel");
+}
+
 /// How the readings of a type of device are told.
 struct ReadingCodec {
   std::string_view type;
@@ -182,15 +366,24 @@ constexpr ReadingCodec reading_codec(std::string_view type) {
 }
 
 constexpr ReadingCodec kReadingCodecs[] = {
+    reading_codec<sim::AioReading>("aio"),
     reading_codec<sim::BatteryReading>("battery"),
+    reading_codec<sim::BlinkenlightReading>("blinkenlight"),
+    reading_codec<sim::BumperReading>("bumper"),
     reading_codec<sim::CollisionReading>("collision"),
+    reading_codec<sim::DioReading>("dio"),
+    reading_codec<sim::FiducialReading>("fiducial"),
+    reading_codec<sim::GpsReading>("gps"),
+    reading_codec<sim::ImuReading>("imu"),
     reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),
     reading_codec<sim::PoseReading>("odometry"),
+    reading_codec<sim::OpaqueReading>("opaque"),
     reading_codec<sim::PoseReading>("pose"),
     reading_codec<sim::ProximityReading>("proximity"),
     reading_codec<sim::RangerReading>("sonar"),
     reading_codec<sim::WaypointReading>("waypoint"),
+    reading_codec<sim::WifiReading>("wifi"),
 };
 
 const ReadingCodec& codec_of(std::string_view type) {
@@ -245,6 +438,59 @@ json to_json(const sim::RotateCommand& command) {
   return {{"kind", "rotate"}, {"yaw", command.yaw_rad}};
 }
 
+json to_json(const sim::HeadingCommand& command) {
+  return {{"kind", "heading"},
+          {"v", command.v_mps},
+          {"lateral", command.lateral_mps},
+          {"yaw", command.yaw_rad},
+          {"frame", command.frame}};
+}
+
+json to_json(const sim::PositionCommand& command) {
+  json out = pose_command("position", command.goal);
+  out["max_speed"] = command.max_speed_mps;
+  out["max_turn_rate"] = command.max_turn_rate_radps;
+  out["frame"] = command.frame;
+  return out;
+}
+
+json to_json(const sim::CarCommand& command) {
+  return {{"kind", "car"}, {"v", command.v_mps}, {"steering", command.steering_rad}};
+}
+
+int read_frame(const json& in) {
+  using Limits = std::numeric_limits<int>;
+  return static_cast<int>(require_integer(in, "frame", Limits::min(), Limits::max()));
+}
+
+double read_lateral(const json& in) {
+  return in.contains("lateral") ? require_number(in, "lateral") : 0.0;
+}
+
+json to_json(const sim::SayCommand& command) { return {{"kind", "say"}, {"text", command.text}}; }
+
+json to_json(const sim::DigitalOutputCommand& command) {
+  return {{"kind", "digital"}, {"count", command.count}, {"outputs", command.bits}};
+}
+
+json to_json(const sim::AnalogOutputCommand& command) {
+  return {{"kind", "analog"}, {"output", command.channel}, {"voltage", command.voltage_v}};
+}
+
+json to_json(const sim::LightCommand& command) {
+  json out = {{"kind", "light"}};
+  if (command.enabled) out["on"] = *command.enabled;
+  if (command.colour) out["colour"] = sim::to_string(*command.colour);
+  if (command.period_s) out["period"] = *command.period_s;
+  if (command.duty_cycle) out["duty_cycle"] = *command.duty_cycle;
+  return out;
+}
+
+// A command has no encoding of its own to know: in CBOR, too, its bytes are a text in base64.
+json to_json(const sim::OpaqueCommand& command) {
+  return {{"kind", "opaque"}, {"data", bytes(command.data, Encoding::kJson)}};
+}
+
 sim::Vec2 read_point(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
 
 sim::Pose read_pose(const json& in) {
@@ -262,9 +508,8 @@ const CommandCodec kCommandCodecs[] = {
     {"twist",
      {"kind", "v", "omega", "lateral"},
      [](const json& in) -> sim::Command {
-       const double lateral_mps = in.contains("lateral") ? require_number(in, "lateral") : 0.0;
        return sim::TwistCommand{
-           {require_number(in, "v"), require_number(in, "omega"), lateral_mps}};
+           {require_number(in, "v"), require_number(in, "omega"), read_lateral(in)}};
      }},
     {"motors",
      {"kind", "on"},
@@ -291,6 +536,57 @@ const CommandCodec kCommandCodecs[] = {
     {"rotate",
      {"kind", "yaw"},
      [](const json& in) -> sim::Command { return sim::RotateCommand{require_number(in, "yaw")}; }},
+    {"heading",
+     {"kind", "v", "lateral", "yaw", "frame"},
+     [](const json& in) -> sim::Command {
+       return sim::HeadingCommand{require_number(in, "v"), read_lateral(in),
+                                  require_number(in, "yaw"), read_frame(in)};
+     }},
+    {"position",
+     {"kind", "x", "y", "yaw", "max_speed", "max_turn_rate", "frame"},
+     [](const json& in) -> sim::Command {
+       return sim::PositionCommand{read_pose(in), require_number(in, "max_speed"),
+                                   require_number(in, "max_turn_rate"), read_frame(in)};
+     }},
+    {"car",
+     {"kind", "v", "steering"},
+     [](const json& in) -> sim::Command {
+       return sim::CarCommand{require_number(in, "v"), require_number(in, "steering")};
+     }},
+    {"say",
+     {"kind", "text"},
+     [](const json& in) -> sim::Command { return sim::SayCommand{require_text(in, "text")}; }},
+    {"digital",
+     {"kind", "count", "outputs"},
+     [](const json& in) -> sim::Command {
+       constexpr int kLines = sim::DioParams::kMaxLines;
+       return sim::DigitalOutputCommand{
+           static_cast<int>(require_integer(in, "count", 0, kLines)),
+           static_cast<std::uint32_t>(require_integer(in, "outputs", 0, kAllBits))};
+     }},
+    {"analog",
+     {"kind", "output", "voltage"},
+     [](const json& in) -> sim::Command {
+       constexpr int kLines = sim::AioParams::kMaxLines;
+       return sim::AnalogOutputCommand{
+           static_cast<int>(require_integer(in, "output", 0, kLines - 1)),
+           require_number(in, "voltage")};
+     }},
+    {"light",
+     {"kind", "on", "colour", "period", "duty_cycle"},
+     [](const json& in) -> sim::Command {
+       sim::LightCommand command;
+       if (in.contains("on")) command.enabled = require_bool(in, "on");
+       if (in.contains("colour")) command.colour = require_colour(in, "colour");
+       if (in.contains("period")) command.period_s = require_number(in, "period");
+       if (in.contains("duty_cycle")) command.duty_cycle = require_number(in, "duty_cycle");
+       return command;
+     }},
+    {"opaque",
+     {"kind", "data"},
+     [](const json& in) -> sim::Command {
+       return sim::OpaqueCommand{require_bytes(in, "data", Encoding::kJson)};
+     }},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/clientproxy.h"
 #include "proxies/link.h"
+#include "virtual_time/virtual_time.h"
 
 namespace PlayerCc {
 
@@ -100,6 +101,7 @@ void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun,
 }
 
 ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
+  playerlike::virtual_time::note_look();
   scoped_lock_t lock(mLink->core->mutex());
   translated(aFun, [&] { mLink->core->require_usable(); });
   return lock;
@@ -116,11 +118,13 @@ bool ClientProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
 }
 
 bool ClientProxy::IsValid() const {
+  playerlike::virtual_time::note_look();
   const scoped_lock_t lock(mLink->core->mutex());
   return mLink->valid;
 }
 
 bool ClientProxy::IsFresh() const {
+  playerlike::virtual_time::note_look();
   const scoped_lock_t lock(mLink->core->mutex());
   return mFresh;
 }

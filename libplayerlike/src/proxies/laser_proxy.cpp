@@ -6,6 +6,7 @@
 
 #include "devices/errors.h"
 #include "libplayerc++/laserproxy.h"
+#include "proxies/beam_window.h"
 #include "proxies/link.h"
 #include "sim/devices/laser.h"
 
@@ -16,8 +17,6 @@ namespace {
 // What the S1R's Hokuyo URG-04LX reports of itself, by its data sheet.
 constexpr double kHokuyoRangeResolution_m = 0.001;
 constexpr player_bbox3d_t kHokuyoSize_m = {0.05, 0.05, 0.07};
-// Angles that differ by less than this part of a beam are the same to Configure().
-constexpr double kSameBeam = 1e-6;
 
 }  // namespace
 
@@ -94,14 +93,12 @@ bool LaserProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
 
 // With the client's mutex held, as the next two.
 double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
+  if (mRanges.empty()) return 0.0;
   if (aIndex >= mRanges.size()) {
-    throw PlayerError(
-        aFun,
-        "there is no beam " + std::to_string(aIndex) + ": " +
-            (mRanges.empty()
-                 ? std::string("the laser has made no scan yet (call Read() first)")
-                 : "the scan has " + std::to_string(mRanges.size()) + ", counted from 0"),
-        PlayerError::kBadArgument);
+    throw PlayerError(aFun,
+                      "there is no beam " + std::to_string(aIndex) + ": the scan has " +
+                          std::to_string(mRanges.size()) + ", counted from 0",
+                      PlayerError::kBadArgument);
   }
   return mRanges[aIndex];
 }
@@ -172,7 +169,7 @@ double LaserProxy::GetBearing(uint32_t aIndex) const {
   const char* fun = "LaserProxy::GetBearing";
   const scoped_lock_t lock(LockData(fun));
   static_cast<void>(CheckedRange(aIndex, fun));
-  return Bearing(aIndex);
+  return mRanges.empty() ? 0.0 : Bearing(aIndex);
 }
 
 int LaserProxy::GetIntensity(uint32_t aIndex) const {
@@ -196,23 +193,12 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
                              {{"the least angle", aMinAngle}, {"the greatest angle", aMaxAngle}});
   const scoped_lock_t lock(LockData(fun));
   // Beams are numbered from the first measured one; a window may reach beyond the scan.
-  const double last = static_cast<double>(mNativeCount) - 1.0;
-  const double begin = std::max(0.0, std::ceil((aMinAngle - mNativeMin) / mNativeRes - kSameBeam));
-  const double end = std::min(last, std::floor((aMaxAngle - mNativeMin) / mNativeRes + kSameBeam));
-  if (!(begin <= end)) {
-    throw PlayerError(fun,
-                      "no beam lies between " + std::to_string(aMinAngle) + " and " +
-                          std::to_string(aMaxAngle) + " rad; this laser's lie from " +
-                          std::to_string(mNativeMin) + " to " +
-                          std::to_string(mNativeMin + last * mNativeRes) + " rad",
-                      PlayerError::kBadArgument);
-  }
-  const double wish_rad = aScanRes * 0.01 * M_PI / 180.0;
-  const auto stride =
-      static_cast<std::size_t>(std::clamp(std::round(wish_rad / mNativeRes), 1.0, last + 1.0));
-  mFirst = static_cast<std::size_t>(begin);
-  mStride = stride;
-  mShown = static_cast<std::size_t>(end - begin) / stride + 1;
+  const detail::BeamWindow window =
+      detail::window_of(fun, aMinAngle, aMaxAngle, aScanRes * 0.01 * M_PI / 180.0, mNativeCount,
+                        mNativeMin, mNativeRes);
+  mFirst = window.first;
+  mStride = window.stride;
+  mShown = window.shown;
   mRangeRes = aRangeRes * 0.001;
   View();
 }

@@ -13,6 +13,7 @@
 #include "libplayerc++/playerclient.h"
 #include "playerlike/host/embedded.h"
 #include "proxies/link.h"
+#include "virtual_time/virtual_time.h"
 
 namespace PlayerCc {
 
@@ -33,9 +34,23 @@ constexpr std::chrono::milliseconds kPatience(1000);
 struct Reader {
   std::atomic<bool> stop{false};
   std::mutex mutex;
-  std::condition_variable ended_changed;
+  std::condition_variable changed;
+  bool joined = false;  // the lockstep, if it is to do that before the program goes on
   bool ended = false;
 };
+
+// In virtual time the program's own thread is part of the lockstep, too. Only when the one that reads
+// has joined it as well may that go on, or it would be chance when the first round comes.
+void join_lockstep(ClientCore& core, Reader& reader) {
+  try {
+    core.session().join();
+  } catch (const SessionError&) {
+    // The client is being destroyed: so the first look will find.
+  }
+  const std::lock_guard lock(reader.mutex);
+  reader.joined = true;
+  reader.changed.notify_all();
+}
 
 void read_until_stopped(ClientCore& core, const std::atomic<bool>& stop,
                         std::chrono::milliseconds look) {
@@ -59,7 +74,7 @@ void read_in_background(const std::shared_ptr<ClientCore>& core,
   const std::lock_guard lock(reader->mutex);
   if (over && !reader->stop) core->set_run_is_over(true);
   reader->ended = true;
-  reader->ended_changed.notify_all();
+  reader->changed.notify_all();
 }
 
 }  // namespace
@@ -123,6 +138,7 @@ PlayerClient::~PlayerClient() {
     threads = std::move(mImpl->leaving);
     if (mImpl->thread.joinable()) threads.push_back(std::move(mImpl->thread));
   }
+  const playerlike::virtual_time::Inside inside;  // these threads need no simulated time to end
   for (std::thread& thread : threads) {
     // Destroyed by a subscriber of a read signal: that thread shares all it still needs.
     if (thread.get_id() == std::this_thread::get_id()) {
@@ -146,7 +162,16 @@ void PlayerClient::StartThread() {
   translated_all(fun, [&] {
     mCore->session().prefer_real_time("a client reads in a thread of its own (StartThread)");
     auto reader = std::make_shared<Reader>();
-    mImpl->thread = std::thread([core = mCore, reader] { read_in_background(core, reader); });
+    const bool join = playerlike::virtual_time::active();
+    const playerlike::virtual_time::Inside inside;  // the thread is not the program's
+    mImpl->thread = std::thread([core = mCore, reader, join] {
+      if (join) join_lockstep(*core, *reader);
+      read_in_background(core, reader);
+    });
+    if (join) {
+      std::unique_lock reader_lock(reader->mutex);
+      reader->changed.wait(reader_lock, [&] { return reader->joined; });
+    }
     mImpl->reader = std::move(reader);
   });
 }
@@ -162,13 +187,22 @@ void PlayerClient::StopThread() {
     const mutex_t::scoped_lock data(mMutex);
     reader->stop = true;
   }
+  const auto has_ended = [&reader] {
+    const std::lock_guard reader_lock(reader->mutex);
+    return reader->ended;
+  };
   bool ended = false;
   if (thread.get_id() != std::this_thread::get_id()) {
+    // It looks for that when simulated time goes on; in virtual time, that is up to this thread.
+    static_cast<void>(
+        playerlike::virtual_time::wait_until(mCore->session().simulation(), has_ended));
+    const playerlike::virtual_time::Inside inside;
     std::unique_lock reader_lock(reader->mutex);
-    ended = reader->ended_changed.wait_for(reader_lock, kPatience, [&] { return reader->ended; });
+    ended = reader->changed.wait_for(reader_lock, kPatience, [&] { return reader->ended; });
   }
   mCore->set_run_is_over(false);
   if (ended) {
+    const playerlike::virtual_time::Inside inside;
     thread.join();
   } else {
     lock.lock();

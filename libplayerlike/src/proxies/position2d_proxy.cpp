@@ -15,71 +15,37 @@ using playerlike::require_finite;
 using playerlike::SessionError;
 using playerlike::translated;
 
-namespace {
-
-// Speed for each metre (or radian) that is missing. A command holds for a whole period of the
-// readings, so the gain is kept below kGainPerPeriod a period: then what is missing at least
-// halves... and never changes its sign.
-constexpr double kGain_per_s = 2.0;
-constexpr double kGainPerPeriod = 0.5;
-// Headings further off than this are turned to on the spot before driving on.
-constexpr double kTurnOnSpot_rad = 0.5;
-constexpr double kArrived_m = 0.01;
-constexpr double kAligned_rad = 0.01;
-// A robot that was pushed away from its goal by more than this drives there again.
-constexpr double kLost_m = 3.0 * kArrived_m;
-
-}  // namespace
-
-// Speed control that this library does for the robot, a step for each reading.
 struct Position2dProxy::Control {
-  enum class Mode { kNone, kHeading, kGoTo };
-  Mode mode = Mode::kNone;
-  bool has_reading = false;
-  double gain_per_s = kGain_per_s;
-  double robot_speed_mps = 0.0;  // the robot's own limits
+  // What the motors let the robot do, for drivers.
+  double robot_speed_mps = 0.0;
   double robot_turn_rate_radps = 0.0;
-  double length_m = 0.0;
-  // kHeading
-  double forward_mps = 0.0;
-  // kGoTo
-  player_pose2d_t goal = {0.0, 0.0, 0.0};
-  double speed_mps = 0.0;
-  double turn_rate_radps = 0.0;
-  bool aligning = false;  // arrived, turning to the goal's heading
 
   // Of an index that a driver offers: who takes the goals. What else the program commands ends
   // its pursuit.
   std::shared_ptr<playerlike::GoalDriver> driver;
 
-  void stop_pursuit() {
-    mode = Mode::kNone;
-    if (driver != nullptr) driver->cancel();
+  // With the client's mutex held.
+  static void send(Position2dProxy& proxy, const sim::Command& command, const char* fun) {
+    const auto& link = *proxy.mLink;
+    translated(fun, [&] {
+      const auto& motion = link.binding.motion;
+      if (!motion) {
+        throw SessionError(SessionError::Code::kNotAvailable,
+                           "robot " + link.robot().name +
+                               " has no motors (a device of type \"motion\") in this world");
+      }
+      link.core->session().send(*motion, command);
+    });
   }
 
-  [[nodiscard]] double turn(double error_rad, double limit_radps) const {
-    return std::clamp(gain_per_s * error_rad, -limit_radps, limit_radps);
-  }
+  // The frame that the proxy's readings are in, as commands name it.
+  static int frame(const Position2dProxy& proxy) { return proxy.mLink->binding.reading.device; }
 
-  // Speeds (forward, turning) for where the robot is; ends the mode when the goal is reached.
-  [[nodiscard]] sim::Twist step(const player_pose2d_t& at) {
-    if (mode == Mode::kHeading) {
-      return {forward_mps, turn(sim::normalize_angle(goal.pa - at.pa), robot_turn_rate_radps)};
-    }
-    const double dx_m = goal.px - at.px;
-    const double dy_m = goal.py - at.py;
-    const double distance_m = std::hypot(dx_m, dy_m);
-    aligning = distance_m <= (aligning ? kLost_m : kArrived_m);
-    if (aligning) {
-      const double error_rad = sim::normalize_angle(goal.pa - at.pa);
-      if (std::abs(error_rad) > kAligned_rad) return {0.0, turn(error_rad, turn_rate_radps)};
-      mode = Mode::kNone;
-      return {};
-    }
-    const double bearing_rad = sim::normalize_angle(std::atan2(dy_m, dx_m) - at.pa);
-    const double turning_radps = turn(bearing_rad, turn_rate_radps);
-    if (std::abs(bearing_rad) > kTurnOnSpot_rad) return {0.0, turning_radps};
-    return {std::min(speed_mps, gain_per_s * distance_m * std::cos(bearing_rad)), turning_radps};
+  // What makes the robot drive; ends what a driver does.
+  static void drive(Position2dProxy& proxy, const sim::Command& command, const char* fun) {
+    const scoped_lock_t lock(proxy.LockData(fun));
+    if (proxy.mControl->driver != nullptr) proxy.mControl->driver->cancel();
+    send(proxy, command, fun);
   }
 };
 
@@ -99,7 +65,6 @@ void Position2dProxy::Subscribe(uint32_t aIndex) {
   }
   const scoped_lock_t lock(LockData(fun));
   const playerlike::RobotInfo& robot = mLink->robot();
-  mControl->length_m = robot.length_m;
   mControl->robot_speed_mps = robot.max_speed_mps;
   mControl->robot_turn_rate_radps = robot.max_turn_rate_radps;
   if (mLink->binding.motion) {
@@ -111,7 +76,6 @@ void Position2dProxy::Subscribe(uint32_t aIndex) {
     tighten("max_speed", mControl->robot_speed_mps);
     tighten("max_turn_rate", mControl->robot_turn_rate_radps);
   }
-  mControl->gain_per_s = std::min(kGain_per_s, kGainPerPeriod * mLink->property("frequency", 1.0));
 }
 
 void Position2dProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
@@ -122,14 +86,7 @@ void Position2dProxy::HandleReading(const sim::Reading& aReading) {
   mData.pos = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};
   mData.vel = {reading->twist.v_mps, reading->twist.lateral_mps, reading->twist.omega_radps};
   mData.stall = reading->stalled ? 1 : 0;
-  mControl->has_reading = true;
   mLink->core->note_pose(mLink->binding.robot, reading->pose, mLink->info().type == "pose");
-}
-
-void Position2dProxy::HandleRound() {
-  if (mControl->mode == Control::Mode::kNone) return;
-  const sim::Twist twist = mControl->step(mData.pos);
-  Send(twist.v_mps, twist.omega_radps, "Position2dProxy::HandleRound");
 }
 
 bool Position2dProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
@@ -150,31 +107,12 @@ bool Position2dProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
   }
 }
 
-// With the client's mutex held.
-void Position2dProxy::Send(double aXSpeed, double aYawSpeed, const char* aFun) {
-  translated(aFun, [&] {
-    const auto& motion = mLink->binding.motion;
-    if (!motion) {
-      throw SessionError(SessionError::Code::kNotAvailable,
-                         "robot " + mLink->robot().name +
-                             " has no motors (a device of type \"motion\") in this world");
-    }
-    mLink->core->session().send(*motion, sim::TwistCommand{{aXSpeed, aYawSpeed}});
-  });
-}
-
-void Position2dProxy::Drive(double aXSpeed, double aYawSpeed, const char* aFun) {
-  const scoped_lock_t lock(LockData(aFun));
-  mControl->stop_pursuit();
-  Send(aXSpeed, aYawSpeed, aFun);
-}
-
 void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed) {
   const char* fun = "Position2dProxy::SetSpeed";
   require_finite(fun, {{"the forward speed", aXSpeed},
                        {"the sideways speed", aYSpeed},
                        {"the turn rate", aYawSpeed}});
-  Drive(aXSpeed, aYawSpeed, fun);
+  Control::drive(*this, sim::TwistCommand{{aXSpeed, aYawSpeed, aYSpeed}}, fun);
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYawSpeed) {
@@ -188,13 +126,10 @@ void Position2dProxy::SetVelHead(double aXSpeed, double aYSpeed, double aYawHead
   require_finite(
       fun,
       {{"the forward speed", aXSpeed}, {"the sideways speed", aYSpeed}, {"the heading", aYawHead}});
-  const scoped_lock_t lock(LockData(fun));
-  mControl->stop_pursuit();
-  mControl->mode = Control::Mode::kHeading;
-  mControl->forward_mps = aXSpeed;
-  mControl->goal = {0.0, 0.0, sim::normalize_angle(aYawHead)};
-  // Without a reading the heading is not known yet: the first one sets the robot going.
-  if (mControl->has_reading) HandleRound();
+  Control::drive(
+      *this,
+      sim::HeadingCommand{aXSpeed, aYSpeed, sim::normalize_angle(aYawHead), Control::frame(*this)},
+      fun);
 }
 
 void Position2dProxy::SetVelHead(double aXSpeed, double aYawHead) {
@@ -209,22 +144,24 @@ void Position2dProxy::GoTo(player_pose2d_t pos, player_pose2d_t vel) {
                        {"the forward speed", vel.px},
                        {"the sideways speed", vel.py},
                        {"the turn rate", vel.pa}});
-  const scoped_lock_t lock(LockData(fun));
-  const auto limited = [](double wish, double robot) {
-    return wish == 0.0 ? robot : std::min(std::abs(wish), robot);
-  };
-  mControl->goal = {pos.px, pos.py, sim::normalize_angle(pos.pa)};
-  mControl->speed_mps = limited(vel.px, mControl->robot_speed_mps);
-  mControl->turn_rate_radps = limited(vel.pa, mControl->robot_turn_rate_radps);
+  const double yaw_rad = sim::normalize_angle(pos.pa);
   if (mControl->driver != nullptr) {
-    mControl->mode = Control::Mode::kNone;
-    mControl->driver->go_to(
-        {{pos.px, pos.py}, mControl->goal.pa, mControl->speed_mps, mControl->turn_rate_radps});
+    const auto limited = [](double wish, double robot) {
+      return wish == 0.0 ? robot : std::min(std::abs(wish), robot);
+    };
+    const scoped_lock_t lock(LockData(fun));
+    mControl->driver->go_to({{pos.px, pos.py},
+                             yaw_rad,
+                             limited(vel.px, mControl->robot_speed_mps),
+                             limited(vel.pa, mControl->robot_turn_rate_radps)});
     return;
   }
-  mControl->mode = Control::Mode::kGoTo;
-  mControl->aligning = false;
-  if (mControl->has_reading) HandleRound();
+  Control::drive(*this,
+                 sim::PositionCommand{{pos.px, pos.py, yaw_rad},
+                                      std::hypot(vel.px, vel.py),
+                                      std::abs(vel.pa),
+                                      Control::frame(*this)},
+                 fun);
 }
 
 void Position2dProxy::GoTo(player_pose2d_t pos) { GoTo(pos, {0.0, 0.0, 0.0}); }
@@ -236,14 +173,7 @@ void Position2dProxy::GoTo(double aX, double aY, double aYaw) {
 void Position2dProxy::SetCarlike(double aXSpeed, double aDriveAngle) {
   const char* fun = "Position2dProxy::SetCarlike";
   require_finite(fun, {{"the forward speed", aXSpeed}, {"the steering angle", aDriveAngle}});
-  if (!(std::abs(aDriveAngle) < M_PI / 2.0)) {
-    throw PlayerError(
-        fun,
-        "the steering angle must be between -pi/2 and pi/2, but is " + std::to_string(aDriveAngle),
-        PlayerError::kBadArgument);
-  }
-  // Kinematics of a bicycle: a wheelbase L that steers by d turns at v tan(d) / L.
-  Drive(aXSpeed, aXSpeed * std::tan(aDriveAngle) / mControl->length_m, fun);
+  Control::drive(*this, sim::CarCommand{aXSpeed, aDriveAngle}, fun);
 }
 
 void Position2dProxy::RequestGeom() {
@@ -252,8 +182,11 @@ void Position2dProxy::RequestGeom() {
 
 player_pose3d_t Position2dProxy::GetOffset() {
   const scoped_lock_t lock(LockData("Position2dProxy::GetOffset"));
-  return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  const sim::Vec2& center_m = mLink->robot().center_m;
+  return {center_m.x(), center_m.y(), 0.0, 0.0, 0.0, 0.0};
 }
+
+player_pose3d_t Position2dProxy::GetPose() { return GetOffset(); }
 
 player_bbox3d_t Position2dProxy::GetSize() {
   const scoped_lock_t lock(LockData("Position2dProxy::GetSize"));
@@ -264,20 +197,12 @@ player_bbox3d_t Position2dProxy::GetSize() {
 void Position2dProxy::SetMotorEnable(bool enable) {
   const char* fun = "Position2dProxy::SetMotorEnable";
   const scoped_lock_t lock(LockData(fun));
-  if (!enable) {
-    mControl->stop_pursuit();
+  if (!enable && mControl->driver != nullptr) {
+    mControl->driver->cancel();
     // Else the driver's last speeds would go on when the motors are on again before the next step.
-    if (mControl->driver != nullptr) Send(0.0, 0.0, fun);
+    Control::send(*this, sim::TwistCommand{}, fun);
   }
-  translated(fun, [&] {
-    const auto& motion = mLink->binding.motion;
-    if (!motion) {
-      throw SessionError(SessionError::Code::kNotAvailable,
-                         "robot " + mLink->robot().name +
-                             " has no motors (a device of type \"motion\") in this world");
-    }
-    mLink->core->session().send(*motion, sim::MotorEnableCommand{enable});
-  });
+  Control::send(*this, sim::MotorEnableCommand{enable}, fun);
 }
 
 void Position2dProxy::ResetOdometry() { SetOdometry(0.0, 0.0, 0.0); }

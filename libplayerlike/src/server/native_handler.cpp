@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "protocol/codec.h"
+#include "session/checks.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike::server {
@@ -54,13 +55,13 @@ double require_timeout(const json& request) {
   return timeout_s;
 }
 
-sim::CellRect require_rect(const json& request) {
-  const json& rect = protocol::require(request, "rect");
+sim::CellRect require_rect(const json& request, const char* key = "rect") {
+  const json& rect = protocol::require(request, key);
   if (!rect.is_array() || rect.size() != 4) {
-    protocol::refuse_value("rect", "[column, row, width, height]", rect);
+    protocol::refuse_value(key, "[column, row, width, height]", rect);
   }
   const auto number = [&](std::size_t i, std::int64_t least, std::int64_t most) {
-    return static_cast<int>(protocol::require_integer({{"rect", rect[i]}}, "rect", least, most));
+    return static_cast<int>(protocol::require_integer({{key, rect[i]}}, key, least, most));
   };
   return {number(0, -kMaxCell, kMaxCell), number(1, -kMaxCell, kMaxCell), number(2, 0, kMaxSide),
           number(3, 0, kMaxSide)};
@@ -100,7 +101,12 @@ const NativeHandler::Request* NativeHandler::find_request(std::string_view name)
       {"save_image", {"id", "do", "name", "scale"}, &H::save_image},
       {"view_mode", {"id", "do"}, &H::view_mode},
       {"set_view_mode", {"id", "do", "mode"}, &H::set_view_mode},
-      {"world_map", {"id", "do", "cell_size"}, &H::world_map},
+      {"world_map", {"id", "do", "cell_size", "tile"}, &H::world_map},
+      {"object_pose", {"id", "do", "name"}, &H::object_pose},
+      {"place_object", {"id", "do", "name", "pose"}, &H::place_object},
+      {"object_property", {"id", "do", "name", "property"}, &H::object_property},
+      {"set_object_property", {"id", "do", "name", "property", "value"}, &H::set_object_property},
+      {"log", {"id", "do", "file", "replay", "rewind", "running"}, &H::log},
       {"time", {"id", "do"}, &H::time, true},
       {"prefer_real_time", {"id", "do", "reason"}, &H::prefer_real_time},
       {"thread_ended", {"id", "do", "thread"}, &H::thread_ended},
@@ -378,20 +384,8 @@ json NativeHandler::readings() {
 
 // --- Commands
 
-void NativeHandler::require_device(DeviceId device) const {
-  const auto& robots = hub_.host().robots();
-  const auto robot = static_cast<std::size_t>(device.robot);
-  if (device.robot >= 0 && robot < robots.size() && device.device >= 0 &&
-      static_cast<std::size_t>(device.device) < robots[robot].devices.size()) {
-    return;
-  }
-  throw SessionError(SessionError::Code::kNoSuchDevice, "the world has no device [" +
-                                                            std::to_string(device.robot) + ", " +
-                                                            std::to_string(device.device) + "]");
-}
-
 void NativeHandler::require_command(DeviceId device) const {
-  require_device(device);
+  require_device(hub_.host().robots(), device);
   const auto robot = static_cast<std::size_t>(device.robot);
   if (robot < terms_.rights.command.size() && terms_.rights.command[robot]) return;
   throw ProtocolError("access/denied", "robot " + hub_.host().robots()[robot].name +
@@ -420,7 +414,7 @@ json NativeHandler::replace(const json& request) {
   std::optional<DeviceId> device;
   if (request.contains("device") && !request["device"].is_null()) {
     device = protocol::require_device_id(request, "device");
-    require_device(*device);
+    require_device(hub_.host().robots(), *device);
   }
   session().set_replace(device, protocol::require_bool(request, "replace"));
   return json::object();
@@ -509,6 +503,13 @@ json NativeHandler::set_view_mode(const json& request) {
 
 json NativeHandler::world_map(const json& request) {
   const double cell_size_m = protocol::require_number(request, "cell_size");
+  if (request.contains("tile")) {
+    const sim::CellRect tile = require_rect(request, "tile");
+    if (static_cast<double>(tile.width) * tile.height > kMaxMapCells) {
+      protocol::refuse_value("tile", "at most 4194304 cells", request["tile"]);
+    }
+    return map_tile(cell_size_m, tile);
+  }
   sim::Vec2 arena_m;
   hub_.host().with_simulation(
       [&](sim::Simulation& simulation) { arena_m = simulation.world().arena.size; });
@@ -516,9 +517,103 @@ json NativeHandler::world_map(const json& request) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a server makes maps of up to 4194304 cells: a cell of this arena must be " +
                            std::to_string(std::sqrt(arena_m.prod() / kMaxMapCells)) +
-                           " m long at least");
+                           " m long at least, unless the map is asked for in tiles");
   }
   return {{"map", protocol::encode_map(session().world_map(cell_size_m), terms_.encoding)}};
+}
+
+json NativeHandler::map_tile(double cell_size_m, const sim::CellRect& tile) {
+  sim::OccupancyMap map;
+  sim::CanvasDescription grid;
+  hub_.host().with_simulation([&](sim::Simulation& simulation) {
+    const sim::ArenaDescription& arena = simulation.world().arena;
+    grid = map_grid(arena, cell_size_m);
+    const int right = std::clamp(tile.column + tile.width, 0, grid.width);
+    const int bottom = std::clamp(tile.row + tile.height, 0, grid.height);
+    const int left = std::clamp(tile.column, 0, right);
+    const int top = std::clamp(tile.row, 0, bottom);
+    sim::CanvasDescription part = grid;
+    part.width = right - left;
+    part.height = bottom - top;
+    part.origin += cell_size_m * sim::Vec2(left, grid.height - bottom);
+    if (part.width > 0 && part.height > 0) map = sim::true_map(arena, part);
+  });
+  if (map.cells.empty()) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "the map has no such tile: it has " + std::to_string(grid.width) + " x " +
+                           std::to_string(grid.height) + " cells");
+  }
+  return {{"map", protocol::encode_map(map, terms_.encoding)},
+          {"width", grid.width},
+          {"height", grid.height},
+          {"origin", protocol::encode_pose({grid.origin.x(), grid.origin.y(), 0.0})}};
+}
+
+// --- Objects by name, and the log
+
+void NativeHandler::require_rights(int robot) const {
+  if (robot < 0) {
+    if (terms_.rights.command_all()) return;
+    throw ProtocolError("access/denied",
+                        "this concerns all robots: only who may command each of them may do it");
+  }
+  const auto index = static_cast<std::size_t>(robot);
+  if (index < terms_.rights.command.size() && terms_.rights.command[index]) return;
+  throw ProtocolError("access/denied", "robot " + hub_.host().robots()[index].name +
+                                           " obeys only those whose hello has its token");
+}
+
+// Of an object's robot; -1 for anything else.
+int NativeHandler::robot_named(const std::string& name) const {
+  const auto& robots = hub_.host().robots();
+  const auto it = std::find_if(robots.begin(), robots.end(),
+                               [&](const RobotInfo& robot) { return robot.name == name; });
+  return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
+}
+
+json NativeHandler::object_pose(const json& request) {
+  const ObjectPose object = session().object_pose(protocol::require_text(request, "name"));
+  return {{"pose", protocol::encode_pose(object.pose)}, {"t", object.time_ns}};
+}
+
+json NativeHandler::place_object(const json& request) {
+  const std::string name = protocol::require_text(request, "name");
+  const sim::Pose pose = protocol::require_pose(request, "pose");
+  require_rights(robot_named(name));
+  session().place_object(name, pose);
+  return json::object();
+}
+
+json NativeHandler::object_property(const json& request) {
+  return {{"value", protocol::encode_property(
+                        session().object_property(protocol::require_text(request, "name"),
+                                                  protocol::require_text(request, "property")))}};
+}
+
+json NativeHandler::set_object_property(const json& request) {
+  const std::string name = protocol::require_text(request, "name");
+  const std::string property = protocol::require_text(request, "property");
+  const PropertyValue value = protocol::require_property(request, "value");
+  require_rights(robot_named(name));
+  session().set_object_property(name, property, value);
+  return json::object();
+}
+
+json NativeHandler::log(const json& request) {
+  LogControl changes;
+  if (request.contains("file")) changes.file = protocol::require_text(request, "file");
+  if (request.contains("replay")) changes.replay = protocol::require_bool(request, "replay");
+  if (request.contains("rewind")) changes.rewind = protocol::require_bool(request, "rewind");
+  if (request.contains("running")) changes.running = protocol::require_bool(request, "running");
+  if (changes.file || changes.replay || changes.rewind || changes.running) {
+    int robot = -1;
+    const auto& robots = hub_.host().robots();
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      if (robots[i].port == terms_.port) robot = static_cast<int>(i);
+    }
+    require_rights(robot);
+  }
+  return {{"log", protocol::encode_log(session().control_log(changes))}};
 }
 
 // --- Time
@@ -530,9 +625,7 @@ json NativeHandler::time(const json& /*request*/) {
 json NativeHandler::prefer_real_time(const json& request) {
   const std::string reason = protocol::require_text(request, "reason");
   // It is logged.
-  if (reason.size() > kMaxReason || std::any_of(reason.begin(), reason.end(), [](unsigned char c) {
-        return c < ' ' || c == 127;
-      })) {
+  if (reason.size() > kMaxReason || !is_printable(reason)) {
     protocol::refuse_value("reason", "at most 200 printable bytes", request["reason"]);
   }
   session().prefer_real_time(reason);

@@ -75,7 +75,10 @@ class NativeHandler final : public Handler {
   [[nodiscard]] ThinkerId thinker(const json& request);
   /// @throws ProtocolError access/denied.
   void require_command(DeviceId device) const;
-  void require_device(DeviceId device) const;
+  /// @param robot  index; -1: all robots. @throws ProtocolError access/denied.
+  void require_rights(int robot) const;
+  [[nodiscard]] int robot_named(const std::string& name) const;
+  json map_tile(double cell_size_m, const sim::CellRect& tile);
 
   // One for each request of docs/protocol.md.
   json subscribe(const json& request);
@@ -96,6 +99,11 @@ class NativeHandler final : public Handler {
   json view_mode(const json& request);
   json set_view_mode(const json& request);
   json world_map(const json& request);
+  json object_pose(const json& request);
+  json place_object(const json& request);
+  json object_property(const json& request);
+  json set_object_property(const json& request);
+  json log(const json& request);
   json time(const json& request);
   json prefer_real_time(const json& request);
   json thread_ended(const json& request);

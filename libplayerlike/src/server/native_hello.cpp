@@ -6,6 +6,7 @@
 
 #include "protocol/codec.h"
 #include "server/native_handler.h"
+#include "session/checks.h"
 
 namespace playerlike::server {
 namespace {
@@ -33,8 +34,7 @@ std::string unguessable() {
 std::string name_or_empty(const json& argument, const char* key) {
   if (!argument.contains(key)) return "";
   std::string text = protocol::require_text(argument, key);
-  const auto prints = [](unsigned char c) { return c >= ' ' && c != 127; };
-  if (text.size() > kMaxName || !std::all_of(text.begin(), text.end(), prints)) {
+  if (text.size() > kMaxName || !is_printable(text)) {
     protocol::refuse_value(key, "at most 64 bytes, all printable", argument[key]);
   }
   return text;

@@ -5,193 +5,197 @@
 #include <utility>
 
 #include "session/checks.h"
+#include "session/farewell.h"
 
 namespace playerlike {
 namespace {
 
-// Tells the hosts that a thread has waited on when that thread ends, so that nobody waits for it.
-class Farewell {
- public:
-  Farewell() = default;
-  Farewell(const Farewell&) = delete;
-  Farewell& operator=(const Farewell&) = delete;
-  ~Farewell() {
-    for (const Known& known : hosts_) {
-      if (const std::shared_ptr<Host> host = known.host.lock()) {
-        host->thinker_ended(this_thinker());
-      }
-    }
-  }
-
-  void remember(const std::shared_ptr<Host>& host) {
-    for (const Known& known : hosts_) {
-      if (known.address == host.get() && !known.host.expired()) return;
-    }
-    std::erase_if(hosts_, [](const Known& known) { return known.host.expired(); });
-    hosts_.push_back({host.get(), host});
-  }
-
- private:
-  struct Known {
-    const Host* address;
-    std::weak_ptr<Host> host;
-  };
-  std::vector<Known> hosts_;
-};
-
-thread_local Farewell farewell;
+// Nobody is to wait for a thread that has ended.
+thread_local Farewell<Host> farewell([](Host& host) {
+  if (virtual_time::active()) virtual_time::note_thread_ends();
+  host.thinker_ended(this_thinker());
+});
 
 }  // namespace
+
+void remember_thread() { farewell.remember_virtual_time(); }
 
 InProcessSession::InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
     : host_(std::move(host)), client_(std::move(client)) {}
 
 InProcessSession::~InProcessSession() { close(); }
 
-const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
-  return host_->core_->robots();
+InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->core_); }
+
+void InProcessSession::note_wait() const {
+  farewell.remember(host_);
+  // Drivers are Playpen's own.
+  if (!client_->follower) virtual_time::note_wait();
 }
+
+const std::vector<RobotInfo>& InProcessSession::robots() const noexcept { return core()->robots(); }
 int InProcessSession::port() const noexcept { return client_->port; }
 bool InProcessSession::connected() const noexcept { return !client_->closed; }
 
 void InProcessSession::subscribe(DeviceId device) {
   const DeviceInfo& info = require_device(robots(), device);
-  if (!host_->core_->is_sensor(device)) {
+  if (!core()->is_sensor(device)) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "device " + info.name + " is no sensor: it has no readings");
   }
-  host_->core_->subscribe(*client_, device);
+  core()->subscribe(*client_, device);
 }
 
-void InProcessSession::unsubscribe(DeviceId device) { host_->core_->unsubscribe(*client_, device); }
+void InProcessSession::unsubscribe(DeviceId device) { core()->unsubscribe(*client_, device); }
 
 void InProcessSession::set_replace(std::optional<DeviceId> device, bool replace) {
-  host_->core_->set_replace(*client_, device, replace);
+  core()->set_replace(*client_, device, replace);
 }
 
-std::uint32_t InProcessSession::overflow_count() const { return host_->core_->overflow(*client_); }
+std::uint32_t InProcessSession::overflow_count() const { return core()->overflow(*client_); }
 
 void InProcessSession::wait() {
-  farewell.remember(host_);
-  host_->core_->wait(*client_);
+  note_wait();
+  core()->wait(*client_);
 }
 
-int InProcessSession::take(ReadingSink& sink) { return host_->core_->take(*client_, sink); }
+int InProcessSession::take(ReadingSink& sink) { return core()->take(*client_, sink); }
 
 bool InProcessSession::peek(std::chrono::milliseconds timeout) {
-  farewell.remember(host_);
-  return host_->core_->peek(*client_, std::max(timeout, std::chrono::milliseconds(0)));
+  note_wait();
+  return core()->peek(*client_, std::max(timeout, std::chrono::milliseconds(0)));
 }
 
 void InProcessSession::send(DeviceId device, const sim::Command& command) {
   require_device(robots(), device);
   require_finite(command);
-  host_->core_->send(*client_, device, command);
+  core()->send(*client_, device, command);
 }
 
 void InProcessSession::join() {
-  farewell.remember(host_);
-  host_->core_->join(*client_, this_thinker());
+  note_wait();
+  core()->join(*client_, this_thinker());
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {
-  return std::make_unique<InProcessSession>(
-      host_, host_->core_->add_client(client_->port, /*follower=*/true));
+  return std::make_unique<InProcessSession>(host_,
+                                            core()->add_client(client_->port, /*follower=*/true));
 }
 
 const void* InProcessSession::simulation() const noexcept { return host_.get(); }
 
 DrawQueue& InProcessSession::draw_queue() noexcept { return client_->drawings; }
 
-void InProcessSession::flush_drawings() { host_->core_->flush_drawings(*client_); }
+void InProcessSession::flush_drawings() { core()->flush_drawings(*client_); }
 
 void InProcessSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
                                   std::span<const sim::CellValue> values) {
   require_cells(rect, values.size());
-  host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+  core()->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
     book.require(client_->number, layer);
     layers.set_cells(layer, rect, values);
   });
 }
 
 std::optional<sim::CellValue> InProcessSession::cell(sim::LayerId layer, int column, int row) {
-  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+  return core()->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
     book.require(client_->number, layer);
     return layers.cell(layer, column, row);
   });
 }
 
 std::vector<sim::CellValue> InProcessSession::cells(sim::LayerId layer) {
-  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+  return core()->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
     book.require(client_->number, layer);
     return layers.cells(layer);
   });
 }
 
 sim::LayerId InProcessSession::create_layer(sim::LayerKind kind, sim::LayerStyle style) {
-  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
+  return core()->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
     return book.create(layers, client_->number, client_->port, kind, std::move(style));
   });
 }
 
 void InProcessSession::remove_layer(sim::LayerId layer) {
-  host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
+  core()->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
     book.remove(layers, client_->number, layer);
   });
 }
 
 void InProcessSession::set_layer_style(sim::LayerId layer, sim::LayerStyle style) {
-  host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
+  core()->with_layers(*client_, [&](sim::LayerStack& layers, LayerBook& book) {
     book.set_style(layers, client_->number, layer, std::move(style));
   });
 }
 
 std::vector<sim::LayerInfo> InProcessSession::layers() {
-  return host_->core_->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
+  return core()->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
     return book.list(layers, client_->number);
   });
 }
 
 std::vector<std::uint8_t> InProcessSession::canvas_image() {
-  return host_->core_->with_layers(
+  return core()->with_layers(
       *client_, [](sim::LayerStack& layers, const LayerBook&) { return layers.composed(); });
 }
 
 void InProcessSession::resize_canvas(int width, int height) {
-  host_->core_->resize_canvas(*client_, width, height);
+  core()->resize_canvas(*client_, width, height);
 }
 
-CanvasInfo InProcessSession::canvas_info() const { return host_->core_->canvas_info(); }
+CanvasInfo InProcessSession::canvas_info() const { return core()->canvas_info(); }
 
 std::uint64_t InProcessSession::canvas_generation() const noexcept {
-  return host_->core_->canvas_generation();
+  return core()->canvas_generation();
 }
 
 void InProcessSession::save_image(const std::string& name, int scale) {
-  host_->core_->save_image(*client_, name, scale);
+  core()->save_image(*client_, name, scale);
 }
 
-sim::ViewMode InProcessSession::view_mode() const { return host_->core_->view_mode(); }
+sim::ViewMode InProcessSession::view_mode() const { return core()->view_mode(); }
 
-void InProcessSession::set_view_mode(sim::ViewMode mode) {
-  host_->core_->set_view_mode(*client_, mode);
-}
+void InProcessSession::set_view_mode(sim::ViewMode mode) { core()->set_view_mode(*client_, mode); }
 
 sim::OccupancyMap InProcessSession::world_map(double cell_size_m) {
-  return host_->core_->world_map(cell_size_m);
+  return core()->world_map(cell_size_m);
 }
 
-TimeStatistics InProcessSession::time() const { return host_->core_->time(); }
+ObjectPose InProcessSession::object_pose(const std::string& name) {
+  return core()->object_pose(*client_, name);
+}
+
+void InProcessSession::place_object(const std::string& name, const sim::Pose& pose) {
+  core()->place_object(*client_, name, pose);
+}
+
+PropertyValue InProcessSession::object_property(const std::string& name,
+                                                const std::string& property) {
+  return core()->object_property(*client_, name, property);
+}
+
+void InProcessSession::set_object_property(const std::string& name, const std::string& property,
+                                           const PropertyValue& value) {
+  core()->set_object_property(*client_, name, property, value);
+}
+
+LogStatus InProcessSession::control_log(const LogControl& changes) {
+  return core()->control_log(*client_, changes);
+}
+
+TimeStatistics InProcessSession::time() const { return core()->time(); }
 
 void InProcessSession::sleep(double seconds) {
-  farewell.remember(host_);
-  host_->core_->sleep(*client_, seconds);
+  note_wait();
+  core()->sleep(*client_, seconds);
 }
 
 void InProcessSession::prefer_real_time(const std::string& reason) {
-  host_->core_->prefer_real_time(reason);
+  note_wait();
+  core()->prefer_real_time(reason);
 }
 
-void InProcessSession::close() noexcept { host_->core_->remove_client(*client_); }
+void InProcessSession::close() noexcept { core()->remove_client(*client_); }
 
 }  // namespace playerlike

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "playerlike/session/session.h"
+#include "session/checks.h"
 
 namespace playerlike {
 namespace {
@@ -19,13 +20,6 @@ constexpr sim::LayerId kNoLayer = -1;
 
 std::size_t cells_of(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-}
-
-bool is_printable(const std::string& text) {
-  return std::all_of(text.begin(), text.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte >= 0x20 && byte != 0x7f;
-  });
 }
 
 void require_transparency(const sim::LayerStyle& style) {

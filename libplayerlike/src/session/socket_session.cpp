@@ -14,6 +14,7 @@
 #include "playerlike/host/event_client.h"
 #include "playerlike/session/layer_book.h"
 #include "session/checks.h"
+#include "session/farewell.h"
 #include "session/socket_line.h"
 #include "sim/core/error.h"
 #include "sim/world/view_mode.h"
@@ -33,44 +34,22 @@ constexpr double kLongest_s = 1e9;  // 30 years
 constexpr std::size_t kMessageOverhead = 512;
 // Longest side of a rectangle in a message.
 constexpr std::size_t kMaxSide = 8192;
+// Sides of the tiles in which maps are fetched [cells]: 4 MiB each.
+constexpr int kTileSide = 1024;
 
 Connection::Clock::duration wall(double seconds) {
   return std::chrono::duration_cast<Connection::Clock::duration>(
       Seconds(std::clamp(seconds, 0.0, kLongest_s)));
 }
 
-// Tells the servers that a thread has waited for when that thread ends, so that nobody waits for
-// it.
-class Farewell {
- public:
-  Farewell() = default;
-  Farewell(const Farewell&) = delete;
-  Farewell& operator=(const Farewell&) = delete;
-  ~Farewell() {
-    for (const std::weak_ptr<SocketLine>& known : lines_) {
-      const std::shared_ptr<SocketLine> line = known.lock();
-      if (!line) continue;
-      try {
-        line->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
-      } catch (const std::exception&) {
-        // The server notices that it has lost the connection.
-      }
-    }
+// Nobody is to wait for a thread that has ended.
+thread_local Farewell<SocketLine> farewell([](SocketLine& line) {
+  try {
+    line.tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+  } catch (const std::exception&) {
+    // The server notices that it has lost the connection.
   }
-
-  void remember(const std::shared_ptr<SocketLine>& line) {
-    for (const std::weak_ptr<SocketLine>& known : lines_) {
-      if (!known.owner_before(line) && !line.owner_before(known)) return;
-    }
-    std::erase_if(lines_, [](const auto& known) { return known.expired(); });
-    lines_.push_back(line);
-  }
-
- private:
-  std::vector<std::weak_ptr<SocketLine>> lines_;
-};
-
-thread_local Farewell farewell;
+});
 
 /// What no other process calls itself.
 std::string process_name() {
@@ -713,10 +692,83 @@ sim::OccupancyMap SocketSession::world_map(double cell_size_m) {
         SessionError::Code::kBadArgument,
         "the cell size of a map is a positive number [m], but is " + std::to_string(cell_size_m));
   }
-  const json answer = request({{"do", "world_map"}, {"cell_size", cell_size_m}});
+  const auto tile = [&](int column, int row) {
+    return request({{"do", "world_map"},
+                    {"cell_size", cell_size_m},
+                    {"tile", {column, row, kTileSide, kTileSide}}});
+  };
+  json answer = tile(0, 0);
   return understood([&] {
-    return protocol::decode_map(protocol::require(answer, "map"), line_->connection()->encoding());
+    const auto side = [&](const char* key) {
+      return static_cast<int>(protocol::require_integer(answer, key, 1, kMaxSide));
+    };
+    const Encoding encoding = line_->connection()->encoding();
+    sim::OccupancyMap part = protocol::decode_map(protocol::require(answer, "map"), encoding);
+    sim::OccupancyMap map;
+    map.width = side("width");
+    map.height = side("height");
+    map.cell_size_m = part.cell_size_m;
+    map.origin = protocol::require_pose(answer, "origin").position();
+    if (part.width == map.width && part.height == map.height) return part;
+    map.cells.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+    for (int row = 0; row < map.height; row += kTileSide) {
+      for (int column = 0; column < map.width; column += kTileSide) {
+        if (row > 0 || column > 0) {
+          answer = tile(column, row);
+          part = protocol::decode_map(protocol::require(answer, "map"), encoding);
+        }
+        if (part.width != std::min(kTileSide, map.width - column) ||
+            part.height != std::min(kTileSide, map.height - row)) {
+          throw protocol::ProtocolError("protocol/bad-value", "map: not the tile asked for");
+        }
+        for (int y = 0; y < part.height; ++y) {
+          std::copy_n(
+              part.cells.begin() + static_cast<std::ptrdiff_t>(y) * part.width, part.width,
+              map.cells.begin() + static_cast<std::ptrdiff_t>(row + y) * map.width + column);
+        }
+      }
+    }
+    return map;
   });
+}
+
+ObjectPose SocketSession::object_pose(const std::string& name) {
+  const json answer = request({{"do", "object_pose"}, {"name", name}});
+  return understood([&]() -> ObjectPose {
+    return {protocol::require_pose(answer, "pose"),
+            protocol::require_integer(answer, "t", 0, std::numeric_limits<std::int64_t>::max())};
+  });
+}
+
+void SocketSession::place_object(const std::string& name, const sim::Pose& pose) {
+  require_finite(sim::PlaceCommand{pose});  // JSON would not take it
+  request({{"do", "place_object"}, {"name", name}, {"pose", protocol::encode_pose(pose)}});
+}
+
+PropertyValue SocketSession::object_property(const std::string& name, const std::string& property) {
+  const json answer = request({{"do", "object_property"}, {"name", name}, {"property", property}});
+  return understood([&] { return protocol::require_property(answer, "value"); });
+}
+
+void SocketSession::set_object_property(const std::string& name, const std::string& property,
+                                        const PropertyValue& value) {
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    for (const double number : *numbers) require_finite(sim::RotateCommand{number});
+  }
+  request({{"do", "set_object_property"},
+           {"name", name},
+           {"property", property},
+           {"value", protocol::encode_property(value)}});
+}
+
+LogStatus SocketSession::control_log(const LogControl& changes) {
+  json message = {{"do", "log"}};
+  if (changes.file) message["file"] = *changes.file;
+  if (changes.replay) message["replay"] = *changes.replay;
+  if (changes.rewind) message["rewind"] = true;
+  if (changes.running) message["running"] = *changes.running;
+  const json answer = request(std::move(message));
+  return understood([&] { return protocol::decode_log(protocol::require(answer, "log")); });
 }
 
 void SocketSession::close() noexcept {

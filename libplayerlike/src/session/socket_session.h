@@ -84,6 +84,12 @@ class SocketSession final : public Session {
   sim::ViewMode view_mode() const override;
   void set_view_mode(sim::ViewMode mode) override;
   sim::OccupancyMap world_map(double cell_size_m) override;
+  ObjectPose object_pose(const std::string& name) override;
+  void place_object(const std::string& name, const sim::Pose& pose) override;
+  PropertyValue object_property(const std::string& name, const std::string& property) override;
+  void set_object_property(const std::string& name, const std::string& property,
+                           const PropertyValue& value) override;
+  LogStatus control_log(const LogControl& changes) override;
   TimeStatistics time() const override;
   void sleep(double seconds) override;
   void prefer_real_time(const std::string& reason) override;

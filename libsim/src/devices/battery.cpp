@@ -29,8 +29,10 @@ std::string_view to_string(BatteryStatus status) {
 double battery_load_w(const BatteryParams& params, const Twist& commanded,
                       double wheel_separation_m) {
   const double rim_mps = 0.5 * wheel_separation_m * commanded.omega_radps;
-  const double wheels_mps =
-      0.5 * (std::abs(commanded.v_mps - rim_mps) + std::abs(commanded.v_mps + rim_mps));
+  const double v_mps = commanded.lateral_mps == 0.0
+                           ? commanded.v_mps
+                           : std::hypot(commanded.v_mps, commanded.lateral_mps);
+  const double wheels_mps = 0.5 * (std::abs(v_mps - rim_mps) + std::abs(v_mps + rim_mps));
   return params.idle_power_w + params.drive_power_ws_per_m * wheels_mps;
 }
 
@@ -60,6 +62,7 @@ void Battery::integrate(const StepContext& context) {
   const auto& docks = context.world.arena.docks;
   docked_ = std::any_of(docks.begin(), docks.end(),
                         [&](const DockDescription& dock) { return is_on_dock(dock, p_WB); });
+  const double before_j = energy_j_;
   if (docked_) {
     energy_j_ =
         std::min(energy_j_ + params_.charging_power_w * dt_s, params_.capacity_wh * kJoulesPerWh);
@@ -67,6 +70,7 @@ void Battery::integrate(const StepContext& context) {
     const double load_w = battery_load_w(params_, context.body.commanded, wheel_separation_m_);
     energy_j_ = std::max(energy_j_ - load_w * dt_s, 0.0);
   }
+  power_w_ = (energy_j_ - before_j) / dt_s;
 }
 
 void Battery::measure(const StepContext& context) {
@@ -76,6 +80,7 @@ void Battery::measure(const StepContext& context) {
   reading_.charge_percent = 100.0 * charge;
   reading_.voltage_v = battery_voltage_v(params_, charge);
   reading_.energy_wh = energy_j_ / kJoulesPerWh;
+  reading_.power_w = power_w_;
   if (!docked_) {
     reading_.status = BatteryStatus::kDischarging;
   } else {

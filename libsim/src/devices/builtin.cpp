@@ -2,19 +2,31 @@
 #include "sim/devices/builtin.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/blinkenlight.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/dio.h"
+#include "sim/devices/fiducial.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/motion.h"
+#include "sim/devices/opaque.h"
 #include "sim/devices/pen.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
+#include "sim/devices/speech.h"
 #include "sim/devices/teleport.h"
 #include "sim/devices/waypoint.h"
+#include "sim/devices/wifi.h"
 
 namespace sim {
 namespace {
@@ -23,11 +35,76 @@ constexpr io::NumberRange kFrequency{0.0, 1000.0, true, "Hz"};
 constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
 constexpr io::NumberRange kPower_w{0.0, 10000.0, false, "W"};
 constexpr io::NumberRange kVoltage_v{0.0, 1000.0, true, "V"};
+constexpr io::NumberRange kNorth{-360.0, 360.0, false, "degrees"};
 constexpr double kDegrees = std::numbers::pi / 180.0;
+// Of robots that have no steering: beyond it the turn rate has long reached its limit.
+constexpr double kMostSteering_rad = 80.0 * kDegrees;
 
 RandomStream noise_stream(const DeviceDescription& device, const RobotDescription& robot,
                           std::uint64_t world_seed) {
   return {world_seed, robot.name + "/" + device.name};
+}
+
+// "ROBOT.DEVICE.INDEX" or "DEVICE.INDEX".
+std::optional<Wire> parse_wire(const std::string& text) {
+  const std::size_t last = text.rfind('.');
+  if (last == std::string::npos || last == 0) return std::nullopt;
+  const std::size_t first = text.find('.');
+  Wire wire;
+  if (first != last) wire.robot = text.substr(0, first);
+  wire.device = first == last ? text.substr(0, last) : text.substr(first + 1, last - first - 1);
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + last + 1, end, wire.index);
+  const bool whole = error == std::errc() && stop == end && wire.index >= 0;
+  if (!whole || wire.device.empty() || first == 0 || wire.device.find('.') != std::string::npos) {
+    return std::nullopt;
+  }
+  return wire;
+}
+
+// The members of a list of inputs; read(element) gives one, or nullopt if it makes no sense.
+template <typename Source, typename Read>
+std::vector<Source> parse_inputs(io::Reader& settings, std::vector<Source> fallback, int most,
+                                 const char* what, Read read) {
+  const std::optional<io::Reader> list = settings.child("inputs");
+  if (!list) return fallback;
+  std::vector<io::Reader> elements = settings.array("inputs", static_cast<std::size_t>(most));
+  if (!list->is_array()) return fallback;
+  std::vector<Source> sources;
+  for (io::Reader& element : elements) {
+    if (std::optional<Source> source = read(element)) {
+      sources.push_back(std::move(*source));
+    } else {
+      element.issue("device/input", what, element.described());
+    }
+  }
+  return sources;
+}
+
+AioParams parse_aio(io::Reader& settings, AioParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_v = settings.number("noise", p.noise_v, {0.0, 1000.0, false, "V"});
+  p.inputs = parse_inputs(
+      settings, p.inputs, AioParams::kMaxLines,
+      "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's name), or a "
+      "wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\"",
+      [](const io::Reader& element) -> std::optional<AnalogSource> {
+        const std::optional<std::string> text = element.scalar_text();
+        if (!text || text->empty() || element.is_boolean()) return std::nullopt;
+        if (element.is_number()) {
+          double voltage_v = 0.0;
+          std::from_chars(text->data(), text->data() + text->size(), voltage_v);
+          if (!(std::abs(voltage_v) <= AioParams::kMaxVolts)) return std::nullopt;
+          return voltage_v;
+        }
+        if (*text == "speed") return AnalogSignal::kSpeed;
+        if (*text == "turn_rate") return AnalogSignal::kTurnRate;
+        if (text->find('.') == std::string::npos) return BatteryTap{*text};
+        if (std::optional<Wire> wire = parse_wire(*text)) return std::move(*wire);
+        return std::nullopt;
+      });
+  p.outputs = static_cast<int>(settings.integer("outputs", p.outputs, 0, AioParams::kMaxLines));
+  return p;
 }
 
 BatteryParams parse_battery(io::Reader& settings, BatteryParams p) {
@@ -49,8 +126,115 @@ BatteryParams parse_battery(io::Reader& settings, BatteryParams p) {
   return p;
 }
 
+BumperSegment parse_segment(io::Reader& reader) {
+  BumperSegment segment;
+  if (!reader.expect_object()) return segment;
+  constexpr io::NumberRange kPlace_m{-100.0, 100.0, false, "m"};
+  segment.X_BS = {reader.number("x", 0.0, kPlace_m), reader.number("y", 0.0, kPlace_m),
+                  normalize_angle(reader.angle_deg("yaw_deg", 0.0))};
+  segment.length_m = reader.number("length", segment.length_m, {0.0, 100.0, true, "m"});
+  segment.radius_m = reader.number("radius", segment.radius_m, {0.0, 100.0, false, "m"});
+  if (segment.radius_m > 0.0 &&
+      segment.length_m > 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
+    reader.issue("device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
+                 std::to_string(segment.length_m) + " m long with a radius of " +
+                     std::to_string(segment.radius_m) + " m");
+  }
+  reader.finish();
+  return segment;
+}
+
+BumperParams parse_bumper(io::Reader& settings, BumperParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.reach_m = settings.number("reach", p.reach_m, {0.0, 1.0, true, "m"});
+  const std::optional<io::Reader> list = settings.child("segments");
+  if (!list) return p;
+  std::vector<io::Reader> elements = settings.array("segments", BumperParams::kMaxSegments);
+  if (!list->is_array()) return p;
+  p.segments.clear();
+  for (io::Reader& element : elements) p.segments.push_back(parse_segment(element));
+  return p;
+}
+
+BlinkenlightParams parse_blinkenlight(io::Reader& settings, BlinkenlightParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.colour = settings.colour("colour", p.colour);
+  p.enabled = settings.boolean("enabled", p.enabled);
+  p.period_s = settings.number("period", p.period_s, {0.0, 1e6, false, "s"});
+  p.duty_cycle = settings.number("duty_cycle", p.duty_cycle, {0.0, 1.0, false, ""});
+  p.p_BL = settings.vec2("position", p.p_BL, {-100.0, 100.0, false, "m"});
+  return p;
+}
+
 CollisionParams parse_collision(io::Reader& settings, CollisionParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  return p;
+}
+
+FiducialParams parse_fiducial(io::Reader& settings, FiducialParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.range_max_id_m = settings.number("range_max_id", p.range_max_id_m, {0.0, 1000.0, false, "m"});
+  p.field_of_view_rad =
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 360.0, true, "degrees"});
+  p.X_BS = settings.pose("pose", p.X_BS);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.noise_bearing_rad =
+      settings.angle_deg("noise_bearing_deg", p.noise_bearing_rad, {0.0, 180.0, false, "degrees"});
+  p.noise_yaw_rad =
+      settings.angle_deg("noise_yaw_deg", p.noise_yaw_rad, {0.0, 360.0, false, "degrees"});
+  return p;
+}
+
+GpsParams parse_gps(io::Reader& settings, GpsParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  // Snyder's series are for Mercator's part of the world, as UTM is.
+  p.latitude_rad =
+      settings.angle_deg("latitude_deg", p.latitude_rad, {-84.0, 84.0, false, "degrees"});
+  p.longitude_rad =
+      settings.angle_deg("longitude_deg", p.longitude_rad, {-180.0, 180.0, false, "degrees"});
+  p.altitude_m = settings.number("altitude", p.altitude_m, {-1000.0, 100'000.0, false, "m"});
+  p.north_rad = settings.angle_deg("north_deg", p.north_rad, kNorth);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  p.noise_vertical_m = settings.number("noise_vertical", p.noise_vertical_m, kNoise_m);
+  p.satellites = static_cast<int>(settings.integer("satellites", p.satellites, 0, 64));
+  return p;
+}
+
+ImuParams parse_imu(io::Reader& settings, ImuParams p) {
+  constexpr io::NumberRange kError_mps2{0.0, 1000.0, false, "m/s^2"};
+  constexpr io::NumberRange kError_deg{0.0, 3600.0, false, "degrees/s"};
+  constexpr io::NumberRange kField_ut{0.0, 1000.0, false, "uT"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.noise_mps2 = settings.number("noise_acceleration", p.noise_mps2, kError_mps2);
+  p.noise_radps = settings.angle_deg("noise_rate_deg", p.noise_radps, kError_deg);
+  p.noise_ut = settings.number("noise_field", p.noise_ut, kField_ut);
+  p.bias_mps2 = settings.number("bias_acceleration", p.bias_mps2, kError_mps2);
+  p.bias_radps = settings.angle_deg("bias_rate_deg", p.bias_radps, kError_deg);
+  p.field_horizontal_ut = settings.number("field_horizontal", p.field_horizontal_ut, kField_ut);
+  p.field_down_ut = settings.number("field_down", p.field_down_ut, {-1000.0, 1000.0, false, "uT"});
+  p.north_rad = settings.angle_deg("north_deg", p.north_rad, kNorth);
+  return p;
+}
+
+DioParams parse_dio(io::Reader& settings, DioParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.inputs =
+      parse_inputs(settings, p.inputs, DioParams::kMaxLines,
+                   "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
+                   "\"ROBOT.DEVICE.INDEX\"",
+                   [](const io::Reader& element) -> std::optional<DigitalSource> {
+                     const std::optional<std::string> text = element.scalar_text();
+                     if (!text || element.is_number()) return std::nullopt;
+                     if (element.is_boolean()) return *text == "true";
+                     if (*text == "contact") return DigitalSignal::kContact;
+                     if (*text == "stalled") return DigitalSignal::kStalled;
+                     if (*text == "dock") return DigitalSignal::kDock;
+                     if (std::optional<Wire> wire = parse_wire(*text)) return std::move(*wire);
+                     return std::nullopt;
+                   });
+  p.outputs = static_cast<int>(settings.integer("outputs", p.outputs, 0, DioParams::kMaxLines));
   return p;
 }
 
@@ -82,6 +266,9 @@ void parse_ranger(io::Reader& settings, RangerParams& p) {
 
 InfraredParams parse_infrared(io::Reader& settings, InfraredParams p) {
   parse_ranger(settings, p);
+  p.voltage_gain_vm =
+      settings.number("voltage_gain", p.voltage_gain_vm, {0.0, 1000.0, true, "V m"});
+  p.voltage_shift_m = settings.number("voltage_shift", p.voltage_shift_m, {0.0, 10.0, true, "m"});
   return p;
 }
 
@@ -132,6 +319,26 @@ MotionParams parse_motion(io::Reader& settings, MotionParams p) {
       settings.angle_deg("max_turn_acceleration_deg", p.max_turn_acceleration_radps2,
                          {0.0, 1e6, false, "degrees/s^2"});
   p.enabled_at_start = settings.boolean("enabled", p.enabled_at_start);
+  p.approach_gain = settings.number("approach_gain", p.approach_gain, {0.0, 50.0, true, "1/s"});
+  p.turn_gain = settings.number("turn_gain", p.turn_gain, {0.0, 50.0, true, "1/s"});
+  p.tolerance_m = settings.number("tolerance", p.tolerance_m, {0.0, 1000.0, true, "m"});
+  p.heading_tolerance_rad = settings.angle_deg("heading_tolerance_deg", p.heading_tolerance_rad,
+                                               {0.0, 180.0, true, "degrees"});
+  return p;
+}
+
+OpaqueParams parse_opaque(io::Reader& settings, OpaqueParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  if (!settings.has("from")) return p;
+  p.from.clear();
+  for (io::Reader& element : settings.array("from", OpaqueParams::kMaxSenders)) {
+    const std::optional<std::string> text = element.scalar_text();
+    if (element.is_string() && text && !text->empty()) {
+      p.from.push_back(*text);
+    } else {
+      element.issue("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\"", element.described());
+    }
+  }
   return p;
 }
 
@@ -155,6 +362,11 @@ SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
   return p;
 }
 
+SpeechParams parse_speech(io::Reader& settings, SpeechParams p) {
+  p.shown_s = settings.number("shown", p.shown_s, {0.0, 1000.0, true, "s"});
+  return p;
+}
+
 TeleportParams parse_teleport(io::Reader&, TeleportParams p) { return p; }
 
 WaypointParams parse_waypoint(io::Reader& settings, WaypointParams p) {
@@ -165,6 +377,35 @@ WaypointParams parse_waypoint(io::Reader& settings, WaypointParams p) {
   p.approach_gain = settings.number("approach_gain", p.approach_gain, {0.0, 50.0, true, "1/s"});
   p.max_turn_rate_radps = settings.angle_deg("max_turn_rate_deg", p.max_turn_rate_radps,
                                              {0.0, 3600.0, true, "degrees/s"});
+  return p;
+}
+
+WifiParams parse_wifi(io::Reader& settings, WifiParams p) {
+  constexpr io::NumberRange kLevel_dbm{-200.0, 100.0, false, "dBm"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.level_1m_dbm = settings.number("level_1m", p.level_1m_dbm, kLevel_dbm);
+  p.exponent = settings.number("exponent", p.exponent, {0.0, 10.0, true, ""});
+  p.noise_db = settings.number("noise", p.noise_db, {0.0, 100.0, false, "dB"});
+  p.floor_dbm = settings.number("floor", p.floor_dbm, kLevel_dbm);
+  p.least_dbm = settings.number("least", p.least_dbm, kLevel_dbm);
+  p.channel_mhz = settings.number("channel", p.channel_mhz, {0.0, 100'000.0, true, "MHz"});
+  const std::optional<io::Reader> list = settings.child("access_points");
+  if (!list) return p;
+  std::vector<io::Reader> elements = settings.array("access_points", 64);
+  if (!list->is_array()) return p;
+  p.access_points.clear();
+  for (io::Reader& element : elements) {
+    AccessPoint point;
+    if (element.expect_object()) {
+      if (element.require("name", "the name of its network")) {
+        point.name = element.name("name", "");
+      }
+      constexpr io::NumberRange kPlace_m{-1e6, 1e6, false, "m"};
+      point.p_W = {element.number("x", 0.0, kPlace_m), element.number("y", 0.0, kPlace_m)};
+      element.finish();
+    }
+    p.access_points.push_back(std::move(point));
+  }
   return p;
 }
 
@@ -189,6 +430,19 @@ std::unique_ptr<Device> make_ranger(const DeviceDescription& device, const Range
                                   std::move(noise));
 }
 
+// The drive as its motors are told of it: a robot that is no car pretends to be one as long as
+// itself when it is told to drive like one.
+DriveDescription drive_of(const RobotModel& model) {
+  DriveDescription drive = model.drive;
+  if (drive.kind == DriveKind::kCar || model.footprint.empty()) return drive;
+  const auto [rear, front] =
+      std::minmax_element(model.footprint.begin(), model.footprint.end(),
+                          [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+  drive.wheelbase_m = front->x() - rear->x();
+  drive.max_steering_rad = kMostSteering_rad;
+  return drive;
+}
+
 using Properties = std::map<std::string, double>;
 
 Properties describe(const BatteryParams& p) {
@@ -201,8 +455,80 @@ Properties describe(const BatteryParams& p) {
           {"full_voltage", p.full_voltage_v},
           {"empty_voltage", p.empty_voltage_v}};
 }
+// With segments: those that are set, or those that the model gives.
+Properties describe(const BumperParams& p) {
+  Properties properties{{"frequency", p.frequency_hz},
+                        {"reach", p.reach_m},
+                        {"count", static_cast<double>(p.segments.size())}};
+  for (std::size_t i = 0; i < p.segments.size(); ++i) {
+    const std::string number = std::to_string(i);
+    properties["mount_x_" + number] = p.segments[i].X_BS.x_m;
+    properties["mount_y_" + number] = p.segments[i].X_BS.y_m;
+    properties["mount_yaw_" + number] = p.segments[i].X_BS.yaw_rad;
+    properties["length_" + number] = p.segments[i].length_m;
+    properties["radius_" + number] = p.segments[i].radius_m;
+  }
+  return properties;
+}
+Properties describe(const AioParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"noise", p.noise_v},
+          {"inputs", static_cast<double>(p.inputs.size())},
+          {"outputs", static_cast<double>(p.outputs)}};
+}
+Properties describe(const BlinkenlightParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"enabled", p.enabled ? 1.0 : 0.0},
+          {"period", p.period_s},
+          {"duty_cycle", p.duty_cycle},
+          {"x", p.p_BL.x()},
+          {"y", p.p_BL.y()}};
+}
+Properties describe(const DioParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"inputs", static_cast<double>(p.inputs.size())},
+          {"outputs", static_cast<double>(p.outputs)}};
+}
+Properties describe(const OpaqueParams& p) {
+  return {{"frequency", p.frequency_hz}, {"from", static_cast<double>(p.from.size())}};
+}
+Properties describe(const SpeechParams& p) { return {{"shown", p.shown_s}}; }
 Properties describe(const CollisionParams& p) { return {{"frequency", p.frequency_hz}}; }
 
+Properties describe(const FiducialParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"range_max", p.range_max_m},
+          {"range_max_id", p.range_max_id_m},
+          {"field_of_view", p.field_of_view_rad},
+          {"mount_x", p.X_BS.x_m},
+          {"mount_y", p.X_BS.y_m},
+          {"mount_yaw", p.X_BS.yaw_rad},
+          {"height", p.height_m},
+          {"noise", p.noise_m},
+          {"noise_bearing", p.noise_bearing_rad},
+          {"noise_yaw", p.noise_yaw_rad}};
+}
+Properties describe(const GpsParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"latitude", p.latitude_rad},
+          {"longitude", p.longitude_rad},
+          {"altitude", p.altitude_m},
+          {"north", p.north_rad},
+          {"noise", p.noise_m},
+          {"noise_vertical", p.noise_vertical_m},
+          {"satellites", static_cast<double>(p.satellites)}};
+}
+Properties describe(const ImuParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"noise_acceleration", p.noise_mps2},
+          {"noise_rate", p.noise_radps},
+          {"noise_field", p.noise_ut},
+          {"bias_acceleration", p.bias_mps2},
+          {"bias_rate", p.bias_radps},
+          {"field_horizontal", p.field_horizontal_ut},
+          {"field_down", p.field_down_ut},
+          {"north", p.north_rad}};
+}
 Properties describe(const LaserParams& p) {
   return {{"frequency", p.frequency_hz},
           {"noise", p.noise_m},
@@ -218,7 +544,11 @@ Properties describe(const MotionParams& p) {
   return {{"max_speed", p.max_speed_mps},
           {"max_turn_rate", p.max_turn_rate_radps},
           {"max_acceleration", p.max_acceleration_mps2},
-          {"max_turn_acceleration", p.max_turn_acceleration_radps2}};
+          {"max_turn_acceleration", p.max_turn_acceleration_radps2},
+          {"approach_gain", p.approach_gain},
+          {"turn_gain", p.turn_gain},
+          {"tolerance", p.tolerance_m},
+          {"heading_tolerance", p.heading_tolerance_rad}};
 }
 Properties describe(const OdometryParams& p) {
   return {
@@ -238,6 +568,17 @@ Properties describe(const WaypointParams& p) {
           {"max_turn_rate", p.max_turn_rate_radps}};
 }
 
+Properties describe(const WifiParams& p) {
+  return {{"frequency", p.frequency_hz},
+          {"level_1m", p.level_1m_dbm},
+          {"exponent", p.exponent},
+          {"noise", p.noise_db},
+          {"floor", p.floor_dbm},
+          {"least", p.least_dbm},
+          {"channel", p.channel_mhz},
+          {"access_points", static_cast<double>(p.access_points.size())}};
+}
+
 Properties describe(const ProximityParams& p) {
   return {
       {"frequency", p.frequency_hz}, {"range", p.range_m}, {"obstacles", p.obstacles ? 1.0 : 0.0}};
@@ -253,6 +594,13 @@ Properties describe(const RangerParams& p) {
     properties["mount_y_" + number] = p.X_BS[i].y_m;
     properties["mount_yaw_" + number] = p.X_BS[i].yaw_rad;
   }
+  return properties;
+}
+
+Properties describe(const InfraredParams& p) {
+  Properties properties = describe(static_cast<const RangerParams&>(p));
+  properties["voltage_gain"] = p.voltage_gain_vm;
+  properties["voltage_shift"] = p.voltage_shift_m;
   return properties;
 }
 
@@ -277,19 +625,62 @@ DeviceKind kind(std::string name, Parse parse, Make make) {
   return row;
 }
 
+DeviceKind bumper_kind() {
+  DeviceKind row =
+      kind<BumperParams>("bumper", parse_bumper,
+                         [](const DeviceDescription& d, const BumperParams& p,
+                            const RobotDescription&, const RobotModel& model, const RandomStream&) {
+                           return std::make_unique<Bumper>(d.name, p, model.footprint);
+                         });
+  row.model_properties = [](const std::any& params, const RobotModel& model) {
+    BumperParams p =
+        params.has_value() ? std::any_cast<const BumperParams&>(params) : BumperParams{};
+    if (p.segments.empty()) p.segments = segments_round(model.footprint);
+    return describe(p);
+  };
+  return row;
+}
+
 std::vector<DeviceKind> make_table() {
   using D = const DeviceDescription&;
   using R = const RobotDescription&;
   using M = const RobotModel&;
   return {
+      kind<AioParams>("aio", parse_aio,
+                      [](D d, const AioParams& p, R, M, RandomStream noise) {
+                        return std::make_unique<Aio>(d.name, p, std::move(noise));
+                      }),
       kind<BatteryParams>("battery", parse_battery,
                           [](D d, const BatteryParams& p, R, M model, const RandomStream&) {
-                            return std::make_unique<Battery>(d.name, p, model.wheel_separation_m);
+                            return std::make_unique<Battery>(d.name, p,
+                                                             model.drive.wheel_separation_m);
                           }),
+      bumper_kind(),
+      kind<BlinkenlightParams>("blinkenlight", parse_blinkenlight,
+                               [](D d, const BlinkenlightParams& p, R, M, const RandomStream&) {
+                                 return std::make_unique<Blinkenlight>(d.name, p);
+                               }),
       kind<CollisionParams>("collision", parse_collision,
                             [](D d, const CollisionParams& p, R, M, const RandomStream&) {
                               return std::make_unique<CollisionSensor>(d.name, p);
                             }),
+      kind<FiducialParams>("fiducial", parse_fiducial,
+                           [](D d, const FiducialParams& p, R, M, RandomStream noise) {
+                             return std::make_unique<FiducialFinder>(d.name, p, std::move(noise));
+                           }),
+      kind<GpsParams>("gps", parse_gps,
+                      [](D d, const GpsParams& p, R, M, RandomStream noise) {
+                        return std::make_unique<Gps>(d.name, p, std::move(noise));
+                      }),
+      kind<ImuParams>("imu", parse_imu,
+                      [](D d, const ImuParams& p, R robot, M, RandomStream noise) {
+                        return std::make_unique<Imu>(d.name, p, robot.pose.yaw_rad,
+                                                     std::move(noise));
+                      }),
+      kind<DioParams>("dio", parse_dio,
+                      [](D d, const DioParams& p, R, M, const RandomStream&) {
+                        return std::make_unique<Dio>(d.name, p);
+                      }),
       kind<InfraredParams>("infrared", parse_infrared,
                            [](D d, const InfraredParams& p, R, M model, RandomStream noise) {
                              return make_ranger(d, p, model, std::move(noise));
@@ -300,14 +691,19 @@ std::vector<DeviceKind> make_table() {
                               d.name, p, !well_within(model.footprint, p.X_BL), std::move(noise));
                         }),
       kind<MotionParams>("motion", parse_motion,
-                         [](D d, const MotionParams& p, R, M, const RandomStream&) {
-                           return std::make_unique<Motion>(d.name, p);
+                         [](D d, const MotionParams& p, R, M model, const RandomStream&) {
+                           return std::make_unique<Motion>(d.name, p, drive_of(model));
                          }),
       kind<OdometryParams>("odometry", parse_odometry,
                            [](D d, const OdometryParams& p, R, M model, RandomStream noise) {
-                             return std::make_unique<Odometry>(d.name, p, model.wheel_separation_m,
-                                                               std::move(noise));
+                             return std::make_unique<Odometry>(
+                                 d.name, p, model.drive.wheel_separation_m,
+                                 model.drive.kind == DriveKind::kOmnidirectional, std::move(noise));
                            }),
+      kind<OpaqueParams>("opaque", parse_opaque,
+                         [](D d, const OpaqueParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Opaque>(d.name, p);
+                         }),
       kind<PenParams>("pen", parse_pen,
                       [](D d, const PenParams& p, R, M, const RandomStream&) {
                         return std::make_unique<Pen>(d.name, p);
@@ -325,6 +721,10 @@ std::vector<DeviceKind> make_table() {
                         [](D d, const SonarParams& p, R, M model, RandomStream noise) {
                           return make_ranger(d, p, model, std::move(noise));
                         }),
+      kind<SpeechParams>("speech", parse_speech,
+                         [](D d, const SpeechParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Speech>(d.name, p);
+                         }),
       kind<TeleportParams>("teleport", parse_teleport,
                            [](D d, const TeleportParams& p, R, M, const RandomStream&) {
                              return std::make_unique<Teleport>(d.name, p);
@@ -333,6 +733,10 @@ std::vector<DeviceKind> make_table() {
                            [](D d, const WaypointParams& p, R robot, M, const RandomStream&) {
                              return std::make_unique<Waypoint>(d.name, p, robot.pose);
                            }),
+      kind<WifiParams>("wifi", parse_wifi,
+                       [](D d, const WifiParams& p, R, M, RandomStream noise) {
+                         return std::make_unique<Wifi>(d.name, p, std::move(noise));
+                       }),
   };
 }
 

@@ -55,10 +55,11 @@ void PoseSensor::hash(StateHash& hash) const {
 }
 
 Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
-                   RandomStream noise)
+                   bool omnidirectional, RandomStream noise)
     : Sensor(std::move(name), "odometry", params.frequency_hz),
       params_(params),
       wheel_separation_m_(wheel_separation_m),
+      omnidirectional_(omnidirectional),
       noise_(std::move(noise)) {}
 
 std::optional<std::string> Odometry::apply(const Command& command) {
@@ -74,6 +75,7 @@ std::optional<std::string> Odometry::apply(const Command& command) {
 void Odometry::integrate(const StepContext& context) {
   double ds_m = context.body.travel_m;
   double dyaw_rad = context.body.turn_rad;
+  double side_m = omnidirectional_ ? context.body.side_m : 0.0;
   if (params_.noise > 0.0) {
     double left_m = ds_m - 0.5 * wheel_separation_m_ * dyaw_rad;
     double right_m = ds_m + 0.5 * wheel_separation_m_ * dyaw_rad;
@@ -81,20 +83,25 @@ void Odometry::integrate(const StepContext& context) {
     right_m += noise_.gaussian(params_.noise * std::sqrt(std::abs(right_m)));
     ds_m = 0.5 * (left_m + right_m);
     dyaw_rad = (right_m - left_m) / wheel_separation_m_;
+    if (omnidirectional_) {
+      side_m += noise_.gaussian(params_.noise * std::sqrt(std::abs(side_m)));
+    }
   }
-  if (ds_m == 0.0 && dyaw_rad == 0.0) return;
+  if (ds_m == 0.0 && dyaw_rad == 0.0 && side_m == 0.0) return;
   const double heading = X_SB_.yaw_rad + 0.5 * dyaw_rad;
   const double chord_m = ds_m * sinc(0.5 * dyaw_rad);
-  X_SB_ = {X_SB_.x_m + chord_m * std::cos(heading), X_SB_.y_m + chord_m * std::sin(heading),
+  const double side_chord_m = side_m * sinc(0.5 * dyaw_rad);
+  X_SB_ = {X_SB_.x_m + chord_m * std::cos(heading) - side_chord_m * std::sin(heading),
+           X_SB_.y_m + chord_m * std::sin(heading) + side_chord_m * std::cos(heading),
            normalize_angle(X_SB_.yaw_rad + dyaw_rad)};
-  path_length_m_ += std::abs(ds_m);
+  path_length_m_ += side_m == 0.0 ? std::abs(ds_m) : std::hypot(ds_m, side_m);
 }
 
 void Odometry::measure(const StepContext& context) {
   stamp(context, reading_);
   reading_.pose = X_SB_;
   reading_.twist = context.body.twist;
-  reading_.twist.lateral_mps = 0.0;  // wheels do not feel it
+  if (!omnidirectional_) reading_.twist.lateral_mps = 0.0;  // wheels do not feel it
   reading_.stalled = context.body.stalled;
   // A robot that stands has not moved to the bit.
   reading_.increment = X_SR_ == X_SB_ ? Pose{} : X_SR_.inverse() * X_SB_;

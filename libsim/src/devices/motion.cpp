@@ -2,9 +2,21 @@
 #include "sim/devices/motion.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace sim {
 namespace {
+
+// Goals whose bearing is more than this off are turned to on the spot before driving on.
+constexpr double kTurnOnSpot_rad = 0.5;
+// A robot that was pushed away from its goal by more tolerances than this drives there again.
+constexpr double kLost = 3.0;
+// A car turns back to a goal that it has left once the arc there is so much wider than its
+// tightest.
+constexpr double kWideEnough = 0.8;
+// It changes its direction only for goals clearly on the other side.
+constexpr double kDirectionMargin_rad = 0.3;
 
 // One step of a ramp from `from` to `to`; max_rate 0 jumps.
 double ramp(double from, double to, double max_rate, double dt_s) {
@@ -14,48 +26,248 @@ double ramp(double from, double to, double max_rate, double dt_s) {
 
 }  // namespace
 
-Motion::Motion(std::string name, const MotionParams& params)
-    : Actuator(std::move(name), "motion"), params_(params), enabled_(params.enabled_at_start) {}
+// --- PositionControl
+
+double PositionControl::speed_for(double distance_m) const {
+  double speed_mps = std::min(command_.max_speed_mps, params_.approach_gain * distance_m);
+  if (params_.max_acceleration_mps2 > 0.0) {
+    speed_mps = std::min(speed_mps, std::sqrt(params_.max_acceleration_mps2 * distance_m));
+  }
+  return speed_mps;
+}
+
+double PositionControl::turn_rate_for(double error_rad) const {
+  double rate = std::min(command_.max_turn_rate_radps, params_.turn_gain * std::abs(error_rad));
+  if (params_.max_turn_acceleration_radps2 > 0.0) {
+    rate = std::min(rate, std::sqrt(params_.max_turn_acceleration_radps2 * std::abs(error_rad)));
+  }
+  return std::copysign(rate, error_rad);
+}
+
+PositionControl::Step PositionControl::differential_step(const Pose& X_FB, double distance_m) {
+  const double near_m = (aligning_ ? kLost : 1.0) * params_.tolerance_m;
+  aligning_ = distance_m <= near_m;
+  if (aligning_) {
+    const double error_rad = normalize_angle(command_.goal.yaw_rad - X_FB.yaw_rad);
+    if (std::abs(error_rad) <= params_.heading_tolerance_rad) return {{}, 0.0, true};
+    return {{0.0, turn_rate_for(error_rad), 0.0}};
+  }
+  const Vec2 way = command_.goal.position() - X_FB.position();
+  const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_FB.yaw_rad);
+  const double omega_radps = turn_rate_for(bearing_rad);
+  if (std::abs(bearing_rad) > kTurnOnSpot_rad) return {{0.0, omega_radps, 0.0}};
+  return {{speed_for(distance_m * std::cos(bearing_rad)), omega_radps, 0.0}};
+}
+
+PositionControl::Step PositionControl::omnidirectional_step(const Pose& X_FB,
+                                                            double distance_m) const {
+  const double error_rad = normalize_angle(command_.goal.yaw_rad - X_FB.yaw_rad);
+  const bool there = distance_m <= params_.tolerance_m;
+  if (there && std::abs(error_rad) <= params_.heading_tolerance_rad) return {{}, 0.0, true};
+  const Vec2 way = command_.goal.position() - X_FB.position();
+  const double bearing_rad = std::atan2(way.y(), way.x()) - X_FB.yaw_rad;
+  const double speed_mps = speed_for(distance_m);
+  return {{speed_mps * std::cos(bearing_rad), turn_rate_for(error_rad),
+           speed_mps * std::sin(bearing_rad)}};
+}
+
+PositionControl::Step PositionControl::car_step(const Pose& X_FB, double distance_m) {
+  if (distance_m <= params_.tolerance_m) return {{}, 0.0, true};
+  const Vec2 way = command_.goal.position() - X_FB.position();
+  const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_FB.yaw_rad);
+  const double tightest = std::tan(drive_.max_steering_rad) / drive_.wheelbase_m;
+  // Curvature of the circle that touches the heading and goes through the goal; the same whichever
+  // way the car drives on it.
+  const double curvature = 2.0 * std::sin(bearing_rad) / distance_m;
+  if (!leaving_) {
+    const double side = 0.5 * std::numbers::pi + (backwards_ ? -1.0 : 1.0) * kDirectionMargin_rad;
+    backwards_ = std::abs(bearing_rad) > side;
+  }
+  leaving_ = std::abs(curvature) > (leaving_ ? kWideEnough : 1.0) * tightest;
+  // Away from a goal within its turning circle it drives the other way with the wheels turned from
+  // it: so the goal comes to lie before it.
+  const bool reverse = leaving_ ? !backwards_ : backwards_;
+  const double arc =
+      std::clamp(leaving_ ? -std::copysign(tightest, curvature) : curvature, -tightest, tightest);
+  const double speed_mps = leaving_ ? speed_for(1.0 / tightest) : speed_for(distance_m);
+  return {{reverse ? -speed_mps : speed_mps, 0.0, 0.0}, std::atan(drive_.wheelbase_m * arc)};
+}
+
+PositionControl::Step PositionControl::step(const Pose& X_FB) {
+  const double distance_m = std::hypot(command_.goal.x_m - X_FB.x_m, command_.goal.y_m - X_FB.y_m);
+  switch (drive_.kind) {
+    case DriveKind::kOmnidirectional:
+      return omnidirectional_step(X_FB, distance_m);
+    case DriveKind::kCar:
+      return car_step(X_FB, distance_m);
+    case DriveKind::kDifferential:
+      break;
+  }
+  return differential_step(X_FB, distance_m);
+}
+
+void PositionControl::hash(StateHash& hash) const {
+  for (const double x : {command_.goal.x_m, command_.goal.y_m, command_.goal.yaw_rad,
+                         command_.max_speed_mps, command_.max_turn_rate_radps}) {
+    hash.add(x);
+  }
+  hash.add(command_.frame);
+  hash.add(aligning_);
+  hash.add(backwards_);
+  hash.add(leaving_);
+}
+
+// --- Motion
+
+Motion::Motion(std::string name, const MotionParams& params, const DriveDescription& drive)
+    : Actuator(std::move(name), "motion"),
+      params_(params),
+      drive_(drive),
+      enabled_(params.enabled_at_start) {}
+
+void Motion::stop() {
+  mode_ = Mode::kTwist;
+  commanded_ = {};
+  commanded_steering_rad_ = 0.0;
+}
+
+// Sets speeds that do not fit the drive to what it can do.
+void Motion::command_turn(double v_mps, double lateral_mps, double turn_rate_radps) {
+  commanded_ = {
+      std::clamp(v_mps, -params_.max_speed_mps, params_.max_speed_mps),
+      std::clamp(turn_rate_radps, -params_.max_turn_rate_radps, params_.max_turn_rate_radps), 0.0};
+  if (drive_.kind == DriveKind::kOmnidirectional) {
+    commanded_.lateral_mps = std::clamp(lateral_mps, -params_.max_speed_mps, params_.max_speed_mps);
+  } else if (drive_.kind == DriveKind::kCar) {
+    // The bicycle turns at v tan(steering) / wheelbase.
+    const double v = commanded_.v_mps;
+    command_car(v, v == 0.0 ? 0.0 : std::atan(drive_.wheelbase_m * commanded_.omega_radps / v));
+  }
+}
+
+void Motion::command_twist(const Twist& twist) {
+  mode_ = Mode::kTwist;
+  command_turn(twist.v_mps, twist.lateral_mps, twist.omega_radps);
+}
+
+void Motion::command_car(double v_mps, double steering_rad) {
+  const double steering =
+      std::clamp(steering_rad, -drive_.max_steering_rad, drive_.max_steering_rad);
+  if (drive_.kind != DriveKind::kCar) {
+    command_turn(v_mps, 0.0, v_mps * std::tan(steering) / drive_.wheelbase_m);
+    return;
+  }
+  commanded_ = {std::clamp(v_mps, -params_.max_speed_mps, params_.max_speed_mps), 0.0, 0.0};
+  commanded_steering_rad_ = steering;
+}
 
 std::optional<std::string> Motion::apply(const Command& command) {
-  if (const auto* twist = std::get_if<TwistCommand>(&command)) {
-    if (!enabled_) return std::nullopt;
-    commanded_ = {std::clamp(twist->twist.v_mps, -params_.max_speed_mps, params_.max_speed_mps),
-                  std::clamp(twist->twist.omega_radps, -params_.max_turn_rate_radps,
-                             params_.max_turn_rate_radps),
-                  0.0};
-    return std::nullopt;
-  }
   if (const auto* motors = std::get_if<MotorEnableCommand>(&command)) {
     enabled_ = motors->enabled;
     if (!enabled_) {
-      commanded_ = {};
+      stop();
       target_ = {};
     }
+    return std::nullopt;
+  }
+  if (const auto* twist = std::get_if<TwistCommand>(&command)) {
+    if (enabled_) command_twist(twist->twist);
+    return std::nullopt;
+  }
+  if (const auto* heading = std::get_if<HeadingCommand>(&command)) {
+    if (!enabled_) return std::nullopt;
+    mode_ = Mode::kHeading;
+    heading_ = *heading;
+    return std::nullopt;
+  }
+  if (const auto* position = std::get_if<PositionCommand>(&command)) {
+    if (!enabled_) return std::nullopt;
+    const auto limited = [](double wish, double limit) {
+      return wish == 0.0 ? limit : std::min(std::abs(wish), limit);
+    };
+    PositionCommand bounded = *position;
+    bounded.goal.yaw_rad = normalize_angle(bounded.goal.yaw_rad);
+    bounded.max_speed_mps = limited(position->max_speed_mps, params_.max_speed_mps);
+    bounded.max_turn_rate_radps =
+        limited(position->max_turn_rate_radps, params_.max_turn_rate_radps);
+    mode_ = Mode::kPosition;
+    position_ = PositionControl(drive_, params_, bounded);
+    return std::nullopt;
+  }
+  if (const auto* car = std::get_if<CarCommand>(&command)) {
+    if (!enabled_) return std::nullopt;
+    mode_ = Mode::kCar;
+    command_car(car->v_mps, car->steering_rad);
     return std::nullopt;
   }
   return Device::apply(command);
 }
 
 std::optional<std::string> Motion::carry_out(const Command& command, RobotControl& robot) {
-  if (enabled_ && std::holds_alternative<TwistCommand>(command)) {
-    static_cast<void>(robot.take_motors(*this));
+  const auto* heading = std::get_if<HeadingCommand>(&command);
+  const auto* position = std::get_if<PositionCommand>(&command);
+  if (heading != nullptr || position != nullptr) {
+    const int frame = heading != nullptr ? heading->frame : position->frame;
+    if (frame >= 0 && !robot.pose_by(frame)) {
+      return "the robot's device number " + std::to_string(frame) +
+             " is no localisation device, in whose frame the motors could be told where to go";
+    }
   }
+  const bool drives = heading != nullptr || position != nullptr ||
+                      std::holds_alternative<TwistCommand>(command) ||
+                      std::holds_alternative<CarCommand>(command);
+  if (enabled_ && drives) static_cast<void>(robot.take_motors(*this));
   return apply(command);
 }
 
+void Motion::act(RobotControl& robot) {
+  if (mode_ != Mode::kHeading && mode_ != Mode::kPosition) return;
+  const int frame = mode_ == Mode::kHeading ? heading_.frame : position_.command().frame;
+  const Pose X_FB = frame < 0 ? robot.body().X_WB : robot.pose_by(frame).value_or(Pose{});
+  if (mode_ == Mode::kHeading) {
+    const double error_rad = normalize_angle(heading_.yaw_rad - X_FB.yaw_rad);
+    command_turn(heading_.v_mps, heading_.lateral_mps, params_.turn_gain * error_rad);
+    return;
+  }
+  const PositionControl::Step next = position_.step(X_FB);
+  if (next.arrived) {
+    stop();
+  } else if (drive_.kind == DriveKind::kCar) {
+    command_car(next.twist.v_mps, next.steering_rad);
+  } else {
+    command_turn(next.twist.v_mps, next.twist.lateral_mps, next.twist.omega_radps);
+  }
+}
+
+void Motion::motors_taken() { mode_ = Mode::kTwist; }
+
 void Motion::placed(const Pose&) {
-  commanded_ = {};
+  stop();
   target_ = {};
 }
 
-void Motion::deactivated(RobotControl&) { commanded_ = {}; }
+void Motion::deactivated(RobotControl&) { stop(); }
 
 Twist Motion::next_target(double dt_s) {
   target_.v_mps = ramp(target_.v_mps, commanded_.v_mps, params_.max_acceleration_mps2, dt_s);
+  if (drive_.kind == DriveKind::kCar) {
+    steering_rad_ =
+        ramp(steering_rad_, commanded_steering_rad_, drive_.max_steering_rate_radps, dt_s);
+    target_.omega_radps = target_.v_mps * std::tan(steering_rad_) / drive_.wheelbase_m;
+    return target_;
+  }
+  target_.lateral_mps =
+      ramp(target_.lateral_mps, commanded_.lateral_mps, params_.max_acceleration_mps2, dt_s);
   target_.omega_radps =
       ramp(target_.omega_radps, commanded_.omega_radps, params_.max_turn_acceleration_radps2, dt_s);
   return target_;
+}
+
+Command Motion::present_command() const {
+  if (mode_ == Mode::kHeading) return heading_;
+  if (mode_ == Mode::kPosition) return position_.command();
+  if (drive_.kind == DriveKind::kCar) return CarCommand{commanded_.v_mps, commanded_steering_rad_};
+  return TwistCommand{commanded_};
 }
 
 void Motion::hash(StateHash& hash) const {
@@ -64,6 +276,21 @@ void Motion::hash(StateHash& hash) const {
        {commanded_.v_mps, commanded_.omega_radps, target_.v_mps, target_.omega_radps}) {
     hash.add(x);
   }
+  if (drive_.kind == DriveKind::kOmnidirectional) {
+    hash.add(commanded_.lateral_mps);
+    hash.add(target_.lateral_mps);
+  }
+  if (drive_.kind == DriveKind::kCar) {
+    hash.add(commanded_steering_rad_);
+    hash.add(steering_rad_);
+  }
+  if (mode_ == Mode::kHeading) {
+    hash.add(heading_.v_mps);
+    hash.add(heading_.lateral_mps);
+    hash.add(heading_.yaw_rad);
+    hash.add(heading_.frame);
+  }
+  if (mode_ == Mode::kPosition) position_.hash(hash);
 }
 
 }  // namespace sim

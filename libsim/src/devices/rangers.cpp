@@ -8,14 +8,30 @@
 
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
+#include "sim/scan/cone.h"
 
 namespace sim {
 namespace {
 
 constexpr double kDegrees = std::numbers::pi / 180.0;
-constexpr double kConeResolution_rad = 0.25 * kDegrees;
+
+// Whether some point within reach_m of the origin may see an edge that is within range_m of it.
+bool may_be_seen(const scan::Edge& edge, double reach_m, double range_m) {
+  const Vec2 a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
+  const Vec2 along = Vec2(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m)) - a;
+  const double length2 = along.squaredNorm();
+  const double behind = a.x() * along.y() - a.y() * along.x();
+  if (behind > 0.0 && behind * behind > reach_m * reach_m * length2) return false;
+  const double t = std::clamp(-a.dot(along) / length2, 0.0, 1.0);
+  const double farthest_m = reach_m + range_m;
+  return (a + t * along).squaredNorm() <= farthest_m * farthest_m;
+}
 
 }  // namespace
+
+double infrared_voltage_v(double range_m, double gain_vm, double shift_m) {
+  return gain_vm / (range_m + shift_m);
+}
 
 // Mountings are 6 mm and more within the S1R's shell, which no solid reaches: then there is no need
 // to ask whether they are inside one.
@@ -39,23 +55,14 @@ SonarParams::SonarParams() {
   X_BS = {{0.061, 0.061, 45.0 * kDegrees}, {0.081, 0.0, 0.0}, {0.061, -0.061, -45.0 * kDegrees}};
 }
 
-scan::ScanGeometry cone_geometry(double field_of_view_rad, double range_max_m) {
-  // A little less, so that rounding does not add a beam.
-  const int half =
-      static_cast<int>(std::ceil(0.5 * field_of_view_rad / kConeResolution_rad - 1e-9));
-  if (half == 0) return {1, kConeResolution_rad, range_max_m};
-  return {2 * half + 1, 0.5 * field_of_view_rad / half, range_max_m};
-}
-
 Ranger::Ranger(std::string name, std::string type, const RangerParams& params, bool may_be_inside,
                RandomStream noise)
     : Sensor(std::move(name), std::move(type), params.frequency_hz),
       params_(params),
       may_be_inside_(may_be_inside),
-      noise_(std::move(noise)),
-      kernel_(cone_geometry(params.field_of_view_rad, params.range_max_m)) {
+      noise_(std::move(noise)) {
   SIM_ASSERT(!params.X_BS.empty());
-  beams_m_.assign(static_cast<std::size_t>(kernel_.geometry().beam_count), 0.0);
+  for (const Pose& X_BS : params.X_BS) reach_m_ = std::max(reach_m_, X_BS.position().norm());
   reading_.ranges_m.assign(params.X_BS.size(), 0.0);
   reading_.X_BS = params.X_BS;
   reading_.range_max_m = params.range_max_m;
@@ -64,12 +71,23 @@ Ranger::Ranger(std::string name, std::string type, const RangerParams& params, b
 
 void Ranger::measure(const StepContext& context) {
   stamp(context, reading_);
+  const Pose& X_WB = context.body.X_WB;
+  context.physics.collect_edges(X_WB.position(), params_.range_max_m + reach_m_, params_.height_m,
+                                context.robot, false, edges_);
+  seen_.clear();
+  for (const scan::Edge& edge : edges_.edges()) {
+    if (may_be_seen(edge, reach_m_, params_.range_max_m)) seen_.push_back(edge);
+  }
   for (std::size_t i = 0; i < params_.X_BS.size(); ++i) {
-    const Pose X_WS = context.body.X_WB * params_.X_BS[i];
-    context.physics.collect_edges(X_WS.position(), params_.range_max_m, params_.height_m,
-                                  context.robot, may_be_inside_, edges_);
-    kernel_.scan(edges_, X_WS.yaw_rad, beams_m_);
-    double range_m = *std::min_element(beams_m_.begin(), beams_m_.end());
+    const Pose X_WS = X_WB * params_.X_BS[i];
+    const Vec2 p_BS_W = X_WS.position() - X_WB.position();
+    double range_m = 0.0;
+    if (!may_be_inside_ ||
+        !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
+      range_m = scan::least_range_in_cone_m(
+          seen_, {p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad},
+          params_.range_max_m);
+    }
     // As with the laser: without an echo there is nothing to be uncertain about.
     if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {
       range_m = std::clamp(range_m + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);

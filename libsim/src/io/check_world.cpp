@@ -301,6 +301,10 @@ class Checker {
     for (std::size_t i = 0; i < world_.robots.size(); ++i) {
       const RobotDescription& robot = world_.robots[i];
       unique(robots, robot.name, robot_pointer(i), "robot");
+      if (find_robot_model(world_, robot.model) == nullptr) {
+        add("world/unknown-model", robot_pointer(i) + "/model",
+            "\"s1r\" or one of WorldDescription::models", '"' + robot.model + '"');
+      }
       if (!trusted_(robot_pointer(i) + "/port") || robot.port == 0) continue;
       const auto [first, added] = ports.emplace(robot.port, i);
       if (!added) {
@@ -346,7 +350,7 @@ class Checker {
     std::vector<StandingRobot> before;
     for (std::size_t i = 0; i < world_.robots.size(); ++i) {
       const RobotDescription& robot = world_.robots[i];
-      const RobotModel* model = find_robot_model(robot.model);
+      const RobotModel* model = find_robot_model(world_, robot.model);
       const std::string pointer = robot_pointer(i) + "/pose";
       if (model == nullptr || !trusted_(pointer) || !trusted_(robot_pointer(i) + "/model")) {
         continue;
@@ -424,11 +428,11 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
                                       std::size_t robot, const Pose& X_WB) {
   std::vector<StandingRobot> others;
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
-    const RobotModel* model = find_robot_model(world.robots[i].model);
+    const RobotModel* model = find_robot_model(world, world.robots[i].model);
     if (i == robot || model == nullptr) continue;
     others.emplace_back(i, Solid(placed(model->footprint, poses.at(i))));
   }
-  const RobotModel* own = find_robot_model(world.robots.at(robot).model);
+  const RobotModel* own = find_robot_model(world, world.robots.at(robot).model);
   SIM_ASSERT(own != nullptr);
   const std::vector<NamedSolid> solids = standing_solids(world.arena);
   const std::vector<Blockage> found =
@@ -452,7 +456,15 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
          place(poses[first.robot].position());
 }
 
-std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint) {
+std::optional<std::string> outside_floor(const ArenaDescription& arena,
+                                         const ObstacleDescription& obstacle) {
+  const auto [side, depth_m] = beyond_floor(arena, box_of(obstacle));
+  if (depth_m == 0.0) return std::nullopt;
+  return "stick out " + metres(depth_m) + " beyond the " + side + " side of " + floor_text(arena);
+}
+
+std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon& footprint,
+                                   std::size_t& places_tried) {
   constexpr double kMargin = 1.3;  // of the footprint: 2 to 3 cm for an S1R
   constexpr double kSpacing_m = 0.1;
   constexpr int kMostSteps = 40;
@@ -463,7 +475,7 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
   const std::vector<NamedSolid> solids = standing_solids(arena);
   std::vector<Solid> robots;
   for (const RobotDescription& robot : world.robots) {
-    if (const RobotModel* model = find_robot_model(robot.model)) {
+    if (const RobotModel* model = find_robot_model(world, robot.model)) {
       robots.emplace_back(placed(model->footprint, robot.pose));
     }
   }
@@ -495,7 +507,8 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
   std::stable_sort(places.begin(), places.end(), [&middle](const Vec2& a, const Vec2& b) {
     return (a - middle).squaredNorm() < (b - middle).squaredNorm();
   });
-  for (const Vec2& p : places) {
+  for (; places_tried < places.size(); ++places_tried) {
+    const Vec2& p = places[places_tried];
     std::optional<Pose> best;
     double farthest_m = -1.0;
     for (const double yaw_rad :

@@ -27,11 +27,20 @@ using TrustedPart = std::function<bool(const std::string& pointer)>;
                                                     const std::vector<Pose>& poses,
                                                     std::size_t robot, const Pose& X_WB);
 
+/// What is against an obstacle's standing where it does, in words that go on from "obstacle o1
+/// would "; nullopt if nothing.
+[[nodiscard]] std::optional<std::string> outside_floor(const ArenaDescription& arena,
+                                                       const ObstacleDescription& obstacle);
+
 /// A place on the floor, clear of everything by some centimetres, for a robot with that outline:
 /// in the SyRoTek arena its start pose if free, else as near to the middle of the floor as can be,
 /// looking where it can drive farthest. Robots listed in `world` are in its way.
+/// @param places_tried  how many of the places are known to be taken, 0 at first. Raised by those
+///                      that are found so, for the next call with the same arena and footprint,
+///                      the same robots and others.
 /// @return nullopt if none of the places tried (every 0.1 m, at most 41 x 41) is free.
 [[nodiscard]] std::optional<Pose> find_free_pose(const WorldDescription& world,
-                                                 const Polygon& footprint);
+                                                 const Polygon& footprint,
+                                                 std::size_t& places_tried);
 
 }  // namespace sim::io

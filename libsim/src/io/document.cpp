@@ -482,7 +482,9 @@ bool Reader::Document::has_issue_at(std::string_view pointer) const {
     return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '/');
   };
   return std::any_of(issues.begin(), issues.end(), [&](const ConfigIssue& issue) {
-    return encloses(pointer, issue.pointer) || encloses(issue.pointer, pointer);
+    // Files that this one names have pointers of their own.
+    return issue.file == file &&
+           (encloses(pointer, issue.pointer) || encloses(issue.pointer, pointer));
   });
 }
 
@@ -553,9 +555,14 @@ void throw_issues(Reader::Document& document) {
   const auto line = [](const ConfigIssue& issue) {
     return issue.line == 0 ? std::numeric_limits<int>::max() : issue.line;
   };
-  std::stable_sort(
-      document.issues.begin(), document.issues.end(),
-      [&line](const ConfigIssue& a, const ConfigIssue& b) { return line(a) < line(b); });
+  std::stable_sort(document.issues.begin(), document.issues.end(),
+                   [&](const ConfigIssue& a, const ConfigIssue& b) {
+                     const bool other_a = a.file != document.file;
+                     const bool other_b = b.file != document.file;
+                     if (other_a != other_b) return other_b;
+                     if (other_a && a.file != b.file) return a.file < b.file;
+                     return line(a) < line(b);
+                   });
   throw ConfigError(std::move(document.issues));
 }
 

@@ -51,7 +51,8 @@ struct Reader::Document {
   /// Line of the value at `pointer`, or of the nearest enclosing one that exists; 0 if none.
   [[nodiscard]] int line_of(std::string_view pointer) const;
 
-  /// Whether an issue concerns the value at `pointer`: one within it, or of a whole it is in.
+  /// Whether an issue of this file concerns the value at `pointer`: one within it, or of a whole it
+  /// is in.
   [[nodiscard]] bool has_issue_at(std::string_view pointer) const;
 };
 
@@ -65,7 +66,8 @@ bool parse_document(std::string_view text, Reader::Document& document);
 bool read_file(const std::string& path, std::string& text, Reader::Document& document,
                const char* what = "a world file");
 
-/// Throws what was found, in the order of the file's lines; returns if that is nothing.
+/// Throws what was found, in the order of the file's lines, that of other files that it names after
+/// its own; returns if that is nothing.
 void throw_issues(Reader::Document& document);
 
 /// One part of a JSON pointer, with '~' and '/' escaped (RFC 6901, section 3).

@@ -1,7 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "io/map_io.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace sim::io {
@@ -52,7 +54,60 @@ class FramedGrid {
   std::vector<std::uint8_t> cells_;
 };
 
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 way = b - a;
+  const double length2 = way.squaredNorm();
+  const double t = length2 > 0.0 ? std::clamp((p - a).dot(way) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * way).norm();
+}
+
+/// Marks the vertices between two kept ones that must be kept as well; `last` may be the size,
+/// which stands for the first vertex again.
+void keep_between(const std::vector<Vec2>& vertices, std::size_t first, std::size_t last,
+                  double tolerance_m, std::vector<std::uint8_t>& kept) {
+  // A stack of its own: the outline of a large map may have a million vertices.
+  std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    double farthest_m = tolerance_m;
+    std::size_t farthest = from;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double off_m =
+          distance_to_segment(vertices[i], vertices[from], vertices[to % vertices.size()]);
+      if (off_m > farthest_m) {
+        farthest_m = off_m;
+        farthest = i;
+      }
+    }
+    if (farthest == from) continue;
+    kept[farthest] = 1;
+    open.emplace_back(from, farthest);
+    open.emplace_back(farthest, to);
+  }
+}
+
 }  // namespace
+
+void simplify_walls(std::vector<WallLoop>& walls, double tolerance_m) {
+  for (WallLoop& loop : walls) {
+    const std::vector<Vec2>& vertices = loop.vertices;
+    const auto far_end = std::max_element(
+        vertices.begin(), vertices.end(), [&vertices](const Vec2& a, const Vec2& b) {
+          return (a - vertices[0]).squaredNorm() < (b - vertices[0]).squaredNorm();
+        });
+    const auto middle = static_cast<std::size_t>(far_end - vertices.begin());
+    std::vector<std::uint8_t> kept(vertices.size(), 0);
+    kept[0] = kept[middle] = 1;
+    keep_between(vertices, 0, middle, tolerance_m, kept);
+    keep_between(vertices, middle, vertices.size(), tolerance_m, kept);
+    std::vector<Vec2> few;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (kept[i] != 0) few.push_back(vertices[i]);
+    }
+    if (few.size() >= 3) loop.vertices = std::move(few);
+  }
+}
 
 std::optional<std::vector<WallLoop>> trace_walls(const OccupancyGrid& grid, const Vec2& origin,
                                                  double resolution_m) {

@@ -39,4 +39,11 @@ struct OccupancyGrid {
                                                                const Vec2& origin,
                                                                double resolution_m);
 
+/// Takes vertices out of outlines, as long as what is left passes within `tolerance_m` of each:
+/// what a slanted wall's pixels make a staircase becomes one straight edge. (D. H. Douglas, T. K.
+/// Peucker, "Algorithms for the reduction of the number of points required to represent a
+/// digitized line or its caricature", Cartographica 10(2), 1973.) An outline that would collapse
+/// stays as it is.
+void simplify_walls(std::vector<WallLoop>& walls, double tolerance_m);
+
 }  // namespace sim::io

@@ -373,17 +373,18 @@ Colour Reader::colour(std::string_view key, Colour fallback) {
 }
 
 Vec2 Reader::vec2(std::string_view key, Vec2 fallback, NumberRange range) {
-  const std::optional<Reader> member = child(key);
-  if (!member) return fallback;
-  const Value& value = *member->state_->value;
+  std::optional<Reader> member = child(key);
+  return member ? member->as_vec2(fallback, range) : fallback;
+}
+
+Vec2 Reader::as_vec2(Vec2 fallback, NumberRange range) {
+  const Value& value = *state_->value;
   if (value.kind != Kind::kArray || value.children.size() != 2) {
-    state_->wrong_type(member->pointer(), value, "a list of two numbers [x, y]");
+    state_->wrong_type(pointer(), value, "a list of two numbers [x, y]");
     return fallback;
   }
-  const std::optional<double> x =
-      state_->number(value.children[0], member->pointer() + "/0", range);
-  const std::optional<double> y =
-      state_->number(value.children[1], member->pointer() + "/1", range);
+  const std::optional<double> x = state_->number(value.children[0], pointer() + "/0", range);
+  const std::optional<double> y = state_->number(value.children[1], pointer() + "/1", range);
   return x && y ? Vec2(*x, *y) : fallback;
 }
 

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -14,6 +17,7 @@
 #include "io/check_world.h"
 #include "io/document.h"
 #include "io/map_io.h"
+#include "io/robot_io.h"
 #include "sim/world/view_mode.h"
 
 namespace sim::io {
@@ -50,23 +54,6 @@ std::string free_name(const std::string& prefix, std::size_t number, std::set<st
     std::string name = prefix + std::to_string(number);
     if (taken.insert(name).second) return name;
   }
-}
-
-std::vector<std::string> type_names(const std::vector<DeviceType>& types) {
-  std::vector<std::string> names;
-  for (const DeviceType& type : types) names.push_back(type.name);
-  return names;
-}
-
-const DeviceType* find_type(const std::vector<DeviceType>& types, const std::string& name) {
-  const auto type = std::find_if(types.begin(), types.end(),
-                                 [&name](const DeviceType& t) { return t.name == name; });
-  return type == types.end() ? nullptr : &*type;
-}
-
-std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearest_word(word, known);
-  return near.empty() ? "" : "did you mean " + in_quotes(near) + "?";
 }
 
 class WorldReader {
@@ -141,7 +128,10 @@ class WorldReader {
         block.size = reader.vec2("size", block.size, kLength);
         block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
         block.height_m = reader.number("height", block.height_m, kHeight);
-        if (!separators) read_kind(reader, block);
+        if (!separators) {
+          read_kind(reader, block);
+          block.fiducial = read_fiducial(reader);
+        }
         reader.finish();
       }
       if (block.name.empty()) unnamed.push_back(blocks.size());
@@ -165,6 +155,12 @@ class WorldReader {
                      "state");
       }
     }
+  }
+
+  /// What fiducial devices read of an obstacle or a robot.
+  static int read_fiducial(Reader& reader) {
+    return static_cast<int>(
+        reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
   }
 
   void read_docks(Reader& arena) {
@@ -251,6 +247,7 @@ class WorldReader {
     map.origin = reader->vec2("origin", arena.origin, kPosition);
     map.occupied_threshold =
         reader->number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
+    map.simplify_m = reader->number("simplify", map.simplify_m, {0.0, 10.0, false, "m"});
     reader->finish();
     arena.map = map;
     if (!named || document_.has_issue_at(reader->pointer())) return;
@@ -282,6 +279,7 @@ class WorldReader {
       return;
     }
     arena.walls = *std::move(walls);
+    if (map.simplify_m > 0.0) simplify_walls(arena.walls, map.simplify_m);
     if (!has_size) {
       arena.size = Vec2(image.width, image.height) * map.resolution_m;
       if (arena.size.maxCoeff() > kLength.max) {
@@ -306,6 +304,7 @@ class WorldReader {
     }
     simulation.start_gate_clients =
         static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
+    simulation.objects_locked = reader->boolean("lock_objects", simulation.objects_locked);
     if (const std::optional<Reader> time = reader->child("time")) {
       simulation.time_mode_given = true;
       if (time->is_string()) {
@@ -374,7 +373,7 @@ class WorldReader {
     std::vector<std::size_t> unplaced;
     if (!root.has("robots")) {
       RobotDescription robot;
-      robot.devices = default_devices(root, robot.model);
+      robot.devices = default_devices(root, default_robot_model(), types_);
       world_.robots.push_back(std::move(robot));
       unplaced.push_back(0);
     } else {
@@ -411,23 +410,23 @@ class WorldReader {
     if (document_.has_issue_at("/arena")) return;
     WorldDescription others;
     others.arena = world_.arena;
+    others.models = world_.models;
     for (std::size_t i = 0; i < world_.robots.size(); ++i) {
       if (std::find(unplaced.begin(), unplaced.end(), i) == unplaced.end() &&
           !document_.has_issue_at("/robots/" + std::to_string(i) + "/pose")) {
         others.robots.push_back(world_.robots[i]);
       }
     }
-    bool full = false;
+    // Where there was no room for a model before, there is none now.
+    std::map<const RobotModel*, std::size_t> places_tried;
     for (const std::size_t i : unplaced) {
       RobotDescription& robot = world_.robots[i];
       const std::string pointer = "/robots/" + std::to_string(i);
-      const RobotModel* model = find_robot_model(robot.model);
+      const RobotModel* model = find_robot_model(world_, robot.model);
       if (model == nullptr || document_.has_issue_at(pointer + "/pose")) continue;
-      // Where one found no place the next will not find one either.
       const std::optional<Pose> pose =
-          full ? std::nullopt : find_free_pose(others, model->footprint);
+          find_free_pose(others, model->footprint, places_tried[model]);
       if (!pose) {
-        full = true;
         ConfigIssue issue{"world/no-free-place",
                           document_.file,
                           pointer,
@@ -445,7 +444,9 @@ class WorldReader {
 
   void read_robot(Reader& reader, RobotDescription& robot) {
     robot.name = reader.name("name", "");
-    robot.model = reader.choice("model", robot.model, robot_model_names());
+    robot.model = reader.string("model", robot.model);
+    const bool model_is_sound = load_model(reader, robot.model);
+    if (!model_is_sound) robot.model = default_robot_model().name;
     robot.pose = reader.pose("pose", robot.pose);
     robot.colour = reader.colour("colour", robot.colour);
     if (reader.has("port")) {
@@ -458,16 +459,35 @@ class WorldReader {
         robot.port = 0;
       }
     }
-    read_devices(reader, robot);
+    if (!model_is_sound) return;  // of what depends on the model nothing can be said
+    const RobotModel& model = *find_robot_model(world_, robot.model);
+    robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
     if (std::optional<Reader> proxies = reader.object("proxies")) {
       for (const std::string& interface : proxies->keys()) {
         robot.proxies[interface] = static_cast<int>(proxies->integer(interface, 0, 0, 65535));
       }
     }
+    robot.fiducial = read_fiducial(reader);
+    robot.interfaces = read_interfaces(reader, robot.devices, model.interfaces);
     for (Reader& driver : reader.array("drivers", 100)) {
       if (driver.expect_object()) robot.drivers.push_back(read_driver(driver));
     }
     reader.finish();
+  }
+
+  /// Sees to it that find_robot_model() knows a model that a robot names. Issues of a model's file
+  /// are told once.
+  /// @return false if it is not sound.
+  bool load_model(Reader& robot_reader, const std::string& name) {
+    if (find_robot_model(world_, name) != nullptr) return true;
+    if (bad_models_.contains(name)) return false;
+    std::optional<RobotModel> model = read_model(robot_reader, name, document_, types_);
+    if (!model) {
+      bad_models_.insert(name);
+      return false;
+    }
+    world_.models.emplace(name, std::make_shared<const RobotModel>(*std::move(model)));
+    return true;
   }
 
   static DriverDescription read_driver(Reader& reader) {
@@ -487,89 +507,10 @@ class WorldReader {
     return driver;
   }
 
-  /// The model's devices with default settings.
-  std::vector<DeviceDescription> default_devices(Reader& place, const std::string& model_name) {
-    std::vector<DeviceDescription> devices = find_robot_model(model_name)->devices;
-    for (DeviceDescription& device : devices) {
-      if (device.params.has_value()) continue;
-      if (const DeviceType* type = find_type(types_, device.type)) {
-        device.params = type->defaults();
-      } else {
-        place.issue("world/unknown-device-type",
-                    "one of the types that this program has: " + list_text(type_names(types_)),
-                    in_quotes(device.type) + ", which the model " + model_name + " carries");
-      }
-    }
-    return devices;
-  }
-
-  void read_devices(Reader& robot_reader, RobotDescription& robot) {
-    std::map<std::string, DeviceDescription> devices;
-    for (DeviceDescription& device : default_devices(robot_reader, robot.model)) {
-      devices.emplace(device.name, device);
-    }
-    std::vector<std::string> of_model;
-    for (const auto& [name, device] : devices) of_model.push_back(name);
-
-    if (std::optional<Reader> reader = robot_reader.object("devices")) {
-      for (const std::string& name : reader->keys()) {
-        Reader settings = *reader->child(name);
-        const bool known = devices.contains(name);
-        if (!is_valid_name(name)) {
-          settings.issue("world/bad-name", "a name of 1 to 64 letters, digits, _ or -",
-                         in_quotes(name));
-        } else if (settings.is_null() || settings.scalar_text() == "false") {
-          if (known) {
-            devices.erase(name);
-          } else {
-            settings.issue("world/unknown-device",
-                           "a device that the model has: " + list_text(of_model),
-                           in_quotes(name) + ", which is not there to be removed",
-                           did_you_mean(name, of_model));
-          }
-        } else if (!settings.is_object()) {
-          settings.issue("world/wrong-type",
-                         "an object {...} of settings, or null for no such device",
-                         settings.described());
-        } else {
-          read_device(settings, name, of_model, devices);
-        }
-      }
-    }
-    robot.devices.clear();
-    for (auto& [name, device] : devices) robot.devices.push_back(std::move(device));
-  }
-
-  void read_device(Reader& settings, const std::string& name,
-                   const std::vector<std::string>& of_model,
-                   std::map<std::string, DeviceDescription>& devices) {
-    const auto of_same_name = devices.find(name);
-    const bool known = of_same_name != devices.end();
-    std::string type_name = known ? of_same_name->second.type : name;
-    if (settings.has("type")) {
-      const std::size_t issues_before = document_.issues.size();
-      type_name = settings.choice("type", type_name, type_names(types_));
-      if (document_.issues.size() != issues_before) return;
-    }
-    const DeviceType* type = find_type(types_, type_name);
-    if (type == nullptr) {
-      settings.issue("world/unknown-device",
-                     "a device that the model has (" + list_text(of_model) +
-                         "), or a \"type\" for a new one (" + list_text(type_names(types_)) + ")",
-                     in_quotes(name) + " without a type", did_you_mean(name, of_model));
-      return;
-    }
-    const std::any base = known && of_same_name->second.type == type_name
-                              ? of_same_name->second.params
-                              : type->defaults();
-    std::any params = type->parse(settings, base);
-    settings.finish();
-    devices[name] = {name, type_name, std::move(params)};
-  }
-
   Reader::Document& document_;
   const std::vector<DeviceType>& types_;
   WorldDescription world_;
+  std::set<std::string> bad_models_;
 };
 
 }  // namespace

@@ -7,11 +7,13 @@
 
 namespace sim {
 
-/// What a contact allows: along * v + turning * omega <= limit, all in SI units.
+/// What a contact allows: along * v + sideways * lateral + turning * omega <= limit, all in SI
+/// units.
 struct TwistConstraint {
-  double along;    ///< forward component of the contact normal (towards the obstacle)
-  double turning;  ///< lever of the contact point about the axle's centre [m]
-  double limit;    ///< greatest closing speed [m/s], >= 0
+  double along;           ///< forward component of the contact normal (towards the obstacle)
+  double turning;         ///< lever of the contact point about the axle's centre [m]
+  double limit;           ///< greatest closing speed [m/s], >= 0
+  double sideways = 0.0;  ///< component of the normal to the left
 };
 
 /// The feasible twist nearest to `target` in kinetic energy: it minimises
@@ -25,6 +27,18 @@ struct TwistConstraint {
 /// crossing of two; all are tried. Cost grows with the cube of the number of constraints, which
 /// is 0 in the open and rarely above 6.
 [[nodiscard]] Twist feasible_twist(const Twist& target, double mass_kg, double inertia_kgm2,
+                                   const std::vector<TwistConstraint>& constraints);
+
+/// The same for an omnidirectional drive, which has three degrees of freedom: it minimises
+/// m (v - v0)^2 + m (lateral - lateral0)^2 + I (omega - omega0)^2. So it slides along a wall that
+/// it is driven against. The optimum lies at the target or where one, two or three constraints
+/// hold with equality; all are tried, at a cost that grows with the fourth power of their number.
+[[nodiscard]] Twist feasible_planar_twist(const Twist& target, double mass_kg, double inertia_kgm2,
+                                          const std::vector<TwistConstraint>& constraints);
+
+/// The same for a car, whose steering leaves it one degree of freedom: the greatest share of
+/// `target`, from 0 to 1, that the constraints allow. Against a wall it stalls.
+[[nodiscard]] Twist feasible_share(const Twist& target,
                                    const std::vector<TwistConstraint>& constraints);
 
 }  // namespace sim

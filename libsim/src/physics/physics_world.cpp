@@ -94,6 +94,7 @@ struct Robot {
   b2Body* body = nullptr;
   b2PolygonShape shape;
   b2PolygonShape reaching_shape;  // the same with a wide skin, which finds contacts ahead
+  DriveKind drive = DriveKind::kDifferential;
   double height_m = 0.0;
   double mass_kg = 0.0;
   double inertia_kgm2 = 0.0;
@@ -260,6 +261,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
+  // The first robot whose footprint overlaps a shape; -1 if none does.
+  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const {
+    const auto it = std::find_if(robots.begin(), robots.end(), [&](const Robot& r) {
+      return b2TestOverlap(&shape, 0, &r.shape, 0, xf, r.body->GetTransform());
+    });
+    return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
+  }
+
   // The edges that are there now, for worlds small enough to sweep.
   void rebuild_fixed_edges() {
     sweep = all_edges.edges.size() <= kSweepLimit;
@@ -308,7 +317,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
       const double rx = metres(points.points[i].x) - r.X_WB.x_m;
       const double ry = metres(points.points[i].y) - r.X_WB.y_m;
       constraints.push_back({nx * c + ny * s, rx * ny - ry * nx,
-                             share * std::max(0.0, gap_m - kRestingGap_m) / dt_s});
+                             share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, ny * c - nx * s});
     }
   }
 
@@ -336,11 +345,17 @@ struct PhysicsWorld::Impl : b2ContactListener {
       }
     }
     std::sort(near_pairs.begin(), near_pairs.end());
+    near_to.resize(robots.size());
+    for (std::vector<int>& others : near_to) others.clear();
+    for (const auto& [a, b] : near_pairs) {
+      near_to[static_cast<std::size_t>(a)].push_back(b);
+      near_to[static_cast<std::size_t>(b)].push_back(a);
+    }
   }
 
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
     Robot& r = robots[index];
-    if (r.target.v_mps == 0.0 && r.target.omega_radps == 0.0) return r.target;
+    if (r.target == Twist{}) return r.target;
     // Even if another robot comes to meet it, nothing is reached in this step.
     if (r.free_m > 2.0 * kMaxTravel_m + kRestingGap_m) return r.target;
     constraints.clear();
@@ -351,10 +366,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
       if (info_of(other).kind == Contact::Kind::kRobot) continue;
       add_constraints(r, *other->GetShape(), other->GetBody()->GetTransform(), 1.0, dt_s);
     }
-    const int me = static_cast<int>(index);
-    for (const auto& [a, b] : near_pairs) {
-      if (a != me && b != me) continue;
-      const Robot& other = robots[static_cast<std::size_t>(a == me ? b : a)];
+    for (const int near : near_to[index]) {
+      const Robot& other = robots[static_cast<std::size_t>(near)];
       if (other.suspended) {  // as good as a wall
         add_constraints(r, other.shape, other.body->GetTransform(), 1.0, dt_s);
         continue;
@@ -363,6 +376,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
       add_constraints(r, other.shape, other.body->GetTransform(), 0.5, dt_s);
     }
     if (constraints.empty()) return r.target;
+    switch (r.drive) {
+      case DriveKind::kOmnidirectional:
+        return feasible_planar_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
+      case DriveKind::kCar:
+        return feasible_share(r.target, constraints);
+      case DriveKind::kDifferential:
+        break;
+    }
     return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
   }
 
@@ -380,12 +401,15 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return false;
   }
 
-  // Where an unhindered robot gets to: along the exact arc of the twist.
+  // Where an unhindered robot gets to: along the exact arc of the twist (the exponential map of
+  // SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
   [[nodiscard]] static Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
     const double half_turn = 0.5 * twist.omega_radps * dt_s;
     const double chord = twist.v_mps * dt_s * sinc(half_turn);
+    const double side = twist.lateral_mps * dt_s * sinc(half_turn);
     const double heading = X_WB.yaw_rad + half_turn;
-    return {X_WB.x_m + chord * std::cos(heading), X_WB.y_m + chord * std::sin(heading),
+    return {X_WB.x_m + chord * std::cos(heading) - side * std::sin(heading),
+            X_WB.y_m + chord * std::sin(heading) + side * std::cos(heading),
             X_WB.yaw_rad + twist.omega_radps * dt_s};
   }
 
@@ -452,9 +476,11 @@ struct PhysicsWorld::Impl : b2ContactListener {
         std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
       r.X_WB = goal;
       const double travel = twists[index].v_mps * dt_s;
+      const double side = twists[index].lateral_mps * dt_s;
       turn = twists[index].omega_radps * dt_s;
-      moved = std::abs(travel);
+      moved = side == 0.0 ? std::abs(travel) : std::hypot(travel, side);
       r.state.travel_m += travel;
+      r.state.side_m += side;
     } else {
       const Pose before = r.X_WB;
       r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
@@ -465,7 +491,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
       // The wheels' path is the arc whose chord this is.
       r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
       moved = std::hypot(dx, dy);
-      lateral_m[index] += dy * std::cos(heading) - dx * std::sin(heading);
+      r.state.side_m += dy * std::cos(heading) - dx * std::sin(heading);
     }
     r.state.turn_rad += turn;
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
@@ -488,14 +514,16 @@ struct PhysicsWorld::Impl : b2ContactListener {
     r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
   }
 
-  void finish_step(Robot& r, std::size_t index, double dt_s) {
+  static void finish_step(Robot& r, double dt_s) {
     BodyState& s = r.state;
     s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
-    s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, lateral_m[index] / dt_s};
+    s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, s.side_m / dt_s};
     s.commanded = r.target;
     const bool achieved =
         std::abs(s.twist.v_mps - r.target.v_mps) <= kSpeedTolerance_mps &&
-        std::abs(s.twist.omega_radps - r.target.omega_radps) <= kTurnTolerance_radps;
+        std::abs(s.twist.omega_radps - r.target.omega_radps) <= kTurnTolerance_radps &&
+        (r.drive != DriveKind::kOmnidirectional ||
+         std::abs(s.twist.lateral_mps - r.target.lateral_mps) <= kSpeedTolerance_mps);
     r.stall_clock_s = achieved ? 0.0 : r.stall_clock_s + dt_s;
     s.stalled = r.stall_clock_s >= kStallDelay_s - 1e-9;
   }
@@ -560,9 +588,22 @@ struct PhysicsWorld::Impl : b2ContactListener {
       contacts.push_back({mine.index, theirs.kind, theirs.index});
     }
   }
+  // What a contact's points span, for one of the two robots that may be in it.
+  static void add_touch(const b2Contact& contact, int robot, std::vector<Touch>& into) {
+    const int32 count = contact.GetManifold()->pointCount;
+    if (count == 0) return;
+    b2WorldManifold points;
+    contact.GetWorldManifold(&points);
+    const auto in_metres = [](const b2Vec2& p) { return Vec2(metres(p.x), metres(p.y)); };
+    into.push_back({robot, in_metres(points.points[0]), in_metres(points.points[count - 1])});
+  }
   void BeginContact(b2Contact* contact) override {
     count_contact(contact->GetFixtureA(), contact->GetFixtureB(), 1);
     count_contact(contact->GetFixtureB(), contact->GetFixtureA(), 1);
+    for (const b2Fixture* fixture : {contact->GetFixtureA(), contact->GetFixtureB()}) {
+      const FixtureInfo& info = info_of(fixture);
+      if (info.kind == Contact::Kind::kRobot) add_touch(*contact, info.index, new_touches);
+    }
   }
   void EndContact(b2Contact* contact) override {
     count_contact(contact->GetFixtureA(), contact->GetFixtureB(), -1);
@@ -590,11 +631,12 @@ struct PhysicsWorld::Impl : b2ContactListener {
   double largest_radius_m = 0.0;
   std::vector<int> order;  // robots by x
   std::vector<std::pair<int, int>> near_pairs;
+  std::vector<std::vector<int>> near_to;  // the same by robot, in the same order
   std::vector<Pose> goals;    // where each robot gets to in this step if nothing hinders it
   std::vector<Twist> twists;  // by which twist
-  std::vector<double> lateral_m;
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
+  std::vector<Touch> new_touches;
 };
 
 PhysicsWorld::PhysicsWorld(const ArenaDescription& arena) : impl_(std::make_unique<Impl>(arena)) {
@@ -610,6 +652,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.shape = polygon_shape(model.footprint);
   r.reaching_shape = r.shape;
   r.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  r.drive = model.drive.kind;
   r.height_m = model.height_m;
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
   r.X_WB = X_WB;
@@ -629,7 +672,6 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 
   d.largest_radius_m = std::max(d.largest_radius_m, r.radius_m);
   d.order.push_back(index);
-  d.lateral_m.push_back(0.0);
   d.robots.push_back(std::move(r));
   d.something_was_placed();
   d.robot_edges_fresh = false;
@@ -637,6 +679,10 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 }
 
 int PhysicsWorld::robot_count() const noexcept { return static_cast<int>(impl_->robots.size()); }
+
+double PhysicsWorld::height_m(int robot) const {
+  return impl_->robots[static_cast<std::size_t>(robot)].height_m;
+}
 
 void PhysicsWorld::set_target(int robot, const Twist& target) {
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
@@ -684,19 +730,20 @@ void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
 void PhysicsWorld::step(double dt_s) {
   Impl& d = *impl_;
   d.contacts.clear();
+  d.new_touches.clear();
   double travel_m = 0.0;
-  for (std::size_t i = 0; i < d.robots.size(); ++i) {
-    Robot& r = d.robots[i];
+  for (Robot& r : d.robots) {
     r.state.travel_m = 0.0;
     r.state.turn_rad = 0.0;
-    d.lateral_m[i] = 0.0;
-    travel_m = std::max(
-        travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.omega_radps) * r.radius_m) * dt_s);
+    r.state.side_m = 0.0;
+    travel_m = std::max(travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
+                                   std::abs(r.target.omega_radps) * r.radius_m) *
+                                      dt_s);
   }
   const double longest_m = d.any_robots_touch() ? kMaxShove_m : kMaxTravel_m;
   const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / longest_m)));
   for (int i = 0; i < substeps; ++i) d.substep(dt_s / substeps);
-  for (std::size_t i = 0; i < d.robots.size(); ++i) d.finish_step(d.robots[i], i, dt_s);
+  for (Robot& r : d.robots) Impl::finish_step(r, dt_s);
   d.robot_edges_fresh = false;
 }
 
@@ -721,6 +768,19 @@ std::vector<PhysicsWorld::Contact> PhysicsWorld::contacts_of(int robot) const {
   return contacts;
 }
 
+std::vector<PhysicsWorld::Touch> PhysicsWorld::touches_of(int robot) const {
+  std::vector<Touch> touches;
+  const b2Body* body = impl_->robots[static_cast<std::size_t>(robot)].body;
+  for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+    if (e->contact->IsTouching()) Impl::add_touch(*e->contact, robot, touches);
+  }
+  // A step may be made in several parts: what began in one may have ended in another.
+  for (const Touch& touch : impl_->new_touches) {
+    if (touch.robot == robot) touches.push_back(touch);
+  }
+  return touches;
+}
+
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)]->SetEnabled(extended);
   impl_->something_was_placed();
@@ -729,13 +789,33 @@ void PhysicsWorld::set_extended(int obstacle, bool extended) {
 
 bool PhysicsWorld::robot_stands_on(int obstacle) const {
   const b2Body* block = impl_->obstacle_bodies[static_cast<std::size_t>(obstacle)];
-  const b2Shape* shape = block->GetFixtureList()->GetShape();
-  for (const Robot& r : impl_->robots) {
-    if (b2TestOverlap(shape, 0, &r.shape, 0, block->GetTransform(), r.body->GetTransform())) {
-      return true;
-    }
+  return impl_->robot_within(*block->GetFixtureList()->GetShape(), block->GetTransform()) >= 0;
+}
+
+void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now) {
+  Impl& d = *impl_;
+  b2Body* body = d.obstacle_bodies[static_cast<std::size_t>(obstacle)];
+  b2Fixture* before = body->GetFixtureList();
+  auto* info = reinterpret_cast<FixtureInfo*>(before->GetUserData().pointer);
+  info->height_m = now.height_m;
+  const std::vector<Vec2> corners = box_corners(now.center, now.size, now.yaw_rad);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& a = corners[i];
+    const Vec2& b = corners[(i + 1) % corners.size()];
+    d.all_edges.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
+    d.all_edges.heights_m[info->first_edge + i] = now.height_m;
   }
-  return false;
+  d.all_edges.least_height_m = std::min(d.all_edges.least_height_m, now.height_m);
+  body->DestroyFixture(before);
+  d.attach(body, polygon_shape(corners), info, 0.0F);
+  d.something_was_placed();
+  d.rebuild_fixed_edges();
+}
+
+int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
+  b2Transform here;
+  here.SetIdentity();
+  return impl_->robot_within(polygon_shape(box_corners(box.center, box.size, box.yaw_rad)), here);
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {
@@ -873,6 +953,37 @@ void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double senso
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
 }
 
+bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const {
+  return impl_->inside_solid(p_W, height_m, own_robot);
+}
+
+bool PhysicsWorld::is_line_free(const Vec2& from_W, const Vec2& to_W, double height_m,
+                                int own_robot, const Contact& target) const {
+  struct Blocked : b2RayCastCallback {
+    float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
+      const FixtureInfo& info = info_of(fixture);
+      const bool own = info.kind == Contact::Kind::kRobot && info.index == own_robot;
+      const bool wanted = info.kind == target_kind && info.index == target_index;
+      if (own || wanted || info.height_m <= height_m) return -1.0F;
+      blocked = true;
+      return 0.0F;
+    }
+    double height_m = 0.0;
+    int own_robot = -1;
+    Contact::Kind target_kind = Contact::Kind::kRobot;
+    int target_index = -1;
+    bool blocked = false;
+  } callback;
+  callback.height_m = height_m;
+  callback.own_robot = own_robot;
+  callback.target_kind = target.kind;
+  callback.target_index = target.index;
+  // Box2D takes no line without a length.
+  if ((to_W - from_W).squaredNorm() <= 0.0) return true;
+  impl_->world.RayCast(&callback, to_box2d(from_W), to_box2d(to_W));
+  return !callback.blocked;
+}
+
 bool PhysicsWorld::Impl::inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   bool inside = false;
   query(world, p_W, p_W, [&](b2Fixture& fixture) {
@@ -915,6 +1026,7 @@ void PhysicsWorld::hash(StateHash& hash) const {
         hash.add(static_cast<double>(manifold.points[i].normalImpulse));
       }
     }
+    if (r.target.lateral_mps != 0.0) hash.add(r.target.lateral_mps);
     if (r.suspended) hash.add(std::string_view("suspended"));
   }
   for (const b2Body* body : impl_->obstacle_bodies) hash.add(body->IsEnabled());

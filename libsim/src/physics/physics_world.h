@@ -35,6 +35,7 @@ class PhysicsWorld {
   /// Adds a robot; the first has index 0.
   int add_robot(const RobotModel& model, const Pose& X_WB);
   [[nodiscard]] int robot_count() const noexcept;
+  [[nodiscard]] double height_m(int robot) const;
 
   /// The twist that a robot strives for in the next step.
   void set_target(int robot, const Twist& target);
@@ -61,10 +62,26 @@ class PhysicsWorld {
   /// edges), in no particular order.
   [[nodiscard]] std::vector<Contact> contacts_of(int robot) const;
 
+  /// Where a robot touches something: all along the line from one point to the other, which are
+  /// one where only a corner touches. In W [m].
+  struct Touch {
+    int robot;
+    Vec2 from_W;
+    Vec2 to_W;
+  };
+  /// Where a robot touches something now, or began to in the last step. A contact that both goes on
+  /// and began is listed twice; no particular order.
+  [[nodiscard]] std::vector<Touch> touches_of(int robot) const;
+
   /// Extends (true) or retracts a dynamic obstacle, by its index in the arena.
   void set_extended(int obstacle, bool extended);
   /// Whether any robot's footprint overlaps the obstacle's place.
   [[nodiscard]] bool robot_stands_on(int obstacle) const;
+  /// Gives an obstacle, by its index, another place, turn, size or height; extended or retracted it
+  /// stays as it is.
+  void change_obstacle(int obstacle, const ObstacleDescription& now);
+  /// The first robot whose footprint overlaps a box; -1 if none does.
+  [[nodiscard]] int robot_within(const ObstacleDescription& box) const;
 
   /// Distance of a robot's footprint to the nearest solid, at most limit_m [m]; exact where it is
   /// below exact_below_m, otherwise a lower bound that is at least that.
@@ -76,6 +93,17 @@ class PhysicsWorld {
   ///                      left out for a sensor that lies within its robot's own footprint.
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
                      bool test_inside, scan::EdgeBuffer& edges) const;
+
+  /// Whether a point lies inside a solid that stands higher than `height_m`.
+  /// @param own_robot  robot whose body does not count, or -1.
+  [[nodiscard]] bool is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const;
+
+  /// Whether the line from one point to another meets no solid that stands higher than `height_m`.
+  /// A solid that the line begins in does not count.
+  /// @param own_robot  robot whose body does not count, or -1.
+  /// @param target     what does not count either: an obstacle or a robot; its `robot` is ignored.
+  [[nodiscard]] bool is_line_free(const Vec2& from_W, const Vec2& to_W, double height_m,
+                                  int own_robot, const Contact& target) const;
 
   void hash(StateHash& hash) const;
 

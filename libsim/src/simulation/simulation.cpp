@@ -10,9 +10,11 @@
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/error.h"
+#include "sim/devices/blinkenlight.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/motion.h"
+#include "sim/devices/speech.h"
 #include "sim/io/world_io.h"
 #include "sim/world/view_mode.h"
 
@@ -20,6 +22,9 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kKeptCollisions = 1024;
+constexpr std::size_t kKeptUtterances = 1024;
+// Of names in a message.
+constexpr std::size_t kMostNames = 40;
 // Clearances beyond this are told as this; it bounds the search round a robot.
 constexpr double kClearanceLimit_m = 10.0;
 
@@ -49,6 +54,12 @@ struct Simulation::Impl {
     [[nodiscard]] const BodyState& body() const override {
       return impl_.physics->body(static_cast<int>(robot_));
     }
+    [[nodiscard]] std::optional<Pose> pose_by(int device) const override {
+      const auto& devices = impl_.robots[robot_].devices;
+      const auto index = static_cast<std::size_t>(device);
+      if (device < 0 || index >= devices.size()) return std::nullopt;
+      return devices[index]->believed_pose();
+    }
     bool take_motors(const Device& device) override {
       RobotParts& robot = impl_.robots[robot_];
       if (robot.motion == nullptr) return false;
@@ -65,6 +76,7 @@ struct Simulation::Impl {
     std::optional<std::string> place(const Pose& X_WB) override {
       return impl_.place(robot_, X_WB);
     }
+    void say(const std::string& text) override { impl_.say(robot_, text); }
 
    private:
     Impl& impl_;
@@ -77,14 +89,18 @@ struct Simulation::Impl {
         physics(std::make_unique<PhysicsWorld>(world.arena)),
         layers(world.canvas),
         view_mode(world.canvas.view_mode) {
-    for (const ObstacleDescription& o : world.arena.obstacles) start_states.push_back(o.state);
-    for (const RobotDescription& robot : world.robots) add_robot(robot);
+    start_obstacles = world.arena.obstacles;
+    for (const RobotDescription& robot : world.robots) {
+      start_colours.push_back(robot.colour);
+      add_robot(robot);
+    }
+    connect_devices();
     for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
   }
 
   void add_robot(const RobotDescription& robot) {
     RobotParts parts;
-    parts.model = find_robot_model(robot.model);
+    parts.model = find_robot_model(world, robot.model);
     SIM_ASSERT(parts.model != nullptr);
     const int index = physics->add_robot(*parts.model, robot.pose);
     for (const Vec2& v : parts.model->footprint) {
@@ -105,6 +121,69 @@ struct Simulation::Impl {
     last_positions.push_back(robot.pose.position());
     robots.push_back(std::move(parts));
     SIM_ASSERT(index + 1 == static_cast<int>(robots.size()));
+  }
+
+  class Directory final : public DeviceDirectory {
+   public:
+    explicit Directory(const Impl& owner) : impl_(owner) {}
+    [[nodiscard]] const Device* find(std::string_view robot,
+                                     std::string_view device) const override {
+      for (std::size_t i = 0; i < impl_.robots.size(); ++i) {
+        if (impl_.world.robots[i].name != robot) continue;
+        for (const auto& made : impl_.robots[i].devices) {
+          if (made->name() == device) return made.get();
+        }
+      }
+      return nullptr;
+    }
+
+   private:
+    const Impl& impl_;
+  };
+
+  // Throws ConfigError with all that devices miss.
+  void connect_devices() {
+    const Directory directory(*this);
+    std::vector<ConfigIssue> issues;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      for (const auto& device : robots[i].devices) {
+        if (const auto missing = device->connect(world.robots[i].name, directory)) {
+          issues.push_back({"device/wiring", world.file,
+                            "/robots/" + std::to_string(i) + "/devices/" + device->name(), *missing,
+                            "none"});
+        }
+      }
+    }
+    if (!issues.empty()) throw ConfigError(std::move(issues));
+  }
+
+  void say(std::size_t robot, const std::string& text) {
+    if (said.size() == kKeptUtterances) said.erase(said.begin());
+    said.push_back({now_ns, static_cast<int>(robot), text});
+    if (log) log(LogLevel::kInfo, "robot " + world.robots[robot].name + " says: " + text);
+  }
+
+  // Changes a block, unless something is against it: tells what.
+  template <typename Edit>
+  std::optional<std::string> change_block(const std::string& name, Edit edit) {
+    auto& obstacles = world.arena.obstacles;
+    const auto it = std::find_if(obstacles.begin(), obstacles.end(),
+                                 [&](const ObstacleDescription& o) { return o.name == name; });
+    SIM_ASSERT(it != obstacles.end());
+    ObstacleDescription now = *it;
+    edit(now);
+    if (const auto where = io::outside_floor(world.arena, now)) {
+      return "obstacle " + name + " would " + *where;
+    }
+    const int robot = physics->robot_within(now);
+    if (robot >= 0 && now.state == ObstacleState::kExtended) {
+      return "obstacle " + name + " cannot be put there: robot " +
+             world.robots[static_cast<std::size_t>(robot)].name + " stands there";
+    }
+    *it = std::move(now);
+    physics->change_obstacle(static_cast<int>(it - obstacles.begin()), *it);
+    forget_clearances();
+    return std::nullopt;
   }
 
   void step() {
@@ -146,14 +225,16 @@ struct Simulation::Impl {
   }
 
   void reset() {
-    for (std::size_t i = 0; i < start_states.size(); ++i) {
-      world.arena.obstacles[i].state = start_states[i];
+    world.arena.obstacles = start_obstacles;
+    for (std::size_t i = 0; i < start_colours.size(); ++i) {
+      world.robots[i].colour = start_colours[i];
     }
     physics = std::make_unique<PhysicsWorld>(world.arena);
     layers.base().clear();
     const std::vector<RobotParts> before = std::exchange(robots, {});
     last_positions.clear();
     for (const RobotDescription& robot : world.robots) add_robot(robot);
+    connect_devices();
     for (std::size_t i = 0; i < robots.size(); ++i) {
       robots[i].statistics = before[i].statistics;
       for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
@@ -219,9 +300,16 @@ struct Simulation::Impl {
       RobotStatistics& s = robots[static_cast<std::size_t>(contact.robot)].statistics;
       ++s.collisions;
       s.least_clearance_m = 0.0;
-      if (collisions.size() == kKeptCollisions) collisions.erase(collisions.begin());
+      if (collisions.size() == 2 * kKeptCollisions) forget_old_collisions();
       collisions.push_back({now_ns, contact.robot, partner_name(contact, world)});
     }
+  }
+
+  // Not with each one, which would move all that are kept.
+  void forget_old_collisions() {
+    if (collisions.size() <= kKeptCollisions) return;
+    collisions.erase(collisions.begin(),
+                     collisions.end() - static_cast<std::ptrdiff_t>(kKeptCollisions));
   }
 
   [[nodiscard]] Device& device(DeviceId id) const {
@@ -234,12 +322,14 @@ struct Simulation::Impl {
   std::unique_ptr<PhysicsWorld> physics;
   LayerStack layers;
   ViewMode view_mode;
-  std::vector<ObstacleState> start_states;  // of the obstacles
+  std::vector<ObstacleDescription> start_obstacles;
+  std::vector<Colour> start_colours;  // of the robots
   std::vector<RobotParts> robots;
   std::vector<Vec2> last_positions;
   double farthest_move_m = 0.0;  // of any robot in the last step
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
+  std::vector<Utterance> said;
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
 };
@@ -279,7 +369,12 @@ const RobotStatistics& Simulation::statistics(int robot) const {
   return impl_->robots.at(static_cast<std::size_t>(robot)).statistics;
 }
 
-const std::vector<Collision>& Simulation::collisions() const noexcept { return impl_->collisions; }
+const std::vector<Collision>& Simulation::collisions() const noexcept {
+  impl_->forget_old_collisions();
+  return impl_->collisions;
+}
+
+const std::vector<Utterance>& Simulation::said() const noexcept { return impl_->said; }
 
 int Simulation::device_count(int robot) const {
   return static_cast<int>(impl_->robots.at(static_cast<std::size_t>(robot)).devices.size());
@@ -349,7 +444,7 @@ std::optional<std::string> Simulation::set_object_dynamics(const std::string& na
     return object.kind + " \"" + name + "\" has no dynamics: it stands fast and moves for nobody" +
            (object.dynamic ? ", though it can be extended and retracted" : "");
   }
-  return "there is no robot or obstacle named \"" + name + "\"";
+  return no_such_object(name);
 }
 
 bool Simulation::robot_dynamics(int robot) const {
@@ -389,6 +484,78 @@ std::vector<SceneObject> Simulation::scene_objects() const {
     objects.push_back({"wall", "wall", {middle.x(), middle.y(), 0.0}, walls.sizes()});
   }
   return objects;
+}
+
+std::optional<SceneObject> Simulation::find_object(const std::string& name) const {
+  std::vector<SceneObject> objects = scene_objects();
+  const auto it = std::find_if(objects.begin(), objects.end(),
+                               [&](const SceneObject& object) { return object.name == name; });
+  if (it == objects.end()) return std::nullopt;
+  return std::move(*it);
+}
+
+std::string Simulation::no_such_object(const std::string& name) const {
+  const std::vector<SceneObject> objects = scene_objects();
+  std::string known;
+  for (std::size_t i = 0; i < std::min(objects.size(), kMostNames); ++i) {
+    known += (i == 0 ? "" : ", ") + objects[i].name;
+  }
+  if (objects.size() > kMostNames) {
+    known += " and " + std::to_string(objects.size() - kMostNames) + " more";
+  }
+  return "there is no robot or obstacle named \"" + name +
+         "\"; this world has: " + (known.empty() ? "nothing" : known);
+}
+
+std::optional<std::string> Simulation::place_object(const std::string& name, const Pose& pose) {
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  if (object->kind == "robot") {
+    const auto robot = static_cast<std::size_t>(*find_robot(name));
+    Motion* motion = impl_->robots[robot].motion;
+    const Twist told = motion == nullptr ? Twist{} : motion->commanded();
+    if (const auto refusal = impl_->place(robot, pose)) return refusal;
+    if (motion != nullptr && told != Twist{}) {
+      static_cast<void>(motion->apply(TwistCommand{told}));
+    }
+    return std::nullopt;
+  }
+  if (object->kind != "block") return object->kind + " \"" + name + "\" stands fast";
+  return impl_->change_block(name, [&](ObstacleDescription& block) {
+    block.center = pose.position();
+    block.yaw_rad = pose.yaw_rad;
+  });
+}
+
+std::optional<std::string> Simulation::set_block_size(const std::string& name, const Vec2& size_m,
+                                                      double height_m) {
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
+  // As a world's reader has it; Box2D makes nothing of smaller boxes.
+  constexpr double kLeastSide_m = 0.001;
+  if (!(size_m.minCoeff() >= kLeastSide_m && height_m > 0.0)) {
+    return "the sides of a block are at least 0.001 m long, and its height is greater than 0 m";
+  }
+  return impl_->change_block(name, [&](ObstacleDescription& block) {
+    block.size = size_m;
+    block.height_m = height_m;
+  });
+}
+
+std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
+  if (const auto robot = find_robot(name)) {
+    impl_->world.robots[static_cast<std::size_t>(*robot)].colour = colour;
+    return std::nullopt;
+  }
+  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+    if (block.name != name) continue;
+    block.colour = colour;
+    return std::nullopt;
+  }
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  return object->kind + " \"" + name + "\" keeps its colour";
 }
 
 LayerStack& Simulation::layers() noexcept { return impl_->layers; }
@@ -444,6 +611,19 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(robot.statistics.least_clearance_m);
     hash.add(robot.statistics.stalled_time_s);
   }
+  // Blocks that are where they were at the start, as nearly always, leave the hash as it was.
+  for (std::size_t i = 0; i < impl_->start_obstacles.size(); ++i) {
+    const ObstacleDescription& start = impl_->start_obstacles[i];
+    const ObstacleDescription& now = impl_->world.arena.obstacles[i];
+    if (now.center == start.center && now.size == start.size && now.yaw_rad == start.yaw_rad &&
+        now.height_m == start.height_m) {
+      continue;
+    }
+    for (const double x : {static_cast<double>(i), now.center.x(), now.center.y(), now.size.x(),
+                           now.size.y(), now.yaw_rad, now.height_m}) {
+      hash.add(x);
+    }
+  }
   impl_->layers.base().hash(hash);
   return hash.value();
 }
@@ -466,6 +646,14 @@ SceneSnapshot Simulation::snapshot() const {
     shot.X_WB = body.X_WB;
     shot.footprint = robot.model->footprint;
     shot.stalled = body.stalled;
+    for (const auto& device : robot.devices) {
+      if (const auto* speech = dynamic_cast<const Speech*>(device.get())) {
+        if (!speech->text().empty()) shot.says = speech->text();
+      } else if (const auto* light = dynamic_cast<const Blinkenlight*>(device.get())) {
+        shot.lights.push_back(
+            {light->params().p_BL, light->colour(), light->lit(impl_->now_ns) && light->active()});
+      }
+    }
     for (const auto& device : robot.devices) {
       const auto* laser = dynamic_cast<const Laser*>(device.get());
       if (laser == nullptr || laser->reading().sequence == 0) continue;

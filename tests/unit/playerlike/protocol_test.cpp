@@ -20,12 +20,17 @@
 #include "protocol/framing.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/builtin.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/fiducial.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
+#include "sim/devices/wifi.h"
 
 namespace playerlike::protocol {
 
@@ -206,11 +211,40 @@ template <typename F>
 void each(sim::BatteryReading& v, F& f) {
   each_of_reading(v, f);
   f(v.charge_percent), f(v.status), f(v.voltage_v), f(v.energy_wh), f(v.capacity_wh);
+  f(v.power_w);
+}
+template <typename F>
+void each(sim::BumperReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.pressed);
 }
 template <typename F>
 void each(sim::CollisionReading& v, F& f) {
   each_of_reading(v, f);
   f(v.collision), f(v.objects);
+}
+template <typename F>
+void each(sim::FiducialReading::Mark& v, F& f) {
+  f(v.id), f(v.X_ST);
+}
+template <typename F>
+void each(sim::FiducialReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.marks);
+}
+template <typename F>
+void each(sim::GpsReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.latitude_rad), f(v.longitude_rad), f(v.altitude_m), f(v.speed_mps), f(v.course_rad);
+  f(v.utm_easting_m), f(v.utm_northing_m), f(v.satellites), f(v.quality);
+}
+template <typename F>
+void each(sim::ImuReading& v, F& f) {
+  each_of_reading(v, f);
+  for (auto* vector : {&v.acceleration_mps2, &v.rate_radps, &v.field_ut}) {
+    for (double& value : *vector) f(value);
+  }
+  f(v.yaw_rad);
 }
 template <typename F>
 void each(sim::LaserReading& v, F& f) {  // but X_WB, which clients are not told
@@ -241,6 +275,15 @@ template <typename F>
 void each(sim::WaypointReading& v, F& f) {
   each_of_reading(v, f);
   f(v.status), f(v.goal_number), f(v.goal_m), f(v.distance_m);
+}
+template <typename F>
+void each(sim::WifiReading::Link& v, F& f) {
+  f(v.name), f(v.mac), f(v.ip), f(v.access_point), f(v.level_dbm);
+}
+template <typename F>
+void each(sim::WifiReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.links), f(v.own_ip), f(v.floor_dbm), f(v.channel_mhz);
 }
 template <typename F>
 void each(sim::TwistCommand& v, F& f) {
@@ -275,6 +318,18 @@ void each(sim::RotateCommand& v, F& f) {
   f(v.yaw_rad);
 }
 template <typename F>
+void each(sim::HeadingCommand& v, F& f) {
+  f(v.v_mps), f(v.lateral_mps), f(v.yaw_rad), f(v.frame);
+}
+template <typename F>
+void each(sim::PositionCommand& v, F& f) {
+  f(v.goal), f(v.max_speed_mps), f(v.max_turn_rate_radps), f(v.frame);
+}
+template <typename F>
+void each(sim::CarCommand& v, F& f) {
+  f(v.v_mps), f(v.steering_rad);
+}
+template <typename F>
 void each(DeviceInfo& v, F& f) {  // the id follows from the place
   f(v.name), f(v.type), f(v.properties);
 }
@@ -289,8 +344,9 @@ void each(SndDriverDescription& v, F& f) {
 template <typename F>
 void each(RobotInfo& v, F& f) {
   f(v.name), f(v.model), f(v.colour), f(v.initial_pose);
-  f(v.length_m), f(v.width_m), f(v.height_m), f(v.max_speed_mps), f(v.max_turn_rate_radps);
-  f(v.proxies), f(v.drivers), f(v.snd_drivers), f(v.devices);
+  f(v.length_m), f(v.width_m), f(v.height_m), f(v.center_m);
+  f(v.max_speed_mps), f(v.max_turn_rate_radps);
+  f(v.proxies), f(v.interfaces), f(v.drivers), f(v.snd_drivers), f(v.devices);
 }
 template <typename F>
 void each(CanvasInfo& v, F& f) {
@@ -934,12 +990,17 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     ++sensors;
     EXPECT_EQ(sensor->type(), kind.name);
     EXPECT_TRUE(arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BumperReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
+                arrives_if<sim::FiducialReading>(*sensor, GetParam()) ||
+                arrives_if<sim::GpsReading>(*sensor, GetParam()) ||
+                arrives_if<sim::ImuReading>(*sensor, GetParam()) ||
                 arrives_if<sim::LaserReading>(*sensor, GetParam()) ||
                 arrives_if<sim::PoseReading>(*sensor, GetParam()) ||
                 arrives_if<sim::ProximityReading>(*sensor, GetParam()) ||
                 arrives_if<sim::RangerReading>(*sensor, GetParam()) ||
-                arrives_if<sim::WaypointReading>(*sensor, GetParam()))
+                arrives_if<sim::WaypointReading>(*sensor, GetParam()) ||
+                arrives_if<sim::WifiReading>(*sensor, GetParam()))
         << "the readings of " << kind.name << " need a codec (device_codec.cpp) and a line here";
   }
   EXPECT_GE(sensors, 9);
@@ -975,12 +1036,17 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
   const std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> readings = [] {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
+    all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
     all.emplace_back("collision", std::make_unique<sim::CollisionReading>());
+    all.emplace_back("fiducial", std::make_unique<sim::FiducialReading>());
+    all.emplace_back("gps", std::make_unique<sim::GpsReading>());
+    all.emplace_back("imu", std::make_unique<sim::ImuReading>());
     all.emplace_back("laser", std::make_unique<sim::LaserReading>());
     all.emplace_back("odometry", std::make_unique<sim::PoseReading>());
     all.emplace_back("proximity", std::make_unique<sim::ProximityReading>());
     all.emplace_back("sonar", std::make_unique<sim::RangerReading>());
     all.emplace_back("waypoint", std::make_unique<sim::WaypointReading>());
+    all.emplace_back("wifi", std::make_unique<sim::WifiReading>());
     return all;
   }();
   for (const auto& [type, reading] : readings) {

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -202,6 +204,36 @@ TEST_F(MapFile, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
   EXPECT_EQ(world.canvas.width, 76);
   EXPECT_EQ(world.canvas.height, 50);
   EXPECT_EQ(world.canvas.origin, Vec2(1, 2));
+}
+
+TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
+  // A triangle of steps of 1 with its right angle at (20, 0), and a single cell.
+  std::vector<std::string> rows(20, std::string(23, '.'));
+  for (std::size_t row = 0; row < 20; ++row) {
+    for (std::size_t column = 19 - row; column < 20; ++column) rows[19 - row][column] = '#';
+  }
+  std::reverse(rows.begin(), rows.end());
+  rows[0][22] = '#';
+  std::vector<WallLoop> loops = trace(rows);
+  ASSERT_THAT(loops, SizeIs(2));
+  const std::vector<WallLoop> before = loops;
+  simplify_walls(loops, 1.0);
+  EXPECT_LE(loops[0].vertices.size(), 5U);
+  EXPECT_GE(before[0].vertices.size(), 40U);
+  EXPECT_EQ(loops[1].vertices, before[1].vertices);
+  // The triangle's area is that of its cells (210), or up to the width of the steps more or less.
+  EXPECT_NEAR(0.5 * doubled_area(loops[0]), 210.0, 20.0 * std::sqrt(2.0) * 1.0);
+  // Every corner of the steps is within the tolerance of what is left.
+  for (const Vec2& p : before[0].vertices) {
+    double nearest = 1e9;
+    for (std::size_t i = 0; i < loops[0].vertices.size(); ++i) {
+      const Vec2& a = loops[0].vertices[i];
+      const Vec2 way = loops[0].vertices[(i + 1) % loops[0].vertices.size()] - a;
+      const double t = std::clamp((p - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      nearest = std::min(nearest, (p - a - t * way).norm());
+    }
+    EXPECT_LE(nearest, 1.0 + 1e-9);
+  }
 }
 
 TEST_F(MapFile, ThresholdDecidesWhatIsDark) {

@@ -29,7 +29,7 @@ TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
       load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json");
   PhysicsWorld physics(world.arena);
   for (const RobotDescription& robot : world.robots) {
-    physics.add_robot(*find_robot_model(robot.model), robot.pose);
+    physics.add_robot(*find_robot_model(world, robot.model), robot.pose);
   }
   const LaserParams laser;
   scan::ScanKernel kernel({laser.beam_count, laser.resolution_rad, laser.range_max_m});

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -10,10 +12,12 @@
 
 #include "sim/core/error.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
+#include "sim/scan/cone.h"
 #include "sim/simulation/simulation.h"
 
 namespace sim {
@@ -133,6 +137,8 @@ TEST(BatteryLoad, GrowsWithTheSpeedOfTheWheels) {
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.0, 3.0}, 0.14), 6.0 + 8.0 * 0.21);
   // Wheels at 0.29 and 0.71 m/s: as fast, in the mean, as the robot.
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.5, -3.0}, 0.14), 10.0);
+  // To its side and ahead, 0.5 m/s in all.
+  EXPECT_DOUBLE_EQ(battery_load_w(params, {0.3, 0.0, -0.4}, 0.14), 10.0);
 }
 
 TEST(BatteryVoltage, IsLinearInTheCharge) {
@@ -278,7 +284,7 @@ TEST(Infrared, RingSeesTheRoomRoundTheRobot) {
   ASSERT_EQ(ring.ranges_m.size(), expected.size());
   ASSERT_EQ(ring.X_BS.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    // The kernel is exact to 1e-6 of the range.
+    // Exact to 1e-7 of the greatest range.
     EXPECT_NEAR(ring.ranges_m[i], expected[i], 1e-6) << i;
   }
   EXPECT_EQ(ring.range_max_m, 0.8);
@@ -327,17 +333,250 @@ TEST(Infrared, ARobotMayHaveSeveralAndSeesOtherRobotsNotItself) {
   EXPECT_EQ(reading<RangerReading>(simulation, "rear").ranges_m[0], 0.8);
 }
 
-TEST(ConeGeometry, HasAQuarterDegreeAtMostAndBothSides) {
-  const scan::ScanGeometry thirty = cone_geometry(30.0 * kDegrees, 3.0);
-  EXPECT_EQ(thirty.beam_count, 121);
-  EXPECT_NEAR(thirty.angle_rad(0), -15.0 * kDegrees, 1e-12);
-  EXPECT_NEAR(thirty.angle_rad(60), 0.0, 1e-12);
-  EXPECT_NEAR(thirty.angle_rad(120), 15.0 * kDegrees, 1e-12);
-  EXPECT_EQ(thirty.range_max_m, 3.0);
-  EXPECT_EQ(cone_geometry(15.0 * kDegrees, 3.0).beam_count, 61);
-  EXPECT_EQ(cone_geometry(0.1 * kDegrees, 3.0).beam_count, 3);
-  EXPECT_EQ(cone_geometry(0.0, 3.0).beam_count, 1);
-  EXPECT_EQ(cone_geometry(180.0 * kDegrees, 3.0).beam_count, 721);
+// --- bumper
+
+using Pressed = std::vector<std::uint8_t>;
+
+TEST(BumperSegments, GoRoundTheFootprint) {
+  const std::vector<BumperSegment> sides = segments_round(s1r_model().footprint);
+  ASSERT_EQ(sides.size(), 8U);
+  // The front side, from (0.087, -0.045) to (0.087, 0.045), looks ahead.
+  EXPECT_NEAR(sides[0].X_BS.x_m, 0.087, 1e-12);
+  EXPECT_NEAR(sides[0].X_BS.y_m, 0.0, 1e-12);
+  EXPECT_NEAR(sides[0].X_BS.yaw_rad, 0.0, 1e-12);
+  EXPECT_NEAR(sides[0].length_m, 0.09, 1e-12);
+  EXPECT_EQ(sides[0].radius_m, 0.0);
+  // Side 2, from (0.05, 0.081) to (-0.05, 0.081), looks left; 4 back.
+  EXPECT_NEAR(sides[2].X_BS.yaw_rad, 90.0 * kDegrees, 1e-12);
+  EXPECT_NEAR(sides[2].length_m, 0.1, 1e-12);
+  EXPECT_NEAR(std::abs(sides[4].X_BS.yaw_rad), std::numbers::pi, 1e-12);
+}
+
+TEST(BumperSegments, KnowHowFarAPointIs) {
+  const BumperSegment straight{{0.2, 0.1, 0.0}, 0.1, 0.0};  // x = 0.2, y from 0.05 to 0.15
+  EXPECT_NEAR(distance_to_segment_m(straight, {0.25, 0.12}), 0.05, 1e-12);
+  EXPECT_NEAR(distance_to_segment_m(straight, {0.23, 0.01}), 0.05, 1e-12);  // 3, 4, 5
+  // A quarter of a circle of 0.1 m round the origin, from -45 to 45 degrees.
+  const BumperSegment arc{{0.1, 0.0, 0.0}, 0.05 * std::numbers::pi, 0.1};
+  EXPECT_NEAR(distance_to_segment_m(arc, {0.15 * std::cos(0.7), 0.15 * std::sin(0.7)}), 0.05,
+              1e-12);
+  EXPECT_NEAR(distance_to_segment_m(arc, {0.0, 0.1}), 0.2 * std::sin(22.5 * kDegrees), 1e-12);
+  EXPECT_NEAR(distance_to_segment_m(arc, {0.02, 0.0}), 0.08, 1e-12);
+  // The same arc, looking back from the other side.
+  const BumperSegment turned{{-0.1, 0.0, std::numbers::pi}, 0.05 * std::numbers::pi, 0.1};
+  EXPECT_NEAR(distance_to_segment_m(turned, {0.0, -0.1}), 0.2 * std::sin(22.5 * kDegrees), 1e-12);
+}
+
+TEST(BumperSegments, ArePressedWhereATouchIsNearest) {
+  // Three along x = 0.1: y from -0.15 to -0.05, to 0.05, to 0.15.
+  const std::vector<BumperSegment> row = {
+      {{0.1, -0.1, 0.0}, 0.1, 0.0}, {{0.1, 0.0, 0.0}, 0.1, 0.0}, {{0.1, 0.1, 0.0}, 0.1, 0.0}};
+  const auto pressed = [&](const Vec2& from, const Vec2& to) {
+    Pressed result(3, 0);
+    press_segments(row, 0.05, from, to, result);
+    return result;
+  };
+  EXPECT_EQ(pressed({0.1, 0.02}, {0.1, 0.02}), (Pressed{0, 1, 0}));
+  EXPECT_EQ(pressed({0.1, 0.05}, {0.1, 0.05}), (Pressed{0, 1, 1}));    // the joint
+  EXPECT_EQ(pressed({0.1, 0.052}, {0.1, 0.052}), (Pressed{0, 0, 1}));  // 2 mm beside it
+  EXPECT_EQ(pressed({0.1, -0.12}, {0.1, 0.12}), (Pressed{1, 1, 1}));   // a flat wall
+  EXPECT_EQ(pressed({0.13, 0.17}, {0.13, 0.17}), (Pressed{0, 0, 1}));  // 3.6 cm away
+  EXPECT_EQ(pressed({0.16, 0.0}, {0.16, 0.0}), (Pressed{0, 0, 0}));    // 6 cm: out of reach
+}
+
+Pressed pressed(const Simulation& simulation, int robot = 0) {
+  return reading<BumperReading>(simulation, "bumper", robot).pressed;
+}
+
+TEST(Bumper, FeelsAFlatWallWithItsFlatFront) {
+  Simulation simulation(room(robot("r1", 3.5, 2, 0, R"({"bumper": {}})")));
+  run(simulation, 10);
+  EXPECT_EQ(pressed(simulation), Pressed(8, 0));
+  drive(simulation, 0.5);  // 0.413 m to the border
+  run(simulation, 70);
+  EXPECT_EQ(pressed(simulation), Pressed(8, 0));
+  run(simulation, 30);
+  // The front, and at its ends the joints with the two sides next to it.
+  EXPECT_EQ(pressed(simulation), (Pressed{1, 1, 0, 0, 0, 0, 0, 1}));
+  drive(simulation, -0.1);
+  run(simulation, 20);
+  EXPECT_EQ(pressed(simulation), Pressed(8, 0));
+}
+
+TEST(Bumper, TellsTheSideThatACornerTouches) {
+  // A block whose corner (2.5, 2.02) meets the front, 2 cm left of its middle.
+  const std::string tip = R"("obstacles": [{"name": "tip", "center": [)" +
+                          std::to_string(2.5 + 0.2 * std::sqrt(0.5)) +
+                          R"(, 2.02], "size": [0.2, 0.2], "yaw_deg": 45}])";
+  const std::string two = R"({"bumper": {"segments": [
+      {"x": 0.087, "y": 0.03, "length": 0.06}, {"x": 0.087, "y": -0.03, "length": 0.06}]}})";
+  Simulation simulation(room(robot("r1", 2, 2, 0, two), tip));
+  drive(simulation, 0.5);  // 0.413 m to the corner, which then turns the robot
+  run(simulation, 90);
+  EXPECT_EQ(pressed(simulation), (Pressed{1, 0}));
+}
+
+TEST(Bumper, TellsATouchThatBeganAndEndedBetweenTwoReadings) {
+  Simulation simulation(room(robot("r1", 3.9, 2, 0, R"({"bumper": {"frequency": 1}})")));
+  drive(simulation, 0.5);  // 13 mm to the border
+  run(simulation, 30);
+  drive(simulation, -0.5);
+  run(simulation, 69);
+  EXPECT_EQ(simulation.body(0).X_WB.x_m < 3.8, true);
+  run(simulation, 1);
+  EXPECT_EQ(pressed(simulation), (Pressed{1, 1, 0, 0, 0, 0, 0, 1}));
+  run(simulation, 100);
+  EXPECT_EQ(pressed(simulation), Pressed(8, 0));
+}
+
+TEST(Bumper, FeelsOtherRobotsOnBothSides) {
+  Simulation simulation(room(robot("r1", 1.0, 2, 0, R"({"bumper": {}})") + "," +
+                             robot("r2", 1.3, 2, 0, R"({"bumper": {}})")));
+  drive(simulation, 0.3);
+  run(simulation, 80);
+  EXPECT_EQ(pressed(simulation, 0)[0], 1);  // r1 with its front
+  EXPECT_EQ(pressed(simulation, 1)[4], 1);  // r2 with its back
+  EXPECT_EQ(pressed(simulation, 1)[0], 0);
+}
+
+// --- cones
+
+using scan::Cone;
+using scan::EdgeBuffer;
+using scan::least_range_in_cone_m;
+
+// The outline of a box, solid on its left.
+void add_box(EdgeBuffer& edges, const Pose& X_WO, double half_x, double half_y) {
+  const std::array<Vec2, 4> corners = {X_WO * Vec2(half_x, -half_y), X_WO * Vec2(half_x, half_y),
+                                       X_WO * Vec2(-half_x, half_y), X_WO * Vec2(-half_x, -half_y)};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2& a = corners[i];
+    const Vec2& b = corners[(i + 1) % 4];
+    edges.add(static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(b.x()),
+              static_cast<float>(b.y()));
+  }
+}
+
+TEST(LeastRangeInCone, IsThatOfTheFootTheSideOrTheCorner) {
+  EdgeBuffer edges;
+  add_box(edges, {3.0, 0.0, 0.0}, 1.0, 1.0);  // its face at x = 2, y from -1 to 1
+  const auto least = [&](double yaw_deg, double field_deg) {
+    return least_range_in_cone_m(edges.edges(), {0, 0, yaw_deg * kDegrees, field_deg * kDegrees},
+                                 5.0);
+  };
+  EXPECT_DOUBLE_EQ(least(0.0, 30.0), 2.0);                              // the foot of the face
+  EXPECT_DOUBLE_EQ(least(14.0, 30.0), 2.0);                             // still within
+  EXPECT_DOUBLE_EQ(least(20.0, 30.0), 2.0 / std::cos(5.0 * kDegrees));  // where the side meets it
+  EXPECT_DOUBLE_EQ(least(-20.0, 30.0), 2.0 / std::cos(5.0 * kDegrees));
+  // The corner (2, 1) lies at 26.57 degrees; a cone from 26 on meets the face just below it.
+  EXPECT_DOUBLE_EQ(least(41.0, 30.0), 2.0 / std::cos(26.0 * kDegrees));
+  EXPECT_DOUBLE_EQ(least(42.0, 30.0), 5.0);   // from 27 on: past it
+  EXPECT_DOUBLE_EQ(least(180.0, 30.0), 5.0);  // behind
+  EXPECT_DOUBLE_EQ(least(90.0, 180.0), 2.0);  // half the plane, whose border is the foot's ray
+  EXPECT_DOUBLE_EQ(least(0.0, 0.0), 2.0);     // a ray
+  EXPECT_DOUBLE_EQ(least(20.0, 0.0), 2.0 / std::cos(20.0 * kDegrees));
+  EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {0.5, 0.25, 0.0, 0.0}, 1.25), 1.25);
+  EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {0.5, 0.25, 0.0, 0.5}, 5.0), 1.5);
+  // Seen from within the box its faces look away.
+  EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {3.0, 0.0, 0.0, 1.0}, 5.0), 5.0);
+}
+
+TEST(LeastRangeInCone, SeesThingsNarrowerThanAnyBeam) {
+  EdgeBuffer edges;
+  add_box(edges, {4.0, 0.5, 0.0}, 0.0005, 0.0005);  // 1 mm wide, 0.014 degrees
+  EXPECT_NEAR(least_range_in_cone_m(edges.edges(), {0, 0, 0, 30.0 * kDegrees}, 5.0),
+              std::hypot(3.9995, 0.4995), 1e-6);
+}
+
+// The slow way: beams that fill the cone, at most 0.25 degrees apart, both its sides among them.
+double least_of_beams(const EdgeBuffer& edges, double yaw_rad, double field_of_view_rad,
+                      double range_max_m) {
+  const int half = static_cast<int>(std::ceil(0.5 * field_of_view_rad / (0.25 * kDegrees)));
+  scan::ScanKernel kernel({2 * half + 1, 0.5 * field_of_view_rad / half, range_max_m});
+  std::vector<double> ranges(static_cast<std::size_t>(2 * half + 1));
+  kernel.scan(edges, yaw_rad, ranges);
+  return *std::min_element(ranges.begin(), ranges.end());
+}
+
+TEST(LeastRangeInCone, IsThatOfBeamsAndCorners) {
+  RandomStream random(7, "cones");
+  const auto in = [&](double low, double high) { return low + (high - low) * random.uniform(); };
+  int met = 0;
+  for (int round = 0; round < 2000; ++round) {
+    EdgeBuffer edges;
+    for (int box = 0; box < 12; ++box) {
+      const double angle = in(-3.1, 3.1);
+      const double distance = in(0.8, 6.0);
+      add_box(edges, {distance * std::cos(angle), distance * std::sin(angle), in(-3.1, 3.1)},
+              in(0.01, 0.4), in(0.01, 0.4));
+    }
+    const double yaw = in(-3.1, 3.1);
+    const double field = in(1.0, 180.0) * kDegrees;
+    // Beams miss the corners between them, and nothing else that matters.
+    double expected = least_of_beams(edges, yaw, field, 5.0);
+    for (const scan::Edge& edge : edges.edges()) {
+      const Vec2 a(edge.x0_m, edge.y0_m);
+      const double off = std::abs(normalize_angle(std::atan2(a.y(), a.x()) - yaw));
+      if (off <= 0.5 * field) expected = std::min(expected, a.norm());
+    }
+    const double found = least_range_in_cone_m(edges.edges(), {0, 0, yaw, field}, 5.0);
+    // A wall's foot is at most 0.125 degrees from a beam: 2.4e-6 of the range.
+    ASSERT_NEAR(found, expected, 3e-6 * expected) << round;
+    ASSERT_LE(found, expected + 1e-6);
+    if (found < 5.0) ++met;
+  }
+  EXPECT_GT(met, 1500);
+}
+
+TEST(LeastRangeInCone, OfARayIsThatOfABeam) {
+  RandomStream random(7, "rays");
+  for (int round = 0; round < 2000; ++round) {
+    EdgeBuffer edges;
+    for (int box = 0; box < 12; ++box) {
+      const double angle = 6.2 * random.uniform();
+      add_box(edges, {3.0 * std::cos(angle), 3.0 * std::sin(angle), 3.0 * random.uniform()}, 0.3,
+              0.2);
+    }
+    const double yaw = 6.2 * random.uniform() - 3.1;
+    scan::ScanKernel kernel({1, 0.1, 5.0});
+    std::vector<double> beam(1);
+    kernel.scan(edges, yaw, beam);
+    ASSERT_NEAR(least_range_in_cone_m(edges.edges(), {0, 0, yaw, 0.0}, 5.0), beam[0], 1e-5)
+        << round;
+  }
+}
+
+// Rays that end exactly at corners of a closed outline never look through them.
+TEST(LeastRangeInCone, RaysDoNotLookThroughJoints) {
+  EdgeBuffer edges;
+  constexpr int kCorners = 360;
+  const auto corner = [](int i) {
+    const double angle = 2.0 * std::numbers::pi * (i % kCorners) / kCorners;
+    return Vec2(2.0 * std::cos(angle), 2.0 * std::sin(angle));
+  };
+  for (int i = 0; i < kCorners; ++i) {  // a round room: clockwise, solid outside
+    const Vec2 a = corner(i + 1);
+    const Vec2 b = corner(i);
+    edges.add(static_cast<float>(a.x()), static_cast<float>(a.y()), static_cast<float>(b.x()),
+              static_cast<float>(b.y()));
+  }
+  for (int i = 0; i < kCorners; ++i) {
+    const scan::Edge& edge = edges.edges()[static_cast<std::size_t>(i)];
+    const double yaw = std::atan2(static_cast<double>(edge.y1_m), static_cast<double>(edge.x1_m));
+    for (const double turn : {0.0, 1e-17, 1e-16, -1e-16, 1e-9}) {
+      EXPECT_LT(least_range_in_cone_m(edges.edges(), {0, 0, yaw + turn, 0.0}, 5.0), 2.001) << i;
+    }
+  }
+}
+
+TEST(InfraredVoltage, GoesThroughTheDataSheetsTypicalValues) {
+  const InfraredParams params;
+  const auto voltage = [&](double range_m) {
+    return infrared_voltage_v(range_m, params.voltage_gain_vm, params.voltage_shift_m);
+  };
+  EXPECT_NEAR(voltage(0.8), 0.4, 1e-12);
+  EXPECT_NEAR(voltage(0.1), 2.4, 1e-12);
+  EXPECT_NEAR(voltage(0.2), 1.4, 1e-12);  // 0.336 / 0.24
 }
 
 // One transducer in the middle of the robot, with a cone of 30 degrees.
@@ -351,11 +590,11 @@ TEST(Sonar, ReadsTheLeastRangeWithinItsCone) {
   // A wall 2 m ahead. At 10 degrees its foot lies within the cone.
   Simulation within(room(robot("r1", 2, 2, 10, kSonar)));
   run(within, 10);
-  EXPECT_NEAR(sonar_range(within), 2.0, 2e-5);
+  EXPECT_NEAR(sonar_range(within), 2.0, 1e-6);
   // At 20 degrees the cone's side comes nearest, 5 degrees off the foot.
   Simulation beside(room(robot("r1", 2, 2, 20, kSonar)));
   run(beside, 10);
-  EXPECT_NEAR(sonar_range(beside), 2.0 / std::cos(5.0 * kDegrees), 1e-5);
+  EXPECT_NEAR(sonar_range(beside), 2.0 / std::cos(5.0 * kDegrees), 1e-6);
 }
 
 TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
@@ -367,13 +606,12 @@ TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
   };
   Simulation in_cone(room(robot("r1", 2, 2, 0, kSonar), tip(2.2)));
   run(in_cone, 10);
-  const double corner = std::hypot(1.0, 0.2);
-  EXPECT_GE(sonar_range(in_cone), corner - 1e-5);
-  EXPECT_LE(sonar_range(in_cone), corner * 1.0022);
+  // Its size is written with 6 digits.
+  EXPECT_NEAR(sonar_range(in_cone), std::hypot(1.0, 0.2), 2e-6);
   // 0.5 m further to the left its lowest corner (3.2, 2.5) lies at 22.6 degrees: the wall is seen.
   Simulation beside(room(robot("r1", 2, 2, 0, kSonar), tip(2.7)));
   run(beside, 10);
-  EXPECT_NEAR(sonar_range(beside), 2.0, 2e-5);
+  EXPECT_NEAR(sonar_range(beside), 2.0, 1e-6);
 }
 
 TEST(Sonar, DefaultLooksLeftAheadAndRight) {
@@ -425,7 +663,7 @@ TEST(Sonar, NoiseStaysWithinTheRange) {
 // --- all of them
 
 constexpr const char* kAll =
-    R"({"battery": {}, "collision": {}, "infrared": {"noise": 0.01},
+    R"({"battery": {}, "bumper": {}, "collision": {}, "infrared": {"noise": 0.01},
         "proximity": {"obstacles": true}, "sonar": {"noise": 0.02},
         "laser": {"noise": 0.01, "beams": 37, "resolution_deg": 5}})";
 
@@ -511,6 +749,16 @@ INSTANTIATE_TEST_SUITE_P(
         BadSettings{"battery", R"({"idle_power": -1})", "world/out-of-range", "/idle_power", "W"},
         BadSettings{"battery", R"({"empty_voltage": 13})", "device/battery-voltage", "",
                     "13.000000 V empty, 12.600000 V full"},
+        BadSettings{"bumper", R"({"reach": 0})", "world/out-of-range", "/reach", "m"},
+        BadSettings{"bumper", R"({"segments": {}})", "world/wrong-type", "/segments", "a list"},
+        BadSettings{"bumper", R"({"segments": [{}, {"length": 0}]})", "world/out-of-range",
+                    "/segments/1/length", "m"},
+        BadSettings{"bumper", R"({"segments": [{"yaw": 1}]})", "world/unknown-key",
+                    "/segments/0/yaw", "yaw_deg"},
+        BadSettings{"bumper", R"({"segments": [{"length": 0.7, "radius": 0.1}]})",
+                    "device/bumper-segment", "/segments/0", "whole circle"},
+        BadSettings{"infrared", R"({"voltage_gain": 0})", "world/out-of-range", "/voltage_gain",
+                    "V m"},
         BadSettings{"proximity", R"({"range": 0})", "world/out-of-range", "/range", "m"},
         BadSettings{"proximity", R"({"obstacles": 1})", "world/wrong-type", "/obstacles",
                     "true or false"},

@@ -34,7 +34,7 @@ def main(source):
 
     tasks = sorted(worlds.rglob("*.task.json"))
     good = [p for p in sorted(worlds.rglob("*.json"))
-            if p.parent.name != "schema" and p not in tasks]
+            if p.parent.name not in ("schema", "models") and p not in tasks]
     for path in good:
         for error in validator.iter_errors(load(path)):
             print(f"{path}: {error.json_path}: {error.message}")
@@ -42,6 +42,28 @@ def main(source):
     if len(good) < 7:
         print(f"only {len(good)} worlds in {worlds}")
         failures += 1
+
+    # What it takes from the worlds' schema is put in its place.
+    model_schema = load(worlds / "schema" / "model.schema.json")
+    model_schema["properties"]["devices"] = schema["$defs"]["robot"]["properties"]["devices"]
+    model_schema["$defs"] = {**schema["$defs"], **model_schema["$defs"]}
+    jsonschema.Draft202012Validator.check_schema(model_schema)
+    model_validator = jsonschema.Draft202012Validator(model_schema)
+    models = sorted((worlds / "models").glob("*.json"))
+    for path in models:
+        for error in model_validator.iter_errors(load(path)):
+            print(f"{path}: {error.json_path}: {error.message}")
+            failures += 1
+    if len(models) < 5:
+        print(f"only {len(models)} models in {worlds}")
+        failures += 1
+    outline = [[0, 0], [1, 0], [0, 1]]
+    for bad in [{}, {"name": "a"}, {"name": "a", "footprint": outline[:2]},
+                {"name": "a", "footprint": outline, "weels": 4},
+                {"name": "a", "footprint": outline, "drive": {"kind": "hover"}}]:
+        if model_validator.is_valid(bad):
+            print(f"the model schema accepts {bad}")
+            failures += 1
 
     task_schema = load(worlds / "schema" / "task.schema.json")
     jsonschema.Draft202012Validator.check_schema(task_schema)

@@ -93,6 +93,8 @@ class Host : public std::enable_shared_from_this<Host> {
  private:
   friend class InProcessSession;
   friend class InProcessEventClient;
+  friend class InsideCore;
+  friend struct VirtualTimeAccess;
   class Core;
   explicit Host(std::unique_ptr<Core> core);
   /// @throws SessionError kNoSuchDevice.

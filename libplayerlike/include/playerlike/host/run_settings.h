@@ -28,6 +28,7 @@ struct RunSettings {
   bool start_at_once = false;    ///< paced time does not wait for the first client (unless the
                                  ///< world's start gate asks for more than one)
   bool progress = false;         ///< a progress line on stderr, if that is a terminal
+  bool virtual_time = false;     ///< sleeps of the program move lockstep time (docs/virtual_time.md)
   bool quiet_end = false;        ///< an uncaught end-of-run error ends the program with status 0
   double silence_limit_s = 5.0;  ///< wall time after which a thinking client stops counting
 
@@ -35,7 +36,7 @@ struct RunSettings {
   /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
   /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen), PLAYPEN_VIEW
   /// (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN,
-  /// PLAYPEN_SILENCE_LIMIT.
+  /// PLAYPEN_VIRTUAL_TIME, PLAYPEN_SILENCE_LIMIT.
   /// @throws sim::ConfigError naming the variable, what it should be and what it is.
   [[nodiscard]] static RunSettings from_environment();
 

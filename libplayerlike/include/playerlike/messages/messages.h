@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "playerlike/messages/snd_settings.h"
@@ -38,14 +39,17 @@ struct RobotInfo {
   std::string name;
   std::string model;
   sim::Colour colour;
-  sim::Pose initial_pose;  ///< X_WB at the start
-  int port = 0;            ///< its Player port
-  double length_m = 0.0;   ///< of the footprint's bounding box along x, B [m]
-  double width_m = 0.0;    ///< along y [m]
-  double height_m = 0.0;   ///< [m]
+  sim::Pose initial_pose;                  ///< X_WB at the start
+  int port = 0;                            ///< its Player port
+  double length_m = 0.0;                   ///< of the footprint's bounding box along x, B [m]
+  double width_m = 0.0;                    ///< along y [m]
+  double height_m = 0.0;                   ///< [m]
+  sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so
+  std::map<std::string, std::vector<std::string>>
+      interfaces;  ///< interface -> names of devices in order of index, where the world says so
   std::vector<sim::DriverDescription> drivers;    ///< as the world file has them
   std::vector<SndDriverDescription> snd_drivers;  ///< the same, understood
   std::vector<DeviceInfo> devices;
@@ -70,6 +74,29 @@ struct TimeStatistics {
   std::optional<double> duration_s;  ///< of the run, if it has an end
   sim::TimeMode mode = sim::TimeMode::kLockstep;
   bool finished = false;
+};
+
+/// Where a robot or an obstacle is.
+struct ObjectPose {
+  sim::Pose pose;            ///< X_WB of a robot; the middle of anything else, in W
+  sim::SimTime time_ns = 0;  ///< now
+};
+
+/// A property of a robot or an obstacle: numbers (SI units and radians), or a text.
+using PropertyValue = std::variant<std::vector<double>, std::string>;
+
+/// What the log of a port does.
+struct LogStatus {
+  bool replay = false;  ///< readings come from the log, not from the devices; else they are written
+  bool running = false;  ///< it does so now
+  std::string file;      ///< in the run's output folder
+};
+/// What to change of it, in this order; what has no value stays.
+struct LogControl {
+  std::optional<std::string> file;  ///< a plain name; ".jsonl" is added unless it is there
+  std::optional<bool> replay;
+  bool rewind = false;  ///< a replay begins anew
+  std::optional<bool> running;
 };
 
 /// A call that could not be carried out. Player's layer turns it into PlayerCc::PlayerError.
@@ -102,9 +129,19 @@ void require_finite(const sim::Command& command);
 ///         interface.
 [[nodiscard]] std::string example_world(std::string_view interface);
 
+/// Checks the orders of devices that robots give for interfaces.
+/// @throws sim::ConfigError naming each interface that there is not, and each device that does not
+///         carry the one it is listed for.
+void check_interfaces(const sim::WorldDescription& world);
+
 /// Builds what clients are told of a simulation's robots.
 /// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
+
+/// The cells of the map of an arena's whole floor.
+/// @throws SessionError kBadArgument as Session::world_map().
+[[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
+                                              double cell_size_m);
 
 /// Which devices stand behind a Player device address.
 struct InterfaceBinding {
@@ -120,11 +157,15 @@ struct InterfaceBinding {
 };
 
 /// Finds the device behind (port, interface, index). On a robot's own port, index i is that
-/// robot's i-th device with the interface, and drivers have the indices that the world gives them
+/// robot's i-th device with the interface, in the order that its `interfaces` give or else in order
+/// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
 /// `proxies` table gives, by default the robot's number counted from 0.
-/// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices), "laser"
-/// and "graphics2d" (pens); and "map", the world's own, with index 0 on every port.
+/// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices),
+/// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"
+/// (batteries), "graphics2d" (pens); those of the devices that have their names ("aio",
+/// "blinkenlight", "bumper", "dio", "fiducial", "gps", "imu", "opaque", "speech", "wifi"); and
+/// "log", "map" and "simulation", the world's own, with index 0 on every port.
 /// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
 ///         of the interface, the world that does (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,

@@ -160,9 +160,37 @@ class Session {
   /// @}
 
   /// The true map of the arena's floor with its obstacles as they stand now, see sim::true_map().
+  /// Across a network it is fetched in tiles.
   /// @throws SessionError kBadArgument if the cell size is not a positive number, or the map would
   ///         have more than 8192 cells along a side.
   [[nodiscard]] virtual sim::OccupancyMap world_map(double cell_size_m) = 0;
+
+  /// @name Robots and obstacles by name, and the log
+  ///
+  /// All of it happens at once. Names are those of the world's robots, obstacles and dock
+  /// separators, "border" and "wall". Where somebody else is told to watch over a robot (a server's
+  /// tokens) only those who may command it may move or change it, and only those who may command
+  /// all robots may do so with obstacles.
+  /// A name or property that is not there throws SessionError kBadArgument, which tells what is;
+  /// so does what cannot be done (a place that is taken). kNotAvailable: the world has locked its
+  /// objects, see sim::SimulationDescription::objects_locked.
+  /// @{
+  [[nodiscard]] virtual ObjectPose object_pose(const std::string& name);
+  /// Puts a robot or a block somewhere, see sim::Simulation::place_object().
+  virtual void place_object(const std::string& name, const sim::Pose& pose);
+  /// A property, see docs/simulation.md for those there are.
+  [[nodiscard]] virtual PropertyValue object_property(const std::string& name,
+                                                      const std::string& property);
+  virtual void set_object_property(const std::string& name, const std::string& property,
+                                   const PropertyValue& value);
+  /// Changes what the log of this session's port does, or (without changes) only tells it. The log
+  /// has the readings of that port's robots, see docs/log.md. All sessions of a port have it in
+  /// common.
+  /// @throws SessionError kBadArgument for a name that is not plain, a file that is no log, or
+  ///         changes of file or direction while it runs; kNotAvailable if the run has no output
+  ///         folder, or the file cannot be opened.
+  virtual LogStatus control_log(const LogControl& changes);
+  /// @}
 
   [[nodiscard]] virtual TimeStatistics time() const = 0;
   /// Lets simulated time pass (lockstep), or waits (paced). seconds >= 0.

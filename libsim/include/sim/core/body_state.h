@@ -13,6 +13,8 @@ struct BodyState {
   double travel_m = 0.0;  ///< signed forward motion of the wheels' midpoint in the last step [m]
   double turn_rad = 0.0;  ///< turn in the last step, counter-clockwise [rad]
   bool stalled = false;   ///< the commanded twist has not been achieved for 0.2 s
+  double side_m = 0.0;    ///< motion to the left in the last step: driven, if the robot can, or
+                          ///< shoved [m]
 };
 
 }  // namespace sim

@@ -40,6 +40,7 @@ struct BatteryReading final : Reading {
   double voltage_v = 0.0;    ///< see battery_voltage_v() [V]
   double energy_wh = 0.0;    ///< what is left [W h]
   double capacity_wh = 0.0;  ///< of a full battery, as set [W h]
+  double power_w = 0.0;      ///< that goes into the battery; negative: that it gives [W]
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<BatteryReading>(*this);
@@ -47,7 +48,7 @@ struct BatteryReading final : Reading {
 };
 
 /// Power that a robot draws: idle + drive (|v_left| + |v_right|) / 2, of its wheels' speeds
-/// v -+ omega separation / 2.
+/// v -+ omega separation / 2; for v an omnidirectional drive's speed whichever way.
 /// @param commanded           what the motors strive for, so that a stalled robot draws as much as
 ///                            one that drives, and one that is shoved no more than at rest.
 /// @param wheel_separation_m  between the wheels' planes [m].
@@ -83,6 +84,7 @@ class Battery final : public Sensor {
   BatteryParams params_;
   double wheel_separation_m_;
   double energy_j_;
+  double power_w_ = 0.0;  ///< in the last step, see BatteryReading
   bool docked_ = false;
   BatteryReading reading_;
 };

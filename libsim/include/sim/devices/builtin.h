@@ -20,6 +20,10 @@ struct DeviceKind : io::DeviceType {
       create;
   /// The numeric settings as clients are told of them, SI units and radians.
   std::function<std::map<std::string, double>(const std::any& params)> properties;
+  /// Those among them that also depend on the robot's model, to take the place of the ones above;
+  /// empty for kinds without such.
+  std::function<std::map<std::string, double>(const std::any& params, const RobotModel& model)>
+      model_properties;
 };
 
 /// All kinds of device that libsim has, in order of name. Written out by hand: static libraries

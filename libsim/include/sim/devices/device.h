@@ -5,9 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 #include "sim/core/body_state.h"
+#include "sim/core/colour.h"
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/core/random_stream.h"
@@ -74,12 +77,71 @@ struct TranslateCommand {
 struct RotateCommand {
   double yaw_rad;  ///< counter-clockwise [rad]
 };
+/// Drive with this speed and turn to a heading, and hold that, until told otherwise (motion).
+struct HeadingCommand {
+  double v_mps = 0.0;        ///< forward [m/s]
+  double lateral_mps = 0.0;  ///< to the left [m/s]; drives that cannot ignore it
+  double yaw_rad = 0.0;      ///< heading in `frame`, counter-clockwise [rad]
+  int frame = -1;  ///< index of the robot's localisation device (pose, odometry) in whose frame the
+                   ///< heading is; -1: W
+};
+/// Drive to a pose and stand there, by the motors' own control (motion).
+struct PositionCommand {
+  Pose goal;                         ///< of B in `frame`
+  double max_speed_mps = 0.0;        ///< on the way; 0: the motors' limit. The sign does not matter
+  double max_turn_rate_radps = 0.0;  ///< the same [rad/s]
+  int frame = -1;                    ///< as of HeadingCommand
+};
+/// Drive as a car does, until told otherwise (motion).
+struct CarCommand {
+  double v_mps = 0.0;         ///< forward speed [m/s]
+  double steering_rad = 0.0;  ///< angle of the front wheels, counter-clockwise [rad]
+};
+/// Say something (speech).
+struct SayCommand {
+  std::string text;  ///< UTF-8, at most kMaxSpeech bytes; empty: be quiet
+};
+/// Set the first outputs of a dio device; the others stay as they are.
+struct DigitalOutputCommand {
+  int count;           ///< how many, 0..32
+  std::uint32_t bits;  ///< output i is bit i
+};
+/// Set one output of an aio device.
+struct AnalogOutputCommand {
+  int channel;       ///< from 0
+  double voltage_v;  ///< [V]
+};
+/// Change a light; what has no value stays as it is (blinkenlight).
+struct LightCommand {
+  std::optional<bool> enabled;
+  std::optional<Colour> colour;
+  std::optional<double> period_s;    ///< of one on and off, >= 0; 0: it does not blink [s]
+  std::optional<double> duty_cycle;  ///< share of the period that it is lit, [0, 1]
+};
+/// Send a message (opaque).
+struct OpaqueCommand {
+  std::vector<std::uint8_t> data;  ///< at most kMaxOpaque bytes
+};
+inline constexpr std::size_t kMaxSpeech = 255;    ///< bytes
+inline constexpr std::size_t kMaxOpaque = 65536;  ///< bytes
 /// Whatever a device can be told to do.
 using Command =
     std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
-                 ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand>;
+                 ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
+                 PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
+                 LightCommand, OpaqueCommand>;
 
 class Device;
+
+/// Finds devices of all robots of a world, for those that are wired to others.
+class DeviceDirectory {
+ public:
+  virtual ~DeviceDirectory() = default;
+  /// @return nullptr if there is no such robot, or it has no such device. What it points to stays
+  ///         until a reset, after which all devices are connected anew.
+  [[nodiscard]] virtual const Device* find(std::string_view robot,
+                                           std::string_view device) const = 0;
+};
 
 /// What a device may do to its robot, valid during the call that it is given to.
 class RobotControl {
@@ -87,6 +149,9 @@ class RobotControl {
   virtual ~RobotControl() = default;
 
   [[nodiscard]] virtual const BodyState& body() const = 0;
+  /// Where the robot's device of that index thinks the robot is (Device::believed_pose); nullopt if
+  /// there is no such device, or it does not know.
+  [[nodiscard]] virtual std::optional<Pose> pose_by(int device) const = 0;
   /// Makes `device` the one that steers from now on: all others of the robot are told
   /// (Device::motors_taken).
   /// @return false if there is nothing to steer: the robot has no motors, or `device` is a motion
@@ -98,6 +163,8 @@ class RobotControl {
   /// Puts the robot somewhere, at rest. All devices are told (Device::placed).
   /// @return nothing if done, else why not, naming what stands there.
   virtual std::optional<std::string> place(const Pose& X_WB) = 0;
+  /// Lets everybody know what the robot says: for the log and the run's report.
+  virtual void say(const std::string& text) = 0;
 };
 
 /// A part of a robot that clients address by name. Owned by a Simulation; not thread-safe.
@@ -115,6 +182,17 @@ class Device {
   /// does not act.
   [[nodiscard]] bool active() const noexcept { return active_; }
   void set_active(bool active, RobotControl& robot);
+
+  /// Called once all devices of the world are made: the moment to look up those that this one is
+  /// wired to.
+  /// @param robot  name of the device's own.
+  /// @return nothing if all is there; else what is not, in words that go on from "expected ".
+  virtual std::optional<std::string> connect(std::string_view robot,
+                                             const DeviceDirectory& devices) {
+    static_cast<void>(robot);
+    static_cast<void>(devices);
+    return std::nullopt;
+  }
 
   /// Carries out a command at the step boundary.
   /// @return nothing if done; else why not, e.g. that the device does not take such commands.
@@ -139,6 +217,10 @@ class Device {
     static_cast<void>(before);
     static_cast<void>(now_ns);
   }
+
+  /// Where a localisation device thinks its robot is now, in its own frame, without the noise of
+  /// single readings; nullopt for others.
+  [[nodiscard]] virtual std::optional<Pose> believed_pose() const { return std::nullopt; }
 
   /// Adds all that distinguishes this device's future from another's.
   virtual void hash(StateHash& hash) const = 0;

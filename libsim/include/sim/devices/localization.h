@@ -64,6 +64,8 @@ class PoseSensor final : public Sensor {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override { X_WB_ = X_WB; }
+  /// The pose without noise, in the frame that is reported in.
+  [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_FW_ * X_WB_; }
   [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
@@ -83,16 +85,19 @@ class PoseSensor final : public Sensor {
 /// Model: per step the wheels' midpoint moves ds forward and turns dyaw; the pose follows the arc,
 /// x += ds sinc(dyaw/2) cos(yaw + dyaw/2), and so y (Siegwart, Nourbakhsh, Scaramuzza, Introduction
 /// to Autonomous Mobile Robots, 2nd ed., sec. 5.2.4, with the exact chord). A robot that is shoved
-/// sideways does not notice. With noise, each wheel's path in a step gets Gaussian noise of
-/// variance noise^2 |path| (Chong and Kleeman, "Accurate odometry and error modelling for a mobile
-/// robot", ICRA 1997).
+/// sideways does not notice, unless its drive is omnidirectional: then its wheels roll that way
+/// too, and the chord has a part to the left. With noise, each wheel's path in a step gets Gaussian
+/// noise of variance noise^2 |path| (Chong and Kleeman, "Accurate odometry and error modelling for
+/// a mobile robot", ICRA 1997); of an omnidirectional drive, so does the way to the left.
 class Odometry final : public Sensor {
  public:
+  /// @param omnidirectional  whether the wheels measure motion to the left as well.
   Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
-           RandomStream noise);
+           bool omnidirectional, RandomStream noise);
 
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
+  [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_SB_; }
   [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
@@ -102,6 +107,7 @@ class Odometry final : public Sensor {
  private:
   OdometryParams params_;
   double wheel_separation_m_;
+  bool omnidirectional_;
   RandomStream noise_;
   Pose X_SB_;
   Pose X_SR_;                   ///< B at the last reading

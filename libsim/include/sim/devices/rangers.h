@@ -26,7 +26,20 @@ struct RangerParams {
 /// Infrared rangers; by default a ring of eight single rays round an S1R, to 0.8 m.
 struct InfraredParams : RangerParams {
   InfraredParams();
+
+  double voltage_gain_vm = 0.336;  ///< see infrared_voltage_v(), > 0 [V m]
+  double voltage_shift_m = 0.04;   ///< > 0 [m]
 };
+
+/// Voltage that an infrared ranger puts out at a range: gain / (range + shift).
+///
+/// Such sensors see the spot of their own light by triangulation, so the output goes with the
+/// inverse of the distance; Sharp's data sheet of the GP2D12 (OP13008EN) plots it over
+/// 1 / (L + k). The defaults go through its typical values: 0.4 V at 80 cm, and 2.0 V more at
+/// 10 cm. Unlike the real one, which falls again below 10 cm, it rises all the way to 0.
+/// @param gain_vm, shift_m  as set, see InfraredParams.
+/// @return [V]
+[[nodiscard]] double infrared_voltage_v(double range_m, double gain_vm, double shift_m);
 
 /// A sonar array; by default three cones of 30 degrees at an S1R's front, to 3 m.
 struct SonarParams : RangerParams {
@@ -46,17 +59,12 @@ struct RangerReading final : Reading {
   }
 };
 
-/// The beams that stand for a transducer's cone: at most 0.25 degrees apart, the cone's middle and
-/// both its sides among them; a single one for a cone of 0.
-[[nodiscard]] scan::ScanGeometry cone_geometry(double field_of_view_rad, double range_max_m);
-
 /// Infrared or sonar rangers: RangerParams says what they are, RangerReading what they tell.
 ///
-/// A transducer reads the least range of the beams of its cone_geometry(): nothing is nearer that
-/// it could see, so no echo of another direction comes first. Against the exact least distance
-/// within the cone a wall reads at most 1e-5 of the range too far; a corner that lies between two
-/// beams up to half a beam's distance to the next (0.0022 of the range) times the slope of its
-/// sides, and a thing narrower than that may be missed.
+/// A transducer reads scan::least_range_in_cone_m(): the distance of the nearest point in its cone,
+/// from where the first echo comes, or what its ray meets first. Edges are in single precision
+/// about the robot, so the error is below 1e-7 of the greatest range. What is near the robot is
+/// collected once for all transducers.
 class Ranger final : public Sensor {
  public:
   /// @param type           "infrared" or "sonar".
@@ -75,9 +83,9 @@ class Ranger final : public Sensor {
   RangerParams params_;
   bool may_be_inside_;
   RandomStream noise_;
-  scan::ScanKernel kernel_;
+  double reach_m_ = 0.0;  ///< of the farthest transducer from the middle of the axle
   scan::EdgeBuffer edges_;
-  std::vector<double> beams_m_;  ///< scratch, one transducer's
+  std::vector<scan::Edge> seen_;  ///< scratch: those that any transducer may see
   RangerReading reading_;
 };
 

@@ -93,6 +93,8 @@ class Reader {
   [[nodiscard]] Colour colour(std::string_view key, Colour fallback);
   /// [x, y] in metres, each in `range`.
   [[nodiscard]] Vec2 vec2(std::string_view key, Vec2 fallback, NumberRange range = {});
+  /// As vec2(), of this value itself.
+  [[nodiscard]] Vec2 as_vec2(Vec2 fallback, NumberRange range = {});
   /// [columns, rows] or the like: two whole numbers, each from `min` to `max`.
   [[nodiscard]] std::array<std::int64_t, 2> integer_pair(std::string_view key,
                                                          std::array<std::int64_t, 2> fallback,

@@ -11,6 +11,13 @@
 
 namespace sim {
 
+/// A light on a robot.
+struct LightSnapshot {
+  Vec2 p_BL = Vec2::Zero();  ///< where it is, in B [m]
+  Colour colour;
+  bool lit = false;
+};
+
 /// How a robot looks at one moment.
 struct RobotSnapshot {
   std::string name;
@@ -20,6 +27,8 @@ struct RobotSnapshot {
   std::vector<Vec2> trail;          ///< where it has been, oldest first, in W [m]
   std::vector<Vec2> scan_points;    ///< hits of its newest laser scan in W [m], beam by beam
   Vec2 scan_origin = Vec2::Zero();  ///< where that laser stood, in W [m]
+  std::string says;                 ///< UTF-8; empty: nothing
+  std::vector<LightSnapshot> lights;
   bool stalled = false;
   bool marked = false;  ///< to be told apart from the others, as the one that a user chose
 };

@@ -34,6 +34,13 @@ struct Collision {
   std::string partner;  ///< name of the obstacle or robot; "border" or "wall"
 };
 
+/// Something that a robot said.
+struct Utterance {
+  SimTime time_ns = 0;
+  int robot = 0;     ///< index
+  std::string text;  ///< UTF-8
+};
+
 /// A thing of the scene: where it is and how much room it takes.
 struct SceneObject {
   std::string name;  ///< as in the world; "border" and "wall" (all of a map's) have no other
@@ -69,6 +76,8 @@ class Simulation {
   [[nodiscard]] const RobotStatistics& statistics(int robot) const;
   /// The newest collisions, oldest first; at most 1024 are kept, all are counted.
   [[nodiscard]] const std::vector<Collision>& collisions() const noexcept;
+  /// The newest things that robots said, oldest first; at most 1024 are kept.
+  [[nodiscard]] const std::vector<Utterance>& said() const noexcept;
 
   [[nodiscard]] int device_count(int robot) const;
   [[nodiscard]] const Device& device(int robot, int device) const;
@@ -120,6 +129,25 @@ class Simulation {
   /// Everything solid: robots, blocks, dock separators, then the border and the walls of a map as
   /// one thing each, if there are any. In the world's order.
   [[nodiscard]] std::vector<SceneObject> scene_objects() const;
+
+  /// The one of them with that name; nullopt if there is none.
+  [[nodiscard]] std::optional<SceneObject> find_object(const std::string& name) const;
+  /// What to tell somebody who asked for an object that is not there: names those there are.
+  [[nodiscard]] std::string no_such_object(const std::string& name) const;
+  /// Puts a robot or a block somewhere, at once: a robot as RobotControl::place() does, but its
+  /// motors go on as they were told last.
+  /// @param pose  X_WB of a robot, the middle of a block.
+  /// @return nothing if done, else why not: no such object, one that stands fast, or what is in the
+  ///         way. A block, unless it is retracted, is not put where a robot stands.
+  std::optional<std::string> place_object(const std::string& name, const Pose& pose);
+  /// Gives a block another size, at once.
+  /// @param size_m  along its own axes [m], each > 0.
+  /// @return as place_object().
+  std::optional<std::string> set_block_size(const std::string& name, const Vec2& size_m,
+                                            double height_m);
+  /// Gives a robot or a block another colour, in pictures.
+  /// @return nothing if done, else why not.
+  std::optional<std::string> set_object_colour(const std::string& name, Colour colour);
 
   /// The grid-maps: the canvas of all pens, and the layers that clients put over or under it.
   [[nodiscard]] LayerStack& layers() noexcept;

@@ -4,6 +4,7 @@
 #include <any>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct ObstacleDescription {
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
+  int fiducial = 0;  ///< what fiducial devices read of it; 0: they do not see it
+  std::optional<Colour> colour = {};               ///< in pictures; none: that of its type
 };
 
 /// A charging dock: a marked place on the floor, no obstacle.
@@ -58,6 +61,7 @@ struct MapDescription {
   double resolution_m = 0.05;       ///< side of a pixel [m]
   Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
   double occupied_threshold = 0.5;  ///< pixels darker than this share of white are walls, (0, 1)
+  double simplify_m = 0.0;  ///< outlines may be straightened by so much [m]; 0: pixel by pixel
 };
 
 /// The room: floor from `origin` to `origin + size`, borders round it unless turned off.
@@ -87,6 +91,8 @@ struct SimulationDescription {
                                  ///< playerlike::Session::prefer_real_time
   double time_factor = 1.0;      ///< paced: simulated seconds a wall second, > 0
   int start_gate_clients = 1;    ///< the clock waits until so many clients have joined, >= 1
+  bool objects_locked = false;   ///< clients may look at robots and obstacles by name, but not move
+                                 ///< or change them
 };
 
 /// A sensor or actuator of a robot.
@@ -103,16 +109,22 @@ struct DriverDescription {
   std::map<std::string, std::string> settings;
 };
 
+struct RobotModel;
+
 /// A robot as the world starts: model, place, devices and how clients reach it.
 struct RobotDescription {
-  std::string name;  ///< unique in the world; letters, digits, _ and -
-  std::string model = "s1r";
-  Pose pose;  ///< X_WB at the start
+  std::string name;           ///< unique in the world; letters, digits, _ and -
+  std::string model = "s1r";  ///< see find_robot_model()
+  Pose pose;                  ///< X_WB at the start
   Colour colour{0xff, 0x88, 0x00, 0xff};
   int port = 0;  ///< Player port; the reader gives 6665, 6666, ... by default
   std::vector<DeviceDescription> devices;  ///< in order of name
   std::map<std::string, int> proxies;      ///< interface name -> index on port 4000
+  std::map<std::string, std::vector<std::string>>
+      interfaces;  ///< interface name -> names of devices, by index on the robot's own port; those
+                   ///< not named follow in the usual order
   std::vector<DriverDescription> drivers;
+  int fiducial = 0;  ///< what fiducial devices of other robots read of it; 0: they do not see it
 };
 
 /// How the grid-map is shown in pictures, films and windows.
@@ -138,6 +150,8 @@ struct WorldDescription {
   std::string file;  ///< where it was read from, "" if nowhere
   ArenaDescription arena;
   SimulationDescription simulation;
+  /// The kinds of robot that are not the library's own, by what RobotDescription::model says.
+  std::map<std::string, std::shared_ptr<const RobotModel>> models;
   std::vector<RobotDescription> robots;
   CanvasDescription canvas;
 };

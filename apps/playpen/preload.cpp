@@ -1,0 +1,79 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "preload.h"
+
+#include <stdlib.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+namespace playpen {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kName = "libplaypen_virtual_time.so";
+// These would mean something to the loader, which knows no way to write them otherwise.
+constexpr const char* kSpecial = " :;$\t\n";
+
+/// The file, looked for beside the folder that this program lies in, so that an installed tree can be
+/// moved.
+fs::path find_library() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  std::string places;
+  for (const char* place : {PLAYPEN_LIBRARIES_FROM_COMMAND, "../lib"}) {
+    const fs::path file = (folder / place / "playpen" / kName).lexically_normal();
+    if (fs::is_regular_file(file, error)) return file;
+    if (places.empty()) places = file.string();
+  }
+  throw std::runtime_error(
+      "the library that makes sleeps of programs simulated time, " + places +
+      ", is missing; install Playpen again, or give --real-sleep to do without");
+}
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+}  // namespace
+
+PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()) {
+  if (file_.find_first_of(kSpecial) == std::string::npos) return;
+  // Then by another name. /tmp has none of them.
+  std::string folder = "/tmp/playpen-XXXXXX";
+  std::error_code error;
+  if (mkdtemp(folder.data()) == nullptr) {
+    error = std::error_code(errno, std::generic_category());
+  } else {
+    link_folder_ = folder;
+    fs::create_symlink(file_, fs::path(folder) / kName, error);
+  }
+  if (error) {
+    fs::remove_all(link_folder_, error);
+    throw std::runtime_error("the library " + file_ +
+                             " cannot be preloaded from a path with blanks, nor linked to from "
+                             "/tmp; give --real-sleep to do without");
+  }
+  file_ = (fs::path(folder) / kName).string();
+}
+
+PreloadedLibrary::~PreloadedLibrary() {
+  std::error_code ignored;
+  if (!link_folder_.empty()) fs::remove_all(link_folder_, ignored);
+}
+
+void PreloadedLibrary::add_to(playerlike::EnvironmentChanges& environment_changes) const {
+  const auto append = [&](const char* variable, const std::string& text) {
+    const std::string present = environment(variable);
+    environment_changes[variable] = present.empty() ? text : present + ':' + text;
+  };
+  append("LD_PRELOAD", file_);
+  // AddressSanitizer wants to be the first library. It need not be before this one.
+  append("ASAN_OPTIONS", "verify_asan_link_order=0");
+}
+
+}  // namespace playpen

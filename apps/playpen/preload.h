@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "playerlike/host/program.h"
+
+namespace playpen {
+
+/// The library that makes a program's time virtual (docs/virtual_time.md), made ready to be
+/// preloaded. To be kept until the program has ended.
+class PreloadedLibrary {
+ public:
+  /// Finds it: in lib/playpen beside the folder of this command, installed or built.
+  /// @throws std::runtime_error naming the places where it should be.
+  PreloadedLibrary();
+  PreloadedLibrary(const PreloadedLibrary&) = delete;
+  PreloadedLibrary& operator=(const PreloadedLibrary&) = delete;
+  ~PreloadedLibrary();
+
+  /// Lets a program load it, after what it is to preload anyway.
+  void add_to(playerlike::EnvironmentChanges& environment) const;
+
+ private:
+  std::string file_;
+  std::string link_folder_;  ///< "": not needed
+};
+
+}  // namespace playpen

@@ -1,0 +1,49 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "libplayerc++/clientproxy.h"
+
+namespace PlayerCc {
+
+/// Analog inputs and outputs of a robot; what stands at the inputs is told in docs/devices/aio.md.
+class AioProxy : public ClientProxy {
+ public:
+  /// @param aIndex  on a robot's own port the robot's devices of type "aio", counted from 0; on
+  /// port
+  ///                4000 the robot.
+  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  AioProxy(PlayerClient* aPc, uint32_t aIndex = 0);
+  ~AioProxy() override;
+
+  /// How many inputs there are; 0 before the first reading.
+  uint32_t GetCount() const;
+  /// Voltage at an input [V].
+  /// @throws PlayerError kBadArgument if there is no such input; the text says how many there are.
+  double GetVoltage(uint32_t aIndex) const;
+  /// Sets an output, from the next step on.
+  /// @param aVoltage  [V], at most 1e6 to either side.
+  /// @throws PlayerError kBadArgument if there is no such output, or no output has that voltage.
+  void SetVoltage(uint32_t aIndex, double aVoltage);
+  /// As GetVoltage().
+  double operator[](uint32_t aIndex) const { return GetVoltage(aIndex); }
+
+ protected:
+  void Subscribe(uint32_t aIndex) override;
+  void Unsubscribe() override;
+  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+  void HandleReading(const sim::Reading& aReading) override;
+
+ private:
+  std::vector<double> mInputs;  // guarded by the client's mutex
+};
+
+}  // namespace PlayerCc
+
+namespace std {
+/// Prints the voltages at the inputs.
+std::ostream& operator<<(std::ostream& os, const PlayerCc::AioProxy& c);
+}  // namespace std

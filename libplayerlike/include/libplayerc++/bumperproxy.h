@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "libplayerc++/clientproxy.h"
+
+namespace PlayerCc {
+
+/// A bumper of several segments round the robot.
+///
+/// A segment counts as pressed if it was so at any time since the reading before. Before the first
+/// reading there are 0 segments, and each reads 0; where they are is known from the start.
+///
+/// Errors: from the first reading on an index that is not below GetCount() is refused with
+/// PlayerError kBadArgument, at any time one of GetPose() that is not below GetPoseCount().
+class BumperProxy : public ClientProxy {
+ public:
+  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  BumperProxy(PlayerClient* aPc, uint32_t aIndex = 0);
+  ~BumperProxy() override;
+
+  uint32_t GetCount() const;                 ///< segments of the newest reading
+  uint32_t IsBumped(uint32_t aIndex) const;  ///< 1 if the segment is pressed, else 0
+  bool IsAnyBumped();                        ///< whether any segment is pressed
+  /// Asks for the places of the segments; known from the start.
+  void RequestBumperConfig();
+  uint32_t GetPoseCount() const;  ///< segments whose place is known
+  /// Where a segment is: the pose of its middle in the robot's body, whose x axis looks outwards,
+  /// its length and the radius of its arc [m]; 0: straight.
+  player_bumper_define_t GetPose(uint32_t aIndex) const;
+  /// IsBumped().
+  bool operator[](uint32_t aIndex) const;
+
+ protected:
+  void Subscribe(uint32_t aIndex) override;
+  void Unsubscribe() override;
+  void HandleReading(const sim::Reading& aReading) override;
+  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+
+ private:
+  std::vector<uint8_t> mPressed;
+  std::vector<player_bumper_define_t> mPoses;
+};
+
+}  // namespace PlayerCc
+
+namespace std {
+/// Prints the segments, one a line: x, y, yaw, length, radius, whether it is pressed.
+std::ostream& operator<<(std::ostream& os, const PlayerCc::BumperProxy& c);
+}  // namespace std

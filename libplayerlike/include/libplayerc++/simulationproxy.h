@@ -1,0 +1,81 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "libplayerc++/clientproxy.h"
+
+namespace PlayerCc {
+
+/// Robots and obstacles by name: where they are, in truth and not as any sensor has it, and how
+/// they look.
+///
+/// It is one for all robots: index 0 on every port. Names are those of the world's robots,
+/// obstacles and dock separators, "border" and "wall". Poses are in the world W [m, rad]: of the
+/// middle of a robot's axle, and of the middle of anything else. What is set is so at once, before
+/// the call returns; a robot's motors go on as they were told last. Nothing here lets simulated
+/// time pass.
+///
+/// All calls throw PlayerError: kBadArgument for a name or a property that is not there (the text
+/// tells what is), a null pointer, a value_len that does not fit, and for what cannot be done, such
+/// as putting a robot where an obstacle stands (the text tells which); kNotAvailable if the world
+/// or the server does not allow it; kDisconnected if the client is gone.
+class SimulationProxy : public ClientProxy {
+ public:
+  /// @throws PlayerError kNoSuchDevice for an index that is not 0, or a port without robots.
+  SimulationProxy(PlayerClient* aPc, uint32_t aIndex = 0);
+  ~SimulationProxy() override;
+
+  /// Puts a robot, or an obstacle that is no part of the walls, somewhere.
+  void SetPose2d(char* identifier, double x, double y, double a);
+  void GetPose2d(char* identifier, double& x, double& y, double& a);
+  /// The same: the world is flat, so z, roll and pitch do not matter.
+  void SetPose3d(char* identifier, double x, double y, double z, double roll, double pitch,
+                 double yaw);
+  /// z, roll and pitch are 0. @param time  simulated [s].
+  void GetPose3d(char* identifier, double& x, double& y, double& z, double& roll, double& pitch,
+                 double& yaw, double& time);
+
+  /// Copies a property; docs/simulation.md lists them, and the forms that each has.
+  /// @param value      room for it.
+  /// @param value_len  of that room [bytes]: it tells the form, e.g. 4 for a colour as 0xAARRGGBB.
+  void GetProperty(char* identifier, char* name, void* value, size_t value_len);
+  /// Changes a property; forms as for GetProperty().
+  void SetProperty(char* identifier, char* name, void* value, size_t value_len);
+
+  // The same for names that are literals.
+  void SetPose2d(const char* identifier, double x, double y, double a) {
+    SetPose2d(const_cast<char*>(identifier), x, y, a);
+  }
+  void GetPose2d(const char* identifier, double& x, double& y, double& a) {
+    GetPose2d(const_cast<char*>(identifier), x, y, a);
+  }
+  void SetPose3d(const char* identifier, double x, double y, double z, double roll, double pitch,
+                 double yaw) {
+    SetPose3d(const_cast<char*>(identifier), x, y, z, roll, pitch, yaw);
+  }
+  void GetPose3d(const char* identifier, double& x, double& y, double& z, double& roll,
+                 double& pitch, double& yaw, double& time) {
+    GetPose3d(const_cast<char*>(identifier), x, y, z, roll, pitch, yaw, time);
+  }
+  void GetProperty(const char* identifier, const char* name, void* value, size_t value_len) {
+    GetProperty(const_cast<char*>(identifier), const_cast<char*>(name), value, value_len);
+  }
+  void SetProperty(const char* identifier, const char* name, const void* value, size_t value_len) {
+    SetProperty(const_cast<char*>(identifier), const_cast<char*>(name), const_cast<void*>(value),
+                value_len);
+  }
+
+ protected:
+  void Subscribe(uint32_t aIndex) override;
+  void Unsubscribe() override;
+  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+};
+
+}  // namespace PlayerCc
+
+namespace std {
+/// Prints what every proxy prints.
+std::ostream& operator<<(std::ostream& os, const PlayerCc::SimulationProxy& c);
+}  // namespace std

@@ -1,0 +1,49 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "libplayerc++/clientproxy.h"
+
+namespace PlayerCc {
+
+/// An array of sonar transducers. Each reads how far the nearest thing in its cone is; one that
+/// meets nothing reads the array's greatest range. Before the first reading there are 0 ranges,
+/// while the places of the transducers are known from the start.
+class SonarProxy : public ClientProxy {
+ public:
+  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  SonarProxy(PlayerClient* aPc, uint32_t aIndex = 0);
+  ~SonarProxy() override;
+
+  uint32_t GetCount() const;  ///< ranges of the newest reading
+  /// A range [m]; -1 for an index that is not below GetCount(), as Player has it.
+  double GetScan(uint32_t aIndex) const;
+  /// GetScan().
+  double operator[](uint32_t aIndex) const;
+  uint32_t GetPoseCount() const;  ///< transducers whose place is known
+  /// Where a transducer is, in the robot's body; it looks along its x axis.
+  /// @throws PlayerError kBadArgument if the index is not below GetPoseCount().
+  player_pose3d_t GetPose(uint32_t aIndex) const;
+  /// Asks for the places; known from the start.
+  void RequestGeom();
+
+ protected:
+  void Subscribe(uint32_t aIndex) override;
+  void Unsubscribe() override;
+  void HandleReading(const sim::Reading& aReading) override;
+  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+
+ private:
+  std::vector<double> mRanges;
+  std::vector<player_pose3d_t> mPoses;
+};
+
+}  // namespace PlayerCc
+
+namespace std {
+/// Prints the transducers, one a line: x, y, yaw, range.
+std::ostream& operator<<(std::ostream& os, const PlayerCc::SonarProxy& c);
+}  // namespace std

@@ -1,0 +1,217 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/object_properties.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/core/colour.h"
+
+namespace playerlike {
+namespace {
+
+using sim::SceneObject;
+using sim::Simulation;
+using Numbers = std::vector<double>;
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw SessionError(SessionError::Code::kBadArgument, message);
+}
+
+// An object as its properties need it: of the world's lists it is in one at most.
+struct Subject {
+  SceneObject object;
+  const sim::RobotDescription* robot = nullptr;
+  int robot_index = -1;
+  const sim::ObstacleDescription* box = nullptr;  // a block or a separator
+};
+
+Subject subject(const Simulation& simulation, const std::string& name) {
+  Subject found{require_object(simulation, name)};
+  if (const auto robot = simulation.find_robot(name)) {
+    found.robot_index = *robot;
+    found.robot = &simulation.world().robots[static_cast<std::size_t>(*robot)];
+    return found;
+  }
+  const sim::ArenaDescription& arena = simulation.world().arena;
+  for (const auto* boxes : {&arena.obstacles, &arena.dock_separators}) {
+    for (const sim::ObstacleDescription& box : *boxes) {
+      if (found.box == nullptr && box.name == name) found.box = &box;
+    }
+  }
+  return found;
+}
+
+double height_m(const Simulation& simulation, const Subject& s) {
+  if (s.robot != nullptr) return simulation.model(s.robot_index).height_m;
+  if (s.box != nullptr) return s.box->height_m;
+  if (s.object.kind == "border") return simulation.world().arena.border_height_m;
+  return 0.0;  // walls of a map have none of their own
+}
+
+const Numbers& numbers(const PropertyValue& value, const std::string& property, std::size_t least,
+                       std::size_t most) {
+  const auto* list = std::get_if<Numbers>(&value);
+  const bool finite = list != nullptr && std::all_of(list->begin(), list->end(),
+                                                     [](double x) { return std::isfinite(x); });
+  if (!finite || list->size() < least || list->size() > most) {
+    refuse("the property \"" + property + "\" takes " + std::to_string(least) +
+           (least == most ? "" : " or " + std::to_string(most)) + " finite numbers");
+  }
+  return *list;
+}
+
+const std::string& text(const PropertyValue& value, const std::string& property) {
+  const auto* words = std::get_if<std::string>(&value);
+  if (words == nullptr) refuse("the property \"" + property + "\" takes a text");
+  return *words;
+}
+
+void require_done(const std::optional<std::string>& refusal) {
+  if (refusal) refuse(*refusal);
+}
+
+// One property: which objects have it, how it is read and (unless it cannot be) changed.
+struct Property {
+  std::string_view name;
+  bool (*has)(const Subject& s);
+  PropertyValue (*get)(const Simulation& simulation, const Subject& s);
+  void (*set)(Simulation& simulation, const Subject& s, const PropertyValue& value);
+};
+
+bool is_robot(const Subject& s) { return s.robot != nullptr; }
+bool is_block(const Subject& s) { return s.object.kind == "block"; }
+bool is_any(const Subject&) { return true; }
+
+constexpr Property kProperties[] = {
+    {"colour", [](const Subject& s) { return is_robot(s) || is_block(s); },
+     [](const Simulation&, const Subject& s) -> PropertyValue {
+       if (s.robot != nullptr) return sim::to_string(s.robot->colour);
+       // As pictures have them.
+       const sim::Colour by_type = s.box->type == sim::ObstacleType::kDynamic
+                                       ? sim::Colour{0xd6, 0x45, 0x41, 0xff}
+                                       : sim::Colour{0xcd, 0xd1, 0xd6, 0xff};
+       return sim::to_string(s.box->colour.value_or(by_type));
+     },
+     [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
+       const auto colour = sim::parse_colour(text(value, "colour"));
+       if (!colour) {
+         refuse("a colour is \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\", but this is \"" +
+                text(value, "colour").substr(0, 20) + '"');
+       }
+       require_done(simulation.set_object_colour(s.object.name, *colour));
+     }},
+    {"dynamics", is_robot,
+     [](const Simulation& simulation, const Subject& s) -> PropertyValue {
+       return Numbers{simulation.robot_dynamics(s.robot_index) ? 1.0 : 0.0};
+     },
+     [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
+       const bool on = numbers(value, "dynamics", 1, 1).front() != 0.0;
+       require_done(simulation.set_robot_dynamics(s.robot_index, on));
+     }},
+    {"kind", is_any,
+     [](const Simulation&, const Subject& s) -> PropertyValue { return s.object.kind; }, nullptr},
+    {"model", is_robot,
+     [](const Simulation&, const Subject& s) -> PropertyValue { return s.robot->model; }, nullptr},
+    {"pose", is_any,
+     [](const Simulation&, const Subject& s) -> PropertyValue {
+       const sim::Pose& pose = s.object.pose;
+       return Numbers{pose.x_m, pose.y_m, pose.yaw_rad};
+     },
+     [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
+       const Numbers& n = numbers(value, "pose", 3, 3);
+       place_object(simulation, s.object.name, {n[0], n[1], n[2]});
+     }},
+    {"size", is_any,
+     [](const Simulation& simulation, const Subject& s) -> PropertyValue {
+       return Numbers{s.object.size.x(), s.object.size.y(), height_m(simulation, s)};
+     },
+     [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
+       const Numbers& n = numbers(value, "size", 2, 3);
+       const double height = n.size() == 3 ? n[2] : height_m(simulation, s);
+       require_done(simulation.set_block_size(s.object.name, {n[0], n[1]}, height));
+     }},
+    {"stalled", is_robot,
+     [](const Simulation& simulation, const Subject& s) -> PropertyValue {
+       return Numbers{simulation.body(s.robot_index).stalled ? 1.0 : 0.0};
+     },
+     nullptr},
+    {"state", is_block,
+     [](const Simulation&, const Subject& s) -> PropertyValue {
+       return std::string(s.object.extended ? "extended" : "retracted");
+     },
+     [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
+       const std::string& word = text(value, "state");
+       if (word != "extended" && word != "retracted") {
+         refuse("the state of a block is \"extended\" or \"retracted\"");
+       }
+       require_done(simulation.set_obstacle_state(
+           s.object.name,
+           word == "extended" ? sim::ObstacleState::kExtended : sim::ObstacleState::kRetracted));
+     }},
+    {"type", is_block,
+     [](const Simulation&, const Subject& s) -> PropertyValue {
+       return std::string(s.object.dynamic ? "dynamic" : "static");
+     },
+     nullptr},
+    {"velocity", is_robot,
+     [](const Simulation& simulation, const Subject& s) -> PropertyValue {
+       const sim::Twist& twist = simulation.body(s.robot_index).twist;
+       return Numbers{twist.v_mps, twist.lateral_mps, twist.omega_radps};
+     },
+     nullptr},
+};
+
+const Property& require_property(const Subject& s, const std::string& name) {
+  std::string known;
+  for (const Property& property : kProperties) {
+    if (!property.has(s)) continue;
+    if (property.name == name) return property;
+    known += (known.empty() ? "" : ", ") + std::string(property.name);
+  }
+  refuse(s.object.kind + " \"" + s.object.name + "\" has no property \"" + name +
+         "\"; it has: " + known);
+}
+
+}  // namespace
+
+sim::SceneObject require_object(const Simulation& simulation, const std::string& name) {
+  std::optional<SceneObject> object = simulation.find_object(name);
+  if (!object) refuse(simulation.no_such_object(name));
+  return std::move(*object);
+}
+
+void place_object(Simulation& simulation, const std::string& name, const sim::Pose& pose) {
+  // Farther than this nothing can be meant, and Box2D would lose its wits.
+  constexpr double kFarthest_m = 1e6;
+  for (const double x : {pose.x_m, pose.y_m, pose.yaw_rad}) {
+    if (!(std::abs(x) <= kFarthest_m)) {
+      refuse("a pose takes three finite numbers: x and y [m] and the heading [rad]");
+    }
+  }
+  require_done(
+      simulation.place_object(name, {pose.x_m, pose.y_m, sim::normalize_angle(pose.yaw_rad)}));
+}
+
+PropertyValue object_property(const Simulation& simulation, const std::string& name,
+                              const std::string& property) {
+  const Subject s = subject(simulation, name);
+  return require_property(s, property).get(simulation, s);
+}
+
+void set_object_property(Simulation& simulation, const std::string& name,
+                         const std::string& property, const PropertyValue& value) {
+  const Subject s = subject(simulation, name);
+  const Property& found = require_property(s, property);
+  if (found.set == nullptr) {
+    refuse("the property \"" + property + "\" of " + s.object.kind + " \"" + name +
+           "\" cannot be changed");
+  }
+  found.set(simulation, s, value);
+}
+
+}  // namespace playerlike

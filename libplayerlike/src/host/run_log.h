@@ -1,0 +1,70 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "playerlike/messages/messages.h"
+#include "sim/simulation/simulation.h"
+
+namespace playerlike {
+
+/// The log of a port: writes the readings of the port's robots into a file, or lets such a file
+/// take the place of their devices. Lines of JSON; docs/log.md tells what is in them.
+class RunLog {
+ public:
+  /// A reading of a file.
+  struct Entry {
+    sim::SimTime offset_ns = 0;  ///< after the log's beginning
+    DeviceId device{-1, -1};
+    std::unique_ptr<sim::Reading> reading;
+  };
+
+  /// @param folder  of the run's results; "": there is none.
+  /// @param robots  all of the world; must live as long as this.
+  RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots);
+
+  /// Makes changes, in the order that LogControl lists them in, and tells what is then.
+  /// @throws SessionError as Session::control_log(); what came before the change in question is
+  /// done.
+  LogStatus control(const LogControl& changes, const sim::Simulation& simulation);
+
+  /// Called after each step: writes the step's readings, or finds those that are due.
+  /// @return what has gone wrong, once; the log is then stopped.
+  std::optional<std::string> observe(const sim::Simulation& simulation);
+
+  /// Whether readings are to come from due() now, and not from the devices.
+  [[nodiscard]] bool replaying() const noexcept { return replaying_step_; }
+  /// Readings that were due in the last step, oldest first, stamped with the present run's time.
+  [[nodiscard]] const std::vector<const Entry*>& due() const noexcept { return due_; }
+
+  /// Completes the file. @return what has gone wrong.
+  std::optional<std::string> close();
+
+ private:
+  [[nodiscard]] std::string path() const;
+  void start(const sim::Simulation& simulation);
+  void load();
+  void read_line(const std::string& line, int number);
+  void write(const sim::Simulation& simulation);
+  void find_due(sim::SimTime now_ns);
+
+  std::string folder_;
+  int port_;
+  const std::vector<RobotInfo>* robots_;
+  LogStatus status_;
+  std::ofstream out_;
+  std::size_t written_ = 0;  ///< bytes
+  std::vector<Entry> entries_;
+  std::size_t next_ = 0;        ///< of entries_
+  sim::SimTime begin_ns_ = 0;   ///< of the log, in its own time
+  sim::SimTime played_ns_ = 0;  ///< since then
+  bool replaying_step_ = false;
+  std::vector<const Entry*> due_;
+};
+
+}  // namespace playerlike

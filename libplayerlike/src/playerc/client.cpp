@@ -1,0 +1,499 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerc/client.h"
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <list>
+#include <string>
+#include <thread>
+
+#include "devices/errors.h"
+#include "playerc/device.h"
+#include "playerc/guard.h"
+#include "proxies/link.h"
+
+namespace playerlike::clib {
+
+using PlayerCc::PlayerClient;
+using PlayerCc::PlayerError;
+using std::chrono::milliseconds;
+
+namespace {
+
+// How long a peek without end waits at a time, and how long one client of several is waited for
+// before the others are looked at: a step of most worlds.
+constexpr milliseconds kLong(1000);
+constexpr milliseconds kShort(10);
+
+template <typename T>
+void erase(std::vector<T*>& list, const T* item) noexcept {
+  list.erase(std::remove(list.begin(), list.end(), item), list.end());
+}
+
+}  // namespace
+
+Client::Client(const char* a_host, int a_port) : playerc_client_t() {
+  id = static_cast<playerc_client_t*>(this);
+  host = strdup(a_host == nullptr ? "localhost" : a_host);
+  if (host == nullptr) throw std::bad_alloc();
+  port = a_port;
+  transport = PLAYERC_TRANSPORT_TCP;
+  mode = PLAYERC_DATAMODE_PUSH;
+  retry_time = 10.0;
+  request_timeout = 10.0;
+  sock = -1;
+}
+
+Client::~Client() {
+  disconnect();
+  for (Device* device : devices_) device->client_is_gone();
+  for (playerc_mclient_t* group : groups_) {
+    auto* const end = std::remove(group->client, group->client + group->client_count,
+                                  static_cast<playerc_client_t*>(this));
+    group->client_count = static_cast<int>(end - group->client);
+  }
+  std::free(host);
+}
+
+Client& Client::of(playerc_client_t* client) {
+  if (client == nullptr) refuse("the client is a null pointer");
+  return static_cast<Client&>(*client);
+}
+
+void Client::connect() {
+  if (player_ != nullptr) return;
+  if (port < 0) refuse("there is no port " + std::to_string(port));
+  auto player = std::make_unique<PlayerClient>(host, static_cast<uint32_t>(port), transport);
+  player->SetRequestTimeout(static_cast<uint32_t>(std::max(request_timeout, 0.0)));
+  player->SetRetryTime(retry_time);
+  player->SetRetryLimit(retry_limit);
+  for (const ReplaceRule& rule : replace_rules_) {
+    if (rule.index == -1) player->SetReplaceRule(rule.replace, -1, -1, rule.code);
+  }
+  player_ = std::move(player);
+  connected = 1;
+}
+
+void Client::disconnect() noexcept {
+  for (Device* device : devices_) device->unsubscribe();
+  player_.reset();
+  arrived_.clear();
+  qlen = 0;
+  connected = 0;
+}
+
+PlayerClient& Client::player() const {
+  if (player_ == nullptr) {
+    throw PlayerError("", "the client is not connected (call playerc_client_connect() first)",
+                      PlayerError::kDisconnected);
+  }
+  return *player_;
+}
+
+bool Client::look() {
+  if (!arrived_.empty()) return true;
+  const std::shared_ptr<ClientCore>& core = PlayerCc::detail::CoreAccess::get(player());
+  if (translated("", [&] { return core->read_what_waits(); })) end_round();
+  return !arrived_.empty();
+}
+
+bool Client::peek(milliseconds timeout) {
+  if (!arrived_.empty()) return true;
+  if (timeout.count() >= 0) return player().Peek(static_cast<uint32_t>(timeout.count()));
+  while (!player().Peek(static_cast<uint32_t>(kLong.count()))) {
+  }
+  return true;
+}
+
+void Client::read_round() {
+  player().Read();
+  end_round();
+}
+
+void Client::end_round() {
+  // A round without data is one of a client without subscriptions.
+  if (mode == PLAYERC_DATAMODE_PULL || arrived_.empty()) arrived_.push_back(nullptr);
+  overflow_count = player().GetOverflowCount();
+  qlen = static_cast<int>(arrived_.size());
+}
+
+void* Client::deliver() {
+  if (arrived_.empty()) return nullptr;
+  Device* const device = arrived_.front();
+  arrived_.pop_front();
+  qlen = static_cast<int>(arrived_.size());
+  return device == nullptr ? id : device->deliver();
+}
+
+void Client::add(Device& device) { devices_.push_back(&device); }
+
+void Client::remove(Device& device) noexcept {
+  erase(devices_, &device);
+  forget_arrival(device);
+}
+
+void Client::note_arrival(Device& device) { arrived_.push_back(&device); }
+
+void Client::forget_arrival(const Device& device) noexcept {
+  arrived_.erase(std::remove(arrived_.begin(), arrived_.end(), &device), arrived_.end());
+  qlen = static_cast<int>(arrived_.size());
+}
+
+Device* Client::find(const playerc_device_t* common) const noexcept {
+  const auto it = std::find_if(devices_.begin(), devices_.end(),
+                               [&](const Device* d) { return &d->common() == common; });
+  return it == devices_.end() ? nullptr : *it;
+}
+
+Device* Client::find(int code, int index) const noexcept {
+  const auto it = std::find_if(devices_.begin(), devices_.end(), [&](const Device* d) {
+    return d->common().addr.interf == code && d->common().addr.index == index;
+  });
+  return it == devices_.end() ? nullptr : *it;
+}
+
+void Client::set_replace_rule(int code, int index, int type, bool replace) {
+  if (type != -1 && type != PLAYER_MSGTYPE_DATA) return;
+  if (code == -1) index = -1;
+  if (player_ != nullptr && index == -1) player_->SetReplaceRule(replace, type, -1, code);
+  replace_rules_.push_back({code, index, replace});
+  for (Device* device : devices_) {
+    const player_devaddr_t& addr = device->common().addr;
+    if (index == addr.index && code == addr.interf) apply_replace_rules(*device);
+  }
+}
+
+void Client::apply_replace_rules(Device& device) {
+  const player_devaddr_t& addr = device.common().addr;
+  const auto fits = [&](const ReplaceRule& rule) {
+    return (rule.code == -1 || rule.code == addr.interf) &&
+           (rule.index == -1 || rule.index == addr.index);
+  };
+  // The last one that was said of it.
+  const auto it = std::find_if(replace_rules_.rbegin(), replace_rules_.rend(), fits);
+  if (it != replace_rules_.rend() && device.proxy() != nullptr) {
+    device.proxy()->SetReplaceRule(it->replace);
+  }
+}
+
+void Client::leave(const playerc_mclient_t& group) noexcept { erase(groups_, &group); }
+
+namespace {
+
+// Readies clients for reading: each that has data, else (after letting time go on) the run's end.
+std::vector<Client*> wait_for_any(const playerc_mclient_t& group, int timeout_ms) {
+  std::vector<Client*> clients;
+  for (int i = 0; i < group.client_count; ++i) {
+    Client& client = Client::of(group.client[i]);
+    if (client.connected != 0) clients.push_back(&client);
+  }
+  if (clients.empty()) refuse("there is no client that is connected");
+  milliseconds left(timeout_ms);
+  for (std::size_t turn = 0;; ++turn) {
+    std::vector<Client*> ready;
+    std::copy_if(clients.begin(), clients.end(), std::back_inserter(ready),
+                 [](Client* client) { return client->look(); });
+    if (!ready.empty()) return ready;
+    if (timeout_ms >= 0 && left.count() <= 0) return {};
+    // All clients of a thread wait while one of them does, so any will do; but they may belong to
+    // different simulations, each of which must go on.
+    Client* const client = clients[turn % clients.size()];
+    const milliseconds wait = timeout_ms < 0 ? kShort : std::min(kShort, left);
+    if (client->peek(wait) && !client->look()) return {client};  // the run is over
+    left -= wait;
+  }
+}
+
+}  // namespace
+}  // namespace playerlike::clib
+
+// --- Several clients
+
+using playerlike::clib::Client;
+using playerlike::clib::Device;
+using playerlike::clib::guarded;
+using playerlike::clib::refuse;
+using std::chrono::milliseconds;
+
+namespace {
+
+playerc_mclient_t& require(playerc_mclient_t* mclient) {
+  if (mclient == nullptr) refuse("the list of clients is a null pointer");
+  return *mclient;
+}
+
+}  // namespace
+
+playerc_mclient_t* playerc_mclient_create(void) {
+  return guarded(__func__, [] { return std::make_unique<playerc_mclient_t>().release(); });
+}
+
+void playerc_mclient_destroy(playerc_mclient_t* mclient) {
+  if (mclient == nullptr) return;
+  for (int i = 0; i < mclient->client_count; ++i) Client::of(mclient->client[i]).leave(*mclient);
+  delete mclient;
+}
+
+int playerc_mclient_addclient(playerc_mclient_t* mclient, struct _playerc_client_t* client) {
+  return guarded(__func__, [&] {
+    playerc_mclient_t& group = require(mclient);
+    Client& added = Client::of(client);
+    if (group.client_count >= static_cast<int>(std::size(group.client))) {
+      refuse("the list holds " + std::to_string(group.client_count) + " clients already");
+    }
+    added.join(group);
+    group.client[group.client_count++] = client;
+  });
+}
+
+int playerc_mclient_peek(playerc_mclient_t* mclient, int timeout) {
+  return guarded(__func__, [&] {
+    return playerlike::clib::wait_for_any(require(mclient), timeout).empty() ? 0 : 1;
+  });
+}
+
+int playerc_mclient_read(playerc_mclient_t* mclient, int timeout) {
+  return guarded(__func__, [&] {
+    playerc_mclient_t& group = require(mclient);
+    int count = 0;
+    for (Client* client : playerlike::clib::wait_for_any(group, timeout)) {
+      // A callback of one may have destroyed the next.
+      auto** const end = group.client + group.client_count;
+      if (std::find(group.client, end, static_cast<playerc_client_t*>(client)) == end) continue;
+      if (client->look()) {
+        client->deliver();
+      } else {
+        client->read_round();  // says why there is nothing more
+      }
+      group.time = std::max(group.time, client->datatime);
+      ++count;
+    }
+    return count;
+  });
+}
+
+// --- One client
+
+playerc_client_t* playerc_client_create(playerc_mclient_t* mclient, const char* host, int port) {
+  return guarded(__func__, [&]() -> playerc_client_t* {
+    auto client = std::make_unique<Client>(host, port);
+    if (mclient != nullptr) playerc_mclient_addclient(mclient, client.get());
+    return client.release();
+  });
+}
+
+void playerc_client_destroy(playerc_client_t* client) {
+  if (client != nullptr) delete &Client::of(client);
+}
+
+void playerc_client_set_transport(playerc_client_t* client, unsigned int transport) {
+  guarded(__func__, [&] { Client::of(client).transport = static_cast<int>(transport); });
+}
+
+int playerc_client_connect(playerc_client_t* client) {
+  return guarded(__func__, [&] { Client::of(client).connect(); });
+}
+
+int playerc_client_disconnect(playerc_client_t* client) {
+  return guarded(__func__, [&] { Client::of(client).disconnect(); });
+}
+
+int playerc_client_disconnect_retry(playerc_client_t* client) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    std::vector<Device*> subscribed;
+    std::copy_if(self.all().begin(), self.all().end(), std::back_inserter(subscribed),
+                 [](const Device* device) { return device->common().subscribed != 0; });
+    self.disconnect();
+    if (self.retry_limit == 0) {
+      refuse("no tries are allowed (call playerc_client_set_retry_limit() first)");
+    }
+    for (int tried = 1;; ++tried) {
+      try {
+        self.connect();
+        break;
+      } catch (const PlayerCc::PlayerError&) {
+        if (self.retry_limit > 0 && tried >= self.retry_limit) throw;
+      }
+      std::this_thread::sleep_for(std::chrono::duration<double>(self.retry_time));
+    }
+    for (Device* device : subscribed) device->subscribe(PLAYERC_OPEN_MODE);
+  });
+}
+
+int playerc_client_datamode(playerc_client_t* client, uint8_t mode) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    self.player().SetDataMode(mode);
+    self.mode = mode;
+  });
+}
+
+int playerc_client_requestdata(playerc_client_t* client) {
+  return guarded(__func__, [&] { static_cast<void>(Client::of(client).player()); });
+}
+
+int playerc_client_set_replace_rule(playerc_client_t* client, int interf, int index, int type,
+                                    int /*subtype*/, int replace) {
+  return guarded(__func__,
+                 [&] { Client::of(client).set_replace_rule(interf, index, type, replace != 0); });
+}
+
+int playerc_client_adddevice(playerc_client_t* client, struct _playerc_device_t* device) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    if (device == nullptr) refuse("the device is a null pointer");
+    if (self.device_count >= PLAYER_MAX_DEVICES) {
+      refuse("the client has " + std::to_string(self.device_count) + " devices already");
+    }
+    device->fresh = 0;
+    self.device[self.device_count++] = device;
+  });
+}
+
+int playerc_client_deldevice(playerc_client_t* client, struct _playerc_device_t* device) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    auto** const end = self.device + self.device_count;
+    auto** const at = std::find(self.device, end, device);
+    if (at == end) refuse("the client has no such device");
+    std::copy(at + 1, end, at);
+    --self.device_count;
+  });
+}
+
+int playerc_client_addcallback(playerc_client_t* /*client*/, struct _playerc_device_t* device,
+                               playerc_callback_fn_t callback, void* data) {
+  return guarded(__func__, [&] {
+    if (device == nullptr || callback == nullptr) refuse("device or callback is a null pointer");
+    if (device->callback_count >= static_cast<int>(std::size(device->callback))) {
+      refuse("the device has " + std::to_string(device->callback_count) + " callbacks already");
+    }
+    device->callback[device->callback_count] = callback;
+    device->callback_data[device->callback_count] = data;
+    ++device->callback_count;
+  });
+}
+
+int playerc_client_delcallback(playerc_client_t* /*client*/, struct _playerc_device_t* device,
+                               playerc_callback_fn_t callback, void* data) {
+  return guarded(__func__, [&] {
+    if (device == nullptr) refuse("the device is a null pointer");
+    int kept = 0;
+    for (int i = 0; i < device->callback_count; ++i) {
+      if (device->callback[i] == callback && device->callback_data[i] == data) continue;
+      device->callback[kept] = device->callback[i];
+      device->callback_data[kept] = device->callback_data[i];
+      ++kept;
+    }
+    device->callback_count = kept;
+  });
+}
+
+int playerc_client_get_devlist(playerc_client_t* client) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    self.player().RequestDeviceList();
+    const std::list<playerc_device_info_t> found = self.player().GetDeviceList();
+    const std::size_t count = std::min<std::size_t>(found.size(), PLAYER_MAX_DEVICES);
+    std::copy_n(found.begin(), count, self.devinfos);
+    self.devinfo_count = static_cast<int>(count);
+  });
+}
+
+int playerc_client_subscribe(playerc_client_t* client, int code, int index, int access,
+                             char* drivername, size_t len) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    std::string name;
+    if (Device* const device = self.find(code, index)) {
+      device->subscribe(access);
+      name = device->common().drivername;
+    } else {
+      name = playerlike::clib::driver_at(self.player(), code, index);
+    }
+    if (drivername == nullptr || len == 0) return;
+    drivername[name.copy(drivername, len - 1)] = '\0';
+  });
+}
+
+int playerc_client_unsubscribe(playerc_client_t* client, int code, int index) {
+  return guarded(__func__, [&] {
+    if (Device* const device = Client::of(client).find(code, index)) device->unsubscribe();
+  });
+}
+
+int playerc_client_request(playerc_client_t* /*client*/, struct _playerc_device_t* /*device*/,
+                           uint8_t /*reqtype*/, const void* /*req_data*/, void** /*rep_data*/) {
+  return guarded(__func__, [] {
+    refuse("there are no messages here: call the function of the device that makes the request");
+  });
+}
+
+int playerc_client_write(playerc_client_t* /*client*/, struct _playerc_device_t* /*device*/,
+                         uint8_t /*subtype*/, void* /*cmd*/, double* /*timestamp*/) {
+  return guarded(__func__, [] {
+    refuse("there are no messages here: call the function of the device that gives the command");
+  });
+}
+
+int playerc_client_peek(playerc_client_t* client, int timeout) {
+  return guarded(__func__, [&] { return Client::of(client).peek(milliseconds(timeout)) ? 1 : 0; });
+}
+
+int playerc_client_internal_peek(playerc_client_t* client, int timeout) {
+  return playerc_client_peek(client, timeout);
+}
+
+void* playerc_client_read(playerc_client_t* client) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    if (void* const told = self.deliver()) return told;
+    self.read_round();
+    return self.deliver();
+  });
+}
+
+int playerc_client_read_nonblock(playerc_client_t* client) {
+  return playerc_client_read_nonblock_withproxy(client, nullptr);
+}
+
+int playerc_client_read_nonblock_withproxy(playerc_client_t* client, void** proxy) {
+  return guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    void* told = self.deliver();
+    if (told == nullptr) {
+      if (!self.peek(milliseconds(0))) return 0;
+      self.read_round();
+      told = self.deliver();
+    }
+    if (proxy != nullptr) *proxy = told;
+    return 1;
+  });
+}
+
+void playerc_client_set_request_timeout(playerc_client_t* client, uint32_t seconds) {
+  guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    self.request_timeout = seconds;
+    if (self.connected != 0) self.player().SetRequestTimeout(seconds);
+  });
+}
+
+void playerc_client_set_retry_limit(playerc_client_t* client, int limit) {
+  guarded(__func__, [&] {
+    Client& self = Client::of(client);
+    self.retry_limit = limit;
+    if (self.connected != 0) self.player().SetRetryLimit(limit);
+  });
+}
+
+void playerc_client_set_retry_time(playerc_client_t* client, double time) {
+  guarded(__func__, [&] {
+    playerlike::require_finite("", {{"the time between retries", time}});
+    Client& self = Client::of(client);
+    self.retry_time = std::max(time, 0.0);
+    if (self.connected != 0) self.player().SetRetryTime(time);
+  });
+}

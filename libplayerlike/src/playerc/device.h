@@ -1,0 +1,133 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libplayerc++/clientproxy.h"
+#include "libplayerc/playerc.h"
+#include "playerc/client.h"
+#include "playerc/guard.h"
+
+namespace playerlike::clib {
+
+/// What the library keeps beside the struct of a device: the proxy that does its work while it is
+/// subscribed to.
+class Device {
+ public:
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  virtual ~Device();
+
+  /// The common part of the struct.
+  [[nodiscard]] playerc_device_t& common() noexcept { return common_; }
+  [[nodiscard]] const playerc_device_t& common() const noexcept { return common_; }
+  /// Null while it is not subscribed to.
+  [[nodiscard]] virtual PlayerCc::ClientProxy* proxy() noexcept = 0;
+
+  /// Belongs to a client from now on; null: to none.
+  void begin(playerc_client_t* client, int code, int index);
+  /// @throws PlayerError, which names the devices there are if there is no such one.
+  void subscribe(int access);
+  void unsubscribe() noexcept;
+  void client_is_gone() noexcept;
+
+  /// Takes over what the proxy has, and calls the callbacks. @return the struct.
+  void* deliver();
+
+ protected:
+  explicit Device(playerc_device_t& common) : common_(common) {}
+
+  /// Makes the proxy, for the address in the common part.
+  virtual void attach(PlayerCc::PlayerClient& player) = 0;
+  virtual void detach() noexcept = 0;
+  /// Whether what the proxy has read is to be told of; called after each round.
+  [[nodiscard]] virtual bool has_news() { return true; }
+  /// Copies new data from the proxy to the struct.
+  virtual void refresh() = 0;
+
+ private:
+  playerc_device_t& common_;
+  Client* client_ = nullptr;
+};
+
+/// A struct of the C library over a proxy of libplayerc++.
+template <typename CStruct, typename Proxy>
+class Backed : public CStruct, public Device {
+ public:
+  using Struct = CStruct;
+
+  Backed() : CStruct(), Device(static_cast<CStruct*>(this)->info) {}
+
+  [[nodiscard]] Proxy* proxy() noexcept override { return proxy_.get(); }
+  /// @throws PlayerError if the device is not subscribed to.
+  [[nodiscard]] Proxy& used() const {
+    if (proxy_ == nullptr) refuse("the device is not subscribed to");
+    return *proxy_;
+  }
+
+ protected:
+  void attach(PlayerCc::PlayerClient& player) override {
+    proxy_ = std::make_unique<Proxy>(&player, this->info.addr.index);
+  }
+  void detach() noexcept override { proxy_.reset(); }
+  void refresh() override {}
+
+ private:
+  std::unique_ptr<Proxy> proxy_;
+};
+
+/// The kind of device at an address of the client's port.
+/// @throws PlayerError kNoSuchDevice, naming the devices that there are.
+[[nodiscard]] std::string driver_at(PlayerCc::PlayerClient& player, int code, int index);
+
+/// The device behind a struct. @throws PlayerError for a null pointer.
+template <typename T>
+[[nodiscard]] T& device_of(typename T::Struct* device) {
+  if (device == nullptr) refuse("the device is a null pointer");
+  return static_cast<T&>(*device);
+}
+
+/// action(device) for the device behind a struct, as guarded().
+template <typename T, typename Action>
+auto with_device(const char* fun, typename T::Struct* device, Action action) {
+  return guarded(fun, [&] { return action(device_of<T>(device)); });
+}
+
+/// Fills an array that a struct points to. @return where it is; null if it is empty.
+template <typename T, typename Element>
+[[nodiscard]] T* copied(std::vector<T>& array, uint32_t count, Element element) {
+  array.resize(count);
+  for (uint32_t i = 0; i < count; ++i) array[i] = element(i);
+  return count == 0 ? nullptr : array.data();
+}
+
+/// Gives a result to a caller who has said where, or not.
+template <typename T, typename Value>
+void tell(T* where, Value value) {
+  if (where != nullptr) *where = static_cast<T>(value);
+}
+
+/// The four functions that all devices have.
+#define PLAYERLIKE_CLIB_FRAME(name, Type, code)                                                    \
+  playerc_##name##_t* playerc_##name##_create(playerc_client_t* client, int index) {               \
+    return playerlike::clib::guarded(                                                              \
+        __func__, [&]() -> playerc_##name##_t* {                                                   \
+          auto device = std::make_unique<Type>();                                                  \
+          device->begin(client, code, index);                                                      \
+          return device.release();                                                                 \
+        });                                                                                        \
+  }                                                                                                \
+  void playerc_##name##_destroy(playerc_##name##_t* device) { delete static_cast<Type*>(device); } \
+  int playerc_##name##_subscribe(playerc_##name##_t* device, int access) {                         \
+    return playerlike::clib::with_device<Type>(__func__, device,                                   \
+                                               [&](Type& self) { self.subscribe(access); });       \
+  }                                                                                                \
+  int playerc_##name##_unsubscribe(playerc_##name##_t* device) {                                   \
+    return playerlike::clib::with_device<Type>(__func__, device,                                   \
+                                               [](Type& self) { self.unsubscribe(); });            \
+  }
+
+}  // namespace playerlike::clib

@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerc/guard.h"
+
+#include "libplayerc/playerc.h"
+
+namespace playerlike::clib {
+namespace {
+
+// Each thread has its own, so that a text does not change while its reader looks at it.
+std::string& last_error() {
+  thread_local std::string text;
+  return text;
+}
+
+}  // namespace
+
+void set_error(const char* fun, const std::string& why) {
+  last_error() = std::string(fun) + ": " + why;
+}
+
+void refuse(const std::string& why) {
+  throw PlayerCc::PlayerError("", why, PlayerCc::PlayerError::kBadArgument);
+}
+
+}  // namespace playerlike::clib
+
+const char* playerc_error_str(void) { return playerlike::clib::last_error().c_str(); }
+
+int playerc_add_xdr_ftable(playerxdr_function_t* /*flist*/, int /*replace*/) {
+  return playerlike::clib::guarded(__func__, [] {
+    playerlike::clib::refuse(
+        "messages of new kinds cannot be added: nothing is packed into messages here");
+  });
+}

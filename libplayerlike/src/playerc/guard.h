@@ -1,0 +1,43 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <exception>
+#include <string>
+#include <type_traits>
+
+#include "libplayerc++/playererror.h"
+
+namespace playerlike::clib {
+
+/// Notes why a function of the C library fails, for playerc_error_str() in this thread.
+void set_error(const char* fun, const std::string& why);
+
+/// Does what a function of the C library is for, and turns errors into its way to tell them.
+/// @return what the action returns, 0 for one that returns nothing. If it throws, null where that
+///         is a pointer, else -1.
+template <typename Action>
+auto guarded(const char* fun, Action action) {
+  using Result = decltype(action());
+  try {
+    if constexpr (std::is_void_v<Result>) {
+      action();
+      return 0;
+    } else {
+      return action();
+    }
+  } catch (const PlayerCc::PlayerError& e) {
+    set_error(fun, e.GetErrorStr());
+  } catch (const std::exception& e) {
+    set_error(fun, e.what());
+  }
+  if constexpr (std::is_pointer_v<Result>) {
+    return Result{nullptr};
+  } else {
+    return -1;
+  }
+}
+
+/// Throws PlayerError kBadArgument, for guarded().
+[[noreturn]] void refuse(const std::string& why);
+
+}  // namespace playerlike::clib

@@ -1,0 +1,144 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <vector>
+
+#include "devices/errors.h"
+#include "libplayerc++/laserproxy.h"
+#include "playerc/device.h"
+
+namespace {
+
+using playerlike::clib::tell;
+using playerlike::clib::with_device;
+
+class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::LaserProxy> {
+ public:
+  // What is known without a scan, and with each one.
+  void refresh_settings() {
+    intensity_on = used().IntensityOn() ? 1 : 0;
+    scan_start = used().GetMinAngle();
+    scan_res = used().GetScanRes();
+    range_res = used().GetRangeRes();
+    max_range = used().GetMaxRange();
+    scanning_frequency = used().GetScanningFrequency();
+  }
+
+ private:
+  void refresh() override {
+    refresh_settings();
+    const player_pose3d_t robot = used().GetRobotPose();
+    robot_pose[0] = robot.px;
+    robot_pose[1] = robot.py;
+    robot_pose[2] = robot.pyaw;
+    const uint32_t count = used().GetCount();
+    scan_count = static_cast<int>(count);
+    ranges_.resize(count);
+    scan_.resize(count);
+    points_.resize(count);
+    intensities_.assign(count, 0);
+    for (uint32_t i = 0; i < count; ++i) {
+      const double range_m = used().GetRange(i);
+      const double bearing_rad = scan_start + i * scan_res;
+      ranges_[i] = range_m;
+      scan_[i].pair[0] = range_m;
+      scan_[i].pair[1] = bearing_rad;
+      points_[i] = {range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)};
+    }
+    ranges = ranges_.data();
+    scan = count == 0 ? nullptr : &scan_[0].pair;
+    point = points_.data();
+    intensity = intensities_.data();
+    min_right = used().GetMinRight();
+    min_left = used().GetMinLeft();
+    ++scan_id;
+  }
+
+  struct Beam {
+    double pair[2];
+  };
+  static_assert(sizeof(Beam) == sizeof(double[2]));
+
+  std::vector<double> ranges_;
+  std::vector<Beam> scan_;
+  std::vector<player_point_2d_t> points_;
+  std::vector<int> intensities_;
+};
+
+// What LaserProxy::Configure() counts in.
+constexpr double kHundredthsOfDegree = 100.0 * 180.0 / std::numbers::pi;
+constexpr double kMillimetres = 1000.0;
+
+uint32_t in_units(const char* name, double value, double units) {
+  playerlike::require_finite("", {{name, value}});
+  if (value < 0.0 || value > 1000.0) {
+    playerlike::clib::refuse(std::string(name) + " must be between 0 and 1000");
+  }
+  return static_cast<uint32_t>(std::lround(value * units));
+}
+
+}  // namespace
+
+PLAYERLIKE_CLIB_FRAME(laser, Laser, PLAYER_LASER_CODE)
+
+int playerc_laser_set_config(playerc_laser_t* device, double min_angle, double max_angle,
+                             double resolution, double range_res, unsigned char intensity,
+                             double scanning_frequency) {
+  return with_device<Laser>(__func__, device, [&](Laser& self) {
+    self.used().Configure(min_angle, max_angle,
+                          in_units("the angle between beams", resolution, kHundredthsOfDegree),
+                          in_units("the resolution of ranges", range_res, kMillimetres),
+                          intensity != 0, scanning_frequency);
+    self.refresh_settings();
+  });
+}
+
+int playerc_laser_get_config(playerc_laser_t* device, double* min_angle, double* max_angle,
+                             double* resolution, double* range_res, unsigned char* intensity,
+                             double* scanning_frequency) {
+  return with_device<Laser>(__func__, device, [&](Laser& self) {
+    self.used().RequestConfigure();
+    self.refresh_settings();
+    tell(min_angle, self.used().GetMinAngle());
+    tell(max_angle, self.used().GetMaxAngle());
+    tell(resolution, self.scan_res);
+    tell(range_res, self.range_res);
+    tell(intensity, self.intensity_on);
+    tell(scanning_frequency, self.scanning_frequency);
+    self.info.freshconfig = 1;
+  });
+}
+
+int playerc_laser_get_geom(playerc_laser_t* device) {
+  return with_device<Laser>(__func__, device, [](Laser& self) {
+    self.used().RequestGeom();
+    const player_pose3d_t pose = self.used().GetPose();
+    const player_bbox3d_t size = self.used().GetSize();
+    self.pose[0] = pose.px;
+    self.pose[1] = pose.py;
+    self.pose[2] = pose.pyaw;
+    self.size[0] = size.sl;
+    self.size[1] = size.sw;
+    self.info.freshgeom = 1;
+  });
+}
+
+int playerc_laser_get_id(playerc_laser_t* device) {
+  return with_device<Laser>(__func__, device, [](Laser& self) {
+    self.used().RequestID();
+    self.laser_id = self.used().GetID();
+  });
+}
+
+void playerc_laser_printout(playerc_laser_t* device, const char* prefix) {
+  if (device == nullptr) return;
+  const char* const begin = prefix == nullptr ? "" : prefix;
+  std::printf("%s scan %d at %.3f s: %d beams from %.4f rad, %.4f rad apart\n", begin,
+              device->scan_id, device->info.datatime, device->scan_count, device->scan_start,
+              device->scan_res);
+  for (int i = 0; i < device->scan_count; ++i) {
+    std::printf("%s %.4f rad %.3f m\n", begin, device->scan[i][1], device->scan[i][0]);
+  }
+}

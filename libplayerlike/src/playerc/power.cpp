@@ -1,0 +1,21 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "libplayerc++/powerproxy.h"
+#include "playerc/device.h"
+
+namespace {
+
+class Power final : public playerlike::clib::Backed<playerc_power_t, PlayerCc::PowerProxy> {
+  void refresh() override {
+    valid = PLAYER_POWER_MASK_VOLTS | PLAYER_POWER_MASK_WATTS | PLAYER_POWER_MASK_JOULES |
+            PLAYER_POWER_MASK_PERCENT | PLAYER_POWER_MASK_CHARGING;
+    charge = used().GetCharge();
+    percent = used().GetPercent();
+    joules = used().GetJoules();
+    watts = used().GetWatts();
+    charging = used().GetCharging() ? 1 : 0;
+  }
+};
+
+}  // namespace
+
+PLAYERLIKE_CLIB_FRAME(power, Power, PLAYER_POWER_CODE)

@@ -1,0 +1,193 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Sensors of distance and touch: ranger, sonar, infrared, bumper.
+#include <vector>
+
+#include "libplayerc++/bumperproxy.h"
+#include "libplayerc++/irproxy.h"
+#include "libplayerc++/rangerproxy.h"
+#include "libplayerc++/sonarproxy.h"
+#include "playerc/device.h"
+
+namespace {
+
+using playerlike::clib::Backed;
+using playerlike::clib::copied;
+using playerlike::clib::tell;
+using playerlike::clib::with_device;
+
+class Ranger final : public Backed<playerc_ranger_t, PlayerCc::RangerProxy> {
+ public:
+  void refresh_geometry() {
+    element_count = used().GetElementCount();
+    device_pose = used().GetDevicePose();
+    device_size = used().GetDeviceSize();
+    element_poses =
+        copied(poses_, element_count, [this](uint32_t i) { return used().GetElementPose(i); });
+    element_sizes =
+        copied(sizes_, element_count, [this](uint32_t i) { return used().GetElementSize(i); });
+  }
+  void refresh_settings() {
+    min_angle = used().GetMinAngle();
+    max_angle = used().GetMaxAngle();
+    angular_res = used().GetAngularRes();
+    min_range = used().GetMinRange();
+    max_range = used().GetMaxRange();
+    range_res = used().GetRangeRes();
+    frequency = used().GetFrequency();
+  }
+
+ private:
+  void refresh() override {
+    ranges_count = used().GetRangeCount();
+    ranges = copied(ranges_, ranges_count, [this](uint32_t i) { return used().GetRange(i); });
+    intensities_count = used().GetIntensityCount();
+    intensities = copied(intensities_, intensities_count,
+                         [this](uint32_t i) { return used().GetIntensity(i); });
+    // A laser sweeps one element over its ranges; else each element has one.
+    const bool sweeps = ranges_count > used().GetElementCount();
+    const double first_rad = used().GetMinAngle();
+    const double step_rad = used().GetAngularRes();
+    bearings_count = ranges_count;
+    bearings = copied(bearings_, bearings_count, [&](uint32_t i) {
+      return sweeps ? first_rad + i * step_rad : used().GetElementPose(i).pyaw;
+    });
+    points_count = used().GetPointCount();
+    points = copied(points_, points_count, [this](uint32_t i) { return used().GetPoint(i); });
+  }
+
+  std::vector<player_pose3d_t> poses_;
+  std::vector<player_bbox3d_t> sizes_;
+  std::vector<double> ranges_;
+  std::vector<double> intensities_;
+  std::vector<double> bearings_;
+  std::vector<player_point_3d_t> points_;
+};
+
+class Sonar final : public Backed<playerc_sonar_t, PlayerCc::SonarProxy> {
+ public:
+  void refresh_geometry() {
+    const uint32_t count = used().GetPoseCount();
+    pose_count = static_cast<int>(count);
+    poses = copied(poses_, count, [this](uint32_t i) { return used().GetPose(i); });
+  }
+
+ private:
+  void refresh() override {
+    const uint32_t count = used().GetCount();
+    scan_count = static_cast<int>(count);
+    scan = copied(ranges_, count, [this](uint32_t i) { return used().GetScan(i); });
+  }
+
+  std::vector<player_pose3d_t> poses_;
+  std::vector<double> ranges_;
+};
+
+class Ir final : public Backed<playerc_ir_t, PlayerCc::IrProxy> {
+ public:
+  void refresh_geometry() {
+    poses.poses_count = used().GetPoseCount();
+    poses.poses =
+        copied(poses_, poses.poses_count, [this](uint32_t i) { return used().GetPose(i); });
+  }
+
+ private:
+  void refresh() override {
+    data.ranges_count = data.voltages_count = used().GetCount();
+    data.ranges = copied(ranges_, data.ranges_count,
+                         [this](uint32_t i) { return static_cast<float>(used().GetRange(i)); });
+    data.voltages = copied(voltages_, data.voltages_count,
+                           [this](uint32_t i) { return static_cast<float>(used().GetVoltage(i)); });
+  }
+
+  std::vector<player_pose3d_t> poses_;
+  std::vector<float> ranges_;
+  std::vector<float> voltages_;
+};
+
+class Bumper final : public Backed<playerc_bumper_t, PlayerCc::BumperProxy> {
+ public:
+  void refresh_geometry() {
+    const uint32_t count = used().GetPoseCount();
+    pose_count = static_cast<int>(count);
+    poses = copied(poses_, count, [this](uint32_t i) { return used().GetPose(i); });
+  }
+
+ private:
+  void refresh() override {
+    const uint32_t count = used().GetCount();
+    bumper_count = static_cast<int>(count);
+    bumpers = copied(pressed_, count,
+                     [this](uint32_t i) { return static_cast<uint8_t>(used().IsBumped(i)); });
+  }
+
+  std::vector<player_bumper_define_t> poses_;
+  std::vector<uint8_t> pressed_;
+};
+
+template <typename T>
+int get_geometry(const char* fun, typename T::Struct* device) {
+  return with_device<T>(fun, device, [](T& self) {
+    if constexpr (std::is_same_v<T, Bumper>) {
+      self.used().RequestBumperConfig();
+    } else {
+      self.used().RequestGeom();
+    }
+    self.refresh_geometry();
+    self.info.freshgeom = 1;
+  });
+}
+
+}  // namespace
+
+PLAYERLIKE_CLIB_FRAME(ranger, Ranger, PLAYER_RANGER_CODE)
+PLAYERLIKE_CLIB_FRAME(sonar, Sonar, PLAYER_SONAR_CODE)
+PLAYERLIKE_CLIB_FRAME(ir, Ir, PLAYER_IR_CODE)
+PLAYERLIKE_CLIB_FRAME(bumper, Bumper, PLAYER_BUMPER_CODE)
+
+int playerc_ranger_get_geom(playerc_ranger_t* device) {
+  return get_geometry<Ranger>(__func__, device);
+}
+int playerc_sonar_get_geom(playerc_sonar_t* device) {
+  return get_geometry<Sonar>(__func__, device);
+}
+int playerc_ir_get_geom(playerc_ir_t* device) { return get_geometry<Ir>(__func__, device); }
+int playerc_bumper_get_geom(playerc_bumper_t* device) {
+  return get_geometry<Bumper>(__func__, device);
+}
+
+int playerc_ranger_power_config(playerc_ranger_t* device, uint8_t value) {
+  return with_device<Ranger>(__func__, device,
+                             [&](Ranger& self) { self.used().SetPower(value != 0); });
+}
+
+int playerc_ranger_intns_config(playerc_ranger_t* device, uint8_t value) {
+  return with_device<Ranger>(__func__, device,
+                             [&](Ranger& self) { self.used().SetIntensityData(value != 0); });
+}
+
+int playerc_ranger_set_config(playerc_ranger_t* device, double min_angle, double max_angle,
+                              double angular_res, double min_range, double max_range,
+                              double range_res, double frequency) {
+  return with_device<Ranger>(__func__, device, [&](Ranger& self) {
+    self.used().Configure(min_angle, max_angle, angular_res, min_range, max_range, range_res,
+                          frequency);
+    self.refresh_settings();
+  });
+}
+
+int playerc_ranger_get_config(playerc_ranger_t* device, double* min_angle, double* max_angle,
+                              double* angular_res, double* min_range, double* max_range,
+                              double* range_res, double* frequency) {
+  return with_device<Ranger>(__func__, device, [&](Ranger& self) {
+    self.used().RequestConfigure();
+    self.refresh_settings();
+    tell(min_angle, self.min_angle);
+    tell(max_angle, self.max_angle);
+    tell(angular_res, self.angular_res);
+    tell(min_range, self.min_range);
+    tell(max_range, self.max_range);
+    tell(range_res, self.range_res);
+    tell(frequency, self.frequency);
+    self.info.freshconfig = 1;
+  });
+}

@@ -1,0 +1,77 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <ostream>
+#include <string>
+
+#include "devices/errors.h"
+#include "libplayerc++/aioproxy.h"
+#include "proxies/link.h"
+#include "sim/devices/aio.h"
+
+namespace PlayerCc {
+
+AioProxy::AioProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
+  AioProxy::Subscribe(aIndex);
+}
+
+AioProxy::~AioProxy() { AioProxy::Unsubscribe(); }
+
+void AioProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_AIO_CODE, aIndex, "AioProxy::AioProxy"); }
+
+void AioProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+bool AioProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_AIO_DATA_STATE) ||
+         (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_AIO_CMD_STATE);
+}
+
+void AioProxy::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::AioReading*>(&aReading);
+  if (reading != nullptr) mInputs = reading->inputs_v;
+}
+
+uint32_t AioProxy::GetCount() const {
+  const scoped_lock_t lock(LockData("AioProxy::GetCount"));
+  return static_cast<uint32_t>(mInputs.size());
+}
+
+double AioProxy::GetVoltage(uint32_t aIndex) const {
+  const char* fun = "AioProxy::GetVoltage";
+  const scoped_lock_t lock(LockData(fun));
+  if (aIndex < mInputs.size()) return mInputs[aIndex];
+  throw PlayerError(fun,
+                    "there is no analog input " + std::to_string(aIndex) +
+                        ": the newest reading has " + std::to_string(mInputs.size()) +
+                        ", counted from 0",
+                    PlayerError::kBadArgument);
+}
+
+void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
+  const char* fun = "AioProxy::SetVoltage";
+  const scoped_lock_t lock(LockData(fun));
+  const double count = mLink->property("outputs", sim::AioParams::kMaxLines);
+  if (!(aIndex < count && std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
+    throw PlayerError(fun,
+                      "output " + std::to_string(aIndex) + " cannot have " +
+                          std::to_string(aVoltage) + " V: there are " +
+                          std::to_string(static_cast<int>(count)) +
+                          " outputs, counted from 0, of at most 1e6 V to either side",
+                      PlayerError::kBadArgument);
+  }
+  playerlike::translated(fun, [&] {
+    mLink->core->session().send(mLink->binding.reading,
+                                sim::AnalogOutputCommand{static_cast<int>(aIndex), aVoltage});
+  });
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::AioProxy& c) {
+  os << '#' << static_cast<const PlayerCc::ClientProxy&>(c) << "\n#voltages [V]\n";
+  for (uint32_t i = 0; i < c.GetCount(); ++i) os << (i == 0 ? "" : "\t") << c.GetVoltage(i);
+  return os << '\n';
+}
+
+}  // namespace std

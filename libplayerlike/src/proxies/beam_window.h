@@ -1,0 +1,44 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "libplayerc++/playererror.h"
+
+namespace PlayerCc::detail {
+
+/// Which of a scanner's beams a proxy shows: `shown` of them from `first` on, each `stride`-th.
+struct BeamWindow {
+  std::size_t first = 0;
+  std::size_t stride = 1;
+  std::size_t shown = 0;
+};
+
+/// The beams within [min_rad, max_rad], as near to `resolution_rad` apart as there are (0: all).
+/// @param count, least_rad, native_rad  of the scanner's beams: number, first angle, difference.
+/// @throws PlayerError kBadArgument in the name of `fun` if no beam lies there.
+inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, double resolution_rad,
+                            std::size_t count, double least_rad, double native_rad) {
+  // Angles that differ by less than this part of a beam are the same.
+  constexpr double kSameBeam = 1e-6;
+  const double last = static_cast<double>(count) - 1.0;
+  const double begin = std::max(0.0, std::ceil((min_rad - least_rad) / native_rad - kSameBeam));
+  const double end = std::min(last, std::floor((max_rad - least_rad) / native_rad + kSameBeam));
+  if (!(begin <= end)) {
+    throw PlayerError(fun,
+                      "no beam lies between " + std::to_string(min_rad) + " and " +
+                          std::to_string(max_rad) + " rad; this laser's lie from " +
+                          std::to_string(least_rad) + " to " +
+                          std::to_string(least_rad + last * native_rad) + " rad",
+                      PlayerError::kBadArgument);
+  }
+  const auto stride = static_cast<std::size_t>(
+      std::clamp(std::round(resolution_rad / native_rad), 1.0, last + 1.0));
+  return {static_cast<std::size_t>(begin), stride,
+          static_cast<std::size_t>(end - begin) / stride + 1};
+}
+
+}  // namespace PlayerCc::detail

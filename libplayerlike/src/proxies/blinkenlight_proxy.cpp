@@ -1,0 +1,111 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ostream>
+#include <string>
+
+#include "devices/errors.h"
+#include "libplayerc++/blinkenlightproxy.h"
+#include "proxies/link.h"
+#include "sim/devices/blinkenlight.h"
+
+namespace PlayerCc {
+namespace {
+
+void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId device,
+          const sim::LightCommand& command) {
+  playerlike::translated(fun, [&] { core.session().send(device, command); });
+}
+
+}  // namespace
+
+BlinkenLightProxy::BlinkenLightProxy(PlayerClient* aPc, uint32_t aIndex)
+    : ClientProxy(aPc, aIndex) {
+  BlinkenLightProxy::Subscribe(aIndex);
+}
+
+BlinkenLightProxy::~BlinkenLightProxy() { BlinkenLightProxy::Unsubscribe(); }
+
+void BlinkenLightProxy::Subscribe(uint32_t aIndex) {
+  Attach(PLAYER_BLINKENLIGHT_CODE, aIndex, "BlinkenLightProxy::BlinkenLightProxy");
+}
+
+void BlinkenLightProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+bool BlinkenLightProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_BLINKENLIGHT_DATA_STATE) ||
+         (aType == PLAYER_MSGTYPE_CMD && aSubtype >= PLAYER_BLINKENLIGHT_CMD_STATE &&
+          aSubtype <= PLAYER_BLINKENLIGHT_CMD_FLASH);
+}
+
+void BlinkenLightProxy::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::BlinkenlightReading*>(&aReading);
+  if (reading == nullptr) return;
+  mState.enabled = reading->enabled;
+  mState.lit = reading->lit;
+  mState.period = reading->period_s;
+  mState.dutyCycle = reading->duty_cycle;
+  mState.red = reading->colour.r;
+  mState.green = reading->colour.g;
+  mState.blue = reading->colour.b;
+}
+
+bool BlinkenLightProxy::GetEnable() const { return GetVar(mState.enabled); }
+bool BlinkenLightProxy::IsLit() const { return GetVar(mState.lit); }
+double BlinkenLightProxy::GetPeriod() const { return GetVar(mState.period); }
+double BlinkenLightProxy::GetDutyCycle() const { return GetVar(mState.dutyCycle); }
+uint8_t BlinkenLightProxy::GetRed() const { return GetVar(mState.red); }
+uint8_t BlinkenLightProxy::GetGreen() const { return GetVar(mState.green); }
+uint8_t BlinkenLightProxy::GetBlue() const { return GetVar(mState.blue); }
+
+void BlinkenLightProxy::SetEnable(bool aSet) {
+  const char* fun = "BlinkenLightProxy::SetEnable";
+  const scoped_lock_t lock(LockData(fun));
+  sim::LightCommand command;
+  command.enabled = aSet;
+  send(fun, *mLink->core, mLink->binding.reading, command);
+}
+
+void BlinkenLightProxy::SetPeriod(double aPeriod) {
+  const char* fun = "BlinkenLightProxy::SetPeriod";
+  const scoped_lock_t lock(LockData(fun));
+  if (!(aPeriod >= 0.0 && aPeriod <= 1e6)) {
+    throw PlayerError(fun, "a light's period is in 0..1e6 s, but is " + std::to_string(aPeriod),
+                      PlayerError::kBadArgument);
+  }
+  sim::LightCommand command;
+  command.period_s = aPeriod;
+  send(fun, *mLink->core, mLink->binding.reading, command);
+}
+
+void BlinkenLightProxy::SetDutyCycle(double aDutyCycle) {
+  const char* fun = "BlinkenLightProxy::SetDutyCycle";
+  const scoped_lock_t lock(LockData(fun));
+  if (!(aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
+    throw PlayerError(fun, "a light's duty cycle is in 0..1, but is " + std::to_string(aDutyCycle),
+                      PlayerError::kBadArgument);
+  }
+  sim::LightCommand command;
+  command.duty_cycle = aDutyCycle;
+  send(fun, *mLink->core, mLink->binding.reading, command);
+}
+
+void BlinkenLightProxy::SetColor(uint8_t aRed, uint8_t aGreen, uint8_t aBlue) {
+  const char* fun = "BlinkenLightProxy::SetColor";
+  const scoped_lock_t lock(LockData(fun));
+  sim::LightCommand command;
+  command.colour = sim::Colour{aRed, aGreen, aBlue, 255};
+  send(fun, *mLink->core, mLink->binding.reading, command);
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::BlinkenLightProxy& c) {
+  return os << '#' << static_cast<const PlayerCc::ClientProxy&>(c)
+            << "\n#on\tlit\tperiod [s]\tduty cycle\tred\tgreen\tblue\n"
+            << c.GetEnable() << '\t' << c.IsLit() << '\t' << c.GetPeriod() << '\t'
+            << c.GetDutyCycle() << '\t' << int{c.GetRed()} << '\t' << int{c.GetGreen()} << '\t'
+            << int{c.GetBlue()} << '\n';
+}
+
+}  // namespace std

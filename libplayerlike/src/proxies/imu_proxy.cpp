@@ -1,0 +1,100 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ostream>
+#include <string>
+
+#include "devices/errors.h"
+#include "libplayerc++/imuproxy.h"
+#include "proxies/link.h"
+#include "sim/devices/imu.h"
+
+namespace PlayerCc {
+
+ImuProxy::ImuProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
+  ImuProxy::Subscribe(aIndex);
+}
+
+ImuProxy::~ImuProxy() { ImuProxy::Unsubscribe(); }
+
+void ImuProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_IMU_CODE, aIndex, "ImuProxy::ImuProxy"); }
+
+void ImuProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+void ImuProxy::HandleReading(const sim::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::ImuReading*>(&aReading);
+  if (reading == nullptr) return;
+  const auto& a = reading->acceleration_mps2;
+  const auto& w = reading->rate_radps;
+  const auto& b = reading->field_ut;
+  mValues = {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
+             static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
+             static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
+  mMeasuredYaw = reading->yaw_rad;
+  mPose.pyaw = sim::normalize_angle(mMeasuredYaw + mYawOffset);
+}
+
+bool ImuProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  switch (aType) {
+    case PLAYER_MSGTYPE_DATA:
+      return aSubtype == PLAYER_IMU_DATA_STATE || aSubtype == PLAYER_IMU_DATA_CALIB;
+    case PLAYER_MSGTYPE_REQ:
+      return aSubtype == PLAYER_IMU_REQ_SET_DATATYPE ||
+             aSubtype == PLAYER_IMU_REQ_RESET_ORIENTATION || aSubtype == PLAYER_IMU_REQ_RESET_EULER;
+    default:
+      return false;
+  }
+}
+
+player_pose3d_t ImuProxy::GetPose() const { return GetVar(mPose); }
+float ImuProxy::GetXAccel() { return GetVar(mValues).accel_x; }
+float ImuProxy::GetYAccel() { return GetVar(mValues).accel_y; }
+float ImuProxy::GetZAccel() { return GetVar(mValues).accel_z; }
+float ImuProxy::GetXGyro() { return GetVar(mValues).gyro_x; }
+float ImuProxy::GetYGyro() { return GetVar(mValues).gyro_y; }
+float ImuProxy::GetZGyro() { return GetVar(mValues).gyro_z; }
+float ImuProxy::GetXMagn() { return GetVar(mValues).magn_x; }
+float ImuProxy::GetYMagn() { return GetVar(mValues).magn_y; }
+float ImuProxy::GetZMagn() { return GetVar(mValues).magn_z; }
+player_imu_data_calib_t ImuProxy::GetRawValues() const { return GetVar(mValues); }
+
+void ImuProxy::SetDatatype(int aDatatype) {
+  const char* fun = "ImuProxy::SetDatatype";
+  const scoped_lock_t lock(LockData(fun));
+  if (aDatatype < PLAYER_IMU_DATA_STATE || aDatatype > PLAYER_IMU_DATA_FULLSTATE) {
+    throw PlayerError(fun,
+                      "there is no type of data " + std::to_string(aDatatype) +
+                          "; they are PLAYER_IMU_DATA_STATE (1) to _FULLSTATE (5)",
+                      PlayerError::kBadArgument);
+  }
+}
+
+void ImuProxy::ResetOrientation(int aValue) {
+  static_cast<void>(aValue);
+  ResetEuler(0.0F, 0.0F, 0.0F);
+}
+
+void ImuProxy::ResetEuler(float aRoll, float aPitch, float aYaw) {
+  const char* fun = "ImuProxy::ResetEuler";
+  playerlike::require_finite(fun, {{"the roll angle", static_cast<double>(aRoll)},
+                                   {"the pitch angle", static_cast<double>(aPitch)},
+                                   {"the yaw angle", static_cast<double>(aYaw)}});
+  const scoped_lock_t lock(LockData(fun));
+  mYawOffset = static_cast<double>(aYaw) - mMeasuredYaw;
+  mPose.proll = static_cast<double>(aRoll);
+  mPose.ppitch = static_cast<double>(aPitch);
+  mPose.pyaw = sim::normalize_angle(static_cast<double>(aYaw));
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::ImuProxy& c) {
+  const player_imu_data_calib_t v = c.GetRawValues();
+  return os << '#' << static_cast<const PlayerCc::ClientProxy&>(c)
+            << "\n#acceleration [m/s^2]\tturning rate [rad/s]\tmagnetic field [uT]\tyaw [rad]\n"
+            << v.accel_x << '\t' << v.accel_y << '\t' << v.accel_z << '\t' << v.gyro_x << '\t'
+            << v.gyro_y << '\t' << v.gyro_z << '\t' << v.magn_x << '\t' << v.magn_y << '\t'
+            << v.magn_z << '\t' << c.GetPose().pyaw << '\n';
+}
+
+}  // namespace std

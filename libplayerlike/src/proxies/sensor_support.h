@@ -1,0 +1,59 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "libplayerc++/playererror.h"
+#include "libplayerc++/playerstructs.h"
+#include "proxies/link.h"
+
+/// What the proxies of sensors with several elements have in common.
+namespace PlayerCc::detail {
+
+/// Refuses an index that is not below `count`.
+/// @param what  one of the things that are counted: "beam".
+inline void require_index(const char* fun, const char* what, uint32_t index, std::size_t count) {
+  if (index < count) return;
+  throw PlayerError(fun,
+                    std::string("there is no ") + what + ' ' + std::to_string(index) + ": " +
+                        (count == 0 ? std::string("there are none now (has Read() been called?)")
+                                    : "there are " + std::to_string(count) + ", counted from 0"),
+                    PlayerError::kBadArgument);
+}
+
+/// An element of a list that Player's C library had in an array of zeros before the first reading,
+/// and so does this one: a zero while there are none, then an element or an error.
+template <typename T>
+T element_or_zero(const char* fun, const char* what, uint32_t index, const std::vector<T>& list) {
+  if (list.empty()) return T{};
+  require_index(fun, what, index, list.size());
+  return list[index];
+}
+
+/// Poses on the body of the elements of a device that has the properties count, mount_x_0,
+/// mount_y_0, mount_yaw_0, ... and height.
+inline std::vector<player_pose3d_t> element_poses(const std::map<std::string, double>& settings) {
+  const auto setting = [&](const std::string& name) {
+    const auto it = settings.find(name);
+    return it == settings.end() ? 0.0 : it->second;
+  };
+  std::vector<player_pose3d_t> poses(static_cast<std::size_t>(setting("count")));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::string number = std::to_string(i);
+    poses[i] = {
+        setting("mount_x_" + number),  setting("mount_y_" + number), setting("height"), 0.0, 0.0,
+        setting("mount_yaw_" + number)};
+  }
+  return poses;
+}
+
+/// Prints a pose as proxies do: "x y yaw", with tabs.
+inline void print_pose(std::ostream& os, const player_pose3d_t& pose) {
+  os << pose.px << '\t' << pose.py << '\t' << pose.pyaw;
+}
+
+}  // namespace PlayerCc::detail

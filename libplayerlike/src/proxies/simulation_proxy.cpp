@@ -1,0 +1,124 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ostream>
+#include <string>
+
+#include "devices/errors.h"
+#include "devices/object_values.h"
+#include "libplayerc++/simulationproxy.h"
+#include "proxies/link.h"
+
+namespace PlayerCc {
+namespace {
+
+// What a name that must be given says.
+std::string text(const char* fun, const char* what, const char* given) {
+  if (given != nullptr) return given;
+  throw PlayerError(fun, std::string(what) + " is a null pointer", PlayerError::kBadArgument);
+}
+
+void require_value(const char* fun, const void* value) {
+  if (value != nullptr) return;
+  throw PlayerError(fun, "the value is a null pointer", PlayerError::kBadArgument);
+}
+
+}  // namespace
+
+SimulationProxy::SimulationProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
+  SimulationProxy::Subscribe(aIndex);
+}
+
+SimulationProxy::~SimulationProxy() { SimulationProxy::Unsubscribe(); }
+
+void SimulationProxy::Subscribe(uint32_t aIndex) {
+  Attach(PLAYER_SIMULATION_CODE, aIndex, "SimulationProxy::SimulationProxy", false);
+}
+
+void SimulationProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+bool SimulationProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  return aType == PLAYER_MSGTYPE_REQ && aSubtype >= PLAYER_SIMULATION_REQ_GET_POSE2D &&
+         aSubtype <= PLAYER_SIMULATION_REQ_SET_PROPERTY;
+}
+
+void SimulationProxy::SetPose2d(char* identifier, double x, double y, double a) {
+  const char* fun = "SimulationProxy::SetPose2d";
+  const std::string name = text(fun, "the identifier", identifier);
+  playerlike::require_finite(fun, {{"x", x}, {"y", y}, {"a", a}});
+  const scoped_lock_t lock(LockData(fun));
+  playerlike::translated(fun, [&] { mLink->core->session().place_object(name, {x, y, a}); });
+}
+
+void SimulationProxy::GetPose2d(char* identifier, double& x, double& y, double& a) {
+  const char* fun = "SimulationProxy::GetPose2d";
+  const std::string name = text(fun, "the identifier", identifier);
+  const scoped_lock_t lock(LockData(fun));
+  playerlike::translated(fun, [&] {
+    const sim::Pose pose = mLink->core->session().object_pose(name).pose;
+    x = pose.x_m;
+    y = pose.y_m;
+    a = pose.yaw_rad;
+  });
+}
+
+void SimulationProxy::SetPose3d(char* identifier, double x, double y, double z, double roll,
+                                double pitch, double yaw) {
+  const char* fun = "SimulationProxy::SetPose3d";
+  const std::string name = text(fun, "the identifier", identifier);
+  playerlike::require_finite(
+      fun, {{"x", x}, {"y", y}, {"z", z}, {"roll", roll}, {"pitch", pitch}, {"yaw", yaw}});
+  const scoped_lock_t lock(LockData(fun));
+  playerlike::translated(fun, [&] { mLink->core->session().place_object(name, {x, y, yaw}); });
+}
+
+void SimulationProxy::GetPose3d(char* identifier, double& x, double& y, double& z, double& roll,
+                                double& pitch, double& yaw, double& time) {
+  const char* fun = "SimulationProxy::GetPose3d";
+  const std::string name = text(fun, "the identifier", identifier);
+  const scoped_lock_t lock(LockData(fun));
+  playerlike::translated(fun, [&] {
+    const playerlike::ObjectPose object = mLink->core->session().object_pose(name);
+    x = object.pose.x_m;
+    y = object.pose.y_m;
+    z = 0.0;
+    roll = 0.0;
+    pitch = 0.0;
+    yaw = object.pose.yaw_rad;
+    time = sim::to_seconds(object.time_ns);
+  });
+}
+
+void SimulationProxy::GetProperty(char* identifier, char* name, void* value, size_t value_len) {
+  const char* fun = "SimulationProxy::GetProperty";
+  const std::string object = text(fun, "the identifier", identifier);
+  const std::string property = playerlike::property_name(text(fun, "the name", name));
+  require_value(fun, value);
+  const scoped_lock_t lock(LockData(fun));
+  playerlike::translated(fun, [&] {
+    const auto now = mLink->core->session().object_property(object, property);
+    playerlike::write_property(property, now, value, value_len);
+  });
+}
+
+void SimulationProxy::SetProperty(char* identifier, char* name, void* value, size_t value_len) {
+  const char* fun = "SimulationProxy::SetProperty";
+  const std::string object = text(fun, "the identifier", identifier);
+  const std::string property = playerlike::property_name(text(fun, "the name", name));
+  require_value(fun, value);
+  const scoped_lock_t lock(LockData(fun));
+  playerlike::translated(fun, [&] {
+    playerlike::Session& session = mLink->core->session();
+    const auto now = session.object_property(object, property);
+    session.set_object_property(object, property,
+                                playerlike::read_property(property, now, value, value_len));
+  });
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::SimulationProxy& c) {
+  return os << '#' << static_cast<const PlayerCc::ClientProxy&>(c) << '\n';
+}
+
+}  // namespace std

@@ -1,0 +1,60 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "sim/core/time.h"
+
+/// Playpen's side of virtual time (docs/virtual_time.md): what becomes of a sleep, or of a look at
+/// the clock, in a program that `playpen run` has started. Its other side is preload.cpp.
+///
+/// Each thread has its own way: the main thread and those that take part in the lockstep live in
+/// virtual time while they are in the program's own code; in Playpen's own code (Inside) and in all
+/// other threads everything is real. All functions may be called from any thread.
+namespace playerlike {
+
+class Host;
+
+namespace virtual_time {
+
+/// Whether sleeps of this process reach Playpen: the library is preloaded, and there is no reason
+/// (see give_up()) to let the wall clock rule.
+[[nodiscard]] bool active() noexcept;
+
+/// While one lives, its thread is in Playpen's own code.
+class Inside {
+ public:
+  Inside() noexcept;
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+  ~Inside();
+};
+
+/// From now on sleeps move this simulation's time, and the clocks tell it; it must be in lockstep.
+/// The first one stays until it is detached: a program has one clock.
+void attach(const std::shared_ptr<Host>& host);
+/// The clocks stay where they are until another simulation is attached.
+void detach(const Host& host) noexcept;
+/// From now on sleeps are real, and the clocks go on with the wall clock from where they are.
+void give_up() noexcept;
+
+/// The calling thread waits for simulated time, and so takes part in the lockstep from now on.
+void note_wait() noexcept;
+/// The calling thread has looked at data that may change in the background. One that does nothing
+/// else for very long lets a step pass now and then.
+/// Not to be called with a lock held that others need.
+void note_look() noexcept;
+/// From now on there are threads that read in the background, see note_look().
+void note_background() noexcept;
+/// The calling thread ends: nothing is virtual for it any more.
+void note_thread_ends() noexcept;
+
+/// Lets simulated time pass, step by step, until something is so; as if the calling thread slept.
+/// @param simulation  whose time it is, see Session::simulation().
+/// @return whether it is; false at once if the thread does not live in that time.
+[[nodiscard]] bool wait_until(const void* simulation, const std::function<bool()>& condition);
+
+}  // namespace virtual_time
+}  // namespace playerlike

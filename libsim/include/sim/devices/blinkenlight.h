@@ -1,0 +1,64 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sim/devices/device.h"
+
+namespace sim {
+
+/// Settings of a light; all but the place are those at the start.
+struct BlinkenlightParams {
+  double frequency_hz = 10.0;  ///< (0, 1000]
+  Colour colour{0xff, 0x3b, 0x30, 0xff};
+  bool enabled = false;
+  double period_s = 1.0;     ///< of one on and off, >= 0; 0: it does not blink [s]
+  double duty_cycle = 0.5;   ///< share of the period that it is lit, [0, 1]
+  Vec2 p_BL = {-0.05, 0.0};  ///< where it is on the robot, in B [m]
+};
+
+/// Whether a light that blinks is lit: it is from each multiple of the period on, for duty_cycle of
+/// it; one that does not blink (period 0) always is.
+/// @param time_ns  simulated time, >= 0.
+[[nodiscard]] bool is_lit(double period_s, double duty_cycle, SimTime time_ns);
+
+/// How a light is set, and whether it was lit at the moment of the reading.
+struct BlinkenlightReading final : Reading {
+  bool enabled = false;
+  Colour colour;
+  double period_s = 0.0;
+  double duty_cycle = 0.0;
+  bool lit = false;
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<BlinkenlightReading>(*this);
+  }
+};
+
+/// A light on the robot's back, for pictures: other robots' sensors do not see it. Takes
+/// LightCommand.
+class Blinkenlight final : public Sensor {
+ public:
+  Blinkenlight(std::string name, const BlinkenlightParams& params);
+
+  [[nodiscard]] const BlinkenlightParams& params() const noexcept { return params_; }
+  [[nodiscard]] const BlinkenlightReading& reading() const noexcept override { return reading_; }
+  [[nodiscard]] Colour colour() const noexcept { return now_.colour; }
+  [[nodiscard]] bool lit(SimTime time_ns) const {
+    return now_.enabled && is_lit(now_.period_s, now_.duty_cycle, time_ns);
+  }
+
+  std::optional<std::string> apply(const Command& command) override;
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  BlinkenlightParams params_;
+  BlinkenlightParams now_;
+  BlinkenlightReading reading_;
+};
+
+}  // namespace sim

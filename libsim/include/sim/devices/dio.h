@@ -1,0 +1,77 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "sim/devices/device.h"
+#include "sim/devices/wire.h"
+
+namespace sim {
+
+/// What a digital input shows of its robot.
+enum class DigitalSignal {
+  kContact,  ///< something solid touches the robot
+  kStalled,  ///< something holds the robot up, see BodyState::stalled
+  kDock,     ///< the middle of its axle is on a dock
+};
+/// What stands at a digital input: always the same, its robot's state, or an output of a dio
+/// device.
+using DigitalSource = std::variant<bool, DigitalSignal, Wire>;
+
+/// Settings of digital inputs and outputs.
+struct DioParams {
+  static constexpr int kMaxLines = 32;  ///< inputs, and outputs
+
+  double frequency_hz = 10.0;  ///< (0, 1000]
+  /// What input 0, 1, ... is wired to; at most kMaxLines.
+  std::vector<DigitalSource> inputs = {DigitalSignal::kContact, DigitalSignal::kStalled,
+                                       DigitalSignal::kDock};
+  int outputs = 8;  ///< 0..kMaxLines
+};
+
+/// The inputs as they were at the moment of the reading, and the outputs.
+struct DioReading final : Reading {
+  int input_count = 0;
+  std::uint32_t inputs = 0;  ///< input i is bit i
+  int output_count = 0;
+  std::uint32_t outputs = 0;  ///< output i is bit i
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<DioReading>(*this);
+  }
+};
+
+/// Digital inputs and outputs. Outputs are low at first and keep what DigitalOutputCommand sets;
+/// inputs of any robot may be wired to them. An output that a command sets before a step is seen at
+/// inputs in that step's readings, whatever the order of the robots.
+class Dio final : public Sensor {
+ public:
+  Dio(std::string name, const DioParams& params);
+
+  [[nodiscard]] const DioParams& params() const noexcept { return params_; }
+  [[nodiscard]] const DioReading& reading() const noexcept override { return reading_; }
+  /// Level of an output now; low for one that is not there.
+  [[nodiscard]] bool output(int index) const noexcept {
+    return index >= 0 && index < params_.outputs && ((outputs_ >> index) & 1U) != 0;
+  }
+
+  std::optional<std::string> connect(std::string_view robot,
+                                     const DeviceDirectory& devices) override;
+  std::optional<std::string> apply(const Command& command) override;
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  DioParams params_;
+  std::vector<const Dio*> wired_;  ///< for each input; nullptr: not a wire
+  std::uint32_t outputs_ = 0;
+  DioReading reading_;
+};
+
+}  // namespace sim

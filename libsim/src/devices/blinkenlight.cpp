@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/blinkenlight.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sim {
+
+bool is_lit(double period_s, double duty_cycle, SimTime time_ns) {
+  if (period_s <= 0.0) return true;
+  // Whole numbers: no rounding moves an edge to another step.
+  const SimTime period_ns = std::max<SimTime>(from_seconds(period_s), 1);
+  return static_cast<double>(time_ns % period_ns) < duty_cycle * static_cast<double>(period_ns);
+}
+
+Blinkenlight::Blinkenlight(std::string name, const BlinkenlightParams& params)
+    : Sensor(std::move(name), "blinkenlight", params.frequency_hz), params_(params), now_(params) {}
+
+std::optional<std::string> Blinkenlight::apply(const Command& command) {
+  const auto* change = std::get_if<LightCommand>(&command);
+  if (change == nullptr) return Sensor::apply(command);
+  constexpr double kLongest_s = 1e6;
+  if (change->period_s && !(*change->period_s >= 0.0 && *change->period_s <= kLongest_s)) {
+    return "the period of light " + name() + " is a number in 0..1e6 s";
+  }
+  if (change->duty_cycle && !(*change->duty_cycle >= 0.0 && *change->duty_cycle <= 1.0)) {
+    return "the duty cycle of light " + name() + " is a number in 0..1";
+  }
+  now_.enabled = change->enabled.value_or(now_.enabled);
+  now_.colour = change->colour.value_or(now_.colour);
+  now_.period_s = change->period_s.value_or(now_.period_s);
+  now_.duty_cycle = change->duty_cycle.value_or(now_.duty_cycle);
+  return std::nullopt;
+}
+
+void Blinkenlight::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.enabled = now_.enabled;
+  reading_.colour = now_.colour;
+  reading_.period_s = now_.period_s;
+  reading_.duty_cycle = now_.duty_cycle;
+  reading_.lit = lit(context.now_ns);
+}
+
+void Blinkenlight::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(now_.enabled);
+  for (const int channel : {now_.colour.r, now_.colour.g, now_.colour.b}) hash.add(channel);
+  hash.add(now_.period_s);
+  hash.add(now_.duty_cycle);
+}
+
+}  // namespace sim

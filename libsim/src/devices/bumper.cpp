@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/bumper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "physics/physics_world.h"
+
+namespace sim {
+namespace {
+
+constexpr double kStep_m = 0.005;   // between the points of a touch that are looked at
+constexpr double kJoint_m = 0.001;  // segments this much farther than the nearest feel it, too
+
+}  // namespace
+
+std::vector<BumperSegment> segments_round(const Polygon& footprint) {
+  std::vector<BumperSegment> segments;
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Vec2& a = footprint[i];
+    const Vec2& b = footprint[(i + 1) % footprint.size()];
+    const Vec2 along = b - a;
+    const Vec2 middle = 0.5 * (a + b);
+    // Counter-clockwise, so the outside is on the right.
+    segments.push_back(
+        {{middle.x(), middle.y(), std::atan2(-along.x(), along.y())}, along.norm(), 0.0});
+  }
+  return segments;
+}
+
+double distance_to_segment_m(const BumperSegment& segment, const Vec2& p_B) {
+  const Vec2 p_S = segment.X_BS.inverse() * p_B;
+  const double half_m = 0.5 * segment.length_m;
+  if (segment.radius_m <= 0.0) {
+    return std::hypot(p_S.x(), std::max(std::abs(p_S.y()) - half_m, 0.0));
+  }
+  const Vec2 from_center = p_S + Vec2(segment.radius_m, 0.0);
+  const double half_angle = half_m / segment.radius_m;
+  const double angle = std::abs(std::atan2(from_center.y(), from_center.x()));
+  if (angle <= half_angle) return std::abs(from_center.norm() - segment.radius_m);
+  const Vec2 end = segment.radius_m * Vec2(std::cos(half_angle), std::sin(half_angle));
+  return (Vec2(from_center.x(), std::abs(from_center.y())) - end).norm();
+}
+
+void press_segments(const std::vector<BumperSegment>& segments, double reach_m, const Vec2& from_B,
+                    const Vec2& to_B, std::vector<std::uint8_t>& pressed) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((to_B - from_B).norm() / kStep_m)));
+  for (int step = 0; step <= steps; ++step) {
+    const Vec2 p_B = from_B + (to_B - from_B) * (static_cast<double>(step) / steps);
+    double nearest_m = std::numeric_limits<double>::infinity();
+    for (const BumperSegment& segment : segments) {
+      nearest_m = std::min(nearest_m, distance_to_segment_m(segment, p_B));
+    }
+    if (nearest_m > reach_m) continue;
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      if (distance_to_segment_m(segments[i], p_B) <= nearest_m + kJoint_m) pressed[i] = 1;
+    }
+  }
+}
+
+Bumper::Bumper(std::string name, const BumperParams& params, const Polygon& footprint)
+    : Sensor(std::move(name), "bumper", params.frequency_hz), params_(params) {
+  if (params_.segments.empty()) params_.segments = segments_round(footprint);
+  pressed_.assign(params_.segments.size(), 0);
+  reading_.pressed = pressed_;
+}
+
+void Bumper::integrate(const StepContext& context) {
+  const std::vector<PhysicsWorld::Touch> touches = context.physics.touches_of(context.robot);
+  if (touches.empty()) return;
+  const Pose X_BW = context.body.X_WB.inverse();
+  for (const PhysicsWorld::Touch& touch : touches) {
+    press_segments(params_.segments, params_.reach_m, X_BW * touch.from_W, X_BW * touch.to_W,
+                   pressed_);
+  }
+}
+
+void Bumper::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.pressed = pressed_;
+  std::fill(pressed_.begin(), pressed_.end(), std::uint8_t{0});
+}
+
+void Bumper::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add_bytes(pressed_.data(), pressed_.size());
+}
+
+}  // namespace sim

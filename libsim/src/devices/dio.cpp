@@ -1,0 +1,94 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/dio.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "physics/physics_world.h"
+#include "sim/core/assert.h"
+#include "sim/devices/battery.h"
+
+namespace sim {
+namespace {
+
+// Bits 0 .. count - 1.
+std::uint32_t mask(int count) {
+  return count >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << static_cast<unsigned>(count)) - 1U;
+}
+
+bool level(DigitalSignal signal, const StepContext& context) {
+  switch (signal) {
+    case DigitalSignal::kContact:
+      return !context.physics.contacts_of(context.robot).empty();
+    case DigitalSignal::kStalled:
+      return context.body.stalled;
+    case DigitalSignal::kDock:
+      break;
+  }
+  const auto& docks = context.world.arena.docks;
+  const Vec2 p_WB = context.body.X_WB.position();
+  return std::any_of(docks.begin(), docks.end(),
+                     [&](const DockDescription& dock) { return is_on_dock(dock, p_WB); });
+}
+
+}  // namespace
+
+Dio::Dio(std::string name, const DioParams& params)
+    : Sensor(std::move(name), "dio", params.frequency_hz),
+      params_(params),
+      wired_(params.inputs.size(), nullptr) {
+  SIM_ASSERT(params.inputs.size() <= DioParams::kMaxLines);
+  SIM_ASSERT(params.outputs >= 0 && params.outputs <= DioParams::kMaxLines);
+}
+
+std::optional<std::string> Dio::connect(std::string_view robot, const DeviceDirectory& devices) {
+  for (std::size_t i = 0; i < params_.inputs.size(); ++i) {
+    const auto* wire = std::get_if<Wire>(&params_.inputs[i]);
+    if (wire == nullptr) continue;
+    const Device* other = devices.find(wire->robot.empty() ? robot : wire->robot, wire->device);
+    wired_[i] = dynamic_cast<const Dio*>(other);
+    if (wired_[i] == nullptr || wire->index >= wired_[i]->params().outputs) {
+      return "an output of a dio device at \"" + to_string(*wire) + "\", to which input " +
+             std::to_string(i) + " is wired";
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Dio::apply(const Command& command) {
+  const auto* set = std::get_if<DigitalOutputCommand>(&command);
+  if (set == nullptr) return Sensor::apply(command);
+  if (set->count < 0 || set->count > params_.outputs) {
+    return "device " + name() + " has " + std::to_string(params_.outputs) +
+           " digital outputs, but " + std::to_string(set->count) + " are to be set";
+  }
+  const std::uint32_t which = mask(set->count);
+  outputs_ = (outputs_ & ~which) | (set->bits & which);
+  return std::nullopt;
+}
+
+void Dio::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.input_count = static_cast<int>(params_.inputs.size());
+  reading_.inputs = 0;
+  for (std::size_t i = 0; i < params_.inputs.size(); ++i) {
+    bool high = false;
+    if (const auto* constant = std::get_if<bool>(&params_.inputs[i])) high = *constant;
+    if (const auto* signal = std::get_if<DigitalSignal>(&params_.inputs[i])) {
+      high = level(*signal, context);
+    }
+    if (const auto* wire = std::get_if<Wire>(&params_.inputs[i])) {
+      high = wired_[i] != nullptr && wired_[i]->output(wire->index);
+    }
+    if (high) reading_.inputs |= std::uint32_t{1} << i;
+  }
+  reading_.output_count = params_.outputs;
+  reading_.outputs = outputs_;
+}
+
+void Dio::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(outputs_);
+}
+
+}  // namespace sim

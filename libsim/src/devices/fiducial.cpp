@@ -1,0 +1,74 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/fiducial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/physics_world.h"
+#include "sim/world/description.h"
+
+namespace sim {
+namespace {
+
+double distance2(const FiducialReading::Mark& mark) { return mark.X_ST.position().squaredNorm(); }
+
+}  // namespace
+
+FiducialFinder::FiducialFinder(std::string name, const FiducialParams& params, RandomStream noise)
+    : Sensor(std::move(name), "fiducial", params.frequency_hz),
+      params_(params),
+      noise_(std::move(noise)) {}
+
+void FiducialFinder::measure(const StepContext& context) {
+  using Contact = PhysicsWorld::Contact;
+  stamp(context, reading_);
+  reading_.marks.clear();
+  const Pose X_WS = context.body.X_WB * params_.X_BS;
+  const Pose X_SW = X_WS.inverse();
+  const auto look_at = [&](int id, const Pose& X_WT, double height_m, const Contact& target) {
+    if (id == 0 || height_m <= params_.height_m) return;
+    if ((X_WT.position() - X_WS.position()).squaredNorm() >
+        params_.range_max_m * params_.range_max_m) {
+      return;
+    }
+    const Pose X_ST = X_SW * X_WT;
+    const double bearing = std::atan2(X_ST.y_m, X_ST.x_m);
+    if (std::abs(bearing) > 0.5 * params_.field_of_view_rad) return;
+    if (!context.physics.is_line_free(X_WS.position(), X_WT.position(), params_.height_m,
+                                      context.robot, target)) {
+      return;
+    }
+    const double distance_m = X_ST.position().norm();
+    const double measured_m = std::max(0.0, distance_m + noise_.gaussian(params_.noise_m));
+    const double direction = bearing + noise_.gaussian(params_.noise_bearing_rad);
+    FiducialReading::Mark mark;
+    mark.id = distance_m <= params_.range_max_id_m ? id : 0;
+    mark.X_ST = {measured_m * std::cos(direction), measured_m * std::sin(direction),
+                 normalize_angle(X_ST.yaw_rad + noise_.gaussian(params_.noise_yaw_rad))};
+    reading_.marks.push_back(mark);
+  };
+  const auto& robots = context.world.robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const int robot = static_cast<int>(i);
+    if (robot == context.robot) continue;
+    look_at(robots[i].fiducial, context.physics.body(robot).X_WB, context.physics.height_m(robot),
+            {robot, Contact::Kind::kRobot, robot});
+  }
+  const auto& obstacles = context.world.arena.obstacles;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) {
+    const ObstacleDescription& o = obstacles[i];
+    if (o.state != ObstacleState::kExtended) continue;
+    look_at(o.fiducial, {o.center.x(), o.center.y(), o.yaw_rad}, o.height_m,
+            {-1, Contact::Kind::kObstacle, static_cast<int>(i)});
+  }
+  std::stable_sort(reading_.marks.begin(), reading_.marks.end(),
+                   [](const auto& a, const auto& b) { return distance2(a) < distance2(b); });
+}
+
+void FiducialFinder::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(noise_.draws());
+}
+
+}  // namespace sim

@@ -1,0 +1,114 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/gps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sim {
+namespace {
+
+constexpr double kDegrees = std::numbers::pi / 180.0;
+constexpr double kUtmScale = 0.9996;
+constexpr int kLeastSatellites = 4;  // three coordinates and the receiver's clock
+
+}  // namespace
+
+GeoPoint shifted(const GeoPoint& from, double east_m, double north_m, double altitude_m,
+                 const Ellipsoid& ellipsoid) {
+  const double a = ellipsoid.semi_major_axis_m;
+  const double e2 = ellipsoid.flattening * (2.0 - ellipsoid.flattening);
+  const double s = std::sin(from.latitude_rad);
+  const double w2 = 1.0 - e2 * s * s;
+  const double across_m = a / std::sqrt(w2);                     // N, of the parallel's plane
+  const double along_m = a * (1.0 - e2) / (w2 * std::sqrt(w2));  // M, of the meridian
+  return {from.latitude_rad + north_m / (along_m + altitude_m),
+          normalize_angle(from.longitude_rad +
+                          east_m / ((across_m + altitude_m) * std::cos(from.latitude_rad)))};
+}
+
+Vec2 transverse_mercator_m(const GeoPoint& point, double central_rad, double scale,
+                           const Ellipsoid& ellipsoid) {
+  const double a = ellipsoid.semi_major_axis_m;
+  const double e2 = ellipsoid.flattening * (2.0 - ellipsoid.flattening);
+  const double e4 = e2 * e2;
+  const double e6 = e4 * e2;
+  const double second_e2 = e2 / (1.0 - e2);
+  const double latitude = point.latitude_rad;
+  const double s = std::sin(latitude);
+  const double c = std::cos(latitude);
+  const double t = (s / c) * (s / c);  // T, C, A and M of Snyder's
+  const double cc = second_e2 * c * c;
+  const double x = normalize_angle(point.longitude_rad - central_rad) * c;
+  const double n = a / std::sqrt(1.0 - e2 * s * s);
+  const double meridian_m =
+      a * ((1.0 - e2 / 4.0 - 3.0 * e4 / 64.0 - 5.0 * e6 / 256.0) * latitude -
+           (3.0 * e2 / 8.0 + 3.0 * e4 / 32.0 + 45.0 * e6 / 1024.0) * std::sin(2.0 * latitude) +
+           (15.0 * e4 / 256.0 + 45.0 * e6 / 1024.0) * std::sin(4.0 * latitude) -
+           (35.0 * e6 / 3072.0) * std::sin(6.0 * latitude));
+  const double x2 = x * x;
+  const double east =
+      n * x *
+      (1.0 + x2 * ((1.0 - t + cc) / 6.0 +
+                   x2 * (5.0 - 18.0 * t + t * t + 72.0 * cc - 58.0 * second_e2) / 120.0));
+  const double north =
+      meridian_m +
+      n * (s / c) * x2 *
+          (0.5 + x2 * ((5.0 - t + 9.0 * cc + 4.0 * cc * cc) / 24.0 +
+                       x2 * (61.0 - 58.0 * t + t * t + 600.0 * cc - 330.0 * second_e2) / 720.0));
+  return {scale * east, scale * north};
+}
+
+int utm_zone(double longitude_rad) {
+  const int zone =
+      static_cast<int>(std::floor((normalize_angle(longitude_rad) / kDegrees + 180.0) / 6.0)) + 1;
+  return std::clamp(zone, 1, 60);
+}
+
+Vec2 utm_m(const GeoPoint& point, int zone) {
+  const double central_rad = (6.0 * zone - 183.0) * kDegrees;
+  const Vec2 p = transverse_mercator_m(point, central_rad, kUtmScale);
+  return p + Vec2(500'000.0, point.latitude_rad < 0.0 ? 10'000'000.0 : 0.0);
+}
+
+Gps::Gps(std::string name, const GpsParams& params, RandomStream noise)
+    : Sensor(std::move(name), "gps", params.frequency_hz),
+      params_(params),
+      noise_(std::move(noise)),
+      zone_(utm_zone(params.longitude_rad)) {}
+
+void Gps::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.satellites = params_.satellites;
+  if (params_.satellites < kLeastSatellites) return;
+  reading_.quality = 1;
+  const Pose& X_WB = context.body.X_WB;
+  const double c = std::cos(params_.north_rad);
+  const double s = std::sin(params_.north_rad);
+  const double north_m = c * X_WB.x_m + s * X_WB.y_m + noise_.gaussian(params_.noise_m);
+  const double east_m = s * X_WB.x_m - c * X_WB.y_m + noise_.gaussian(params_.noise_m);
+  const GeoPoint place =
+      shifted({params_.latitude_rad, params_.longitude_rad}, east_m, north_m, params_.altitude_m);
+  reading_.latitude_rad = place.latitude_rad;
+  reading_.longitude_rad = place.longitude_rad;
+  reading_.altitude_m = params_.altitude_m + noise_.gaussian(params_.noise_vertical_m);
+  const Vec2 utm = utm_m(place, zone_);
+  reading_.utm_easting_m = utm.x();
+  reading_.utm_northing_m = utm.y();
+
+  const Twist& twist = context.body.twist;
+  reading_.speed_mps = std::hypot(twist.v_mps, twist.lateral_mps);
+  reading_.course_rad = 0.0;
+  if (reading_.speed_mps > 0.0) {
+    const double heading = X_WB.yaw_rad + std::atan2(twist.lateral_mps, twist.v_mps);
+    const double course = normalize_angle(params_.north_rad - heading);
+    reading_.course_rad = course < 0.0 ? course + 2.0 * std::numbers::pi : course;
+  }
+}
+
+void Gps::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(noise_.draws());
+}
+
+}  // namespace sim

@@ -1,0 +1,84 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/opaque.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace sim {
+
+Opaque::Opaque(std::string name, const OpaqueParams& params)
+    : Sensor(std::move(name), "opaque", params.frequency_hz), params_(params) {}
+
+std::optional<std::string> Opaque::connect(std::string_view robot, const DeviceDirectory& devices) {
+  lines_.clear();
+  if (params_.from.empty()) lines_.push_back({this, 0});
+  for (const std::string& name : params_.from) {
+    const std::size_t dot = name.find('.');
+    const std::string device = dot == std::string::npos ? "opaque" : name.substr(dot + 1);
+    const auto* sender = dynamic_cast<const Opaque*>(devices.find(name.substr(0, dot), device));
+    if (sender == nullptr) {
+      return "an opaque device at \"" + name + "\", whose messages are to arrive at robot " +
+             std::string(robot);
+    }
+    lines_.push_back({sender, 0});
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Opaque::apply(const Command& command) {
+  const auto* message = std::get_if<OpaqueCommand>(&command);
+  if (message == nullptr) return Sensor::apply(command);
+  if (message->data.size() > kMaxOpaque) {
+    return "device " + name() + " sends at most " + std::to_string(kMaxOpaque) +
+           " bytes at a time, but the message has " + std::to_string(message->data.size());
+  }
+  if (message->data.empty()) return std::nullopt;
+  sent_messages_.push_back(message->data);
+  ++sent_;
+  // Nobody would have room for more.
+  if (sent_messages_.size() > kMaxQueue) sent_messages_.pop_front();
+  return std::nullopt;
+}
+
+void Opaque::hear(Line& line) {
+  const std::uint64_t count = line.sender->sent_;
+  const auto& messages = line.sender->sent_messages_;
+  const std::uint64_t kept = std::min<std::uint64_t>(count - line.heard, messages.size());
+  lost_ += count - line.heard - kept;
+  arrived_.insert(arrived_.end(), messages.end() - static_cast<std::ptrdiff_t>(kept),
+                  messages.end());
+  line.heard = count;
+  while (arrived_.size() > kMaxQueue) {
+    arrived_.pop_front();
+    ++lost_;
+  }
+}
+
+void Opaque::integrate(const StepContext&) {
+  for (Line& line : lines_) hear(line);
+  // All that were sent before the last step have been heard by everybody.
+  const std::uint64_t since = sent_ - sent_before_step_;
+  while (sent_messages_.size() > since) sent_messages_.pop_front();
+  sent_before_step_ = sent_;
+}
+
+void Opaque::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.data.clear();
+  if (!arrived_.empty()) {
+    reading_.data = std::move(arrived_.front());
+    arrived_.pop_front();
+    ++reading_.number;
+  }
+  reading_.lost = lost_;
+}
+
+void Opaque::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(sent_);
+  hash.add(reading_.number);
+  hash.add(lost_);
+  for (const Message& message : arrived_) hash.add_bytes(message.data(), message.size());
+}
+
+}  // namespace sim

@@ -1,0 +1,91 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/wifi.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/physics_world.h"
+#include "sim/world/description.h"
+
+namespace sim {
+namespace {
+
+constexpr double kNearest_m = 0.1;
+
+bool has_card(const RobotDescription& robot) {
+  return std::any_of(robot.devices.begin(), robot.devices.end(),
+                     [](const DeviceDescription& device) { return device.type == "wifi"; });
+}
+
+}  // namespace
+
+double level_at_dbm(const WifiParams& params, double distance_m) {
+  return params.level_1m_dbm -
+         10.0 * params.exponent * std::log10(std::max(distance_m, kNearest_m));
+}
+
+int link_quality(double level_dbm) {
+  return static_cast<int>(std::lround(std::clamp(2.0 * (level_dbm + 100.0), 0.0, 100.0)));
+}
+
+std::string mac_of(std::string_view name) {
+  // http://www.isthe.com/chongo/tech/comp/fnv/: FNV-1a, 64 bits.
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : name) {
+    hash ^= static_cast<unsigned char>(c);
+    hash *= 0x100000001b3U;
+  }
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string mac = "02";
+  for (int byte = 0; byte < 5; ++byte) {
+    const auto value = static_cast<std::size_t>((hash >> (8 * byte)) & 0xffU);
+    mac += ':';
+    mac += kDigits[value / 16];
+    mac += kDigits[value % 16];
+  }
+  return mac;
+}
+
+std::string ip_of(bool access_point, std::size_t n) {
+  return std::string("10.") + (access_point ? "1." : "0.") + std::to_string(n / 250) + '.' +
+         std::to_string(n % 250 + 1);
+}
+
+Wifi::Wifi(std::string name, const WifiParams& params, RandomStream noise)
+    : Sensor(std::move(name), "wifi", params.frequency_hz),
+      params_(params),
+      noise_(std::move(noise)) {
+  reading_.floor_dbm = params.floor_dbm;
+  reading_.channel_mhz = params.channel_mhz;
+}
+
+void Wifi::measure(const StepContext& context) {
+  stamp(context, reading_);
+  reading_.own_ip = ip_of(false, static_cast<std::size_t>(context.robot));
+  reading_.links.clear();
+  const Vec2 p_WB = context.body.X_WB.position();
+  const auto hear = [&](const std::string& name, bool access_point, std::size_t number,
+                        const Vec2& p_W) {
+    const double level =
+        level_at_dbm(params_, (p_W - p_WB).norm()) + noise_.gaussian(params_.noise_db);
+    if (level < params_.least_dbm) return;
+    reading_.links.push_back(
+        {name, mac_of(name), ip_of(access_point, number), access_point, level});
+  };
+  for (std::size_t i = 0; i < context.world.robots.size(); ++i) {
+    const RobotDescription& robot = context.world.robots[i];
+    if (static_cast<int>(i) == context.robot || !has_card(robot)) continue;
+    hear(robot.name, false, i, context.physics.body(static_cast<int>(i)).X_WB.position());
+  }
+  for (std::size_t i = 0; i < params_.access_points.size(); ++i) {
+    hear(params_.access_points[i].name, true, i, params_.access_points[i].p_W);
+  }
+}
+
+void Wifi::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(noise_.draws());
+}
+
+}  // namespace sim

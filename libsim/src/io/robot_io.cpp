@@ -1,0 +1,306 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "io/robot_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace sim::io {
+namespace {
+
+// Box2D's polygons have no more.
+constexpr std::size_t kMostVertices = 8;
+// A robot of less than this across is lost between the tolerances of the contact solver.
+constexpr double kLeastArea_m2 = 1e-4;
+
+constexpr NumberRange kVertex{-100.0, 100.0, false, "m"};
+constexpr NumberRange kLength{0.0, 100.0, true, "m"};
+
+std::vector<std::string> type_names(const std::vector<DeviceType>& types) {
+  std::vector<std::string> names;
+  for (const DeviceType& type : types) names.push_back(type.name);
+  return names;
+}
+
+const DeviceType* find_type(const std::vector<DeviceType>& types, const std::string& name) {
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&name](const DeviceType& t) { return t.name == name; });
+  return type == types.end() ? nullptr : &*type;
+}
+
+void read_device(Reader& settings, const std::string& name,
+                 const std::vector<std::string>& of_model, const std::vector<DeviceType>& types,
+                 std::map<std::string, DeviceDescription>& devices) {
+  const auto of_same_name = devices.find(name);
+  const bool known = of_same_name != devices.end();
+  std::string type_name = known ? of_same_name->second.type : name;
+  if (settings.has("type")) {
+    const std::vector<std::string> names = type_names(types);
+    const std::string wanted = settings.choice("type", "", names);
+    if (std::find(names.begin(), names.end(), wanted) == names.end()) return;
+    type_name = wanted;
+  }
+  const DeviceType* type = find_type(types, type_name);
+  if (type == nullptr) {
+    settings.issue("world/unknown-device",
+                   "a device that the model has (" + list_text(of_model) +
+                       "), or a \"type\" for a new one (" + list_text(type_names(types)) + ")",
+                   in_quotes(name) + " without a type", did_you_mean(name, of_model));
+    return;
+  }
+  const std::any base = known && of_same_name->second.type == type_name
+                            ? of_same_name->second.params
+                            : type->defaults();
+  std::any params = type->parse(settings, base);
+  settings.finish();
+  devices[name] = {name, type_name, std::move(params)};
+}
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double area_m2(const Polygon& outline) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    twice += cross(outline[i], outline[(i + 1) % outline.size()]);
+  }
+  return 0.5 * twice;
+}
+
+// Whether a counter-clockwise outline turns left at each vertex, once round: no straight angles,
+// which the physics would drop.
+bool is_convex(const Polygon& outline) {
+  const std::size_t n = outline.size();
+  double turned_rad = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 before = outline[(i + 1) % n] - outline[i];
+    const Vec2 after = outline[(i + 2) % n] - outline[(i + 1) % n];
+    const double turn_rad = std::atan2(cross(before, after), before.dot(after));
+    if (turn_rad < 1e-6) return false;
+    turned_rad += turn_rad;
+  }
+  return turned_rad < 2.0 * std::numbers::pi + 1e-6;
+}
+
+Polygon read_footprint(Reader& model) {
+  if (!model.require("footprint", "the outline: a list of points [x, y] round the robot, in m")) {
+    return {};
+  }
+  Reader list = *model.child("footprint");
+  Polygon outline;
+  const Vec2 not_read = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (Reader& vertex : model.array("footprint")) {
+    outline.push_back(vertex.as_vec2(not_read, kVertex));
+    if (!outline.back().allFinite()) return {};
+  }
+  if (!list.is_array()) return {};
+  const bool clockwise = area_m2(outline) < 0.0;
+  if (clockwise) std::reverse(outline.begin(), outline.end());
+  if (outline.size() < 3 || outline.size() > kMostVertices) {
+    list.issue("world/bad-footprint", "3 to 8 points", std::to_string(outline.size()));
+  } else if (!is_convex(outline)) {
+    list.issue("world/bad-footprint", "the corners of a convex outline, in order",
+               "an outline with a notch, a straight corner or a crossing",
+               "take the convex outline round the robot");
+  } else if (area_m2(outline) < kLeastArea_m2) {
+    list.issue("world/bad-footprint", "an outline of at least 1 cm^2",
+               number_text(area_m2(outline) * 1e4) + " cm^2", "points are in m");
+  }
+  return outline;
+}
+
+DriveDescription read_drive(Reader& model) {
+  DriveDescription drive;
+  std::optional<Reader> reader = model.object("drive");
+  if (!reader) return drive;
+  const std::string kind =
+      reader->choice("kind", "differential", {"differential", "omnidirectional", "car"});
+  drive.wheel_radius_m = reader->number("wheel_radius", drive.wheel_radius_m, kLength);
+  drive.wheel_separation_m = reader->number("wheel_separation", drive.wheel_separation_m, kLength);
+  if (kind == "omnidirectional") drive.kind = DriveKind::kOmnidirectional;
+  if (kind == "car") {
+    drive.kind = DriveKind::kCar;
+    drive.wheelbase_m = reader->number("wheelbase", drive.wheelbase_m, kLength);
+    drive.max_steering_rad =
+        reader->angle_deg("max_steering_deg", drive.max_steering_rad, {0.0, 80.0, true, "degrees"});
+    drive.max_steering_rate_radps = reader->angle_deg(
+        "max_steering_rate_deg", drive.max_steering_rate_radps, {0.0, 3600.0, false, "degrees/s"});
+  }
+  reader->finish();
+  return drive;
+}
+
+RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& types) {
+  RobotModel model;
+  if (!root.expect_object()) return model;
+  static_cast<void>(root.string("$schema", ""));
+  if (root.require("name", "what to call the model")) model.name = root.name("name", "");
+  model.description = root.string("description", "");
+  model.footprint = read_footprint(root);
+  model.height_m = root.number("height", model.height_m, {0.0, 10.0, true, "m"});
+  model.mass_kg = root.number("mass", model.mass_kg, {0.0, 10'000.0, true, "kg"});
+  model.drive = read_drive(root);
+  model.max_speed_mps = root.number("max_speed", model.max_speed_mps, {0.0, 20.0, true, "m/s"});
+  model.max_turn_rate_radps = root.angle_deg("max_turn_rate_deg", model.max_turn_rate_radps,
+                                             {0.0, 3600.0, true, "degrees/s"});
+  model.devices = read_devices(root, {}, types);
+  model.interfaces = read_interfaces(root, model.devices, {});
+  root.finish();
+  return model;
+}
+
+bool is_file_name(const std::string& name) {
+  return name.find('/') != std::string::npos || name.ends_with(".json");
+}
+
+}  // namespace
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string near = nearest_word(word, known);
+  return near.empty() ? "" : "did you mean " + in_quotes(near) + "?";
+}
+
+std::vector<DeviceDescription> default_devices(Reader& place, const RobotModel& model,
+                                               const std::vector<DeviceType>& types) {
+  std::vector<DeviceDescription> devices = model.devices;
+  for (DeviceDescription& device : devices) {
+    if (device.params.has_value()) continue;
+    if (const DeviceType* type = find_type(types, device.type)) {
+      device.params = type->defaults();
+    } else {
+      place.issue("world/unknown-device-type",
+                  "one of the types that this program has: " + list_text(type_names(types)),
+                  in_quotes(device.type) + ", which the model " + model.name + " carries");
+    }
+  }
+  return devices;
+}
+
+std::vector<DeviceDescription> read_devices(Reader& owner, std::vector<DeviceDescription> base,
+                                            const std::vector<DeviceType>& types) {
+  std::map<std::string, DeviceDescription> devices;
+  for (DeviceDescription& device : base) devices.emplace(device.name, device);
+  std::vector<std::string> of_model;
+  for (const auto& [name, device] : devices) of_model.push_back(name);
+
+  if (std::optional<Reader> reader = owner.object("devices")) {
+    for (const std::string& name : reader->keys()) {
+      Reader settings = *reader->child(name);
+      const bool known = devices.contains(name);
+      if (!is_valid_name(name)) {
+        settings.issue("world/bad-name", "a name of 1 to 64 letters, digits, _ or -",
+                       in_quotes(name));
+      } else if (settings.is_null() || settings.scalar_text() == "false") {
+        if (known) {
+          devices.erase(name);
+        } else {
+          settings.issue(
+              "world/unknown-device", "a device that the model has: " + list_text(of_model),
+              in_quotes(name) + ", which is not there to be removed", did_you_mean(name, of_model));
+        }
+      } else if (!settings.is_object()) {
+        settings.issue("world/wrong-type",
+                       "an object {...} of settings, or null for no such device",
+                       settings.described());
+      } else {
+        read_device(settings, name, of_model, types, devices);
+      }
+    }
+  }
+  std::vector<DeviceDescription> all;
+  for (auto& [name, device] : devices) all.push_back(std::move(device));
+  return all;
+}
+
+std::map<std::string, std::vector<std::string>> read_interfaces(
+    Reader& owner, const std::vector<DeviceDescription>& devices,
+    const std::map<std::string, std::vector<std::string>>& base) {
+  std::vector<std::string> known;
+  for (const DeviceDescription& device : devices) known.push_back(device.name);
+  // A model's order holds for those of its devices that the robot has kept.
+  std::map<std::string, std::vector<std::string>> interfaces = base;
+  for (auto& [interface, names] : interfaces) {
+    std::erase_if(names, [&](const std::string& name) {
+      return std::find(known.begin(), known.end(), name) == known.end();
+    });
+  }
+  std::optional<Reader> reader = owner.object("interfaces");
+  if (!reader) return interfaces;
+  for (const std::string& interface : reader->keys()) {
+    std::vector<std::string> names;
+    for (Reader& element : reader->array(interface, 64)) {
+      const std::string name = element.is_string() ? element.scalar_text().value_or("") : "";
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        element.issue("world/unknown-device",
+                      "the name of a device of this robot: " + list_text(known),
+                      element.described(), did_you_mean(name, known));
+      } else if (std::find(names.begin(), names.end(), name) != names.end()) {
+        element.issue("world/duplicate-name", "each device once", in_quotes(name) + " again",
+                      "a device has one index of an interface");
+      } else {
+        names.push_back(name);
+      }
+    }
+    interfaces[interface] = std::move(names);
+  }
+  return interfaces;
+}
+
+std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
+                                     Reader::Document& world,
+                                     const std::vector<DeviceType>& types) {
+  Reader::Document document;
+  document.what = "robot model";
+  std::string text;
+  if (is_file_name(name)) {
+    const std::filesystem::path folder = std::filesystem::path(world.file).parent_path();
+    document.file = (folder / name).string();
+    // Reading a pipe or a device might never end.
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(document.file, error);
+    if (std::filesystem::is_other(status)) {
+      robot.issue("world/model-unreadable", "a file with a robot model",
+                  document.file + ": a pipe, a socket or a device", "", "model");
+      return std::nullopt;
+    }
+    if (!read_file(document.file, text, document, "a file with a robot model")) {
+      const ConfigIssue& why = document.issues.front();
+      robot.issue(
+          "world/model-unreadable", "a file with a robot model", document.file + ": " + why.found,
+          why.hint.empty() ? "the name is relative to the folder of the world file" : why.hint,
+          "model");
+      return std::nullopt;
+    }
+  } else {
+    std::vector<std::string> known{default_robot_model().name};
+    for (const ShippedModel& model : shipped_models()) {
+      known.emplace_back(model.name);
+      if (model.name != name) continue;
+      document.file = "models/" + name + ".json";
+      text = model.text;
+    }
+    if (text.empty()) {
+      robot.issue("world/unknown-model",
+                  "one of the models " + list_text(known) + ", or a file NAME.json",
+                  in_quotes(name), did_you_mean(name, known), "model");
+      return std::nullopt;
+    }
+  }
+  RobotModel model;
+  if (text.size() > kMaxFileBytes) {
+    document.add({"file/too-large", document.file, "", "at most 16 MiB", "more", ""});
+  } else if (parse_document(text, document)) {
+    Reader root(document, document.root, "");
+    model = read_model_document(root, types);
+  }
+  if (document.issues.empty()) return model;
+  for (ConfigIssue& issue : document.issues) world.add(std::move(issue));
+  return std::nullopt;
+}
+
+}  // namespace sim::io

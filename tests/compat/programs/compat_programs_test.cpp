@@ -1,0 +1,119 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Client programs in the styles of those out there, unchanged, each for up to 60 simulated seconds
+// in a world that suits it: they end, and the robots have done what the programs meant.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::HasSubstr;
+
+constexpr double kAny = 1e9;
+
+/// A program, where it runs, and what it must have done then.
+struct Case {
+  std::string program;
+  std::string world;                     ///< below worlds/
+  std::vector<std::string> says;         ///< parts of what it prints
+  double least_path_m = 0.0;             ///< of the first robot
+  double most_path_m = kAny;             ///< of the first robot
+  int most_collisions = 0;               ///< of all robots
+  int moving_robots = 1;                 ///< so many have driven at least 0.1 m
+  std::vector<std::string> arguments{};  ///< of the program
+};
+
+// For the names of the tests.
+void PrintTo(const Case& c, std::ostream* os) { *os << c.program << " in " << c.world; }
+
+const std::string kPioneer = "examples/pioneer.json";
+const std::string kCave = "cave.json";
+const std::string kOffice = "office.json";
+
+std::vector<Case> cases() {
+  return {
+      {"background_thread", kCave, {"ended at"}, 1.5},
+      {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
+      {"carlike", "examples/car.json", {"turned"}, 4.5, 5.0},
+      {"exceptions", kCave, {"robot on port 6665", "no gripper", "ended:"}, 5.0, 6.1},
+      {"fiducial_chase", kPioneer, {"reached fiducial"}, 0.2},
+      {"four_ports", kCave, {"robot 3"}, 1.0, kAny, 0, 4},
+      {"globals", kCave, {"after main"}, 1.0},
+      {"goto_goal", kPioneer, {"3 goals reached"}, 2.5, 5.0},
+      {"infrared", "examples/infrared_robot.json", {"8 sensors", "highest voltage"}, 0.5},
+      {"instruments", kPioneer, {"charge"}, 1.8, 2.2},
+      {"logger", kPioneer, {"position2d:0", "laser:0"}, 1.8, 2.2, 0, 1, {"log.txt"}},
+      {"map_reader", kOffice, {"occupied", "#"}, 0.0, 0.01, 0, 0},
+      {"never_deleted", kPioneer, {"stopped at"}, 0.3},
+      {"omnidirectional", "examples/omni.json", {"to the left"}, 0.7, 1.5},
+      {"own_goto", kPioneer, {"distance left 0.0"}, 1.4, 2.5},
+      {"own_proxy", kPioneer, {"50 scans"}, 0.0, 0.01, 0, 0},
+      {"posix_threads", kCave, {"nearest"}, 0.5},
+      {"potential_field", kCave, {}, 2.0},
+      {"read_signals", kCave, {"150 poses"}, 1.0},
+      {"simulation", kPioneer, {"moved by 0.3", "nobody"}, 0.1, kAny, 0, 1, {"r1"}},
+      {"speaking", kPioneer, {"inputs"}, 1.8, 2.2},
+      {"square_by_odometry", kPioneer, {"closed within 0.0"}, 3.9, 4.4},
+      {"square_counting_turns", kPioneer, {"at "}, 3.8, 4.2},
+      {"square_sleeping", kPioneer, {}, 3.9, 4.1},
+      {"standard_threads", kCave, {}, 0.5, kAny, 0, 2},
+      {"two_clients_one_port", kCave, {"way "}, 1.0},
+      {"wall_clock", kPioneer, {"took 1.0"}, 0.8, 1.1},
+      {"wall_follow", kOffice, {}, 8.0},
+      {"wander_laser", kCave, {"#PlayerClient"}, 4.0},
+      {"wander_ranger", kCave, {"ranges: ", "max 8"}, 8.0},
+      {"wander_sonar", kCave, {}, 4.0},
+  };
+}
+
+class CompatPrograms : public testing::TestWithParam<Case> {};
+
+TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
+  const Case& c = GetParam();
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  std::vector<std::string> call = {"run",        PLAYPEN_SOURCE_DIR "/worlds/" + c.world,
+                                   "--out",      out,
+                                   "--duration", "60",
+                                   "--",         PROGRAMS + c.program};
+  call.insert(call.end(), c.arguments.begin(), c.arguments.end());
+  test_support::ProcessOptions options;
+  options.folder = folder.path();
+  const ProcessResult result = playpen(call, options);
+  ASSERT_FALSE(result.timed_out) << result.out << result.err;
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  for (const std::string& part : c.says) EXPECT_THAT(result.out, HasSubstr(part)) << result.err;
+
+  const json report = json::parse(read_bytes(fs::path(out) / "report.json"));
+  const json& robots = report.at("robots");
+  EXPECT_GE(robots[0].at("path_length"), c.least_path_m) << result.out << result.err;
+  EXPECT_LE(robots[0].at("path_length"), c.most_path_m) << result.out << result.err;
+  int collisions = 0;
+  int moving = 0;
+  for (const json& robot : robots) {
+    collisions += robot.at("collisions").get<int>();
+    if (robot.at("path_length") >= 0.1) ++moving;
+  }
+  EXPECT_LE(collisions, c.most_collisions) << result.out << result.err;
+  EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, CompatPrograms, testing::ValuesIn(cases()),
+                         [](const auto& one) { return one.param.program; });
+
+}  // namespace

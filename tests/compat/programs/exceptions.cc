@@ -1,0 +1,43 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Looks for a robot on one port after the other, and lives with devices that are not there.
+#include <libplayerc++/playerc++.h>
+#include <memory>
+using namespace PlayerCc;
+using namespace std;
+
+int main()
+{
+  PlayerClient *robot = NULL;
+  int port;
+  for (port = 6663; port < 6670 && !robot; ++port) {
+    try {
+      robot = new PlayerClient("localhost", port);
+    } catch (PlayerError &e) {
+      cerr << "port " << port << ": " << e.GetErrorStr() << endl;
+    }
+  }
+  if (!robot) return 1;
+  cout << "robot on port " << robot->GetPort() << endl;
+  GripperProxy *gripper = 0;
+  try {
+    gripper = new GripperProxy(robot, 0);
+  } catch (PlayerError e) {
+    cout << "no gripper: " << e << endl;
+  }
+  try {
+    LaserProxy none(robot, 77);
+    return 1;
+  } catch (const PlayerError &e) {
+    cout << e.GetErrorFun() << endl;
+  }
+  Position2dProxy pp(robot, 0);
+  try {
+    while (true) {
+      robot->Read();
+      pp.SetSpeed(0.1, 0.3);
+    }
+  } catch (PlayerError &e) {
+    cout << "ended: " << e.GetErrorStr() << endl;
+  }
+  return gripper == 0 ? 0 : 1;
+}

@@ -1,0 +1,705 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The C library, in a process and across a network.
+#include "libplayerc/playerc.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "libplayerc++/playerc++.h"
+#include "playerlike/host/embedded.h"
+#include "reachable_host.h"
+#include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
+
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A room of 4 x 3 m. r1 looks along x from (1, 1.5): its laser, 0.035 m before its axle, has
+// 2.965 m to the wall. r2 looks along y.
+constexpr const char* kWorld = R"({
+  "name": "room",
+  "arena": {"size": [4, 3], "obstacles": [{"name": "b", "center": [3.5, 0.5], "size": [0.4, 0.4]}]},
+  "canvas": {"size": [40, 30], "cell_size": 0.1},
+  "simulation": {"duration": 20},
+  "robots": [{"name": "r1", "pose": {"x": 1, "y": 1.5},
+              "devices": {"laser": {}, "pose": {}, "odometry": {}, "motion": {}, "pen": {},
+                          "sonar": {}, "infrared": {}, "bumper": {}, "battery": {}}},
+             {"name": "r2", "pose": {"x": 2, "y": 0.5, "yaw_deg": 90}}]})";
+
+struct Free {
+  void operator()(playerc_client_t* c) const { playerc_client_destroy(c); }
+  void operator()(playerc_mclient_t* m) const { playerc_mclient_destroy(m); }
+  void operator()(playerc_position2d_t* p) const { playerc_position2d_destroy(p); }
+  void operator()(playerc_laser_t* l) const { playerc_laser_destroy(l); }
+  void operator()(playerc_map_t* m) const { playerc_map_destroy(m); }
+  void operator()(playerc_graphics2d_t* g) const { playerc_graphics2d_destroy(g); }
+  void operator()(playerc_ranger_t* r) const { playerc_ranger_destroy(r); }
+  void operator()(playerc_sonar_t* s) const { playerc_sonar_destroy(s); }
+  void operator()(playerc_ir_t* i) const { playerc_ir_destroy(i); }
+  void operator()(playerc_bumper_t* b) const { playerc_bumper_destroy(b); }
+  void operator()(playerc_power_t* p) const { playerc_power_destroy(p); }
+};
+template <typename T>
+using Owned = std::unique_ptr<T, Free>;
+
+/// Tests that hold for every way to reach a world.
+class PlayercBase {
+ public:
+  explicit PlayercBase(test::Transport transport) {
+    if (transport == test::Transport::kInProcess) {
+      name_ = "sim:" + folder_.write("room.json", kWorld);
+      return;
+    }
+    setenv("PLAYPEN_ENCODING", transport == test::Transport::kJson ? "json" : "cbor", 1);
+    host_ = std::make_unique<test::ReachableHost>(
+        playerlike::Host::create(sim::load_world_text(kWorld)), transport);
+    name_ = host_->name();
+  }
+  PlayercBase(const PlayercBase&) = delete;
+  PlayercBase& operator=(const PlayercBase&) = delete;
+  ~PlayercBase() { playerlike::close_embedded_hosts(); }
+
+  [[nodiscard]] Owned<playerc_client_t> client(int port = 6665,
+                                               playerc_mclient_t* group = nullptr) const {
+    Owned<playerc_client_t> made(playerc_client_create(group, name_.c_str(), port));
+    EXPECT_EQ(playerc_client_connect(made.get()), 0) << playerc_error_str();
+    return made;
+  }
+  [[nodiscard]] static Owned<playerc_position2d_t> position(playerc_client_t* client,
+                                                            int index = 0) {
+    Owned<playerc_position2d_t> made(playerc_position2d_create(client, index));
+    EXPECT_EQ(playerc_position2d_subscribe(made.get(), PLAYERC_OPEN_MODE), 0)
+        << playerc_error_str();
+    return made;
+  }
+  [[nodiscard]] static Owned<playerc_laser_t> laser(playerc_client_t* client) {
+    Owned<playerc_laser_t> made(playerc_laser_create(client, 0));
+    EXPECT_EQ(playerc_laser_subscribe(made.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+    return made;
+  }
+
+ protected:
+  test_support::TemporaryFolder folder_;
+  std::unique_ptr<test::ReachableHost> host_;
+  std::string name_;
+};
+
+class PlayercEverywhere : public PlayercBase, public testing::TestWithParam<test::Transport> {
+ protected:
+  PlayercEverywhere() : PlayercBase(GetParam()) {}
+};
+INSTANTIATE_TEST_SUITE_P(Transports, PlayercEverywhere,
+                         testing::Values(test::Transport::kInProcess, test::Transport::kCbor),
+                         [](const auto& instance) { return transport_name(instance.param); });
+
+class Playerc : public PlayercBase, public testing::Test {
+ protected:
+  Playerc() : PlayercBase(test::Transport::kInProcess) {}
+};
+
+/// Reads until it is this device's turn.
+[[nodiscard]] bool read_until(playerc_client_t* client, const void* device) {
+  for (int i = 0; i < 10; ++i) {
+    const void* const told = playerc_client_read(client);
+    if (told == device) return true;
+    if (told == nullptr) return false;
+  }
+  return false;
+}
+
+// --- Clients
+
+TEST_P(PlayercEverywhere, ConnectsAndListsDevices) {
+  const auto robot = client();
+  EXPECT_EQ(robot->connected, 1);
+  EXPECT_EQ(robot->port, 6665);
+  EXPECT_EQ(robot->id, robot.get());
+  ASSERT_EQ(playerc_client_get_devlist(robot.get()), 0) << playerc_error_str();
+  bool has_laser = false;
+  for (int i = 0; i < robot->devinfo_count; ++i) {
+    const playerc_device_info_t& info = robot->devinfos[i];
+    if (info.addr.interf != PLAYER_LASER_CODE) continue;
+    has_laser = true;
+    EXPECT_EQ(info.addr.index, 0);
+    EXPECT_EQ(info.addr.robot, 6665U);
+    EXPECT_STREQ(info.drivername, "laser");
+  }
+  EXPECT_TRUE(has_laser);
+  EXPECT_EQ(playerc_client_disconnect(robot.get()), 0);
+  EXPECT_EQ(robot->connected, 0);
+  EXPECT_EQ(playerc_client_get_devlist(robot.get()), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("not connected"));
+}
+
+TEST_P(PlayercEverywhere, ExplainsWhyItCannotConnectOrSubscribe) {
+  const Owned<playerc_client_t> none(playerc_client_create(nullptr, name_.c_str(), 7000));
+  EXPECT_EQ(playerc_client_connect(none.get()), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("7000"));
+  EXPECT_EQ(none->connected, 0);
+  const auto robot = client();
+  const Owned<playerc_laser_t> laser(playerc_laser_create(robot.get(), 3));
+  ASSERT_NE(laser, nullptr);
+  EXPECT_EQ(playerc_laser_subscribe(laser.get(), PLAYERC_OPEN_MODE), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("playerc_laser_subscribe"));
+  EXPECT_THAT(playerc_error_str(), HasSubstr("laser:3"));
+  EXPECT_THAT(playerc_error_str(), HasSubstr("laser:0"));  // which there is
+  EXPECT_EQ(laser->info.subscribed, 0);
+  EXPECT_EQ(playerc_laser_get_geom(laser.get()), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("not subscribed"));
+}
+
+TEST_P(PlayercEverywhere, TellsOfOneDeviceAtATimeAndOfTheRoundIfAsked) {
+  const auto robot = client();
+  const auto scanner = laser(robot.get());
+  const auto base = position(robot.get());
+  EXPECT_EQ(robot->device_count, 2);
+  EXPECT_EQ(scanner->scan_count, 0);
+  EXPECT_EQ(base->info.fresh, 0);
+  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());
+  EXPECT_EQ(scanner->info.fresh, 1);
+  EXPECT_EQ(base->info.fresh, 0);  // its turn is next
+  EXPECT_EQ(robot->qlen, 1);
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_EQ(base->info.fresh, 1);
+  EXPECT_NEAR(base->info.datatime, 0.1, 1e-9);
+  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());  // PUSH: the next round
+  EXPECT_NEAR(scanner->info.datatime, 0.2, 1e-9);
+  EXPECT_NEAR(scanner->info.lasttime, 0.1, 1e-9);
+  EXPECT_NEAR(robot->datatime, 0.2, 1e-9);
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  ASSERT_EQ(playerc_client_datamode(robot.get(), PLAYERC_DATAMODE_PULL), 0);
+  ASSERT_EQ(playerc_client_requestdata(robot.get()), 0);
+  EXPECT_EQ(playerc_client_read(robot.get()), scanner.get());
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  EXPECT_EQ(playerc_client_datamode(robot.get(), 77), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("77"));
+}
+
+TEST_P(PlayercEverywhere, LetsTimePassWithoutDevices) {
+  const auto robot = client();
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  const auto base = position(robot.get());
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_NEAR(base->info.datatime, 0.3, 1e-9);
+}
+
+TEST_P(PlayercEverywhere, PeeksAndReadsWithoutWaiting) {
+  const auto robot = client();
+  const auto base = position(robot.get());
+  ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  int idle = 0;
+  void* told = nullptr;
+  while (playerc_client_read_nonblock_withproxy(robot.get(), &told) == 0) ++idle;
+  EXPECT_EQ(told, base.get());
+  EXPECT_NEAR(base->info.datatime, 0.2, 1e-9);
+  // The first only looks, the nine after it let a step of 10 ms pass each, the tenth brings data.
+  EXPECT_EQ(idle, 10);
+  EXPECT_EQ(playerc_client_peek(robot.get(), 50), 0);
+  EXPECT_EQ(playerc_client_peek(robot.get(), -1), 1);
+  EXPECT_EQ(playerc_client_internal_peek(robot.get(), 0), 1);
+  EXPECT_EQ(playerc_client_read_nonblock(robot.get()), 1);
+  EXPECT_NEAR(base->info.datatime, 0.3, 1e-9);
+}
+
+TEST_P(PlayercEverywhere, SaysThatTheRunIsOver) {
+  const auto robot = client();
+  const auto base = position(robot.get());
+  int readings = 0;
+  while (playerc_client_read(robot.get()) != nullptr) ++readings;
+  EXPECT_EQ(readings, 200);  // 20 s, 10 Hz
+  EXPECT_THAT(playerc_error_str(), HasSubstr("the simulated run is over"));
+  EXPECT_EQ(playerc_client_peek(robot.get(), -1), 1);  // there is something to be told
+  EXPECT_EQ(playerc_client_read_nonblock(robot.get()), -1);
+}
+
+TEST_F(Playerc, KeepsErrorsOfThreadsApart) {
+  EXPECT_EQ(playerc_client_connect(nullptr), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("null pointer"));
+  std::string others = "?";
+  std::thread([&] { others = playerc_error_str(); }).join();
+  EXPECT_THAT(others, IsEmpty());
+}
+
+TEST_F(Playerc, RefusesNullPointers) {
+  EXPECT_EQ(playerc_laser_create(nullptr, -1), nullptr);
+  EXPECT_EQ(playerc_laser_subscribe(nullptr, PLAYERC_OPEN_MODE), -1);
+  EXPECT_EQ(playerc_client_read(nullptr), nullptr);
+  EXPECT_EQ(playerc_client_adddevice(nullptr, nullptr), -1);
+  EXPECT_EQ(playerc_client_addcallback(nullptr, nullptr, nullptr, nullptr), -1);
+  EXPECT_EQ(playerc_device_subscribe(nullptr, PLAYERC_OPEN_MODE), -1);
+  EXPECT_EQ(playerc_mclient_read(nullptr, 0), -1);
+  EXPECT_EQ(playerc_position2d_set_cmd_vel(nullptr, 0.0, 0.0, 0.0, 1), -1);
+  playerc_client_destroy(nullptr);
+  playerc_laser_destroy(nullptr);
+  playerc_mclient_destroy(nullptr);
+  playerc_device_term(nullptr);
+  // A device without a client can be made, and not be used.
+  const Owned<playerc_laser_t> laser(playerc_laser_create(nullptr, 0));
+  ASSERT_NE(laser, nullptr);
+  EXPECT_EQ(playerc_laser_subscribe(laser.get(), PLAYERC_OPEN_MODE), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("no client"));
+}
+
+TEST_F(Playerc, LetsThingsGoInAnyOrder) {
+  auto robot = client();
+  auto base = position(robot.get());
+  auto scanner = laser(robot.get());
+  const auto unused = Owned<playerc_laser_t>(playerc_laser_create(robot.get(), 0));
+  ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  scanner.reset();  // while its data wait
+  EXPECT_EQ(robot->device_count, 2);
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+  robot.reset();
+  EXPECT_EQ(base->info.client, nullptr);
+  EXPECT_EQ(base->info.subscribed, 0);
+  EXPECT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.1, 0.0, 0.0, 1), -1);
+  EXPECT_EQ(playerc_position2d_subscribe(base.get(), PLAYERC_OPEN_MODE), -1);
+  EXPECT_NEAR(base->px, 1.0, 1e-9);  // what was read stays
+}
+
+TEST_F(Playerc, SubscribesAgainAfterReconnecting) {
+  const auto robot = client();
+  const auto base = position(robot.get());
+  EXPECT_EQ(playerc_client_disconnect_retry(robot.get()), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("playerc_client_set_retry_limit"));
+  EXPECT_EQ(playerc_client_read(robot.get()), nullptr);
+  ASSERT_EQ(playerc_client_connect(robot.get()), 0);
+  ASSERT_EQ(playerc_position2d_subscribe(base.get(), PLAYERC_OPEN_MODE), 0);
+  playerc_client_set_retry_limit(robot.get(), 2);
+  playerc_client_set_retry_time(robot.get(), 0.001);
+  playerc_client_set_request_timeout(robot.get(), 5);
+  ASSERT_EQ(playerc_client_disconnect_retry(robot.get()), 0) << playerc_error_str();
+  EXPECT_EQ(base->info.subscribed, 1);
+  EXPECT_EQ(playerc_client_read(robot.get()), base.get());
+}
+
+TEST_F(Playerc, CallsUpToFourCallbacks) {
+  const auto robot = client();
+  const auto base = position(robot.get());
+  std::vector<int> calls;
+  struct Call {
+    std::vector<int>* calls;
+    int number;
+    static void note(void* data) {
+      const auto* self = static_cast<Call*>(data);
+      self->calls->push_back(self->number);
+    }
+  };
+  Call all[5] = {{&calls, 0}, {&calls, 1}, {&calls, 2}, {&calls, 3}, {&calls, 4}};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(playerc_client_addcallback(robot.get(), &base->info, Call::note, &all[i]), 0);
+  }
+  EXPECT_EQ(playerc_client_addcallback(robot.get(), &base->info, Call::note, &all[4]), -1);
+  playerc_client_read(robot.get());
+  EXPECT_THAT(calls, ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(playerc_client_delcallback(robot.get(), &base->info, Call::note, &all[1]), 0);
+  calls.clear();
+  playerc_client_read(robot.get());
+  EXPECT_THAT(calls, ElementsAre(0, 2, 3));
+}
+
+TEST_F(Playerc, TakesReplaceRulesBeforeAndAfterConnecting) {
+  const Owned<playerc_client_t> robot(playerc_client_create(nullptr, name_.c_str(), 6665));
+  EXPECT_EQ(playerc_client_set_replace_rule(robot.get(), -1, -1, PLAYER_MSGTYPE_DATA, -1, 0), 0);
+  EXPECT_EQ(playerc_client_set_replace_rule(robot.get(), PLAYER_LASER_CODE, 0, -1, -1, 1), 0);
+  ASSERT_EQ(playerc_client_connect(robot.get()), 0);
+  const auto base = position(robot.get());
+  const auto odometry = position(robot.get(), 1);
+  EXPECT_EQ(playerc_client_set_replace_rule(robot.get(), 9999, -1, -1, -1, 1), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("9999"));
+  // Whatever the rule, a device is told of once a round, with its newest data.
+  const auto other = client(6666);
+  for (int i = 0; i < 3; ++i) playerc_client_read(other.get());
+  EXPECT_TRUE(read_until(robot.get(), base.get()));
+  EXPECT_EQ(playerc_client_read(robot.get()), odometry.get());
+}
+
+// --- Several clients
+
+TEST_P(PlayercEverywhere, ReadsSeveralClientsTogether) {
+  const Owned<playerc_mclient_t> group(playerc_mclient_create());
+  EXPECT_EQ(playerc_mclient_read(group.get(), 0), -1);
+  const auto one = client(6665, group.get());
+  const auto two = client(6666, group.get());
+  EXPECT_EQ(group->client_count, 2);
+  const auto base1 = position(one.get());
+  const auto base2 = position(two.get());
+  EXPECT_EQ(playerc_mclient_peek(group.get(), 0), 0);
+  EXPECT_EQ(playerc_mclient_read(group.get(), 50), 0);  // not that soon
+  for (int i = 1; i <= 5; ++i) {
+    EXPECT_EQ(playerc_mclient_read(group.get(), -1), 2) << playerc_error_str();
+    EXPECT_NEAR(group->time, 0.1 * i, 1e-9);
+    EXPECT_NEAR(base1->info.datatime, 0.1 * i, 1e-9);
+    EXPECT_NEAR(base2->info.datatime, 0.1 * i, 1e-9);
+  }
+  EXPECT_NEAR(base2->pa, 0.5 * std::numbers::pi, 1e-9);
+}
+
+TEST_F(Playerc, ReadsClientsOfSeveralWorldsTogether) {
+  const Owned<playerc_mclient_t> group(playerc_mclient_create());
+  const auto one = client(6665, group.get());
+  const std::string other = "sim:" + folder_.write("other.json", kWorld);
+  auto two = Owned<playerc_client_t>(playerc_client_create(group.get(), other.c_str(), 6666));
+  ASSERT_EQ(playerc_client_connect(two.get()), 0);
+  const auto base1 = position(one.get());
+  auto base2 = position(two.get());
+  int readings1 = 0;
+  int readings2 = 0;
+  while (readings1 < 20 || readings2 < 20) {
+    ASSERT_GT(playerc_mclient_read(group.get(), 1000), 0) << playerc_error_str();
+    readings1 += std::exchange(base1->info.fresh, 0);
+    readings2 += std::exchange(base2->info.fresh, 0);
+  }
+  EXPECT_NEAR(base1->info.datatime, 0.1 * readings1, 1e-9);
+  EXPECT_NEAR(base2->info.datatime, 0.1 * readings2, 1e-9);
+  EXPECT_LE(std::abs(readings1 - readings2), 2);  // both worlds go on
+  two.reset();
+  EXPECT_EQ(group->client_count, 1);
+  EXPECT_EQ(playerc_mclient_read(group.get(), -1), 1);
+  // To the end of the run.
+  while (playerc_mclient_read(group.get(), -1) > 0) {
+  }
+  EXPECT_THAT(playerc_error_str(), HasSubstr("the simulated run is over"));
+}
+
+TEST_F(Playerc, HoldsAtMost128ClientsInAList) {
+  const Owned<playerc_mclient_t> group(playerc_mclient_create());
+  std::vector<Owned<playerc_client_t>> clients;
+  for (int i = 0; i < 128; ++i) {
+    clients.emplace_back(playerc_client_create(group.get(), "localhost", 6665));
+  }
+  EXPECT_EQ(group->client_count, 128);
+  const Owned<playerc_client_t> more(playerc_client_create(nullptr, "localhost", 6665));
+  EXPECT_EQ(playerc_mclient_addclient(group.get(), more.get()), -1);
+}
+
+// --- Devices
+
+TEST_F(Playerc, UsesDevicesByTheirCommonPart) {
+  const auto robot = client();
+  const Owned<playerc_laser_t> laser(playerc_laser_create(robot.get(), 0));
+  char driver[4];
+  EXPECT_EQ(playerc_client_subscribe(robot.get(), PLAYER_LASER_CODE, 0, PLAYERC_OPEN_MODE, driver,
+                                     sizeof driver),
+            0);
+  EXPECT_STREQ(driver, "las");  // what there is room for
+  EXPECT_EQ(laser->info.subscribed, 1);
+  EXPECT_STREQ(laser->info.drivername, "laser");
+  EXPECT_EQ(laser->info.addr.robot, 6665U);
+  EXPECT_EQ(
+      playerc_device_hascapability(&laser->info, PLAYER_MSGTYPE_REQ, PLAYER_LASER_REQ_GET_GEOM), 1);
+  EXPECT_EQ(playerc_device_hascapability(&laser->info, PLAYER_MSGTYPE_CMD, 77), 0);
+  char name[] = "beams";
+  int32_t beams = 0;
+  double value = 0.0;
+  BOOL truth = 5;
+  EXPECT_EQ(playerc_device_get_intprop(&laser->info, name, &beams), 0);
+  EXPECT_EQ(beams, 682);
+  EXPECT_EQ(playerc_device_get_dblprop(&laser->info, name, &value), 0);
+  EXPECT_EQ(value, 682.0);
+  EXPECT_EQ(playerc_device_get_boolprop(&laser->info, name, &truth), -1);
+  EXPECT_EQ(truth, 5);
+  EXPECT_EQ(playerc_device_set_dblprop(&laser->info, name, 3.0), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("beams"));
+  EXPECT_EQ(playerc_client_unsubscribe(robot.get(), PLAYER_LASER_CODE, 0), 0);
+  EXPECT_EQ(laser->info.subscribed, 0);
+  EXPECT_EQ(playerc_device_subscribe(&laser->info, PLAYERC_OPEN_MODE), 0);
+  EXPECT_EQ(playerc_device_subscribe(&laser->info, PLAYERC_OPEN_MODE), 0);  // as before
+  EXPECT_EQ(playerc_device_subscribe(&laser->info, PLAYERC_CLOSE_MODE), 0);
+  EXPECT_EQ(laser->info.subscribed, 0);
+  // Where the client has no device, it only looks.
+  EXPECT_EQ(playerc_client_subscribe(robot.get(), PLAYER_POSITION2D_CODE, 0, PLAYERC_OPEN_MODE,
+                                     nullptr, 0),
+            0);
+  EXPECT_EQ(
+      playerc_client_subscribe(robot.get(), PLAYER_LASER_CODE, 5, PLAYERC_OPEN_MODE, nullptr, 0),
+      -1);
+}
+
+TEST_F(Playerc, LeavesDevicesOfProgramsAlone) {
+  const auto robot = client();
+  playerc_device_t own;
+  playerc_device_init(&own, robot.get(), PLAYER_LASER_CODE, 0, nullptr);
+  EXPECT_EQ(robot->device_count, 1);
+  EXPECT_EQ(own.id, &own);
+  EXPECT_EQ(playerc_device_subscribe(&own, PLAYERC_OPEN_MODE), -1);
+  EXPECT_EQ(playerc_device_hascapability(&own, PLAYER_MSGTYPE_DATA, 1), 0);
+  playerc_device_term(&own);
+  EXPECT_EQ(robot->device_count, 0);
+  EXPECT_EQ(playerc_client_deldevice(robot.get(), &own), -1);
+  EXPECT_EQ(playerc_client_request(robot.get(), &own, 1, nullptr, nullptr), -1);
+  EXPECT_EQ(playerc_client_write(robot.get(), &own, 1, nullptr, nullptr), -1);
+  EXPECT_EQ(playerc_add_xdr_ftable(nullptr, 0), -1);
+}
+
+TEST_F(Playerc, MakesDevicesThatNoWorldHasButRefusesThem) {
+  const auto robot = client();
+  playerc_gripper_t* const gripper = playerc_gripper_create(robot.get(), 0);
+  ASSERT_NE(gripper, nullptr);
+  EXPECT_EQ(gripper->info.addr.interf, PLAYER_GRIPPER_CODE);
+  EXPECT_EQ(playerc_gripper_subscribe(gripper, PLAYERC_OPEN_MODE), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("gripper:0"));
+  EXPECT_EQ(playerc_gripper_open_cmd(gripper), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("no world has such a device"));
+  EXPECT_EQ(playerc_gripper_unsubscribe(gripper), 0);
+  playerc_gripper_destroy(gripper);
+}
+
+TEST_P(PlayercEverywhere, DrivesABase) {
+  const auto robot = client();
+  const auto base = position(robot.get());
+  ASSERT_EQ(playerc_position2d_get_geom(base.get()), 0);
+  EXPECT_NEAR(base->size[0], 0.174, 1e-9);  // the S1R's footprint
+  EXPECT_NEAR(base->size[1], 0.162, 1e-9);
+  EXPECT_EQ(base->info.freshgeom, 1);
+  ASSERT_EQ(playerc_position2d_enable(base.get(), 1), 0);
+  ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.2, 0.0, 0.0, 1), 0);
+  for (int i = 0; i < 20; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_NEAR(base->vx, 0.2, 1e-6);
+  EXPECT_NEAR(base->px, 1.0 + 2.0 * 0.2, 0.05);  // less what it takes to get going
+  EXPECT_NEAR(base->py, 1.5, 1e-9);
+  ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.0, 0.0, 0.0, 1), 0);
+  ASSERT_EQ(playerc_position2d_set_odom(base.get(), 0.0, 0.0, 0.0), 0);
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  ASSERT_EQ(playerc_position2d_set_odom(base.get(), 0.0, 0.0, 0.0), 0);
+  ASSERT_EQ(playerc_position2d_set_cmd_pose(base.get(), 0.3, 0.2, 1.0, 1), 0);
+  for (int i = 0; i < 80; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_NEAR(base->px, 0.3, 0.02);
+  EXPECT_NEAR(base->py, 0.2, 0.02);
+  EXPECT_NEAR(base->pa, 1.0, 0.02);
+  ASSERT_EQ(playerc_position2d_set_cmd_vel_head(base.get(), 0.0, 0.0, 0.0, 1), 0);
+  for (int i = 0; i < 40; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_NEAR(base->pa, 0.0, 0.02);
+  EXPECT_EQ(playerc_position2d_set_cmd_vel(base.get(), std::nan(""), 0.0, 0.0, 1), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("finite"));
+}
+
+TEST_P(PlayercEverywhere, ScansWithALaser) {
+  const auto robot = client();
+  const auto scanner = laser(robot.get());
+  ASSERT_EQ(playerc_laser_get_geom(scanner.get()), 0);
+  EXPECT_NEAR(scanner->pose[0], 0.035, 1e-9);
+  ASSERT_EQ(playerc_client_read(robot.get()), scanner.get());
+  ASSERT_EQ(scanner->scan_count, 682);
+  EXPECT_EQ(scanner->scan_id, 1);
+  EXPECT_EQ(scanner->intensity_on, 0);
+  EXPECT_NEAR(scanner->max_range, 5.0, 1e-9);
+  EXPECT_NEAR(scanner->scan_res, 0.39589 * std::numbers::pi / 180.0, 1e-9);
+  EXPECT_NEAR(scanner->scan_start, -0.5 * 681 * scanner->scan_res, 1e-9);
+  // Beams 340 and 341 look half a beam to the right and left of straight ahead, where the wall is
+  // 2.965 m away.
+  EXPECT_NEAR(scanner->ranges[340], 2.965 / std::cos(0.5 * scanner->scan_res), 1e-3);
+  for (const int i : {0, 340, 681}) {
+    const double bearing_rad = scanner->scan_start + i * scanner->scan_res;
+    EXPECT_EQ(scanner->scan[i][0], scanner->ranges[i]);
+    EXPECT_NEAR(scanner->scan[i][1], bearing_rad, 1e-9);
+    EXPECT_NEAR(scanner->point[i].px, scanner->ranges[i] * std::cos(bearing_rad), 1e-9);
+    EXPECT_NEAR(scanner->point[i].py, scanner->ranges[i] * std::sin(bearing_rad), 1e-9);
+    EXPECT_EQ(scanner->intensity[i], 0);
+  }
+  EXPECT_EQ(scanner->min_left, *std::min_element(scanner->ranges + 341, scanner->ranges + 682));
+  EXPECT_EQ(scanner->min_right, *std::min_element(scanner->ranges, scanner->ranges + 341));
+
+  // A quarter of a turn to each side, every other beam.
+  const double quarter_rad = 0.5 * std::numbers::pi;
+  ASSERT_EQ(playerc_laser_set_config(scanner.get(), -quarter_rad, quarter_rad,
+                                     2.0 * scanner->scan_res, 0.01, 0, 10.0),
+            0)
+      << playerc_error_str();
+  double low = 0.0;
+  double high = 0.0;
+  double resolution = 0.0;
+  double range_res = 0.0;
+  unsigned char intensity = 9;
+  ASSERT_EQ(playerc_laser_get_config(scanner.get(), &low, &high, &resolution, &range_res,
+                                     &intensity, nullptr),
+            0);
+  EXPECT_NEAR(low, -quarter_rad, 0.007);
+  EXPECT_NEAR(high, quarter_rad, 0.014);
+  EXPECT_NEAR(resolution, 2.0 * 0.39589 * std::numbers::pi / 180.0, 1e-9);
+  EXPECT_NEAR(range_res, 0.01, 1e-12);
+  EXPECT_EQ(intensity, 0);
+  ASSERT_EQ(playerc_client_read(robot.get()), scanner.get());
+  // On each side beams stand (k + 0.5) 0.39589 degrees off; 227 of them within 90 degrees. Half of
+  // the 454 are shown.
+  EXPECT_EQ(scanner->scan_count, 227);
+  EXPECT_EQ(playerc_laser_set_config(scanner.get(), 0.0, 0.1, -1.0, 0.0, 0, 10.0), -1);
+  EXPECT_EQ(playerc_laser_get_id(scanner.get()), 0);
+}
+
+TEST_P(PlayercEverywhere, GetsTheMap) {
+  const auto robot = client();
+  const Owned<playerc_map_t> map(playerc_map_create(robot.get(), 0));
+  ASSERT_EQ(playerc_map_subscribe(map.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_map_get_map(map.get()), 0) << playerc_error_str();
+  EXPECT_EQ(map->width, 40);
+  EXPECT_EQ(map->height, 30);
+  EXPECT_NEAR(map->resolution, 0.1, 1e-12);
+  EXPECT_EQ(map->data_range, 1);
+  EXPECT_EQ(map->cells[PLAYERC_MAP_INDEX(map, 35, 5)], 1);    // in the block
+  EXPECT_EQ(map->cells[PLAYERC_MAP_INDEX(map, 20, 15)], -1);  // on the floor
+  EXPECT_EQ(playerc_map_get_vector(map.get()), -1);
+}
+
+TEST_F(Playerc, DrawsOnASheet) {
+  const auto robot = client();
+  const Owned<playerc_graphics2d_t> sheet(playerc_graphics2d_create(robot.get(), 0));
+  EXPECT_EQ(playerc_graphics2d_clear(sheet.get()), -1);  // not subscribed yet
+  ASSERT_EQ(playerc_graphics2d_subscribe(sheet.get(), PLAYERC_OPEN_MODE), 0);
+  const player_color_t red = {255, 255, 0, 0};
+  ASSERT_EQ(playerc_graphics2d_setcolor(sheet.get(), red), 0);
+  EXPECT_EQ(sheet->color.red, 255);
+  player_point_2d_t points[] = {{0.5, 0.5}, {0.9, 0.5}, {0.9, 0.9}};
+  EXPECT_EQ(playerc_graphics2d_draw_points(sheet.get(), points, 3), 0);
+  EXPECT_EQ(playerc_graphics2d_draw_polyline(sheet.get(), points, 3), 0);
+  EXPECT_EQ(playerc_graphics2d_draw_multiline(sheet.get(), points, 2), 0);
+  EXPECT_EQ(playerc_graphics2d_draw_polygon(sheet.get(), points, 3, 1, red), 0);
+  EXPECT_EQ(playerc_graphics2d_draw_points(sheet.get(), nullptr, 3), -1);
+  EXPECT_EQ(playerc_graphics2d_clear(sheet.get()), 0);
+  EXPECT_EQ(playerc_graphics2d_unsubscribe(sheet.get()), 0);
+}
+
+// The sensors of distance, against the proxies of a client that reads the same data.
+class PlayercSensors : public Playerc {
+ protected:
+  [[nodiscard]] static bool same(const player_pose3d_t& a, const player_pose3d_t& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+  }
+  void read() {
+    ASSERT_NE(playerc_client_read(robot_.get()), nullptr) << playerc_error_str();
+    other_.Read();
+  }
+
+  Owned<playerc_client_t> robot_{client()};
+  PlayerCc::PlayerClient other_{name_, 6665};
+};
+
+TEST_F(PlayercSensors, RangerOfALaser) {
+  const Owned<playerc_ranger_t> ranger(playerc_ranger_create(robot_.get(), 0));
+  PlayerCc::RangerProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_ranger_subscribe(ranger.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_ranger_get_geom(ranger.get()), 0);
+  ASSERT_EQ(ranger->element_count, 1U);
+  EXPECT_NEAR(ranger->device_pose.px, 0.035, 1e-9);
+  EXPECT_TRUE(same(ranger->element_poses[0], proxy.GetElementPose(0)));
+  EXPECT_EQ(ranger->element_sizes[0].sw, proxy.GetElementSize(0).sw);
+  double low = 0.0;
+  double most = 0.0;
+  ASSERT_EQ(playerc_ranger_get_config(ranger.get(), &low, nullptr, nullptr, nullptr, &most, nullptr,
+                                      nullptr),
+            0);
+  EXPECT_EQ(low, proxy.GetMinAngle());
+  EXPECT_EQ(most, 5.0);
+  EXPECT_EQ(ranger->frequency, 10.0);
+  read();
+  ASSERT_EQ(ranger->ranges_count, 682U);
+  ASSERT_EQ(ranger->points_count, 682U);
+  ASSERT_EQ(ranger->bearings_count, 682U);
+  EXPECT_EQ(ranger->intensities_count, 0U);
+  EXPECT_NEAR(ranger->bearings[681], -low, 1e-9);
+  for (const uint32_t i : {0U, 100U, 681U}) {
+    EXPECT_EQ(ranger->ranges[i], proxy.GetRange(i));
+    EXPECT_NEAR(ranger->points[i].px, ranger->ranges[i] * std::cos(ranger->bearings[i]), 1e-9);
+    EXPECT_NEAR(ranger->points[i].py, ranger->ranges[i] * std::sin(ranger->bearings[i]), 1e-9);
+  }
+  ASSERT_EQ(playerc_ranger_set_config(ranger.get(), -1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 10.0), 0);
+  EXPECT_EQ(ranger->max_range, 1.0);
+  read();
+  EXPECT_LT(ranger->ranges_count, 682U);
+  EXPECT_EQ(*std::max_element(ranger->ranges, ranger->ranges + ranger->ranges_count), 1.0);
+  EXPECT_EQ(playerc_ranger_power_config(ranger.get(), 1), 0);
+  EXPECT_EQ(playerc_ranger_intns_config(ranger.get(), 1), 0);
+}
+
+TEST_F(PlayercSensors, SonarAndItsRanger) {
+  const Owned<playerc_sonar_t> sonar(playerc_sonar_create(robot_.get(), 0));
+  const Owned<playerc_ranger_t> ranger(playerc_ranger_create(robot_.get(), 1));
+  PlayerCc::SonarProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_sonar_subscribe(sonar.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_ranger_subscribe(ranger.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_sonar_get_geom(sonar.get()), 0);
+  ASSERT_GT(sonar->pose_count, 0);
+  ASSERT_EQ(static_cast<uint32_t>(sonar->pose_count), proxy.GetPoseCount());
+  ASSERT_TRUE(read_until(robot_.get(), sonar.get()));
+  ASSERT_TRUE(read_until(robot_.get(), ranger.get()));
+  other_.Read();
+  ASSERT_EQ(sonar->scan_count, sonar->pose_count);
+  ASSERT_EQ(ranger->ranges_count, static_cast<uint32_t>(sonar->scan_count));
+  for (uint32_t i = 0; i < proxy.GetCount(); ++i) {
+    EXPECT_TRUE(same(sonar->poses[i], proxy.GetPose(i)));
+    EXPECT_EQ(sonar->scan[i], proxy.GetScan(i));
+    EXPECT_EQ(ranger->ranges[i], proxy.GetScan(i));
+    EXPECT_NEAR(ranger->bearings[i], sonar->poses[i].pyaw, 1e-12);
+  }
+}
+
+TEST_F(PlayercSensors, Infrared) {
+  const Owned<playerc_ir_t> infrared(playerc_ir_create(robot_.get(), 0));
+  PlayerCc::IrProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_ir_subscribe(infrared.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_ir_get_geom(infrared.get()), 0);
+  read();
+  ASSERT_GT(proxy.GetCount(), 0U);
+  ASSERT_EQ(infrared->poses.poses_count, proxy.GetPoseCount());
+  ASSERT_EQ(infrared->data.ranges_count, proxy.GetCount());
+  ASSERT_EQ(infrared->data.voltages_count, proxy.GetCount());
+  for (uint32_t i = 0; i < proxy.GetCount(); ++i) {
+    EXPECT_TRUE(same(infrared->poses.poses[i], proxy.GetPose(i)));
+    EXPECT_FLOAT_EQ(infrared->data.ranges[i], static_cast<float>(proxy.GetRange(i)));
+    EXPECT_FLOAT_EQ(infrared->data.voltages[i], static_cast<float>(proxy.GetVoltage(i)));
+  }
+}
+
+TEST_F(PlayercSensors, Bumpers) {
+  const Owned<playerc_bumper_t> bumper(playerc_bumper_create(robot_.get(), 0));
+  PlayerCc::BumperProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_bumper_subscribe(bumper.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_bumper_get_geom(bumper.get()), 0);
+  const auto base = position(robot_.get());
+  ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.5, 0.0, 0.0, 1), 0);
+  bool bumped = false;
+  for (int i = 0; i < 150 && !bumped; ++i) {
+    ASSERT_TRUE(read_until(robot_.get(), bumper.get())) << playerc_error_str();
+    other_.Read();
+    ASSERT_GT(bumper->bumper_count, 0);
+    ASSERT_EQ(static_cast<uint32_t>(bumper->bumper_count), proxy.GetCount());
+    for (uint32_t k = 0; k < proxy.GetCount(); ++k) {
+      EXPECT_EQ(bumper->bumpers[k], proxy.IsBumped(k));
+      bumped = bumped || bumper->bumpers[k] != 0;
+    }
+  }
+  EXPECT_TRUE(bumped);  // by the wall 2.9 m ahead
+  ASSERT_EQ(static_cast<uint32_t>(bumper->pose_count), proxy.GetPoseCount());
+  EXPECT_TRUE(same(bumper->poses[0].pose, proxy.GetPose(0).pose));
+}
+
+TEST_F(PlayercSensors, Battery) {
+  const Owned<playerc_power_t> power(playerc_power_create(robot_.get(), 0));
+  PlayerCc::PowerProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_power_subscribe(power.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  EXPECT_EQ(power->valid, 0);
+  read();
+  EXPECT_TRUE((power->valid & PLAYER_POWER_MASK_PERCENT) != 0);
+  EXPECT_NEAR(power->percent, 100.0, 0.01);
+  EXPECT_EQ(power->charge, proxy.GetCharge());
+  EXPECT_EQ(power->joules, proxy.GetJoules());
+  EXPECT_EQ(power->watts, proxy.GetWatts());
+  EXPECT_EQ(power->charging, 0);
+}
+
+}  // namespace

@@ -1,0 +1,210 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Models of robots: those that Playpen comes with, and files.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "sim/core/error.h"
+#include "sim/devices/bumper.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
+#include "sim/simulation/simulation.h"
+#include "sim/world/robot_model.h"
+#include "temporary_folder.h"
+
+namespace sim {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+WorldDescription world_with(const std::string& model) {
+  return load_world_text(
+      R"({"arena": {"size": [6, 6], "border_height": 1}, "robots": [{"model": ")" + model +
+      R"(", "pose": {"x": 3, "y": 3, "yaw_deg": 0}}]})");
+}
+
+const RobotModel& model_of(const WorldDescription& world) {
+  return *find_robot_model(world, world.robots.at(0).model);
+}
+
+template <typename Params>
+Params settings_of(const WorldDescription& world, const std::string& device) {
+  for (const DeviceDescription& d : world.robots.at(0).devices) {
+    if (d.name == device) return std::any_cast<Params>(d.params);
+  }
+  ADD_FAILURE() << "no " << device;
+  return {};
+}
+
+bool lies_within(const Polygon& footprint, const Vec2& p) {
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Vec2 edge = footprint[(i + 1) % footprint.size()] - footprint[i];
+    const Vec2 to = p - footprint[i];
+    if (edge.x() * to.y() - edge.y() * to.x() < -1e-9) return false;
+  }
+  return true;
+}
+
+TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
+  std::vector<std::string> names;
+  for (const ShippedModel& shipped : shipped_models()) {
+    names.emplace_back(shipped.name);
+    SCOPED_TRACE(shipped.name);
+    std::ifstream file(std::string(PLAYPEN_SOURCE_DIR) + "/worlds/models/" + shipped.name +
+                       ".json");
+    std::ostringstream text;
+    text << file.rdbuf();
+    EXPECT_EQ(shipped.text, text.str());
+
+    const WorldDescription world = world_with(shipped.name);
+    const RobotModel& model = model_of(world);
+    EXPECT_EQ(model.name, shipped.name);
+    EXPECT_FALSE(model.description.empty());
+    EXPECT_TRUE(lies_within(model.footprint, Vec2::Zero()));
+    // Programs written for Player take index 0 for odometry.
+    EXPECT_THAT(world.robots[0].interfaces.at("position2d"), ElementsAre("odometry", "pose"));
+    Simulation simulation(world);
+    for (int i = 0; i < 100; ++i) simulation.step();
+    EXPECT_EQ(simulation.body(0).X_WB, (Pose{3.0, 3.0, 0.0}));
+  }
+  EXPECT_THAT(names, ElementsAre("car", "epuck", "omni", "pioneer2dx", "pioneer3dx"));
+}
+
+TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
+  const std::vector<double> angles_deg = {90,  50,   30,   10,   -10, -30, -50, -90,
+                                          -90, -130, -150, -170, 170, 150, 130, 90};
+  for (const char* name : {"pioneer2dx", "pioneer3dx"}) {
+    SCOPED_TRACE(name);
+    const WorldDescription world = world_with(name);
+    const RobotModel& model = model_of(world);
+    const auto sonar = settings_of<SonarParams>(world, "sonar");
+    ASSERT_EQ(sonar.X_BS.size(), angles_deg.size());
+    for (std::size_t i = 0; i < angles_deg.size(); ++i) {
+      EXPECT_NEAR(sonar.X_BS[i].yaw_rad, angles_deg[i] * M_PI / 180.0, 1e-9) << i;
+      EXPECT_TRUE(lies_within(model.footprint, sonar.X_BS[i].position())) << i;
+    }
+    EXPECT_DOUBLE_EQ(sonar.range_max_m, 5.0);
+    const auto laser = settings_of<LaserParams>(world, "laser");
+    EXPECT_EQ(laser.beam_count, 181);
+    EXPECT_NEAR(laser.resolution_rad * (laser.beam_count - 1), M_PI, 1e-9);
+    EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);
+    EXPECT_LT(laser.height_m, model.height_m);  // so Pioneers see one another
+  }
+  for (const char* name : {"pioneer2dx", "pioneer3dx"}) {
+    const auto bumper = settings_of<BumperParams>(world_with(name), "bumper");
+    ASSERT_EQ(bumper.segments.size(), 10U);
+    for (std::size_t i = 0; i < 10; ++i) {  // the first five before the middle
+      EXPECT_EQ(bumper.segments[i].X_BS.x_m > 0.0, i < 5) << i;
+    }
+  }
+  const RobotModel model = model_of(world_with("pioneer3dx"));
+  Vec2 low = model.footprint[0];
+  Vec2 high = low;
+  for (const Vec2& v : model.footprint) {
+    low = low.cwiseMin(v);
+    high = high.cwiseMax(v);
+  }
+  EXPECT_NEAR(high.x() - low.x(), 0.455, 1e-9);
+  EXPECT_NEAR(high.y() - low.y(), 0.381, 1e-9);
+}
+
+TEST(Pioneers, TakeThe361BeamsOfTheLasersFineMode) {
+  const WorldDescription world = load_world_text(
+      R"({"arena": {"size": [6, 6]}, "robots": [{"model": "pioneer2dx",
+          "devices": {"laser": {"beams": 361, "resolution_deg": 0.5}}}]})");
+  const auto laser = settings_of<LaserParams>(world, "laser");
+  EXPECT_EQ(laser.beam_count, 361);
+  EXPECT_NEAR(laser.resolution_rad * 360.0, M_PI, 1e-9);
+  EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);  // the model's, not the type's
+}
+
+constexpr const char* kModel = R"({
+  "name": "box",
+  "footprint": [[-0.1, 0.2], [0.3, 0.2], [0.3, -0.2], [-0.1, -0.2]],
+  "drive": {"kind": "car", "wheelbase": 0.25, "max_steering_deg": 45},
+  "max_speed": 1.5,
+  "devices": {"motion": {"max_speed": 1.5}, "eye": {"type": "laser", "beams": 9}}
+})";
+
+TEST(ModelFiles, AreFoundBesideTheWorldsFile) {
+  test_support::TemporaryFolder folder;
+  folder.write("robots/box.json", kModel);
+  const std::string file = folder.write(
+      "room.json", R"({"arena": {"size": [4, 4]}, "robots": [{"model": "robots/box.json"},
+                       {"model": "robots/box.json", "devices": {"eye": {"beams": 5}}}]})");
+  const WorldDescription world = load_world(file);
+  ASSERT_EQ(world.models.size(), 1U);
+  const RobotModel& model = model_of(world);
+  EXPECT_EQ(model.name, "box");
+  EXPECT_EQ(model.drive.kind, DriveKind::kCar);
+  EXPECT_DOUBLE_EQ(model.drive.wheelbase_m, 0.25);
+  EXPECT_NEAR(model.drive.max_steering_rad, M_PI / 4.0, 1e-12);
+  EXPECT_DOUBLE_EQ(model.max_speed_mps, 1.5);
+  EXPECT_EQ(model.footprint.size(), 4U);  // given clockwise, kept counter-clockwise
+  EXPECT_LT(model.footprint[0].y(), 0.0);
+  EXPECT_EQ(settings_of<LaserParams>(world, "eye").beam_count, 9);
+  EXPECT_EQ(std::any_cast<LaserParams>(world.robots[1].devices.at(0).params).beam_count, 5);
+  Simulation simulation(world);
+  simulation.step();
+}
+
+std::vector<ConfigIssue> issues_of(const std::string& model) {
+  test_support::TemporaryFolder folder;
+  folder.write("bad.json", model);
+  try {
+    static_cast<void>(load_world(folder.write(
+        "room.json",
+        "{\"robots\": [\n{\"model\": \"./bad.json\"},\n{\"model\": \"./bad.json\"}]}")));
+  } catch (const ConfigError& error) {
+    return error.issues();
+  }
+  return {};
+}
+
+TEST(ModelFiles, AreToldOfOnceWithTheirOwnLines) {
+  const std::vector<ConfigIssue> issues = issues_of(
+      "{\"name\": \"bad\",\n\"footprint\": [[0, 0], [1, 0], [1, 1]],\n\"hight\": 2,\n"
+      "\"devices\": {\"laser\": {\"beams\": 0}}}");
+  ASSERT_EQ(issues.size(), 2U);
+  EXPECT_EQ(issues[0].id, "world/unknown-key");
+  EXPECT_THAT(issues[0].file, HasSubstr("bad.json"));
+  EXPECT_EQ(issues[0].line, 3);
+  EXPECT_EQ(issues[1].id, "world/out-of-range");
+  EXPECT_EQ(issues[1].pointer, "/devices/laser/beams");
+  EXPECT_EQ(issues[1].line, 4);
+}
+
+TEST(ModelFiles, AreNotReadFromDevices) {
+  try {
+    static_cast<void>(load_world_text(R"({"robots": [{"model": "/dev/zero"}]})"));
+    FAIL() << "a device was read";
+  } catch (const ConfigError& error) {
+    ASSERT_EQ(error.issues().size(), 1U);
+    EXPECT_EQ(error.issues()[0].id, "world/model-unreadable");
+    EXPECT_EQ(error.issues()[0].pointer, "/robots/0/model");
+  }
+}
+
+TEST(ModelFiles, MustHaveAnOutlineThatASolidCanHave) {
+  const auto id_of = [](const std::string& footprint) {
+    const auto issues = issues_of(R"({"name": "bad", "footprint": )" + footprint + "}");
+    return issues.size() == 1 ? issues[0].id : std::to_string(issues.size()) + " issues";
+  };
+  EXPECT_EQ(id_of("[[0, 0], [1, 0]]"), "world/bad-footprint");
+  EXPECT_EQ(id_of("[[0, 0], [2, 0], [1, 0.5], [2, 2], [0, 2]]"), "world/bad-footprint");  // notch
+  EXPECT_EQ(id_of("[[0, 0], [1, 1], [1, 0], [0, 1]]"), "world/bad-footprint");  // crossing
+  EXPECT_EQ(id_of("[[0, 0], [1, 0], [2, 0], [1, 1]]"), "world/bad-footprint");  // straight
+  EXPECT_EQ(id_of("[[0, 0], [0.01, 0], [0.01, 0.005]]"), "world/bad-footprint");
+  EXPECT_EQ(id_of("[[0, 0], [1, 0], [1, \"1\"]]"), "world/wrong-type");
+  EXPECT_EQ(id_of("3"), "world/wrong-type");
+}
+
+}  // namespace
+}  // namespace sim
