@@ -35,7 +35,7 @@ class AioProxy : public ClientProxy {
   void Subscribe(uint32_t aIndex) override;
   void Unsubscribe() override;
   bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const sim::Reading& aReading) override;
+  void HandleReading(const detail::Reading& aReading) override;
 
  private:
   std::vector<double> mInputs;  // guarded by the client's mutex

@@ -14,11 +14,13 @@
 #include "libplayerc++/playerstructs.h"
 #include "libplayerc++/readsignal.h"
 
-namespace sim {
-struct Reading;
-}
-
 namespace PlayerCc {
+
+namespace detail {
+/// What a device has measured, for this library's own proxies. The simulator's type stands behind
+/// it, whose namespace is not named here: programs have variables called sim.
+struct Reading;
+}  // namespace detail
 
 /// What all proxies have in common: a device at an index of an interface on a client's port, and
 /// flags that tell whether it has data.
@@ -125,7 +127,7 @@ class ClientProxy {
   /// @throws PlayerError kDisconnected if the client is gone; kRunIsOver, see StartThread().
   scoped_lock_t LockData(const char* aFun = "ClientProxy") const;
   /// A new reading of the device, valid during the call.
-  virtual void HandleReading(const sim::Reading& aReading);
+  virtual void HandleReading(const detail::Reading& aReading);
   /// After all new readings were handled: the place for commands that react to them.
   virtual void HandleRound();
   /// See HasCapability().

@@ -37,7 +37,7 @@ class DioProxy : public ClientProxy {
   void Subscribe(uint32_t aIndex) override;
   void Unsubscribe() override;
   bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const sim::Reading& aReading) override;
+  void HandleReading(const detail::Reading& aReading) override;
 
  private:
   // Guarded by the client's mutex.

@@ -35,7 +35,7 @@ class GpsProxy : public ClientProxy {
  protected:
   void Subscribe(uint32_t aIndex) override;
   void Unsubscribe() override;
-  void HandleReading(const sim::Reading& aReading) override;
+  void HandleReading(const detail::Reading& aReading) override;
   bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
 
  private:

@@ -25,8 +25,8 @@ bool AioProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
          (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_AIO_CMD_STATE);
 }
 
-void AioProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::AioReading*>(&aReading);
+void AioProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::AioReading*>(&aReading.measured);
   if (reading != nullptr) mInputs = reading->inputs_v;
 }
 

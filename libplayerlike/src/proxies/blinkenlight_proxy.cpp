@@ -36,8 +36,8 @@ bool BlinkenLightProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
           aSubtype <= PLAYER_BLINKENLIGHT_CMD_FLASH);
 }
 
-void BlinkenLightProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BlinkenlightReading*>(&aReading);
+void BlinkenLightProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::BlinkenlightReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mState.enabled = reading->enabled;
   mState.lit = reading->lit;

@@ -29,8 +29,8 @@ void BumperProxy::Subscribe(uint32_t aIndex) {
 
 void BumperProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void BumperProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BumperReading*>(&aReading);
+void BumperProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::BumperReading*>(&aReading.measured);
   if (reading != nullptr) mPressed = reading->pressed;
 }
 

@@ -16,7 +16,7 @@ using playerlike::translated;
 
 void ClientProxy::Link::on_reading(const sim::Reading& reading) {
   refresh(sim::to_seconds(reading.time_ns));
-  proxy.HandleReading(reading);
+  proxy.HandleReading({reading});
   proxy.mFresh = true;
 }
 
@@ -107,7 +107,7 @@ ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
   return lock;
 }
 
-void ClientProxy::HandleReading(const sim::Reading& aReading) { static_cast<void>(aReading); }
+void ClientProxy::HandleReading(const detail::Reading& aReading) { static_cast<void>(aReading); }
 
 void ClientProxy::HandleRound() {}
 

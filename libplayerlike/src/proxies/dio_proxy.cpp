@@ -24,8 +24,8 @@ bool DioProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
          (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_DIO_CMD_VALUES);
 }
 
-void DioProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::DioReading*>(&aReading);
+void DioProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::DioReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mCount = static_cast<uint32_t>(reading->input_count);
   mDigin = reading->inputs;

@@ -32,8 +32,8 @@ void FiducialProxy::Subscribe(uint32_t aIndex) {
 
 void FiducialProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void FiducialProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::FiducialReading*>(&aReading);
+void FiducialProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::FiducialReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mItems.clear();
   for (const auto& mark : reading->marks) {

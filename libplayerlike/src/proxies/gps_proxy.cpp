@@ -18,8 +18,8 @@ void GpsProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_GPS_CODE, aIndex, "Gps
 
 void GpsProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void GpsProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::GpsReading*>(&aReading);
+void GpsProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::GpsReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mLatitude = rtod(reading->latitude_rad);
   mLongitude = rtod(reading->longitude_rad);

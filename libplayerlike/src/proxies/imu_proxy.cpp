@@ -19,8 +19,8 @@ void ImuProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_IMU_CODE, aIndex, "Imu
 
 void ImuProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void ImuProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::ImuReading*>(&aReading);
+void ImuProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::ImuReading*>(&aReading.measured);
   if (reading == nullptr) return;
   const auto& a = reading->acceleration_mps2;
   const auto& w = reading->rate_radps;

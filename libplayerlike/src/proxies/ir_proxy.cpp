@@ -27,8 +27,8 @@ void IrProxy::Subscribe(uint32_t aIndex) {
 
 void IrProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void IrProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading);
+void IrProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mRanges = reading->ranges_m;
   mVoltages.clear();

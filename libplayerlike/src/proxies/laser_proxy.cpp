@@ -47,8 +47,8 @@ void LaserProxy::Subscribe(uint32_t aIndex) {
 
 void LaserProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void LaserProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::LaserReading*>(&aReading);
+void LaserProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::LaserReading*>(&aReading.measured);
   if (reading == nullptr) return;
   if (reading->ranges_m.size() != mNativeCount) {
     // Another geometry than announced: show all of it.

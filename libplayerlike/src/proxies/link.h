@@ -42,6 +42,11 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   playerc_device_t device = {};
 };
 
+/// What a device has measured, as the simulator has it; valid as long as that is.
+struct detail::Reading {
+  const sim::Reading& measured;
+};
+
 /// What a client's calls go through, for the rest of the library.
 struct detail::CoreAccess {
   [[nodiscard]] static const std::shared_ptr<playerlike::ClientCore>& get(

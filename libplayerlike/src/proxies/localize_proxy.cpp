@@ -39,8 +39,8 @@ void LocalizeProxy::Subscribe(uint32_t aIndex) {
 
 void LocalizeProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void LocalizeProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading);
+void LocalizeProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading.measured);
   if (reading == nullptr) return;
   player_localize_hypoth_t hypoth = {};
   hypoth.mean = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};

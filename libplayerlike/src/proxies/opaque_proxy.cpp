@@ -30,8 +30,8 @@ bool OpaqueProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
          (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_OPAQUE_REQ_DATA);
 }
 
-void OpaqueProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::OpaqueReading*>(&aReading);
+void OpaqueProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::OpaqueReading*>(&aReading.measured);
   if (reading == nullptr) return;
   if (!mInRound) {
     mInRound = true;

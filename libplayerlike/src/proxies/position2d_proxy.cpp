@@ -80,8 +80,8 @@ void Position2dProxy::Subscribe(uint32_t aIndex) {
 
 void Position2dProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void Position2dProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading);
+void Position2dProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mData.pos = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};
   mData.vel = {reading->twist.v_mps, reading->twist.lateral_mps, reading->twist.omega_radps};

@@ -19,8 +19,8 @@ void PowerProxy::Subscribe(uint32_t aIndex) {
 
 void PowerProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void PowerProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BatteryReading*>(&aReading);
+void PowerProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::BatteryReading*>(&aReading.measured);
   if (reading == nullptr) return;
   constexpr double kJoulesPerWh = 3600.0;
   mVoltage = reading->voltage_v;

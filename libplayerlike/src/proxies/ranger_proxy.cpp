@@ -57,12 +57,12 @@ void RangerProxy::Subscribe(uint32_t aIndex) {
 
 void RangerProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void RangerProxy::HandleReading(const sim::Reading& aReading) {
-  if (const auto* scan = dynamic_cast<const sim::LaserReading*>(&aReading)) {
+void RangerProxy::HandleReading(const detail::Reading& aReading) {
+  if (const auto* scan = dynamic_cast<const sim::LaserReading*>(&aReading.measured)) {
     mMeasured = scan->ranges_m;
     mNativeMin = scan->angle_min_rad;
     mNativeRes = scan->resolution_rad;
-  } else if (const auto* round = dynamic_cast<const sim::RangerReading*>(&aReading)) {
+  } else if (const auto* round = dynamic_cast<const sim::RangerReading*>(&aReading.measured)) {
     mMeasured = round->ranges_m;
   } else {
     return;

@@ -23,8 +23,8 @@ void SonarProxy::Subscribe(uint32_t aIndex) {
 
 void SonarProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void SonarProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading);
+void SonarProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading.measured);
   if (reading != nullptr) mRanges = reading->ranges_m;
 }
 

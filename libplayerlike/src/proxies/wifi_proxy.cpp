@@ -39,8 +39,8 @@ void WiFiProxy::Subscribe(uint32_t aIndex) {
 
 void WiFiProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
-void WiFiProxy::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::WifiReading*>(&aReading);
+void WiFiProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::WifiReading*>(&aReading.measured);
   if (reading == nullptr) return;
   mLinks.clear();
   for (const auto& link : reading->links) {

@@ -8,6 +8,13 @@ using namespace PlayerCc;
 double normalize(double) { return 42.0; }
 double limit(double, double, double) { return 43.0; }
 
+// As programs call what they have: none of these is a name of the library's headers.
+SimulationProxy* sim = nullptr;
+LaserProxy* laser = nullptr;
+int protocol = 0;
+int host = 0;
+int test = 0;
+
 double normalize_in_a_program_with_its_own(double angle_rad);
 double limit_in_a_program_with_its_own(double value);
 
