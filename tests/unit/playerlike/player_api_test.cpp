@@ -182,7 +182,9 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
     if (std::regex_match(line, row, kWorks)) {
       ++works;
       const std::string world = playerlike::example_world(row[1].str());
-      if (!world.empty()) EXPECT_EQ(world, row[2]) << line;
+      if (!world.empty()) {
+        EXPECT_EQ(world, row[2]) << line;
+      }
     } else if (compiles_only && line.rfind("| `", 0) == 0) {
       // The second cell has the interfaces.
       const auto begin = line.find('|', 1);
