@@ -408,10 +408,10 @@ class RobotPainter {
       if (!is_drawable(center)) continue;
       const Colour colour = opaque(light.colour);
       if (light.lit) {
-        const double glow_px = 4.0 * radius;
+        const double glow_px = 7.0 * radius;
         Shape glow;
         glow.add_disc(center, glow_px);
-        painter_.fill_fading(glow, colour, center, glow_px, 0.75, 0.0);
+        painter_.fill_fading(glow, colour, center, glow_px, 0.85, 0.0);
       }
       const auto disc = [&](double size, Colour fill, double opacity = 1.0) {
         Shape shape;
@@ -487,7 +487,7 @@ class RobotPainter {
       bubble.padding_px = 0.75 * bubble.style.cap_height_px;
       bubble.line_px = 1.75 * bubble.style.cap_height_px;
       bubble.rim = mix(opaque(robot.colour), palette::kInk, 0.55);
-      bubble.lines = wrapped(plain(robot.says), bubble.style, 0.27 * layout_.width);
+      bubble.lines = wrapped(plain(robot.says), bubble.style, 0.32 * layout_.width);
       put_bubble(bubble, layout_(robot.X_WB.position()), marked_radius_px(robot), all, bodies);
       all.push_back(std::move(bubble));
     }
@@ -518,8 +518,11 @@ class RobotPainter {
                                   direction[1] * (radius + gap + half.y()));
       const Vec2 wanted = middle;
       const double bottom = std::max(layout_.floor.bottom, 2.0 * half.y() + 2.0 * edge);
-      middle.x() = std::clamp(middle.x(), half.x() + edge,
-                              std::max(layout_.width - half.x() - edge, half.x() + edge));
+      // Over the floor where it is wide enough, else anywhere in the picture.
+      const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
+      const double least_x = (fits ? layout_.floor.left : 0.0) + half.x() + edge;
+      const double most_x = (fits ? layout_.floor.right : layout_.width) - half.x() - edge;
+      middle.x() = std::clamp(middle.x(), least_x, std::max(most_x, least_x));
       middle.y() = std::clamp(middle.y(), half.y() + edge,
                               std::max(bottom - half.y() - edge, half.y() + edge));
       const Rectangle place = rectangle(middle - half, middle + half);
