@@ -90,7 +90,8 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
 }
 
 TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
-  for (const char* name : {"drive_by_sleeping", "read_and_sleep", "read_in_background"}) {
+  for (const char* name : {"drive_by_sleeping", "read_and_sleep", "read_in_background",
+                           "read_in_own_thread"}) {
     const ProcessResult first = run(name, {"--duration", "60", "--quiet"});
     ASSERT_EQ(first.status, 0) << first.err;
     const json first_report = report();
@@ -133,6 +134,14 @@ TEST_F(VirtualTime, ThreadsOfTheProgramTakeTurnsInTheSameOrderEachTime) {
   // 100 turns of 50 ms, and a count every 30 ms.
   EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 100);
   EXPECT_THAT(first, AllOf(HasSubstr(" 1\n"), HasSubstr(" 2\n"), Not(HasSubstr(" 3\n"))));
+}
+
+TEST_F(VirtualTime, ThreadsThatBeginAtTheSameMomentDoSoInTheSameOrder) {
+  const std::string first = printed("have_threads_with_clients");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 80);
+  const json first_report = report();
+  EXPECT_EQ(first, printed("have_threads_with_clients"));
+  EXPECT_EQ(first_report, report());
 }
 
 TEST_F(VirtualTime, WhoWaitsForTheClockGetsAStepALook) {

@@ -258,6 +258,7 @@ int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
 __attribute__((constructor(101))) void register_hooks() {
   void* const found = dlsym(RTLD_DEFAULT, PLAYPEN_VIRTUAL_TIME_REGISTER);
   if (found == nullptr) return;
+  static_cast<void>(this_thinker());  // the main thread is the first
   dl_iterate_phdr(note_program, nullptr);
   registered = reinterpret_cast<playpen_virtual_time_register_t>(found)(&kHooks) != 0;
 }

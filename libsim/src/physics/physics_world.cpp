@@ -112,6 +112,17 @@ struct Robot {
   std::vector<int> touching;  // contacts per partner, see ContactCounter
 };
 
+// Lets the body turn about B, the axle's centre, as its wheels make it: to Box2D a body's velocity
+// is that of its centre of mass. Outlines that are round about B but for rounding keep theirs.
+void center_mass_on_axle(b2Body& body) {
+  constexpr float kRounding = 1e-4F;
+  if (body.GetLocalCenter().Length() <= kRounding) return;
+  b2MassData mass;
+  body.GetMassData(&mass);
+  mass.center.SetZero();
+  body.SetMassData(&mass);
+}
+
 std::vector<Vec2> box_corners(const Vec2& center, const Vec2& size, double yaw_rad) {
   const Pose X_WO{center.x(), center.y(), yaw_rad};
   const Vec2 h = 0.5 * size;
@@ -667,6 +678,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.shape.ComputeMass(&unit, 1.0F);
   FixtureInfo* info = d.new_info(Contact::Kind::kRobot, index, model.height_m);
   d.attach(r.body, r.shape, info, static_cast<float>(model.mass_kg) / unit.mass);
+  center_mass_on_axle(*r.body);
   r.mass_kg = model.mass_kg;
   r.inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
 
@@ -695,6 +707,7 @@ void PhysicsWorld::set_suspended(int robot, bool suspended) {
   r.suspended = suspended;
   if (!suspended) {
     r.body->ResetMassData();
+    center_mass_on_axle(*r.body);
     return;
   }
   // A mass beside which all others are nothing, rather than a static body: contacts live on.

@@ -208,6 +208,29 @@ TEST(FeasibleShare, IsTheMostThatAllConstraintsAllow) {
 
 // --- Differential
 
+TEST(DifferentialDrive, TurnsAboutItsAxleWhereverItsMiddleIs) {
+  for (const bool suspended_before : {false, true}) {
+    WorldDescription world = room(drive_of(DriveKind::kDifferential), {10.0, 10.0, 0.0});
+    auto model = std::make_shared<RobotModel>(*world.models["test"]);
+    model->footprint = {{-0.3, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.3, 0.1}};
+    world.models["test"] = std::move(model);
+    Simulation simulation(std::move(world));
+    if (suspended_before) {
+      ASSERT_FALSE(simulation.set_robot_dynamics(0, false).has_value());
+      ASSERT_FALSE(simulation.set_robot_dynamics(0, true).has_value());
+    }
+    command(simulation, TwistCommand{{0.0, 1.0}});
+    run(simulation, 2.0);
+    expect_near(pose_of(simulation), {10.0, 10.0, 2.0}, 1e-5);
+    command(simulation, TwistCommand{{0.5, 1.0}});  // a circle of 0.5 m
+    run(simulation, 2.0);
+    expect_near(pose_of(simulation),
+                {10.0 + 0.5 * (std::sin(4.0) - std::sin(2.0)),
+                 10.0 + 0.5 * (std::cos(2.0) - std::cos(4.0)), 4.0},
+                1e-5);
+  }
+}
+
 TEST(DifferentialDrive, LeavesOutSpeedToItsSideAndTurnsAsACarOfItsLength) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"pose": {"x": 2, "y": 2, "yaw_deg": 0}}]})"));
