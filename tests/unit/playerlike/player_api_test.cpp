@@ -71,8 +71,8 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
       error.GetErrorStr(),
       "there is no device camera:0 on port 6665; this world has there: graphics2d:0 (r1.pen), "
       "laser:0 (r1.laser), localize:0 (r1.pose), position2d:0 (r1.pose), position2d:1 "
-      "(r1.odometry), map:0 (the "
-      "world); no world that comes with Playpen has a device for camera");
+      "(r1.odometry), ranger:0 (r1.laser), log:0 (the world), map:0 (the world), simulation:0 "
+      "(the world); no world that comes with Playpen has a device for camera");
 }
 
 TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
