@@ -74,6 +74,7 @@ void Ranger::measure(const StepContext& context) {
   const Pose& X_WB = context.body.X_WB;
   context.physics.collect_edges(X_WB.position(), params_.range_max_m + reach_m_, params_.height_m,
                                 context.robot, false, edges_);
+  reading_.X_WB = X_WB;
   seen_.clear();
   for (const scan::Edge& edge : edges_.edges()) {
     if (may_be_seen(edge, reach_m_, params_.range_max_m)) seen_.push_back(edge);

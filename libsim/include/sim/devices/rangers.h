@@ -53,6 +53,7 @@ struct RangerReading final : Reading {
   std::vector<Pose> X_BS;          ///< where each sits on the body, as many
   double range_max_m = 0.0;        ///< as set
   double field_of_view_rad = 0.0;  ///< full angle of each cone; 0: single rays
+  Pose X_WB;                       ///< where the robot was (for pictures; not told to clients)
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<RangerReading>(*this);
