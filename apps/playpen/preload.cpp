@@ -31,7 +31,7 @@ fs::path find_library() {
   }
   throw std::runtime_error(
       "the library that makes sleeps of programs simulated time, " + places +
-      ", is missing; install Playpen again, or give --real-sleep to do without");
+      ", is missing; install Playpen again (or do without: playpen run --real-sleep)");
 }
 
 std::string environment(const char* name) {
@@ -56,7 +56,7 @@ PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()) {
     fs::remove_all(link_folder_, error);
     throw std::runtime_error("the library " + file_ +
                              " cannot be preloaded from a path with blanks, nor linked to from "
-                             "/tmp; give --real-sleep to do without");
+                             "/tmp (do without: playpen run --real-sleep)");
   }
   file_ = (fs::path(folder) / kName).string();
 }

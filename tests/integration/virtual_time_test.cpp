@@ -210,6 +210,15 @@ TEST_F(VirtualTime, WhoJoinsAThreadHoldsItUpForNoTime) {
   EXPECT_EQ(out, printed("join_threads"));
 }
 
+TEST_F(VirtualTime, TimeStandsForAThreadThatWasSignalled) {
+  const std::string first = printed("steer_when_told");
+  const json first_report = report();
+  EXPECT_THAT(first, StartsWith("0.200000000\n0.300000000\n0.400000000\n"));
+  EXPECT_THAT(first, EndsWith("\n20.100000000\n"));
+  EXPECT_EQ(first, printed("steer_when_told"));
+  EXPECT_EQ(first_report, report());
+}
+
 TEST_F(VirtualTime, WaitsWithADeadlineEndWhenTheyAreSignalled) {
   EXPECT_EQ(printed("wait_for_each_other"), "came 1\nanswered 1\n1\n");
 }

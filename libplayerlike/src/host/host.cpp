@@ -177,18 +177,13 @@ void Host::Core::remove_client(Client& client) noexcept {
   changed_.notify_all();
 }
 
-void Host::Core::thinker_ended(ThinkerId thinker, std::optional<pthread_t> thread) noexcept {
+void Host::Core::thinker_ended(ThinkerId thinker, const void* thread) noexcept {
   const Lock lock = lock_soon();
   std::erase_if(clients_, [&](const auto& c) { return c->helper && c->owner == thinker; });
-  if (turns_ && thread) {
-    ended_threads_.push_back(*thread);
+  if (turns_ && thread != nullptr) {
+    ended_threads_.push_back(thread);
     // Who waits for its end goes on thinking now, not only when the system has buried it.
-    for (const auto& client : clients_) {
-      if (!client->joins || pthread_equal(*client->joins, *thread) == 0) continue;
-      client->joins.reset();
-      client->silent = false;
-      touch(*client);
-    }
+    call_back_locked(thread, /*all=*/true);
   }
   for (const auto& client : clients_) {
     if (client->owner != thinker) continue;
@@ -216,10 +211,10 @@ void Host::Core::adopt(Client& client, ThinkerId thinker) {
   client.silent = false;
   if (turns_) {
     client.owner_thread = this_thread();
+    client.away_for = nullptr;
     client.blocked_since.reset();
     // The number of a thread that has ended is given to others.
-    std::erase_if(ended_threads_,
-                  [](pthread_t t) { return pthread_equal(t, pthread_self()) != 0; });
+    std::erase(ended_threads_, reinterpret_cast<const void*>(pthread_self()));
   }
 }
 
@@ -751,23 +746,48 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-bool Host::Core::begin_join(pthread_t awaited) {
+bool Host::Core::begin_away(const void* what) {
   const Lock lock = lock_soon();
   if (!turns_ || paced_ || over()) return false;
-  // One that is about to end keeps nobody waiting for long.
-  if (std::erase_if(ended_threads_,
-                    [&](pthread_t t) { return pthread_equal(t, awaited) != 0; }) > 0) {
-    return false;
-  }
+  // A thread that is about to end keeps nobody waiting for long.
+  if (std::erase(ended_threads_, what) > 0) return false;
   bool away = false;
   for (const auto& client : clients_) {
     if (client->owner != this_thinker() || !client->joined) continue;
-    client->joins = awaited;
+    client->away_for = what;
     client->silent = true;
     away = true;
   }
-  changed_.notify_all();
+  if (away) changed_.notify_all();
   return away;
+}
+
+void Host::Core::end_away() {
+  const Lock lock = lock_soon();
+  for (const auto& client : clients_) {
+    if (client->owner != this_thinker()) continue;
+    client->away_for = nullptr;
+    client->silent = false;
+    client->blocked_since.reset();
+    touch(*client);
+  }
+}
+
+void Host::Core::call_back(const void* what, bool all) {
+  const Lock lock = lock_soon();
+  call_back_locked(what, all);
+}
+
+void Host::Core::call_back_locked(const void* what, bool all) {
+  ThinkerId only = 0;
+  for (const auto& client : clients_) {
+    if (client->away_for != what || (only != 0 && client->owner != only)) continue;
+    if (!all) only = client->owner;
+    client->away_for = nullptr;
+    client->silent = false;
+    client->blocked_since.reset();
+    touch(*client);
+  }
 }
 
 void Host::Core::add_thread(ThinkerId thinker) {
@@ -781,16 +801,6 @@ void Host::Core::add_thread(ThinkerId thinker) {
 void Host::Core::note_thread_begun() {
   const Lock lock = lock_soon();
   if (turns_) helper_of(this_thinker())->owner_thread = this_thread();
-}
-
-void Host::Core::end_join() {
-  const Lock lock = lock_soon();
-  for (const auto& client : clients_) {
-    if (client->owner != this_thinker()) continue;
-    client->joins.reset();
-    client->silent = false;
-    touch(*client);
-  }
 }
 
 // --- Event clients

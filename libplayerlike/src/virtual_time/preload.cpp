@@ -110,6 +110,9 @@ NEXT(pthread_mutex_timedlock);
 NEXT(pthread_mutex_clocklock);
 NEXT(pthread_create);
 NEXT(pthread_join);
+NEXT(sem_wait);
+NEXT(sem_post);
+NEXT_CONDITION(pthread_cond_wait);
 NEXT_CONDITION(pthread_cond_timedwait);
 NEXT_CONDITION(pthread_cond_signal);
 NEXT_CONDITION(pthread_cond_broadcast);
@@ -223,6 +226,25 @@ timespec real_deadline(clockid_t clock, long long duration_ns) {
   timespec now{};
   next_clock_gettime(clock, &now);
   return to_timespec(nanoseconds(now) + duration_ns);
+}
+
+/// Tells that somebody is about to be woken, so that time stands until he has been.
+void tell_of_signal(const void* what, bool all) {
+  if (const auto* const table = playpen()) table->signalled(what, all ? 1 : 0);
+}
+
+/// Waits for another thread, meanwhile holding up nobody.
+template <typename Wait>
+int wait_for_thread(const void* what, Wait wait) {
+  const auto* const table = playpen();
+  const bool away = table != nullptr && table->begin_wait(what) != 0;
+  const int result = wait();
+  if (away) {
+    const int error = errno;
+    table->end_wait();
+    errno = error;
+  }
+  return result;
 }
 
 // How often a condition variable was signalled, by a hash of its address: who waits for it virtually
@@ -415,12 +437,28 @@ EXPORTED int timespec_get(timespec* result, int base) noexcept {
 
 EXPORTED int pthread_cond_signal(pthread_cond_t* condition) noexcept {
   signals_of(condition).fetch_add(1);
+  tell_of_signal(condition, false);
   return next_pthread_cond_signal(condition);
 }
 
 EXPORTED int pthread_cond_broadcast(pthread_cond_t* condition) noexcept {
   signals_of(condition).fetch_add(1);
+  tell_of_signal(condition, true);
   return next_pthread_cond_broadcast(condition);
+}
+
+EXPORTED int pthread_cond_wait(pthread_cond_t* __restrict condition,
+                               pthread_mutex_t* __restrict mutex) {
+  return wait_for_thread(condition, [&] { return next_pthread_cond_wait(condition, mutex); });
+}
+
+EXPORTED int sem_post(sem_t* semaphore) noexcept {
+  tell_of_signal(semaphore, false);
+  return next_sem_post(semaphore);
+}
+
+EXPORTED int sem_wait(sem_t* semaphore) {
+  return wait_for_thread(semaphore, [&] { return next_sem_wait(semaphore); });
 }
 
 EXPORTED int pthread_cond_timedwait(pthread_cond_t* __restrict condition,
@@ -520,9 +558,6 @@ EXPORTED int pthread_create(pthread_t* __restrict thread, const pthread_attr_t* 
 }
 
 EXPORTED int pthread_join(pthread_t thread, void** result) {
-  const auto* const table = playpen();
-  const bool away = table != nullptr && table->begin_join(thread) != 0;
-  const int error = next_pthread_join(thread, result);
-  if (away) table->end_join();
-  return error;
+  return wait_for_thread(reinterpret_cast<const void*>(thread),
+                         [&] { return next_pthread_join(thread, result); });
 }
