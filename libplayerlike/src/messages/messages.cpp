@@ -286,7 +286,7 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
   std::optional<InterfaceBinding> found;
   std::ostringstream known;
-  bool has_others = interface == kWorldInterface;  // of the interface, with another index
+  bool has_others = is_of_world(interface);  // of the interface, with another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
                        const SndDriverDescription* driver) {
