@@ -1,13 +1,17 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// How fast a laser scan is, against one b2World::RayCast a beam in the same world.
+// How fast a laser scan is, against one b2World::RayCast a beam in the same world, and a round of
+// 16 sonars, against beams that fill each cone.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "figures.h"
 #include "physics/physics_world.h"
 #include "realtime.h"
 #include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
 #include "sim/simulation/simulation.h"
 
 namespace sim::bench {
@@ -66,6 +70,53 @@ void BM_RayCast682(benchmark::State& state) {
 }
 BENCHMARK(BM_RayCast682)->Unit(benchmark::kMicrosecond);
 
+// 16 sonars round a robot, as a Pioneer has them: the device, and the slow way, 121 beams a cone.
+struct Sonars {
+  static constexpr int kCount = 16;
+
+  Sonars()
+      : params([] {
+          SonarParams ring;
+          ring.range_max_m = 5.0;
+          ring.X_BS.clear();
+          for (int i = 0; i < kCount; ++i) {
+            const double yaw = normalize_angle(2.0 * std::numbers::pi * i / kCount);
+            ring.X_BS.push_back({0.07 * std::cos(yaw), 0.07 * std::sin(yaw), yaw});
+          }
+          return ring;
+        }()),
+        ring("sonar", "sonar", params, false, RandomStream(1, "bench")),
+        kernel({121, params.field_of_view_rad / 120.0, params.range_max_m}),
+        beams(121) {}
+
+  void exact() {
+    const int r = arena.next_robot();
+    now_ns += 1'000'000'000;
+    ring.update({now_ns, arena.physics.body(r), arena.physics, r, arena.world});
+    benchmark::DoNotOptimize(ring.reading().ranges_m.data());
+  }
+
+  void by_beams() {
+    const int r = arena.next_robot();
+    double sum = 0.0;
+    for (const Pose& X_BS : params.X_BS) {
+      const Pose X_WS = arena.physics.body(r).X_WB * X_BS;
+      arena.physics.collect_edges(X_WS.position(), params.range_max_m, params.height_m, r, false,
+                                  arena.edges);
+      kernel.scan(arena.edges, X_WS.yaw_rad, beams);
+      sum += *std::min_element(beams.begin(), beams.end());
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+
+  Arena arena;
+  SonarParams params;
+  Ranger ring;
+  scan::ScanKernel kernel;
+  std::vector<double> beams;
+  SimTime now_ns = 0;
+};
+
 void print_figures() {
   Arena arena;
   // Turn by turn, so that a slow moment of the machine meets both.
@@ -79,6 +130,16 @@ void print_figures() {
   figure("scan_ns_per_beam", scan_s * 1e9 / arena.laser.beam_count);
   figure("raycast_us", cast_s * 1e6);
   figure("scan_speedup_over_raycast", cast_s / scan_s);
+
+  Sonars sonars;
+  double exact_s = 1e30;
+  double beams_s = 1e30;
+  for (int round = 0; round < 10; ++round) {
+    exact_s = std::min(exact_s, seconds_per_call([&] { sonars.exact(); }, 1300, 3));
+    beams_s = std::min(beams_s, seconds_per_call([&] { sonars.by_beams(); }, 390, 3));
+  }
+  figure("sonar_ring_us", exact_s * 1e6);
+  figure("sonar_ring_speedup_over_beams", beams_s / exact_s);
 }
 
 }  // namespace

@@ -8,8 +8,11 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "crowd.h"
 #include "figures.h"
 #include "physics/physics_world.h"
 #include "realtime.h"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <iostream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,8 +32,9 @@ namespace sim::bench {
     world.robots.resize(static_cast<std::size_t>(robots));
   }
   const Polygon& footprint = find_robot_model(world, copy.model)->footprint;
+  std::size_t places_tried = 0;
   for (int i = static_cast<int>(world.robots.size()); i < robots; ++i) {
-    const auto pose = io::find_free_pose(world, footprint);
+    const auto pose = io::find_free_pose(world, footprint, places_tried);
     if (!pose) throw std::runtime_error("only " + std::to_string(i) + " robots have a place");
     copy.name = "crowd" + std::to_string(i);
     copy.port = 20'000 + i;

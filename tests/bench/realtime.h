@@ -28,7 +28,7 @@ inline void wander(Simulation& simulation) {
         dynamic_cast<const Sensor&>(simulation.device(r, laser)).reading());
     const bool blocked = scan.sequence > 0 && scan.least_range_m() < 0.25;
     const Twist twist = blocked ? Twist{0.0, scan.least_angle_rad() > 0.0 ? -1.5 : 1.5, 0.0}
-                                : Twist{0.3, 0.1 * (r - 6), 0.0};
+                                : Twist{0.3, 0.1 * (r % 13 - 6), 0.0};
     simulation.apply({r, simulation.find_device(r, "motion").value()}, TwistCommand{twist});
   }
 }

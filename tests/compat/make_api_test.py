@@ -45,7 +45,11 @@ CXX_BEGIN = """#include <libplayerc++/playerc++.h>
 #include <libplayerc++/playererror.h>
 #include <libplayerc/playerc.h>
 #include <libplayercommon/playercommon.h>
+#include <libplayercore/player.h>
+#include <libplayercore/playercommon.h>
+#include <libplayererror/error.h>
 #include <libplayerinterface/player.h>
+#include <libplayerinterface/player_interfaces.h>
 #include <player-2.0/libplayerc++/playerc++.h>
 #include <player-2.1/libplayerc++/playerc++.h>
 #include <player-3.0/libplayerc++/playerc++.h>

@@ -189,7 +189,6 @@ void read_in_own_thread() {
       ++count;
     }
   });
-  usleep(500000);  // from here on, all three take part
   double last = position.GetXPos();
   int last_count = 0;
   {
@@ -211,6 +210,28 @@ void read_in_own_thread() {
   }
   reader.join();
   counter.join();
+}
+
+// Started before there is a simulation, each with a client of its own.
+void have_threads_with_clients() {
+  std::mutex mutex;
+  const auto work = [&mutex](int number, unsigned pause_us) {
+    PlayerClient robot("localhost", 6665);
+    Position2dProxy position(&robot, 0);
+    for (int i = 0; i < 40; ++i) {
+      robot.Read();
+      position.SetSpeed(0.1, number == 0 ? 0.2 : -0.1);
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        std::printf("%d %.9f\n", number, position.GetXPos());
+      }
+      usleep(pause_us);
+    }
+  };
+  std::thread first(work, 0, 70000);
+  std::thread second(work, 1, 50000);
+  first.join();
+  second.join();
 }
 
 void wait_for_the_clock() {
@@ -283,6 +304,8 @@ void wait_in_background_for_a_place() {
   PlayerClient robot("localhost", 6665);
   Position2dProxy position(&robot, 0);
   robot.StartThread();
+  while (!position.IsFresh()) {
+  }
   const double start = position.GetXPos();
   position.SetSpeed(0.1, 0.0);
   while (position.GetXPos() < start + 0.2) {
@@ -380,6 +403,7 @@ int main(int argc, char** argv) {
       {"read_and_sleep", read_and_sleep},
       {"read_in_background", read_in_background},
       {"read_in_own_thread", read_in_own_thread},
+      {"have_threads_with_clients", have_threads_with_clients},
       {"wait_for_the_clock", wait_for_the_clock},
       {"look_at_the_clock", look_at_the_clock},
       {"drive_for_ever", drive_for_ever},

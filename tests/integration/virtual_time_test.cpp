@@ -1,0 +1,277 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Programs that sleep, look at the clock and have threads, under `playpen run`.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::Process;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::room_world;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+/// Runs programs of virtual_time_program on the room, in a folder of its own.
+class VirtualTime : public testing::Test {
+ protected:
+  [[nodiscard]] ProcessResult run(const std::string& name,
+                                  const std::vector<std::string>& options = {}) const {
+    std::vector<std::string> call = {"run", world_, "--out", out_};
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", SLEEPING_PROGRAM, name});
+    return playpen(call);
+  }
+  /// What the program prints, without the summary.
+  [[nodiscard]] std::string printed(const std::string& name) const {
+    const ProcessResult result = run(name, {"--quiet", "--duration", "100"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_THAT(result.err, IsEmpty());
+    return result.out;
+  }
+  /// The report, without what tells of the wall clock.
+  [[nodiscard]] json report() const {
+    json whole = json::parse(read_bytes(fs::path(out_) / "report.json"));
+    whole["run"].erase("wall_time");
+    whole["run"].erase("real_time_factor");
+    return whole;
+  }
+  [[nodiscard]] json robot() const { return report().at("robots").at(0); }
+  [[nodiscard]] double sim_time() const { return report().at("run").at("sim_time").get<double>(); }
+
+  TemporaryFolder folder_;
+  std::string world_ = folder_.write("room.json", room_world(0.01));
+  std::string out_ = folder_ / "out";
+};
+
+TEST_F(VirtualTime, AProgramThatNeverReadsDrivesAsLongAsItSleeps) {
+  ASSERT_EQ(run("drive_by_sleeping").status, 0);
+  EXPECT_DOUBLE_EQ(sim_time(), 3.5);
+  // 3 s at 0.1 m/s, but for what speeding up and braking at 1 m/s^2 or more take: 2 * 0.05 s * v.
+  EXPECT_NEAR(robot().at("path_length").get<double>(), 0.3, 0.011);
+}
+
+TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
+  std::istringstream lines(printed("sleep_in_all_ways"));
+  int ways = 0;
+  for (std::string line; std::getline(lines, line); ++ways) {
+    const bool whole = line.starts_with("sleep:") || line.find("until:") != std::string::npos ||
+                       line.find("timedwait") != std::string::npos;
+    const bool second = whole && !line.starts_with("sleep_until:");
+    const char* expected = second ? ": 1.00 1.00" : ": 0.50 0.50";
+    // 100000 * 1 us and 100 * 1.5 ms.
+    if (line.starts_with("small ones")) expected = ": 0.25 0.25";
+    EXPECT_THAT(line, EndsWith(expected));
+  }
+  EXPECT_EQ(ways, 17);
+}
+
+TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
+  for (const char* name : {"drive_by_sleeping", "read_and_sleep", "read_in_background",
+                           "read_in_own_thread"}) {
+    const ProcessResult first = run(name, {"--duration", "60", "--quiet"});
+    ASSERT_EQ(first.status, 0) << first.err;
+    const json first_report = report();
+    const std::string trajectory = read_bytes(fs::path(out_) / "trajectory.csv");
+
+    std::vector<std::unique_ptr<Process>> load;
+    for (int i = 0; i < 4; ++i) {
+      load.push_back(std::make_unique<Process>(
+          std::vector<std::string>{"sh", "-c", "echo on; while :; do :; done"}));
+    }
+    for (const auto& process : load) ASSERT_TRUE(process->read_until("on\n"));
+    const ProcessResult second = run(name, {"--duration", "60", "--quiet"});
+    load.clear();
+    ASSERT_EQ(second.status, 0) << second.err;
+    EXPECT_EQ(first_report, report()) << name;
+    EXPECT_TRUE(trajectory == read_bytes(fs::path(out_) / "trajectory.csv")) << name;
+    EXPECT_EQ(first.out, second.out) << name;
+  }
+}
+
+TEST_F(VirtualTime, SixtySecondsOfReadingAndSleepingAreSixtySeconds) {
+  ASSERT_EQ(run("read_and_sleep", {"--duration", "60"}).status, 0);
+  EXPECT_DOUBLE_EQ(sim_time(), 60.0);
+}
+
+TEST_F(VirtualTime, ABackgroundThreadStaysInLockstep) {
+  const ProcessResult result = run("read_in_background");
+  ASSERT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, Not(HasSubstr("warning")));
+  // 1 s and 200 * 70 ms, and up to two looks of 10 ms until the thread finds that it is to stop.
+  EXPECT_GE(sim_time(), 15.0);
+  EXPECT_LE(sim_time(), 15.02);
+  EXPECT_GT(robot().at("path_length").get<double>(), 0.5);
+}
+
+TEST_F(VirtualTime, ThreadsOfTheProgramTakeTurnsInTheSameOrderEachTime) {
+  const std::string first = printed("read_in_own_thread");
+  const std::string second = printed("read_in_own_thread");
+  EXPECT_EQ(first, second);
+  // 100 turns of 50 ms, and a count every 30 ms.
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 100);
+  EXPECT_THAT(first, AllOf(HasSubstr(" 1\n"), HasSubstr(" 2\n"), Not(HasSubstr(" 3\n"))));
+}
+
+TEST_F(VirtualTime, ThreadsThatBeginAtTheSameMomentDoSoInTheSameOrder) {
+  const std::string first = printed("have_threads_with_clients");
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 80);
+  const json first_report = report();
+  EXPECT_EQ(first, printed("have_threads_with_clients"));
+  EXPECT_EQ(first_report, report());
+}
+
+TEST_F(VirtualTime, WhoWaitsForTheClockGetsAStepALook) {
+  // 3 s of 10 ms, less the looks before that.
+  const std::string out = printed("wait_for_the_clock");
+  const int asked = std::atoi(out.substr(std::string("asked ").size()).c_str());
+  EXPECT_NEAR(asked, 300, 5);
+  EXPECT_DOUBLE_EQ(sim_time(), 3.0);
+  EXPECT_NEAR(robot().at("path_length").get<double>(), 0.3, 0.011);
+}
+
+TEST_F(VirtualTime, ALookATurnMovesNothing) {
+  // A scan every 0.1 s, and the clock of 2026-01-01, 1767225600 s.
+  const std::string out = printed("look_at_the_clock");
+  EXPECT_THAT(out, StartsWith("0.100 600.100\n0.200 600.200\n0.300 600.300\n"));
+  EXPECT_THAT(out, EndsWith("2.000 602.000\n"));
+}
+
+TEST_F(VirtualTime, TheClockDoesNotJumpWhenTheSimulationBegins) {
+  const std::string first = printed("begin_before_the_client");
+  EXPECT_THAT(first, HasSubstr("\n0.02\n"));
+  // Ten times 1 s by the clock; the last Read() returns with the scan of then.
+  EXPECT_THAT(first, EndsWith("\n10.02\n"));
+  EXPECT_EQ(first, printed("begin_before_the_client"));
+}
+
+TEST_F(VirtualTime, ASleepingProgramEndsWithTheRun) {
+  const ProcessResult result = run("drive_for_ever", {"--duration", "20"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("drives\n"));
+  EXPECT_THAT(result.err, HasSubstr("the run is over: the program was ended in its sleep"));
+  EXPECT_DOUBLE_EQ(sim_time(), 20.0);
+  EXPECT_EQ(run("drive_for_ever", {"--duration", "20", "--quiet"}).err, "");
+}
+
+TEST_F(VirtualTime, SoDoesOneThatCatchesAllErrors) {
+  EXPECT_EQ(run("drive_for_ever_in_background", {"--duration", "5"}).status, 0);
+  EXPECT_DOUBLE_EQ(sim_time(), 5.0);
+}
+
+TEST_F(VirtualTime, AProgramThatWasToldOfTheEndMayStillSleep) {
+  const ProcessResult result = run("tidy_up_after_the_end", {"--duration", "2"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("over: 1\n"), HasSubstr("tidied up\n")));
+  EXPECT_THAT(result.err, HasSubstr("ended with status 7"));
+  EXPECT_DOUBLE_EQ(sim_time(), 2.0);
+}
+
+TEST_F(VirtualTime, LookingAtProxiesAloneLetsTimePassInTheEnd) {
+  EXPECT_THAT(printed("wait_in_background_for_a_place"), EndsWith("there\n"));
+  EXPECT_GT(robot().at("path_length").get<double>(), 0.19);
+}
+
+TEST_F(VirtualTime, AProgramThatWaitsForAKeyIsPacedAndToldWhy) {
+  const ProcessResult result = run("steer_by_hand");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.out, HasSubstr("steered\n"));
+  EXPECT_THAT(result.err, HasSubstr("simulated time now follows the wall clock"));
+  const std::string warning = "warning";
+  EXPECT_EQ(result.err.find(warning), result.err.rfind(warning)) << result.err;
+}
+
+TEST_F(VirtualTime, WhoJoinsAThreadHoldsItUpForNoTime) {
+  const std::string out = printed("join_threads");
+  EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 3);
+  EXPECT_EQ(out, printed("join_threads"));
+}
+
+TEST_F(VirtualTime, WaitsWithADeadlineEndWhenTheyAreSignalled) {
+  EXPECT_EQ(printed("wait_for_each_other"), "came 1\nanswered 1\n1\n");
+}
+
+TEST_F(VirtualTime, ChildrenAndOtherProgramsAreLeftAlone) {
+  EXPECT_EQ(printed("have_a_child"), "child 5, own 0\n");
+  const std::time_t now = std::time(nullptr);
+  const ProcessResult date = playpen({"run", world_, "--out", out_, "--", "date", "+%s"});
+  EXPECT_GE(std::atoll(date.out.c_str()), now);
+}
+
+TEST_F(VirtualTime, IsOffWithRealSleepAndInPacedTime) {
+  // The program's own sleeps do not count then: no client ever waits, so no time passes.
+  EXPECT_EQ(run("drive_by_sleeping", {"--real-sleep"}).status, 0);
+  EXPECT_DOUBLE_EQ(sim_time(), 0.0);
+  EXPECT_EQ(run("drive_by_sleeping", {"--time", "10"}).status, 0);
+  EXPECT_GT(sim_time(), 3.5);  // ten times as much, if the machine keeps up
+}
+
+TEST_F(VirtualTime, IsAddedToWhatIsPreloadedAlready) {
+  ProcessOptions options;
+  options.environment = {{"LD_PRELOAD", "libm.so.6"}};
+  const std::vector<std::string> env = {"--out", out_, "--", "env"};
+  std::vector<std::string> call = {"run", world_};
+  call.insert(call.end(), env.begin(), env.end());
+  EXPECT_THAT(playpen(call, options).out, AllOf(HasSubstr("\nLD_PRELOAD=libm.so.6:/"),
+                                                HasSubstr("libplaypen_virtual_time.so\n"),
+                                                HasSubstr("\nPLAYPEN_VIRTUAL_TIME=1\n")));
+  call.insert(call.begin() + 2, "--real-sleep");
+  EXPECT_THAT(playpen(call, options).out, AllOf(HasSubstr("LD_PRELOAD=libm.so.6\n"),
+                                                Not(HasSubstr("PLAYPEN_VIRTUAL_TIME"))));
+}
+
+TEST_F(VirtualTime, ACommandWithoutItsLibrarySaysSo) {
+  const std::string command = folder_ / "bin/playpen";
+  fs::create_directories(folder_ / "bin");
+  fs::copy_file(PLAYPEN_COMMAND, command);
+  const auto call = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {command, "run", world_, "--out", out_};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    arguments.insert(arguments.end(), {"--", SLEEPING_PROGRAM, "drive_by_sleeping"});
+    return test_support::run_process(arguments);
+  };
+  const ProcessResult result = call({});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("lib/playpen/libplaypen_virtual_time.so, is missing"),
+                                HasSubstr("--real-sleep")));
+  EXPECT_EQ(call({"--real-sleep"}).status, 0);
+}
+
+TEST_F(VirtualTime, ItsLibraryMayLieInAFolderWithBlanks) {
+  const fs::path place = folder_ / "my own place";
+  fs::create_directories(place / "bin");
+  fs::create_directories(place / "lib/playpen");
+  fs::copy_file(PLAYPEN_COMMAND, place / "bin/playpen");
+  const fs::path name = "lib/playpen/libplaypen_virtual_time.so";
+  fs::copy_file(fs::path(PLAYPEN_COMMAND).parent_path().parent_path() / name, place / name);
+  const ProcessResult result =
+      test_support::run_process({(place / "bin/playpen").string(), "run", world_, "--out", out_,
+                                 "--", SLEEPING_PROGRAM, "drive_by_sleeping"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_DOUBLE_EQ(sim_time(), 3.5);
+}
+
+}  // namespace

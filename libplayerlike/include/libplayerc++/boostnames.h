@@ -28,6 +28,7 @@ using std::function;
 using std::ref;
 using std::shared_ptr;
 
+/// The type of PlayerClient::mMutex.
 typedef PlayerCc::mutex_t mutex;
 
 /// A thread that goes on by itself when this object is destroyed before it has ended, as Boost's
@@ -39,8 +40,8 @@ class thread : public std::thread {
   template <typename F, typename... Args>
   explicit thread(F aFunction, Args... aArgs)
       : std::thread(std::move(aFunction), std::move(aArgs)...) {}
-  thread(thread&&) = default;
-  thread& operator=(thread&& aOther) {
+  thread(thread&&) noexcept = default;
+  thread& operator=(thread&& aOther) noexcept {
     if (joinable()) detach();
     std::thread::operator=(std::move(aOther));
     return *this;
@@ -50,7 +51,9 @@ class thread : public std::thread {
   }
 };
 
+/// Of Boost.Signals, which Player used.
 namespace signals {
+/// What ClientProxy::ConnectReadSignal() returns.
 typedef PlayerCc::read_connection_t connection;
 }  // namespace signals
 

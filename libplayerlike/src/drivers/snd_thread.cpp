@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "proxies/link.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike {
 
@@ -28,6 +29,7 @@ SndThread::SndThread(std::unique_ptr<Session> session, int position, int laser,
   }
   const player_pose3d_t mount = laser_.GetPose();
   scan_.X_BL = {mount.px, mount.py, mount.pyaw};
+  const virtual_time::Inside inside;  // it is not the program's thread
   // Not before the thread has joined may the caller go on, and with it time.
   std::unique_lock lock(mutex_);
   thread_ = std::thread([this] { run(); });
@@ -43,7 +45,10 @@ SndThread::~SndThread() {
     // The server has gone.
   }
   PlayerCc::detail::CoreAccess::get(client_)->close();  // the thread finds its connection closed
-  thread_.join();
+  {
+    const virtual_time::Inside inside;  // and ends without simulated time
+    thread_.join();
+  }
   if (!last || state() != SndState::kMoving) return;
   try {
     // What a session asked for last is still done when it closes.

@@ -158,6 +158,10 @@ class Host::Core : private ViewedRun {
   /// Virtual time: the calling thread waits for the end of another one, and holds up nobody until
   /// that has ended. @return whether so: then end_join() is to be called.
   bool begin_join(pthread_t awaited);
+  /// Virtual time: the program starts a thread. Time stands until that has waited for something.
+  void add_thread(ThinkerId thinker);
+  /// The calling thread is one of these, and has begun.
+  void note_thread_begun();
   void end_join();
   /// Simulated time and the time of a step, without a lock.
   [[nodiscard]] sim::SimTime now_ns() const noexcept {

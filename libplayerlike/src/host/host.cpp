@@ -87,10 +87,16 @@ ThinkerId new_thinker() noexcept {
   return ++last;
 }
 
-ThinkerId this_thinker() noexcept {
-  thread_local const ThinkerId own = new_thinker();
-  return own;
+namespace {
+constinit thread_local ThinkerId own_thinker = 0;
 }
+
+ThinkerId this_thinker() noexcept {
+  if (own_thinker == 0) own_thinker = new_thinker();
+  return own_thinker;
+}
+
+void set_this_thinker(ThinkerId thinker) noexcept { own_thinker = thinker; }
 
 // --- Construction
 // ---------------------------------------------------------------------------------
@@ -149,7 +155,10 @@ std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
   client->empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
   touch(*client);
   const auto place = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
-    return c->helper || (follower && !c->follower);
+    if (c->helper || (follower && !c->follower)) return true;
+    // In virtual time threads may begin at the same moment: the order is that in which they were
+    // started, not that in which they come here.
+    return turns_ && c->follower == follower && c->creator > client->creator;
   });
   clients_.insert(place, client);
   changed_.notify_all();  // a paced clock may wait for its first client
@@ -320,7 +329,11 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   adopt(client, this_thinker());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
-  if (turns_ && !paced_) return wait_for_turn(lock, client);
+  if (turns_ && !paced_) {
+    // The thread takes part even if another one reads this client later.
+    if (!client.helper && !client.follower) adopt(*helper_of(this_thinker()), this_thinker());
+    return wait_for_turn(lock, client);
+  }
   while (!wait_is_over(client)) {
     require_open(client);
     // Said once: threads that all only tell each other that they wait would never sleep.
@@ -429,6 +442,10 @@ void Host::Core::note_silence() {
     if (now - seen < limit) continue;
     c->silent = true;
     if (c->helper) {
+      const bool has_client = std::any_of(clients_.begin(), clients_.end(), [&](const auto& other) {
+        return !other->helper && other->joined && other->owner == c->owner;
+      });
+      if (has_client) continue;  // and that is told
       warn("a thread of the program has neither read nor slept for " +
            std::to_string(settings_.silence_limit_s) +
            " s of wall time; simulated time goes on without it until it does");
@@ -726,7 +743,7 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   });
   if (settings_.quiet_end &&
       (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
-    if (log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+    if (settings_.progress && log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     lock.unlock();
     end_program_quietly();
   }
@@ -751,6 +768,19 @@ bool Host::Core::begin_join(pthread_t awaited) {
   }
   changed_.notify_all();
   return away;
+}
+
+void Host::Core::add_thread(ThinkerId thinker) {
+  const Lock lock = lock_soon();
+  if (!turns_ || paced_) return;
+  const std::shared_ptr<Client> helper = helper_of(thinker);
+  helper->joined = true;
+  touch(*helper);
+}
+
+void Host::Core::note_thread_begun() {
+  const Lock lock = lock_soon();
+  if (turns_) helper_of(this_thinker())->owner_thread = this_thread();
 }
 
 void Host::Core::end_join() {

@@ -163,6 +163,7 @@ void PlayerClient::StartThread() {
     mCore->session().prefer_real_time("a client reads in a thread of its own (StartThread)");
     auto reader = std::make_shared<Reader>();
     const bool join = playerlike::virtual_time::active();
+    const playerlike::virtual_time::Inside inside;  // the thread is not the program's
     mImpl->thread = std::thread([core = mCore, reader, join] {
       if (join) join_lockstep(*core, *reader);
       read_in_background(core, reader);

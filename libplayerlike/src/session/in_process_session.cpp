@@ -11,14 +11,23 @@ namespace playerlike {
 namespace {
 
 // Nobody is to wait for a thread that has ended.
-thread_local Farewell<Host> farewell([](Host& host) {
-  virtual_time::note_thread_ends();
-  InsideCore(VirtualTimeAccess::core(host))->thinker_ended(this_thinker(), pthread_self());
-});
+thread_local Farewell<Host> farewell([](Host& host) { host.thinker_ended(this_thinker()); });
+
+// Virtual time, too, is to know when a thread that lives in it ends.
+struct VirtualLife {
+  VirtualLife() = default;
+  VirtualLife(const VirtualLife&) = delete;
+  VirtualLife& operator=(const VirtualLife&) = delete;
+  ~VirtualLife() {
+    if (lived) virtual_time::note_thread_ends();
+  }
+  bool lived = false;
+};
+thread_local VirtualLife virtual_life;
 
 }  // namespace
 
-void remember_host_of_thread(const std::shared_ptr<Host>& host) { farewell.remember(host); }
+void remember_thread() { virtual_life.lived = true; }
 
 InProcessSession::InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
     : host_(std::move(host)), client_(std::move(client)) {}
@@ -30,7 +39,9 @@ InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->c
 void InProcessSession::note_wait() const {
   farewell.remember(host_);
   // Drivers are Playpen's own.
-  if (!client_->follower) virtual_time::note_wait();
+  if (client_->follower || !virtual_time::active()) return;
+  remember_thread();
+  virtual_time::note_wait();
 }
 
 const std::vector<RobotInfo>& InProcessSession::robots() const noexcept { return core()->robots(); }

@@ -8,8 +8,8 @@
 
 namespace playerlike {
 
-/// The calling thread takes part in a simulation: it is told when the thread ends.
-void remember_host_of_thread(const std::shared_ptr<Host>& host);
+/// The calling thread lives in virtual time: that is to be told when it ends.
+void remember_thread();
 
 /// A session with a simulation in this process: calls, not messages.
 class InProcessSession final : public Session {

@@ -20,6 +20,13 @@ struct playpen_virtual_time_hooks {
   /// @param ask  1 if the program asked for it, so that somebody who does nothing but ask gets on.
   /// @return 1 if it did; 0: the real clock is to be asked.
   int (*now)(long long* elapsed_ns, int ask, const void* caller);
+  /// The calling thread is about to start another one.
+  /// @return a number for it, > 0; 0 if it does not matter.
+  unsigned long long (*begin_thread)(const void* caller, const void* start, const void* argument);
+  /// That thread has begun; called by it.
+  void (*thread_begun)(unsigned long long number);
+  /// It could not be started.
+  void (*thread_failed)(unsigned long long number);
   /// The calling thread is about to wait for the end of another one.
   /// @return 1 if end_join() is to be called after that.
   int (*begin_join)(pthread_t thread);

@@ -16,6 +16,7 @@
 #include <pthread.h>
 #include <semaphore.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/select.h>
 #include <sys/time.h>
@@ -107,6 +108,7 @@ NEXT(sem_timedwait);
 NEXT(sem_clockwait);
 NEXT(pthread_mutex_timedlock);
 NEXT(pthread_mutex_clocklock);
+NEXT(pthread_create);
 NEXT(pthread_join);
 NEXT_CONDITION(pthread_cond_timedwait);
 NEXT_CONDITION(pthread_cond_signal);
@@ -476,6 +478,45 @@ EXPORTED int pthread_mutex_clocklock(pthread_mutex_t* __restrict mutex, clockid_
       wait_by_trying(*deadline, clock, CALLER, [&] { return pthread_mutex_trylock(mutex); });
   if (waited == -2) return next_pthread_mutex_clocklock(mutex, clock, deadline);
   return waited == 0 ? 0 : ETIMEDOUT;
+}
+
+namespace {
+
+struct ThreadStart {
+  void* (*function)(void*);
+  void* argument;
+  unsigned long long number;
+};
+
+void* begin_thread(void* start_of_thread) {
+  const ThreadStart start = *static_cast<ThreadStart*>(start_of_thread);
+  free(start_of_thread);
+  if (const auto* const table = playpen()) table->thread_begun(start.number);
+  return start.function(start.argument);
+}
+
+}  // namespace
+
+EXPORTED int pthread_create(pthread_t* __restrict thread, const pthread_attr_t* __restrict settings,
+                            void* (*function)(void*), void* __restrict argument) noexcept {
+  const auto* const table = playpen();
+  const unsigned long long number =
+      table == nullptr
+          ? 0
+          : table->begin_thread(CALLER, reinterpret_cast<const void*>(function), argument);
+  auto* const start =
+      number == 0 ? nullptr : static_cast<ThreadStart*>(malloc(sizeof(ThreadStart)));
+  if (start == nullptr) {
+    if (number != 0) table->thread_failed(number);
+    return next_pthread_create(thread, settings, function, argument);
+  }
+  *start = {function, argument, number};
+  const int error = next_pthread_create(thread, settings, begin_thread, start);
+  if (error != 0) {
+    free(start);
+    table->thread_failed(number);
+  }
+  return error;
 }
 
 EXPORTED int pthread_join(pthread_t thread, void** result) {

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -40,6 +41,7 @@ struct ThreadState {
   int inside = 0;
   bool ended = false;
   bool takes_part = false;
+  bool programs = false;        ///< started by the program's own code
   signed char main = -1;        ///< whether it is the main thread; < 0: not looked up yet
   int asks = 0;                 ///< since it last waited
   long long looks = 0;          ///< since it last waited
@@ -97,6 +99,27 @@ bool is_programs_code(const void* address) {
          !name.starts_with("libspdlog.");
 }
 
+/// The code that a thread will run, as far as can be told from how it is started.
+const void* code_of_thread(const void* caller, const void* start, const void* argument) {
+  Dl_info info{};
+  if (in_program(caller) || dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return caller;
+  // std::thread is given an object with virtual functions, whose table lies with its code.
+  if (std::strstr(info.dli_fname, "/libstdc++.") == nullptr || argument == nullptr) return start;
+  return *static_cast<const void* const*>(argument);
+}
+
+/// Simulations that were attached. A thread may be on its way into one, so they are kept.
+std::vector<std::shared_ptr<Host>>& kept_hosts() {
+  static auto* const hosts = new std::vector<std::shared_ptr<Host>>;
+  return *hosts;
+}
+/// Threads that the program has started before there was a simulation, and that have not ended.
+std::vector<ThinkerId>& early_threads() {
+  static auto* const threads = new std::vector<ThinkerId>;
+  return *threads;
+}
+constinit std::mutex lists_mutex;  // over both
+
 long long elapsed(const ThreadState& thread) {
   if (given_up.load(std::memory_order_acquire)) {
     return last_ns.load() + real_ns() - last_real_ns.load();
@@ -115,7 +138,7 @@ bool pass(ThreadState& thread, Host& host, long long duration_ns) {
   const Inside inside;
   try {
     thread.takes_part = true;
-    remember_host_of_thread(host.shared_from_this());
+    remember_thread();
     auto& core = VirtualTimeAccess::core(host);
     const sim::SimTime from_ns = core.now_ns();
     const sim::SimTime start_ns = from_ns + (thread.ahead_from == from_ns ? thread.ahead_ns : 0);
@@ -140,7 +163,9 @@ int on_sleep(long long duration_ns, const void* caller) {
     if (is_main(thread)) offset_ns.fetch_add(duration_ns);
     return 0;
   }
-  if (!thread.takes_part && !is_main(thread) && !is_programs_code(caller)) return 0;
+  if (!thread.takes_part && !thread.programs && !is_main(thread) && !is_programs_code(caller)) {
+    return 0;
+  }
   thread.asks = 0;
   thread.looks = 0;
   return pass(thread, *host, duration_ns) ? 1 : 0;
@@ -149,7 +174,7 @@ int on_sleep(long long duration_ns, const void* caller) {
 int on_now(long long* elapsed_ns, int ask, const void* caller) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended) return 0;
-  if (!thread.takes_part && !is_main(thread) && !in_program(caller)) return 0;
+  if (!thread.takes_part && !thread.programs && !is_main(thread) && !in_program(caller)) return 0;
   if (ask != 0 && !given_up.load(std::memory_order_acquire) && ++thread.asks > kFreeAsks) {
     thread.asks = kFreeAsks;
     Host* const host = attached.load(std::memory_order_acquire);
@@ -163,10 +188,45 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
   return 1;
 }
 
+unsigned long long on_begin_thread(const void* caller, const void* start, const void* argument) {
+  const ThreadState& thread = state;
+  if (thread.inside > 0 || thread.ended || given_up.load(std::memory_order_acquire)) return 0;
+  const Inside inside;
+  try {
+    if (!is_programs_code(code_of_thread(caller, start, argument))) return 0;
+    const ThinkerId thinker = new_thinker();
+    const std::lock_guard lock(lists_mutex);
+    if (Host* const host = attached.load()) {
+      VirtualTimeAccess::core(*host).add_thread(thinker);
+    } else {
+      early_threads().push_back(thinker);
+    }
+    return thinker;
+  } catch (const std::exception&) {
+    return 0;
+  }
+}
+
+void on_thread_begun(unsigned long long number) {
+  state.programs = true;
+  const Inside inside;
+  set_this_thinker(number);
+  remember_thread();
+  Host* const host = attached.load(std::memory_order_acquire);
+  if (host != nullptr) VirtualTimeAccess::core(*host).note_thread_begun();
+}
+
+void on_thread_failed(unsigned long long number) {
+  const Inside inside;
+  const std::lock_guard lock(lists_mutex);
+  std::erase(early_threads(), number);
+  if (Host* const host = attached.load()) VirtualTimeAccess::core(*host).thinker_ended(number);
+}
+
 int on_begin_join(pthread_t awaited) {
   const ThreadState& thread = state;
   Host* const host = attached.load(std::memory_order_acquire);
-  if (thread.inside > 0 || thread.ended || !thread.takes_part || host == nullptr) return 0;
+  if (thread.inside > 0 || thread.ended || host == nullptr) return 0;
   const Inside inside;
   return VirtualTimeAccess::core(*host).begin_join(awaited) ? 1 : 0;
 }
@@ -178,8 +238,9 @@ void on_end_join() {
   VirtualTimeAccess::core(*host).end_join();
 }
 
-constexpr playpen_virtual_time_hooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION, on_sleep, on_now,
-                                               on_begin_join, on_end_join};
+constexpr playpen_virtual_time_hooks kHooks = {
+    PLAYPEN_VIRTUAL_TIME_VERSION, on_sleep,         on_now,        on_begin_thread,
+    on_thread_begun,              on_thread_failed, on_begin_join, on_end_join};
 
 int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
   program_begin = UINTPTR_MAX;
@@ -197,16 +258,10 @@ int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
 __attribute__((constructor(101))) void register_hooks() {
   void* const found = dlsym(RTLD_DEFAULT, PLAYPEN_VIRTUAL_TIME_REGISTER);
   if (found == nullptr) return;
+  static_cast<void>(this_thinker());  // the main thread is the first
   dl_iterate_phdr(note_program, nullptr);
   registered = reinterpret_cast<playpen_virtual_time_register_t>(found)(&kHooks) != 0;
 }
-
-/// Simulations that were attached. A thread may be on its way into one, so they are kept.
-std::vector<std::shared_ptr<Host>>& kept_hosts() {
-  static auto* const hosts = new std::vector<std::shared_ptr<Host>>;
-  return *hosts;
-}
-constinit std::mutex hosts_mutex;
 
 }  // namespace
 
@@ -216,22 +271,25 @@ Inside::Inside() noexcept { ++state.inside; }
 Inside::~Inside() { --state.inside; }
 
 void attach(const std::shared_ptr<Host>& host) {
-  const std::lock_guard lock(hosts_mutex);
+  const std::lock_guard lock(lists_mutex);
   if (attached.load() != nullptr || !active()) return;
   kept_hosts().push_back(host);
+  for (const ThinkerId thinker : early_threads()) VirtualTimeAccess::core(*host).add_thread(thinker);
+  early_threads().clear();
   attached.store(host.get(), std::memory_order_release);
 }
 
 void detach(const Host& host) noexcept {
-  const std::lock_guard lock(hosts_mutex);
+  const std::lock_guard lock(lists_mutex);
   if (attached.load() != &host) return;
   offset_ns.fetch_add(VirtualTimeAccess::core(host).now_ns());
   attached.store(nullptr, std::memory_order_release);
 }
 
+// Called with a simulation locked, so without the lock over the lists.
 void give_up() noexcept {
-  const std::lock_guard lock(hosts_mutex);
-  if (given_up) return;
+  static constinit std::atomic<bool> begun{false};
+  if (begun.exchange(true)) return;
   last_ns = elapsed(state);
   last_real_ns = real_ns();
   given_up.store(true, std::memory_order_release);
@@ -257,7 +315,15 @@ void note_look() noexcept {
 
 void note_background() noexcept { background = true; }
 
-void note_thread_ends() noexcept { state.ended = true; }
+void note_thread_ends() noexcept {
+  state.ended = true;
+  const Inside inside;
+  const std::lock_guard lock(lists_mutex);
+  std::erase(early_threads(), this_thinker());
+  if (Host* const host = attached.load()) {
+    VirtualTimeAccess::core(*host).thinker_ended(this_thinker(), pthread_self());
+  }
+}
 
 bool wait_until(const void* simulation, const std::function<bool()>& condition) {
   ThreadState& thread = state;

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace sim::io {
@@ -259,6 +260,14 @@ std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
   if (is_file_name(name)) {
     const std::filesystem::path folder = std::filesystem::path(world.file).parent_path();
     document.file = (folder / name).string();
+    // Reading a pipe or a device might never end.
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(document.file, error);
+    if (std::filesystem::is_other(status)) {
+      robot.issue("world/model-unreadable", "a file with a robot model",
+                  document.file + ": a pipe, a socket or a device", "", "model");
+      return std::nullopt;
+    }
     if (!read_file(document.file, text, document, "a file with a robot model")) {
       const ConfigIssue& why = document.issues.front();
       robot.issue(

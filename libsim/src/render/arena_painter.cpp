@@ -158,6 +158,7 @@ class SolidsPainter {
     Shape separators;
     Shape statics;
     Shape dynamics;
+    Shape coloured;  // blocks that have a colour of their own
     Shape walls;
     const double border_px = layout_.border_px;
     if (arena_.border) {
@@ -171,12 +172,14 @@ class SolidsPainter {
     }
     for (const ObstacleDescription& box : arena_.obstacles) {
       if (is_retracted(box)) continue;
-      (box.type == ObstacleType::kDynamic ? dynamics : statics)
-          .add_piece(layout_(box_corners(box)));
+      Shape& alike = box.colour                           ? coloured
+                     : box.type == ObstacleType::kDynamic ? dynamics
+                                                          : statics;
+      alike.add_piece(layout_(box_corners(box)));
     }
     for (const WallLoop& loop : arena_.walls) walls.add_outline(layout_(loop.vertices));
 
-    draw_shadows({&separators, &statics, &dynamics, &walls});
+    draw_shadows({&separators, &statics, &dynamics, &coloured, &walls});
     if (arena_.border) {
       draw_border_shade();
     } else {
@@ -200,6 +203,13 @@ class SolidsPainter {
     painter_.fill(dynamics, palette::kDynamic);
     for (const ObstacleDescription& box : arena_.obstacles) {
       if (is_retracted(box)) continue;
+      if (box.colour) {
+        Shape block;
+        block.add_piece(layout_(box_corners(box)));
+        painter_.fill(block, opaque(*box.colour));
+        draw_block_edge(box, mix(opaque(*box.colour), palette::kInk, 0.4));
+        continue;
+      }
       const bool dynamic = box.type == ObstacleType::kDynamic;
       draw_block_edge(box, dynamic ? palette::kDynamicEdge : palette::kStaticEdge);
     }

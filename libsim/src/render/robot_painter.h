@@ -24,4 +24,7 @@ void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painte
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 
+/// What the robots say, in bubbles on top of all else.
+void draw_speech(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+
 }  // namespace sim::render

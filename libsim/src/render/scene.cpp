@@ -48,6 +48,11 @@ struct ArenaKey {
         numbers.push_back(box.yaw_rad);
         numbers.push_back(static_cast<double>(box.type));
         numbers.push_back(static_cast<double>(box.state));
+        const Colour colour = box.colour.value_or(Colour{0, 0, 0, 0});
+        for (const int channel :
+             {int{colour.r}, int{colour.g}, int{colour.b}, box.colour ? 1 : 0}) {
+          numbers.push_back(channel);
+        }
       }
     }
     for (const DockDescription& dock : arena.docks) {
@@ -109,6 +114,7 @@ class ArenaView {
     draw_arena(scene, mode == ViewMode::kGround);
     if (mode == ViewMode::kMiniMap && options_.canvas) draw_mini_map(scene);
     if (options_.names && layout_.text) draw_names(scene, layout_, painter_);
+    if (layout_.text) draw_speech(scene, layout_, painter_);
     if (options_.legend && layout_.text) {
       const double left = std::min(layout_.floor.left - layout_.border_px, layout_.margin_px);
       draw_footer(scene, layout_,

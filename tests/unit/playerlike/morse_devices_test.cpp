@@ -229,7 +229,8 @@ TEST_F(Morse, PropertiesAreTheWorldFiles) {
   EXPECT_DOUBLE_EQ(properties.GetSize().sl, 0.174);
   // The proxies table gives the laser index 7; position2d has the robot's number.
   EXPECT_THAT(properties.GetProxyIndexes(),
-              ElementsAre(Pair("graphics2d", 0), Pair("laser", 7), Pair("position2d", 0)));
+              ElementsAre(Pair("graphics2d", 0), Pair("laser", 7), Pair("localize", 0),
+                          Pair("position2d", 0)));
   EXPECT_EQ(properties.GetProxyIndex("laser"), 7);
   EXPECT_EQ(properties.GetProxyIndex("sonar"), -1);
   EXPECT_THAT(properties.GetDriverNames(), ElementsAre("snd"));

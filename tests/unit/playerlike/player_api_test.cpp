@@ -7,7 +7,9 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -143,6 +145,58 @@ TEST_F(PlayerApi, EveryExampleWorldHasItsInterface) {
     EXPECT_TRUE(found) << interface << " in " << file;
   }
   EXPECT_GE(count, 3);  // at least laser, position2d and graphics2d
+}
+
+// --- The page of all proxies
+
+std::string content(const std::string& file) {
+  std::ifstream in(std::filesystem::path(PLAYPEN_SOURCE_DIR) / file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+TEST(PageOfProxies, HasEveryClassOfTheTables) {
+  const std::string page = content("docs/player_api.md");
+  const std::string tables = content("tests/compat/player-api/proxies.md");
+  static const std::regex kClass("\n## (\\w+Proxy) ");
+  int count = 0;
+  for (std::sregex_iterator it(tables.begin(), tables.end(), kClass), end; it != end;
+       ++it, ++count) {
+    EXPECT_THAT(page, HasSubstr('`' + (*it)[1].str() + '`'));
+  }
+  EXPECT_GE(count, 40);
+}
+
+TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
+  std::istringstream lines(content("docs/player_api.md"));
+  // | proxy | interface | device | `devices/NAME.json`... |, and rows of proxies that only compile
+  static const std::regex kWorks(R"(\| `\w+` \| `(\w+)` \| .* \| `(devices/\w+\.json)`.*)");
+  static const std::regex kName("`(\\w+)`");
+  bool compiles_only = false;
+  int works = 0;
+  int refused = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.rfind("## ", 0) == 0) compiles_only = line == "## Proxies that only compile";
+    std::smatch row;
+    if (std::regex_match(line, row, kWorks)) {
+      ++works;
+      const std::string world = playerlike::example_world(row[1].str());
+      if (!world.empty()) {
+        EXPECT_EQ(world, row[2]) << line;
+      }
+    } else if (compiles_only && line.rfind("| `", 0) == 0) {
+      // The second cell has the interfaces.
+      const auto begin = line.find('|', 1);
+      const std::string cell = line.substr(begin, line.find('|', begin + 1) - begin);
+      for (std::sregex_iterator it(cell.begin(), cell.end(), kName), end; it != end; ++it) {
+        ++refused;
+        EXPECT_EQ(playerlike::example_world((*it)[1].str()), "") << line;
+      }
+    }
+  }
+  EXPECT_GE(works, 10);
+  EXPECT_EQ(refused, 21);
 }
 
 // --- Localisation

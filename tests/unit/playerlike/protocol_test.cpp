@@ -18,15 +18,19 @@
 
 #include "protocol/codec.h"
 #include "protocol/framing.h"
+#include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
+#include "sim/devices/blinkenlight.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
+#include "sim/devices/opaque.h"
 #include "sim/devices/proximity.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
@@ -105,6 +109,7 @@ class Filler {
   void operator()(int& value) { value = static_cast<int>(random_()); }
   void operator()(std::int64_t& value) { value = static_cast<std::int64_t>(random_() >> 1U); }
   void operator()(std::uint64_t& value) { value = random_() >> 1U; }
+  void operator()(std::uint32_t& value) { value = static_cast<std::uint32_t>(random_()); }
   void operator()(std::uint8_t& value) { value = static_cast<std::uint8_t>(random_()); }
   void operator()(sim::BatteryStatus& value) { pick(value, 3); }
   void operator()(sim::WaypointStatus& value) { pick(value, 3); }
@@ -206,6 +211,30 @@ void each(sim::Colour& v, F& f) {
 template <typename F>
 void each_of_reading(sim::Reading& v, F& f) {
   f(v.time_ns), f(v.sequence);
+}
+/// A number of lines, if it is none yet.
+void limit(int& count, int most) { count = std::abs(count % (most + 1)); }
+template <typename F>
+void each(sim::AioReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.inputs_v), f(v.outputs_v);
+}
+template <typename F>
+void each(sim::BlinkenlightReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.enabled), f(v.colour), f(v.period_s), f(v.duty_cycle), f(v.lit);
+}
+template <typename F>
+void each(sim::DioReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.input_count), f(v.inputs), f(v.output_count), f(v.outputs);
+  limit(v.input_count, sim::DioParams::kMaxLines);
+  limit(v.output_count, sim::DioParams::kMaxLines);
+}
+template <typename F>
+void each(sim::OpaqueReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.data), f(v.number), f(v.lost);
 }
 template <typename F>
 void each(sim::BatteryReading& v, F& f) {
@@ -328,6 +357,28 @@ void each(sim::PositionCommand& v, F& f) {
 template <typename F>
 void each(sim::CarCommand& v, F& f) {
   f(v.v_mps), f(v.steering_rad);
+}
+template <typename F>
+void each(sim::SayCommand& v, F& f) {
+  f(v.text);
+}
+template <typename F>
+void each(sim::DigitalOutputCommand& v, F& f) {
+  f(v.count), f(v.bits);
+  limit(v.count, sim::DioParams::kMaxLines);
+}
+template <typename F>
+void each(sim::AnalogOutputCommand& v, F& f) {
+  f(v.channel), f(v.voltage_v);
+  limit(v.channel, sim::AioParams::kMaxLines - 1);
+}
+template <typename F>
+void each(sim::LightCommand& v, F& f) {
+  f(v.enabled), f(v.colour), f(v.period_s), f(v.duty_cycle);
+}
+template <typename F>
+void each(sim::OpaqueCommand& v, F& f) {
+  f(v.data);
 }
 template <typename F>
 void each(DeviceInfo& v, F& f) {  // the id follows from the place
@@ -989,8 +1040,12 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     }
     ++sensors;
     EXPECT_EQ(sensor->type(), kind.name);
-    EXPECT_TRUE(arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
+    EXPECT_TRUE(arrives_if<sim::AioReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BlinkenlightReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BumperReading>(*sensor, GetParam()) ||
+                arrives_if<sim::DioReading>(*sensor, GetParam()) ||
+                arrives_if<sim::OpaqueReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
                 arrives_if<sim::FiducialReading>(*sensor, GetParam()) ||
                 arrives_if<sim::GpsReading>(*sensor, GetParam()) ||
@@ -1035,8 +1090,12 @@ TEST(Readings, MayHaveMoreKeysThanAreKnown) {
 TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
   const std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> readings = [] {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
+    all.emplace_back("aio", std::make_unique<sim::AioReading>());
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
     all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
+    all.emplace_back("blinkenlight", std::make_unique<sim::BlinkenlightReading>());
+    all.emplace_back("dio", std::make_unique<sim::DioReading>());
+    all.emplace_back("opaque", std::make_unique<sim::OpaqueReading>());
     all.emplace_back("collision", std::make_unique<sim::CollisionReading>());
     all.emplace_back("fiducial", std::make_unique<sim::FiducialReading>());
     all.emplace_back("gps", std::make_unique<sim::GpsReading>());
@@ -1126,10 +1185,12 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
     for (const auto& [key, value] : whole.items()) {
       json changed = whole;
       changed.erase(key);
-      EXPECT_TRUE(refused(changed) || key == "lateral") << whole << " without " << key;
+      const bool optional = key == "lateral" || (whole["kind"] == "light" && key != "kind");
+      EXPECT_TRUE(refused(changed) || optional) << whole << " without " << key;
       for (const json& wrong : {json(nullptr), json("x"), json({1}), json(std::nan(""))}) {
         changed[key] = wrong;
-        EXPECT_TRUE(refused(changed)) << changed;
+        const bool any_text = key == "text" && wrong.is_string();
+        EXPECT_TRUE(refused(changed) || any_text) << changed;
       }
     }
     json more = whole;

@@ -67,16 +67,16 @@ TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
   EXPECT_TRUE(client.GetDeviceList().empty());
   client.RequestDeviceList();
   const std::list<playerc_device_info_t> list = client.GetDeviceList();
-  // graphics2d:0 (pen), laser:0, localize:0 and position2d:0 (pose), position2d:1 (odometry) and
-  // the world's
-  // map:0.
+  // The robot's pen, laser, pose (twice) and odometry, the laser again as a ranger, and what is the
+  // world's own.
   std::vector<std::string> found;
   for (const playerc_device_info_t& info : list) {
     found.push_back(client.LookupName(info.addr.interf) + ':' + std::to_string(info.addr.index) +
                     ' ' + info.drivername);
   }
   EXPECT_THAT(found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "localize:0 pose",
-                                 "position2d:0 pose", "position2d:1 odometry", "map:0 world"));
+                                 "position2d:0 pose", "position2d:1 odometry", "ranger:0 laser",
+                                 "log:0 world", "map:0 world", "simulation:0 world"));
 }
 
 TEST_F(Proxies, ClientKeepsItsRetrySettings) {
@@ -574,8 +574,12 @@ TEST_F(Proxies, LaserKnowsItsSettingsBeforeTheFirstScan) {
   EXPECT_DOUBLE_EQ(laser.GetPose().pyaw, 0.1);
   EXPECT_GT(laser.GetSize().sh, 0.0);
   EXPECT_DOUBLE_EQ(laser.GetMinLeft(), 5.0);
-  EXPECT_EQ(error_code_of([&] { static_cast<void>(laser.GetRange(0)); }),
-            PlayerError::kBadArgument);
+  // Programs that look before their first Read() find zeros.
+  EXPECT_EQ(laser.GetRange(0), 0.0);
+  EXPECT_EQ(laser[90], 0.0);
+  EXPECT_EQ(laser.GetBearing(2), 0.0);
+  EXPECT_EQ(laser.GetPoint(2).px, 0.0);
+  EXPECT_EQ(laser.GetIntensity(2), 0);
 }
 
 TEST_F(Proxies, LaserMembersAgreeWithOneAnother) {

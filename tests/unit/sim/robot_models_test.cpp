@@ -181,6 +181,17 @@ TEST(ModelFiles, AreToldOfOnceWithTheirOwnLines) {
   EXPECT_EQ(issues[1].line, 4);
 }
 
+TEST(ModelFiles, AreNotReadFromDevices) {
+  try {
+    static_cast<void>(load_world_text(R"({"robots": [{"model": "/dev/zero"}]})"));
+    FAIL() << "a device was read";
+  } catch (const ConfigError& error) {
+    ASSERT_EQ(error.issues().size(), 1U);
+    EXPECT_EQ(error.issues()[0].id, "world/model-unreadable");
+    EXPECT_EQ(error.issues()[0].pointer, "/robots/0/model");
+  }
+}
+
 TEST(ModelFiles, MustHaveAnOutlineThatASolidCanHave) {
   const auto id_of = [](const std::string& footprint) {
     const auto issues = issues_of(R"({"name": "bad", "footprint": )" + footprint + "}");

@@ -22,6 +22,8 @@ using ThinkerId = std::uint64_t;
 [[nodiscard]] ThinkerId new_thinker() noexcept;
 /// The calling thread's own.
 [[nodiscard]] ThinkerId this_thinker() noexcept;
+/// Gives the calling thread one that was made for it, before it uses its own.
+void set_this_thinker(ThinkerId thinker) noexcept;
 
 /// A client of a host without a thread of its own, for event loops: waiting is begun, and its end
 /// is told. See Host::connect_events(). All members may be called from any thread, but by one at a

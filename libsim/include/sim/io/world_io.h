@@ -23,7 +23,9 @@ struct DeviceType {
   std::function<std::any()> defaults;
 };
 
-/// Reads a world file. Relative names in it (maps) are relative to its folder.
+/// Reads a world file. Relative names in it (maps, files of robot models) are relative to its
+/// folder. The models that its robots name end up in WorldDescription::models, but for the
+/// library's own.
 /// @throws ConfigError with every issue found: unreadable file, JSON syntax (with line and
 ///         column), trailing garbage, nesting over 32 levels, unknown keys, wrong types, values
 ///         out of range, duplicate names or ports, robots that overlap walls or one another.

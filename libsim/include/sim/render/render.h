@@ -36,7 +36,8 @@ struct RenderOptions {
 /// - ground: floor, canvas on it, docks, obstacles, borders, trails, laser fans, robots. The W axes
 ///   point right and up. The arena is as large as margins and footer let it; a very narrow one gets
 ///   wider margins, so that the footer has room. A robot too small to be seen is marked by a disc
-///   of its colour, one that is stalled by a red ring, one that is marked by a dark one. Laser fans
+///   of its colour, one that is stalled by a red ring, one that is marked by a dark one. Lights lie
+///   on the robots; what robots say stands beside them in bubbles of two lines at most. Laser fans
 ///   and trails end at the edge of the floor. Coordinates that are not finite or absurdly far away
 ///   (1e9 pixels) are left out.
 /// - mini-map: the same with a bare floor; the canvas, framed, with a dot for each robot, in that

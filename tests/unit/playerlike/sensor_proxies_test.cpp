@@ -1,0 +1,436 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Player's proxies of rangers, bumpers, batteries, fiducials, gps, imu and wifi, over a host in
+// this process, by calls and by messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <libplayerc++/playerc++.h>
+
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <string>
+
+#include "fake_session.h"
+#include "playerlike/host/host.h"
+#include "reachable_host.h"
+#include "sim/core/error.h"
+#include "sim/devices/wifi.h"
+
+namespace {
+
+using PlayerCc::BumperProxy;
+using PlayerCc::FiducialProxy;
+using PlayerCc::GpsProxy;
+using PlayerCc::ImuProxy;
+using PlayerCc::IrProxy;
+using PlayerCc::LaserProxy;
+using PlayerCc::PlayerClient;
+using PlayerCc::PlayerError;
+using PlayerCc::Position2dProxy;
+using PlayerCc::PowerProxy;
+using PlayerCc::RangerProxy;
+using PlayerCc::SonarProxy;
+using PlayerCc::WiFiProxy;
+using playerlike::Host;
+using test::error_code_of;
+using test::ReachableHost;
+using test::Transport;
+using testing::HasSubstr;
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A room of 4 x 4 m with a marked block in the middle of its right part. The robot stands in the
+// middle of the left part and looks at it.
+std::string room(const std::string& devices, const std::string& more = "") {
+  return R"({"arena": {"size": [4, 4],
+               "obstacles": [{"center": [3, 2], "size": [0.4, 0.4], "fiducial": 7}],
+               "docks": [{"pose": {"x": 1, "y": 2}}]},
+    "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}, "devices": )" +
+         devices + more + R"(},
+               {"name": "r2", "pose": {"x": 1, "y": 3}, "devices": {"wifi": {}}}]})";
+}
+
+struct SensorProxies : testing::TestWithParam<Transport> {
+  std::shared_ptr<PlayerClient> open(const std::string& text) {
+    host = std::make_unique<ReachableHost>(Host::create(sim::load_world_text(text)), GetParam());
+    return std::make_shared<PlayerClient>(host->connect(6665));
+  }
+  std::unique_ptr<ReachableHost> host;
+};
+
+INSTANTIATE_TEST_SUITE_P(Transports, SensorProxies,
+                         testing::Values(Transport::kInProcess, Transport::kCbor),
+                         [](const auto& instance) { return transport_name(instance.param); });
+
+// Prints a proxy as programs do, and tells how many lines that were.
+template <typename Proxy>
+std::string printed(const Proxy& proxy) {
+  std::ostringstream out;
+  out << proxy;
+  return out.str();
+}
+
+TEST_P(SensorProxies, SonarReadsRangesInTheOrderOfItsMounts) {
+  const auto client = open(room(
+      R"({"sonar": {"mounts": [{"x": 0.1}, {"y": 0.05, "yaw_deg": 90}], "range_max": 5,
+          "field_of_view_deg": 15, "height": 0.12}})"));
+  SonarProxy sonar(client.get(), 0);
+  EXPECT_EQ(sonar.GetCount(), 0U);
+  EXPECT_EQ(sonar.GetScan(0), -1.0);  // as in Player
+  EXPECT_EQ(sonar[3], -1.0);
+  sonar.RequestGeom();
+  ASSERT_EQ(sonar.GetPoseCount(), 2U);
+  EXPECT_NEAR(sonar.GetPose(0).px, 0.1, 1e-12);
+  EXPECT_NEAR(sonar.GetPose(1).py, 0.05, 1e-12);
+  EXPECT_NEAR(sonar.GetPose(1).pz, 0.12, 1e-12);
+  EXPECT_NEAR(sonar.GetPose(1).pyaw, 0.5 * kPi, 1e-12);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(sonar.GetPose(2)); }), PlayerError::kBadArgument);
+  client->Read();
+  ASSERT_EQ(sonar.GetCount(), 2U);
+  EXPECT_NEAR(sonar[0], 1.7, 1e-6);  // from 1.1 to the block's face at 2.8
+  EXPECT_EQ(sonar.GetScan(0), sonar[0]);
+  // Straight up stands r2, 8.1 cm towards us; its side is flat and level with x = 1.
+  EXPECT_NEAR(sonar[1], 1.0 - 0.05 - 0.081, 1e-6);
+  EXPECT_EQ(sonar[2], -1.0);
+  EXPECT_TRUE(sonar.IsFresh());
+  EXPECT_EQ(sonar.GetInterfaceStr(), "sonar");
+  EXPECT_EQ(sonar.HasCapability(PLAYER_MSGTYPE_DATA, PLAYER_SONAR_DATA_RANGES), 1);
+  EXPECT_THAT(printed(sonar), HasSubstr("1.7\n"));
+}
+
+TEST_P(SensorProxies, IrReadsRangesAndVoltages) {
+  const auto client =
+      open(room(R"({"infrared": {"mounts": [{"x": 0.1}], "range_max": 3, "noise": 0.01}})"));
+  IrProxy ir(client.get(), 0);
+  EXPECT_EQ(ir.GetCount(), 0U);
+  EXPECT_EQ(ir[0], 0.0);  // before the first reading each reads 0
+  EXPECT_EQ(ir.GetVoltage(9), 0.0);
+  ir.RequestGeom();
+  EXPECT_EQ(ir.GetPoseCount(), 1U);
+  EXPECT_NEAR(ir.GetPose(0).px, 0.1, 1e-12);
+  client->Read();
+  ASSERT_EQ(ir.GetCount(), 1U);
+  EXPECT_NEAR(ir[0], 1.7, 0.05);
+  EXPECT_NE(ir[0], 1.7);
+  EXPECT_NEAR(ir.GetVoltage(0), 0.336 / (ir.GetRange(0) + 0.04), 1e-12);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(ir[1]); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(ir.GetPose(1)); }), PlayerError::kBadArgument);
+  EXPECT_THAT(printed(ir), HasSubstr("voltage"));
+}
+
+TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
+  const auto client = open(room(
+      R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1}}})"));
+  RangerProxy ranger(client.get());
+  LaserProxy laser(client.get());
+  EXPECT_EQ(ranger.GetRangeCount(), 0U);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(ranger[0]); }), PlayerError::kBadArgument);
+  ranger.RequestGeom();
+  ranger.RequestConfigure();
+  EXPECT_EQ(ranger.GetElementCount(), 1U);
+  EXPECT_EQ(ranger.GetSensorCount(), 1U);
+  EXPECT_NEAR(ranger.GetDevicePose().px, 0.1, 1e-12);
+  EXPECT_EQ(ranger.GetElementPose(0).px, 0.0);
+  EXPECT_NEAR(ranger.GetDeviceSize().sl, 0.05, 1e-12);
+  EXPECT_NEAR(ranger.GetMinAngle(), -0.5 * kPi, 1e-12);
+  EXPECT_NEAR(ranger.GetMaxAngle(), 0.5 * kPi, 1e-12);
+  EXPECT_NEAR(ranger.GetAngularRes(), kPi / 180.0, 1e-12);
+  EXPECT_EQ(ranger.GetMinRange(), 0.0);
+  EXPECT_EQ(ranger.GetMaxRange(), 8.0);
+  EXPECT_EQ(ranger.GetFrequency(), 10.0);
+  client->Read();
+  ASSERT_EQ(ranger.GetRangeCount(), 181U);
+  ASSERT_EQ(laser.GetCount(), 181U);
+  for (uint32_t i = 0; i < 181; ++i) EXPECT_EQ(ranger[i], laser[i]) << i;
+  EXPECT_NEAR(ranger[90], 1.7, 1e-5);
+  ASSERT_EQ(ranger.GetPointCount(), 181U);
+  EXPECT_NEAR(ranger.GetPoint(90).px, 1.7, 1e-5);
+  EXPECT_NEAR(ranger.GetPoint(0).py, -ranger[0], 1e-9);
+  EXPECT_EQ(ranger.GetIntensityCount(), 0U);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(ranger.GetIntensity(0)); }),
+            PlayerError::kBadArgument);
+  for (const int code : {error_code_of([&] { static_cast<void>(ranger[181]); }),
+                         error_code_of([&] { static_cast<void>(ranger.GetPoint(181)); }),
+                         error_code_of([&] { static_cast<void>(ranger.GetElementPose(1)); }),
+                         error_code_of([&] { static_cast<void>(ranger.GetElementSize(1)); })}) {
+    EXPECT_EQ(code, PlayerError::kBadArgument);
+  }
+  EXPECT_THAT(printed(ranger), HasSubstr("range [m]"));
+}
+
+TEST_P(SensorProxies, RangerIsCroppedByConfigure) {
+  const auto client = open(room(
+      R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1}}})"));
+  RangerProxy ranger(client.get());
+  client->Read();
+  const double ahead = ranger[90];
+  ranger.Configure(-0.5, 0.5, 2.0 * kPi / 180.0, 0.0, 1.5, 0.01, 10.0);
+  // 0.5 rad is 28.6 degrees: beams at -28, -26, ... 28.
+  ASSERT_EQ(ranger.GetRangeCount(), 29U);
+  EXPECT_NEAR(ranger.GetMinAngle(), -28.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(ranger.GetMaxAngle(), 28.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(ranger.GetAngularRes(), 2.0 * kPi / 180.0, 1e-12);
+  EXPECT_EQ(ranger.GetMaxRange(), 1.5);
+  EXPECT_EQ(ranger.GetRangeRes(), 0.01);
+  EXPECT_EQ(ranger[14], 1.5);                            // straight ahead, 1.7 m
+  ranger.Configure(-4.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0);  // all of it again
+  ASSERT_EQ(ranger.GetRangeCount(), 181U);
+  EXPECT_EQ(ranger[90], ahead);
+  ranger.Configure(-4.0, 4.0, 0.0, 2.0, 0.0, 0.0, 0.0);
+  EXPECT_EQ(ranger[90], 2.0);                        // nearer than it is said to measure
+  ranger.Configure(-0.1, 0.1, 0.0, 8.0, 0.0, 10.0);  // as in Player 2.x
+  EXPECT_EQ(ranger.GetRangeCount(), 11U);
+  EXPECT_EQ(error_code_of([&] { ranger.Configure(2.0, 3.0, 0.0, 0.0, 8.0, 0.0, 10.0); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { ranger.Configure(-1.0, 1.0, 0.0, -1.0, 8.0, 0.0, 10.0); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { ranger.Configure(-1.0, NAN, 0.0, 0.0, 8.0, 0.0, 10.0); }),
+            PlayerError::kBadArgument);
+}
+
+constexpr const char* kThreeRangers =
+    R"({"infrared": {}, "sonar": {"mounts": [{"x": 0.1, "yaw_deg": 30}, {"x": 0.2}]}})";
+
+TEST_P(SensorProxies, RangersAreCountedLaserSonarInfrared) {
+  const auto client = open(room(kThreeRangers));
+  EXPECT_EQ(RangerProxy(client.get(), 0).GetDriverName(), "laser");
+  EXPECT_EQ(RangerProxy(client.get(), 1).GetDriverName(), "sonar");
+  EXPECT_EQ(RangerProxy(client.get(), 2).GetDriverName(), "infrared");
+  try {
+    RangerProxy none(client.get(), 3);
+    FAIL() << "there is a fourth ranger";
+  } catch (const PlayerError& error) {
+    EXPECT_EQ(error.GetErrorCode(), PlayerError::kNoSuchDevice);
+    EXPECT_THAT(error.GetErrorStr(), HasSubstr("ranger:1 (r1.sonar)"));
+  }
+}
+
+TEST_P(SensorProxies, RangersHaveTheOrderThatTheWorldGives) {
+  const auto client =
+      open(room(kThreeRangers, R"(, "interfaces": {"ranger": ["sonar", "laser"]})"));
+  RangerProxy ranger(client.get(), 0);
+  EXPECT_EQ(ranger.GetDriverName(), "sonar");
+  EXPECT_EQ(RangerProxy(client.get(), 1).GetDriverName(), "laser");
+  EXPECT_EQ(RangerProxy(client.get(), 2).GetDriverName(), "infrared");
+  EXPECT_EQ(LaserProxy(client.get(), 0).GetDriverName(), "laser");
+  // An array: an element with one range each, places seen from the robot.
+  EXPECT_EQ(ranger.GetElementCount(), 2U);
+  EXPECT_EQ(ranger.GetDevicePose().px, 0.0);
+  EXPECT_NEAR(ranger.GetElementPose(0).pyaw, kPi / 6.0, 1e-12);
+  EXPECT_NEAR(ranger.GetSensorPose(1).px, 0.2, 1e-12);
+  EXPECT_NEAR(ranger.GetMaxAngle(), kPi / 12.0, 1e-12);  // half the cone of 30 degrees
+  client->Read();
+  ASSERT_EQ(ranger.GetRangeCount(), 2U);
+  EXPECT_NEAR(ranger[1], 1.6, 1e-6);
+  EXPECT_NEAR(ranger.GetPoint(1).px, 1.8, 1e-6);
+  EXPECT_NEAR(ranger.GetPoint(0).py, 0.5 * ranger[0], 1e-9);
+  ranger.Configure(0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0);  // angles mean nothing to an array
+  EXPECT_EQ(ranger[1], 1.0);
+}
+
+TEST(InterfaceOrders, AreRefusedWhereTheDeviceHasNoSuchInterface) {
+  const auto issues = [](const std::string& interfaces) {
+    try {
+      static_cast<void>(
+          Host::create(sim::load_world_text(room("{}", R"(, "interfaces": )" + interfaces))));
+    } catch (const sim::ConfigError& error) {
+      return error.issues().at(0).id + " " + error.issues().at(0).pointer + " " +
+             error.issues().at(0).found;
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(issues(R"({"ranger": ["pen"]})"),
+            "world/interface-device /robots/0/interfaces/ranger/0 \"pen\", of type pen");
+  EXPECT_EQ(issues(R"({"rangers": ["laser"]})"),
+            "world/interface-device /robots/0/interfaces/rangers \"rangers\"");
+  EXPECT_EQ(issues(R"({"position2d": ["odometry"]})"), "none");
+}
+
+TEST_P(SensorProxies, OrdersHoldForPositionsToo) {
+  const auto client = open(room("{}", R"(, "interfaces": {"position2d": ["odometry"]})"));
+  EXPECT_EQ(Position2dProxy(client.get(), 0).GetDriverName(), "odometry");
+  EXPECT_EQ(Position2dProxy(client.get(), 1).GetDriverName(), "pose");
+}
+
+TEST_P(SensorProxies, BumperTellsWhatIsPressed) {
+  const auto client = open(room(R"({"bumper": {"segments": [
+      {"x": 0.087, "y": 0.03, "length": 0.06}, {"x": 0.087, "y": -0.03, "length": 0.06},
+      {"x": -0.08, "yaw_deg": 180, "length": 0.1, "radius": 0.2}]}})"));
+  BumperProxy bumper(client.get(), 0);
+  Position2dProxy position(client.get(), 0);
+  EXPECT_EQ(bumper.GetCount(), 0U);
+  EXPECT_FALSE(bumper.IsAnyBumped());
+  EXPECT_FALSE(bumper[0]);  // before the first reading each reads 0
+  bumper.RequestBumperConfig();
+  ASSERT_EQ(bumper.GetPoseCount(), 3U);
+  EXPECT_NEAR(bumper.GetPose(2).pose.px, -0.08, 1e-12);
+  EXPECT_NEAR(bumper.GetPose(2).pose.pyaw, kPi, 1e-12);
+  EXPECT_FLOAT_EQ(bumper.GetPose(2).length, 0.1F);
+  EXPECT_FLOAT_EQ(bumper.GetPose(2).radius, 0.2F);
+  client->Read();
+  EXPECT_EQ(bumper.GetCount(), 3U);
+  EXPECT_FALSE(bumper.IsAnyBumped());
+  position.SetSpeed(0.5, 0.0);
+  for (int i = 0; i < 60 && !bumper.IsAnyBumped(); ++i) client->Read();
+  EXPECT_TRUE(bumper.IsAnyBumped());
+  EXPECT_TRUE(bumper[0]);
+  EXPECT_TRUE(bumper[1]);
+  EXPECT_EQ(bumper.IsBumped(2), 0U);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(bumper[3]); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(bumper.GetPose(3)); }),
+            PlayerError::kBadArgument);
+  EXPECT_THAT(printed(bumper), HasSubstr("pressed"));
+}
+
+TEST_P(SensorProxies, BumperOfADefaultHasASegmentASide) {
+  const auto client = open(room(R"({"bumper": {}})"));
+  BumperProxy bumper(client.get(), 0);
+  ASSERT_EQ(bumper.GetPoseCount(), 8U);
+  EXPECT_NEAR(bumper.GetPose(0).pose.px, 0.087, 1e-12);
+  EXPECT_FLOAT_EQ(bumper.GetPose(0).length, 0.09F);
+}
+
+TEST_P(SensorProxies, PowerTellsTheBattery) {
+  const auto client = open(room(R"({"battery": {"initial_charge": 50, "capacity": 10}})"));
+  PowerProxy power(client.get(), 0);
+  Position2dProxy position(client.get(), 0);
+  EXPECT_FALSE(power.IsValid());
+  EXPECT_EQ(power.GetCharge(), 0.0);
+  client->Read();  // in a dock
+  EXPECT_TRUE(power.IsValid());
+  EXPECT_TRUE(power.GetCharging());
+  EXPECT_NEAR(power.GetWatts(), 40.0, 1e-3);
+  EXPECT_NEAR(power.GetJoules(), 18000.0 + 4.0, 1e-6);  // half of 10 W h, and 40 W for 0.1 s
+  EXPECT_NEAR(power.GetPercent(), 100.0 * 18004.0 / 36000.0, 1e-9);
+  EXPECT_NEAR(power.GetCharge(), 9.0 + 3.6 * 18004.0 / 36000.0, 1e-9);
+  position.SetSpeed(0.5, 0.0);
+  for (int i = 0; i < 10; ++i) client->Read();
+  EXPECT_FALSE(power.GetCharging());
+  EXPECT_NEAR(power.GetWatts(), -10.0, 1e-3);  // 6 W at rest, 8 W for each m/s
+  EXPECT_THAT(printed(power), HasSubstr("power [W]"));
+}
+
+TEST_P(SensorProxies, FiducialTellsTheMarksInView) {
+  const auto client =
+      open(room(R"({"fiducial": {"pose": {"x": 0.1}, "noise": 1e-9, "noise_yaw_deg": 1e-9}})"));
+  FiducialProxy finder(client.get(), 0);
+  EXPECT_EQ(finder.GetCount(), 0U);
+  EXPECT_EQ(finder[0].id, 0);
+  finder.RequestGeometry();
+  EXPECT_NEAR(finder.GetSensorPose().px, 0.1, 1e-12);
+  EXPECT_EQ(finder.GetSensorSize().sl, 0.0);
+  EXPECT_EQ(finder.GetFiducialSize().sl, 0.0);
+  client->Read();
+  ASSERT_EQ(finder.GetCount(), 1U);
+  const player_fiducial_item_t item = finder.GetFiducialItem(0);
+  EXPECT_EQ(item.id, 7);
+  EXPECT_NEAR(item.pose.px, 1.9, 1e-6);
+  EXPECT_NEAR(item.pose.py, 0.0, 1e-6);
+  EXPECT_NEAR(item.upose.px, 1e-9, 1e-15);
+  EXPECT_EQ(finder[0].id, 7);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(finder[1]); }), PlayerError::kBadArgument);
+  EXPECT_THAT(printed(finder), HasSubstr("\n7\t"));
+}
+
+TEST_P(SensorProxies, GpsTellsThePlaceOnTheEarth) {
+  const auto client = open(room(R"({"gps": {"noise_vertical": 1e-9, "satellites": 6}})"));
+  GpsProxy gps(client.get(), 0);
+  Position2dProxy position(client.get(), 0);
+  EXPECT_EQ(gps.GetLatitude(), 0.0);
+  EXPECT_EQ(gps.GetQuality(), 0U);
+  position.SetSpeed(0.5, 0.0);
+  client->Read();
+  // 2 m north: 2 / 6 377 000 m, in degrees; 1.05 m east: 1.05 / (6 391 000 m cos 50.08).
+  EXPECT_NEAR(gps.GetLatitude(), 50.0764 + 2.0 / 6372970.0 * 180.0 / kPi, 1e-7);
+  EXPECT_NEAR(gps.GetLongitude(), 14.4178 + 1.05 / 4102000.0 * 180.0 / kPi, 1e-7);
+  EXPECT_NEAR(gps.GetAltitude(), 200.0, 1e-7);
+  EXPECT_NEAR(gps.GetSpeed(), 0.5, 1e-9);
+  EXPECT_NEAR(gps.GetCourse(), 0.5 * kPi, 1e-9);
+  EXPECT_EQ(gps.GetSatellites(), 6U);
+  EXPECT_EQ(gps.GetQuality(), 1U);
+  EXPECT_EQ(gps.GetHdop(), 1.0);
+  EXPECT_EQ(gps.GetVdop(), 1.0);
+  EXPECT_NEAR(gps.GetUtmEasting(), 458'300.0, 300.0);
+  EXPECT_NEAR(gps.GetUtmNorthing(), 5'547'300.0, 500.0);
+  EXPECT_NEAR(gps.GetTime(), 0.1, 1e-12);
+  EXPECT_EQ(gps.GetErrHorizontal(), 0.0);
+  EXPECT_EQ(gps.GetErrVertical(), 1e-9);
+  EXPECT_THAT(printed(gps), HasSubstr("50.0764"));
+}
+
+TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
+  const auto client = open(room(R"({"imu": {}})"));
+  ImuProxy imu(client.get(), 0);
+  Position2dProxy position(client.get(), 0);
+  EXPECT_EQ(imu.GetZAccel(), 0.0F);
+  position.SetSpeed(0.2, 0.5);
+  for (int i = 0; i < 5; ++i) client->Read();
+  EXPECT_FLOAT_EQ(imu.GetYAccel(), 0.1F);
+  EXPECT_FLOAT_EQ(imu.GetZAccel(), 9.80665F);
+  EXPECT_FLOAT_EQ(imu.GetZGyro(), 0.5F);
+  EXPECT_EQ(imu.GetXGyro(), 0.0F);
+  EXPECT_EQ(imu.GetYGyro(), 0.0F);
+  EXPECT_NEAR(imu.GetXAccel(), 0.0F, 1e-6F);
+  EXPECT_NEAR(imu.GetXMagn(), 20.0 * std::sin(0.25), 1e-5);  // north is 90 degrees minus the yaw
+  EXPECT_NEAR(imu.GetYMagn(), 20.0 * std::cos(0.25), 1e-5);
+  EXPECT_FLOAT_EQ(imu.GetZMagn(), -45.0F);
+  EXPECT_EQ(imu.GetRawValues().gyro_z, imu.GetZGyro());
+  EXPECT_NEAR(imu.GetPose().pyaw, 0.25, 1e-9);
+  imu.ResetOrientation(0);
+  EXPECT_EQ(imu.GetPose().pyaw, 0.0);
+  client->Read();
+  EXPECT_NEAR(imu.GetPose().pyaw, 0.05, 1e-9);
+  imu.ResetEuler(0.0F, 0.0F, 1.0F);
+  client->Read();
+  EXPECT_NEAR(imu.GetPose().pyaw, 1.05, 1e-9);
+  imu.SetDatatype(PLAYER_IMU_DATA_EULER);
+  EXPECT_EQ(error_code_of([&] { imu.SetDatatype(6); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { imu.ResetEuler(0.0F, 0.0F, NAN); }), PlayerError::kBadArgument);
+  EXPECT_THAT(printed(imu), HasSubstr("9.80665"));
+}
+
+TEST_P(SensorProxies, WifiTellsItsLinks) {
+  const auto client =
+      open(room(R"({"wifi": {"access_points": [{"name": "hall", "x": 1, "y": 2.5}]}})"));
+  WiFiProxy wifi(client.get(), 0);
+  EXPECT_EQ(wifi.GetLinkCount(), 0);
+  EXPECT_EQ(wifi.GetLink(0), nullptr);
+  EXPECT_STREQ(wifi.GetOwnIP(), "");
+  client->Read();
+  ASSERT_EQ(wifi.GetLinkCount(), 2);
+  EXPECT_STREQ(wifi.GetOwnIP(), "10.0.0.1");
+  EXPECT_STREQ(wifi.GetLinkESSID(0), "r2");
+  EXPECT_STREQ(wifi.GetLinkIP(0), "10.0.0.2");
+  EXPECT_EQ(wifi.GetLinkMAC(0), sim::mac_of("r2"));
+  EXPECT_EQ(wifi.GetLinkMode(0), PLAYER_WIFI_MODE_ADHOC);
+  EXPECT_EQ(wifi.GetLinkEncrypt(0), 0);
+  EXPECT_EQ(wifi.GetLinkLevel(0), -40);  // 1 m
+  EXPECT_EQ(wifi.GetLinkQuality(0), 100);
+  EXPECT_EQ(wifi.GetLinkNoise(0), -95);
+  EXPECT_EQ(wifi.GetLinkFreq(0), 2437.0);
+  EXPECT_STREQ(wifi.GetLinkESSID(1), "hall");
+  EXPECT_EQ(wifi.GetLinkMode(1), PLAYER_WIFI_MODE_MASTER);
+  EXPECT_EQ(wifi.GetLinkLevel(1), -31);  // -40 + 30 log10(2)
+  ASSERT_NE(wifi.GetLink(1), nullptr);
+  EXPECT_EQ(wifi.GetLink(1)->level, -31);
+  EXPECT_EQ(wifi.GetLink(2), nullptr);
+  EXPECT_EQ(wifi.GetLink(-1), nullptr);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(wifi.GetLinkIP(2)); }),
+            PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(wifi.GetLinkLevel(-1)); }),
+            PlayerError::kBadArgument);
+  EXPECT_THAT(printed(wifi), HasSubstr("hall\t10.1.0.1\t-31"));
+}
+
+TEST_P(SensorProxies, ADeviceThatTheRobotLacksIsNamedWithThoseThereAre) {
+  const auto client = open(room("{}"));
+  try {
+    SonarProxy sonar(client.get(), 0);
+    FAIL() << "there is a sonar";
+  } catch (const PlayerError& error) {
+    EXPECT_EQ(error.GetErrorCode(), PlayerError::kNoSuchDevice);
+    EXPECT_THAT(error.GetErrorStr(), HasSubstr("there is no device sonar:0 on port 6665"));
+  }
+}
+
+}  // namespace
