@@ -19,7 +19,7 @@ if [[ -n $given ]]; then
 else
   cmake --preset dev >/dev/null
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
-    docs_speech_speech docs_blinkenlight_blinkenlight \
+    docs_speech_speech docs_blinkenlight_blinkenlight compat_four_ports \
     par_intro_solution_wall par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest
   bin=build/dev/bin
@@ -70,6 +70,9 @@ for mode in ground mini-map full-screen; do
   run default "view-$mode" --duration 45 --view-mode "$mode" --snapshot-every 45 -- "$bin/docs_layers"
   take "view-$mode/snapshots/scene_000045.000s.png" "view_${mode//-/_}"
 done
+
+run cave cave -- "$bin/../tests/compat/programs/bin/compat_four_ports"
+take cave/scene.png cave
 
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
