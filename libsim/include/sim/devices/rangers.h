@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/devices/device.h"
+#include "sim/scan/cone.h"
 #include "sim/scan/scan_kernel.h"
 
 namespace sim {
@@ -86,7 +87,7 @@ class Ranger final : public Sensor {
   RandomStream noise_;
   double reach_m_ = 0.0;  ///< of the farthest transducer from the middle of the axle
   scan::EdgeBuffer edges_;
-  std::vector<scan::Edge> seen_;  ///< scratch: those that any transducer may see
+  scan::EdgeColumns seen_;  ///< scratch: those that any transducer may see
   RangerReading reading_;
 };
 
