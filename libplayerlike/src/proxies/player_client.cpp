@@ -39,8 +39,8 @@ struct Reader {
   bool ended = false;
 };
 
-// In virtual time the program's own thread is part of the lockstep, too. Only when the one that reads
-// has joined it as well may that go on, or it would be chance when the first round comes.
+// In virtual time the program's own thread is part of the lockstep, too. Only when the one that
+// reads has joined it as well may that go on, or it would be chance when the first round comes.
 void join_lockstep(ClientCore& core, Reader& reader) {
   try {
     core.session().join();

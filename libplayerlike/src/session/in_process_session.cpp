@@ -68,9 +68,7 @@ void InProcessSession::note_wait() const {
   virtual_time::note_wait();
 }
 
-const std::vector<RobotInfo>& InProcessSession::robots() const noexcept {
-  return core()->robots();
-}
+const std::vector<RobotInfo>& InProcessSession::robots() const noexcept { return core()->robots(); }
 int InProcessSession::port() const noexcept { return client_->port; }
 bool InProcessSession::connected() const noexcept { return !client_->closed; }
 
@@ -115,8 +113,8 @@ void InProcessSession::join() {
 }
 
 std::unique_ptr<Session> InProcessSession::open_follower() {
-  return std::make_unique<InProcessSession>(
-      host_, core()->add_client(client_->port, /*follower=*/true));
+  return std::make_unique<InProcessSession>(host_,
+                                            core()->add_client(client_->port, /*follower=*/true));
 }
 
 const void* InProcessSession::simulation() const noexcept { return host_.get(); }
@@ -193,9 +191,7 @@ void InProcessSession::save_image(const std::string& name, int scale) {
 
 sim::ViewMode InProcessSession::view_mode() const { return core()->view_mode(); }
 
-void InProcessSession::set_view_mode(sim::ViewMode mode) {
-  core()->set_view_mode(*client_, mode);
-}
+void InProcessSession::set_view_mode(sim::ViewMode mode) { core()->set_view_mode(*client_, mode); }
 
 sim::OccupancyMap InProcessSession::world_map(double cell_size_m) {
   return core()->world_map(cell_size_m);
