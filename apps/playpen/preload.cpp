@@ -18,8 +18,8 @@ constexpr const char* kName = "libplaypen_virtual_time.so";
 // These would mean something to the loader, which knows no way to write them otherwise.
 constexpr const char* kSpecial = " :;$\t\n";
 
-/// The file, looked for beside the folder that this program lies in, so that an installed tree can be
-/// moved.
+/// The file, looked for beside the folder that this program lies in, so that an installed tree can
+/// be moved.
 fs::path find_library() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -99,13 +99,9 @@ void sleep_in_all_ways() {
       {"ppoll", [&] { ppoll(nullptr, 0, &half, nullptr); }},
       {"sleep_for", [] { std::this_thread::sleep_for(milliseconds(500)); }},
       {"sleep_until",
-       [] {
-         std::this_thread::sleep_until(std::chrono::steady_clock::now() + milliseconds(500));
-       }},
+       [] { std::this_thread::sleep_until(std::chrono::steady_clock::now() + milliseconds(500)); }},
       {"sleep_until of the day",
-       [] {
-         std::this_thread::sleep_until(std::chrono::system_clock::now() + milliseconds(500));
-       }},
+       [] { std::this_thread::sleep_until(std::chrono::system_clock::now() + milliseconds(500)); }},
       {"wait_for",
        [] {
          std::mutex own;

@@ -90,8 +90,8 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
 }
 
 TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
-  for (const char* name : {"drive_by_sleeping", "read_and_sleep", "read_in_background",
-                           "read_in_own_thread"}) {
+  for (const char* name :
+       {"drive_by_sleeping", "read_and_sleep", "read_in_background", "read_in_own_thread"}) {
     const ProcessResult first = run(name, {"--duration", "60", "--quiet"});
     ASSERT_EQ(first.status, 0) << first.err;
     const json first_report = report();
@@ -248,8 +248,8 @@ TEST_F(VirtualTime, IsAddedToWhatIsPreloadedAlready) {
                                                 HasSubstr("libplaypen_virtual_time.so\n"),
                                                 HasSubstr("\nPLAYPEN_VIRTUAL_TIME=1\n")));
   call.insert(call.begin() + 2, "--real-sleep");
-  EXPECT_THAT(playpen(call, options).out, AllOf(HasSubstr("LD_PRELOAD=libm.so.6\n"),
-                                                Not(HasSubstr("PLAYPEN_VIRTUAL_TIME"))));
+  EXPECT_THAT(playpen(call, options).out,
+              AllOf(HasSubstr("LD_PRELOAD=libm.so.6\n"), Not(HasSubstr("PLAYPEN_VIRTUAL_TIME"))));
 }
 
 TEST_F(VirtualTime, ACommandWithoutItsLibrarySaysSo) {

@@ -44,10 +44,10 @@ struct Client {
 
   int number = 0;  ///< in order of connection; fixes the order of commands
   int port = 0;
-  bool follower = false;                    ///< see Session::open_follower()
+  bool follower = false;  ///< see Session::open_follower()
   /// Made by the host for a thread that sleeps in virtual time: no session is behind it.
   bool helper = false;
-  ThinkerId creator = 0;  ///< who connected it
+  ThinkerId creator = 0;                    ///< who connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -284,10 +284,10 @@ class Host::Core : private ViewedRun {
   std::optional<std::uint64_t> step_credit_;  ///< steps that may still be made, if limited
   bool ended_ = false;
   int reads_after_end_ = 0;
-  const bool turns_;              ///< virtual time: threads go on one by one, in a fixed order
+  const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
   const sim::SimTime step_ns_;
   std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
-  bool end_told_ = false;         ///< a session has thrown because the run is over
+  bool end_told_ = false;                ///< a session has thrown because the run is over
   bool ended_by_program_ = false;
   int sleeps_after_end_ = 0;
   std::vector<const void*> ended_threads_;  ///< pthread_t of those that lived in virtual time

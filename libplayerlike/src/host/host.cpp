@@ -276,10 +276,9 @@ std::uint32_t Host::Core::overflow(const Client& client) const {
 bool Host::Core::over() const { return ended_ || simulation_.finished(); }
 
 int Host::Core::joined_programs() const {
-  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(),
-                                        [](const auto& c) {
-                                          return c->joined && !c->follower && !c->helper;
-                                        }));
+  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const auto& c) {
+    return c->joined && !c->follower && !c->helper;
+  }));
 }
 
 // Whether somebody is there for whom time may go on.
@@ -346,8 +345,8 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.waiting = false;
 }
 
-// One thread at a time: what programs do between two steps, with what their threads share, then does
-// not depend on which of them the system lets run first.
+// One thread at a time: what programs do between two steps, with what their threads share, then
+// does not depend on which of them the system lets run first.
 void Host::Core::wait_for_turn(Lock& lock, Client& client) {
   if (wait_is_over(client)) return;
   client.waiting = true;
@@ -379,8 +378,8 @@ bool Host::Core::somebody_thinks() const {
   });
 }
 
-// Those who wait for data before those who sleep: a program that sleeps while another of its threads
-// reads finds the data of that moment.
+// Those who wait for data before those who sleep: a program that sleeps while another of its
+// threads reads finds the data of that moment.
 bool Host::Core::give_turn() {
   if (somebody_thinks()) return false;
   for (const auto& client : clients_) {
@@ -692,9 +691,8 @@ void Host::Core::sleep(Client& client, double duration_s) {
 // ---------------------------------------------------------------------------------
 
 std::shared_ptr<Client> Host::Core::helper_of(ThinkerId thinker) {
-  const auto found = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
-    return c->helper && c->owner == thinker;
-  });
+  const auto found = std::find_if(clients_.begin(), clients_.end(),
+                                  [&](const auto& c) { return c->helper && c->owner == thinker; });
   if (found != clients_.end()) return *found;
   auto helper = std::make_shared<Client>();
   helper->number = -1;
@@ -736,9 +734,9 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   const bool others = std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
     return c->joined && !c->silent && c->owner != thinker;
   });
-  if (settings_.quiet_end &&
-      (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
-    if (settings_.progress && log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+  if (settings_.quiet_end && (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+    if (settings_.progress && log_)
+      log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     lock.unlock();
     end_program_quietly();
   }
@@ -1518,7 +1516,9 @@ void Host::finish() noexcept {
 
 bool Host::finished() const { return InsideCore(*core_)->finished(); }
 TimeStatistics Host::time() const { return InsideCore(*core_)->time(); }
-sim::RobotStatistics Host::statistics(int robot) const { return InsideCore(*core_)->statistics(robot); }
+sim::RobotStatistics Host::statistics(int robot) const {
+  return InsideCore(*core_)->statistics(robot);
+}
 std::uint64_t Host::state_hash() const { return InsideCore(*core_)->state_hash(); }
 
 }  // namespace playerlike

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The library that `playpen run` preloads into client programs: stands in for the functions of the
-// C library that wait for time to pass, or tell it, and asks Playpen in the same process what to do.
-// As long as no Playpen has registered, in other programs and in children, it passes all on.
+// C library that wait for time to pass, or tell it, and asks Playpen in the same process what to
+// do. As long as no Playpen has registered, in other programs and in children, it passes all on.
 //
 // It uses the C library only, so that it can be loaded into anything.
 #ifndef _GNU_SOURCE
@@ -84,8 +84,8 @@ constexpr const char* kConditions = "GLIBC_2.3.2";
 constexpr const char* kConditions = nullptr;
 #endif
 
-// Named for what they stand for; the function types are those of the headers, whose attributes do not
-// matter here.
+// Named for what they stand for; the function types are those of the headers, whose attributes do
+// not matter here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wignored-attributes"
 #endif
@@ -247,8 +247,8 @@ int wait_for_thread(const void* what, Wait wait) {
   return result;
 }
 
-// How often a condition variable was signalled, by a hash of its address: who waits for it virtually
-// is not waiting for it really.
+// How often a condition variable was signalled, by a hash of its address: who waits for it
+// virtually is not waiting for it really.
 std::atomic<unsigned> signals[256];
 
 std::atomic<unsigned>& signals_of(const pthread_cond_t* condition) {
@@ -280,8 +280,7 @@ int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, const 
 /// For what can be tried: semaphores and mutexes.
 /// @param attempt  0 if it has succeeded.
 template <typename Attempt>
-int wait_by_trying(const timespec& deadline, clockid_t clock, const void* caller,
-                   Attempt attempt) {
+int wait_by_trying(const timespec& deadline, clockid_t clock, const void* caller, Attempt attempt) {
   const auto once = [&] { return attempt() == 0 ? 0 : -1; };
   return wait_virtually(deadline, clock, caller, once, [&](long long slice_ns) {
     if (!sleep_virtually(slice_ns, caller)) {
@@ -345,7 +344,8 @@ EXPORTED int select(int count, fd_set* read, fd_set* write, fd_set* except, time
       no_descriptors(count, read, write, except)) {
     const timespec duration = {timeout->tv_sec, 0};
     if (is_duration(duration) &&
-        sleep_cancellably(at_least_one(nanoseconds(duration) + timeout->tv_usec * 1'000LL), CALLER)) {
+        sleep_cancellably(at_least_one(nanoseconds(duration) + timeout->tv_usec * 1'000LL),
+                          CALLER)) {
       *timeout = {};  // what is left of it, as Linux has it
       return 0;
     }
@@ -490,8 +490,8 @@ int semaphore_result(int waited) {
 }  // namespace
 
 EXPORTED int sem_timedwait(sem_t* __restrict semaphore, const timespec* __restrict deadline) {
-  const int waited = wait_by_trying(*deadline, CLOCK_REALTIME, CALLER,
-                                    [&] { return sem_trywait(semaphore); });
+  const int waited =
+      wait_by_trying(*deadline, CLOCK_REALTIME, CALLER, [&] { return sem_trywait(semaphore); });
   return waited == -2 ? next_sem_timedwait(semaphore, deadline) : semaphore_result(waited);
 }
 
