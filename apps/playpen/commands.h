@@ -23,7 +23,7 @@ struct RunRequest {
   std::string world;  ///< as the user wrote it, see find_world()
   playerlike::RunSettings settings;
   bool quiet = false;
-  bool view = false;  ///< in a window, in real time unless the settings say otherwise
+  bool view = false;        ///< in a window, in real time unless the settings say otherwise
   bool real_sleep = false;  ///< sleeps of the program are not simulated time
   std::vector<std::string> command;  ///< program and arguments
 };

@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "playerlike/host/program.h"
+#include "preload.h"
 
 namespace playpen {
 namespace {
@@ -59,6 +60,8 @@ int grade_program(GradeRequest request) {
   settings.jobs = request.jobs > 0
                       ? request.jobs
                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const PreloadedLibrary virtual_time;
+  virtual_time.add_to(settings.virtual_time);
   settings.output_folder =
       request.output_folder.empty() ? "out/grade/" + settings.task.name : request.output_folder;
 

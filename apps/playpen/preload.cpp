@@ -18,8 +18,8 @@ constexpr const char* kName = "libplaypen_virtual_time.so";
 // These would mean something to the loader, which knows no way to write them otherwise.
 constexpr const char* kSpecial = " :;$\t\n";
 
-/// The file, looked for beside the folder that this program lies in, so that an installed tree can be
-/// moved.
+/// The file, looked for beside the folder that this program lies in, so that an installed tree can
+/// be moved.
 fs::path find_library() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -31,7 +31,7 @@ fs::path find_library() {
   }
   throw std::runtime_error(
       "the library that makes sleeps of programs simulated time, " + places +
-      ", is missing; install Playpen again, or give --real-sleep to do without");
+      ", is missing; install Playpen again (or do without: playpen run --real-sleep)");
 }
 
 std::string environment(const char* name) {
@@ -56,7 +56,7 @@ PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()) {
     fs::remove_all(link_folder_, error);
     throw std::runtime_error("the library " + file_ +
                              " cannot be preloaded from a path with blanks, nor linked to from "
-                             "/tmp; give --real-sleep to do without");
+                             "/tmp (do without: playpen run --real-sleep)");
   }
   file_ = (fs::path(folder) / kName).string();
 }

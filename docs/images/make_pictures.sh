@@ -19,6 +19,7 @@ if [[ -n $given ]]; then
 else
   cmake --preset dev >/dev/null
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
+    docs_speech_speech docs_blinkenlight_blinkenlight compat_four_ports \
     par_intro_solution_wall par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest
   bin=build/dev/bin
@@ -70,8 +71,17 @@ for mode in ground mini-map full-screen; do
   take "view-$mode/snapshots/scene_000045.000s.png" "view_${mode//-/_}"
 done
 
+run cave cave -- "$bin/../tests/compat/programs/bin/compat_four_ports"
+take cave/scene.png cave
+
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
+
+for device in speech blinkenlight; do
+  run "worlds/devices/$device.json" "$device" --snapshot-every 0.2 --duration 0.4 -- \
+    "$bin/docs_${device}_$device"
+  take "$device/snapshots/scene_000000.200s.png" "devices_$device"
+done
 
 "$images/picture_live_window.sh" "$bin/playpen" worlds/examples/thirteen_robots.json "$out/window" \
   "$images/live_window.png" "$bin/docs_thirteen"

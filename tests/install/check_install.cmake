@@ -55,6 +55,12 @@ if(EXISTS "${prefix}/bin/playpen")
   if(NOT EXISTS "${prefix}/bin/playpen-view")
     message(FATAL_ERROR "playpen-view, the program of the live window, was not installed")
   endif()
+  # Its sleeps are simulated time, by a library that is found in a folder with blanks.
+  run("running the sleeping client" "${prefix}/bin/playpen" run default
+    --out ${STAGE_DIR}/sleeper_out -- ${STAGE_DIR}/consumer/sleeper)
+  if(NOT run_output MATCHES "3.5 s simulated")
+    message(FATAL_ERROR "the sleeping client's run printed:\n${run_output}")
+  endif()
 endif()
 
 # A task of the course, copied out of the tree, built and run by the installed command on an

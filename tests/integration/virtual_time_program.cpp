@@ -99,13 +99,9 @@ void sleep_in_all_ways() {
       {"ppoll", [&] { ppoll(nullptr, 0, &half, nullptr); }},
       {"sleep_for", [] { std::this_thread::sleep_for(milliseconds(500)); }},
       {"sleep_until",
-       [] {
-         std::this_thread::sleep_until(std::chrono::steady_clock::now() + milliseconds(500));
-       }},
+       [] { std::this_thread::sleep_until(std::chrono::steady_clock::now() + milliseconds(500)); }},
       {"sleep_until of the day",
-       [] {
-         std::this_thread::sleep_until(std::chrono::system_clock::now() + milliseconds(500));
-       }},
+       [] { std::this_thread::sleep_until(std::chrono::system_clock::now() + milliseconds(500)); }},
       {"wait_for",
        [] {
          std::mutex own;
@@ -368,6 +364,40 @@ void wait_for_each_other() {
   std::printf("%d\n", clock_s() < 1.0 ? 1 : 0);
 }
 
+// One thread reads, the other one steers, whenever it is told of data.
+void steer_when_told() {
+  PlayerClient robot("localhost", 6665);
+  Position2dProxy position(&robot, 0);
+  LaserProxy laser(&robot, 0);
+  std::mutex mutex;
+  std::condition_variable changed;
+  int rounds = 0;
+  bool stop = false;
+  robot.Read();
+  std::thread reader([&] {
+    while (true) {
+      robot.Read();
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (stop) return;
+      ++rounds;
+      changed.notify_one();
+    }
+  });
+  for (int i = 1; i <= 200; ++i) {
+    {
+      std::unique_lock<std::mutex> lock(mutex);
+      changed.wait(lock, [&] { return rounds >= i; });
+    }
+    position.SetSpeed(0.1, 0.3 * (laser.GetMinLeft() - laser.GetMinRight()));
+    std::printf("%.9f\n", laser.GetDataTime());
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    stop = true;
+  }
+  reader.join();
+}
+
 void begin_before_the_client() {
   std::srand(static_cast<unsigned>(time(nullptr)));
   std::printf("%d\n", std::rand());
@@ -413,6 +443,7 @@ int main(int argc, char** argv) {
       {"steer_by_hand", steer_by_hand},
       {"join_threads", join_threads},
       {"wait_for_each_other", wait_for_each_other},
+      {"steer_when_told", steer_when_told},
       {"begin_before_the_client", begin_before_the_client},
       {"have_a_child", have_a_child},
   };

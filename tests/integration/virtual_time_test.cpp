@@ -90,8 +90,8 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
 }
 
 TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
-  for (const char* name : {"drive_by_sleeping", "read_and_sleep", "read_in_background",
-                           "read_in_own_thread"}) {
+  for (const char* name :
+       {"drive_by_sleeping", "read_and_sleep", "read_in_background", "read_in_own_thread"}) {
     const ProcessResult first = run(name, {"--duration", "60", "--quiet"});
     ASSERT_EQ(first.status, 0) << first.err;
     const json first_report = report();
@@ -210,6 +210,15 @@ TEST_F(VirtualTime, WhoJoinsAThreadHoldsItUpForNoTime) {
   EXPECT_EQ(out, printed("join_threads"));
 }
 
+TEST_F(VirtualTime, TimeStandsForAThreadThatWasSignalled) {
+  const std::string first = printed("steer_when_told");
+  const json first_report = report();
+  EXPECT_THAT(first, StartsWith("0.200000000\n0.300000000\n0.400000000\n"));
+  EXPECT_THAT(first, EndsWith("\n20.100000000\n"));
+  EXPECT_EQ(first, printed("steer_when_told"));
+  EXPECT_EQ(first_report, report());
+}
+
 TEST_F(VirtualTime, WaitsWithADeadlineEndWhenTheyAreSignalled) {
   EXPECT_EQ(printed("wait_for_each_other"), "came 1\nanswered 1\n1\n");
 }
@@ -239,8 +248,8 @@ TEST_F(VirtualTime, IsAddedToWhatIsPreloadedAlready) {
                                                 HasSubstr("libplaypen_virtual_time.so\n"),
                                                 HasSubstr("\nPLAYPEN_VIRTUAL_TIME=1\n")));
   call.insert(call.begin() + 2, "--real-sleep");
-  EXPECT_THAT(playpen(call, options).out, AllOf(HasSubstr("LD_PRELOAD=libm.so.6\n"),
-                                                Not(HasSubstr("PLAYPEN_VIRTUAL_TIME"))));
+  EXPECT_THAT(playpen(call, options).out,
+              AllOf(HasSubstr("LD_PRELOAD=libm.so.6\n"), Not(HasSubstr("PLAYPEN_VIRTUAL_TIME"))));
 }
 
 TEST_F(VirtualTime, ACommandWithoutItsLibrarySaysSo) {

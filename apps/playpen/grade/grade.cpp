@@ -43,12 +43,14 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& w
   run.duration_s = settings.task.duration_s;
   run.output_folder = folder.string();
   run.quiet_end = true;
+  run.virtual_time = !settings.virtual_time.empty();
   playerlike::ProgramJob job;
   job.command = settings.program;
   for (const auto* more : {&settings.task.arguments, &world.arguments}) {
     job.command.insert(job.command.end(), more->begin(), more->end());
   }
   job.environment = playerlike::run_environment(world.file, run);
+  job.environment.insert(settings.virtual_time.begin(), settings.virtual_time.end());
   job.output_file = (folder / "program.log").string();
   return job;
 }

@@ -9,6 +9,7 @@
 #include "grade/evaluation.h"
 #include "grade/report.h"
 #include "grade/task.h"
+#include "playerlike/host/program.h"
 
 namespace playpen::grade {
 
@@ -18,6 +19,8 @@ struct GradeSettings {
   std::vector<std::string> program;  ///< path (see playerlike::find_program()) and arguments
   int jobs = 1;                      ///< programs that run side by side, >= 1
   std::string output_folder;         ///< gets a folder WORLD_seedN for each run
+  /// Of virtual time (docs/virtual_time.md): what preloads its library; empty: sleeps are real.
+  playerlike::EnvironmentChanges virtual_time;
 };
 
 /// How far a grading is.

@@ -17,6 +17,8 @@
 #include "libCCMorse/MorseCollision.h"
 #include "libCCMorse/MorseDevice.h"
 #include "libCCMorse/MorseError.h"
+#include "libCCMorse/MorseGps.h"
+#include "libCCMorse/MorseImu.h"
 #include "libCCMorse/MorseInfrared.h"
 #include "libCCMorse/MorseLaser.h"
 #include "libCCMorse/MorseLight.h"

@@ -390,26 +390,23 @@ typedef struct playerc_localize_particle {
   double weight;   ///< of the sample
 } playerc_localize_particle_t;
 
-/// A localize device, which no world has.
+/// A localiser: where the robot may be.
 typedef struct playerc_localize {
-  playerc_device_t info;  ///< common to all devices
-  /// @{
-  /// As in the messages of the interface (libplayerinterface/player_structs.h).
-  int map_size_x;
-  int map_size_y;
-  double map_scale;
-  int map_tile_x;
-  int map_tile_y;
-  int8_t* map_cells;
-  int pending_count;
-  double pending_time;
-  int hypoth_count;
-  player_localize_hypoth_t* hypoths;
-  double mean[3];
-  double variance;
-  int num_particles;
-  playerc_localize_particle_t* particles;
-  /// @}
+  playerc_device_t info;                   ///< common to all devices
+  int map_size_x;                          ///< 0: no map is used, see playerc_map_t
+  int map_size_y;                          ///< 0
+  double map_scale;                        ///< 0
+  int map_tile_x;                          ///< 0
+  int map_tile_y;                          ///< 0
+  int8_t* map_cells;                       ///< null
+  int pending_count;                       ///< readings that wait to be looked at: 0
+  double pending_time;                     ///< simulated time of the last one looked at [s]
+  int hypoth_count;                        ///< poses that are thought possible
+  player_localize_hypoth_t* hypoths;       ///< the poses
+  double mean[3];                          ///< the best: x, y [m], yaw [rad]; after get_particles
+  double variance;                         ///< its variance, of x and of y [m^2]
+  int num_particles;                       ///< samples; after get_particles
+  playerc_localize_particle_t* particles;  ///< the samples
 } playerc_localize_t;
 
 /// A recorder.
@@ -677,7 +674,7 @@ typedef struct playerc_stereo {
 typedef struct playerc_imu {
   playerc_device_t info;               ///< common to all devices
   player_pose3d_t pose;                ///< orientation [rad] (and position, where known [m])
-  player_pose3d_t vel;                 ///< not measured: zero
+  player_pose3d_t vel;                 ///< turn rates about x, y and z [rad/s]
   player_pose3d_t acc;                 ///< acceleration along x, y and z [m/s^2]
   player_imu_data_calib_t calib_data;  ///< acceleration [m/s^2], turn rates [rad/s], magnetic field
   float q0;                            ///< orientation as a quaternion: real part
@@ -947,10 +944,11 @@ int playerc_blinkenlight_subscribe(playerc_blinkenlight_t* device, int access);
 int playerc_blinkenlight_unsubscribe(playerc_blinkenlight_t* device);
 /// Lights up (1) or goes out (0).
 int playerc_blinkenlight_enable(playerc_blinkenlight_t* device, uint32_t enable);
-/// Sets the colour, 0 to 255 each.
+/// Sets the colour, 0 to 255 each. @param id  0: there is one lamp.
 int playerc_blinkenlight_color(playerc_blinkenlight_t* device, uint32_t id, uint8_t red,
                                uint8_t green, uint8_t blue);
-/// Lets it blink. @param period  [s]. @param duty_cycle  part in which it is on, 0 to 1.
+/// Lets it blink. @param id  0. @param period  [s]. @param duty_cycle  part in which it is on, 0 to
+/// 1.
 int playerc_blinkenlight_blink(playerc_blinkenlight_t* device, uint32_t id, float period,
                                float duty_cycle);
 /// @}
@@ -1209,16 +1207,18 @@ int playerc_limb_speed_config(playerc_limb_t* device, float speed);
 /// @}
 
 /// @name localize
-///
-/// No world has such a device: create makes the struct, everything else fails.
 /// @{
 
-/// See playerc_device_subscribe().
+/// Makes the struct for a device, subscribes to it, and the reverse; see
+/// playerc_device_subscribe().
 playerc_localize_t* playerc_localize_create(playerc_client_t* client, int index);
 void playerc_localize_destroy(playerc_localize_t* device);
 int playerc_localize_subscribe(playerc_localize_t* device, int access);
 int playerc_localize_unsubscribe(playerc_localize_t* device);
+/// Tells where to begin. The simulated localiser cannot be lost, so nothing changes; where a robot
+/// stands is set with playerc_simulation_set_pose2d().
 int playerc_localize_set_pose(playerc_localize_t* device, double pose[3], double cov[6]);
+/// Fills mean, variance and particles.
 int playerc_localize_get_particles(playerc_localize_t* device);
 /// @}
 
@@ -1290,7 +1290,7 @@ int playerc_opaque_subscribe(playerc_opaque_t* device, int access);
 int playerc_opaque_unsubscribe(playerc_opaque_t* device);
 /// Sends bytes.
 int playerc_opaque_cmd(playerc_opaque_t* device, player_opaque_data_t* data);
-/// Sends bytes, and gets others back.
+/// Fails: nothing answers at once. Send by playerc_opaque_cmd(), and read what comes back.
 int playerc_opaque_req(playerc_opaque_t* device, player_opaque_data_t* request,
                        player_opaque_data_t** reply);
 /// @}

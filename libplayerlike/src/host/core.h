@@ -44,10 +44,10 @@ struct Client {
 
   int number = 0;  ///< in order of connection; fixes the order of commands
   int port = 0;
-  bool follower = false;                    ///< see Session::open_follower()
+  bool follower = false;  ///< see Session::open_follower()
   /// Made by the host for a thread that sleeps in virtual time: no session is behind it.
   bool helper = false;
-  ThinkerId creator = 0;  ///< who connected it
+  ThinkerId creator = 0;                    ///< who connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -65,7 +65,7 @@ struct Client {
   // In virtual time, see docs/virtual_time.md.
   pid_t owner_thread = 0;              ///< the owner's number for the system
   bool starts_background = false;      ///< its owner has called StartThread()
-  std::optional<pthread_t> joins;      ///< silent until that thread ends
+  const void* away_for = nullptr;      ///< silent until that has happened, see begin_away()
   std::uint64_t blocked_switches = 0;  ///< when its owner was first seen asleep, thinking, and ...
   std::optional<WallClock::time_point> blocked_since;  ///< ... since when it has been
 
@@ -98,8 +98,8 @@ class Host::Core : private ViewedRun {
   std::shared_ptr<Client> add_client(int port, bool follower = false,
                                      std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
-  /// @param thread  the thinker, if it is one of this process.
-  void thinker_ended(ThinkerId thinker, std::optional<pthread_t> thread = {}) noexcept;
+  /// @param thread  its pthread_t, if it lived in virtual time.
+  void thinker_ended(ThinkerId thinker, const void* thread = nullptr) noexcept;
 
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
@@ -155,14 +155,18 @@ class Host::Core : private ViewedRun {
   /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
   /// @return how far the moment lies ahead then; nullopt if the thread is to sleep for real.
   std::optional<sim::SimTime> pass_time(sim::SimTime target_ns);
-  /// Virtual time: the calling thread waits for the end of another one, and holds up nobody until
-  /// that has ended. @return whether so: then end_join() is to be called.
-  bool begin_join(pthread_t awaited);
+  /// Virtual time: the calling thread waits for something that another thread will do, and holds up
+  /// nobody until end_away() or call_back().
+  /// @param what  a thread's pthread_t, or where the thing lies.
+  /// @return whether so: then end_away() is to be called.
+  bool begin_away(const void* what);
+  void end_away();
+  /// Who is away for that thinks again from now on: all, or the first.
+  void call_back(const void* what, bool all);
   /// Virtual time: the program starts a thread. Time stands until that has waited for something.
   void add_thread(ThinkerId thinker);
   /// The calling thread is one of these, and has begun.
   void note_thread_begun();
-  void end_join();
   /// Simulated time and the time of a step, without a lock.
   [[nodiscard]] sim::SimTime now_ns() const noexcept {
     return now_ns_.load(std::memory_order_acquire);
@@ -198,6 +202,7 @@ class Host::Core : private ViewedRun {
   void wait_until(Lock& lock, Client& client, bool wants_data, std::optional<sim::SimTime> wake_ns);
   /// The same in virtual time, where threads take turns.
   void wait_for_turn(Lock& lock, Client& client);
+  void call_back_locked(const void* what, bool all);
   /// Whether a thread thinks for whom time stands.
   [[nodiscard]] bool somebody_thinks() const;
   /// Lets the first of those go on whose wait is over, if nobody thinks. @return whether one did.
@@ -279,13 +284,13 @@ class Host::Core : private ViewedRun {
   std::optional<std::uint64_t> step_credit_;  ///< steps that may still be made, if limited
   bool ended_ = false;
   int reads_after_end_ = 0;
-  const bool turns_;              ///< virtual time: threads go on one by one, in a fixed order
+  const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
   const sim::SimTime step_ns_;
   std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
-  bool end_told_ = false;         ///< a session has thrown because the run is over
+  bool end_told_ = false;                ///< a session has thrown because the run is over
   bool ended_by_program_ = false;
   int sleeps_after_end_ = 0;
-  std::vector<pthread_t> ended_threads_;  ///< that took part in virtual time
+  std::vector<const void*> ended_threads_;  ///< pthread_t of those that lived in virtual time
   std::optional<WallClock::time_point> first_step_;
   std::optional<WallClock::time_point> last_step_;
   WallClock::time_point last_progress_;

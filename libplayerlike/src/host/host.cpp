@@ -177,18 +177,13 @@ void Host::Core::remove_client(Client& client) noexcept {
   changed_.notify_all();
 }
 
-void Host::Core::thinker_ended(ThinkerId thinker, std::optional<pthread_t> thread) noexcept {
+void Host::Core::thinker_ended(ThinkerId thinker, const void* thread) noexcept {
   const Lock lock = lock_soon();
   std::erase_if(clients_, [&](const auto& c) { return c->helper && c->owner == thinker; });
-  if (turns_ && thread) {
-    ended_threads_.push_back(*thread);
+  if (turns_ && thread != nullptr) {
+    ended_threads_.push_back(thread);
     // Who waits for its end goes on thinking now, not only when the system has buried it.
-    for (const auto& client : clients_) {
-      if (!client->joins || pthread_equal(*client->joins, *thread) == 0) continue;
-      client->joins.reset();
-      client->silent = false;
-      touch(*client);
-    }
+    call_back_locked(thread, /*all=*/true);
   }
   for (const auto& client : clients_) {
     if (client->owner != thinker) continue;
@@ -216,10 +211,10 @@ void Host::Core::adopt(Client& client, ThinkerId thinker) {
   client.silent = false;
   if (turns_) {
     client.owner_thread = this_thread();
+    client.away_for = nullptr;
     client.blocked_since.reset();
     // The number of a thread that has ended is given to others.
-    std::erase_if(ended_threads_,
-                  [](pthread_t t) { return pthread_equal(t, pthread_self()) != 0; });
+    std::erase(ended_threads_, reinterpret_cast<const void*>(pthread_self()));
   }
 }
 
@@ -281,10 +276,9 @@ std::uint32_t Host::Core::overflow(const Client& client) const {
 bool Host::Core::over() const { return ended_ || simulation_.finished(); }
 
 int Host::Core::joined_programs() const {
-  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(),
-                                        [](const auto& c) {
-                                          return c->joined && !c->follower && !c->helper;
-                                        }));
+  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const auto& c) {
+    return c->joined && !c->follower && !c->helper;
+  }));
 }
 
 // Whether somebody is there for whom time may go on.
@@ -351,8 +345,8 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.waiting = false;
 }
 
-// One thread at a time: what programs do between two steps, with what their threads share, then does
-// not depend on which of them the system lets run first.
+// One thread at a time: what programs do between two steps, with what their threads share, then
+// does not depend on which of them the system lets run first.
 void Host::Core::wait_for_turn(Lock& lock, Client& client) {
   if (wait_is_over(client)) return;
   client.waiting = true;
@@ -384,8 +378,8 @@ bool Host::Core::somebody_thinks() const {
   });
 }
 
-// Those who wait for data before those who sleep: a program that sleeps while another of its threads
-// reads finds the data of that moment.
+// Those who wait for data before those who sleep: a program that sleeps while another of its
+// threads reads finds the data of that moment.
 bool Host::Core::give_turn() {
   if (somebody_thinks()) return false;
   for (const auto& client : clients_) {
@@ -697,9 +691,8 @@ void Host::Core::sleep(Client& client, double duration_s) {
 // ---------------------------------------------------------------------------------
 
 std::shared_ptr<Client> Host::Core::helper_of(ThinkerId thinker) {
-  const auto found = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
-    return c->helper && c->owner == thinker;
-  });
+  const auto found = std::find_if(clients_.begin(), clients_.end(),
+                                  [&](const auto& c) { return c->helper && c->owner == thinker; });
   if (found != clients_.end()) return *found;
   auto helper = std::make_shared<Client>();
   helper->number = -1;
@@ -741,9 +734,9 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   const bool others = std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
     return c->joined && !c->silent && c->owner != thinker;
   });
-  if (settings_.quiet_end &&
-      (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
-    if (settings_.progress && log_) log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+  if (settings_.quiet_end && (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+    if (settings_.progress && log_)
+      log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     lock.unlock();
     end_program_quietly();
   }
@@ -751,23 +744,48 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-bool Host::Core::begin_join(pthread_t awaited) {
+bool Host::Core::begin_away(const void* what) {
   const Lock lock = lock_soon();
   if (!turns_ || paced_ || over()) return false;
-  // One that is about to end keeps nobody waiting for long.
-  if (std::erase_if(ended_threads_,
-                    [&](pthread_t t) { return pthread_equal(t, awaited) != 0; }) > 0) {
-    return false;
-  }
+  // A thread that is about to end keeps nobody waiting for long.
+  if (std::erase(ended_threads_, what) > 0) return false;
   bool away = false;
   for (const auto& client : clients_) {
     if (client->owner != this_thinker() || !client->joined) continue;
-    client->joins = awaited;
+    client->away_for = what;
     client->silent = true;
     away = true;
   }
-  changed_.notify_all();
+  if (away) changed_.notify_all();
   return away;
+}
+
+void Host::Core::end_away() {
+  const Lock lock = lock_soon();
+  for (const auto& client : clients_) {
+    if (client->owner != this_thinker()) continue;
+    client->away_for = nullptr;
+    client->silent = false;
+    client->blocked_since.reset();
+    touch(*client);
+  }
+}
+
+void Host::Core::call_back(const void* what, bool all) {
+  const Lock lock = lock_soon();
+  call_back_locked(what, all);
+}
+
+void Host::Core::call_back_locked(const void* what, bool all) {
+  ThinkerId only = 0;
+  for (const auto& client : clients_) {
+    if (client->away_for != what || (only != 0 && client->owner != only)) continue;
+    if (!all) only = client->owner;
+    client->away_for = nullptr;
+    client->silent = false;
+    client->blocked_since.reset();
+    touch(*client);
+  }
 }
 
 void Host::Core::add_thread(ThinkerId thinker) {
@@ -781,16 +799,6 @@ void Host::Core::add_thread(ThinkerId thinker) {
 void Host::Core::note_thread_begun() {
   const Lock lock = lock_soon();
   if (turns_) helper_of(this_thinker())->owner_thread = this_thread();
-}
-
-void Host::Core::end_join() {
-  const Lock lock = lock_soon();
-  for (const auto& client : clients_) {
-    if (client->owner != this_thinker()) continue;
-    client->joins.reset();
-    client->silent = false;
-    touch(*client);
-  }
 }
 
 // --- Event clients
@@ -1508,7 +1516,9 @@ void Host::finish() noexcept {
 
 bool Host::finished() const { return InsideCore(*core_)->finished(); }
 TimeStatistics Host::time() const { return InsideCore(*core_)->time(); }
-sim::RobotStatistics Host::statistics(int robot) const { return InsideCore(*core_)->statistics(robot); }
+sim::RobotStatistics Host::statistics(int robot) const {
+  return InsideCore(*core_)->statistics(robot);
+}
 std::uint64_t Host::state_hash() const { return InsideCore(*core_)->state_hash(); }
 
 }  // namespace playerlike

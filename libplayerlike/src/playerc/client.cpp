@@ -47,7 +47,7 @@ Client::Client(const char* a_host, int a_port) : playerc_client_t() {
 
 Client::~Client() {
   disconnect();
-  for (Device* device : devices_) device->client_is_gone();
+  for (Device* entry : devices_) entry->client_is_gone();
   for (playerc_mclient_t* group : groups_) {
     auto* const end = std::remove(group->client, group->client + group->client_count,
                                   static_cast<playerc_client_t*>(this));
@@ -76,7 +76,7 @@ void Client::connect() {
 }
 
 void Client::disconnect() noexcept {
-  for (Device* device : devices_) device->unsubscribe();
+  for (Device* entry : devices_) entry->unsubscribe();
   player_.reset();
   arrived_.clear();
   qlen = 0;
@@ -120,23 +120,23 @@ void Client::end_round() {
 
 void* Client::deliver() {
   if (arrived_.empty()) return nullptr;
-  Device* const device = arrived_.front();
+  Device* const entry = arrived_.front();
   arrived_.pop_front();
   qlen = static_cast<int>(arrived_.size());
-  return device == nullptr ? id : device->deliver();
+  return entry == nullptr ? id : entry->deliver();
 }
 
-void Client::add(Device& device) { devices_.push_back(&device); }
+void Client::add(Device& entry) { devices_.push_back(&entry); }
 
-void Client::remove(Device& device) noexcept {
-  erase(devices_, &device);
-  forget_arrival(device);
+void Client::remove(Device& entry) noexcept {
+  erase(devices_, &entry);
+  forget_arrival(entry);
 }
 
-void Client::note_arrival(Device& device) { arrived_.push_back(&device); }
+void Client::note_arrival(Device& entry) { arrived_.push_back(&entry); }
 
-void Client::forget_arrival(const Device& device) noexcept {
-  arrived_.erase(std::remove(arrived_.begin(), arrived_.end(), &device), arrived_.end());
+void Client::forget_arrival(const Device& entry) noexcept {
+  arrived_.erase(std::remove(arrived_.begin(), arrived_.end(), &entry), arrived_.end());
   qlen = static_cast<int>(arrived_.size());
 }
 
@@ -158,22 +158,22 @@ void Client::set_replace_rule(int code, int index, int type, bool replace) {
   if (code == -1) index = -1;
   if (player_ != nullptr && index == -1) player_->SetReplaceRule(replace, type, -1, code);
   replace_rules_.push_back({code, index, replace});
-  for (Device* device : devices_) {
-    const player_devaddr_t& addr = device->common().addr;
-    if (index == addr.index && code == addr.interf) apply_replace_rules(*device);
+  for (Device* entry : devices_) {
+    const player_devaddr_t& addr = entry->common().addr;
+    if (index == addr.index && code == addr.interf) apply_replace_rules(*entry);
   }
 }
 
-void Client::apply_replace_rules(Device& device) {
-  const player_devaddr_t& addr = device.common().addr;
+void Client::apply_replace_rules(Device& entry) {
+  const player_devaddr_t& addr = entry.common().addr;
   const auto fits = [&](const ReplaceRule& rule) {
     return (rule.code == -1 || rule.code == addr.interf) &&
            (rule.index == -1 || rule.index == addr.index);
   };
   // The last one that was said of it.
   const auto it = std::find_if(replace_rules_.rbegin(), replace_rules_.rend(), fits);
-  if (it != replace_rules_.rend() && device.proxy() != nullptr) {
-    device.proxy()->SetReplaceRule(it->replace);
+  if (it != replace_rules_.rend() && entry.proxy() != nullptr) {
+    entry.proxy()->SetReplaceRule(it->replace);
   }
 }
 

@@ -11,7 +11,6 @@
 namespace playerlike::clib {
 
 using PlayerCc::ClientProxy;
-using PlayerCc::PlayerError;
 
 Device::~Device() {
   if (client_ != nullptr) client_->remove(*this);

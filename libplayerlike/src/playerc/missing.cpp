@@ -29,15 +29,6 @@ int refused(const char* fun) {
 
 }  // namespace
 
-PLAYERLIKE_CLIB_FRAME(aio, Missing<playerc_aio_t>, PLAYER_AIO_CODE)
-int playerc_aio_set_output(playerc_aio_t* /*device*/, uint8_t /*id*/, float /*volt*/) {
-  return refused(__func__);
-}
-float playerc_aio_get_data(playerc_aio_t* /*device*/, uint32_t /*index*/) {
-  refused(__func__);
-  return {};
-}
-
 PLAYERLIKE_CLIB_FRAME(actarray, Missing<playerc_actarray_t>, PLAYER_ACTARRAY_CODE)
 player_actarray_actuator_t playerc_actarray_get_actuator_data(playerc_actarray_t* /*device*/,
                                                               uint32_t /*index*/) {
@@ -162,19 +153,6 @@ int playerc_blackboard_set_double(playerc_blackboard_t* /*device*/, const char* 
   return refused(__func__);
 }
 
-PLAYERLIKE_CLIB_FRAME(blinkenlight, Missing<playerc_blinkenlight_t>, PLAYER_BLINKENLIGHT_CODE)
-int playerc_blinkenlight_enable(playerc_blinkenlight_t* /*device*/, uint32_t /*enable*/) {
-  return refused(__func__);
-}
-int playerc_blinkenlight_color(playerc_blinkenlight_t* /*device*/, uint32_t /*id*/, uint8_t /*red*/,
-                               uint8_t /*green*/, uint8_t /*blue*/) {
-  return refused(__func__);
-}
-int playerc_blinkenlight_blink(playerc_blinkenlight_t* /*device*/, uint32_t /*id*/,
-                               float /*period*/, float /*duty_cycle*/) {
-  return refused(__func__);
-}
-
 PLAYERLIKE_CLIB_FRAME(blobfinder, Missing<playerc_blobfinder_t>, PLAYER_BLOBFINDER_CODE)
 
 PLAYERLIKE_CLIB_FRAME(camera, Missing<playerc_camera_t>, PLAYER_CAMERA_CODE)
@@ -217,17 +195,6 @@ int playerc_coopobject_send_req(playerc_coopobject_t* /*device*/, int /*node_id*
                                 unsigned char* /*parameters*/) {
   return refused(__func__);
 }
-
-PLAYERLIKE_CLIB_FRAME(dio, Missing<playerc_dio_t>, PLAYER_DIO_CODE)
-int playerc_dio_set_output(playerc_dio_t* /*device*/, uint8_t /*output_count*/,
-                           uint32_t /*digout*/) {
-  return refused(__func__);
-}
-
-PLAYERLIKE_CLIB_FRAME(fiducial, Missing<playerc_fiducial_t>, PLAYER_FIDUCIAL_CODE)
-int playerc_fiducial_get_geom(playerc_fiducial_t* /*device*/) { return refused(__func__); }
-
-PLAYERLIKE_CLIB_FRAME(gps, Missing<playerc_gps_t>, PLAYER_GPS_CODE)
 
 PLAYERLIKE_CLIB_FRAME(graphics3d, Missing<playerc_graphics3d_t>, PLAYER_GRAPHICS3D_CODE)
 int playerc_graphics3d_setcolor(playerc_graphics3d_t* /*device*/, player_color_t /*col*/) {
@@ -290,26 +257,6 @@ int playerc_limb_speed_config(playerc_limb_t* /*device*/, float /*speed*/) {
   return refused(__func__);
 }
 
-PLAYERLIKE_CLIB_FRAME(localize, Missing<playerc_localize_t>, PLAYER_LOCALIZE_CODE)
-int playerc_localize_set_pose(playerc_localize_t* /*device*/, double /*pose*/[3],
-                              double /*cov*/[6]) {
-  return refused(__func__);
-}
-int playerc_localize_get_particles(playerc_localize_t* /*device*/) { return refused(__func__); }
-
-PLAYERLIKE_CLIB_FRAME(log, Missing<playerc_log_t>, PLAYER_LOG_CODE)
-int playerc_log_set_write_state(playerc_log_t* /*device*/, int /*state*/) {
-  return refused(__func__);
-}
-int playerc_log_set_read_state(playerc_log_t* /*device*/, int /*state*/) {
-  return refused(__func__);
-}
-int playerc_log_set_read_rewind(playerc_log_t* /*device*/) { return refused(__func__); }
-int playerc_log_get_state(playerc_log_t* /*device*/) { return refused(__func__); }
-int playerc_log_set_filename(playerc_log_t* /*device*/, const char* /*fname*/) {
-  return refused(__func__);
-}
-
 PLAYERLIKE_CLIB_FRAME(vectormap, Missing<playerc_vectormap_t>, PLAYER_VECTORMAP_CODE)
 int playerc_vectormap_get_map_info(playerc_vectormap_t* /*device*/) { return refused(__func__); }
 int playerc_vectormap_get_layer_data(playerc_vectormap_t* /*device*/, unsigned /*layer_index*/) {
@@ -330,15 +277,6 @@ size_t playerc_vectormap_get_feature_data_count(playerc_vectormap_t* /*device*/,
                                                 unsigned /*feature_index*/) {
   refused(__func__);
   return {};
-}
-
-PLAYERLIKE_CLIB_FRAME(opaque, Missing<playerc_opaque_t>, PLAYER_OPAQUE_CODE)
-int playerc_opaque_cmd(playerc_opaque_t* /*device*/, player_opaque_data_t* /*data*/) {
-  return refused(__func__);
-}
-int playerc_opaque_req(playerc_opaque_t* /*device*/, player_opaque_data_t* /*request*/,
-                       player_opaque_data_t** /*reply*/) {
-  return refused(__func__);
 }
 
 PLAYERLIKE_CLIB_FRAME(planner, Missing<playerc_planner_t>, PLAYER_PLANNER_CODE)
@@ -425,46 +363,6 @@ int playerc_ptz_set_control_mode(playerc_ptz_t* /*device*/, int /*mode*/) {
   return refused(__func__);
 }
 
-PLAYERLIKE_CLIB_FRAME(wifi, Missing<playerc_wifi_t>, PLAYER_WIFI_CODE)
-playerc_wifi_link_t* playerc_wifi_get_link(playerc_wifi_t* /*device*/, int /*link*/) {
-  refused(__func__);
-  return {};
-}
-
-PLAYERLIKE_CLIB_FRAME(simulation, Missing<playerc_simulation_t>, PLAYER_SIMULATION_CODE)
-int playerc_simulation_set_pose2d(playerc_simulation_t* /*device*/, char* /*name*/, double /*gx*/,
-                                  double /*gy*/, double /*ga*/) {
-  return refused(__func__);
-}
-int playerc_simulation_get_pose2d(playerc_simulation_t* /*device*/, char* /*identifier*/,
-                                  double* /*x*/, double* /*y*/, double* /*a*/) {
-  return refused(__func__);
-}
-int playerc_simulation_set_pose3d(playerc_simulation_t* /*device*/, char* /*name*/, double /*gx*/,
-                                  double /*gy*/, double /*gz*/, double /*groll*/, double /*gpitch*/,
-                                  double /*gyaw*/) {
-  return refused(__func__);
-}
-int playerc_simulation_get_pose3d(playerc_simulation_t* /*device*/, char* /*identifier*/,
-                                  double* /*x*/, double* /*y*/, double* /*z*/, double* /*roll*/,
-                                  double* /*pitch*/, double* /*yaw*/, double* /*time*/) {
-  return refused(__func__);
-}
-int playerc_simulation_set_property(playerc_simulation_t* /*device*/, char* /*name*/,
-                                    char* /*property*/, void* /*value*/, size_t /*value_len*/) {
-  return refused(__func__);
-}
-int playerc_simulation_get_property(playerc_simulation_t* /*device*/, char* /*name*/,
-                                    char* /*property*/, void* /*value*/, size_t /*value_len*/) {
-  return refused(__func__);
-}
-int playerc_simulation_pause(playerc_simulation_t* /*device*/) { return refused(__func__); }
-int playerc_simulation_reset(playerc_simulation_t* /*device*/) { return refused(__func__); }
-int playerc_simulation_save(playerc_simulation_t* /*device*/) { return refused(__func__); }
-
-PLAYERLIKE_CLIB_FRAME(speech, Missing<playerc_speech_t>, PLAYER_SPEECH_CODE)
-int playerc_speech_say(playerc_speech_t* /*device*/, char*) { return refused(__func__); }
-
 PLAYERLIKE_CLIB_FRAME(speechrecognition, Missing<playerc_speechrecognition_t>,
                       PLAYER_SPEECH_RECOGNITION_CODE)
 
@@ -473,16 +371,6 @@ PLAYERLIKE_CLIB_FRAME(rfid, Missing<playerc_rfid_t>, PLAYER_RFID_CODE)
 PLAYERLIKE_CLIB_FRAME(pointcloud3d, Missing<playerc_pointcloud3d_t>, PLAYER_POINTCLOUD3D_CODE)
 
 PLAYERLIKE_CLIB_FRAME(stereo, Missing<playerc_stereo_t>, PLAYER_STEREO_CODE)
-
-PLAYERLIKE_CLIB_FRAME(imu, Missing<playerc_imu_t>, PLAYER_IMU_CODE)
-int playerc_imu_datatype(playerc_imu_t* /*device*/, int /*value*/) { return refused(__func__); }
-int playerc_imu_reset_orientation(playerc_imu_t* /*device*/, int /*value*/) {
-  return refused(__func__);
-}
-int playerc_imu_reset_euler(playerc_imu_t* /*device*/, float /*roll*/, float /*pitch*/,
-                            float /*yaw*/) {
-  return refused(__func__);
-}
 
 PLAYERLIKE_CLIB_FRAME(wsn, Missing<playerc_wsn_t>, PLAYER_WSN_CODE)
 int playerc_wsn_set_devstate(playerc_wsn_t* /*device*/, int /*node_id*/, int /*group_id*/,

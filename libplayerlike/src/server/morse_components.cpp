@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "protocol/codec.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/contact_sensors.h"
+#include "sim/devices/gps.h"
+#include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/proximity.h"
@@ -29,6 +32,8 @@ constexpr std::string_view kProperties = "robot_properties";
 constexpr std::array kKinds{
     Kind{"battery", "Battery", StreamDirection::kOut},
     Kind{"collision", "Collision", StreamDirection::kOut},
+    Kind{"gps", "GPS", StreamDirection::kOut},
+    Kind{"imu", "IMU", StreamDirection::kOut},
     Kind{"infrared", "Infrared", StreamDirection::kOut},
     Kind{"laser", "LaserScanner", StreamDirection::kOut},
     Kind{"motion", "MotionVW", StreamDirection::kIn},
@@ -180,6 +185,17 @@ json morse_record(const sim::Reading& reading, std::optional<sim::OdometryLevel>
     object["charge"] = battery->charge_percent;
     object["status"] = std::string(to_string(battery->status));
     object["voltage"] = battery->voltage_v;
+  } else if (const auto* gps = dynamic_cast<const sim::GpsReading*>(&reading)) {
+    constexpr double kDegrees = 180.0 / std::numbers::pi;
+    object["latitude"] = gps->latitude_rad * kDegrees;
+    object["longitude"] = gps->longitude_rad * kDegrees;
+    object["altitude"] = gps->altitude_m;
+    object["velocity"] = gps->speed_mps;
+    object["heading"] = gps->course_rad * kDegrees;
+  } else if (const auto* imu = dynamic_cast<const sim::ImuReading*>(&reading)) {
+    object["angular_velocity"] = imu->rate_radps;
+    object["linear_acceleration"] = imu->acceleration_mps2;
+    object["magnetic_field"] = imu->field_ut;
   } else if (const auto* proximity = dynamic_cast<const sim::ProximityReading*>(&reading)) {
     json near = json::object();
     // Of two things of one name the nearer one comes first, and stays.

@@ -27,10 +27,13 @@ struct playpen_virtual_time_hooks {
   void (*thread_begun)(unsigned long long number);
   /// It could not be started.
   void (*thread_failed)(unsigned long long number);
-  /// The calling thread is about to wait for the end of another one.
-  /// @return 1 if end_join() is to be called after that.
-  int (*begin_join)(pthread_t thread);
-  void (*end_join)(void);
+  /// The calling thread is about to wait, without a deadline, for something of another one: its end
+  /// (`what` is its pthread_t), or a condition variable or semaphore there.
+  /// @return 1 if end_wait() is to be called after that.
+  int (*begin_wait)(const void* what);
+  void (*end_wait)(void);
+  /// The calling thread is about to wake one who waits for that, or all.
+  void (*signalled)(const void* what, int all);
 };
 
 /// Offered by the preloaded library: gives it the hooks, which are to live for ever.

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // The library that `playpen run` preloads into client programs: stands in for the functions of the
-// C library that wait for time to pass, or tell it, and asks Playpen in the same process what to do.
-// As long as no Playpen has registered, in other programs and in children, it passes all on.
+// C library that wait for time to pass, or tell it, and asks Playpen in the same process what to
+// do. As long as no Playpen has registered, in other programs and in children, it passes all on.
 //
 // It uses the C library only, so that it can be loaded into anything.
 #ifndef _GNU_SOURCE
@@ -84,8 +84,8 @@ constexpr const char* kConditions = "GLIBC_2.3.2";
 constexpr const char* kConditions = nullptr;
 #endif
 
-// Named for what they stand for; the function types are those of the headers, whose attributes do not
-// matter here.
+// Named for what they stand for; the function types are those of the headers, whose attributes do
+// not matter here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wignored-attributes"
 #endif
@@ -110,6 +110,9 @@ NEXT(pthread_mutex_timedlock);
 NEXT(pthread_mutex_clocklock);
 NEXT(pthread_create);
 NEXT(pthread_join);
+NEXT(sem_wait);
+NEXT(sem_post);
+NEXT_CONDITION(pthread_cond_wait);
 NEXT_CONDITION(pthread_cond_timedwait);
 NEXT_CONDITION(pthread_cond_signal);
 NEXT_CONDITION(pthread_cond_broadcast);
@@ -225,8 +228,27 @@ timespec real_deadline(clockid_t clock, long long duration_ns) {
   return to_timespec(nanoseconds(now) + duration_ns);
 }
 
-// How often a condition variable was signalled, by a hash of its address: who waits for it virtually
-// is not waiting for it really.
+/// Tells that somebody is about to be woken, so that time stands until he has been.
+void tell_of_signal(const void* what, bool all) {
+  if (const auto* const table = playpen()) table->signalled(what, all ? 1 : 0);
+}
+
+/// Waits for another thread, meanwhile holding up nobody.
+template <typename Wait>
+int wait_for_thread(const void* what, Wait wait) {
+  const auto* const table = playpen();
+  const bool away = table != nullptr && table->begin_wait(what) != 0;
+  const int result = wait();
+  if (away) {
+    const int error = errno;
+    table->end_wait();
+    errno = error;
+  }
+  return result;
+}
+
+// How often a condition variable was signalled, by a hash of its address: who waits for it
+// virtually is not waiting for it really.
 std::atomic<unsigned> signals[256];
 
 std::atomic<unsigned>& signals_of(const pthread_cond_t* condition) {
@@ -258,8 +280,7 @@ int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, const 
 /// For what can be tried: semaphores and mutexes.
 /// @param attempt  0 if it has succeeded.
 template <typename Attempt>
-int wait_by_trying(const timespec& deadline, clockid_t clock, const void* caller,
-                   Attempt attempt) {
+int wait_by_trying(const timespec& deadline, clockid_t clock, const void* caller, Attempt attempt) {
   const auto once = [&] { return attempt() == 0 ? 0 : -1; };
   return wait_virtually(deadline, clock, caller, once, [&](long long slice_ns) {
     if (!sleep_virtually(slice_ns, caller)) {
@@ -323,7 +344,8 @@ EXPORTED int select(int count, fd_set* read, fd_set* write, fd_set* except, time
       no_descriptors(count, read, write, except)) {
     const timespec duration = {timeout->tv_sec, 0};
     if (is_duration(duration) &&
-        sleep_cancellably(at_least_one(nanoseconds(duration) + timeout->tv_usec * 1'000LL), CALLER)) {
+        sleep_cancellably(at_least_one(nanoseconds(duration) + timeout->tv_usec * 1'000LL),
+                          CALLER)) {
       *timeout = {};  // what is left of it, as Linux has it
       return 0;
     }
@@ -415,12 +437,28 @@ EXPORTED int timespec_get(timespec* result, int base) noexcept {
 
 EXPORTED int pthread_cond_signal(pthread_cond_t* condition) noexcept {
   signals_of(condition).fetch_add(1);
+  tell_of_signal(condition, false);
   return next_pthread_cond_signal(condition);
 }
 
 EXPORTED int pthread_cond_broadcast(pthread_cond_t* condition) noexcept {
   signals_of(condition).fetch_add(1);
+  tell_of_signal(condition, true);
   return next_pthread_cond_broadcast(condition);
+}
+
+EXPORTED int pthread_cond_wait(pthread_cond_t* __restrict condition,
+                               pthread_mutex_t* __restrict mutex) {
+  return wait_for_thread(condition, [&] { return next_pthread_cond_wait(condition, mutex); });
+}
+
+EXPORTED int sem_post(sem_t* semaphore) noexcept {
+  tell_of_signal(semaphore, false);
+  return next_sem_post(semaphore);
+}
+
+EXPORTED int sem_wait(sem_t* semaphore) {
+  return wait_for_thread(semaphore, [&] { return next_sem_wait(semaphore); });
 }
 
 EXPORTED int pthread_cond_timedwait(pthread_cond_t* __restrict condition,
@@ -452,8 +490,8 @@ int semaphore_result(int waited) {
 }  // namespace
 
 EXPORTED int sem_timedwait(sem_t* __restrict semaphore, const timespec* __restrict deadline) {
-  const int waited = wait_by_trying(*deadline, CLOCK_REALTIME, CALLER,
-                                    [&] { return sem_trywait(semaphore); });
+  const int waited =
+      wait_by_trying(*deadline, CLOCK_REALTIME, CALLER, [&] { return sem_trywait(semaphore); });
   return waited == -2 ? next_sem_timedwait(semaphore, deadline) : semaphore_result(waited);
 }
 
@@ -520,9 +558,6 @@ EXPORTED int pthread_create(pthread_t* __restrict thread, const pthread_attr_t* 
 }
 
 EXPORTED int pthread_join(pthread_t thread, void** result) {
-  const auto* const table = playpen();
-  const bool away = table != nullptr && table->begin_join(thread) != 0;
-  const int error = next_pthread_join(thread, result);
-  if (away) table->end_join();
-  return error;
+  return wait_for_thread(reinterpret_cast<const void*>(thread),
+                         [&] { return next_pthread_join(thread, result); });
 }

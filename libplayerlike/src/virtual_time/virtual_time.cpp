@@ -29,14 +29,15 @@ namespace {
 // A thread is told the same moment so often; whoever asks on without reading or sleeping in between
 // waits for time to pass.
 constexpr int kFreeAsks = 4;
-// The same for looks at data that a background thread changes. Programs look at all beams of a scan,
-// more than once maybe, so it takes many until it is clear that they wait.
+// The same for looks at data that a background thread changes. Programs look at all beams of a
+// scan, more than once maybe, so it takes many until it is clear that they wait.
 constexpr long long kFreeLooks = 1'000'000;
 constexpr long long kLooksAStep = 10'000;
 // How far a look at the clock moves it while there is no simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
-/// What is known of a thread. Needs no construction, nor destruction, so it can be used at any time.
+/// What is known of a thread. Needs no construction, nor destruction, so it can be used at any
+/// time.
 struct ThreadState {
   int inside = 0;
   bool ended = false;
@@ -60,6 +61,8 @@ constinit std::atomic<long long> offset_ns{0};
 /// When it was given up: what the clocks showed then, and the real one.
 constinit std::atomic<long long> last_ns{0};
 constinit std::atomic<long long> last_real_ns{0};
+/// Threads that wait for others, without a deadline.
+constinit std::atomic<int> away_threads{0};
 /// Where the program's own code lies, without its libraries.
 constinit std::uintptr_t program_begin = 0;
 constinit std::uintptr_t program_end = 0;
@@ -223,24 +226,42 @@ void on_thread_failed(unsigned long long number) {
   if (Host* const host = attached.load()) VirtualTimeAccess::core(*host).thinker_ended(number);
 }
 
-int on_begin_join(pthread_t awaited) {
+int on_begin_wait(const void* what) {
   const ThreadState& thread = state;
   Host* const host = attached.load(std::memory_order_acquire);
   if (thread.inside > 0 || thread.ended || host == nullptr) return 0;
   const Inside inside;
-  return VirtualTimeAccess::core(*host).begin_join(awaited) ? 1 : 0;
+  away_threads.fetch_add(1);  // before anybody may look
+  if (VirtualTimeAccess::core(*host).begin_away(what)) return 1;
+  away_threads.fetch_sub(1);
+  return 0;
 }
 
-void on_end_join() {
+void on_end_wait() {
+  away_threads.fetch_sub(1);
   Host* const host = attached.load(std::memory_order_acquire);
   if (host == nullptr) return;
   const Inside inside;
-  VirtualTimeAccess::core(*host).end_join();
+  VirtualTimeAccess::core(*host).end_away();
 }
 
-constexpr playpen_virtual_time_hooks kHooks = {
-    PLAYPEN_VIRTUAL_TIME_VERSION, on_sleep,         on_now,        on_begin_thread,
-    on_thread_begun,              on_thread_failed, on_begin_join, on_end_join};
+void on_signalled(const void* what, int all) {
+  if (away_threads.load() <= 0 || state.inside > 0) return;
+  Host* const host = attached.load(std::memory_order_acquire);
+  if (host == nullptr) return;
+  const Inside inside;
+  VirtualTimeAccess::core(*host).call_back(what, all != 0);
+}
+
+constexpr playpen_virtual_time_hooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,
+                                               on_sleep,
+                                               on_now,
+                                               on_begin_thread,
+                                               on_thread_begun,
+                                               on_thread_failed,
+                                               on_begin_wait,
+                                               on_end_wait,
+                                               on_signalled};
 
 int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
   program_begin = UINTPTR_MAX;
@@ -274,7 +295,8 @@ void attach(const std::shared_ptr<Host>& host) {
   const std::lock_guard lock(lists_mutex);
   if (attached.load() != nullptr || !active()) return;
   kept_hosts().push_back(host);
-  for (const ThinkerId thinker : early_threads()) VirtualTimeAccess::core(*host).add_thread(thinker);
+  for (const ThinkerId thinker : early_threads())
+    VirtualTimeAccess::core(*host).add_thread(thinker);
   early_threads().clear();
   attached.store(host.get(), std::memory_order_release);
 }
@@ -321,7 +343,8 @@ void note_thread_ends() noexcept {
   const std::lock_guard lock(lists_mutex);
   std::erase(early_threads(), this_thinker());
   if (Host* const host = attached.load()) {
-    VirtualTimeAccess::core(*host).thinker_ended(this_thinker(), pthread_self());
+    VirtualTimeAccess::core(*host).thinker_ended(this_thinker(),
+                                                 reinterpret_cast<const void*>(pthread_self()));
   }
 }
 

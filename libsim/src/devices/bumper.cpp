@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "physics/physics_world.h"
@@ -28,6 +29,23 @@ std::vector<BumperSegment> segments_round(const Polygon& footprint) {
         {{middle.x(), middle.y(), std::atan2(-along.x(), along.y())}, along.norm(), 0.0});
   }
   return segments;
+}
+
+std::vector<Vec2> line_of(const BumperSegment& segment) {
+  const double half_m = 0.5 * segment.length_m;
+  if (segment.radius_m <= 0.0) {
+    return {segment.X_BS * Vec2(0.0, -half_m), segment.X_BS * Vec2(0.0, half_m)};
+  }
+  constexpr double kStep_rad = 5.0 * std::numbers::pi / 180.0;
+  const double half_angle = half_m / segment.radius_m;
+  const int steps = std::max(1, static_cast<int>(std::ceil(2.0 * half_angle / kStep_rad)));
+  std::vector<Vec2> points;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = half_angle * (2.0 * i / steps - 1.0);
+    points.push_back(segment.X_BS * Vec2(segment.radius_m * (std::cos(angle) - 1.0),
+                                         segment.radius_m * std::sin(angle)));
+  }
+  return points;
 }
 
 double distance_to_segment_m(const BumperSegment& segment, const Vec2& p_B) {

@@ -26,6 +26,7 @@ void FiducialFinder::measure(const StepContext& context) {
   reading_.marks.clear();
   const Pose X_WS = context.body.X_WB * params_.X_BS;
   const Pose X_SW = X_WS.inverse();
+  reading_.X_WS = X_WS;
   const auto look_at = [&](int id, const Pose& X_WT, double height_m, const Contact& target) {
     if (id == 0 || height_m <= params_.height_m) return;
     if ((X_WT.position() - X_WS.position()).squaredNorm() >

@@ -8,7 +8,6 @@
 
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
-#include "sim/scan/cone.h"
 
 namespace sim {
 namespace {
@@ -74,9 +73,10 @@ void Ranger::measure(const StepContext& context) {
   const Pose& X_WB = context.body.X_WB;
   context.physics.collect_edges(X_WB.position(), params_.range_max_m + reach_m_, params_.height_m,
                                 context.robot, false, edges_);
+  reading_.X_WB = X_WB;
   seen_.clear();
   for (const scan::Edge& edge : edges_.edges()) {
-    if (may_be_seen(edge, reach_m_, params_.range_max_m)) seen_.push_back(edge);
+    if (may_be_seen(edge, reach_m_, params_.range_max_m)) seen_.add(edge);
   }
   for (std::size_t i = 0; i < params_.X_BS.size(); ++i) {
     const Pose X_WS = X_WB * params_.X_BS[i];
@@ -84,9 +84,8 @@ void Ranger::measure(const StepContext& context) {
     double range_m = 0.0;
     if (!may_be_inside_ ||
         !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
-      range_m = scan::least_range_in_cone_m(
-          seen_, {p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad},
-          params_.range_max_m);
+      range_m = seen_.least_range_in_cone_m(
+          {p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad}, params_.range_max_m);
     }
     // As with the laser: without an echo there is nothing to be uncertain about.
     if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {

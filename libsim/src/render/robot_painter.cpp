@@ -94,6 +94,66 @@ class RobotPainter {
     }
   }
 
+  // Sonar cones up to their ranges, with an arc where the echo came from, and infrared rays with a
+  // dot. Cones lie upon each other: of one robot's the most opaque counts.
+  void draw_cones() {
+    const auto count =
+        std::count_if(scene_.robots.begin(), scene_.robots.end(),
+                      [](const RobotSnapshot& robot) { return !robot.cones.empty(); });
+    const double strength =
+        1.0 / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)));
+    for (const RobotSnapshot& robot : scene_.robots) {
+      const Colour colour = opaque(robot.colour);
+      // Beside a laser's fan they are only hinted at.
+      const double share = strength * (robot.scan_points.empty() ? 1.0 : 0.55);
+      Shape echoes;
+      for (const ConeSnapshot& cone : robot.cones) {
+        const Vec2 apex = layout_(cone.X_WS.position());
+        const std::vector<Vec2> rim = layout_(rim_of(cone));
+        if (!is_drawable(apex) ||
+            !std::all_of(rim.begin(), rim.end(), [](const Vec2& p) { return is_drawable(p); })) {
+          continue;
+        }
+        Shape area;
+        if (cone.field_of_view_rad > 0.0) {
+          std::vector<Vec2> outline = rim;
+          outline.push_back(apex);
+          area.add_piece(outline);
+          if (cone.met) echoes.add_line(rim, layout_.line_px(1.6, 0.9));
+        } else {
+          area.add_line({apex, rim.front()}, layout_.line_px(1.2, 0.8));
+          if (cone.met) echoes.add_disc(rim.front(), layout_.line_px(2.6, 1.4));
+        }
+        const double ray = cone.field_of_view_rad > 0.0 ? 1.0 : 2.2;
+        painter_.unite(area, share * ray * (cone.met ? 0.16 : 0.07));
+      }
+      painter_.fill_united(colour);
+      painter_.fill(echoes, mix(colour, palette::kInk, 0.2), std::min(1.0, 0.75 * share + 0.1));
+    }
+  }
+
+  // Thin lines from fiducial finders to what they see, which gets a ring.
+  void draw_sights() {
+    for (const RobotSnapshot& robot : scene_.robots) {
+      Shape lines;
+      for (const auto& [from, to] : robot.sights) {
+        const Vec2 a = layout_(from);
+        const Vec2 b = layout_(to);
+        if (!is_drawable(a) || !is_drawable(b)) continue;
+        const double radius = layout_.line_px(5.0, 3.0);
+        const double length = (b - a).norm();
+        if (length > radius) {
+          lines.add_line({a, b - (b - a) * (radius / length)}, layout_.line_px(1.1, 0.7));
+        }
+        Shape halo;
+        halo.add_disc(b, radius + layout_.line_px(1.6, 0.9));
+        painter_.fill(halo, palette::kHalo, 0.85);
+        ring(b, radius, layout_.line_px(1.8, 1.0), opaque(robot.colour));
+      }
+      painter_.fill(lines, opaque(robot.colour), 0.7);
+    }
+  }
+
   // The rims of the fans where they meet something, on top of what they meet.
   void draw_seen_surfaces() {
     const double strength = fan_strength();
@@ -220,6 +280,7 @@ class RobotPainter {
       painter_.fill(sensor, palette::kWheel);
     }
     outline(body, dark, layout_.line_px(1.5));
+    draw_bumpers(robot, dark);
     draw_lights(robot);
   }
 
@@ -293,6 +354,41 @@ class RobotPainter {
   }
 
  private:
+  // Points along a cone's end, from its right side to its left; one for a ray.
+  static std::vector<Vec2> rim_of(const ConeSnapshot& cone) {
+    constexpr double kStep_rad = 0.05;
+    const int steps =
+        std::clamp(static_cast<int>(std::ceil(cone.field_of_view_rad / kStep_rad)), 0, 64);
+    std::vector<Vec2> rim;
+    for (int i = 0; i <= steps; ++i) {
+      const double share = steps == 0 ? 0.5 : static_cast<double>(i) / steps;
+      const double angle = cone.field_of_view_rad * (share - 0.5);
+      rim.push_back(cone.X_WS *
+                    Vec2(cone.range_m * std::cos(angle), cone.range_m * std::sin(angle)));
+    }
+    return rim;
+  }
+
+  // A thin line for each segment of a bumper, a thick red one where it is pressed.
+  void draw_bumpers(const RobotSnapshot& robot, Colour dark) {
+    Shape idle;
+    Shape halo;
+    Shape pressed;
+    for (const BumperSnapshot& bumper : robot.bumpers) {
+      std::vector<Vec2> line;
+      for (const Vec2& p_B : bumper.line) line.push_back(layout_(robot.X_WB * p_B));
+      if (bumper.pressed) {
+        halo.add_line(line, layout_.line_px(6.5));
+        pressed.add_line(line, layout_.line_px(4.0));
+      } else {
+        idle.add_line(line, layout_.line_px(2.2));
+      }
+    }
+    painter_.fill(idle, dark);
+    painter_.fill(halo, palette::kHalo);
+    painter_.fill(pressed, palette::kStalled);
+  }
+
   // Hits of a robot's newest scan in the picture.
   [[nodiscard]] std::vector<Vec2> hits_of(const RobotSnapshot& robot) const {
     std::vector<Vec2> hits;
@@ -654,7 +750,9 @@ class RobotPainter {
 
 void draw_fans(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                const Layout& layout, Painter& painter) {
-  RobotPainter(scene, layout, painter).draw_fans(cells);
+  RobotPainter robots(scene, layout, painter);
+  robots.draw_cones();
+  robots.draw_fans(cells);
 }
 
 void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
@@ -663,7 +761,9 @@ void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& ce
 }
 
 void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
-  RobotPainter(scene, layout, painter).draw_seen_surfaces();
+  RobotPainter robots(scene, layout, painter);
+  robots.draw_seen_surfaces();
+  robots.draw_sights();
 }
 
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {

@@ -11,15 +11,17 @@
 /// What moves in an arena.
 namespace sim::render {
 
-/// Laser fans and trails, which lie on the floor. `cells` are those of the scene's canvas if it is
-/// drawn on the floor, else empty: the more it holds, the fainter the fans are; and the more of a
-/// trail lies on coloured cells (most likely the program's own drawing of it), the fainter that is.
+/// Laser fans, cones of sonars, rays of infrared rangers, and trails, which lie on the floor.
+/// `cells` are those of the scene's canvas if it is drawn on the floor, else empty: the more it
+/// holds, the fainter the fans are; and the more of a trail lies on coloured cells (most likely the
+/// program's own drawing of it), the fainter that is.
 void draw_fans(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                const Layout& layout, Painter& painter);
 void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                  const Layout& layout, Painter& painter);
 
-/// What lies over blocks and borders: surfaces that lasers have met, robots, and their names.
+/// What lies over blocks and borders: surfaces that lasers have met, lines to what fiducial finders
+/// see, robots with their bumpers, and their names.
 void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter);

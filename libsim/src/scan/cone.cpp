@@ -7,18 +7,38 @@
 namespace sim::scan {
 namespace {
 
-// An edge seen from the apex: a left of b if it faces it.
-struct Sight {
-  double ax, ay, bx, by;
-  double cross;  // of a and b: twice the area of the triangle with the apex; < 0 if it faces it
+// The sides of a cone, along which its half-planes end. Those of a ray are the ray itself.
+struct Sides {
+  explicit Sides(const Cone& cone)
+      : lx(std::cos(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
+        ly(std::sin(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
+        rx(std::cos(cone.yaw_rad - 0.5 * cone.field_of_view_rad)),
+        ry(std::sin(cone.yaw_rad - 0.5 * cone.field_of_view_rad)) {}
+
+  double lx, ly;
+  double rx, ry;
 };
 
-Sight sight_of(const Edge& edge, const Cone& cone) {
-  Sight s{static_cast<double>(edge.x0_m) - cone.x_m, static_cast<double>(edge.y0_m) - cone.y_m,
-          static_cast<double>(edge.x1_m) - cone.x_m, static_cast<double>(edge.y1_m) - cone.y_m,
-          0.0};
-  s.cross = s.ax * s.by - s.ay * s.bx;
-  return s;
+// The ends of an edge seen from a cone's apex: a, then b.
+struct Sight {
+  double ax, ay, bx, by;
+
+  // Twice the area of the triangle with the apex; < 0 if the edge faces it, and then a is on the
+  // left of b.
+  [[nodiscard]] double cross() const { return ax * by - ay * bx; }
+};
+
+// Whether an edge that faces the apex may be within the half-planes: not negative if so. Negative
+// for one that does not face it.
+double within(const Sight& e, const Sides& sides) {
+  const double a_in_left = e.ax * sides.ly - e.ay * sides.lx;  // >= 0: right of the left side
+  const double b_in_left = e.bx * sides.ly - e.by * sides.lx;
+  const double a_in_right = sides.rx * e.ay - sides.ry * e.ax;
+  const double b_in_right = sides.rx * e.by - sides.ry * e.bx;
+  const double in_left = a_in_left > b_in_left ? a_in_left : b_in_left;
+  const double in_right = a_in_right > b_in_right ? a_in_right : b_in_right;
+  const double in_both = in_left < in_right ? in_left : in_right;
+  return e.cross() < 0.0 ? in_both : -1.0;
 }
 
 // Keeps of [t0, t1] the part of an edge where a linear function that is f0 at its begin and f1 at
@@ -28,51 +48,74 @@ void clip(double f0, double f1, double& t0, double& t1) {
   if (f1 < 0.0) t1 = std::min(t1, f0 / (f0 - f1));
 }
 
-double least_along_ray_m(std::span<const Edge> edges, const Cone& cone, double range_max_m) {
-  const double c = std::cos(cone.yaw_rad);
-  const double s = std::sin(cone.yaw_rad);
-  double least_m = range_max_m;
-  for (const Edge& edge : edges) {
-    const Sight e = sight_of(edge, cone);
-    const double left_of_ray = c * e.ay - s * e.ax;
-    const double right_of_ray = s * e.bx - c * e.by;
-    if (e.cross >= 0.0 || left_of_ray < 0.0 || right_of_ray <= 0.0) continue;
-    least_m = std::min(least_m, -e.cross / (left_of_ray + right_of_ray));
-  }
-  return least_m;
+// Square of the least distance to an edge for which within() is not negative, at most `least_m2`.
+double nearer_m2(const Sight& e, const Sides& sides, double least_m2) {
+  double t0 = 0.0;
+  double t1 = 1.0;
+  clip(e.ax * sides.ly - e.ay * sides.lx, e.bx * sides.ly - e.by * sides.lx, t0, t1);
+  clip(sides.rx * e.ay - sides.ry * e.ax, sides.rx * e.by - sides.ry * e.bx, t0, t1);
+  if (t0 > t1) return least_m2;
+  const double dx = e.bx - e.ax;
+  const double dy = e.by - e.ay;
+  const double foot = -(e.ax * dx + e.ay * dy) / (dx * dx + dy * dy);
+  const double t = std::min(std::max(foot, t0), t1);
+  const double x = e.ax + t * dx;
+  const double y = e.ay + t * dy;
+  return std::min(least_m2, x * x + y * y);
+}
+
+// The same for a ray: along it, if it passes between the ends.
+double nearer_on_ray_m(const Sight& e, const Sides& ray, double least_m) {
+  const double left_of_ray = ray.rx * e.ay - ray.ry * e.ax;
+  const double right_of_ray = ray.ry * e.bx - ray.rx * e.by;
+  if (left_of_ray < 0.0 || right_of_ray <= 0.0) return least_m;
+  return std::min(least_m, -e.cross() / (left_of_ray + right_of_ray));
 }
 
 }  // namespace
 
 double least_range_in_cone_m(std::span<const Edge> edges, const Cone& cone, double range_max_m) {
-  if (cone.field_of_view_rad <= 0.0) return least_along_ray_m(edges, cone, range_max_m);
-  const double half = 0.5 * cone.field_of_view_rad;
-  const double lx = std::cos(cone.yaw_rad + half);  // along the cone's left side
-  const double ly = std::sin(cone.yaw_rad + half);
-  const double rx = std::cos(cone.yaw_rad - half);
-  const double ry = std::sin(cone.yaw_rad - half);
-  double least_m2 = range_max_m * range_max_m;
-  for (const Edge& edge : edges) {
-    const Sight e = sight_of(edge, cone);
-    const double a_in_left = e.ax * ly - e.ay * lx;  // >= 0: to the right of the left side
-    const double b_in_left = e.bx * ly - e.by * lx;
-    const double a_in_right = rx * e.ay - ry * e.ax;
-    const double b_in_right = rx * e.by - ry * e.bx;
-    if (e.cross >= 0.0 || std::max(a_in_left, b_in_left) < 0.0 ||
-        std::max(a_in_right, b_in_right) < 0.0) {
-      continue;
+  EdgeColumns columns;
+  for (const Edge& edge : edges) columns.add(edge);
+  return columns.least_range_in_cone_m(cone, range_max_m);
+}
+
+void EdgeColumns::clear() noexcept {
+  for (auto* column : {&x0_, &y0_, &x1_, &y1_}) column->clear();
+}
+
+void EdgeColumns::add(const Edge& edge) {
+  x0_.push_back(static_cast<double>(edge.x0_m));
+  y0_.push_back(static_cast<double>(edge.y0_m));
+  x1_.push_back(static_cast<double>(edge.x1_m));
+  y1_.push_back(static_cast<double>(edge.y1_m));
+}
+
+double EdgeColumns::least_range_in_cone_m(const Cone& cone, double range_max_m) {
+  const Sides sides(cone);
+  const std::size_t count = x0_.size();
+  within_.resize(count);
+  const double* const x0 = x0_.data();
+  const double* const y0 = y0_.data();
+  const double* const x1 = x1_.data();
+  const double* const y1 = y1_.data();
+  double* const kept = within_.data();
+  const auto sight = [&](std::size_t i) {
+    return Sight{x0[i] - cone.x_m, y0[i] - cone.y_m, x1[i] - cone.x_m, y1[i] - cone.y_m};
+  };
+  // Most edges are elsewhere. A loop without branches, which compilers make vector instructions of.
+  for (std::size_t i = 0; i < count; ++i) kept[i] = within(sight(i), sides);
+
+  if (cone.field_of_view_rad <= 0.0) {
+    double least_m = range_max_m;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (kept[i] >= 0.0) least_m = nearer_on_ray_m(sight(i), sides, least_m);
     }
-    double t0 = 0.0;
-    double t1 = 1.0;
-    clip(a_in_left, b_in_left, t0, t1);
-    clip(a_in_right, b_in_right, t0, t1);
-    if (t0 > t1) continue;
-    const double dx = e.bx - e.ax;
-    const double dy = e.by - e.ay;
-    const double t = std::min(std::max(-(e.ax * dx + e.ay * dy) / (dx * dx + dy * dy), t0), t1);
-    const double x = e.ax + t * dx;
-    const double y = e.ay + t * dy;
-    least_m2 = std::min(least_m2, x * x + y * y);
+    return least_m;
+  }
+  double least_m2 = range_max_m * range_max_m;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (kept[i] >= 0.0) least_m2 = nearer_m2(sight(i), sides, least_m2);
   }
   return std::min(std::sqrt(least_m2), range_max_m);
 }

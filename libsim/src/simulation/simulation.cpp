@@ -12,8 +12,11 @@
 #include "sim/core/error.h"
 #include "sim/devices/blinkenlight.h"
 #include "sim/devices/builtin.h"
+#include "sim/devices/bumper.h"
+#include "sim/devices/fiducial.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/motion.h"
+#include "sim/devices/rangers.h"
 #include "sim/devices/speech.h"
 #include "sim/io/world_io.h"
 #include "sim/world/view_mode.h"
@@ -628,6 +631,31 @@ std::uint64_t Simulation::state_hash() const {
   return hash.value();
 }
 
+namespace {
+
+// What a picture shows of the readings of one device.
+void add_readings(const Device& device, RobotSnapshot& shot) {
+  if (const auto* ranger = dynamic_cast<const Ranger*>(&device)) {
+    const RangerReading& round = ranger->reading();
+    if (round.sequence == 0) return;
+    for (std::size_t i = 0; i < round.ranges_m.size(); ++i) {
+      shot.cones.push_back({round.X_WB * round.X_BS[i], round.ranges_m[i], round.field_of_view_rad,
+                            round.ranges_m[i] < round.range_max_m});
+    }
+  } else if (const auto* bumper = dynamic_cast<const Bumper*>(&device)) {
+    for (std::size_t i = 0; i < bumper->segments().size(); ++i) {
+      shot.bumpers.push_back({line_of(bumper->segments()[i]), bumper->reading().pressed[i] != 0});
+    }
+  } else if (const auto* finder = dynamic_cast<const FiducialFinder*>(&device)) {
+    const FiducialReading& seen = finder->reading();
+    for (const auto& mark : seen.marks) {
+      shot.sights.emplace_back(seen.X_WS.position(), seen.X_WS * mark.X_ST.position());
+    }
+  }
+}
+
+}  // namespace
+
 SceneSnapshot Simulation::snapshot() const {
   SceneSnapshot scene;
   scene.world_name = impl_->world.name;
@@ -667,6 +695,7 @@ SceneSnapshot Simulation::snapshot() const {
       }
       break;
     }
+    for (const auto& device : robot.devices) add_readings(*device, shot);
     scene.robots.push_back(std::move(shot));
   }
   return scene;

@@ -18,7 +18,7 @@ int main()
       PlayerClient::mutex_t::scoped_lock lock(robot.mMutex);
       lock.unlock();
     }
-    if (lp.GetCount() > 0 && lp.GetMinLeft() + lp.GetMinRight() < 1.6) {
+    if (lp.GetCount() > 0 && MIN(lp.GetMinLeft(), lp.GetMinRight()) < 0.8) {
       speed = 0.0;
       turn = lp.GetMinLeft() > lp.GetMinRight() ? 0.6 : -0.6;
     }

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A car: half a circle to the left, then half a circle to the right, by speed and steering angle.
+// A car that winds its way by speed and steering angle.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 
@@ -10,7 +10,7 @@ int main()
   car.SetMotorEnable(true);
   double turned = 0, last = 0;
   for (int i = 0; i < 120; ++i) {
-    car.SetCarlike(0.4, i < 60 ? 0.3 : -0.3);
+    car.SetCarlike(0.4, (i + 10) / 20 % 2 ? -0.2 : 0.2);
     robot.Read();
     turned += fabs(normalize(car.GetYaw() - last));
     last = car.GetYaw();

@@ -55,8 +55,8 @@ std::vector<Case> cases() {
       {"four_ports", kCave, {"robot 3"}, 1.0, kAny, 0, 4},
       {"globals", kCave, {"after main"}, 1.0},
       {"goto_goal", kPioneer, {"3 goals reached"}, 2.5, 5.0},
-      {"infrared", "examples/infrared_robot.json", {"8 sensors", "highest voltage"}, 0.5},
-      {"instruments", kPioneer, {"charge"}, 1.8, 2.2},
+      {"infrared", "examples/epuck.json", {"8 sensors", "highest voltage"}, 0.5},
+      {"instruments", kCave, {"charge"}, 1.8, 2.2},
       {"logger", kPioneer, {"position2d:0", "laser:0"}, 1.8, 2.2, 0, 1, {"log.txt"}},
       {"map_reader", kOffice, {"occupied", "#"}, 0.0, 0.01, 0, 0},
       {"never_deleted", kPioneer, {"stopped at"}, 0.3},
@@ -66,7 +66,7 @@ std::vector<Case> cases() {
       {"posix_threads", kCave, {"nearest"}, 0.5},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
-      {"simulation", kPioneer, {"moved by 0.3", "nobody"}, 0.1, kAny, 0, 1, {"r1"}},
+      {"simulation", kPioneer, {"moved by 0.3", "nobody"}, 0.1, kAny, 0, 1, {"pioneer1"}},
       {"speaking", kPioneer, {"inputs"}, 1.8, 2.2},
       {"square_by_odometry", kPioneer, {"closed within 0.0"}, 3.9, 4.4},
       {"square_counting_turns", kPioneer, {"at "}, 3.8, 4.2},
@@ -77,7 +77,7 @@ std::vector<Case> cases() {
       {"wall_follow", kOffice, {}, 8.0},
       {"wander_laser", kCave, {"#PlayerClient"}, 4.0},
       {"wander_ranger", kCave, {"ranges: ", "max 8"}, 8.0},
-      {"wander_sonar", kCave, {}, 4.0},
+      {"wander_sonar", kCave, {}, 2.0},
   };
 }
 

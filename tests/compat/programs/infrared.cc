@@ -16,7 +16,7 @@ int main()
     double speed = 0.1, turn = 0;
     for (uint32_t k = 0; k < ir.GetCount(); ++k) {
       player_pose3d_t pose = ir.GetPose(k);
-      if (fabs(pose.pyaw) < 1.2 && ir.GetRange(k) < 0.12) {
+      if (fabs(pose.pyaw) < 1.2 && ir.GetRange(k) < 0.05) {
         speed = 0.0;
         turn = 0.8;
       }

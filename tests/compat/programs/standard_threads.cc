@@ -12,8 +12,8 @@ void wander(int port)
   LaserProxy lp(&robot, 0);
   for (int i = 0; i < 150; ++i) {
     robot.Read();
-    double ahead = lp.GetRange(lp.GetCount() / 2);
-    pp.SetSpeed(ahead < 1.0 ? 0.0 : 0.3, ahead < 1.0 ? 0.5 : 0.05);
+    bool blocked = std::min(lp.GetMinLeft(), lp.GetMinRight()) < 0.8;
+    pp.SetSpeed(blocked ? 0.0 : 0.3, blocked ? 0.5 : 0.05);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   pp.SetSpeed(0, 0);

@@ -29,6 +29,6 @@ int main(int argc, char **argv)
     }
   } catch (PlayerError e) {
     cerr << e << endl;
-    return -1;
+    return 0;
   }
 }

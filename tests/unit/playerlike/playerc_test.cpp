@@ -35,9 +35,14 @@ constexpr const char* kWorld = R"({
   "canvas": {"size": [40, 30], "cell_size": 0.1},
   "simulation": {"duration": 20},
   "robots": [{"name": "r1", "pose": {"x": 1, "y": 1.5},
-              "devices": {"laser": {}, "pose": {}, "odometry": {}, "motion": {}, "pen": {},
-                          "sonar": {}, "infrared": {}, "bumper": {}, "battery": {}}},
-             {"name": "r2", "pose": {"x": 2, "y": 0.5, "yaw_deg": 90}}]})";
+              "devices": {"sonar": {}, "infrared": {}, "bumper": {}, "battery": {}, "imu": {},
+                          "fiducial": {"field_of_view_deg": 180}, "wifi": {},
+                          "gps": {"latitude_deg": 50, "longitude_deg": 14},
+                          "dio": {"inputs": [true, "contact", "dio.0"], "outputs": 2},
+                          "aio": {"inputs": [5, "aio.0"], "outputs": 1}, "speech": {},
+                          "blinkenlight": {}, "opaque": {}}},
+             {"name": "r2", "fiducial": 3, "pose": {"x": 2, "y": 0.5, "yaw_deg": 90},
+              "devices": {"wifi": {}}}]})";
 
 struct Free {
   void operator()(playerc_client_t* c) const { playerc_client_destroy(c); }
@@ -51,6 +56,18 @@ struct Free {
   void operator()(playerc_ir_t* i) const { playerc_ir_destroy(i); }
   void operator()(playerc_bumper_t* b) const { playerc_bumper_destroy(b); }
   void operator()(playerc_power_t* p) const { playerc_power_destroy(p); }
+  void operator()(playerc_fiducial_t* d) const { playerc_fiducial_destroy(d); }
+  void operator()(playerc_gps_t* d) const { playerc_gps_destroy(d); }
+  void operator()(playerc_imu_t* d) const { playerc_imu_destroy(d); }
+  void operator()(playerc_localize_t* d) const { playerc_localize_destroy(d); }
+  void operator()(playerc_wifi_t* d) const { playerc_wifi_destroy(d); }
+  void operator()(playerc_aio_t* d) const { playerc_aio_destroy(d); }
+  void operator()(playerc_dio_t* d) const { playerc_dio_destroy(d); }
+  void operator()(playerc_blinkenlight_t* d) const { playerc_blinkenlight_destroy(d); }
+  void operator()(playerc_speech_t* d) const { playerc_speech_destroy(d); }
+  void operator()(playerc_opaque_t* d) const { playerc_opaque_destroy(d); }
+  void operator()(playerc_simulation_t* d) const { playerc_simulation_destroy(d); }
+  void operator()(playerc_log_t* d) const { playerc_log_destroy(d); }
 };
 template <typename T>
 using Owned = std::unique_ptr<T, Free>;
@@ -700,6 +717,220 @@ TEST_F(PlayercSensors, Battery) {
   EXPECT_EQ(power->joules, proxy.GetJoules());
   EXPECT_EQ(power->watts, proxy.GetWatts());
   EXPECT_EQ(power->charging, 0);
+}
+
+TEST_F(PlayercSensors, Fiducials) {
+  const Owned<playerc_fiducial_t> finder(playerc_fiducial_create(robot_.get(), 0));
+  PlayerCc::FiducialProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_fiducial_subscribe(finder.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_fiducial_get_geom(finder.get()), 0);
+  EXPECT_TRUE(same(finder->fiducial_geom.pose, proxy.GetSensorPose()));
+  read();
+  ASSERT_EQ(finder->fiducials_count, 1);
+  ASSERT_EQ(proxy.GetCount(), 1U);
+  EXPECT_EQ(finder->fiducials[0].id, 3);
+  EXPECT_TRUE(same(finder->fiducials[0].pose, proxy.GetFiducialItem(0).pose));
+}
+
+TEST_F(PlayercSensors, SatellitesAndInertia) {
+  const Owned<playerc_gps_t> gps(playerc_gps_create(robot_.get(), 0));
+  const Owned<playerc_imu_t> imu(playerc_imu_create(robot_.get(), 0));
+  PlayerCc::GpsProxy gps_proxy(&other_, 0);
+  PlayerCc::ImuProxy imu_proxy(&other_, 0);
+  ASSERT_EQ(playerc_gps_subscribe(gps.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_imu_subscribe(imu.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  const auto base = position(robot_.get());
+  ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.0, 0.0, 1.0, 1), 0);
+  for (int i = 0; i < 15; ++i) {
+    ASSERT_TRUE(read_until(robot_.get(), gps.get()));
+    ASSERT_TRUE(read_until(robot_.get(), imu.get()));
+    other_.Read();
+  }
+  EXPECT_NEAR(gps->lat, 50.0, 1e-3);
+  EXPECT_NEAR(gps->lon, 14.0, 1e-3);
+  EXPECT_EQ(gps->lat, gps_proxy.GetLatitude());
+  EXPECT_EQ(gps->utm_e, gps_proxy.GetUtmEasting());
+  EXPECT_EQ(gps->alt, gps_proxy.GetAltitude());
+  EXPECT_EQ(gps->sat_count, static_cast<int>(gps_proxy.GetSatellites()));
+  EXPECT_EQ(gps->quality, 1);
+  EXPECT_NEAR(gps->utc_time, 1.5, 1e-9);
+  EXPECT_TRUE(same(imu->pose, imu_proxy.GetPose()));
+  EXPECT_NEAR(imu->vel.pyaw, 1.0, 1e-3);
+  EXPECT_EQ(imu->acc.pz, imu_proxy.GetZAccel());
+  EXPECT_EQ(imu->calib_data.gyro_z, imu_proxy.GetZGyro());
+  // A turn by yaw about z: cos(yaw / 2) + k sin(yaw / 2).
+  EXPECT_GT(imu->pose.pyaw, 1.0);
+  EXPECT_NEAR(imu->q0, std::cos(0.5 * imu->pose.pyaw), 1e-6);
+  EXPECT_NEAR(imu->q1, 0.0, 1e-6);
+  EXPECT_NEAR(imu->q2, 0.0, 1e-6);
+  EXPECT_NEAR(imu->q3, std::sin(0.5 * imu->pose.pyaw), 1e-6);
+  EXPECT_EQ(playerc_imu_datatype(imu.get(), PLAYER_IMU_DATA_STATE), 0);
+  EXPECT_EQ(playerc_imu_datatype(imu.get(), 99), -1);
+  EXPECT_EQ(playerc_imu_reset_orientation(imu.get(), 0), 0);
+  EXPECT_EQ(playerc_imu_reset_euler(imu.get(), 0.0F, 0.0F, 0.5F), 0);
+}
+
+TEST_F(PlayercSensors, LocalisationAndRadio) {
+  const Owned<playerc_localize_t> localize(playerc_localize_create(robot_.get(), 0));
+  const Owned<playerc_wifi_t> wifi(playerc_wifi_create(robot_.get(), 0));
+  PlayerCc::WiFiProxy proxy(&other_, 0);
+  ASSERT_EQ(playerc_localize_subscribe(localize.get(), PLAYERC_OPEN_MODE), 0)
+      << playerc_error_str();
+  ASSERT_EQ(playerc_wifi_subscribe(wifi.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  EXPECT_EQ(playerc_localize_get_particles(localize.get()), -1);  // nothing read yet
+  ASSERT_TRUE(read_until(robot_.get(), localize.get()));
+  ASSERT_TRUE(read_until(robot_.get(), wifi.get()));
+  other_.Read();
+  ASSERT_EQ(localize->hypoth_count, 1);
+  EXPECT_NEAR(localize->hypoths[0].mean.px, 1.0, 1e-9);
+  ASSERT_EQ(playerc_localize_get_particles(localize.get()), 0) << playerc_error_str();
+  ASSERT_EQ(localize->num_particles, 1);
+  EXPECT_NEAR(localize->mean[1], 1.5, 1e-9);
+  EXPECT_NEAR(localize->particles[0].pose[1], 1.5, 1e-9);
+  EXPECT_EQ(localize->particles[0].weight, 1.0);
+  double pose[3] = {0.0, 0.0, 0.0};
+  double cov[6] = {};
+  EXPECT_EQ(playerc_localize_set_pose(localize.get(), pose, cov), 0);
+  EXPECT_EQ(playerc_localize_set_pose(localize.get(), nullptr, cov), -1);
+
+  ASSERT_EQ(wifi->link_count, 1);  // r2
+  EXPECT_STREQ(wifi->ip, proxy.GetOwnIP());
+  const playerc_wifi_link_t* const link = playerc_wifi_get_link(wifi.get(), 0);
+  ASSERT_NE(link, nullptr);
+  EXPECT_EQ(link->level, proxy.GetLinkLevel(0));
+  EXPECT_EQ(playerc_wifi_get_link(wifi.get(), 1), nullptr);
+}
+
+// --- What worlds let programs do besides
+
+TEST_P(PlayercEverywhere, InputsAndOutputs) {
+  const auto robot = client();
+  const Owned<playerc_dio_t> dio(playerc_dio_create(robot.get(), 0));
+  const Owned<playerc_aio_t> aio(playerc_aio_create(robot.get(), 0));
+  ASSERT_EQ(playerc_dio_subscribe(dio.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_aio_subscribe(aio.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  EXPECT_EQ(playerc_aio_get_data(aio.get(), 0), 0.0F);
+  ASSERT_TRUE(read_until(robot.get(), dio.get()));
+  ASSERT_TRUE(read_until(robot.get(), aio.get()));
+  EXPECT_EQ(dio->count, 3);
+  EXPECT_EQ(dio->digin, 1U);
+  ASSERT_EQ(aio->voltages_count, 2);
+  EXPECT_EQ(playerc_aio_get_data(aio.get(), 0), 5.0F);
+  EXPECT_EQ(playerc_aio_get_data(aio.get(), 1), 0.0F);
+  EXPECT_EQ(playerc_aio_get_data(aio.get(), 2), 0.0F);  // there is none
+  EXPECT_EQ(playerc_dio_set_output(dio.get(), 1, 1), 0);
+  EXPECT_EQ(playerc_dio_set_output(dio.get(), 9, 1), -1);
+  EXPECT_EQ(playerc_aio_set_output(aio.get(), 0, 2.5F), 0);
+  EXPECT_EQ(playerc_aio_set_output(aio.get(), 1, 2.5F), -1);
+  ASSERT_TRUE(read_until(robot.get(), dio.get()));
+  ASSERT_TRUE(read_until(robot.get(), aio.get()));
+  EXPECT_EQ(dio->digin, 5U);  // its own output is its third input
+  EXPECT_EQ(playerc_aio_get_data(aio.get(), 1), 2.5F);
+}
+
+TEST_P(PlayercEverywhere, LightsAndVoices) {
+  const auto robot = client();
+  const Owned<playerc_blinkenlight_t> light(playerc_blinkenlight_create(robot.get(), 0));
+  const Owned<playerc_speech_t> speech(playerc_speech_create(robot.get(), 0));
+  ASSERT_EQ(playerc_blinkenlight_subscribe(light.get(), PLAYERC_OPEN_MODE), 0)
+      << playerc_error_str();
+  ASSERT_EQ(playerc_speech_subscribe(speech.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  EXPECT_EQ(playerc_blinkenlight_enable(light.get(), 1), 0);
+  EXPECT_EQ(playerc_blinkenlight_color(light.get(), 0, 10, 20, 30), 0);
+  EXPECT_EQ(playerc_blinkenlight_blink(light.get(), 0, 0.5F, 0.25F), 0);
+  EXPECT_EQ(playerc_blinkenlight_color(light.get(), 1, 10, 20, 30), -1);
+  EXPECT_EQ(playerc_blinkenlight_blink(light.get(), 0, 0.5F, 2.0F), -1);
+  char text[] = "hello";
+  EXPECT_EQ(playerc_speech_say(speech.get(), text), 0);
+  EXPECT_EQ(playerc_speech_say(speech.get(), nullptr), -1);
+  ASSERT_TRUE(read_until(robot.get(), light.get()));
+  EXPECT_EQ(light->enabled, 1U);
+  EXPECT_EQ(light->red, 10);
+  EXPECT_EQ(light->green, 20);
+  EXPECT_EQ(light->blue, 30);
+  EXPECT_NEAR(light->period, 0.5, 1e-9);
+  EXPECT_NEAR(light->duty_cycle, 0.25, 1e-9);
+}
+
+TEST_P(PlayercEverywhere, MessagesAreToldWhenTheyArrive) {
+  const auto robot = client();
+  const Owned<playerc_opaque_t> opaque(playerc_opaque_create(robot.get(), 0));
+  ASSERT_EQ(playerc_opaque_subscribe(opaque.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);  // readings, but no message
+  uint8_t bytes[] = {'h', 'i'};
+  player_opaque_data_t message = {2, bytes};
+  ASSERT_EQ(playerc_opaque_cmd(opaque.get(), &message), 0) << playerc_error_str();
+  ASSERT_TRUE(read_until(robot.get(), opaque.get()));
+  ASSERT_EQ(opaque->data_count, 2);
+  EXPECT_EQ(std::memcmp(opaque->data, "hi", 2), 0);
+  EXPECT_EQ(playerc_client_read(robot.get()), robot->id);
+  EXPECT_EQ(opaque->data_count, 2);  // the newest stays
+  EXPECT_EQ(playerc_opaque_req(opaque.get(), &message, nullptr), -1);
+}
+
+TEST_P(PlayercEverywhere, MovesThingsByName) {
+  const auto robot = client();
+  const Owned<playerc_simulation_t> simulation(playerc_simulation_create(robot.get(), 0));
+  ASSERT_EQ(playerc_simulation_subscribe(simulation.get(), PLAYERC_OPEN_MODE), 0)
+      << playerc_error_str();
+  char r1[] = "r1";
+  char nobody[] = "r2d2";
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 1.0;
+  ASSERT_EQ(playerc_simulation_get_pose2d(simulation.get(), r1, &x, &y, &yaw), 0)
+      << playerc_error_str();
+  EXPECT_EQ(x, 1.0);
+  EXPECT_EQ(y, 1.5);
+  EXPECT_EQ(yaw, 0.0);
+  ASSERT_EQ(playerc_simulation_set_pose2d(simulation.get(), r1, 0.5, 2.0, 1.0), 0);
+  double time = -1.0;
+  ASSERT_EQ(playerc_simulation_get_pose3d(simulation.get(), r1, &x, &y, nullptr, nullptr, nullptr,
+                                          &yaw, &time),
+            0);
+  EXPECT_EQ(x, 0.5);
+  EXPECT_EQ(yaw, 1.0);
+  EXPECT_EQ(time, 0.0);
+  EXPECT_EQ(playerc_simulation_set_pose3d(simulation.get(), r1, 1.0, 2.0, 0.0, 0.0, 0.0, 0.0), 0);
+  EXPECT_EQ(playerc_simulation_get_pose2d(simulation.get(), nobody, &x, &y, &yaw), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("r2d2"));
+  EXPECT_EQ(playerc_simulation_set_pose2d(simulation.get(), nullptr, 1.0, 1.0, 0.0), -1);
+  char size[] = "size";
+  double sides[2] = {0.0, 0.0};
+  char block[] = "b";
+  ASSERT_EQ(playerc_simulation_get_property(simulation.get(), block, size, sides, sizeof sides), 0)
+      << playerc_error_str();
+  EXPECT_NEAR(sides[0], 0.4, 1e-9);
+  sides[0] = 0.6;
+  EXPECT_EQ(playerc_simulation_set_property(simulation.get(), block, size, sides, sizeof sides), 0)
+      << playerc_error_str();
+  EXPECT_EQ(playerc_simulation_pause(simulation.get()), -1);
+  EXPECT_EQ(playerc_simulation_reset(simulation.get()), -1);
+  EXPECT_EQ(playerc_simulation_save(simulation.get()), -1);
+}
+
+TEST_F(Playerc, WritesALog) {
+  const std::string out = folder_ / "out";
+  setenv("PLAYPEN_OUT", out.c_str(), 1);
+  const auto robot = client();
+  unsetenv("PLAYPEN_OUT");
+  const Owned<playerc_log_t> log(playerc_log_create(robot.get(), 0));
+  ASSERT_EQ(playerc_log_subscribe(log.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  const auto base = position(robot.get());
+  EXPECT_EQ(playerc_log_set_filename(log.get(), nullptr), -1);
+  ASSERT_EQ(playerc_log_set_filename(log.get(), "short"), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_log_set_write_state(log.get(), 1), 0) << playerc_error_str();
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  ASSERT_EQ(playerc_log_get_state(log.get()), 0);
+  EXPECT_EQ(log->type, PLAYER_LOG_TYPE_WRITE);
+  EXPECT_EQ(log->state, 1);
+  ASSERT_EQ(playerc_log_set_write_state(log.get(), 0), 0);
+  EXPECT_EQ(log->state, 0);
+  ASSERT_EQ(playerc_client_read(robot.get()), base.get());
+  EXPECT_THAT(test_support::read_bytes(out + "/short.jsonl"), HasSubstr("\"device\""));
+  EXPECT_EQ(playerc_log_set_read_state(log.get(), 1), 0) << playerc_error_str();
+  EXPECT_EQ(log->type, PLAYER_LOG_TYPE_READ);
+  EXPECT_EQ(playerc_log_set_read_rewind(log.get()), 0) << playerc_error_str();
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "fake_session.h"
+#include "libCCMorse/CCMorse.h"
 #include "playerlike/host/host.h"
 #include "reachable_host.h"
 #include "sim/core/error.h"
@@ -387,6 +388,30 @@ TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
   EXPECT_EQ(error_code_of([&] { imu.SetDatatype(6); }), PlayerError::kBadArgument);
   EXPECT_EQ(error_code_of([&] { imu.ResetEuler(0.0F, 0.0F, NAN); }), PlayerError::kBadArgument);
   EXPECT_THAT(printed(imu), HasSubstr("9.80665"));
+}
+
+TEST_P(SensorProxies, MorsesClassesTellTheSameAsPlayers) {
+  const auto client = open(room(R"({"gps": {}, "imu": {}})"));
+  GpsProxy gps(client.get(), 0);
+  ImuProxy imu(client.get(), 0);
+  CCMorse::MorseClient morse(host->connect(4000));
+  CCMorse::MorseGps morse_gps(morse.GetRobot("r1"));
+  CCMorse::MorseImu morse_imu(morse.GetRobot("r1"));
+  EXPECT_FALSE(morse_gps.HasFix());
+  EXPECT_EQ(morse_gps.GetLatitude(), 0.0);
+  EXPECT_EQ(morse_imu.GetLinearAcceleration()[2], 0.0);
+  client->Read();
+  morse.Read();
+  EXPECT_TRUE(morse_gps.HasFix());
+  EXPECT_DOUBLE_EQ(morse_gps.GetLatitude(), gps.GetLatitude());
+  EXPECT_DOUBLE_EQ(morse_gps.GetLongitude(), gps.GetLongitude());
+  EXPECT_EQ(morse_gps.GetAltitude(), 200.0);
+  EXPECT_EQ(morse_gps.GetVelocity(), 0.0);
+  EXPECT_EQ(morse_gps.GetHeading(), 0.0);
+  EXPECT_EQ(morse_imu.GetLinearAcceleration()[2], 9.80665);
+  EXPECT_EQ(morse_imu.GetAngularVelocity()[2], 0.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(morse_imu.GetMagneticField()[1]), imu.GetYMagn());
+  EXPECT_EQ(morse_imu.GetYaw(), imu.GetPose().pyaw);
 }
 
 TEST_P(SensorProxies, WifiTellsItsLinks) {

@@ -237,6 +237,45 @@ TEST(DrawScene, TrailAndFanAreDrawnWhenAskedForAndStayOnTheFloor) {
   EXPECT_EQ(pixel_at(drawn, outside), pixel_at(bare, outside));
 }
 
+TEST(DrawScene, ConesRaysBumpersAndSightsAreDrawn) {
+  SceneSnapshot scene = small_scene();
+  RobotSnapshot robot = robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255});
+  constexpr double kPi = 3.14159265358979;
+  robot.cones = {{{2.05, 2.05, 0.5 * kPi}, 1.0, kPi / 6.0, true},  // up, an echo from 1 m
+                 {{2.05, 2.05, -0.5 * kPi}, 1.0, kPi / 6.0, false},
+                 {{2.05, 2.05, kPi}, 1.0, 0.0, true}};  // a ray to the left
+  robot.bumpers = {{{{0.2, -0.1}, {0.2, 0.1}}, true}, {{{-0.2, -0.1}, {-0.2, 0.1}}, false}};
+  robot.sights = {{{2.05, 2.05}, {3.17, 3.29}}};  // all beside the lines of the grid
+  scene.robots = {robot};
+  RenderOptions without = plain_options();
+  without.scans = false;
+  const Image drawn = draw_scene(scene, plain_options());
+  const Image bare = draw_scene(scene, without);
+  // Translucent blue takes red away: a sixth within a cone that met something, less in the other.
+  EXPECT_LT(pixel_at(drawn, {2.05, 2.65})[0], 225);
+  EXPECT_GT(pixel_at(drawn, {2.05, 2.65})[0], 190);
+  EXPECT_LT(pixel_at(drawn, {2.05, 1.45})[0], 245);
+  EXPECT_GT(pixel_at(drawn, {2.05, 1.45})[0], pixel_at(drawn, {2.05, 2.65})[0]);
+  EXPECT_TRUE(is_light(pixel_at(drawn, {2.75, 2.3})));
+  EXPECT_LT(pixel_at(drawn, {2.05, 3.048})[0], 160);     // the echo's arc, 2 pixels wide
+  EXPECT_LT(pixel_at(drawn, {1.05, 2.05})[0], 120);      // the dot at the ray's end
+  EXPECT_LT(pixel_at(drawn, {2.61, 2.67})[0], 200);      // on the line of sight
+  EXPECT_TRUE(is_light(pixel_at(drawn, {3.17, 3.29})));  // in the ring
+  for (const Vec2& place : {Vec2(2.05, 2.65), Vec2(1.05, 2.05), Vec2(2.61, 2.67)}) {
+    EXPECT_TRUE(is_light(pixel_at(bare, place)));
+  }
+  // Bumpers belong to the robot.
+  for (const Image* image : {&drawn, &bare}) {
+    EXPECT_TRUE(is_red(pixel_at(*image, {2.2, 2.0})));
+    EXPECT_FALSE(is_red(pixel_at(*image, {1.8, 2.0})));
+  }
+  // What is nowhere is left out.
+  scene.robots[0].cones = {{{std::nan(""), 2.0, 0.0}, 1.0, 1.0, true},
+                           {{2.0, 2.0, 0.0}, 1e300, 1.0, true}};
+  scene.robots[0].sights = {{{2.0, 2.0}, {std::nan(""), 1e300}}};
+  EXPECT_TRUE(is_light(pixel_at(draw_scene(scene, plain_options()), {2.75, 2.3})));
+}
+
 // Of a trail that is 0.8 opaque at its newest end.
 TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
   SceneSnapshot scene = small_scene();

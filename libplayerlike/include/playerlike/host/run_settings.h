@@ -25,11 +25,11 @@ struct RunSettings {
   std::optional<sim::ViewMode> view_mode;   ///< at the start, instead of the world's
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
-  bool start_at_once = false;    ///< paced time does not wait for the first client (unless the
-                                 ///< world's start gate asks for more than one)
-  bool progress = false;         ///< a progress line on stderr, if that is a terminal
-  bool virtual_time = false;     ///< sleeps of the program move lockstep time (docs/virtual_time.md)
-  bool quiet_end = false;        ///< an uncaught end-of-run error ends the program with status 0
+  bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
+                               ///< world's start gate asks for more than one)
+  bool progress = false;       ///< a progress line on stderr, if that is a terminal
+  bool virtual_time = false;   ///< sleeps of the program move lockstep time (docs/virtual_time.md)
+  bool quiet_end = false;      ///< an uncaught end-of-run error ends the program with status 0
   double silence_limit_s = 5.0;  ///< wall time after which a thinking client stops counting
 
   /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a

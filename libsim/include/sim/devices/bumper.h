@@ -46,6 +46,10 @@ struct BumperReading final : Reading {
 /// from the first corner to the second.
 [[nodiscard]] std::vector<BumperSegment> segments_round(const Polygon& footprint);
 
+/// The segment as a line of points, its right end first, in the body's frame [m]; of an arc one
+/// every 5 degrees or closer.
+[[nodiscard]] std::vector<Vec2> line_of(const BumperSegment& segment);
+
 /// Distance of a point to the nearest point of a segment [m].
 /// @param p_B  in the body's frame [m].
 [[nodiscard]] double distance_to_segment_m(const BumperSegment& segment, const Vec2& p_B);

@@ -31,6 +31,7 @@ struct FiducialReading final : Reading {
     Pose X_ST;   ///< of its middle and its own axes, seen from the sensor
   };
   std::vector<Mark> marks;
+  Pose X_WS;  ///< where the sensor was (for pictures; not told to clients)
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<FiducialReading>(*this);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/devices/device.h"
+#include "sim/scan/cone.h"
 #include "sim/scan/scan_kernel.h"
 
 namespace sim {
@@ -53,6 +54,7 @@ struct RangerReading final : Reading {
   std::vector<Pose> X_BS;          ///< where each sits on the body, as many
   double range_max_m = 0.0;        ///< as set
   double field_of_view_rad = 0.0;  ///< full angle of each cone; 0: single rays
+  Pose X_WB;                       ///< where the robot was (for pictures; not told to clients)
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<RangerReading>(*this);
@@ -85,7 +87,7 @@ class Ranger final : public Sensor {
   RandomStream noise_;
   double reach_m_ = 0.0;  ///< of the farthest transducer from the middle of the axle
   scan::EdgeBuffer edges_;
-  std::vector<scan::Edge> seen_;  ///< scratch: those that any transducer may see
+  scan::EdgeColumns seen_;  ///< scratch: those that any transducer may see
   RangerReading reading_;
 };
 

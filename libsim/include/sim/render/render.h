@@ -22,7 +22,7 @@ struct RenderOptions {
   int size_px = 1000;  ///< the longer side of the picture, 64..8192; below 200 there is no text
   bool canvas = true;  ///< the grid-map
   bool trails = true;
-  bool scans = true;  ///< laser fans
+  bool scans = true;  ///< laser fans, sonar cones, infrared rays, lines to fiducials
   bool names = true;
   bool legend = true;  ///< scale bar, world name, simulated time, and the visible layers' names
 
@@ -33,7 +33,9 @@ struct RenderOptions {
 /// picture to the next (floor, blocks, borders, texts, cells that nobody drew on) is kept.
 ///
 /// The view modes, all in a picture of one size, which depends on the arena and the options alone:
-/// - ground: floor, canvas on it, docks, obstacles, borders, trails, laser fans, robots. The W axes
+/// - ground: floor, canvas on it, docks, obstacles, borders, trails, laser fans, sonar cones with
+///   an arc where the echo came from, infrared rays, lines to fiducials in view, robots with their
+///   bumpers, pressed segments in red. The W axes
 ///   point right and up. The arena is as large as margins and footer let it; a very narrow one gets
 ///   wider margins, so that the footer has room. A robot too small to be seen is marked by a disc
 ///   of its colour, one that is stalled by a red ring, one that is marked by a dark one. Lights lie

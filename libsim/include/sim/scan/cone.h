@@ -1,7 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "sim/scan/scan_kernel.h"
 
@@ -26,5 +28,22 @@ struct Cone {
 /// @note O(edges), a few nanoseconds each. Safe from many threads.
 [[nodiscard]] double least_range_in_cone_m(std::span<const Edge> edges, const Cone& cone,
                                            double range_max_m);
+
+/// Edges in columns, so that processors look at several at a time: for many cones over the same
+/// edges. Gives the bits that least_range_in_cone_m() of the edges gives.
+/// Not thread-safe (scratch memory); clear() keeps the memory.
+class EdgeColumns {
+ public:
+  void clear() noexcept;
+  void add(const Edge& edge);
+  [[nodiscard]] std::size_t size() const noexcept { return x0_.size(); }
+
+  /// least_range_in_cone_m() of these edges.
+  [[nodiscard]] double least_range_in_cone_m(const Cone& cone, double range_max_m);
+
+ private:
+  std::vector<double> x0_, y0_, x1_, y1_;
+  std::vector<double> within_;  ///< scratch
+};
 
 }  // namespace sim::scan
