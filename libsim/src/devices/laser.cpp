@@ -31,8 +31,11 @@ Laser::Laser(std::string name, const LaserParams& params, bool may_be_inside, Ra
 void Laser::measure(const StepContext& context) {
   stamp(context, reading_);
   const Pose X_WL = context.body.X_WB * params_.X_BL;
+  // A beam more than there are, either way: what is left out is far from every beam.
+  const PhysicsWorld::View view{
+      X_WL.yaw_rad, kernel_.geometry().resolution_rad - kernel_.geometry().angle_min_rad()};
   context.physics.collect_edges(X_WL.position(), params_.range_max_m, params_.height_m,
-                                context.robot, may_be_inside_, edges_);
+                                context.robot, may_be_inside_, edges_, &view);
   kernel_.scan(edges_, X_WL.yaw_rad, reading_.ranges_m);
   if (params_.noise_m > 0.0) {
     for (double& range : reading_.ranges_m) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "physics/feasible_twist.h"
@@ -542,7 +543,9 @@ struct PhysicsWorld::Impl : b2ContactListener {
   void rebuild_robot_edges() {
     robot_edges.clear();
     robot_first_edge.clear();
+    robot_circles.clear();
     for (const Robot& r : robots) {
+      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m});
       robot_first_edge.push_back(robot_edges.edges.size());
       const double c = std::cos(r.X_WB.yaw_rad);
       const double s = std::sin(r.X_WB.yaw_rad);
@@ -634,6 +637,10 @@ struct PhysicsWorld::Impl : b2ContactListener {
   bool sweep = true;
   EdgeList robot_edges;
   std::vector<std::size_t> robot_first_edge;
+  struct Circle {
+    double x, y, radius;
+  };
+  std::vector<Circle> robot_circles;  // round them, for quick refusal
   bool robot_edges_fresh = false;
 
   bool placed = true;  // something was put somewhere since the last step
@@ -918,6 +925,59 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
   out.truncate(begin + count);
 }
 
+// The same without the edges that face away from the sensor. Those that the scan kernel cannot
+// tell about, in single precision, are kept.
+void append_facing_edges(const EdgeList& list, std::size_t first, std::size_t last,
+                         const Vec2& p_WL, double sensor_height_m, scan::EdgeBuffer& out) {
+  constexpr double kDoubt = 1e-6;
+  const std::size_t begin = out.size();
+  scan::Edge* target = out.append(last - first);
+  std::size_t count = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    if (list.heights_m[i] <= sensor_height_m) continue;
+    const Edge& e = list.edges[i];
+    const double x0 = e.x0 - p_WL.x();
+    const double y0 = e.y0 - p_WL.y();
+    const double x1 = e.x1 - p_WL.x();
+    const double y1 = e.y1 - p_WL.y();
+    const double a = x0 * y1;
+    const double b = y0 * x1;
+    target[count] = {static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
+                     static_cast<float>(y1)};
+    count += a - b < kDoubt * (std::abs(a) + std::abs(b)) ? 1 : 0;
+  }
+  out.truncate(begin + count);
+}
+
+// Which circles a sensor cannot see any part of, whatever stands between.
+class BlindSide {
+ public:
+  explicit BlindSide(const PhysicsWorld::View* view) {
+    if (view == nullptr || view->half_angle_rad >= std::numbers::pi) return;
+    narrow_ = view->half_angle_rad <= 0.5 * std::numbers::pi;
+    limited_ = true;
+    const double right_rad = view->yaw_rad - view->half_angle_rad;
+    const double left_rad = view->yaw_rad + view->half_angle_rad;
+    right_ = {std::cos(right_rad), std::sin(right_rad)};
+    left_ = {std::cos(left_rad), std::sin(left_rad)};
+  }
+  /// @param dx, dy  middle of the circle, from the sensor [m].
+  [[nodiscard]] bool holds(double dx, double dy, double radius_m) const {
+    if (!limited_) return false;
+    const double inside_right = right_.x() * dy - right_.y() * dx;
+    const double inside_left = dx * left_.y() - dy * left_.x();
+    const bool past_right = inside_right < -radius_m;
+    const bool past_left = inside_left < -radius_m;
+    return narrow_ ? past_right || past_left : past_right && past_left;
+  }
+
+ private:
+  bool limited_ = false;
+  bool narrow_ = false;  // the view is the part that both of its sides leave, else the rest is
+  Vec2 right_ = Vec2::Zero();
+  Vec2 left_ = Vec2::Zero();
+};
+
 // Calls visit(fixture) for every fixture whose fat box meets the box.
 template <typename Visitor>
 void query(const b2World& world, const Vec2& low, const Vec2& high, Visitor visit) {
@@ -938,7 +998,8 @@ void query(const b2World& world, const Vec2& low, const Vec2& high, Visitor visi
 }  // namespace
 
 void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
-                                 int own_robot, bool test_inside, scan::EdgeBuffer& edges) const {
+                                 int own_robot, bool test_inside, scan::EdgeBuffer& edges,
+                                 const View* view) const {
   Impl& d = *impl_;
   edges.clear();
   if (!d.robot_edges_fresh) d.rebuild_robot_edges();
@@ -953,15 +1014,17 @@ void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double senso
                    sensor_height_m, edges);
     });
   }
-  for (std::size_t i = 0; i < d.robots.size(); ++i) {
+  const BlindSide blind(view);
+  for (std::size_t i = 0; i < d.robot_circles.size(); ++i) {
     if (static_cast<int>(i) == own_robot) continue;
-    const Robot& r = d.robots[i];
-    const double reach = radius_m + r.radius_m;
-    const double dx = r.X_WB.x_m - p_WL.x();
-    const double dy = r.X_WB.y_m - p_WL.y();
-    if (dx * dx + dy * dy > reach * reach) continue;
-    append_edges(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL,
-                 sensor_height_m, edges);
+    const Impl::Circle& circle = d.robot_circles[i];
+    const double reach = radius_m + circle.radius;
+    const double dx = circle.x - p_WL.x();
+    const double dy = circle.y - p_WL.y();
+    if (dx * dx + dy * dy > reach * reach || blind.holds(dx, dy, circle.radius)) continue;
+    const auto append = view == nullptr ? append_edges : append_facing_edges;
+    append(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL, sensor_height_m,
+           edges);
   }
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
 }

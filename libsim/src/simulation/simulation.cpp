@@ -34,6 +34,9 @@ constexpr double kClearanceLimit_m = 10.0;
 // A look at a robot's clearance sees this much farther than the least so far: the farther, the more
 // it costs, and the longer until the next one.
 constexpr double kClearanceLookahead_m = 0.1;
+// Up to so much beyond the least so far it is looked at exactly: a lower bound would be used up
+// sooner.
+constexpr double kClearanceExact_m = 0.05;
 
 struct RobotParts {
   const RobotModel* model = nullptr;
@@ -292,7 +295,7 @@ struct Simulation::Impl {
   void measure_clearance(std::size_t i, double limit_m) {
     RobotParts& robot = robots[i];
     double& least_m = robot.statistics.least_clearance_m;
-    const double exact_below_m = steps == 0 ? limit_m : least_m;
+    const double exact_below_m = steps == 0 ? limit_m : least_m + kClearanceExact_m;
     const double clearance_m = physics->clearance_m(static_cast<int>(i), limit_m, exact_below_m);
     if (steps == 0 || clearance_m < least_m) least_m = clearance_m;
     robot.clearance_slack_m = clearance_m - least_m;

@@ -78,6 +78,7 @@ TEST_F(OnRobot, GoToEndsAtThePoseInTheFrameOfTheIndex) {
   truth->GoTo(player_pose2d_t{9.0, 9.0, 0.0});
   read(200);
   EXPECT_NEAR(truth->GetXPos(), 9.0, 0.011);
+  EXPECT_NEAR(truth->GetYPos(), 9.0, 0.011);
   EXPECT_NEAR(truth->GetYaw(), 0.0, 0.011);
 }
 

@@ -453,8 +453,8 @@ TEST_F(Proxies, AllSpeedsOverloadsDriveTheMotors) {
   Position2dProxy position(&client, 0);
   position.SetSpeed(0.1, 0.2);
   EXPECT_EQ(last_twist(), (sim::Twist{0.1, 0.2, 0.0}));
-  position.SetSpeed(0.2, 9.0, 0.3);  // sideways is ignored
-  EXPECT_EQ(last_twist(), (sim::Twist{0.2, 0.3, 0.0}));
+  position.SetSpeed(0.2, 9.0, 0.3);  // to the side: up to the drive
+  EXPECT_EQ(last_twist(), (sim::Twist{0.2, 0.3, 9.0}));
   const player_pose2d_t speed = {0.3, 0.0, -0.4};
   position.SetSpeed(speed);
   EXPECT_EQ(last_twist(), (sim::Twist{0.3, -0.4, 0.0}));

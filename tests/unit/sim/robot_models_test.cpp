@@ -77,6 +77,27 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
   EXPECT_THAT(names, ElementsAre("car", "epuck", "omni", "pioneer2dx", "pioneer3dx"));
 }
 
+// Robots turn about their axles, which need not be the middle of their bodies.
+TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
+  for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni"}) {
+    SCOPED_TRACE(name);
+    Simulation simulation(world_with(name));
+    const int motion = simulation.find_device(0, "motion").value();
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.0, 2.0}}));
+    for (int i = 0; i < 300; ++i) simulation.step();
+    EXPECT_NEAR(simulation.body(0).X_WB.x_m, 3.0, 1e-9);
+    EXPECT_NEAR(simulation.body(0).X_WB.y_m, 3.0, 1e-9);
+    ASSERT_FALSE(simulation.set_robot_dynamics(0, false));
+    ASSERT_FALSE(simulation.set_robot_dynamics(0, true));
+    ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.1, 0.5}}));
+    for (int i = 0; i < 300; ++i) simulation.step();
+    const int odometry = simulation.find_device(0, "odometry").value();
+    const auto believed = simulation.device(0, odometry).believed_pose().value();
+    EXPECT_NEAR(believed.x_m, simulation.body(0).X_WB.x_m - 3.0, 1e-9);
+    EXPECT_NEAR(believed.y_m, simulation.body(0).X_WB.y_m - 3.0, 1e-9);
+  }
+}
+
 TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
   const std::vector<double> angles_deg = {90,  50,   30,   10,   -10, -30, -50, -90,
                                           -90, -130, -150, -170, 170, 150, 130, 90};

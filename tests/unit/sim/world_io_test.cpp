@@ -346,7 +346,7 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   const std::vector<ConfigIssue> missing = issues_of_file(folder + "/syrotk.json");
   ASSERT_THAT(missing, SizeIs(1));
   EXPECT_EQ(missing[0].id, "file/missing");
-  EXPECT_THAT(missing[0].hint, HasSubstr("syrotek.json"));
+  EXPECT_THAT(missing[0].hint, HasSubstr("cave.json"));
 
   const std::vector<ConfigIssue> a_folder = issues_of_file(folder);
   ASSERT_THAT(a_folder, SizeIs(1));
