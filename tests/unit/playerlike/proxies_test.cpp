@@ -68,14 +68,15 @@ TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
   client.RequestDeviceList();
   const std::list<playerc_device_info_t> list = client.GetDeviceList();
   // graphics2d:0 (pen), laser:0, position2d:0 (pose), position2d:1 (odometry) and the world's
-  // map:0.
+  // log:0, map:0 and simulation:0.
   std::vector<std::string> found;
   for (const playerc_device_info_t& info : list) {
     found.push_back(client.LookupName(info.addr.interf) + ':' + std::to_string(info.addr.index) +
                     ' ' + info.drivername);
   }
   EXPECT_THAT(found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "position2d:0 pose",
-                                 "position2d:1 odometry", "map:0 world"));
+                                 "position2d:1 odometry", "log:0 world", "map:0 world",
+                                 "simulation:0 world"));
 }
 
 TEST_F(Proxies, ClientKeepsItsRetrySettings) {
