@@ -10,6 +10,7 @@
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/error.h"
+#include "sim/devices/aio.h"
 #include "sim/devices/blinkenlight.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
@@ -42,6 +43,7 @@ struct RobotParts {
   const RobotModel* model = nullptr;
   std::vector<std::unique_ptr<Device>> devices;
   std::vector<Sensor*> sensors;  // of devices, by device index; nullptr for actuators
+  std::vector<bool> last;        // by device index: looks at others' readings, so comes after them
   Motion* motion = nullptr;      // the first of each, if any
   Pen* pen = nullptr;
   RobotStatistics statistics;
@@ -120,6 +122,7 @@ struct Simulation::Impl {
       parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
       Device* made = parts.devices.back().get();
       parts.sensors.push_back(dynamic_cast<Sensor*>(made));
+      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr);
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
@@ -215,6 +218,7 @@ struct Simulation::Impl {
       farthest_move_m = std::max(farthest_move_m, move_m(i, dt_s));
     }
     for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
+    for (std::size_t i = 0; i < robots.size(); ++i) update_devices(i, true);
   }
 
   std::optional<std::string> place(std::size_t i, const Pose& X_WB) {
@@ -266,8 +270,16 @@ struct Simulation::Impl {
     if (body.stalled) robot.statistics.stalled_time_s += dt_s;
     update_clearance(i, dt_s);
     if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, layers.base());
-    const StepContext context{now_ns, body, *physics, index, world};
+    update_devices(i, false);
+  }
+
+  // Of a robot's devices those that come last, or the others.
+  void update_devices(std::size_t i, bool last) {
+    RobotParts& robot = robots[i];
+    const int index = static_cast<int>(i);
+    const StepContext context{now_ns, physics->body(index), *physics, index, world};
     for (std::size_t k = 0; k < robot.devices.size(); ++k) {
+      if (robot.last[k] != last) continue;
       robot.devices[k]->integrate(context);
       if (robot.sensors[k] != nullptr && robot.sensors[k]->update(context)) {
         updated.push_back({index, static_cast<int>(k)});

@@ -25,6 +25,7 @@ namespace {
 
 using namespace PlayerCc;
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 
 constexpr const char* kWorld = R"({
@@ -239,6 +240,45 @@ TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
   std::int32_t on = 0;
   EXPECT_EQ(error_of([&] { simulation.SetProperty("d1", "state", &on, 4); }).GetErrorCode(),
             PlayerError::kNotAvailable);
+}
+
+// With tokens, who may not command a robot does not move it, and only who may command all moves
+// what is nobody's.
+TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
+  const auto host = playerlike::Host::create(sim::load_world_text(kWorld));
+  playerlike::ServerSettings settings;
+  settings.port = 0;
+  settings.access.server_token = "open-sesame";
+  settings.access.robot_tokens["r2"] = "second-robot";
+  const playerlike::Server server(host, settings);
+  const std::string name = "tcp://127.0.0.1:" + std::to_string(server.port());
+  const auto with_token = [&](const char* token) {
+    setenv("PLAYPEN_TOKEN", token, 1);
+    auto client = std::make_unique<PlayerClient>(playerlike::open_session(name, 6665));
+    unsetenv("PLAYPEN_TOKEN");
+    return client;
+  };
+  const auto refused = [](auto action) {
+    EXPECT_THAT(error_of(action).GetErrorStr(), AnyOf(HasSubstr("token"), HasSubstr("all robots")));
+  };
+  const auto some = with_token("open-sesame");
+  SimulationProxy simulation(some.get(), 0);
+  simulation.SetPose2d("r1", 0.5, 0.5, 0.0);
+  refused([&] { simulation.SetPose2d("r2", 0.5, 1.5, 0.0); });
+  refused([&] { simulation.SetPose2d("b", 3.5, 1.0, 0.0); });
+  std::int32_t off = 0;
+  refused([&] { simulation.SetProperty("d", "state", &off, sizeof off); });
+  double x = 0.0;
+  double y = 0.0;
+  double a = 0.0;
+  simulation.GetPose2d("r2", x, y, a);
+  EXPECT_EQ(x, 2.0);
+  const auto other = with_token("second-robot");
+  LogProxy log(other.get(), 0);
+  log.QueryState();
+  refused([&] { log.SetWriteState(1); });  // r1's
+  const auto all = with_token("open-sesame,second-robot");
+  SimulationProxy(all.get(), 0).SetPose2d("b", 3.5, 1.0, 0.0);
 }
 
 // --- the map in tiles

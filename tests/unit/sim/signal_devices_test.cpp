@@ -128,13 +128,13 @@ TEST(Dio, RefusesWiresThatEndNowhere) {
 
 TEST(Aio, ShowsConstantsSpeedsBatteryRangesAndOutputs) {
   Simulation simulation = two_robots(
-      R"("battery": {"initial_charge": 100, "idle_power": 0}, "zaio": {"type": "aio", "inputs":
-         [5, "speed", "battery", "laser.341", "zaio.1", "r2.aio.0", "turn_rate"]})",
+      R"("battery": {"initial_charge": 100, "idle_power": 0}, "abc": {"type": "aio", "inputs":
+         [5, "speed", "battery", "laser.341", "abc.1", "r2.aio.0", "turn_rate"]})",
       R"("aio": {})");
-  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "zaio"), AnalogOutputCommand{1, -2.5}));
+  ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "abc"), AnalogOutputCommand{1, -2.5}));
   ASSERT_FALSE(simulation.apply(id_of(simulation, 1, "aio"), AnalogOutputCommand{0, 1.25}));
   run(simulation, 10);
-  const std::vector<double>& volts = device<Aio>(simulation, 0, "zaio").reading().inputs_v;
+  const std::vector<double>& volts = device<Aio>(simulation, 0, "abc").reading().inputs_v;
   ASSERT_EQ(volts.size(), 7U);
   EXPECT_EQ(volts[0], 5.0);
   EXPECT_EQ(volts[1], 0.0);
@@ -148,8 +148,8 @@ TEST(Aio, ShowsConstantsSpeedsBatteryRangesAndOutputs) {
               HasSubstr("no output 2"));
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.2, 0.5}}));
   run(simulation, 10);
-  EXPECT_NEAR(device<Aio>(simulation, 0, "zaio").reading().inputs_v[1], 0.2, 1e-9);
-  EXPECT_NEAR(device<Aio>(simulation, 0, "zaio").reading().inputs_v[6], 0.5, 1e-9);
+  EXPECT_NEAR(device<Aio>(simulation, 0, "abc").reading().inputs_v[1], 0.2, 1e-9);
+  EXPECT_NEAR(device<Aio>(simulation, 0, "abc").reading().inputs_v[6], 0.5, 1e-9);
 }
 
 TEST(Aio, ScattersByItsNoise) {
