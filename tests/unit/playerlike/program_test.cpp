@@ -92,6 +92,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   settings.view_mode = sim::ViewMode::kMiniMap;
   settings.progress = true;
   settings.quiet_end = true;
+  settings.virtual_time = true;
   const ScopedEnvironment environment(run_environment("/world.json", settings));
   const RunSettings read = RunSettings::from_environment();
   EXPECT_EQ(read.seed, settings.seed);
@@ -106,6 +107,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(read.view_mode, settings.view_mode);
   EXPECT_EQ(read.progress, settings.progress);
   EXPECT_EQ(read.quiet_end, settings.quiet_end);
+  EXPECT_EQ(read.virtual_time, settings.virtual_time);
 }
 
 TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
