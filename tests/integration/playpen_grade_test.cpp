@@ -272,6 +272,9 @@ TEST_F(PlaypenGrade, FindsTheTasksThatAreInstalledBesideIt) {
   const std::string command = folder_.write("bin/playpen", "");
   fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
   fs::permissions(command, fs::perms::owner_all);
+  const fs::path libraries = fs::path(PLAYPEN_COMMAND).parent_path() / "../lib/playpen";
+  fs::create_directories(folder_ / "lib");
+  fs::copy(libraries, folder_ / "lib/playpen");
   folder_.write("share/playpen/worlds/tasks/room.json", room_world());
   folder_.write("share/playpen/worlds/tasks/mine.task.json",
                 R"({"worlds": ["room.json"], "duration": 1})");

@@ -61,11 +61,11 @@ void expect_equal(const Files& remote, const Files& expected) {
 
 class RemotePrograms : public testing::Test {
  protected:
-  /// `playpen run WORLD OPTIONS -- PROGRAM`.
+  /// `playpen run WORLD OPTIONS -- PROGRAM`, with time as programs across a network have it.
   [[nodiscard]] ProcessResult run(const std::string& world, Words options, const Words& program) {
     const std::string out = folder_ / "run";
     options.insert(options.begin(), {"run", world});
-    options.insert(options.end(), {"--quiet", "--out", out, "--"});
+    options.insert(options.end(), {"--real-sleep", "--quiet", "--out", out, "--"});
     options.insert(options.end(), program.begin(), program.end());
     const ProcessResult result = playpen(options);
     files_ = files_of(out);
