@@ -71,7 +71,7 @@ for mode in ground mini-map full-screen; do
   take "view-$mode/snapshots/scene_000045.000s.png" "view_${mode//-/_}"
 done
 
-run cave cave -- "$bin/../tests/compat/programs/bin/compat_four_ports"
+run worlds/cave.json cave -- "$bin/../tests/compat/programs/bin/compat_four_ports"
 take cave/scene.png cave
 
 run default snd -- "$bin/docs_snd_snd_goals"
