@@ -228,8 +228,8 @@ TEST_F(Morse, PropertiesAreTheWorldFiles) {
   EXPECT_DOUBLE_EQ(properties.GetInitialPose().px, 0.5);
   EXPECT_DOUBLE_EQ(properties.GetSize().sl, 0.174);
   // The proxies table gives the laser index 7; position2d has the robot's number.
-  EXPECT_THAT(properties.GetProxyIndexes(),
-              ElementsAre(Pair("graphics2d", 0), Pair("laser", 7), Pair("position2d", 0)));
+  EXPECT_THAT(properties.GetProxyIndexes(), ElementsAre(Pair("graphics2d", 0), Pair("laser", 7),
+                                                        Pair("position2d", 0), Pair("ranger", 0)));
   EXPECT_EQ(properties.GetProxyIndex("laser"), 7);
   EXPECT_EQ(properties.GetProxyIndex("sonar"), -1);
   EXPECT_THAT(properties.GetDriverNames(), ElementsAre("snd"));
@@ -433,15 +433,20 @@ TEST_F(MorseAddedSensors, SonarShowsItsTransducersAndRanges) {
   EXPECT_EQ(sonar.GetLeastIndex(), 1U);
 }
 
-TEST_F(MorseAddedSensors, AreToldOfButNoPlayerInterfaceCarriesThem) {
+TEST_F(MorseAddedSensors, AreToldOfAndHavePlayersInterfacesWherePlayerKnowsSuch) {
   EXPECT_THAT(robot.GetDeviceNames(),
               ElementsAre("back", "battery", "collision", "infrared", "laser", "motion", "odometry",
                           "pen", "pose", "proximity", "sonar"));
   EXPECT_DOUBLE_EQ(robot.GetDevice("sonar").properties.at("count"), 2.0);
   const auto session = host->connect(playerlike::kMorsePort);
+  std::vector<std::string> addresses;
   for (const auto& address : playerlike::list_interfaces(session->robots(), 4000)) {
-    EXPECT_THAT(address.device, testing::AnyOf("laser", "pen", "pose", "world"));
+    if (address.robot == robot.GetName()) {
+      addresses.push_back(address.interface + ' ' + address.device);
+    }
   }
+  EXPECT_THAT(addresses, ElementsAre("graphics2d pen", "ir back", "laser laser", "position2d pose",
+                                     "power battery", "ranger laser", "sonar sonar"));
 }
 
 // --- Over a simulation
