@@ -62,11 +62,11 @@ double distance_to_segment_m(const BumperSegment& segment, const Vec2& p_B) {
   return (Vec2(from_center.x(), std::abs(from_center.y())) - end).norm();
 }
 
-void press_segments(const std::vector<BumperSegment>& segments, double reach_m, const Vec2& from_B,
-                    const Vec2& to_B, std::vector<std::uint8_t>& pressed) {
-  const int steps = std::max(1, static_cast<int>(std::ceil((to_B - from_B).norm() / kStep_m)));
+void press_segments(const std::vector<BumperSegment>& segments, double reach_m, const Vec2& p_BA,
+                    const Vec2& p_BC, std::vector<std::uint8_t>& pressed) {
+  const int steps = std::max(1, static_cast<int>(std::ceil((p_BC - p_BA).norm() / kStep_m)));
   for (int step = 0; step <= steps; ++step) {
-    const Vec2 p_B = from_B + (to_B - from_B) * (static_cast<double>(step) / steps);
+    const Vec2 p_B = p_BA + (p_BC - p_BA) * (static_cast<double>(step) / steps);
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const BumperSegment& segment : segments) {
       nearest_m = std::min(nearest_m, distance_to_segment_m(segment, p_B));
@@ -90,7 +90,7 @@ void Bumper::integrate(const StepContext& context) {
   if (touches.empty()) return;
   const Pose X_BW = context.body.X_WB.inverse();
   for (const PhysicsWorld::Touch& touch : touches) {
-    press_segments(params_.segments, params_.reach_m, X_BW * touch.from_W, X_BW * touch.to_W,
+    press_segments(params_.segments, params_.reach_m, X_BW * touch.p_WA, X_BW * touch.p_WC,
                    pressed_);
   }
 }

@@ -9,9 +9,9 @@
 namespace sim {
 
 std::array<double, 3> field_in_body_ut(const ImuParams& params, double yaw_rad) {
-  const double north_B = params.north_rad - yaw_rad;
-  return {params.field_horizontal_ut * std::cos(north_B),
-          params.field_horizontal_ut * std::sin(north_B), -params.field_down_ut};
+  const double north_rad = params.north_rad - yaw_rad;
+  return {params.field_horizontal_ut * std::cos(north_rad),
+          params.field_horizontal_ut * std::sin(north_rad), -params.field_down_ut};
 }
 
 Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream noise)

@@ -1033,8 +1033,8 @@ bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_rob
   return impl_->inside_solid(p_W, height_m, own_robot);
 }
 
-bool PhysicsWorld::is_line_free(const Vec2& from_W, const Vec2& to_W, double height_m,
-                                int own_robot, const Contact& target) const {
+bool PhysicsWorld::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
+                                const Contact& target) const {
   struct Blocked : b2RayCastCallback {
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
       const FixtureInfo& info = info_of(fixture);
@@ -1055,8 +1055,8 @@ bool PhysicsWorld::is_line_free(const Vec2& from_W, const Vec2& to_W, double hei
   callback.target_kind = target.kind;
   callback.target_index = target.index;
   // Box2D takes no line without a length.
-  if ((to_W - from_W).squaredNorm() <= 0.0) return true;
-  impl_->world.RayCast(&callback, to_box2d(from_W), to_box2d(to_W));
+  if ((p_WC - p_WA).squaredNorm() <= 0.0) return true;
+  impl_->world.RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
   return !callback.blocked;
 }
 

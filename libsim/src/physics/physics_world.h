@@ -66,8 +66,8 @@ class PhysicsWorld {
   /// one where only a corner touches. In W [m].
   struct Touch {
     int robot;
-    Vec2 from_W;
-    Vec2 to_W;
+    Vec2 p_WA;
+    Vec2 p_WC;
   };
   /// Where a robot touches something now, or began to in the last step. A contact that both goes on
   /// and began is listed twice; no particular order.
@@ -109,7 +109,7 @@ class PhysicsWorld {
   /// A solid that the line begins in does not count.
   /// @param own_robot  robot whose body does not count, or -1.
   /// @param target     what does not count either: an obstacle or a robot; its `robot` is ignored.
-  [[nodiscard]] bool is_line_free(const Vec2& from_W, const Vec2& to_W, double height_m,
+  [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
                                   int own_robot, const Contact& target) const;
 
   void hash(StateHash& hash) const;

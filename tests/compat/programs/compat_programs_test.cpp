@@ -56,7 +56,7 @@ std::vector<Case> cases() {
       {"globals", kCave, {"after main"}, 1.0},
       {"goto_goal", kPioneer, {"3 goals reached"}, 2.5, 5.0},
       {"infrared", "examples/epuck.json", {"8 sensors", "highest voltage"}, 0.5},
-      {"instruments", kCave, {"charge"}, 1.8, 2.2},
+      {"instruments", kOffice, {"charge"}, 1.8, 2.2},
       {"logger", kPioneer, {"position2d:0", "laser:0"}, 1.8, 2.2, 0, 1, {"log.txt"}},
       {"map_reader", kOffice, {"occupied", "#"}, 0.0, 0.01, 0, 0},
       {"never_deleted", kPioneer, {"stopped at"}, 0.3},

@@ -434,17 +434,19 @@ TEST_F(MorseAddedSensors, SonarShowsItsTransducersAndRanges) {
   EXPECT_EQ(sonar.GetLeastIndex(), 1U);
 }
 
-TEST_F(MorseAddedSensors, AreToldOfAndOneOfEachInterfaceIsSeenOnMorsesPort) {
+TEST_F(MorseAddedSensors, AreToldOfAndHavePlayersInterfacesWherePlayerKnowsSuch) {
   EXPECT_THAT(robot.GetDeviceNames(),
               ElementsAre("back", "battery", "collision", "infrared", "laser", "motion", "odometry",
                           "pen", "pose", "proximity", "sonar"));
   EXPECT_DOUBLE_EQ(robot.GetDevice("sonar").properties.at("count"), 2.0);
   const auto session = host->connect(playerlike::kMorsePort);
-  std::vector<std::string> found;
+  std::vector<std::string> addresses;
   for (const auto& address : playerlike::list_interfaces(session->robots(), 4000)) {
-    if (address.device != "world") found.push_back(address.interface + ' ' + address.device);
+    if (address.robot == robot.GetName()) {
+      addresses.push_back(address.interface + ' ' + address.device);
+    }
   }
-  EXPECT_THAT(found,
+  EXPECT_THAT(addresses,
               ElementsAre("graphics2d pen", "ir back", "laser laser", "localize pose",
                           "position2d pose", "power battery", "ranger laser", "sonar sonar"));
 }

@@ -346,12 +346,12 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   const std::vector<ConfigIssue> missing = issues_of_file(folder + "/syrotk.json");
   ASSERT_THAT(missing, SizeIs(1));
   EXPECT_EQ(missing[0].id, "file/missing");
-  EXPECT_THAT(missing[0].hint, HasSubstr("cave.json"));
+  EXPECT_THAT(missing[0].hint, HasSubstr("syrotek.json"));
 
   const std::vector<ConfigIssue> a_folder = issues_of_file(folder);
   ASSERT_THAT(a_folder, SizeIs(1));
   EXPECT_EQ(a_folder[0].id, "file/not-a-file");
-  EXPECT_THAT(a_folder[0].hint, HasSubstr("syrotek.json"));
+  EXPECT_THAT(a_folder[0].hint, HasSubstr("cave.json"));
 
   // Endless, but read to the limit only.
   const std::vector<ConfigIssue> endless = issues_of_file("/dev/zero");

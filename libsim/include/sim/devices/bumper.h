@@ -57,10 +57,10 @@ struct BumperReading final : Reading {
 /// Which segments a touch presses: from each point of it the segment nearest to it, if that is not
 /// farther than `reach_m`, and each that is at most 1 mm farther than that one, so that a touch at
 /// the joint of two presses both. The touch is looked at every 5 mm and at its ends.
-/// @param from_B, to_B  ends of the touch, in the body's frame [m]; equal for one at a point.
+/// @param p_BA, p_BC  ends of the touch, in the body's frame [m]; equal for one at a point.
 /// @param pressed       one a segment; set to 1 where the touch presses, else left alone.
-void press_segments(const std::vector<BumperSegment>& segments, double reach_m, const Vec2& from_B,
-                    const Vec2& to_B, std::vector<std::uint8_t>& pressed);
+void press_segments(const std::vector<BumperSegment>& segments, double reach_m, const Vec2& p_BA,
+                    const Vec2& p_BC, std::vector<std::uint8_t>& pressed);
 
 /// Segments round the footprint that feel what touches it. They are looked at in each step, so
 /// that a touch which begins and ends between two readings is told in the second. Touching is what
