@@ -351,7 +351,7 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   const std::vector<ConfigIssue> a_folder = issues_of_file(folder);
   ASSERT_THAT(a_folder, SizeIs(1));
   EXPECT_EQ(a_folder[0].id, "file/not-a-file");
-  EXPECT_THAT(a_folder[0].hint, HasSubstr("cave.json"));
+  EXPECT_THAT(a_folder[0].hint, HasSubstr("cave.json"));  // the first one in it
 
   // Endless, but read to the limit only.
   const std::vector<ConfigIssue> endless = issues_of_file("/dev/zero");
