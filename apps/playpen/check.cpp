@@ -44,6 +44,7 @@ int check(const std::vector<std::string>& worlds) {
       const sim::WorldDescription description = sim::load_world(find_world(world));
       playerlike::check_drivers(description);
       playerlike::check_interfaces(description);
+      const sim::Simulation wired(description);  // what devices are wired to is looked up there
       const std::string what = describe(description);
       std::cout << world << ": ok (" << what << ")\n";
     } catch (const sim::ConfigError& error) {

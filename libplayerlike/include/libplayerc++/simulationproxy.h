@@ -59,11 +59,14 @@ class SimulationProxy : public ClientProxy {
                  double& pitch, double& yaw, double& time) {
     GetPose3d(const_cast<char*>(identifier), x, y, z, roll, pitch, yaw, time);
   }
-  void GetProperty(const char* identifier, const char* name, void* value, size_t value_len) {
-    GetProperty(const_cast<char*>(identifier), const_cast<char*>(name), value, value_len);
+  // Templates, as either name may be a literal.
+  template <typename Identifier, typename Name, typename Value>
+  void GetProperty(Identifier identifier, Name name, Value* value, size_t value_len) {
+    GetProperty(Text(identifier), Text(name), static_cast<void*>(value), value_len);
   }
-  void SetProperty(const char* identifier, const char* name, const void* value, size_t value_len) {
-    SetProperty(const_cast<char*>(identifier), const_cast<char*>(name), const_cast<void*>(value),
+  template <typename Identifier, typename Name, typename Value>
+  void SetProperty(Identifier identifier, Name name, Value* value, size_t value_len) {
+    SetProperty(Text(identifier), Text(name), const_cast<void*>(static_cast<const void*>(value)),
                 value_len);
   }
 
@@ -71,6 +74,9 @@ class SimulationProxy : public ClientProxy {
   void Subscribe(uint32_t aIndex) override;
   void Unsubscribe() override;
   bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+
+ private:
+  static char* Text(const char* aText) { return const_cast<char*>(aText); }
 };
 
 }  // namespace PlayerCc

@@ -144,6 +144,14 @@ TEST_P(WorldProxies, TellAndChangeProperties) {
   std::uint32_t packed = 0;
   simulation.GetProperty("r1", "color", &packed, sizeof packed);
   EXPECT_EQ(packed, 0xff00ff00U);
+  // Whichever of the names is a literal, the call is clear, and so are pointers to members.
+  char object[] = "r1";
+  char colour[] = "color";
+  simulation.GetProperty(object, "color", static_cast<void*>(&packed), sizeof packed);
+  simulation.GetProperty("r1", colour, static_cast<void*>(&packed), sizeof packed);
+  simulation.SetProperty(object, "color", static_cast<void*>(&packed), sizeof packed);
+  void (SimulationProxy::*member)(char*, char*, void*, std::size_t) = &SimulationProxy::SetProperty;
+  (simulation.*member)(object, colour, &green, sizeof green);
   double rgba[4] = {1.0, 0.5, 0.0, 1.0};
   simulation.SetProperty("b", "colour", rgba, sizeof rgba);
   char text[32];
@@ -221,7 +229,9 @@ TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
   EXPECT_THAT(set("b", "colour", 8), HasSubstr("#rrggbb"));
   EXPECT_THAT(set("b", "size", 16), HasSubstr("0.001"));
   EXPECT_THAT(set("b", "pose", 7), HasSubstr("value_len is 7"));
-  EXPECT_EQ(error_of([&] { simulation.GetProperty("r1", "pose", nullptr, 24); }).GetErrorCode(),
+  EXPECT_EQ(error_of([&] {
+              simulation.GetProperty("r1", "pose", static_cast<void*>(nullptr), 24);
+            }).GetErrorCode(),
             PlayerError::kBadArgument);
 }
 
