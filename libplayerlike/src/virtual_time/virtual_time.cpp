@@ -200,6 +200,10 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
     const ThinkerId thinker = new_thinker();
     const std::lock_guard lock(lists_mutex);
     if (Host* const host = attached.load()) {
+      // The one that starts it, too, or it would be chance how far the new one gets meanwhile.
+      remember_thread();
+      VirtualTimeAccess::core(*host).add_thread(this_thinker());
+      VirtualTimeAccess::core(*host).note_thread_begun();
       VirtualTimeAccess::core(*host).add_thread(thinker);
     } else {
       early_threads().push_back(thinker);
