@@ -257,15 +257,15 @@ void on_signalled(const void* what, int all) {
   VirtualTimeAccess::core(*host).call_back(what, all != 0);
 }
 
-constexpr playpen_virtual_time_hooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,
-                                               on_sleep,
-                                               on_now,
-                                               on_begin_thread,
-                                               on_thread_begun,
-                                               on_thread_failed,
-                                               on_begin_wait,
-                                               on_end_wait,
-                                               on_signalled};
+constexpr PlaypenVirtualTimeHooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,
+                                            on_sleep,
+                                            on_now,
+                                            on_begin_thread,
+                                            on_thread_begun,
+                                            on_thread_failed,
+                                            on_begin_wait,
+                                            on_end_wait,
+                                            on_signalled};
 
 int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
   program_begin = UINTPTR_MAX;
@@ -285,7 +285,7 @@ __attribute__((constructor(101))) void register_hooks() {
   if (found == nullptr) return;
   static_cast<void>(this_thinker());  // the main thread is the first
   dl_iterate_phdr(note_program, nullptr);
-  registered = reinterpret_cast<playpen_virtual_time_register_t>(found)(&kHooks) != 0;
+  registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(&kHooks) != 0;
 }
 
 }  // namespace
