@@ -25,7 +25,7 @@ fs::path find_library() {
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   std::string places;
   for (const char* place : {PLAYPEN_LIBRARIES_FROM_COMMAND, "../lib"}) {
-    const fs::path file = (folder / place / "playpen" / kName).lexically_normal();
+    fs::path file = (folder / place / "playpen" / kName).lexically_normal();
     if (fs::is_regular_file(file, error)) return file;
     if (places.empty()) places = file.string();
   }

@@ -11,7 +11,7 @@ extern "C" {
 /// What Playpen does for the functions that the preloaded library stands in for. None throws, and
 /// all are called by the thread that called such a function. `caller` is the address that it was
 /// called from.
-struct playpen_virtual_time_hooks {
+struct PlaypenVirtualTimeHooks {
   int version;  ///< PLAYPEN_VIRTUAL_TIME_VERSION
   /// Lets simulated time pass for the calling thread [ns], > 0.
   /// @return 1 if it did; 0: the thread is to wait for real.
@@ -31,14 +31,14 @@ struct playpen_virtual_time_hooks {
   /// (`what` is its pthread_t), or a condition variable or semaphore there.
   /// @return 1 if end_wait() is to be called after that.
   int (*begin_wait)(const void* what);
-  void (*end_wait)(void);
+  void (*end_wait)();
   /// The calling thread is about to wake one who waits for that, or all.
   void (*signalled)(const void* what, int all);
 };
 
 /// Offered by the preloaded library: gives it the hooks, which are to live for ever.
 /// @return 1, or 0 if the versions do not match.
-typedef int (*playpen_virtual_time_register_t)(const struct playpen_virtual_time_hooks* hooks);
+using PlaypenVirtualTimeRegister = int (*)(const PlaypenVirtualTimeHooks* hooks);
 
 }  // extern "C"
 

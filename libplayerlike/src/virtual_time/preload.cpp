@@ -38,9 +38,9 @@ constexpr long long kSecond_ns = 1'000'000'000;
 // How long a wait for another thread sleeps before it looks again.
 constexpr long long kSlice_ns = 10'000'000;
 
-std::atomic<const playpen_virtual_time_hooks*> hooks{nullptr};
+std::atomic<const PlaypenVirtualTimeHooks*> hooks{nullptr};
 
-const playpen_virtual_time_hooks* playpen() { return hooks.load(std::memory_order_acquire); }
+const PlaypenVirtualTimeHooks* playpen() { return hooks.load(std::memory_order_acquire); }
 
 void forget_playpen() { hooks.store(nullptr); }
 
@@ -293,7 +293,7 @@ int wait_by_trying(const timespec& deadline, clockid_t clock, const void* caller
 
 }  // namespace
 
-EXPORTED int playpen_virtual_time_register(const playpen_virtual_time_hooks* table) {
+EXPORTED int playpen_virtual_time_register(const PlaypenVirtualTimeHooks* table) {
   if (table->version != PLAYPEN_VIRTUAL_TIME_VERSION) return 0;
   // A forked child has none of the simulation's threads.
   if (playpen() == nullptr) pthread_atfork(nullptr, nullptr, forget_playpen);
@@ -381,6 +381,7 @@ EXPORTED int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout,
 }
 
 // What poll and ppoll are in programs built with _FORTIFY_SOURCE.
+// NOLINTBEGIN(readability-identifier-naming): the C library's names
 EXPORTED int __poll_chk(pollfd* descriptors, nfds_t count, int timeout_ms, std::size_t size) {
   if (count == 0 && timeout_ms >= 0 &&
       sleep_cancellably(at_least_one(timeout_ms * 1'000'000LL), CALLER)) {
@@ -397,6 +398,7 @@ EXPORTED int __ppoll_chk(pollfd* descriptors, nfds_t count, const timespec* time
   }
   return next_ppoll_chk(descriptors, count, timeout, mask, size);
 }
+// NOLINTEND(readability-identifier-naming)
 
 // --- Clocks
 

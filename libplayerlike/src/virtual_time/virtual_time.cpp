@@ -200,6 +200,10 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
     const ThinkerId thinker = new_thinker();
     const std::lock_guard lock(lists_mutex);
     if (Host* const host = attached.load()) {
+      // The one that starts it, too, or it would be chance how far the new one gets meanwhile.
+      remember_thread();
+      VirtualTimeAccess::core(*host).add_thread(this_thinker());
+      VirtualTimeAccess::core(*host).note_thread_begun();
       VirtualTimeAccess::core(*host).add_thread(thinker);
     } else {
       early_threads().push_back(thinker);
@@ -253,15 +257,15 @@ void on_signalled(const void* what, int all) {
   VirtualTimeAccess::core(*host).call_back(what, all != 0);
 }
 
-constexpr playpen_virtual_time_hooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,
-                                               on_sleep,
-                                               on_now,
-                                               on_begin_thread,
-                                               on_thread_begun,
-                                               on_thread_failed,
-                                               on_begin_wait,
-                                               on_end_wait,
-                                               on_signalled};
+constexpr PlaypenVirtualTimeHooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,
+                                            on_sleep,
+                                            on_now,
+                                            on_begin_thread,
+                                            on_thread_begun,
+                                            on_thread_failed,
+                                            on_begin_wait,
+                                            on_end_wait,
+                                            on_signalled};
 
 int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
   program_begin = UINTPTR_MAX;
@@ -281,7 +285,7 @@ __attribute__((constructor(101))) void register_hooks() {
   if (found == nullptr) return;
   static_cast<void>(this_thinker());  // the main thread is the first
   dl_iterate_phdr(note_program, nullptr);
-  registered = reinterpret_cast<playpen_virtual_time_register_t>(found)(&kHooks) != 0;
+  registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(&kHooks) != 0;
 }
 
 }  // namespace
