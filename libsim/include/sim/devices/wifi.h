@@ -34,17 +34,18 @@ struct WifiParams {
 
 /// Links to robots and access points in reach.
 struct WifiReading final : Reading {
+  /// A station that is heard.
   struct Link {
     std::string name;  ///< robot or network
     std::string mac;   ///< "02:..:..", six pairs of hexadecimal digits
     std::string ip;    ///< "10.0.0.1"
     bool access_point = false;
-    double level_dbm = 0.0;
+    double level_dbm = 0.0;  ///< received power [dBm]
   };
-  std::vector<Link> links;  ///< robots in order of the world, then access points
-  std::string own_ip;
-  double floor_dbm = 0.0;
-  double channel_mhz = 0.0;
+  std::vector<Link> links;   ///< robots in order of the world, then access points
+  std::string own_ip;        ///< this robot's own address
+  double floor_dbm = 0.0;    ///< noise of the channel [dBm]
+  double channel_mhz = 0.0;  ///< carrier [MHz]
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<WifiReading>(*this);
