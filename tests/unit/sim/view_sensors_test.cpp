@@ -311,7 +311,10 @@ TEST(Imu, AccelerationsAddUpToTheSpeed) {
   for (int i = 0; i < 10; ++i) {
     run(simulation, 10);
     const double a = reading<ImuReading>(simulation, "imu").acceleration_mps2[0];
-    if (i < 5) EXPECT_NEAR(a, 0.5, 1e-6) << i;  // 0.6 s to 0.3 m/s
+    // 0.6 s to 0.3 m/s
+    if (i < 5) {
+      EXPECT_NEAR(a, 0.5, 1e-6) << i;
+    }
     speed += 0.1 * a;
   }
   EXPECT_NEAR(speed, 0.3, 1e-9);
