@@ -76,14 +76,14 @@ struct Sonars {
 
   Sonars()
       : params([] {
-          SonarParams ring;
-          ring.range_max_m = 5.0;
-          ring.X_BS.clear();
+          SonarParams p;
+          p.range_max_m = 5.0;
+          p.X_BS.clear();
           for (int i = 0; i < kCount; ++i) {
             const double yaw = normalize_angle(2.0 * std::numbers::pi * i / kCount);
-            ring.X_BS.push_back({0.07 * std::cos(yaw), 0.07 * std::sin(yaw), yaw});
+            p.X_BS.push_back({0.07 * std::cos(yaw), 0.07 * std::sin(yaw), yaw});
           }
-          return ring;
+          return p;
         }()),
         ring("sonar", "sonar", params, false, RandomStream(1, "bench")),
         kernel({121, params.field_of_view_rad / 120.0, params.range_max_m}),
