@@ -452,21 +452,29 @@ void Host::Core::note_silence() {
 }
 
 // A thread that the system has put to sleep for something else than simulated time, another thread
-// or a key, holds up nobody meanwhile. One that computes, or waits for a processor, does.
+// or a key, holds up nobody meanwhile. One that computes, or waits for a processor, does; and as
+// long as there is one, it may be whom the others wait for, so none counts as blocked.
 void Host::Core::note_blocked_threads() {
   if (paced_ || over()) return;
   const auto now = WallClock::now();
+  std::vector<Client*> blocked;
+  bool others_think = false;
   for (const auto& c : clients_) {
-    if (!c->joined || c->silent || c->waiting || c->owner_thread == 0 || thinker_waits(c->owner)) {
-      continue;
-    }
-    const auto switches = sleeps_since(c->owner_thread);
+    if (!c->joined || c->silent || c->waiting || thinker_waits(c->owner)) continue;
+    // A thread without a number is only just being started.
+    const auto switches = c->owner_thread == 0 ? std::nullopt : sleeps_since(c->owner_thread);
     if (!switches || !c->blocked_since || *switches != c->blocked_switches) {
       c->blocked_since = switches ? std::optional(now) : std::nullopt;
       c->blocked_switches = switches.value_or(0);
-      continue;
+      others_think = true;
+    } else if (now - *c->blocked_since < kBlocked) {
+      others_think = true;
+    } else {
+      blocked.push_back(c.get());
     }
-    if (now - *c->blocked_since < kBlocked) continue;
+  }
+  if (others_think) return;
+  for (Client* c : blocked) {
     if (c->starts_background && !mode_chosen_) {
       return start_pacing(
           "the program reads in the background (StartThread) while its own thread waits for "
