@@ -14,6 +14,7 @@
 #define IMR_LOGGING_NO_SHORT_NAMES
 #include "imr-h/logging.h"
 #include "type_name.h"
+#include "virtual_time/virtual_time.h"
 
 namespace imr::concurrent {
 
@@ -75,6 +76,7 @@ void CThread::execute() {
   }
   state_->running = true;
   try {
+    const playerlike::virtual_time::StartsForProgram scope;
     state_->thread = std::thread(&CThread::run, this, state_);
   } catch (const std::system_error& error) {
     state_->running = false;

@@ -40,6 +40,7 @@ constexpr long long kStepBefore_ns = 10'000'000;
 /// time.
 struct ThreadState {
   int inside = 0;
+  int starts_for_program = 0;
   bool ended = false;
   bool takes_part = false;
   bool programs = false;        ///< started by the program's own code
@@ -196,7 +197,10 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
   if (thread.inside > 0 || thread.ended || given_up.load(std::memory_order_acquire)) return 0;
   const Inside inside;
   try {
-    if (!is_programs_code(code_of_thread(caller, start, argument))) return 0;
+    if (thread.starts_for_program == 0 &&
+        !is_programs_code(code_of_thread(caller, start, argument))) {
+      return 0;
+    }
     const ThinkerId thinker = new_thinker();
     const std::lock_guard lock(lists_mutex);
     if (Host* const host = attached.load()) {
@@ -294,6 +298,9 @@ bool active() noexcept { return registered && !given_up; }
 
 Inside::Inside() noexcept { ++state.inside; }
 Inside::~Inside() { --state.inside; }
+
+StartsForProgram::StartsForProgram() noexcept { ++state.starts_for_program; }
+StartsForProgram::~StartsForProgram() { --state.starts_for_program; }
 
 void attach(const std::shared_ptr<Host>& host) {
   const std::lock_guard lock(lists_mutex);

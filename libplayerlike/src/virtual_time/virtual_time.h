@@ -32,6 +32,16 @@ class Inside {
   ~Inside();
 };
 
+/// While one lives, threads that its thread starts are the program's own, though it is Playpen's
+/// code that starts them.
+class StartsForProgram {
+ public:
+  StartsForProgram() noexcept;
+  StartsForProgram(const StartsForProgram&) = delete;
+  StartsForProgram& operator=(const StartsForProgram&) = delete;
+  ~StartsForProgram();
+};
+
 /// From now on sleeps move this simulation's time, and the clocks tell it; it must be in lockstep.
 /// The first one stays until it is detached: a program has one clock.
 void attach(const std::shared_ptr<Host>& host);
