@@ -178,8 +178,12 @@ int on_sleep(long long duration_ns, const void* caller) {
 int on_now(long long* elapsed_ns, int ask, const void* caller) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended) return 0;
-  if (!thread.takes_part && !thread.programs && !is_main(thread) && !in_program(caller)) return 0;
-  if (ask != 0 && !given_up.load(std::memory_order_acquire) && ++thread.asks > kFreeAsks) {
+  const bool programs = thread.takes_part || thread.programs || is_main(thread);
+  if (!programs && !in_program(caller)) return 0;
+  // In other threads code that is linked into the program may be a library's, which waits for
+  // nothing: that of a sanitizer, say, which asks while a thread of Playpen's ends.
+  if (ask != 0 && programs && !given_up.load(std::memory_order_acquire) &&
+      ++thread.asks > kFreeAsks) {
     thread.asks = kFreeAsks;
     Host* const host = attached.load(std::memory_order_acquire);
     if (host == nullptr) {
