@@ -17,7 +17,7 @@ class Farewell {
   Farewell(const Farewell&) = delete;
   Farewell& operator=(const Farewell&) = delete;
   ~Farewell() {
-    said_ = true;
+    said = true;
     for (const std::weak_ptr<Peer>& known : peers_) {
       if (const std::shared_ptr<Peer> peer = known.lock()) say_(*peer);
     }
@@ -25,7 +25,7 @@ class Farewell {
 
   /// Adds one, unless it is known already.
   void remember(const std::shared_ptr<Peer>& peer) {
-    if (said_) return;  // by what is destroyed later: nothing is left that could remember
+    if (said) return;  // by what is destroyed later: nothing is left that could remember
     for (const std::weak_ptr<Peer>& known : peers_) {
       if (!known.owner_before(peer) && !peer.owner_before(known)) return;
     }
@@ -36,7 +36,7 @@ class Farewell {
  private:
   void (*say_)(Peer&);
   std::vector<std::weak_ptr<Peer>> peers_;
-  static inline constinit thread_local bool said_ = false;  // outlives the rest
+  static inline constinit thread_local bool said = false;  // outlives the rest
 };
 
 }  // namespace playerlike

@@ -532,7 +532,7 @@ std::optional<std::string> Simulation::place_object(const std::string& name, con
     const auto robot = static_cast<std::size_t>(*find_robot(name));
     Motion* motion = impl_->robots[robot].motion;
     const Twist told = motion == nullptr ? Twist{} : motion->commanded();
-    if (const auto refusal = impl_->place(robot, pose)) return refusal;
+    if (auto refusal = impl_->place(robot, pose)) return refusal;
     if (motion != nullptr && told != Twist{}) {
       static_cast<void>(motion->apply(TwistCommand{told}));
     }
