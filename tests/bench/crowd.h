@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -14,8 +15,17 @@
 
 namespace sim::bench {
 
-// A world with so many robots: the first of those that it names, then copies of the last one at
-// free places. Of their devices only those of `types`, if there are any.
+// The k-th number of van der Corput's sequence in a base, 0 to 1: few or many, they lie evenly.
+// In two bases that share no factor they are Halton's points of the plane (Halton, On the
+// efficiency of certain quasi-random sequences of points, Numer. Math. 2, 84, 1960).
+[[nodiscard]] inline double van_der_corput(int k, int base) {
+  double value = 0.0;
+  for (double digit = 1.0 / base; k > 0; k /= base, digit /= base) value += digit * (k % base);
+  return value;
+}
+
+// A world with so many robots: the first of those that it names, then copies of the last one,
+// spread evenly over the floor. Of their devices only those of `types`, if there are any.
 [[nodiscard]] inline WorldDescription crowded(const char* file, int robots,
                                               const std::vector<std::string>& types) {
   WorldDescription world = endless(file);
@@ -31,15 +41,25 @@ namespace sim::bench {
   if (world.robots.size() > static_cast<std::size_t>(robots)) {
     world.robots.resize(static_cast<std::size_t>(robots));
   }
-  const Polygon& footprint = find_robot_model(world, copy.model)->footprint;
-  std::size_t places_tried = 0;
+  std::vector<Pose> poses;
+  for (const RobotDescription& robot : world.robots) poses.push_back(robot.pose);
+  const ArenaDescription& arena = world.arena;
+  constexpr int kMostTries = 100'000;
+  int tries = 0;
   for (int i = static_cast<int>(world.robots.size()); i < robots; ++i) {
-    const auto pose = io::find_free_pose(world, footprint, places_tried);
-    if (!pose) throw std::runtime_error("only " + std::to_string(i) + " robots have a place");
     copy.name = "crowd" + std::to_string(i);
     copy.port = 20'000 + i;
-    copy.pose = *pose;
     world.robots.push_back(copy);
+    poses.emplace_back();
+    do {
+      if (++tries > kMostTries) {
+        throw std::runtime_error("only " + std::to_string(i) + " robots have a place");
+      }
+      poses.back() = {arena.origin.x() + arena.size.x() * van_der_corput(tries, 2),
+                      arena.origin.y() + arena.size.y() * van_der_corput(tries, 3),
+                      2.0 * std::numbers::pi * van_der_corput(tries, 5)};
+    } while (io::blocked_by(world, poses, world.robots.size() - 1, poses.back()));
+    world.robots.back().pose = poses.back();
   }
   return world;
 }

@@ -21,9 +21,9 @@ Laser::Laser(std::string name, const LaserParams& params, bool may_be_inside, Ra
       params_(params),
       may_be_inside_(may_be_inside),
       noise_(std::move(noise)),
-      kernel_({params.beam_count, params.resolution_rad, params.range_max_m}) {
+      geometry_{params.beam_count, params.resolution_rad, params.range_max_m} {
   reading_.ranges_m.assign(static_cast<std::size_t>(params.beam_count), 0.0);
-  reading_.angle_min_rad = kernel_.geometry().angle_min_rad();
+  reading_.angle_min_rad = geometry_.angle_min_rad();
   reading_.resolution_rad = params.resolution_rad;
   reading_.range_max_m = params.range_max_m;
 }
@@ -31,12 +31,8 @@ Laser::Laser(std::string name, const LaserParams& params, bool may_be_inside, Ra
 void Laser::measure(const StepContext& context) {
   stamp(context, reading_);
   const Pose X_WL = context.body.X_WB * params_.X_BL;
-  // A beam more than there are, either way: what is left out is far from every beam.
-  const PhysicsWorld::View view{
-      X_WL.yaw_rad, kernel_.geometry().resolution_rad - kernel_.geometry().angle_min_rad()};
-  context.physics.collect_edges(X_WL.position(), params_.range_max_m, params_.height_m,
-                                context.robot, may_be_inside_, edges_, &view);
-  kernel_.scan(edges_, X_WL.yaw_rad, reading_.ranges_m);
+  context.physics.scan(geometry_, X_WL, params_.height_m, context.robot, may_be_inside_,
+                       reading_.ranges_m);
   if (params_.noise_m > 0.0) {
     for (double& range : reading_.ranges_m) {
       // A beam that met nothing stays at the limit: there is no echo to be uncertain about.

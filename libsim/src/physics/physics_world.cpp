@@ -32,6 +32,9 @@ constexpr double kMaxTravel_m = 0.0085;
 // hulls are closer than their skins of 2 mm together.
 constexpr double kMaxShove_m = 0.002;
 
+// The same while those that touch have nothing else within reach.
+constexpr double kMaxLoneShove_m = 0.003;
+
 // A twist counts as achieved within these.
 constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
@@ -40,6 +43,9 @@ constexpr double kStallDelay_s = 0.2;
 // How much farther than asked for clearance_m looks for candidates: how far things may move until
 // it must look again.
 constexpr double kCandidateMargin_m = 0.1;
+
+// So many of a free robot's contacts, none of which touches, may be out of date.
+constexpr int kMostKeptContacts = 4;
 
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
@@ -103,7 +109,10 @@ struct Robot {
   Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
   Twist target;
   bool suspended = false;
+  bool shoving = false;  // touches another, or one that does is near
+  bool free = false;     // nothing is so near that it could be reached in this part of a step
   double stall_clock_s = 0.0;
+  double moved_m = 0.0;                // in this part of a step, any point of it, at most
   std::vector<b2Fixture*> candidates;  // all that is nearer than candidates_reach_m
   b2Vec2 nearest_direction{1.0F, 0.0F};
   double candidates_reach_m = -1.0;  // less all motion since; see clearance_m
@@ -158,6 +167,31 @@ float least_along(const b2Vec2& n, const b2Shape& shape, const b2Transform& xf) 
   return least + b2Dot(n, xf.p);
 }
 
+// Whether some direction shows that a shape is farther from a robot's outline than so much (Box2D
+// units): that of its middle, or one that a side of either looks in.
+bool is_farther(const b2PolygonShape& outline, const b2Transform& xf, const b2Shape& other,
+                const b2Transform& other_xf, const b2Vec2& towards, float least) {
+  const auto apart = [&](const b2Vec2& n) {
+    return least_along(n, other, other_xf) + least_along(-n, outline, xf) > least;
+  };
+  b2Vec2 direction = towards;
+  if (direction.Normalize() > 0.0F && apart(direction)) return true;
+  for (int32 i = 0; i < outline.m_count; ++i) {
+    if (apart(b2Mul(xf.q, outline.m_normals[i]))) return true;
+  }
+  if (other.GetType() == b2Shape::e_polygon) {
+    const auto& polygon = static_cast<const b2PolygonShape&>(other);
+    for (int32 i = 0; i < polygon.m_count; ++i) {
+      if (apart(-b2Mul(other_xf.q, polygon.m_normals[i]))) return true;
+    }
+    return false;
+  }
+  const auto& edge = static_cast<const b2EdgeShape&>(other);
+  b2Vec2 side = b2Mul(other_xf.q, edge.m_vertex2 - edge.m_vertex1);
+  side.Normalize();
+  return apart({side.y, -side.x}) || apart({-side.y, side.x});
+}
+
 const FixtureInfo& info_of(const b2Fixture* fixture) {
   return *reinterpret_cast<const FixtureInfo*>(
       const_cast<b2Fixture*>(fixture)->GetUserData().pointer);
@@ -168,6 +202,7 @@ const FixtureInfo& info_of(const b2Fixture* fixture) {
 struct PhysicsWorld::Impl : b2ContactListener {
   explicit Impl(const ArenaDescription& arena) : world(b2Vec2(0.0F, 0.0F)) {
     world.SetContactListener(this);
+    world.SetAutoClearForces(false);    // there are none
     world.SetContinuousPhysics(false);  // kMaxTravel_m and feasible_twist do its work
     b2BodyDef ground;
     static_body = world.CreateBody(&ground);
@@ -333,26 +368,32 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
-  // Robots closer than two steps' travel, by a sweep over their order in x.
+  // Robots so close that they may reach one another, by a sweep over their order in x.
   void find_near_pairs() {
     near_pairs.clear();
-    const auto x_of = [this](int i) { return robots[static_cast<std::size_t>(i)].X_WB.x_m; };
-    for (std::size_t i = 1; i < order.size(); ++i) {  // insertion sort: nearly sorted already
-      const int moving = order[i];
-      std::size_t j = i;
-      for (; j > 0 && x_of(order[j - 1]) > x_of(moving); --j) order[j] = order[j - 1];
-      order[j] = moving;
+    for (Circle& circle : by_x) {
+      const Robot& r = robots[static_cast<std::size_t>(circle.robot)];
+      circle.x = r.X_WB.x_m;
+      circle.y = r.X_WB.y_m;
     }
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const Robot& a = robots[static_cast<std::size_t>(order[i])];
-      for (std::size_t j = i + 1; j < order.size(); ++j) {
-        const Robot& b = robots[static_cast<std::size_t>(order[j])];
-        const double dx = b.X_WB.x_m - a.X_WB.x_m;
-        if (dx > a.radius_m + largest_radius_m + 3.0 * kMaxTravel_m) break;
-        const double reach = a.radius_m + b.radius_m + 3.0 * kMaxTravel_m;
-        const double dy = b.X_WB.y_m - a.X_WB.y_m;
-        if (dx * dx + dy * dy < reach * reach) {
-          near_pairs.emplace_back(std::min(order[i], order[j]), std::max(order[i], order[j]));
+    for (std::size_t i = 1; i < by_x.size(); ++i) {  // insertion sort: nearly sorted already
+      const Circle moving = by_x[i];
+      std::size_t j = i;
+      for (; j > 0 && by_x[j - 1].x > moving.x; --j) by_x[j] = by_x[j - 1];
+      by_x[j] = moving;
+    }
+    for (std::size_t i = 0; i < by_x.size(); ++i) {
+      const Circle& a = by_x[i];
+      const double farthest_x = a.x + a.radius + largest_radius_m + 3.0 * kMaxTravel_m;
+      for (std::size_t j = i + 1; j < by_x.size() && by_x[j].x <= farthest_x; ++j) {
+        const Circle& b = by_x[j];
+        const double reach = a.radius + b.radius + 3.0 * kMaxTravel_m;
+        const double dx = b.x - a.x;
+        const double dy = b.y - a.y;
+        if (dx * dx + dy * dy < reach * reach &&
+            !is_farther(robots[static_cast<std::size_t>(a.robot)],
+                        robots[static_cast<std::size_t>(b.robot)])) {
+          near_pairs.emplace_back(std::min(a.robot, b.robot), std::max(a.robot, b.robot));
         }
       }
     }
@@ -365,11 +406,53 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
+  // Whether two robots are too far apart for either to be in the other's way.
+  [[nodiscard]] static bool is_farther(const Robot& a, const Robot& b) {
+    const b2Transform& xf_a = a.body->GetTransform();
+    const b2Transform& xf_b = b.body->GetTransform();
+    return sim::is_farther(a.shape, xf_a, b.shape, xf_b, xf_b.p - xf_a.p,
+                           static_cast<float>(3.0 * kMaxTravel_m) * kScaleF);
+  }
+
+  // Whether nothing can be reached by the robot, nor reach it, in this part of a step.
+  [[nodiscard]] bool is_free(std::size_t index) const {
+    const Robot& r = robots[index];
+    if (r.free_m > 2.0 * kMaxTravel_m + kRestingGap_m) return true;
+    if (!near_to[index].empty()) return false;
+    // Contacts of bodies at rest are kept: not too many, before a step in motion forgets them.
+    int kept = 0;
+    for (const b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
+      if (++kept > kMostKeptContacts || is_near_wall(r, *e->contact)) return false;
+    }
+    return true;
+  }
+
+  // Whether a contact is with something that does not move, and that is within reach.
+  [[nodiscard]] static bool is_near_wall(const Robot& r, const b2Contact& contact) {
+    const b2Fixture* other = contact.GetFixtureA();
+    if (other->GetBody() == r.body) other = contact.GetFixtureB();
+    if (info_of(other).kind == Contact::Kind::kRobot) return false;
+    const b2Transform& xf = r.body->GetTransform();
+    return !sim::is_farther(r.shape, xf, *other->GetShape(), other->GetBody()->GetTransform(),
+                            other->GetAABB(0).GetCenter() - xf.p,
+                            static_cast<float>(kMaxTravel_m + kRestingGap_m) * kScaleF);
+  }
+
+  // Whether a robot that is shoved might run into something that it does not touch yet.
+  [[nodiscard]] bool may_be_shoved_into(std::size_t index) const {
+    const Robot& r = robots[index];
+    for (const int near : near_to[index]) {
+      if (!touches(r.body, robots[static_cast<std::size_t>(near)].body)) return true;
+    }
+    for (const b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
+      if (!e->contact->IsTouching() && is_near_wall(r, *e->contact)) return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
     Robot& r = robots[index];
     if (r.target == Twist{}) return r.target;
-    // Even if another robot comes to meet it, nothing is reached in this step.
-    if (r.free_m > 2.0 * kMaxTravel_m + kRestingGap_m) return r.target;
     constraints.clear();
     for (b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
       const b2Fixture* mine = e->contact->GetFixtureA();
@@ -399,13 +482,6 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
   }
 
-  [[nodiscard]] bool any_robots_touch() const {
-    return std::any_of(near_pairs.begin(), near_pairs.end(), [this](const auto& pair) {
-      return touches(robots[static_cast<std::size_t>(pair.first)].body,
-                     robots[static_cast<std::size_t>(pair.second)].body);
-    });
-  }
-
   [[nodiscard]] static bool touches(const b2Body* a, const b2Body* b) {
     for (const b2ContactEdge* e = a->GetContactList(); e != nullptr; e = e->next) {
       if (e->other == b && e->contact->IsTouching()) return true;
@@ -433,19 +509,96 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
-  void substep(double dt_s) {
+  // Moves all for a time in which no robot travels farther than kMaxTravel_m. Free robots are done
+  // with at once, without Box2D; those that shove one another take several parts.
+  void advance(double dt_s) {
     if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
       world.Step(0.0F, 1, 1);
       placed = false;
     }
     find_near_pairs();
-    const float inv_dt = static_cast<float>(1.0 / dt_s);
     goals.resize(robots.size());
     twists.resize(robots.size());
+    farthest_m = 0.0;
+    hindered.clear();
     for (std::size_t i = 0; i < robots.size(); ++i) {
+      robots[i].moved_m = 0.0;
+      if (is_free(i)) {
+        move_freely(i, dt_s);
+      } else {
+        hindered.push_back(i);
+      }
+    }
+    find_shoving();
+    double shove_m = 0.0;
+    for (const std::size_t i : shoving) shove_m = std::max(shove_m, travel_m(robots[i], dt_s));
+    const int parts = std::max(1, static_cast<int>(std::ceil(shove_m / most_shove_m)));
+    substep(dt_s / parts, dt_s);
+    for (int i = 1; i < parts; ++i) substep(dt_s / parts, 0.0);
+    // So much nearer another robot may have come.
+    for (Robot& r : robots) {
+      r.free_m -= farthest_m;
+      r.candidates_reach_m -= farthest_m;
+    }
+  }
+
+  // How far any point of a robot that gets its target travels, at most [m].
+  [[nodiscard]] static double travel_m(const Robot& r, double dt_s) {
+    return (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
+            std::abs(r.target.omega_radps) * r.radius_m) *
+           dt_s;
+  }
+
+  // Robots that touch others, with those near them, and those near these, and so on.
+  void find_shoving() {
+    for (const std::size_t i : shoving) robots[i].shoving = false;
+    shoving.clear();
+    const auto add = [this](int index) {
+      const auto i = static_cast<std::size_t>(index);
+      if (!std::exchange(robots[i].shoving, true)) shoving.push_back(i);
+    };
+    for (const auto& [a, b] : near_pairs) {
+      if (!touches(robots[static_cast<std::size_t>(a)].body,
+                   robots[static_cast<std::size_t>(b)].body)) {
+        continue;
+      }
+      add(a);
+      add(b);
+    }
+    most_shove_m = std::any_of(shoving.begin(), shoving.end(),
+                               [this](std::size_t i) { return may_be_shoved_into(i); })
+                       ? kMaxShove_m
+                       : kMaxLoneShove_m;
+    for (std::size_t i = 0; i < shoving.size(); ++i) {
+      for (const int near : near_to[shoving[i]]) add(near);
+    }
+  }
+
+  // To Box2D a free robot is a body at rest that is put somewhere else.
+  void move_freely(std::size_t index, double dt_s) {
+    Robot& r = robots[index];
+    if (r.body->IsAwake()) r.body->SetAwake(false);
+    if (r.target == Twist{}) return;
+    twists[index] = r.target;
+    goals[index] = arc_end(r.X_WB, r.target, dt_s);
+    r.body->SetTransform(to_box2d(goals[index].position()),
+                         static_cast<float>(goals[index].yaw_rad));
+    arrive(index, dt_s);
+  }
+
+  // Moves the robots that are hindered: those that shove by dt_s, the others by others_dt_s, in one
+  // step of Box2D; if that is 0 they rest.
+  void substep(double dt_s, double others_dt_s) {
+    const float inv_dt = static_cast<float>(1.0 / dt_s);
+    for (const std::size_t i : hindered) {
       Robot& r = robots[i];
-      twists[i] = allowed_twist(i, dt_s);
-      goals[i] = arc_end(r.X_WB, twists[i], dt_s);
+      const double own_dt_s = r.shoving ? dt_s : others_dt_s;
+      if (own_dt_s == 0.0) {
+        r.body->SetAwake(false);
+        continue;
+      }
+      twists[i] = allowed_twist(i, own_dt_s);
+      goals[i] = arc_end(r.X_WB, twists[i], own_dt_s);
       if (goals[i] == r.X_WB && !r.body->IsAwake()) continue;
       // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
       // does not pile up.
@@ -455,26 +608,18 @@ struct PhysicsWorld::Impl : b2ContactListener {
                                  (static_cast<float>(goals[i].yaw_rad) - r.body->GetAngle()));
     }
     world.Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
-    double farthest_m = 0.0;
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-      const double moved_m = follow_body(i, dt_s);
-      robots[i].free_m -= moved_m;
-      robots[i].candidates_reach_m -= moved_m;
-      farthest_m = std::max(farthest_m, moved_m);
-    }
-    for (Robot& r : robots) {
-      r.free_m -= farthest_m;
-      r.candidates_reach_m -= farthest_m;
+    for (const std::size_t i : hindered) {
+      const double own_dt_s = robots[i].shoving ? dt_s : others_dt_s;
+      if (own_dt_s > 0.0) follow_body(i, own_dt_s);
     }
   }
 
   // Takes over where Box2D put the robot: the exact goal if nothing hindered it.
-  // Returns how far any point of the robot has moved, at most [m].
-  double follow_body(std::size_t index, double dt_s) {
+  void follow_body(std::size_t index, double dt_s) {
     Robot& r = robots[index];
     if (r.suspended) {
       hold(r);
-      return 0.0;
+      return;
     }
     const Pose& goal = goals[index];
     const b2Vec2 p = r.body->GetPosition();
@@ -482,32 +627,44 @@ struct PhysicsWorld::Impl : b2ContactListener {
     const float angle = r.body->GetAngle();
     // Rounding of position and angle, a few units in the last place.
     const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
-    double moved = 0.0;
-    double turn = 0.0;
     if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
         std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
-      r.X_WB = goal;
-      const double travel = twists[index].v_mps * dt_s;
-      const double side = twists[index].lateral_mps * dt_s;
-      turn = twists[index].omega_radps * dt_s;
-      moved = side == 0.0 ? std::abs(travel) : std::hypot(travel, side);
-      r.state.travel_m += travel;
-      r.state.side_m += side;
-    } else {
-      const Pose before = r.X_WB;
-      r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
-      turn = r.X_WB.yaw_rad - before.yaw_rad;
-      const double heading = before.yaw_rad + 0.5 * turn;
-      const double dx = r.X_WB.x_m - before.x_m;
-      const double dy = r.X_WB.y_m - before.y_m;
-      // The wheels' path is the arc whose chord this is.
-      r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
-      moved = std::hypot(dx, dy);
-      r.state.side_m += dy * std::cos(heading) - dx * std::sin(heading);
+      arrive(index, dt_s);
+      return;
     }
-    r.state.turn_rad += turn;
+    const Pose before = r.X_WB;
+    r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
+    const double turn = r.X_WB.yaw_rad - before.yaw_rad;
+    const double heading = before.yaw_rad + 0.5 * turn;
+    const double dx = r.X_WB.x_m - before.x_m;
+    const double dy = r.X_WB.y_m - before.y_m;
+    // The wheels' path is the arc whose chord this is.
+    r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
+    r.state.side_m += dy * std::cos(heading) - dx * std::sin(heading);
+    moved(r, std::hypot(dx, dy), turn);
+  }
+
+  // The robot is where its twist took it.
+  void arrive(std::size_t index, double dt_s) {
+    Robot& r = robots[index];
+    r.X_WB = goals[index];
+    const double travel = twists[index].v_mps * dt_s;
+    const double side = twists[index].lateral_mps * dt_s;
+    r.state.travel_m += travel;
+    r.state.side_m += side;
+    moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side),
+          twists[index].omega_radps * dt_s);
+  }
+
+  // Books that a robot went so far and turned so much.
+  void moved(Robot& r, double way_m, double turn_rad) {
+    r.state.turn_rad += turn_rad;
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
-    return moved + std::abs(turn) * r.radius_m;
+    const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
+    r.free_m -= most_m;
+    r.candidates_reach_m -= most_m;
+    r.moved_m += most_m;
+    farthest_m = std::max(farthest_m, r.moved_m);
   }
 
   // Takes back what Box2D's solver may have done to a body that is not to move.
@@ -544,8 +701,11 @@ struct PhysicsWorld::Impl : b2ContactListener {
     robot_edges.clear();
     robot_first_edge.clear();
     robot_circles.clear();
+    robot_discs.clear();
     for (const Robot& r : robots) {
-      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m});
+      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m, 0});
+      robot_discs.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
+                      static_cast<float>(r.radius_m));
       robot_first_edge.push_back(robot_edges.edges.size());
       const double c = std::cos(r.X_WB.yaw_rad);
       const double s = std::sin(r.X_WB.yaw_rad);
@@ -569,6 +729,15 @@ struct PhysicsWorld::Impl : b2ContactListener {
 
   [[nodiscard]] bool inside_solid(const Vec2& p_W, double height_m, int own_robot);
 
+  [[nodiscard]] scan::ScanKernel& kernel_of(const scan::ScanGeometry& geometry) {
+    const auto it = std::find_if(kernels.begin(), kernels.end(), [&](const scan::ScanKernel& k) {
+      return k.geometry() == geometry;
+    });
+    return it != kernels.end() ? *it : kernels.emplace_back(geometry);
+  }
+
+  void collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                            scan::EdgeBuffer& edges);
   // --- Contacts -------------------------------------------------------------------------------
 
   // One slot a partner: obstacles, separators, border, wall, robots.
@@ -639,19 +808,27 @@ struct PhysicsWorld::Impl : b2ContactListener {
   std::vector<std::size_t> robot_first_edge;
   struct Circle {
     double x, y, radius;
+    int robot;
   };
-  std::vector<Circle> robot_circles;  // round them, for quick refusal
+  std::vector<Circle> robot_circles;      // round them, for quick refusal
+  scan::DiscBuffer robot_discs;           // the same
+  std::vector<scan::ScanKernel> kernels;  // of scan(), one a geometry
+  scan::EdgeBuffer scan_edges;            // scratch memory of scan()
   bool robot_edges_fresh = false;
 
   bool placed = true;  // something was put somewhere since the last step
 
   std::vector<Robot> robots;
   double largest_radius_m = 0.0;
-  std::vector<int> order;  // robots by x
+  std::vector<Circle> by_x;  // round the robots, in this order
   std::vector<std::pair<int, int>> near_pairs;
   std::vector<std::vector<int>> near_to;  // the same by robot, in the same order
-  std::vector<Pose> goals;    // where each robot gets to in this step if nothing hinders it
-  std::vector<Twist> twists;  // by which twist
+  double farthest_m = 0.0;                // that any robot has moved in this part of a step
+  std::vector<std::size_t> hindered;      // robots that are not free
+  double most_shove_m = kMaxShove_m;
+  std::vector<std::size_t> shoving;  // robots that touch others or are near such
+  std::vector<Pose> goals;           // where each robot gets to in this step if nothing hinders it
+  std::vector<Twist> twists;         // by which twist
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
   std::vector<Touch> new_touches;
@@ -690,7 +867,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
 
   d.largest_radius_m = std::max(d.largest_radius_m, r.radius_m);
-  d.order.push_back(index);
+  d.by_x.push_back({X_WB.x_m, X_WB.y_m, r.radius_m, index});
   d.robots.push_back(std::move(r));
   d.something_was_placed();
   d.robot_edges_fresh = false;
@@ -756,13 +933,10 @@ void PhysicsWorld::step(double dt_s) {
     r.state.travel_m = 0.0;
     r.state.turn_rad = 0.0;
     r.state.side_m = 0.0;
-    travel_m = std::max(travel_m, (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
-                                   std::abs(r.target.omega_radps) * r.radius_m) *
-                                      dt_s);
+    travel_m = std::max(travel_m, Impl::travel_m(r, dt_s));
   }
-  const double longest_m = d.any_robots_touch() ? kMaxShove_m : kMaxTravel_m;
-  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / longest_m)));
-  for (int i = 0; i < substeps; ++i) d.substep(dt_s / substeps);
+  const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
+  for (int i = 0; i < parts; ++i) d.advance(dt_s / parts);
   for (Robot& r : d.robots) Impl::finish_step(r, dt_s);
   d.robot_edges_fresh = false;
 }
@@ -842,8 +1016,9 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
   const b2AABB& box = r.body->GetFixtureList()->GetAABB(0);
   // What may be nearest is kept in a list that is good for some way (as Verlet's neighbour lists
-  // are, Phys. Rev. 159, 98, 1967), most often the first of it.
-  if (limit_m > r.candidates_reach_m) {
+  // are, Phys. Rev. 159, 98, 1967), most often the first of it. A list for a far greater limit is
+  // too long.
+  if (limit_m > r.candidates_reach_m || r.candidates_reach_m > limit_m + 2.0 * kCandidateMargin_m) {
     struct Collector : b2QueryCallback {
       bool ReportFixture(b2Fixture* fixture) override {
         if (fixture->GetBody() != own) into->push_back(fixture);
@@ -879,8 +1054,9 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
     const float apart = least_along(r.nearest_direction, *candidate->GetShape(), their_xf) +
                         least_along(-r.nearest_direction, r.shape, xf);
     const double bound_m = std::max(boxes_apart_m, metres(apart));
+    if (bound_m >= least_m) continue;
     if (bound_m >= exact_below_m) {
-      least_m = std::min(least_m, bound_m);
+      least_m = bound_m;
       continue;
     }
     b2DistanceInput input;
@@ -997,23 +1173,29 @@ void query(const b2World& world, const Vec2& low, const Vec2& high, Visitor visi
 
 }  // namespace
 
+void PhysicsWorld::Impl::collect_static_edges(const Vec2& p_WL, double radius_m,
+                                              double sensor_height_m, scan::EdgeBuffer& edges) {
+  edges.clear();
+  if (sweep) {
+    append_edges(fixed_edges, 0, fixed_edges.edges.size(), p_WL, sensor_height_m, edges);
+    return;
+  }
+  const Vec2 reach(radius_m, radius_m);
+  query(world, p_WL - reach, p_WL + reach, [&](const b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.kind == Contact::Kind::kRobot) return;
+    append_edges(all_edges, info.first_edge, info.first_edge + info.edge_count, p_WL,
+                 sensor_height_m, edges);
+  });
+}
+
 void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
                                  int own_robot, bool test_inside, scan::EdgeBuffer& edges,
                                  const View* view) const {
   Impl& d = *impl_;
-  edges.clear();
+  d.collect_static_edges(p_WL, radius_m, sensor_height_m, edges);
+  const auto append = view == nullptr ? append_edges : append_facing_edges;
   if (!d.robot_edges_fresh) d.rebuild_robot_edges();
-  if (d.sweep) {
-    append_edges(d.fixed_edges, 0, d.fixed_edges.edges.size(), p_WL, sensor_height_m, edges);
-  } else {
-    const Vec2 reach(radius_m, radius_m);
-    query(d.world, p_WL - reach, p_WL + reach, [&](const b2Fixture& fixture) {
-      const FixtureInfo& info = info_of(&fixture);
-      if (info.kind == Contact::Kind::kRobot) return;
-      append_edges(d.all_edges, info.first_edge, info.first_edge + info.edge_count, p_WL,
-                   sensor_height_m, edges);
-    });
-  }
   const BlindSide blind(view);
   for (std::size_t i = 0; i < d.robot_circles.size(); ++i) {
     if (static_cast<int>(i) == own_robot) continue;
@@ -1022,11 +1204,42 @@ void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double senso
     const double dx = circle.x - p_WL.x();
     const double dy = circle.y - p_WL.y();
     if (dx * dx + dy * dy > reach * reach || blind.holds(dx, dy, circle.radius)) continue;
-    const auto append = view == nullptr ? append_edges : append_facing_edges;
     append(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL, sensor_height_m,
            edges);
   }
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
+}
+
+void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
+                        double sensor_height_m, int own_robot, bool test_inside,
+                        std::span<double> ranges_m) const {
+  Impl& d = *impl_;
+  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
+  scan::ScanKernel& kernel = d.kernel_of(geometry);
+  scan::EdgeBuffer& edges = d.scan_edges;
+  const Vec2 p_WL = X_WL.position();
+  const auto append = [&](std::span<const std::int32_t> robots) {
+    for (const std::int32_t robot : robots) {
+      if (robot == own_robot) continue;
+      const auto i = static_cast<std::size_t>(robot);
+      append_facing_edges(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL,
+                          sensor_height_m, edges);
+    }
+  };
+
+  d.collect_static_edges(p_WL, geometry.range_max_m, sensor_height_m, edges);
+  if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
+  kernel.begin(X_WL.yaw_rad);
+  kernel.locate(d.robot_discs, static_cast<float>(p_WL.x()), static_cast<float>(p_WL.y()));
+  append(kernel.in_view(0));
+  kernel.add(edges);
+  for (int ring = 1; ring < scan::ScanKernel::kRings; ++ring) {
+    if (kernel.in_view(ring).empty()) continue;
+    edges.clear();
+    append(kernel.visible(ring));
+    if (edges.size() > 0) kernel.add(edges);
+  }
+  kernel.finish(ranges_m);
 }
 
 bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,15 @@ class PhysicsWorld {
   ///                      robots that face away, are left out.
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
                      bool test_inside, scan::EdgeBuffer& edges, const View* view = nullptr) const;
+
+  /// Scans from X_WL, by collect_edges() in parts: nearer robots come first, those that are hidden
+  /// behind walls or other robots are left out. The same ranges to the last bit, at a cost that
+  /// grows with what is in sight rather than with what is in range.
+  /// Sensors of one geometry share tables and scratch memory, which so stay in the cache.
+  /// @param ranges_m  as for ScanKernel::scan().
+  /// Others as for collect_edges().
+  void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
+            int own_robot, bool test_inside, std::span<double> ranges_m) const;
 
   /// Whether a point lies inside a solid that stands higher than `height_m`.
   /// @param own_robot  robot whose body does not count, or -1.

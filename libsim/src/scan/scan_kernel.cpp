@@ -47,6 +47,7 @@ struct Scalar {
   // As the processor's vector instructions do: the second one where either is not a number.
   static float min(float a, float b) { return a < b ? a : b; }
   static float max(float a, float b) { return a > b ? a : b; }
+  static float sqrt(float value) { return std::sqrt(value); }
   static float truncate(float value) { return static_cast<float>(static_cast<int>(value)); }
 
   static bool less(float a, float b) { return a < b; }
@@ -123,6 +124,7 @@ struct Sse2 {
   }
   static Float min(Float a, Float b) { return _mm_min_ps(a, b); }
   static Float max(Float a, Float b) { return _mm_max_ps(a, b); }
+  static Float sqrt(Float value) { return _mm_sqrt_ps(value); }
   static Float truncate(Float value) { return _mm_cvtepi32_ps(_mm_cvttps_epi32(value)); }
 
   static Mask less(Float a, Float b) { return _mm_cmplt_ps(a, b); }
@@ -260,9 +262,41 @@ namespace {
 /// Length of a scratch array for so many edges: whole groups, with room to write beyond the last.
 std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuffer::kPadding; }
 
+/// The same for so many discs.
+std::size_t disc_places(std::size_t disc_count) { return disc_count + 2 * DiscBuffer::kPadding; }
+
+/// Integers a disc: one list a ring, the visible ones, its first and its last beam.
+constexpr std::size_t kDiscIntegers = ScanKernel::kRings + 3;
+
+const detail::ScanSteps& steps_by(InstructionSet instructions) {
+  SIM_ASSERT(ScanKernel::available(instructions));
+  switch (instructions) {
+    case InstructionSet::kAvx2:
+#ifdef PLAYPEN_SCAN_AVX2
+      return detail::avx2_steps();
+#else
+      break;
+#endif
+    case InstructionSet::kSse2:
+#if defined(__x86_64__)
+      return detail::kSteps<detail::Sse2>;
+#else
+      break;
+#endif
+    case InstructionSet::kScalar:
+      break;
+  }
+  return detail::kSteps<detail::Scalar>;
+}
+
 }  // namespace
 
 void EdgeBuffer::grow() { storage_.resize(std::max(2 * storage_.size(), size_ + kPadding)); }
+
+void DiscBuffer::grow() {
+  const std::size_t size = 2 * x_.size() + kPadding;
+  for (std::vector<float>* values : {&x_, &y_, &radius_}) values->resize(size);
+}
 
 /// What depends on the geometry alone, shared by copies of a kernel.
 struct ScanKernel::Tables {
@@ -299,12 +333,24 @@ ScanKernel::ScanKernel(const ScanGeometry& geometry)
 ScanKernel::ScanKernel(const ScanGeometry& geometry, InstructionSet instructions)
     : geometry_(geometry),
       instructions_(instructions),
+      steps_(&steps_by(instructions)),
       tables_(std::make_shared<const Tables>(geometry)),
       inverse_ranges_(static_cast<std::size_t>(geometry.beam_count + 2 * detail::kBeamPadding)) {
   SIM_ASSERT(geometry.beam_count >= 1 && geometry.beam_count <= 1'000'000);
   SIM_ASSERT(geometry.beam_count == 1 || geometry.resolution_rad > 0.0);
   SIM_ASSERT(geometry.range_max_m > 0.0);
-  SIM_ASSERT(available(instructions));
+  reserve(0);
+  reserve_discs(0);
+}
+
+void ScanKernel::reserve(std::size_t edge_count) {
+  if (edge_count <= edge_capacity_ && !integers_.empty()) return;
+  // An edge may need three places: a candidate's own, and two if it gets a second look.
+  constexpr std::size_t kIntegerArrays = 9;
+  constexpr std::size_t kFloatArrays = 4;
+  edge_capacity_ = std::max(edge_count, 2 * edge_capacity_);
+  integers_.resize(kIntegerArrays * places(edge_capacity_));
+  floats_.resize(kFloatArrays * places(edge_capacity_));
 }
 
 bool ScanKernel::available(InstructionSet instructions) noexcept {
@@ -328,21 +374,73 @@ bool ScanKernel::available(InstructionSet instructions) noexcept {
 }
 
 void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double> ranges_m) {
+  begin(yaw_rad);
+  add(edges);
+  finish(ranges_m);
+}
+
+void ScanKernel::begin(double yaw_rad) {
+  cos_yaw_ = std::cos(yaw_rad);
+  sin_yaw_ = std::sin(yaw_rad);
+  inside_ = false;
+  steps_->clear(job());
+}
+
+void ScanKernel::add(const EdgeBuffer& edges) {
+  if (edges.inside) inside_ = true;
+  if (inside_) return;
+  reserve(edges.size());
+  detail::ScanJob job = this->job();
+  job.edges = edges.edges().data();
+  job.edge_count = static_cast<std::int32_t>(edges.size());
+  steps_->sweep(job);
+}
+
+void ScanKernel::reserve_discs(std::size_t disc_count) {
+  if (disc_count <= disc_capacity_ && !disc_integers_.empty()) return;
+  disc_capacity_ = std::max(disc_count, 2 * disc_capacity_);
+  disc_integers_.resize(kDiscIntegers * disc_places(disc_capacity_));
+  disc_floats_.resize(disc_places(disc_capacity_));
+}
+
+void ScanKernel::locate(const DiscBuffer& discs, float x_m, float y_m) {
+  reserve_discs(discs.size());
+  detail::ScanJob job = this->job();
+  job.disc_x = discs.x_m();
+  job.disc_y = discs.y_m();
+  job.disc_radius = discs.radius_m();
+  job.disc_count = static_cast<std::int32_t>(discs.size());
+  job.sensor_x = x_m;
+  job.sensor_y = y_m;
+  steps_->locate(job);
+}
+
+std::span<const std::int32_t> ScanKernel::in_view(int ring) const {
+  const auto which = static_cast<std::size_t>(ring);
+  return {disc_integers_.data() + which * disc_places(disc_capacity_),
+          static_cast<std::size_t>(ring_sizes_[ring])};
+}
+
+std::span<const std::int32_t> ScanKernel::visible(int ring) {
+  const detail::ScanJob job = this->job();
+  return {job.visible, static_cast<std::size_t>(steps_->find_visible(job, ring))};
+}
+
+void ScanKernel::finish(std::span<double> ranges_m) {
   SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(geometry_.beam_count));
-  if (edges.inside) {
+  if (inside_) {
     std::fill(ranges_m.begin(), ranges_m.end(), 0.0);
     return;
   }
+  detail::ScanJob job = this->job();
+  job.ranges_m = ranges_m.data();
+  steps_->finish(job);
+}
 
-  // An edge may need three places: a candidate's own, and two if it gets a second look.
-  constexpr std::size_t kIntegerArrays = 9;
-  constexpr std::size_t kFloatArrays = 4;
-  if (edges.size() > edge_capacity_ || integers_.empty()) {
-    edge_capacity_ = std::max(edges.size(), 2 * edge_capacity_);
-    integers_.resize(kIntegerArrays * places(edge_capacity_));
-    floats_.resize(kFloatArrays * places(edge_capacity_));
-  }
+detail::ScanJob ScanKernel::job() {
   const std::size_t step = places(edge_capacity_);
+  const std::size_t disc_step = disc_places(disc_capacity_);
+  std::int32_t* const discs = disc_integers_.data();
 
   // Blocks of beams are aligned, so that none straddles two lines of the cache.
   constexpr std::size_t kAlignment = 32;
@@ -352,11 +450,11 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
 
   const double beams_per_rad = 1.0 / tables_->resolution_rad;
   const auto beam_count = static_cast<double>(geometry_.beam_count);
-  const detail::ScanJob job{
-      .edges = edges.edges().data(),
-      .edge_count = static_cast<std::int32_t>(edges.size()),
-      .cos_yaw = std::cos(yaw_rad),
-      .sin_yaw = std::sin(yaw_rad),
+  return {
+      .edges = nullptr,
+      .edge_count = 0,
+      .cos_yaw = cos_yaw_,
+      .sin_yaw = sin_yaw_,
       .beam_count = geometry_.beam_count,
       .range_max_m = geometry_.range_max_m,
       .resolution_rad = tables_->resolution_rad,
@@ -383,23 +481,20 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
       .a = floats_.data() + 2 * step,
       .b = floats_.data() + 3 * step,
       .inverse_ranges = static_cast<float*>(aligned),
-      .ranges_m = ranges_m.data()};
-  switch (instructions_) {
-    case InstructionSet::kScalar:
-      return detail::run_scan<detail::Scalar>(job);
-    case InstructionSet::kSse2:
-#if defined(__x86_64__)
-      return detail::run_scan<detail::Sse2>(job);
-#else
-      break;
-#endif
-    case InstructionSet::kAvx2:
-#ifdef PLAYPEN_SCAN_AVX2
-      return detail::scan_avx2(job);
-#else
-      break;
-#endif
-  }
+      .ranges_m = nullptr,
+      .disc_x = nullptr,
+      .disc_y = nullptr,
+      .disc_radius = nullptr,
+      .disc_count = 0,
+      .sensor_x = 0.0F,
+      .sensor_y = 0.0F,
+      .disc_first = discs + (kRings + 1) * disc_step,
+      .disc_last = discs + (kRings + 2) * disc_step,
+      .disc_inverse = disc_floats_.data(),
+      .rings = {discs, discs + disc_step, discs + 2 * disc_step, discs + 3 * disc_step},
+      .ring_sizes = ring_sizes_,
+      .visible = discs + kRings * disc_step};
+  static_assert(kRings == 4);
 }
 
 }  // namespace sim::scan

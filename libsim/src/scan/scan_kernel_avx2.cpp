@@ -47,6 +47,7 @@ struct Avx2 {
   }
   static Float min(Float a, Float b) { return _mm256_min_ps(a, b); }
   static Float max(Float a, Float b) { return _mm256_max_ps(a, b); }
+  static Float sqrt(Float value) { return _mm256_sqrt_ps(value); }
   static Float truncate(Float value) { return _mm256_cvtepi32_ps(_mm256_cvttps_epi32(value)); }
 
   static Mask less(Float a, Float b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
@@ -136,7 +137,7 @@ struct Avx2 {
 
 }  // namespace
 
-void scan_avx2(const ScanJob& job) { run_scan<Avx2>(job); }
+const ScanSteps& avx2_steps() { return kSteps<Avx2>; }
 
 }  // namespace sim::scan::detail
 

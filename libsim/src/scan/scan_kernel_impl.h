@@ -69,6 +69,30 @@ struct ScanJob {
   float* inverse_ranges;  ///< greatest 1/r so far of every beam, at a multiple of 32 bytes [1/m]
 
   double* ranges_m;  ///< out, beam_count
+
+  // Discs to look for.
+  const float* disc_x;       ///< in W, as the sensor's place
+  const float* disc_y;       ///< likewise
+  const float* disc_radius;  ///< and room to read some more
+  std::int32_t disc_count;
+  float sensor_x;
+  float sensor_y;
+  // Scratch, by disc: the beams that it may span, and 1/r of its nearest point at most.
+  std::int32_t* disc_first;
+  std::int32_t* disc_last;
+  float* disc_inverse;
+  std::int32_t* rings[ScanKernel::kRings];  ///< out: discs in view, by ring
+  std::int32_t* ring_sizes;                 ///< out
+  std::int32_t* visible;                    ///< out: of one ring
+};
+
+/// What a scan consists of, by one kind of instructions.
+struct ScanSteps {
+  void (*clear)(const ScanJob&);
+  void (*sweep)(const ScanJob&);
+  void (*locate)(const ScanJob&);
+  std::int32_t (*find_visible)(const ScanJob&, int ring);  ///< returns how many are visible
+  void (*finish)(const ScanJob&);
 };
 
 /// Adds as candidates, at `index` and after, the nonempty spans (none, one or two) of an edge with
@@ -76,8 +100,8 @@ struct ScanJob {
 /// precision. Returns the next free index.
 std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int32_t index);
 
-/// The sweep for wide instructions; called only on processors that have them.
-void scan_avx2(const ScanJob& job);
+/// The steps by wide instructions, for processors that have them.
+[[nodiscard]] const ScanSteps& avx2_steps();
 
 /// For each set of 4 lanes (a bit mask): the numbers of its lanes in front, and how many.
 struct LaneList {
@@ -374,14 +398,19 @@ void sweep_wide(const ScanJob& job, std::int32_t count) {
   }
 }
 
-/// The whole scan.
+/// Begins with no beam meeting anything.
 template <class V>
-void run_scan(const ScanJob& job) {
+void clear(const ScanJob& job) {
   // A little less than 1 / range_max, so that beams which meet nothing are cut to range_max itself.
   const auto least_inverse = V::broadcast(static_cast<float>(0.999999 / job.range_max_m));
   for (std::int32_t beam = 0; beam < job.beam_count; beam += V::kLanes) {
     V::store(job.inverse_ranges + beam, least_inverse);
   }
+}
+
+/// Sweeps all edges into the beams.
+template <class V>
+void sweep(const ScanJob& job) {
   const std::int32_t candidate_count = find_facing<V>(job);
   find_corners<V>(job, candidate_count);
   const SpanCounts counts = find_spans<V>(job, candidate_count);
@@ -391,7 +420,107 @@ void run_scan(const ScanJob& job) {
   sweep_short<V, kMediumBeams>(job, counts.medium);
   expand_spans<V>(job, job.wide, counts.wide);
   sweep_wide<V>(job, counts.wide);
+}
 
+/// Whether some beam from first to last sees farther than 1 / nearest.
+template <class V>
+bool is_open(const ScanJob& job, std::int32_t first, std::int32_t last, float nearest) {
+  const std::int32_t block = first & -V::kLanes;
+  const auto window = V::make_window(first - block, last - block);
+  const auto least = V::broadcast(nearest);
+  const auto none = V::broadcast(0.0F);
+  for (std::int32_t offset = 0; block + offset <= last; offset += V::kLanes) {
+    const auto open = V::less(V::load_aligned(job.inverse_ranges + block + offset), least);
+    const auto one = V::select(open, V::broadcast(1.0F), none);
+    if (V::bits(V::less(none, V::drop(V::outside(window, offset), one))) != 0) return true;
+  }
+  return false;
+}
+
+/// Finds the beams that discs may span, and lists those in view. A disc spans the beams within
+/// asin(radius / distance) of its middle, and asin(t) <= t + (pi / 2 - 1) t^3; a beam meets nothing
+/// of it nearer than distance - radius.
+template <class V>
+void locate(const ScanJob& job) {
+  using Float = typename V::Float;
+  const Float sensor_x = V::broadcast(job.sensor_x);
+  const Float sensor_y = V::broadcast(job.sensor_y);
+  const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
+  const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
+  const Float zero = V::broadcast(0.0F);
+  const Float one = V::broadcast(1.0F);
+  const Float doubt = V::broadcast(0.01F + 2.0F * job.doubt_beams);
+  const Float beams_per_rad = V::broadcast(job.beams_per_rad);
+  const Float half_turn = V::broadcast(2.0F * job.behind_beams);
+  const Float straight_ahead = V::broadcast(job.beam_offset);
+  const Float half_fan = V::broadcast(0.5F * static_cast<float>(job.beam_count + 1));
+  const Float range_max = V::broadcast(static_cast<float>(job.range_max_m));
+  const Float beam_count = V::broadcast(static_cast<float>(job.beam_count));
+  // Single precision, of the sensor's and the discs' places as of edges' ranges, costs less.
+  const Float slack = V::broadcast(1e-4F);
+  const Float relative_slack = V::broadcast(2e-5F);
+  for (int ring = 0; ring < ScanKernel::kRings; ++ring) job.ring_sizes[ring] = 0;
+  for (std::int32_t base = 0; base < job.disc_count; base += V::kLanes) {
+    const Float dx = V::load(job.disc_x + base) - sensor_x;
+    const Float dy = V::load(job.disc_y + base) - sensor_y;
+    const Float radius = V::load(job.disc_radius + base) + slack;
+    const Float x = cos_yaw * dx + sin_yaw * dy;
+    const Float y = cos_yaw * dy - sin_yaw * dx;
+    const Float distance = V::sqrt(x * x + y * y);
+    const Float t = radius / distance;
+    const Float spread = (t + V::broadcast(0.5708F) * t * t * t) * beams_per_rad + doubt;
+    const Float middle = beam_coordinate<V>(job, x, y);
+    const Float aside = V::abs(middle - straight_ahead);
+    const Float nearest = distance - radius - relative_slack * distance;
+
+    // Not so where the sensor may be within the disc; nor is anything if there is no number.
+    const unsigned outside = V::bits(V::less(zero, nearest));
+    const unsigned in_view =
+        V::bits(V::less(aside - spread, half_fan)) & V::bits(V::less(nearest, range_max));
+    const unsigned shown = (in_view | ~outside) & lanes_below<V>(job.disc_count - base);
+    // Across the cut behind the sensor: as if it spanned all, and nothing could hide it.
+    const auto whole = V::less(aside + spread, half_turn);
+    // Beam i has the coordinate i + 1; from the one before to the one after.
+    V::store_integers(
+        job.disc_first + base,
+        V::select(whole, V::min(V::max(middle - spread - one, zero), beam_count), zero));
+    V::store_integers(
+        job.disc_last + base,
+        V::select(whole, V::min(V::max(middle + spread, zero), beam_count), beam_count) - one);
+    V::store(job.disc_inverse + base, V::select(whole, one / nearest, V::broadcast(1e30F)));
+
+    unsigned rest = shown;
+    const auto list = [&](int ring, unsigned bits) {
+      job.ring_sizes[ring] =
+          append_lanes<V>(bits & rest, base, job.rings[ring], job.ring_sizes[ring]);
+      rest &= ~bits;
+    };
+    list(0, ~outside | V::bits(V::less(distance, V::broadcast(ScanKernel::kRingLimits_m[0]))));
+    for (int ring = 1; ring + 1 < ScanKernel::kRings && rest != 0; ++ring) {
+      list(ring, V::bits(V::less(distance, V::broadcast(ScanKernel::kRingLimits_m[ring]))));
+    }
+    if (rest != 0) list(ScanKernel::kRings - 1, rest);
+  }
+}
+
+/// Lists the discs of a ring that a beam may meet before all that was swept.
+template <class V>
+std::int32_t find_visible(const ScanJob& job, int ring) {
+  const std::int32_t* const discs = job.rings[ring];
+  const std::int32_t size = job.ring_sizes[ring];
+  std::int32_t count = 0;
+  for (std::int32_t i = 0; i < size; ++i) {
+    const std::int32_t disc = discs[i];
+    job.visible[count] = disc;
+    count +=
+        is_open<V>(job, job.disc_first[disc], job.disc_last[disc], job.disc_inverse[disc]) ? 1 : 0;
+  }
+  return count;
+}
+
+/// Turns what was swept into ranges.
+template <class V>
+void finish(const ScanJob& job) {
   const std::int32_t whole = job.beam_count & ~(V::kLanes - 1);
   const auto one = V::broadcast(1.0F);
   for (std::int32_t beam = 0; beam < whole; beam += V::kLanes) {
@@ -403,5 +532,9 @@ void run_scan(const ScanJob& job) {
     job.ranges_m[beam] = range_m < job.range_max_m ? range_m : job.range_max_m;
   }
 }
+
+/// The steps by the instructions of V.
+template <class V>
+inline constexpr ScanSteps kSteps{clear<V>, sweep<V>, locate<V>, find_visible<V>, finish<V>};
 
 }  // namespace sim::scan::detail

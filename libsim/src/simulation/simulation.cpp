@@ -44,7 +44,8 @@ struct RobotParts {
   std::vector<std::unique_ptr<Device>> devices;
   std::vector<Sensor*> sensors;  // of devices, by device index; nullptr for actuators
   std::vector<bool> last;        // by device index: looks at others' readings, so comes after them
-  Motion* motion = nullptr;      // the first of each, if any
+  bool any_last = false;
+  Motion* motion = nullptr;  // the first of each, if any
   Pen* pen = nullptr;
   RobotStatistics statistics;
   double radius_m = 0.0;           // of the footprint about B
@@ -123,6 +124,7 @@ struct Simulation::Impl {
       Device* made = parts.devices.back().get();
       parts.sensors.push_back(dynamic_cast<Sensor*>(made));
       parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr);
+      parts.any_last = parts.any_last || parts.last.back();
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
@@ -218,7 +220,9 @@ struct Simulation::Impl {
       farthest_move_m = std::max(farthest_move_m, move_m(i, dt_s));
     }
     for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
-    for (std::size_t i = 0; i < robots.size(); ++i) update_devices(i, true);
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      if (robots[i].any_last) update_devices(i, true);
+    }
   }
 
   std::optional<std::string> place(std::size_t i, const Pose& X_WB) {

@@ -355,6 +355,100 @@ TEST(ScanKernelTest, ValuesThatAreNotFiniteDoNoHarm) {
   }
 }
 
+/// A convex solid and the disc that holds it.
+struct DiscedSolid {
+  EdgeBuffer edges;
+  std::array<float, 3> disc;
+};
+
+std::vector<DiscedSolid> random_solids(Random& random, int count) {
+  std::vector<DiscedSolid> solids(static_cast<std::size_t>(count));
+  for (DiscedSolid& solid : solids) {
+    const double radius_m = random.uniform(0.05, 0.4);
+    const double distance_m = radius_m + random.uniform(0.01, 6.0);
+    const double bearing_rad = random.uniform(-kPi, kPi);
+    const std::array<double, 2> x{distance_m * std::cos(bearing_rad),
+                                  distance_m * std::sin(bearing_rad)};
+    const int corner_count = static_cast<int>(random.uniform(3.0, 9.99));
+    std::vector<std::array<float, 2>> corners;
+    for (int k = 0; k < corner_count; ++k) {
+      const double angle_rad = bearing_rad + 2.0 * kPi * k / corner_count;
+      corners.push_back({static_cast<float>(x[0] + radius_m * std::cos(angle_rad)),
+                         static_cast<float>(x[1] + radius_m * std::sin(angle_rad))});
+    }
+    add_outline(solid.edges, corners);
+    solid.disc = {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(radius_m)};
+  }
+  return solids;
+}
+
+void add_all(EdgeBuffer& to, const EdgeBuffer& from) {
+  for (const Edge& e : from.edges()) to.add(e.x0_m, e.y0_m, e.x1_m, e.y1_m);
+}
+
+TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
+  Random random(5);
+  std::size_t listed = 0;
+  std::size_t all = 0;
+  for (const ScanGeometry& geometry :
+       {kHokuyo, whole_turn(720), ScanGeometry{181, kPi / 180.0, 8.0}, ScanGeometry{1, 0.0, 5.0},
+        ScanGeometry{8, kPi / 4.0, 3.0}}) {
+    for (int round = 0; round < 60; ++round) {
+      const std::vector<DiscedSolid> solids = random_solids(random, 1 + 3 * round);
+      EdgeBuffer whole;
+      for (const DiscedSolid& solid : solids) add_all(whole, solid.edges);
+      const double yaw_rad = random.uniform(-kPi, kPi);
+      // Where the sensor stands in W does not matter, but for what single precision makes of it.
+      const float at_x = static_cast<float>(random.uniform(-50.0, 50.0));
+      const float at_y = static_cast<float>(random.uniform(-50.0, 50.0));
+      DiscBuffer discs;
+      discs.add(at_x, at_y, 0.3F);  // of the sensor's own robot
+      for (const DiscedSolid& solid : solids) {
+        discs.add(at_x + solid.disc[0], at_y + solid.disc[1], solid.disc[2]);
+      }
+      const std::vector<double> expected = scan(geometry, whole, yaw_rad);
+      for (const InstructionSet set : instruction_sets()) {
+        ScanKernel kernel(geometry, set);
+        kernel.begin(yaw_rad);
+        kernel.locate(discs, at_x, at_y);
+        const auto near = kernel.in_view(0);
+        EXPECT_TRUE(std::find(near.begin(), near.end(), 0) != near.end())
+            << "what the sensor is within is always listed";
+        for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
+          EdgeBuffer edges;
+          for (const std::int32_t disc : kernel.visible(ring)) {
+            if (disc == 0) continue;
+            add_all(edges, solids[static_cast<std::size_t>(disc - 1)].edges);
+            if (set == InstructionSet::kScalar) ++listed;
+          }
+          kernel.add(edges);
+        }
+        std::vector<double> ranges_m(static_cast<std::size_t>(geometry.beam_count));
+        kernel.finish(ranges_m);
+        EXPECT_EQ(ranges_m, expected) << "instruction set " << static_cast<int>(set);
+      }
+      all += solids.size();
+    }
+  }
+  EXPECT_LT(listed, all / 2) << "much is out of view or hidden";
+  EXPECT_GT(listed, all / 50);
+}
+
+TEST(ScanKernelTest, DiscsThatAreNoNumbersAreListed) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  DiscBuffer discs;
+  discs.add(nan, 0.0F, 0.1F);
+  discs.add(0.0F, 0.0F, 0.1F);
+  discs.add(1.0F, 0.0F, nan);
+  for (const InstructionSet set : instruction_sets()) {
+    ScanKernel kernel(kHokuyo, set);
+    kernel.begin(0.3);
+    kernel.locate(discs, 0.0F, 0.0F);
+    EXPECT_EQ(kernel.in_view(0).size(), 3U);
+    EXPECT_EQ(kernel.visible(0).size(), 3U);
+  }
+}
+
 TEST(ScanKernelTest, TakesNoMemoryInSteadyState) {
   Random random(3);
   const EdgeBuffer scene = random_scene(random, 40);

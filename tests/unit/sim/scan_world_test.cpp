@@ -66,6 +66,36 @@ TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
   EXPECT_LE(at_corners, beams / 500) << "of " << beams;  // 0.2 %
 }
 
+TEST(ScanOfTheWorld, LeavesOutHiddenRobotsOfACrowdWithoutADifference) {
+  const WorldDescription world = load_world(PLAYPEN_SOURCE_DIR "/worlds/cave.json");
+  const RobotModel& model = *find_robot_model(world, "pioneer2dx");
+  std::mt19937 random(2);
+  const auto uniform = [&random](double a, double b) {
+    return a + (b - a) * static_cast<double>(random()) / 4294967296.0;
+  };
+  PhysicsWorld physics(world.arena);
+  for (int i = 0; i < 200; ++i) {
+    physics.add_robot(model, {uniform(-8.0, 8.0), uniform(-8.0, 8.0), uniform(-3.0, 3.0)});
+  }
+  scan::EdgeBuffer edges;
+  for (const scan::ScanGeometry& geometry :
+       {scan::ScanGeometry{181, std::numbers::pi / 180.0, 8.0},
+        scan::ScanGeometry{682, 0.0069, 5.0}, scan::ScanGeometry{361, 0.0174, 30.0}}) {
+    scan::ScanKernel kernel(geometry);
+    std::vector<double> whole(static_cast<std::size_t>(geometry.beam_count));
+    std::vector<double> parts(whole.size());
+    for (int pose = 0; pose < 400; ++pose) {
+      const Pose X_WL{uniform(-7.9, 7.9), uniform(-7.9, 7.9), uniform(-4.0, 4.0)};
+      const int own = pose % 201 - 1;
+      const double height_m = pose % 2 == 0 ? 0.1 : 0.23;  // above all robots
+      physics.collect_edges(X_WL.position(), geometry.range_max_m, height_m, own, true, edges);
+      kernel.scan(edges, X_WL.yaw_rad, whole);
+      physics.scan(geometry, X_WL, height_m, own, true, parts);
+      ASSERT_EQ(parts, whole) << "pose " << pose;
+    }
+  }
+}
+
 TEST(ScanOfTheWorld, CollectsOnlyWhatIsInRangeFromAHundredThousandEdges) {
   // 25 000 boxes of 0.1 m, one a metre, on 158 x 158 m.
   ArenaDescription arena;

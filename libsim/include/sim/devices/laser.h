@@ -57,8 +57,7 @@ class Laser final : public Sensor {
   LaserParams params_;
   bool may_be_inside_;
   RandomStream noise_;
-  scan::ScanKernel kernel_;
-  scan::EdgeBuffer edges_;
+  scan::ScanGeometry geometry_;
   LaserReading reading_;
 };
 

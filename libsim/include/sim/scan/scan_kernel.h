@@ -64,12 +64,50 @@ class EdgeBuffer {
   std::size_t size_ = 0;
 };
 
+/// Discs that hold solids, a robot each for instance: what a scan asks about before it takes their
+/// edges. clear() keeps the memory.
+class DiscBuffer {
+ public:
+  /// Forgets all discs; keeps the memory.
+  void clear() noexcept { size_ = 0; }
+  /// Adds a disc round (x, y), in W [m].
+  void add(float x_m, float y_m, float radius_m) {
+    if (size_ + kPadding >= x_.size()) grow();
+    x_[size_] = x_m;
+    y_[size_] = y_m;
+    radius_[size_] = radius_m;
+    ++size_;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  /// Coordinates and radii, an array each; kPadding more may be read, though they mean nothing [m].
+  [[nodiscard]] const float* x_m() const noexcept { return x_.data(); }
+  [[nodiscard]] const float* y_m() const noexcept { return y_.data(); }
+  [[nodiscard]] const float* radius_m() const noexcept { return radius_.data(); }
+  static constexpr std::size_t kPadding = 8;
+
+ private:
+  void grow();
+
+  std::vector<float> x_ = std::vector<float>(kPadding);
+  std::vector<float> y_ = std::vector<float>(kPadding);
+  std::vector<float> radius_ = std::vector<float>(kPadding);
+  std::size_t size_ = 0;
+};
+
+namespace detail {
+struct ScanJob;
+struct ScanSteps;
+}  // namespace detail
+
 /// Directions of a scanner's beams: `beam_count` of them, `resolution_rad` apart, symmetric
 /// about forward; beam 0 is the rightmost (least angle).
 struct ScanGeometry {
   int beam_count = 682;         ///< 1 to 1 000 000
   double resolution_rad = 0.0;  ///< > 0; (beam_count - 1) * resolution <= 2 pi
   double range_max_m = 5.0;     ///< > 0
+
+  friend bool operator==(const ScanGeometry&, const ScanGeometry&) = default;
 
   [[nodiscard]] double angle_min_rad() const {
     return -0.5 * resolution_rad * static_cast<double>(beam_count - 1);
@@ -116,19 +154,55 @@ class ScanKernel {
   /// @param ranges_m beam_count values out, beam 0 the rightmost [m].
   void scan(const EdgeBuffer& edges, double yaw_rad, std::span<double> ranges_m);
 
+  /// The same in parts: begin(), add() for some edges after the other, finish(). So what is nearest
+  /// may come first, and what find_visible() then says is hidden need not be added at all: the
+  /// ranges are the same to the last bit.
+  /// @param yaw_rad  as for scan().
+  void begin(double yaw_rad);
+  /// Adds edges to the scan that was begun. If the sensor is inside a solid, so says `edges`.
+  void add(const EdgeBuffer& edges);
+
+  /// Discs that are located fall into so many rings by the distance of their middles.
+  static constexpr int kRings = 4;
+  /// A ring's outer limit [m]; the last one has none.
+  static constexpr float kRingLimits_m[kRings - 1] = {1.5F, 3.0F, 5.0F};
+  /// Finds where discs stand, as seen by the scan that was begun. (x, y) is the sensor's place in
+  /// W [m]; errors of single precision are allowed for.
+  void locate(const DiscBuffer& discs, float x_m, float y_m);
+  /// Indices of the located discs in a ring of which a part may be in view and in range, in rising
+  /// order. Errs on the side of listing. Holds until the next locate().
+  [[nodiscard]] std::span<const std::int32_t> in_view(int ring) const;
+  /// Of these the ones that some beam may meet before any edge that was added; the others are
+  /// hidden. Errs on the side of listing. Holds until the next call.
+  [[nodiscard]] std::span<const std::int32_t> visible(int ring);
+  /// @param ranges_m  as for scan().
+  void finish(std::span<double> ranges_m);
+
   [[nodiscard]] const ScanGeometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] InstructionSet instructions() const noexcept { return instructions_; }
 
  private:
   struct Tables;
 
+  void reserve(std::size_t edge_count);        ///< scratch memory
+  void reserve_discs(std::size_t disc_count);  ///< likewise
+  [[nodiscard]] detail::ScanJob job();         ///< without edges, discs and ranges
+
   ScanGeometry geometry_;
   InstructionSet instructions_;
-  std::shared_ptr<const Tables> tables_;  ///< what depends on the geometry alone
-  std::vector<float> inverse_ranges_;     ///< scratch, one a beam, padded [1/m]
-  std::vector<std::int32_t> integers_;    ///< scratch, several a edge
-  std::vector<float> floats_;             ///< scratch, several a edge
-  std::size_t edge_capacity_ = 0;         ///< edges that the scratch memory is enough for
+  const detail::ScanSteps* steps_;           ///< by these instructions
+  std::shared_ptr<const Tables> tables_;     ///< what depends on the geometry alone
+  std::vector<float> inverse_ranges_;        ///< scratch, one a beam, padded [1/m]
+  std::vector<std::int32_t> integers_;       ///< scratch, several a edge
+  std::vector<float> floats_;                ///< scratch, several a edge
+  std::size_t edge_capacity_ = 0;            ///< edges that the scratch memory is enough for
+  std::vector<std::int32_t> disc_integers_;  ///< scratch, several a disc
+  std::vector<float> disc_floats_;           ///< likewise
+  std::size_t disc_capacity_ = 0;            ///< discs that this is enough for
+  std::int32_t ring_sizes_[kRings] = {};     ///< located discs
+  double cos_yaw_ = 1.0;                     ///< of the scan that was begun
+  double sin_yaw_ = 0.0;                     ///< likewise
+  bool inside_ = false;                      ///< it began inside a solid
 };
 
 }  // namespace sim::scan
