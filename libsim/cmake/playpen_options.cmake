@@ -14,3 +14,27 @@ if(PLAYPEN_SANITIZE)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(playpen_build_flags INTERFACE -fsanitize=${PLAYPEN_SANITIZE})
 endif()
+
+# playpen_precompile(TARGET libraries|tests HEADER...): where PLAYPEN_PCH asks for it, the headers of
+# other libraries that most of a target's sources include are read once for all of them. A source
+# includes what it needs nevertheless: without PLAYPEN_PCH, the default, nobody else does it.
+function(playpen_precompile target part)
+  if(part IN_LIST PLAYPEN_PCH)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()
+if(PLAYPEN_PCH)
+  # Memory for time: gcc need not look for garbage, where a precompiled header would have it look at
+  # more.
+  target_compile_options(playpen_build_flags INTERFACE
+    $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
+endif()
+
+# playpen_bind_own_functions(TARGET): calls within a shared library go to its own functions, also
+# where a program has one of the same name: by chance, or its copy of an inline function of a common
+# header, which may be compiled without optimisation.
+function(playpen_bind_own_functions target)
+  if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+    target_link_options(${target} PRIVATE LINKER:-Bsymbolic-functions)
+  endif()
+endfunction()

@@ -45,7 +45,7 @@ cd "$root"
 if ((${#programs[@]} == 0)); then
   launcher=()
   if command -v ccache >/dev/null 2>&1; then
-    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH=)
   fi
   cmake --preset fuzz "${launcher[@]}"
   cmake --build --preset fuzz
