@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <regex>
 #include <sstream>
@@ -22,6 +21,7 @@
 #include "playerlike/host/host.h"
 #include "playerlike/messages/messages.h"
 #include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -150,10 +150,7 @@ TEST_F(PlayerApi, EveryExampleWorldHasItsInterface) {
 // --- The page of all proxies
 
 std::string content(const std::string& file) {
-  std::ifstream in(std::filesystem::path(PLAYPEN_SOURCE_DIR) / file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return test_support::read_bytes(std::filesystem::path(PLAYPEN_SOURCE_DIR) / file);
 }
 
 TEST(PageOfProxies, HasEveryClassOfTheTables) {

@@ -17,6 +17,7 @@
 
 #include "libCCMorse/CCMorse.h"
 #include "libplayerc++/playerc++.h"
+#include "player_errors.h"
 #include "playerlike/host/run_settings.h"
 #include "reachable_host.h"
 #include "temporary_folder.h"
@@ -24,6 +25,7 @@
 namespace {
 
 using namespace PlayerCc;
+using test::error_of;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
@@ -39,17 +41,6 @@ constexpr const char* kWorld = R"({
       "dio": {"inputs": ["r2.dio.0", true], "outputs": 4},
       "aio": {"inputs": [5, "aio.1"], "outputs": 2}}},
     {"name": "r2", "pose": {"x": 2, "y": 1}, "devices": {"dio": {}, "opaque": {}}}]})";
-
-template <typename Action>
-PlayerError error_of(Action action) {
-  try {
-    action();
-  } catch (const PlayerError& e) {
-    return e;
-  }
-  ADD_FAILURE() << "no error";
-  return PlayerError("", "", 0);
-}
 
 class WorldProxies : public testing::TestWithParam<test::Transport> {
  protected:
