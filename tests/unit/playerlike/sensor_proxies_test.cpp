@@ -121,7 +121,8 @@ TEST_P(SensorProxies, IrReadsRangesAndVoltages) {
 
 TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
   const auto client = open(room(
-      R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1}}})"));
+      R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1},
+                    "size": [0.156, 0.155], "size_height": 0.21}})"));
   RangerProxy ranger(client.get());
   LaserProxy laser(client.get());
   EXPECT_EQ(ranger.GetRangeCount(), 0U);
@@ -132,7 +133,12 @@ TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
   EXPECT_EQ(ranger.GetSensorCount(), 1U);
   EXPECT_NEAR(ranger.GetDevicePose().px, 0.1, 1e-12);
   EXPECT_EQ(ranger.GetElementPose(0).px, 0.0);
-  EXPECT_NEAR(ranger.GetDeviceSize().sl, 0.05, 1e-12);
+  for (const player_bbox3d_t& size :
+       {ranger.GetDeviceSize(), ranger.GetElementSize(0), laser.GetSize()}) {
+    EXPECT_NEAR(size.sl, 0.156, 1e-12);
+    EXPECT_NEAR(size.sw, 0.155, 1e-12);
+    EXPECT_NEAR(size.sh, 0.21, 1e-12);
+  }
   EXPECT_NEAR(ranger.GetMinAngle(), -0.5 * kPi, 1e-12);
   EXPECT_NEAR(ranger.GetMaxAngle(), 0.5 * kPi, 1e-12);
   EXPECT_NEAR(ranger.GetAngularRes(), kPi / 180.0, 1e-12);
