@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
@@ -383,13 +384,22 @@ TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
   EXPECT_FLOAT_EQ(imu.GetZMagn(), -45.0F);
   EXPECT_EQ(imu.GetRawValues().gyro_z, imu.GetZGyro());
   EXPECT_NEAR(imu.GetPose().pyaw, 0.25, 1e-9);
+  // The device is reset, so another client is told the same.
   imu.ResetOrientation(0);
-  EXPECT_EQ(imu.GetPose().pyaw, 0.0);
-  client->Read();
+  PlayerClient second(host->connect(6665));
+  ImuProxy same(&second, 0);
+  const auto read_both = [&] {
+    std::thread other([&] { second.Read(); });
+    client->Read();
+    other.join();
+  };
+  read_both();
   EXPECT_NEAR(imu.GetPose().pyaw, 0.05, 1e-9);
+  EXPECT_EQ(same.GetPose().pyaw, imu.GetPose().pyaw);
   imu.ResetEuler(0.0F, 0.0F, 1.0F);
-  client->Read();
+  read_both();
   EXPECT_NEAR(imu.GetPose().pyaw, 1.05, 1e-9);
+  EXPECT_EQ(same.GetPose().pyaw, imu.GetPose().pyaw);
   imu.SetDatatype(PLAYER_IMU_DATA_EULER);
   EXPECT_EQ(error_code_of([&] { imu.SetDatatype(6); }), PlayerError::kBadArgument);
   EXPECT_EQ(error_code_of([&] { imu.ResetEuler(0.0F, 0.0F, NAN); }), PlayerError::kBadArgument);
