@@ -336,6 +336,21 @@ TEST_P(WorldProxies, FetchMapsThatAreLargerThanATile) {
   EXPECT_EQ(map.origin, whole.origin);
   EXPECT_EQ(map.cell_size_m, whole.cell_size_m);
   EXPECT_TRUE(map.cells == whole.cells);
+
+  PlayerClient client(host.connect(6665));
+  MapProxy proxy(&client, 0);
+  proxy.RequestMap();
+  ASSERT_EQ(proxy.GetWidth(), 1290U);
+  ASSERT_EQ(proxy.GetHeight(), 1040U);
+  std::vector<std::int8_t> cells(whole.cells.size());
+  proxy.GetMap(cells.data());
+  int different = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    // The proxy's rows begin at the bottom, and its cells are 1 or -1.
+    const float cell = whole.cells[(1039 - i / 1290) * 1290 + i % 1290];
+    different += cells[i] != (cell > 0.5F ? 1 : -1);
+  }
+  EXPECT_EQ(different, 0);
 }
 
 // --- voices, lights, lines, messages
