@@ -355,7 +355,8 @@ TEST(CarDrive, ComesToGoalsOnItsWayWithTheirHeading) {
 TEST(CarDrive, ReachesAGoalWhateverItsHeading) {
   for (int i = 0; i < 48; ++i) {
     const double where = 2.0 * kPi / 8.0 * (i % 8);
-    const double heading = 2.0 * kPi / 6.0 * (i / 8) - kPi;
+    const int round = i / 8;
+    const double heading = 2.0 * kPi / 6.0 * round - kPi;
     const Pose goal{10.0 + 2.5 * std::cos(where), 10.0 + 2.5 * std::sin(where), heading};
     Simulation simulation(room(car(2.0), {10.0, 10.0, 0.0}));
     command(simulation, PositionCommand{goal, 1.0, 2.0});
