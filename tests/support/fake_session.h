@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "libplayerc++/playererror.h"
+#include "player_errors.h"
 #include "playerlike/session/layer_book.h"
 #include "playerlike/session/session.h"
 #include "sim/canvas/layers.h"
@@ -97,7 +98,10 @@ inline std::shared_ptr<FakeWorld> make_fake_world() {
         {"mount_x", 0.035},
         {"mount_y", 0.01},
         {"mount_yaw", 0.1},
-        {"height", 0.125}}},
+        {"height", 0.125},
+        {"size_x", 0.05},
+        {"size_y", 0.06},
+        {"size_height", 0.07}}},
       {kMotion, "motion", "motion", {{"max_speed", 0.4}, {"max_turn_rate", 2.0}}},
       {kOdometry, "odometry", "odometry", {{"frequency", 10.0}, {"noise", 0.0}}},
       {kPen, "pen", "pen", {{"trail", 0.0}}},
@@ -366,17 +370,6 @@ class FakeSession final : public playerlike::Session {
 /// A new session of that world.
 inline std::unique_ptr<playerlike::Session> fake_session(std::shared_ptr<FakeWorld> world) {
   return std::make_unique<FakeSession>(std::move(world));
-}
-
-/// Code of the PlayerError that an action throws; 0 if it throws none.
-template <typename Action>
-int error_code_of(Action action) {
-  try {
-    action();
-  } catch (const PlayerCc::PlayerError& e) {
-    return e.GetErrorCode();
-  }
-  return 0;
 }
 
 }  // namespace test

@@ -5,27 +5,22 @@
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "temporary_folder.h"
+
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::read_bytes;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 const fs::path kRoot(PLAYPEN_SOURCE_DIR);
-
-std::string content(const fs::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// The text without fenced blocks and code in backticks, lines kept.
 std::string prose_of(const std::string& text) {
@@ -93,7 +88,7 @@ std::vector<std::string> dead_links(const fs::path& file, const std::string& tex
     const bool anchored =
         hash == std::string::npos ||
         (there &&
-         anchors_of(target.empty() ? text : content(path)).contains(link.substr(hash + 1)));
+         anchors_of(target.empty() ? text : read_bytes(path)).contains(link.substr(hash + 1)));
     if (!there || !anchored) dead.push_back(link);
   }
   return dead;
@@ -116,7 +111,7 @@ TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
   const std::vector<fs::path> all = pages();
   ASSERT_GT(all.size(), 10U);
   for (const fs::path& page : all) {
-    EXPECT_THAT(dead_links(page, content(page)), IsEmpty()) << page;
+    EXPECT_THAT(dead_links(page, read_bytes(page)), IsEmpty()) << page;
   }
 }
 

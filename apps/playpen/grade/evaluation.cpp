@@ -14,6 +14,7 @@
 #include "grade/shortest_path.h"
 #include "grade/text.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/io/map_file.h"
 #include "sim/world/robot_model.h"
 
@@ -128,7 +129,7 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
     case Ending::kSignal:
       return "the program " + end.program.text();
     case Ending::kTimedOut:
-      return "timeout: still running after " + short_number(task.timeout_s) + " s";
+      return "timeout: still running after " + sim::shortest_text(task.timeout_s) + " s";
     case Ending::kInterrupted:
       return "the grader was interrupted";
     case Ending::kNotRun:
@@ -157,10 +158,11 @@ class Judge {
     if (!limit) return;
     const std::string bound = least ? "at least " : "at most ";
     if (!value) {
-      add(std::string(what) + " unknown, " + bound + short_number(*limit) + unit + " asked for");
+      add(std::string(what) + " unknown, " + bound + sim::shortest_text(*limit) + unit +
+          " asked for");
     } else if (least ? *value < *limit : *value > *limit) {
       add(std::string(what) + ' ' + telling_number(*value, *limit, decimals) + unit + ", " + bound +
-          short_number(*limit) + unit + (least ? " needed" : " allowed"));
+          sim::shortest_text(*limit) + unit + (least ? " needed" : " allowed"));
     }
   }
 
@@ -206,8 +208,8 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
     if (!way) {
       refuse(task, "task/unreachable-goal", "",
              "a goal that robot " + reference.robot + " can reach",
-             '(' + short_number(reference.goal->position.x()) + ", " +
-                 short_number(reference.goal->position.y()) + ") in \"" + reference.world +
+             '(' + sim::shortest_text(reference.goal->position.x()) + ", " +
+                 sim::shortest_text(reference.goal->position.y()) + ") in \"" + reference.world +
                  "\", to which there is no way");
     }
     reference.shortest_path_m = way->length_m;
@@ -242,7 +244,8 @@ std::vector<std::string> faults_of(const Thresholds& t, const Measures& m, Endin
   }
   if (t.must_reach && !m.reached) judge.add("goal not known to be reached");
   if (t.must_reach && m.reached && !*m.reached) {
-    judge.add("goal not reached: " + fixed(*m.goal_distance_m, 2) + " m away from it at the end");
+    judge.add("goal not reached: " + sim::fixed_text(*m.goal_distance_m, 2) +
+              " m away from it at the end");
   }
   judge.at_least("coverage", m.coverage, t.min_coverage, 3);
   judge.at_least("map correctness", m.correctness, t.min_correctness, 3);

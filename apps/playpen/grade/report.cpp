@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "grade/text.h"
+#include "sim/core/number_text.h"
 
 namespace playpen::grade {
 namespace {
@@ -68,7 +69,7 @@ std::string ending_text(const GradedRun& run) {
 }
 
 std::string number_or_dash(const std::optional<double>& value, int decimals) {
-  return value ? fixed(*value, decimals) : "-";
+  return value ? sim::fixed_text(*value, decimals) : "-";
 }
 
 using Row = std::vector<std::string>;
@@ -87,7 +88,7 @@ Row row_of(const GradedRun& run) {
           m.collisions ? std::to_string(*m.collisions) : "-",
           number_or_dash(m.least_clearance_m, 3),
           number_or_dash(m.sim_time_s, 1),
-          run.ending == Ending::kNotRun ? "-" : fixed(run.wall_time_s, 1)};
+          run.ending == Ending::kNotRun ? "-" : sim::fixed_text(run.wall_time_s, 1)};
 }
 
 /// Rows under one another; words to the left, numbers to the right.
@@ -161,9 +162,9 @@ std::string table(const Grade& grade) {
   for (const Summarized& what : kSummarized) {
     const std::optional<Spread> spread = spread_of(grade, what.value);
     if (!spread) continue;
-    text += "  " + std::string(what.words) + ": " + fixed(spread->least, what.decimals) + " to " +
-            fixed(spread->most, what.decimals) + ", mean " + fixed(spread->mean, what.decimals) +
-            '\n';
+    text += "  " + std::string(what.words) + ": " + sim::fixed_text(spread->least, what.decimals) +
+            " to " + sim::fixed_text(spread->most, what.decimals) + ", mean " +
+            sim::fixed_text(spread->mean, what.decimals) + '\n';
   }
   return text;
 }

@@ -34,10 +34,11 @@ class ImuProxy : public ClientProxy {
   /// @param aDatatype  PLAYER_IMU_DATA_STATE, _CALIB, _QUAT, _EULER or _FULLSTATE.
   /// @throws PlayerError kBadArgument for any other.
   void SetDatatype(int aDatatype);
-  /// The orientation counts from the present one on: GetPose() is 0 now. Holds for this proxy.
+  /// The orientation counts from the present one on: ResetEuler() to zeros.
   /// @param aValue  which part of it a device resets; the simulated one turns about z only.
   void ResetOrientation(int aValue);
-  /// The orientation is said to be this now [rad]. Holds for this proxy.
+  /// The orientation is said to be this now [rad], from the next reading on and for all clients, as
+  /// it is the device that is told. Of a robot that stands level, only the yaw: the others stay 0.
   /// @throws PlayerError kBadArgument for numbers that are not finite.
   void ResetEuler(float aRoll, float aPitch, float aYaw);
 
@@ -49,8 +50,6 @@ class ImuProxy : public ClientProxy {
 
  private:
   player_imu_data_calib_t mValues = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-  double mMeasuredYaw = 0.0;
-  double mYawOffset = 0.0;
   player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 };
 

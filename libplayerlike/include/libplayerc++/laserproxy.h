@@ -70,7 +70,8 @@ class LaserProxy : public ClientProxy {
   /// Where the robot is, as the newest reading of its localisation that this client has subscribed
   /// to (by a Position2dProxy) says; zero if there is none.
   player_pose3d_t GetRobotPose();
-  /// Size of the device; the one simulated, a Hokuyo URG-04LX, is a box of 5 x 5 x 7 cm.
+  /// Size of the device's case, as its settings say: an S1R's Hokuyo URG-04LX is a box of 5 x 5 x 7
+  /// cm.
   player_bbox3d_t GetSize();
 
   double GetMinLeft()
@@ -107,6 +108,7 @@ class LaserProxy : public ClientProxy {
   std::size_t mShown = 0;
   double mRangeRes = 0.0;  // 0: not rounded
   player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  player_bbox3d_t mSize = {0.0, 0.0, 0.0};
 };
 
 }  // namespace PlayerCc

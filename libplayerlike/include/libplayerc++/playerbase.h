@@ -27,41 +27,11 @@
 #include <string>
 #include <vector>
 
-#ifndef M_PI
-#define M_PI 3.14159265358979323846
-#endif
-
-#ifndef TRUE
-#define TRUE 1
-#endif
-#ifndef FALSE
-#define FALSE 0
-#endif
-
-/// The lesser of two values; each may be evaluated twice.
-#ifndef MIN
-#define MIN(a, b) (((a) < (b)) ? (a) : (b))
-#endif
-
-/// The greater of two values; each may be evaluated twice.
-#ifndef MAX
-#define MAX(a, b) (((a) > (b)) ? (a) : (b))
-#endif
-
-/// Degrees to radians.
-#ifndef DTOR
-#define DTOR(d) ((d)*M_PI / 180.0)
-#endif
-
-/// Radians to degrees.
-#ifndef RTOD
-#define RTOD(r) ((r)*180.0 / M_PI)
-#endif
-
-/// The same direction as z [rad], in [-pi, pi].
+/// The same direction as z [rad], in [-pi, pi]. Not as in C: a program may have an atan2 of its
+/// own.
 #ifndef NORMALIZE
 #define NORMALIZE(z) (std::atan2(std::sin(z), std::cos(z)))
 #endif
 
-// Last, since it leaves alone what is defined above.
+// Last, since it leaves alone what is defined above. The other macros are there.
 #include "libplayercommon/playercommon.h"

@@ -50,8 +50,8 @@ class Position2dProxy : public ClientProxy {
   /// Drive to a pose in the frame that GetXPos() is in: turn towards it, drive there straight (to
   /// within the `tolerance` of the motors), turn to the heading (to within
   /// `heading_tolerance_deg`), stand. An omnidirectional robot does both at once; a car comes to
-  /// the point on an arc, with whatever heading that ends. It goes on until it is there, also
-  /// against obstacles, unless the index is a driver's.
+  /// the point with the heading where that lies on its way, else with whatever heading its arc
+  /// ends. It goes on until it is there, also against obstacles, unless the index is a driver's.
   /// @param pos  where to.
   /// @param vel  speeds on the way, as in Player: px and py the highest speed as a vector [m/s], pa
   ///             the highest turn rate [rad/s]; 0 for the motors' own limits. Signs do not matter.

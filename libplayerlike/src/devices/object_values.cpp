@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -187,6 +188,9 @@ void write_property(const std::string& property, const PropertyValue& value, voi
   }
   const auto& numbers = std::get<Numbers>(value);
   if (numbers.size() == 1 && is_whole(length)) {
+    if (length == 1 && std::abs(numbers.front()) > std::numeric_limits<std::int8_t>::max()) {
+      refuse_length(property, "a number that needs 4 or 8 bytes now", length);
+    }
     return put_whole(static_cast<int>(numbers.front()), bytes, length);
   }
   if (!has_count(property, numbers.size(), length)) {

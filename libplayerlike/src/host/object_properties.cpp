@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -85,10 +86,11 @@ struct Property {
 
 bool is_robot(const Subject& s) { return s.robot != nullptr; }
 bool is_block(const Subject& s) { return s.object.kind == "block"; }
+bool is_robot_or_block(const Subject& s) { return is_robot(s) || is_block(s); }
 bool is_any(const Subject&) { return true; }
 
 constexpr Property kProperties[] = {
-    {"colour", [](const Subject& s) { return is_robot(s) || is_block(s); },
+    {"colour", is_robot_or_block,
      [](const Simulation&, const Subject& s) -> PropertyValue {
        if (s.robot != nullptr) return sim::to_string(s.robot->colour);
        // As pictures have them.
@@ -112,6 +114,20 @@ constexpr Property kProperties[] = {
      [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
        const bool on = numbers(value, "dynamics", 1, 1).front() != 0.0;
        require_done(simulation.set_robot_dynamics(s.robot_index, on));
+     }},
+    {"fiducial_return", is_robot_or_block,
+     [](const Simulation&, const Subject& s) -> PropertyValue {
+       return Numbers{
+           static_cast<double>(s.robot != nullptr ? s.robot->fiducial : s.box->fiducial)};
+     },
+     [](Simulation& simulation, const Subject& s, const PropertyValue& value) {
+       const double number = numbers(value, "fiducial_return", 1, 1).front();
+       constexpr int kMost = std::numeric_limits<std::int32_t>::max();
+       if (!(number >= 0.0 && number <= kMost && number == std::floor(number))) {
+         refuse("the property \"fiducial_return\" is a whole number from 0 (not seen) to " +
+                std::to_string(kMost));
+       }
+       require_done(simulation.set_object_fiducial(s.object.name, static_cast<int>(number)));
      }},
     {"kind", is_any,
      [](const Simulation&, const Subject& s) -> PropertyValue { return s.object.kind; }, nullptr},

@@ -8,9 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -20,6 +18,7 @@
 #include <system_error>
 #include <utility>
 
+#include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike {
@@ -43,13 +42,6 @@ std::optional<std::string> obstacle_to_running(const std::string& path) {
            " is no executable file; is it the built program, or is chmod +x missing?";
   }
   return std::nullopt;
-}
-
-/// The shortest text that reads back as the same number, whatever the locale.
-std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return std::string(buffer.data(), end.ptr);
 }
 
 std::string absolute_path(const std::string& path) {
@@ -324,23 +316,23 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
       settings.view_socket ? std::optional(std::to_string(*settings.view_socket)) : std::nullopt;
   const RunSettings defaults;
   const auto number_unless = [](double value, double by_default) {
-    return value != by_default ? std::optional(number_text(value)) : std::nullopt;
+    return value != by_default ? std::optional(sim::shortest_text(value)) : std::nullopt;
   };
   changes["PLAYPEN_RECORD_FPS"] = number_unless(settings.film_fps, defaults.film_fps);
   changes["PLAYPEN_RECORD_SPEED"] = number_unless(settings.film_speed, defaults.film_speed);
-  changes["PLAYPEN_SNAPSHOT_EVERY"] = settings.snapshot_period_s
-                                          ? std::optional(number_text(*settings.snapshot_period_s))
-                                          : std::nullopt;
+  changes["PLAYPEN_SNAPSHOT_EVERY"] =
+      settings.snapshot_period_s ? std::optional(sim::shortest_text(*settings.snapshot_period_s))
+                                 : std::nullopt;
   changes["PLAYPEN_VIEW_MODE"] =
       settings.view_mode ? std::optional(std::string(sim::to_string(*settings.view_mode)))
                          : std::nullopt;
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =
-      settings.duration_s ? std::optional(number_text(*settings.duration_s)) : std::nullopt;
+      settings.duration_s ? std::optional(sim::shortest_text(*settings.duration_s)) : std::nullopt;
   auto& time = changes["PLAYPEN_TIME"];
   if (settings.time_mode == sim::TimeMode::kLockstep) time = "lockstep";
-  if (settings.time_mode == sim::TimeMode::kPaced) time = number_text(settings.time_factor);
+  if (settings.time_mode == sim::TimeMode::kPaced) time = sim::shortest_text(settings.time_factor);
   changes["PLAYPEN_PROGRESS"] = settings.progress ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_VIRTUAL_TIME"] =
       settings.virtual_time ? std::optional<std::string>("1") : std::nullopt;

@@ -1,6 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -16,6 +15,7 @@
 #include <typeindex>
 
 #include "imr-h/imr_config.h"
+#include "sim/core/number_text.h"
 #include "type_name.h"
 
 namespace imr {
@@ -76,15 +76,6 @@ ParseResult parse_number(const std::string& text, Number& value) {
   }
   value = read;
   return ParseResult::kOk;
-}
-
-template <typename Real>
-std::string shortest_text(Real value) {
-  // The longest shortest form of a double has 24 characters.
-  std::array<char, 40> buffer{};
-  const std::to_chars_result result =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return std::string(buffer.data(), result.ptr);
 }
 
 struct TypeWords {
@@ -472,9 +463,9 @@ ParseResult parse_text(const std::string& text, std::string& value) {
 
 std::string to_text(bool value) { return value ? "true" : "false"; }
 
-std::string to_text(float value) { return shortest_text(value); }
+std::string to_text(float value) { return sim::shortest_text(value); }
 
-std::string to_text(double value) { return shortest_text(value); }
+std::string to_text(double value) { return sim::shortest_text(value); }
 
 std::string to_text(const std::string& value) { return value.empty() ? "\"\"" : value; }
 

@@ -63,13 +63,17 @@ class Ranger final : public Backed<playerc_ranger_t, PlayerCc::RangerProxy> {
   std::vector<player_point_3d_t> points_;
 };
 
+// Player's C library counts poses of sonars and bumpers in an int, unlike those of other sensors.
+template <typename Used, typename Pose>
+void refresh_poses(Used& used, std::vector<Pose>& kept, Pose*& poses, int& pose_count) {
+  const uint32_t count = used.GetPoseCount();
+  pose_count = static_cast<int>(count);
+  poses = copied(kept, count, [&](uint32_t i) { return used.GetPose(i); });
+}
+
 class Sonar final : public Backed<playerc_sonar_t, PlayerCc::SonarProxy> {
  public:
-  void refresh_geometry() {
-    const uint32_t count = used().GetPoseCount();
-    pose_count = static_cast<int>(count);
-    poses = copied(poses_, count, [this](uint32_t i) { return used().GetPose(i); });
-  }
+  void refresh_geometry() { refresh_poses(used(), poses_, poses, pose_count); }
 
  private:
   void refresh() override {
@@ -106,11 +110,7 @@ class Ir final : public Backed<playerc_ir_t, PlayerCc::IrProxy> {
 
 class Bumper final : public Backed<playerc_bumper_t, PlayerCc::BumperProxy> {
  public:
-  void refresh_geometry() {
-    const uint32_t count = used().GetPoseCount();
-    pose_count = static_cast<int>(count);
-    poses = copied(poses_, count, [this](uint32_t i) { return used().GetPose(i); });
-  }
+  void refresh_geometry() { refresh_poses(used(), poses_, poses, pose_count); }
 
  private:
   void refresh() override {

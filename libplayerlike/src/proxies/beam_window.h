@@ -4,11 +4,43 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <string>
 
 #include "libplayerc++/playererror.h"
+#include "libplayerc++/playerstructs.h"
+#include "proxies/sensor_support.h"
 
 namespace PlayerCc::detail {
+
+/// What a laser's settings say before its first scan.
+struct ScannerSettings {
+  std::size_t count = 0;    ///< of beams
+  double least_rad = 0.0;   ///< angle of the first beam
+  double native_rad = 0.0;  ///< between neighbouring ones
+  double range_max_m = 0.0;
+  double frequency_hz = 0.0;
+  player_pose3d_t pose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< on the body
+  player_bbox3d_t size = {0.0, 0.0, 0.0};                 ///< of its case
+};
+
+/// Reads them from a laser's properties.
+inline ScannerSettings scanner_settings(const std::map<std::string, double>& settings) {
+  const auto property = [&](const char* name) { return setting_of(settings, name); };
+  ScannerSettings scanner;
+  scanner.count = static_cast<std::size_t>(property("beams"));
+  scanner.native_rad = property("resolution");
+  // The simulated laser is symmetric about forward.
+  if (scanner.count > 0) {
+    scanner.least_rad = -0.5 * static_cast<double>(scanner.count - 1) * scanner.native_rad;
+  }
+  scanner.range_max_m = property("range_max");
+  scanner.frequency_hz = property("frequency");
+  scanner.pose = {property("mount_x"),  property("mount_y"), property("height"), 0.0, 0.0,
+                  property("mount_yaw")};
+  scanner.size = {property("size_y"), property("size_x"), property("size_height")};
+  return scanner;
+}
 
 /// Which of a scanner's beams a proxy shows: `shown` of them from `first` on, each `stride`-th.
 struct BeamWindow {

@@ -28,8 +28,7 @@ void ImuProxy::HandleReading(const detail::Reading& aReading) {
   mValues = {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
              static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
              static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
-  mMeasuredYaw = reading->yaw_rad;
-  mPose.pyaw = sim::normalize_angle(mMeasuredYaw + mYawOffset);
+  mPose.pyaw = reading->yaw_rad;
 }
 
 bool ImuProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
@@ -78,10 +77,11 @@ void ImuProxy::ResetEuler(float aRoll, float aPitch, float aYaw) {
                                    {"the pitch angle", static_cast<double>(aPitch)},
                                    {"the yaw angle", static_cast<double>(aYaw)}});
   const scoped_lock_t lock(LockData(fun));
-  mYawOffset = static_cast<double>(aYaw) - mMeasuredYaw;
-  mPose.proll = static_cast<double>(aRoll);
-  mPose.ppitch = static_cast<double>(aPitch);
-  mPose.pyaw = sim::normalize_angle(static_cast<double>(aYaw));
+  playerlike::translated(fun, [&] {
+    mLink->core->session().send(
+        mLink->binding.reading,
+        sim::SetPoseCommand{{0.0, 0.0, sim::normalize_angle(static_cast<double>(aYaw))}});
+  });
 }
 
 }  // namespace PlayerCc

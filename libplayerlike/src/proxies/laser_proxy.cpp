@@ -14,9 +14,8 @@ namespace PlayerCc {
 
 namespace {
 
-// What the S1R's Hokuyo URG-04LX reports of itself, by its data sheet.
-constexpr double kHokuyoRangeResolution_m = 0.001;
-constexpr player_bbox3d_t kHokuyoSize_m = {0.05, 0.05, 0.07};
+// What both the S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets.
+constexpr double kRangeResolution_m = 0.001;
 
 }  // namespace
 
@@ -30,19 +29,14 @@ void LaserProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "LaserProxy::LaserProxy";
   Attach(PLAYER_LASER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  mNativeCount = static_cast<std::size_t>(mLink->property("beams", 0.0));
-  mNativeRes = mLink->property("resolution", 0.0);
-  mMaxRange = mLink->property("range_max", 0.0);
-  mFrequency = mLink->property("frequency", 0.0);
-  // The simulated laser is symmetric about forward.
-  mNativeMin = mNativeCount > 0 ? -0.5 * static_cast<double>(mNativeCount - 1) * mNativeRes : 0.0;
-  mShown = mNativeCount;
-  mPose = {mLink->property("mount_x", 0.0),
-           mLink->property("mount_y", 0.0),
-           mLink->property("height", 0.0),
-           0.0,
-           0.0,
-           mLink->property("mount_yaw", 0.0)};
+  const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
+  mNativeCount = mShown = scanner.count;
+  mNativeMin = scanner.least_rad;
+  mNativeRes = scanner.native_rad;
+  mMaxRange = scanner.range_max_m;
+  mFrequency = scanner.frequency_hz;
+  mPose = scanner.pose;
+  mSize = scanner.size;
 }
 
 void LaserProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
@@ -127,7 +121,7 @@ double LaserProxy::GetScanRes() const {
 
 double LaserProxy::GetRangeRes() const {
   const scoped_lock_t lock(LockData("LaserProxy::GetRangeRes"));
-  return mRangeRes > 0.0 ? mRangeRes : kHokuyoRangeResolution_m;
+  return mRangeRes > 0.0 ? mRangeRes : kRangeResolution_m;
 }
 
 double LaserProxy::GetScanningFrequency() const { return GetVar(mFrequency); }
@@ -219,10 +213,7 @@ player_pose3d_t LaserProxy::GetRobotPose() {
   return {pose.x_m, pose.y_m, 0.0, 0.0, 0.0, pose.yaw_rad};
 }
 
-player_bbox3d_t LaserProxy::GetSize() {
-  const scoped_lock_t lock(LockData("LaserProxy::GetSize"));
-  return kHokuyoSize_m;
-}
+player_bbox3d_t LaserProxy::GetSize() { return GetVar(mSize); }
 
 double LaserProxy::GetMinLeft() const {
   const scoped_lock_t lock(LockData("LaserProxy::GetMinLeft"));

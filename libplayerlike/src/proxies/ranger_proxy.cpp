@@ -12,12 +12,6 @@
 #include "sim/devices/rangers.h"
 
 namespace PlayerCc {
-namespace {
-
-// Of a Hokuyo URG-04LX, by its data sheet.
-constexpr player_bbox3d_t kHokuyoSize_m = {0.05, 0.05, 0.07};
-
-}  // namespace
 
 RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   RangerProxy::Subscribe(aIndex);
@@ -34,17 +28,12 @@ void RangerProxy::Subscribe(uint32_t aIndex) {
   mMaxRange = mNativeMaxRange;
   mIsLaser = mLink->info().type == "laser";
   if (mIsLaser) {
-    mNativeCount = static_cast<std::size_t>(mLink->property("beams", 0.0));
-    mNativeRes = mLink->property("resolution", 0.0);
-    // The simulated laser is symmetric about forward.
-    if (mNativeCount > 0) mNativeMin = -0.5 * static_cast<double>(mNativeCount - 1) * mNativeRes;
-    mPose = {mLink->property("mount_x", 0.0),
-             mLink->property("mount_y", 0.0),
-             mLink->property("height", 0.0),
-             0.0,
-             0.0,
-             mLink->property("mount_yaw", 0.0)};
-    mSize = kHokuyoSize_m;
+    const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
+    mNativeCount = scanner.count;
+    mNativeMin = scanner.least_rad;
+    mNativeRes = scanner.native_rad;
+    mPose = scanner.pose;
+    mSize = scanner.size;
     mElements.resize(1);
   } else {
     mElements = detail::element_poses(mLink->info().properties);

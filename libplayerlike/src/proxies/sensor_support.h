@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -34,13 +35,16 @@ T element_or_zero(const char* fun, const char* what, uint32_t index, const std::
   return list[index];
 }
 
+/// One of a device's settings; 0 if it has none of that name.
+inline double setting_of(const std::map<std::string, double>& settings, const std::string& name) {
+  const auto it = settings.find(name);
+  return it == settings.end() ? 0.0 : it->second;
+}
+
 /// Poses on the body of the elements of a device that has the properties count, mount_x_0,
 /// mount_y_0, mount_yaw_0, ... and height.
 inline std::vector<player_pose3d_t> element_poses(const std::map<std::string, double>& settings) {
-  const auto setting = [&](const std::string& name) {
-    const auto it = settings.find(name);
-    return it == settings.end() ? 0.0 : it->second;
-  };
+  const auto setting = [&](const std::string& name) { return setting_of(settings, name); };
   std::vector<player_pose3d_t> poses(static_cast<std::size_t>(setting("count")));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string number = std::to_string(i);

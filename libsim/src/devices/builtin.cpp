@@ -281,6 +281,9 @@ LaserParams parse_laser(io::Reader& settings, LaserParams p) {
   p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
   p.X_BL = settings.pose("pose", p.X_BL);
   p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  constexpr io::NumberRange kSize_m{0.0, 100.0, false, "m"};
+  p.size_m = settings.vec2("size", p.size_m, kSize_m);
+  p.size_height_m = settings.number("size_height", p.size_height_m, kSize_m);
   const double field_of_view = p.resolution_rad * (p.beam_count - 1);
   if (field_of_view > 2.0 * std::numbers::pi + 1e-9) {
     settings.issue("device/laser-field-of-view",
@@ -538,7 +541,10 @@ Properties describe(const LaserParams& p) {
           {"mount_x", p.X_BL.x_m},
           {"mount_y", p.X_BL.y_m},
           {"mount_yaw", p.X_BL.yaw_rad},
-          {"height", p.height_m}};
+          {"height", p.height_m},
+          {"size_x", p.size_m.x()},
+          {"size_y", p.size_m.y()},
+          {"size_height", p.size_height_m}};
 }
 Properties describe(const MotionParams& p) {
   return {{"max_speed", p.max_speed_mps},

@@ -23,6 +23,14 @@ Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream
   for (double& bias : bias_radps_) bias = noise_.gaussian(params_.bias_radps);
 }
 
+std::optional<std::string> Imu::apply(const Command& command) {
+  const auto* set = std::get_if<SetPoseCommand>(&command);
+  if (set == nullptr) return Device::apply(command);
+  // The next reading adds what it has turned since the last one, also before now.
+  yaw_rad_ = normalize_angle(set->pose.yaw_rad - turned_rad_);
+  return std::nullopt;
+}
+
 void Imu::integrate(const StepContext& context) {
   const double dt_s = to_seconds(context.world.simulation.step_ns);
   const Twist& now = context.body.twist;

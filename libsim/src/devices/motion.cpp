@@ -15,6 +15,10 @@ constexpr double kLost = 3.0;
 // A car turns back to a goal that it has left once the arc there is so much wider than its
 // tightest.
 constexpr double kWideEnough = 0.8;
+// It seeks a goal's heading if the cosine of its difference from the way there is over this, by
+// looking at a point so much of the distance before the goal.
+constexpr double kOnItsWay = 0.2;
+constexpr double kLookBefore = 0.5;
 // It changes its direction only for goals clearly on the other side.
 constexpr double kDirectionMargin_rad = 0.3;
 
@@ -87,8 +91,22 @@ PositionControl::Step PositionControl::car_step(const Pose& X_FB, double distanc
   // Away from a goal within its turning circle it drives the other way with the wheels turned from
   // it: so the goal comes to lie before it.
   const bool reverse = leaving_ ? !backwards_ : backwards_;
-  const double arc =
-      std::clamp(leaving_ ? -std::copysign(tightest, curvature) : curvature, -tightest, tightest);
+  double arc = leaving_ ? -std::copysign(tightest, curvature) : curvature;
+  given_up_ = given_up_ || (sought_ && leaving_);
+  if (!leaving_ && !given_up_) {
+    // The direction in which it would drive through the goal with the heading asked for.
+    const double through_rad = command_.goal.yaw_rad + (backwards_ ? std::numbers::pi : 0.0);
+    const Vec2 through(std::cos(through_rad), std::sin(through_rad));
+    const Vec2 look = way - kLookBefore * distance_m * through;
+    const double look_rad = std::atan2(look.y(), look.x()) - X_FB.yaw_rad;
+    const double look_curvature = 2.0 * std::sin(look_rad) / look.norm();
+    if (way.dot(through) > kOnItsWay * distance_m && std::abs(look_curvature) <= tightest &&
+        (std::cos(look_rad) > 0.0) != backwards_) {
+      arc = look_curvature;
+      sought_ = true;
+    }
+  }
+  arc = std::clamp(arc, -tightest, tightest);
   const double speed_mps = leaving_ ? speed_for(1.0 / tightest) : speed_for(distance_m);
   return {{reverse ? -speed_mps : speed_mps, 0.0, 0.0}, std::atan(drive_.wheelbase_m * arc)};
 }
@@ -115,6 +133,8 @@ void PositionControl::hash(StateHash& hash) const {
   hash.add(aligning_);
   hash.add(backwards_);
   hash.add(leaving_);
+  if (sought_) hash.add("has sought the heading");
+  if (given_up_) hash.add("has given it up");
 }
 
 // --- Motion

@@ -133,13 +133,6 @@ void center_mass_on_axle(b2Body& body) {
   body.SetMassData(&mass);
 }
 
-std::vector<Vec2> box_corners(const Vec2& center, const Vec2& size, double yaw_rad) {
-  const Pose X_WO{center.x(), center.y(), yaw_rad};
-  const Vec2 h = 0.5 * size;
-  return {X_WO * Vec2(h.x(), -h.y()), X_WO * Vec2(h.x(), h.y()), X_WO * Vec2(-h.x(), h.y()),
-          X_WO * Vec2(-h.x(), -h.y())};
-}
-
 b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
   SIM_ASSERT(vertices.size() >= 3 && vertices.size() <= b2_maxPolygonVertices);
   std::array<b2Vec2, b2_maxPolygonVertices> points;
@@ -241,7 +234,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
 
   void add_box(const ObstacleDescription& o, Contact::Kind kind, int index) {
     FixtureInfo* info = new_info(kind, index, o.height_m);
-    const std::vector<Vec2> corners = box_corners(o.center, o.size, o.yaw_rad);
+    const std::vector<Vec2> corners = box_corners(o);
     append_outline(*info, corners);
     b2BodyDef def;  // a body of its own, so that it can be switched off
     b2Body* body = world.CreateBody(&def);
@@ -282,8 +275,10 @@ struct PhysicsWorld::Impl : b2ContactListener {
       info->first_edge = all_edges.edges.size();
       info->edge_count = 1;
       all_edges.add(faces[i], arena.border_height_m);
-      attach(static_body, polygon_shape(box_corners(boxes[i].first, boxes[i].second, 0.0)), info,
-             0.0F);
+      attach(static_body,
+             polygon_shape(
+                 box_corners({boxes[i].first.x(), boxes[i].first.y(), 0.0}, boxes[i].second)),
+             info, 0.0F);
     }
   }
 
@@ -992,7 +987,7 @@ void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now)
   b2Fixture* before = body->GetFixtureList();
   auto* info = reinterpret_cast<FixtureInfo*>(before->GetUserData().pointer);
   info->height_m = now.height_m;
-  const std::vector<Vec2> corners = box_corners(now.center, now.size, now.yaw_rad);
+  const std::vector<Vec2> corners = box_corners(now);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2& a = corners[i];
     const Vec2& b = corners[(i + 1) % corners.size()];
@@ -1009,7 +1004,7 @@ void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now)
 int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
   b2Transform here;
   here.SetIdentity();
-  return impl_->robot_within(polygon_shape(box_corners(box.center, box.size, box.yaw_rad)), here);
+  return impl_->robot_within(polygon_shape(box_corners(box)), here);
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {

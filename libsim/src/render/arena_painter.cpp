@@ -19,16 +19,6 @@ std::string dock_label(const std::string& name, std::size_t index) {
   return digits.empty() || digits.size() > 3 ? std::to_string(index + 1) : digits;
 }
 
-std::vector<Vec2> box_corners(const Pose& X_WB, const Vec2& size) {
-  const Vec2 half = 0.5 * size;
-  return {X_WB * Vec2(-half.x(), -half.y()), X_WB * Vec2(half.x(), -half.y()),
-          X_WB * Vec2(half.x(), half.y()), X_WB * Vec2(-half.x(), half.y())};
-}
-
-std::vector<Vec2> box_corners(const ObstacleDescription& box) {
-  return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
-}
-
 bool is_retracted(const ObstacleDescription& obstacle) {
   return obstacle.type == ObstacleType::kDynamic && obstacle.state == ObstacleState::kRetracted;
 }

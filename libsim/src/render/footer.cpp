@@ -2,31 +2,19 @@
 #include "render/footer.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <system_error>
 #include <vector>
+
+#include "sim/core/number_text.h"
 
 namespace sim::render {
 namespace {
 
-// Shortest text of a number; independent of the locale, unlike printf.
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6);
-  return error == std::errc() ? std::string(text.data(), end) : "?";
-}
+std::string number_text(double value) { return rounded_text(value, 6); }
 
-std::string time_text(double time_s) {
-  std::array<char, 400> text{};  // the longest double has 309 digits before the point
-  const auto [end, error] =
-      std::to_chars(text.data(), text.data() + text.size(), time_s, std::chars_format::fixed, 1);
-  return "t = " + (error == std::errc() ? std::string(text.data(), end) : "?") + " s";
-}
+std::string time_text(double time_s) { return "t = " + fixed_text(time_s, 1) + " s"; }
 
 class FooterPainter {
  public:

@@ -100,7 +100,7 @@ struct Simulation::Impl {
         view_mode(world.canvas.view_mode) {
     start_obstacles = world.arena.obstacles;
     for (const RobotDescription& robot : world.robots) {
-      start_colours.push_back(robot.colour);
+      start_looks.push_back({robot.colour, robot.fiducial});
       add_robot(robot);
     }
     connect_devices();
@@ -240,8 +240,9 @@ struct Simulation::Impl {
 
   void reset() {
     world.arena.obstacles = start_obstacles;
-    for (std::size_t i = 0; i < start_colours.size(); ++i) {
-      world.robots[i].colour = start_colours[i];
+    for (std::size_t i = 0; i < start_looks.size(); ++i) {
+      world.robots[i].colour = start_looks[i].colour;
+      world.robots[i].fiducial = start_looks[i].fiducial;
     }
     physics = std::make_unique<PhysicsWorld>(world.arena);
     layers.base().clear();
@@ -345,7 +346,11 @@ struct Simulation::Impl {
   LayerStack layers;
   ViewMode view_mode;
   std::vector<ObstacleDescription> start_obstacles;
-  std::vector<Colour> start_colours;  // of the robots
+  struct Look {
+    Colour colour;
+    int fiducial;
+  };
+  std::vector<Look> start_looks;  // of the robots
   std::vector<RobotParts> robots;
   std::vector<Vec2> last_positions;
   double farthest_move_m = 0.0;  // of any robot in the last step
@@ -580,6 +585,22 @@ std::optional<std::string> Simulation::set_object_colour(const std::string& name
   return object->kind + " \"" + name + "\" keeps its colour";
 }
 
+std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
+  if (fiducial < 0) return "the number of a fiducial is at least 0";
+  if (const auto robot = find_robot(name)) {
+    impl_->world.robots[static_cast<std::size_t>(*robot)].fiducial = fiducial;
+    return std::nullopt;
+  }
+  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+    if (block.name != name) continue;
+    block.fiducial = fiducial;
+    return std::nullopt;
+  }
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  return object->kind + " \"" + name + "\" bears no fiducial";
+}
+
 LayerStack& Simulation::layers() noexcept { return impl_->layers; }
 const LayerStack& Simulation::layers() const noexcept { return impl_->layers; }
 Canvas& Simulation::canvas() noexcept { return impl_->layers.base(); }
@@ -633,18 +654,25 @@ std::uint64_t Simulation::state_hash() const {
     hash.add(robot.statistics.least_clearance_m);
     hash.add(robot.statistics.stalled_time_s);
   }
+  for (std::size_t i = 0; i < impl_->start_looks.size(); ++i) {
+    const int fiducial = impl_->world.robots[i].fiducial;
+    if (fiducial == impl_->start_looks[i].fiducial) continue;
+    hash.add("fiducial of " + impl_->world.robots[i].name);
+    hash.add(fiducial);
+  }
   // Blocks that are where they were at the start, as nearly always, leave the hash as it was.
   for (std::size_t i = 0; i < impl_->start_obstacles.size(); ++i) {
     const ObstacleDescription& start = impl_->start_obstacles[i];
     const ObstacleDescription& now = impl_->world.arena.obstacles[i];
     if (now.center == start.center && now.size == start.size && now.yaw_rad == start.yaw_rad &&
-        now.height_m == start.height_m) {
+        now.height_m == start.height_m && now.fiducial == start.fiducial) {
       continue;
     }
     for (const double x : {static_cast<double>(i), now.center.x(), now.center.y(), now.size.x(),
                            now.size.y(), now.yaw_rad, now.height_m}) {
       hash.add(x);
     }
+    if (now.fiducial != start.fiducial) hash.add(now.fiducial);
   }
   impl_->layers.base().hash(hash);
   return hash.value();

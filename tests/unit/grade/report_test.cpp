@@ -140,11 +140,7 @@ TEST(JsonText, TakesArgumentsThatAreNoText) {
   EXPECT_EQ(json::parse(json_text(grade)).at("program").at(1), "\xef\xbf\xbd");  // U+FFFD
 }
 
-TEST(NumberText, IsShortFixedOrTelling) {
-  EXPECT_EQ(short_number(0.98), "0.98");
-  EXPECT_EQ(short_number(12.0), "12");
-  EXPECT_EQ(fixed(2.0, 3), "2.000");
-  EXPECT_EQ(fixed(-0.126, 2), "-0.13");
+TEST(NumberText, IsTellingBesideALimit) {
   EXPECT_EQ(telling_number(0.5, 0.98, 3), "0.500");
   EXPECT_EQ(telling_number(0.97996, 0.98, 3), "0.97996");
   EXPECT_EQ(telling_number(0.98, 0.98, 3), "0.980");

@@ -11,10 +11,10 @@
 #include <numbers>
 #include <ostream>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "known_keys.h"
 #include "sim/core/error.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
@@ -288,26 +288,12 @@ TEST_F(TaskTest, AllFaultsOfAFileAreReportedTogether) {
 
 /// Keys that the reader knows in each object, as it names them when it meets one it does not know.
 std::map<std::string, std::set<std::string>> keys_of_reader() {
-  std::map<std::string, std::set<std::string>> known;
-  try {
+  return test_support::known_keys([] {
     static_cast<void>(read_task_text(
         R"({"zz": 0, "worlds": [{"zz": 0, "world": "x"}], "goal": {"zz": 0, "x": 0, "y": 0},
             "thresholds": {"zz": 0}})",
         "t.task.json"));
-  } catch (const sim::ConfigError& error) {
-    for (const sim::ConfigIssue& issue : error.issues()) {
-      if (issue.id != "world/unknown-key") continue;
-      // "one of the keys a, b or c"
-      std::string list = issue.expected.substr(std::string("one of the keys ").size());
-      for (char& c : list) c = c == ',' ? ' ' : c;
-      std::istringstream words(list);
-      std::set<std::string>& keys = known[issue.pointer.substr(0, issue.pointer.rfind('/'))];
-      for (std::string word; words >> word;) {
-        if (word != "or") keys.insert(word);
-      }
-    }
-  }
-  return known;
+  });
 }
 
 TEST(TaskSchema, HasTheKeysThatTheReaderKnowsAndExplainsEach) {

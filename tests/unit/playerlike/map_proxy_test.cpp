@@ -12,6 +12,7 @@
 #include "libCCMorse/CCMorse.h"
 #include "libplayerc++/playerc++.h"
 #include "par_common/text_map.h"
+#include "player_errors.h"
 #include "reachable_host.h"
 
 namespace {
@@ -19,6 +20,7 @@ namespace {
 using PlayerCc::MapProxy;
 using PlayerCc::PlayerClient;
 using PlayerCc::PlayerError;
+using test::error_of;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -45,17 +47,6 @@ INSTANTIATE_TEST_SUITE_P(Transports, MapProxyTest,
                          testing::Values(test::Transport::kInProcess, test::Transport::kCbor,
                                          test::Transport::kJson),
                          [](const auto& instance) { return transport_name(instance.param); });
-
-template <typename Action>
-PlayerError error_of(Action action) {
-  try {
-    action();
-  } catch (const PlayerError& e) {
-    return e;
-  }
-  ADD_FAILURE() << "no error";
-  return PlayerError("", "", 0);
-}
 
 TEST_P(MapProxyTest, HasNoMapUntilItIsRequested) {
   const auto robot = client();

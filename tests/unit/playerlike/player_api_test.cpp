@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <regex>
 #include <sstream>
@@ -22,6 +21,7 @@
 #include "playerlike/host/host.h"
 #include "playerlike/messages/messages.h"
 #include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -150,10 +150,7 @@ TEST_F(PlayerApi, EveryExampleWorldHasItsInterface) {
 // --- The page of all proxies
 
 std::string content(const std::string& file) {
-  std::ifstream in(std::filesystem::path(PLAYPEN_SOURCE_DIR) / file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
+  return test_support::read_bytes(std::filesystem::path(PLAYPEN_SOURCE_DIR) / file);
 }
 
 TEST(PageOfProxies, HasEveryClassOfTheTables) {
@@ -197,6 +194,28 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
   }
   EXPECT_GE(works, 10);
   EXPECT_EQ(refused, 21);
+}
+
+TEST(PageOfProxies, SaysWhatPioneersHave) {
+  std::vector<std::string> interfaces;
+  std::istringstream lines(content("docs/player_api.md"));
+  static const std::regex kPioneers(R"(\| `\w+` \| `(\w+)` \| .*\bPioneer\b.*)");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch row;
+    if (std::regex_match(line, row, kPioneers)) interfaces.push_back(row[1]);
+  }
+  EXPECT_GE(interfaces.size(), 17U);
+  for (const char* world : {"cave.json", "office.json"}) {
+    const sim::Simulation simulation(
+        sim::load_world(std::string(PLAYPEN_SOURCE_DIR "/worlds/") + world));
+    const auto robots = playerlike::describe_robots(simulation);
+    for (const auto& robot : robots) {
+      for (const std::string& interface : interfaces) {
+        EXPECT_NO_THROW(
+            static_cast<void>(playerlike::find_interface(robots, robot.port, interface, 0)));
+      }
+    }
+  }
 }
 
 // --- Localisation

@@ -904,6 +904,16 @@ TEST_P(PlayercEverywhere, MovesThingsByName) {
   sides[0] = 0.6;
   EXPECT_EQ(playerc_simulation_set_property(simulation.get(), block, size, sides, sizeof sides), 0)
       << playerc_error_str();
+  char fiducial[] = "fiducial_return";
+  int32_t number = 12;
+  EXPECT_EQ(
+      playerc_simulation_set_property(simulation.get(), block, fiducial, &number, sizeof number), 0)
+      << playerc_error_str();
+  number = 0;
+  EXPECT_EQ(
+      playerc_simulation_get_property(simulation.get(), block, fiducial, &number, sizeof number), 0)
+      << playerc_error_str();
+  EXPECT_EQ(number, 12);
   EXPECT_EQ(playerc_simulation_pause(simulation.get()), -1);
   EXPECT_EQ(playerc_simulation_reset(simulation.get()), -1);
   EXPECT_EQ(playerc_simulation_save(simulation.get()), -1);

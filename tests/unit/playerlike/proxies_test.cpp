@@ -572,7 +572,9 @@ TEST_F(Proxies, LaserKnowsItsSettingsBeforeTheFirstScan) {
   EXPECT_DOUBLE_EQ(laser.GetPose().py, 0.01);
   EXPECT_DOUBLE_EQ(laser.GetPose().pz, 0.125);
   EXPECT_DOUBLE_EQ(laser.GetPose().pyaw, 0.1);
-  EXPECT_GT(laser.GetSize().sh, 0.0);
+  EXPECT_DOUBLE_EQ(laser.GetSize().sl, 0.05);
+  EXPECT_DOUBLE_EQ(laser.GetSize().sw, 0.06);
+  EXPECT_DOUBLE_EQ(laser.GetSize().sh, 0.07);
   EXPECT_DOUBLE_EQ(laser.GetMinLeft(), 5.0);
   // Programs that look before their first Read() find zeros.
   EXPECT_EQ(laser.GetRange(0), 0.0);

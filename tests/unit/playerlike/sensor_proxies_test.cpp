@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
@@ -121,7 +122,8 @@ TEST_P(SensorProxies, IrReadsRangesAndVoltages) {
 
 TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
   const auto client = open(room(
-      R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1}}})"));
+      R"({"laser": {"beams": 181, "resolution_deg": 1, "range_max": 8, "pose": {"x": 0.1},
+                    "size": [0.156, 0.155], "size_height": 0.21}})"));
   RangerProxy ranger(client.get());
   LaserProxy laser(client.get());
   EXPECT_EQ(ranger.GetRangeCount(), 0U);
@@ -132,7 +134,12 @@ TEST_P(SensorProxies, RangerOfALaserIsOneElementWithManyRanges) {
   EXPECT_EQ(ranger.GetSensorCount(), 1U);
   EXPECT_NEAR(ranger.GetDevicePose().px, 0.1, 1e-12);
   EXPECT_EQ(ranger.GetElementPose(0).px, 0.0);
-  EXPECT_NEAR(ranger.GetDeviceSize().sl, 0.05, 1e-12);
+  for (const player_bbox3d_t& size :
+       {ranger.GetDeviceSize(), ranger.GetElementSize(0), laser.GetSize()}) {
+    EXPECT_NEAR(size.sl, 0.156, 1e-12);
+    EXPECT_NEAR(size.sw, 0.155, 1e-12);
+    EXPECT_NEAR(size.sh, 0.21, 1e-12);
+  }
   EXPECT_NEAR(ranger.GetMinAngle(), -0.5 * kPi, 1e-12);
   EXPECT_NEAR(ranger.GetMaxAngle(), 0.5 * kPi, 1e-12);
   EXPECT_NEAR(ranger.GetAngularRes(), kPi / 180.0, 1e-12);
@@ -377,13 +384,22 @@ TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
   EXPECT_FLOAT_EQ(imu.GetZMagn(), -45.0F);
   EXPECT_EQ(imu.GetRawValues().gyro_z, imu.GetZGyro());
   EXPECT_NEAR(imu.GetPose().pyaw, 0.25, 1e-9);
+  // The device is reset, so another client is told the same.
   imu.ResetOrientation(0);
-  EXPECT_EQ(imu.GetPose().pyaw, 0.0);
-  client->Read();
+  PlayerClient second(host->connect(6665));
+  ImuProxy same(&second, 0);
+  const auto read_both = [&] {
+    std::thread other([&] { second.Read(); });
+    client->Read();
+    other.join();
+  };
+  read_both();
   EXPECT_NEAR(imu.GetPose().pyaw, 0.05, 1e-9);
+  EXPECT_EQ(same.GetPose().pyaw, imu.GetPose().pyaw);
   imu.ResetEuler(0.0F, 0.0F, 1.0F);
-  client->Read();
+  read_both();
   EXPECT_NEAR(imu.GetPose().pyaw, 1.05, 1e-9);
+  EXPECT_EQ(same.GetPose().pyaw, imu.GetPose().pyaw);
   imu.SetDatatype(PLAYER_IMU_DATA_EULER);
   EXPECT_EQ(error_code_of([&] { imu.SetDatatype(6); }), PlayerError::kBadArgument);
   EXPECT_EQ(error_code_of([&] { imu.ResetEuler(0.0F, 0.0F, NAN); }), PlayerError::kBadArgument);

@@ -17,6 +17,7 @@
 
 #include "libCCMorse/CCMorse.h"
 #include "libplayerc++/playerc++.h"
+#include "player_errors.h"
 #include "playerlike/host/run_settings.h"
 #include "reachable_host.h"
 #include "temporary_folder.h"
@@ -24,6 +25,7 @@
 namespace {
 
 using namespace PlayerCc;
+using test::error_of;
 using testing::AllOf;
 using testing::AnyOf;
 using testing::HasSubstr;
@@ -35,21 +37,10 @@ constexpr const char* kWorld = R"({
     {"name": "d", "center": [3, 0.5], "size": [0.2, 0.2], "type": "dynamic"}]},
   "robots": [
     {"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {
-      "speech": {}, "blinkenlight": {}, "opaque": {"from": ["r2"]},
+      "speech": {}, "blinkenlight": {}, "fiducial": {}, "opaque": {"from": ["r2"]},
       "dio": {"inputs": ["r2.dio.0", true], "outputs": 4},
       "aio": {"inputs": [5, "aio.1"], "outputs": 2}}},
     {"name": "r2", "pose": {"x": 2, "y": 1}, "devices": {"dio": {}, "opaque": {}}}]})";
-
-template <typename Action>
-PlayerError error_of(Action action) {
-  try {
-    action();
-  } catch (const PlayerError& e) {
-    return e;
-  }
-  ADD_FAILURE() << "no error";
-  return PlayerError("", "", 0);
-}
 
 class WorldProxies : public testing::TestWithParam<test::Transport> {
  protected:
@@ -203,6 +194,33 @@ TEST_P(WorldProxies, TellAndChangeProperties) {
   EXPECT_EQ(dynamics, 0.0);
 }
 
+TEST_P(WorldProxies, GiveThingsNumbersThatFiducialFindersRead) {
+  const auto robot = client();
+  SimulationProxy simulation(robot.get(), 0);
+  FiducialProxy finder(robot.get(), 0);
+  robot->Read();
+  EXPECT_EQ(finder.GetCount(), 0U);
+  std::int32_t number = 7;
+  simulation.GetProperty("b", "fiducial_return", &number, sizeof number);
+  EXPECT_EQ(number, 0);
+  number = 300;
+  simulation.SetProperty("b", "fiducial_return", &number, sizeof number);
+  number = 4;
+  simulation.SetProperty("r2", "_mp_fiducial_return", &number, sizeof number);
+  double same = 0.0;
+  simulation.GetProperty("b", "fiducial_return", &same, sizeof same);
+  EXPECT_EQ(same, 300.0);
+  robot->Read();
+  ASSERT_EQ(finder.GetCount(), 2U);  // nearest first; both stand free before r1
+  EXPECT_EQ(finder.GetFiducialItem(0).id, 4);
+  EXPECT_EQ(finder.GetFiducialItem(1).id, 300);
+  number = 0;
+  simulation.SetProperty("r2", "fiducial_return", &number, sizeof number);
+  robot->Read();
+  ASSERT_EQ(finder.GetCount(), 1U);
+  EXPECT_EQ(finder.GetFiducialItem(0).id, 300);
+}
+
 TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
   const auto robot = client();
   SimulationProxy simulation(robot.get(), 0);
@@ -217,12 +235,23 @@ TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
     return error_of([&] { simulation.SetProperty(object, property, value, length); }).GetErrorStr();
   };
   EXPECT_THAT(get("r1", "wings", 4),
-              HasSubstr("colour, dynamics, kind, model, pose, size, stalled, velocity"));
+              HasSubstr("colour, dynamics, fiducial_return, kind, model, pose, size, stalled, "
+                        "velocity"));
   EXPECT_THAT(get("border", "state", 4), HasSubstr("it has: kind, pose, size"));
   EXPECT_THAT(get("zz", "pose", 24), HasSubstr("\"zz\""));
   EXPECT_THAT(get("r1", "pose", 5), AllOf(HasSubstr("24 bytes"), HasSubstr("value_len is 5")));
   EXPECT_THAT(get("r1", "model", 3), HasSubstr("needs 4 bytes"));
   EXPECT_THAT(get("r1", "colour", 3), HasSubstr("needs 8 bytes"));
+  std::int32_t number = 300;
+  simulation.SetProperty("b", "fiducial_return", &number, sizeof number);
+  EXPECT_THAT(get("b", "fiducial_return", 1), HasSubstr("4 or 8 bytes"));
+  EXPECT_THAT(get("b", "fiducial_return", 3), HasSubstr("value_len is 3"));
+  const auto set_number = [&](double x) {
+    return error_of([&] { simulation.SetProperty("b", "fiducial_return", &x, sizeof x); })
+        .GetErrorStr();
+  };
+  for (const double x : {-1.0, 0.5, 3e9}) EXPECT_THAT(set_number(x), HasSubstr("whole number"));
+  EXPECT_THAT(get("border", "fiducial_return", 4), HasSubstr("it has: kind, pose, size"));
   EXPECT_THAT(set("r1", "size", 16), HasSubstr("keeps its size"));
   EXPECT_THAT(set("r1", "model", 4), HasSubstr("cannot be changed"));
   EXPECT_THAT(set("b", "state", 4), HasSubstr("static"));
@@ -307,6 +336,21 @@ TEST_P(WorldProxies, FetchMapsThatAreLargerThanATile) {
   EXPECT_EQ(map.origin, whole.origin);
   EXPECT_EQ(map.cell_size_m, whole.cell_size_m);
   EXPECT_TRUE(map.cells == whole.cells);
+
+  PlayerClient client(host.connect(6665));
+  MapProxy proxy(&client, 0);
+  proxy.RequestMap();
+  ASSERT_EQ(proxy.GetWidth(), 1290U);
+  ASSERT_EQ(proxy.GetHeight(), 1040U);
+  std::vector<std::int8_t> cells(whole.cells.size());
+  proxy.GetMap(cells.data());
+  int different = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    // The proxy's rows begin at the bottom, and its cells are 1 or -1.
+    const float cell = whole.cells[(1039 - i / 1290) * 1290 + i % 1290];
+    different += cells[i] != (cell > 0.5F ? 1 : -1);
+  }
+  EXPECT_EQ(different, 0);
 }
 
 // --- voices, lights, lines, messages

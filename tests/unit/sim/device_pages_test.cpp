@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "sim/core/error.h"
 #include "sim/devices/builtin.h"
 #include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
 
 namespace sim {
 
@@ -29,16 +29,10 @@ void PrintTo(const DeviceKind& kind, std::ostream* os) { *os << kind.name; }
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::read_bytes;
 using testing::Contains;
 
 const fs::path kRoot(PLAYPEN_SOURCE_DIR);
-
-std::string content(const fs::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// A row of a page's table of settings, without backticks.
 struct Setting {
@@ -114,7 +108,9 @@ class DevicePage : public testing::TestWithParam<DeviceKind> {
   [[nodiscard]] static fs::path world_file() {
     return kRoot / "worlds/devices" / (type() + ".json");
   }
-  [[nodiscard]] static std::vector<Setting> settings() { return settings_of(content(page_file())); }
+  [[nodiscard]] static std::vector<Setting> settings() {
+    return settings_of(read_bytes(page_file()));
+  }
 };
 
 INSTANTIATE_TEST_SUITE_P(All, DevicePage, testing::ValuesIn(device_kinds()),
@@ -122,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(All, DevicePage, testing::ValuesIn(device_kinds()),
 
 TEST_P(DevicePage, ExistsAndIsNamedAfterTheType) {
   ASSERT_TRUE(fs::exists(page_file())) << page_file();
-  EXPECT_TRUE(content(page_file()).starts_with("# " + type() + "\n"));
+  EXPECT_TRUE(read_bytes(page_file()).starts_with("# " + type() + "\n"));
 }
 
 TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {
@@ -179,7 +175,7 @@ TEST_P(DevicePage, TellsTheRangesOfTheReader) {
 }
 
 TEST_P(DevicePage, HasTheSameKeysInTheSchema) {
-  const auto schema = nlohmann::json::parse(content(kRoot / "worlds/schema/world.schema.json"));
+  const auto schema = nlohmann::json::parse(read_bytes(kRoot / "worlds/schema/world.schema.json"));
   std::set<std::string> in_schema;
   const auto& settings_object = schema.at("$defs").at("device_" + type()).at("oneOf").at(0);
   for (const auto& [key, value] : settings_object.at("properties").items()) in_schema.insert(key);
@@ -210,7 +206,7 @@ TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
     }
   }
   EXPECT_GT(devices, 0);
-  const std::string text = content(world_file());
+  const std::string text = read_bytes(world_file());
   for (const Setting& setting : settings()) {
     EXPECT_NE(text.find("\"" + setting.key + "\":"), std::string::npos)
         << setting.key << " is not shown in " << world_file();

@@ -4,21 +4,21 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <ostream>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "device_table.h"
 #include "sim/io/world_io.h"
+#include "temporary_folder.h"
 
 namespace sim::io {
 namespace {
 
 namespace fs = std::filesystem;
+using test_support::read_bytes;
 
 /// What a bad file must be told: the first issue's id and place, and words of its message.
 struct BadWorld {
@@ -165,13 +165,6 @@ TEST(InvalidWorlds, EachFileIsInTheTable) {
   EXPECT_EQ(in_table, in_folder);
 }
 
-std::string content(const fs::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   const fs::path root(PLAYPEN_SOURCE_DIR);
   const std::regex in_source(
@@ -180,7 +173,7 @@ TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   for (const char* folder : {"libsim/src", "libplayerlike/src", "apps"}) {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".cpp") continue;
-      const std::string text = content(entry.path());
+      const std::string text = read_bytes(entry.path());
       for (std::sregex_iterator it(text.begin(), text.end(), in_source), end; it != end; ++it) {
         used.insert((*it)[1]);
       }
@@ -188,7 +181,7 @@ TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   }
   ASSERT_GT(used.size(), 30U);
 
-  const std::string page = content(root / "docs" / "errors.md");
+  const std::string page = read_bytes(root / "docs" / "errors.md");
   const std::regex heading("(?:^|\n)### `([a-z]+/[a-z0-9-]+)`");
   std::set<std::string> listed;
   for (std::sregex_iterator it(page.begin(), page.end(), heading), end; it != end; ++it) {
@@ -196,7 +189,7 @@ TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   }
   // What clients are answered is told where their protocols are.
   const std::string elsewhere =
-      content(root / "docs" / "protocol.md") + content(root / "docs" / "remote.md");
+      read_bytes(root / "docs" / "protocol.md") + read_bytes(root / "docs" / "remote.md");
   for (const std::string& id : used) {
     const bool of_servers = id.starts_with("server/") || id.starts_with("access/");
     EXPECT_TRUE(listed.contains(id) ||

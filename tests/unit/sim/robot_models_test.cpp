@@ -117,6 +117,8 @@ TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
     EXPECT_NEAR(laser.resolution_rad * (laser.beam_count - 1), M_PI, 1e-9);
     EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);
     EXPECT_LT(laser.height_m, model.height_m);  // so Pioneers see one another
+    EXPECT_EQ(laser.size_m, Vec2(0.156, 0.155));
+    EXPECT_DOUBLE_EQ(laser.size_height_m, 0.21);
   }
   for (const char* name : {"pioneer2dx", "pioneer3dx"}) {
     const auto bumper = settings_of<BumperParams>(world_with(name), "bumper");

@@ -351,6 +351,21 @@ TEST(PlaceObject, RefusesWhatCannotBe) {
               HasSubstr("stands on it"));
 }
 
+TEST(Fiducials, AreStateUntilAReset) {
+  Simulation simulation = two_robots("", "", kBlock);
+  const std::uint64_t before = simulation.state_hash();
+  ASSERT_FALSE(simulation.set_object_fiducial("b", 5));
+  const std::uint64_t block = simulation.state_hash();
+  EXPECT_NE(block, before);
+  ASSERT_FALSE(simulation.set_object_fiducial("r2", 5));
+  EXPECT_NE(simulation.state_hash(), block);
+  EXPECT_THAT(simulation.set_object_fiducial("r2", -1).value(), HasSubstr("at least 0"));
+  EXPECT_THAT(simulation.set_object_fiducial("border", 1).value(), HasSubstr("bears no"));
+  EXPECT_THAT(simulation.set_object_fiducial("zz", 1).value(), HasSubstr("r1, r2, b, border"));
+  simulation.reset();
+  EXPECT_EQ(simulation.state_hash(), before);
+}
+
 TEST(PlaceObject, LetsARobotsMotorsGoOn) {
   Simulation simulation = two_robots("");
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.2, 0.0}}));

@@ -348,6 +348,21 @@ TEST(Imu, HasBiasesAndNoise) {
   expect_gaussian(b, -45.0, 0.5);
 }
 
+TEST(Imu, TakesAHeadingForThePresentOne) {
+  Simulation simulation(room(bearer("imu", "{}")));
+  drive(simulation, 0.0, 0.5);
+  run(simulation, 15);  // 5 steps after its reading
+  const Simulation::DeviceId imu_id{0, simulation.find_device(0, "imu").value()};
+  ASSERT_FALSE(simulation.apply(imu_id, SetPoseCommand{{7.0, 8.0, 1.0}}));
+  run(simulation, 5);
+  const auto& imu = reading<ImuReading>(simulation, "imu");
+  EXPECT_NEAR(imu.yaw_rad, 1.0 + 0.05 * 0.5, 1e-9);
+  EXPECT_NEAR(imu.rate_radps[2], 0.5, 1e-9);
+  run(simulation, 10);
+  EXPECT_NEAR(imu.yaw_rad, 1.0 + 0.15 * 0.5, 1e-9);
+  EXPECT_TRUE(simulation.apply(imu_id, TwistCommand{}).has_value());
+}
+
 TEST(Imu, DoesNotFeelBeingPlaced) {
   Simulation simulation(room(R"({"name": "r1", "pose": {"x": 2, "y": 4},
       "devices": {"imu": {}, "teleport": {}}})"));

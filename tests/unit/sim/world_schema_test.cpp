@@ -7,10 +7,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include "device_table.h"
+#include "known_keys.h"
 #include "sim/io/world_io.h"
 #include "sim/world/robot_model.h"
 
@@ -40,23 +40,8 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
     "canvas": {"zz": 0},
     "robots": [{"zz": 0, "pose": {"zz": 0}}]
   })";
-  std::map<std::string, std::set<std::string>> known;
-  try {
-    static_cast<void>(read_world_text(kWorld, "<memory>", test::device_table()));
-  } catch (const ConfigError& error) {
-    for (const ConfigIssue& issue : error.issues()) {
-      if (issue.id != "world/unknown-key") continue;
-      // "one of the keys a, b or c"
-      std::string list = issue.expected.substr(std::string("one of the keys ").size());
-      for (char& c : list) c = c == ',' ? ' ' : c;
-      std::istringstream words(list);
-      std::set<std::string>& keys = known[issue.pointer.substr(0, issue.pointer.rfind('/'))];
-      for (std::string word; words >> word;) {
-        if (word != "or") keys.insert(word);
-      }
-    }
-  }
-  return known;
+  return test_support::known_keys(
+      [&] { static_cast<void>(read_world_text(kWorld, "<memory>", test::device_table())); });
 }
 
 std::set<std::string> keys_of(const json& object) {

@@ -51,7 +51,8 @@ struct TwistCommand {
 struct MotorEnableCommand {
   bool enabled;
 };
-/// Make a localisation device (pose, odometry) report this pose for where the robot is now.
+/// Make a localisation device (pose, odometry) report this pose for where the robot is now; an imu,
+/// its heading.
 struct SetPoseCommand {
   Pose pose;
 };

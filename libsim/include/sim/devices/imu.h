@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "sim/devices/device.h"
@@ -29,7 +30,7 @@ struct ImuReading final : Reading {
   std::array<double, 3> rate_radps{};         ///< turning rates [rad/s]
   std::array<double, 3> field_ut{};           ///< magnetic field [uT]
   double yaw_rad = 0.0;  ///< the measured turning rate added up, from the true heading in W at the
-                         ///< start on, (-pi, pi]
+                         ///< start on, or what SetPoseCommand said it was, (-pi, pi]
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
     return std::make_unique<ImuReading>(*this);
@@ -45,12 +46,14 @@ inline constexpr double kGravity_mps2 = 9.80665;
 
 /// An inertial measurement unit. Accelerations and turning rates are means over the time since the
 /// reading before, so that none is missed: in the body's frame a = dv/dt + omega x v. Then come
-/// biases, drawn once, and white noise. Being placed somewhere is not felt.
+/// biases, drawn once, and white noise. Being placed somewhere is not felt. Of a SetPoseCommand it
+/// takes the heading: the present one is that.
 class Imu final : public Sensor {
  public:
   /// @param yaw_rad  true heading in W at the start.
   Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream noise);
 
+  std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override;
   [[nodiscard]] const ImuReading& reading() const noexcept override { return reading_; }

@@ -18,7 +18,9 @@ struct LaserParams {
   double resolution_rad = 0.39589 * std::numbers::pi / 180.0;  ///< between neighbouring beams
   double range_max_m = 5.0;                                    ///< (0, 1000] [m]
   Pose X_BL{0.035, 0.0, 0.0};                                  ///< mounting on the body
-  double height_m = 0.125;  ///< above the floor [m]; lower obstacles are not seen
+  double height_m = 0.125;      ///< above the floor [m]; lower obstacles are not seen
+  Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, as clients are told, >= 0
+  double size_height_m = 0.07;  ///< the same upwards, >= 0
 };
 
 /// One scan. Beam i looks at angle_min_rad + i * resolution_rad from L's x axis.

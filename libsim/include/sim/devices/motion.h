@@ -33,7 +33,10 @@ struct MotionParams {
 ///   goal as the point that is looked at: R. C. Coulter, "Implementation of the pure pursuit path
 ///   tracking algorithm", CMU-RI-TR-92-01, 1992), backwards towards a goal behind it. A goal
 ///   within its turning circle is left first, steering the other way. The heading at the goal is
-///   that of the arc; the heading asked for is not sought.
+///   that of the arc, unless it is sought: where the way to the goal lies within 78 degrees of it
+///   and the car's steering allows, the point looked at is half the distance before the goal, along
+///   the goal's heading. What the way is off from that heading then falls with d, and with it what
+///   the car is. If the goal comes within the turning circle meanwhile, the heading is given up.
 ///
 /// Speeds are bounded by the command's limits, and by sqrt(a d) (sqrt(alpha e)) where an
 /// acceleration limit a (alpha) is set, so that the robot can brake before the goal.
@@ -73,6 +76,8 @@ class PositionControl {
   bool aligning_ = false;   ///< differential: arrived, turning to the goal's heading
   bool backwards_ = false;  ///< car: the direction it drives in
   bool leaving_ = false;    ///< car: getting away from a goal within its turning circle
+  bool sought_ = false;     ///< car: has sought the goal's heading
+  bool given_up_ = false;   ///< car: and could not have it
 };
 
 /// Motors of a robot, commanded by twist, by heading, by position, or as a car.

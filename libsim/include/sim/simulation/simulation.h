@@ -148,6 +148,10 @@ class Simulation {
   /// Gives a robot or a block another colour, in pictures.
   /// @return nothing if done, else why not.
   std::optional<std::string> set_object_colour(const std::string& name, Colour colour);
+  /// Gives a robot or a block another number for fiducial devices to read.
+  /// @param fiducial  > 0; 0: they do not see it.
+  /// @return nothing if done, else why not.
+  std::optional<std::string> set_object_fiducial(const std::string& name, int fiducial);
 
   /// The grid-maps: the canvas of all pens, and the layers that clients put over or under it.
   [[nodiscard]] LayerStack& layers() noexcept;

@@ -42,6 +42,18 @@ struct ObstacleDescription {
   std::optional<Colour> colour = {};  ///< in pictures; none: that of its type
 };
 
+/// Corners of a box whose middle has the pose X_WB, counter-clockwise from its front right one, in
+/// W [m].
+/// @param size  along its own axes [m].
+[[nodiscard]] inline std::vector<Vec2> box_corners(const Pose& X_WB, const Vec2& size) {
+  const Vec2 h = 0.5 * size;
+  return {X_WB * Vec2(h.x(), -h.y()), X_WB * Vec2(h.x(), h.y()), X_WB * Vec2(-h.x(), h.y()),
+          X_WB * Vec2(-h.x(), -h.y())};
+}
+[[nodiscard]] inline std::vector<Vec2> box_corners(const ObstacleDescription& box) {
+  return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
+}
+
 /// A charging dock: a marked place on the floor, no obstacle.
 struct DockDescription {
   std::string name;          ///< unique among docks
