@@ -131,6 +131,7 @@ class WorldReader {
         if (!separators) {
           read_kind(reader, block);
           block.fiducial = read_fiducial(reader);
+          if (reader.has("colour")) block.colour = reader.colour("colour", {});
         }
         reader.finish();
       }

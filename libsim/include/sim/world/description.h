@@ -39,7 +39,8 @@ struct ObstacleDescription {
   double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
   int fiducial = 0;                   ///< what fiducial devices read of it; 0: they do not see it
-  std::optional<Colour> colour = {};  ///< in pictures; none: that of its type
+  std::optional<Colour> colour = {};  ///< none: in pictures that of its type, and no blobfinder
+                                      ///< sees it
 };
 
 /// A charging dock: a marked place on the floor, no obstacle.
