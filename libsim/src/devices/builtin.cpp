@@ -15,6 +15,7 @@
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -199,6 +200,24 @@ GpsParams parse_gps(io::Reader& settings, GpsParams p) {
   p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
   p.noise_vertical_m = settings.number("noise_vertical", p.noise_vertical_m, kNoise_m);
   p.satellites = static_cast<int>(settings.integer("satellites", p.satellites, 0, 64));
+  return p;
+}
+
+GripperParams parse_gripper(io::Reader& settings, GripperParams p) {
+  constexpr io::NumberRange kSide_m{0.0, 10.0, true, "m"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  if (std::optional<io::Reader> place = settings.child("pose")) {
+    const Pose X_BG = settings.pose("pose", {});
+    const bool given = place->has("x") || place->has("y") || place->has("yaw_deg");
+    p.X_BG = given ? std::optional(X_BG) : std::nullopt;
+  }
+  p.length_m = settings.number("length", p.length_m, kSide_m);
+  p.thickness_m = settings.number("thickness", p.thickness_m, {0.0, 10.0, false, "m"});
+  p.opening_m = settings.number("opening", p.opening_m, kSide_m);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.travel_time_s = settings.number("travel_time", p.travel_time_s, {0.0, 3600.0, true, "s"});
+  p.capacity =
+      static_cast<int>(settings.integer("capacity", p.capacity, 0, GripperParams::kMaxStored));
   return p;
 }
 
@@ -518,6 +537,19 @@ Properties describe(const GpsParams& p) {
           {"noise_vertical", p.noise_vertical_m},
           {"satellites", static_cast<double>(p.satellites)}};
 }
+Properties describe(const GripperParams& p) {
+  const Pose X_BG = p.X_BG.value_or(Pose{});
+  return {{"frequency", p.frequency_hz},
+          {"mount_x", X_BG.x_m},
+          {"mount_y", X_BG.y_m},
+          {"mount_yaw", X_BG.yaw_rad},
+          {"length", p.length_m},
+          {"thickness", p.thickness_m},
+          {"opening", p.opening_m},
+          {"height", p.height_m},
+          {"travel_time", p.travel_time_s},
+          {"capacity", static_cast<double>(p.capacity)}};
+}
 Properties describe(const ImuParams& p) {
   return {{"frequency", p.frequency_hz},
           {"noise_acceleration", p.noise_mps2},
@@ -641,6 +673,29 @@ DeviceKind bumper_kind() {
   return row;
 }
 
+// The middle of a robot's front.
+Pose front_of(const RobotModel& model) {
+  double front_m = 0.0;
+  for (const Vec2& v : model.footprint) front_m = std::max(front_m, v.x());
+  return {front_m, 0.0, 0.0};
+}
+
+DeviceKind gripper_kind() {
+  DeviceKind row = kind<GripperParams>(
+      "gripper", parse_gripper,
+      [](const DeviceDescription& d, const GripperParams& p, const RobotDescription&,
+         const RobotModel& model, const RandomStream&) {
+        return std::make_unique<Gripper>(d.name, p, p.X_BG ? *p.X_BG : front_of(model));
+      });
+  row.model_properties = [](const std::any& params, const RobotModel& model) {
+    GripperParams p =
+        params.has_value() ? std::any_cast<const GripperParams&>(params) : GripperParams{};
+    if (!p.X_BG) p.X_BG = front_of(model);
+    return describe(p);
+  };
+  return row;
+}
+
 std::vector<DeviceKind> make_table() {
   using D = const DeviceDescription&;
   using R = const RobotDescription&;
@@ -672,6 +727,7 @@ std::vector<DeviceKind> make_table() {
                       [](D d, const GpsParams& p, R, M, RandomStream noise) {
                         return std::make_unique<Gps>(d.name, p, std::move(noise));
                       }),
+      gripper_kind(),
       kind<ImuParams>("imu", parse_imu,
                       [](D d, const ImuParams& p, R robot, M, RandomStream noise) {
                         return std::make_unique<Imu>(d.name, p, robot.pose.yaw_rad,

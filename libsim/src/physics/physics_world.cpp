@@ -110,7 +110,9 @@ struct Robot {
   double free_m = 0.0;  // nothing solid is nearer than this: what clearance_m found, less
                         // all motion since
   BodyState state;
-  std::vector<int> touching;  // contacts per partner, see ContactCounter
+  std::vector<int> touching;   // contacts per partner, see ContactCounter
+  EdgeList load;               // outlines of what it carries, in B
+  double seen_radius_m = 0.0;  // of the footprint and the load about B
 };
 
 // Lets the body turn about B, the axle's centre, as its wheels make it: to Box2D a body's velocity
@@ -545,7 +547,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
     robot_first_edge.clear();
     robot_circles.clear();
     for (const Robot& r : robots) {
-      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m});
+      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.seen_radius_m});
       robot_first_edge.push_back(robot_edges.edges.size());
       const double c = std::cos(r.X_WB.yaw_rad);
       const double s = std::sin(r.X_WB.yaw_rad);
@@ -561,6 +563,12 @@ struct PhysicsWorld::Impl : b2ContactListener {
         const Vec2& a = p[static_cast<std::size_t>(i)];
         const Vec2& b = p[static_cast<std::size_t>((i + 1) % n)];
         robot_edges.add({a.x(), a.y(), b.x(), b.y()}, r.height_m);
+      }
+      for (std::size_t i = 0; i < r.load.edges.size(); ++i) {
+        const Edge& e = r.load.edges[i];
+        robot_edges.add({r.X_WB.x_m + c * e.x0 - s * e.y0, r.X_WB.y_m + s * e.x0 + c * e.y0,
+                         r.X_WB.x_m + c * e.x1 - s * e.y1, r.X_WB.y_m + s * e.x1 + c * e.y1},
+                        r.load.heights_m[i]);
       }
     }
     robot_first_edge.push_back(robot_edges.edges.size());
@@ -673,6 +681,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.drive = model.drive.kind;
   r.height_m = model.height_m;
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
+  r.seen_radius_m = r.radius_m;
   r.X_WB = X_WB;
   r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
 
@@ -830,6 +839,22 @@ void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now)
   d.attach(body, polygon_shape(corners), info, 0.0F);
   d.something_was_placed();
   d.rebuild_fixed_edges();
+}
+
+void PhysicsWorld::set_load(int robot, const std::vector<ObstacleDescription>& boxes_B) {
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+  r.load.clear();
+  r.seen_radius_m = r.radius_m;
+  for (const ObstacleDescription& box : boxes_B) {
+    const std::vector<Vec2> corners = box_corners(box.center, box.size, box.yaw_rad);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2& a = corners[i];
+      const Vec2& b = corners[(i + 1) % corners.size()];
+      r.load.add({a.x(), a.y(), b.x(), b.y()}, box.height_m);
+      r.seen_radius_m = std::max(r.seen_radius_m, a.norm());
+    }
+  }
+  impl_->robot_edges_fresh = false;
 }
 
 int PhysicsWorld::robot_within(const ObstacleDescription& box) const {

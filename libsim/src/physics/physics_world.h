@@ -80,6 +80,9 @@ class PhysicsWorld {
   /// Gives an obstacle, by its index, another place, turn, size or height; extended or retracted it
   /// stays as it is.
   void change_obstacle(int obstacle, const ObstacleDescription& now);
+  /// What a robot carries: boxes in its frame B, in nobody's way, but other robots' sensors see
+  /// them as they see the robot.
+  void set_load(int robot, const std::vector<ObstacleDescription>& boxes_B);
   /// The first robot whose footprint overlaps a box; -1 if none does.
   [[nodiscard]] int robot_within(const ObstacleDescription& box) const;
 

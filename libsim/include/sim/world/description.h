@@ -41,6 +41,8 @@ struct ObstacleDescription {
   int fiducial = 0;                   ///< what fiducial devices read of it; 0: they do not see it
   std::optional<Colour> colour = {};  ///< none: in pictures that of its type, and no blobfinder
                                       ///< sees it
+  bool portable = false;              ///< grippers can take and carry it
+  int carried_by = -1;                ///< index of the robot that carries it now; -1: it stands
 };
 
 /// A charging dock: a marked place on the floor, no obstacle.
