@@ -14,6 +14,7 @@
 #include "libplayerc++/fiducialproxy.h"
 #include "libplayerc++/gpsproxy.h"
 #include "libplayerc++/graphics2dproxy.h"
+#include "libplayerc++/gripperproxy.h"
 #include "libplayerc++/imuproxy.h"
 #include "libplayerc++/irproxy.h"
 #include "libplayerc++/laserproxy.h"

@@ -303,7 +303,7 @@ typedef struct playerc_graphics3d {
   /// @}
 } playerc_graphics3d_t;
 
-/// A gripper device, which no world has.
+/// A gripper; see playerc_gripper_get_geom() for what tells of its geometry.
 typedef struct playerc_gripper {
   playerc_device_t info;  ///< common to all devices
   /// @{
@@ -1102,7 +1102,7 @@ int playerc_graphics3d_rotate(playerc_graphics3d_t* device, double a, double x, 
 
 /// @name gripper
 ///
-/// No world has such a device: create makes the struct, everything else fails.
+/// What the commands do is told of PlayerCc::GripperProxy. @return 0, or -1 on an error.
 /// @{
 
 /// See playerc_device_subscribe().

@@ -27,6 +27,7 @@ constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for r
     {"fiducial", "fiducial"},
     {"gps", "gps"},
     {"graphics2d", "pen"},
+    {"gripper", "gripper"},
     {"imu", "imu"},
     {"ir", "infrared"},
     {"laser", "laser"},
@@ -99,6 +100,7 @@ bool is_finite(const sim::AnalogOutputCommand& c) { return all_finite({c.voltage
 bool is_finite(const sim::LightCommand& c) {
   return all_finite({c.period_s.value_or(0.0), c.duty_cycle.value_or(0.0)});
 }
+bool is_finite(const sim::GripCommand&) { return true; }
 bool is_finite(const sim::OpaqueCommand&) { return true; }
 
 // What the world itself offers, whatever robots are in it.

@@ -215,17 +215,6 @@ int playerc_graphics3d_rotate(playerc_graphics3d_t* /*device*/, double /*a*/, do
   return refused(__func__);
 }
 
-PLAYERLIKE_CLIB_FRAME(gripper, Missing<playerc_gripper_t>, PLAYER_GRIPPER_CODE)
-int playerc_gripper_open_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_close_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_stop_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_store_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_retrieve_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-void playerc_gripper_printout(playerc_gripper_t* /*device*/, const char* /*prefix*/) {
-  refused(__func__);
-}
-int playerc_gripper_get_geom(playerc_gripper_t* /*device*/) { return refused(__func__); }
-
 PLAYERLIKE_CLIB_FRAME(health, Missing<playerc_health_t>, PLAYER_HEALTH_CODE)
 
 PLAYERLIKE_CLIB_FRAME(joystick, Missing<playerc_joystick_t>, PLAYER_JOYSTICK_CODE)

@@ -18,6 +18,7 @@
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -202,6 +203,44 @@ void read(const json& in, Encoding, sim::ImuReading& reading) {
   reading.yaw_rad = require_number(in, "yaw");
 }
 
+constexpr std::array<std::string_view, 4> kGripperStates = {"open", "closed", "moving", "error"};
+constexpr std::array<std::string_view, 5> kGripActions = {"open", "close", "stop", "store",
+                                                          "retrieve"};
+
+/// The number of the word under a key in a list of words.
+template <std::size_t kCount>
+std::size_t require_word(const json& in, const char* key,
+                         const std::array<std::string_view, kCount>& words) {
+  const std::string word = require_text(in, key);
+  const auto* const found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  std::string known;
+  for (const std::string_view one : words) {
+    known += known.empty() ? "" : ", ";
+    known += one;
+  }
+  refuse_value(key, "one of " + known, in.at(key));
+}
+
+void write(const sim::GripperReading& reading, json& out, Encoding) {
+  out["state"] = kGripperStates[static_cast<std::size_t>(reading.state)];
+  out["outer_beam"] = reading.outer_beam;
+  out["inner_beam"] = reading.inner_beam;
+  out["holding"] = reading.holding;
+  out["stored"] = reading.stored;
+  out["gap"] = reading.gap_m;
+}
+
+void read(const json& in, Encoding, sim::GripperReading& reading) {
+  reading.state = static_cast<sim::GripperState>(require_word(in, "state", kGripperStates));
+  reading.outer_beam = require_bool(in, "outer_beam");
+  reading.inner_beam = require_bool(in, "inner_beam");
+  reading.holding = require_bool(in, "holding");
+  reading.stored =
+      static_cast<int>(require_integer(in, "stored", 0, sim::GripperParams::kMaxStored));
+  reading.gap_m = require_number(in, "gap");
+}
+
 void write(const sim::DioReading& reading, json& out, Encoding) {
   out["count"] = reading.input_count;
   out["inputs"] = reading.inputs;
@@ -374,6 +413,7 @@ constexpr ReadingCodec kReadingCodecs[] = {
     reading_codec<sim::DioReading>("dio"),
     reading_codec<sim::FiducialReading>("fiducial"),
     reading_codec<sim::GpsReading>("gps"),
+    reading_codec<sim::GripperReading>("gripper"),
     reading_codec<sim::ImuReading>("imu"),
     reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),
@@ -486,6 +526,10 @@ json to_json(const sim::LightCommand& command) {
   return out;
 }
 
+json to_json(const sim::GripCommand& command) {
+  return {{"kind", "grip"}, {"action", kGripActions[static_cast<std::size_t>(command.action)]}};
+}
+
 // A command has no encoding of its own to know: in CBOR, too, its bytes are a text in base64.
 json to_json(const sim::OpaqueCommand& command) {
   return {{"kind", "opaque"}, {"data", bytes(command.data, Encoding::kJson)}};
@@ -581,6 +625,12 @@ const CommandCodec kCommandCodecs[] = {
        if (in.contains("period")) command.period_s = require_number(in, "period");
        if (in.contains("duty_cycle")) command.duty_cycle = require_number(in, "duty_cycle");
        return command;
+     }},
+    {"grip",
+     {"kind", "action"},
+     [](const json& in) -> sim::Command {
+       using Action = sim::GripCommand::Action;
+       return sim::GripCommand{static_cast<Action>(require_word(in, "action", kGripActions))};
      }},
     {"opaque",
      {"kind", "data"},

@@ -50,7 +50,7 @@ std::vector<Case> cases() {
       {"background_thread", kCave, {"ended at"}, 1.5},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
       {"carlike", "examples/car.json", {"turned"}, 4.5, 5.0},
-      {"exceptions", kCave, {"robot on port 6665", "no gripper", "ended:"}, 5.0, 6.1},
+      {"exceptions", kCave, {"robot on port 6665", "no arm", "ended:"}, 5.0, 6.1},
       {"fiducial_chase", kPioneer, {"reached fiducial"}, 0.2},
       {"four_ports", kCave, {"robot 3"}, 1.0, kAny, 0, 4},
       {"globals", kCave, {"after main"}, 1.0},

@@ -83,7 +83,6 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
                                            refusal<CameraProxy>(client),
                                            refusal<CoopObjectProxy>(client),
                                            refusal<Graphics3dProxy>(client),
-                                           refusal<GripperProxy>(client),
                                            refusal<HealthProxy>(client),
                                            refusal<LimbProxy>(client),
                                            refusal<LinuxjoystickProxy>(client),
@@ -97,11 +96,26 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
                                            refusal<StereoProxy>(client),
                                            refusal<VectorMapProxy>(client),
                                            refusal<WSNProxy>(client)};
-  const std::vector<std::string> interfaces = {
-      "actarray",     "audio",      "blackboard", "blobfinder", "camera",   "coopobject",
-      "graphics3d",   "gripper",    "health",     "limb",       "joystick", "planner",
-      "pointcloud3d", "position1d", "position3d", "ptz",        "rfid",     "speech_recognition",
-      "stereo",       "vectormap",  "wsn"};
+  const std::vector<std::string> interfaces = {"actarray",
+                                               "audio",
+                                               "blackboard",
+                                               "blobfinder",
+                                               "camera",
+                                               "coopobject",
+                                               "graphics3d",
+                                               "health",
+                                               "limb",
+                                               "joystick",
+                                               "planner",
+                                               "pointcloud3d",
+                                               "position1d",
+                                               "position3d",
+                                               "ptz",
+                                               "rfid",
+                                               "speech_recognition",
+                                               "stereo",
+                                               "vectormap",
+                                               "wsn"};
   ASSERT_EQ(errors.size(), interfaces.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_EQ(errors[i].GetErrorCode(), PlayerError::kNoSuchDevice);

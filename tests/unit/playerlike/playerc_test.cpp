@@ -58,6 +58,7 @@ struct Free {
   void operator()(playerc_power_t* p) const { playerc_power_destroy(p); }
   void operator()(playerc_fiducial_t* d) const { playerc_fiducial_destroy(d); }
   void operator()(playerc_gps_t* d) const { playerc_gps_destroy(d); }
+  void operator()(playerc_gripper_t* d) const { playerc_gripper_destroy(d); }
   void operator()(playerc_imu_t* d) const { playerc_imu_destroy(d); }
   void operator()(playerc_localize_t* d) const { playerc_localize_destroy(d); }
   void operator()(playerc_wifi_t* d) const { playerc_wifi_destroy(d); }
@@ -466,15 +467,15 @@ TEST_F(Playerc, LeavesDevicesOfProgramsAlone) {
 
 TEST_F(Playerc, MakesDevicesThatNoWorldHasButRefusesThem) {
   const auto robot = client();
-  playerc_gripper_t* const gripper = playerc_gripper_create(robot.get(), 0);
-  ASSERT_NE(gripper, nullptr);
-  EXPECT_EQ(gripper->info.addr.interf, PLAYER_GRIPPER_CODE);
-  EXPECT_EQ(playerc_gripper_subscribe(gripper, PLAYERC_OPEN_MODE), -1);
-  EXPECT_THAT(playerc_error_str(), HasSubstr("gripper:0"));
-  EXPECT_EQ(playerc_gripper_open_cmd(gripper), -1);
+  playerc_limb_t* const limb = playerc_limb_create(robot.get(), 0);
+  ASSERT_NE(limb, nullptr);
+  EXPECT_EQ(limb->info.addr.interf, PLAYER_LIMB_CODE);
+  EXPECT_EQ(playerc_limb_subscribe(limb, PLAYERC_OPEN_MODE), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("limb:0"));
+  EXPECT_EQ(playerc_limb_home_cmd(limb), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("no world has such a device"));
-  EXPECT_EQ(playerc_gripper_unsubscribe(gripper), 0);
-  playerc_gripper_destroy(gripper);
+  EXPECT_EQ(playerc_limb_unsubscribe(limb), 0);
+  playerc_limb_destroy(limb);
 }
 
 TEST_P(PlayercEverywhere, DrivesABase) {
@@ -802,6 +803,48 @@ TEST_F(PlayercSensors, LocalisationAndRadio) {
 }
 
 // --- What worlds let programs do besides
+
+TEST_F(Playerc, Grips) {
+  const std::string world = folder_.write("can.json", R"({
+    "arena": {"size": [4, 3], "obstacles": [
+      {"name": "can", "center": [1.14, 1], "size": [0.06, 0.04], "portable": true}]},
+    "robots": [{"name": "r1", "pose": {"x": 1, "y": 1},
+                "devices": {"gripper": {"opening": 0.08, "travel_time": 0.4, "capacity": 1}}}]})");
+  const Owned<playerc_client_t> robot(
+      playerc_client_create(nullptr, ("sim:" + world).c_str(), 6665));
+  ASSERT_EQ(playerc_client_connect(robot.get()), 0) << playerc_error_str();
+  const Owned<playerc_gripper_t> gripper(playerc_gripper_create(robot.get(), 0));
+  EXPECT_EQ(playerc_gripper_open_cmd(gripper.get()), -1);  // not subscribed yet
+  ASSERT_EQ(playerc_gripper_subscribe(gripper.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_gripper_get_geom(gripper.get()), 0);
+  EXPECT_NEAR(gripper->pose.px, 0.087, 1e-12);
+  EXPECT_NEAR(gripper->inner_size.sw, 0.08, 1e-12);
+  EXPECT_NEAR(gripper->outer_size.sw, 0.14, 1e-12);
+  EXPECT_EQ(gripper->num_beams, 2);
+  EXPECT_EQ(gripper->capacity, 1);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_OPEN);
+  EXPECT_EQ(gripper->beams, 0x08U);  // 1.117 is in the can, from 1.11 to 1.17; 1.177 is not
+  ASSERT_EQ(playerc_gripper_close_cmd(gripper.get()), 0);
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_CLOSED);
+  ASSERT_EQ(playerc_gripper_store_cmd(gripper.get()), 0);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
+  EXPECT_EQ(gripper->stored, 1);
+  EXPECT_EQ(gripper->beams, 0U);
+  ASSERT_EQ(playerc_gripper_stop_cmd(gripper.get()), 0);
+  ASSERT_EQ(playerc_gripper_retrieve_cmd(gripper.get()), 0);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->stored, 0);
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_CLOSED);
+  testing::internal::CaptureStdout();
+  playerc_gripper_printout(gripper.get(), "r1");
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("state 2, beams 0x08, 0 stored"));
+  ASSERT_EQ(playerc_gripper_open_cmd(gripper.get()), 0);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
+}
 
 TEST_P(PlayercEverywhere, InputsAndOutputs) {
   const auto robot = client();

@@ -27,6 +27,7 @@
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -113,6 +114,8 @@ class Filler {
   void operator()(std::uint8_t& value) { value = static_cast<std::uint8_t>(random_()); }
   void operator()(sim::BatteryStatus& value) { pick(value, 3); }
   void operator()(sim::WaypointStatus& value) { pick(value, 3); }
+  void operator()(sim::GripperState& value) { pick(value, 4); }
+  void operator()(sim::GripCommand::Action& value) { pick(value, 5); }
   void operator()(sim::LayerKind& value) { pick(value, 3); }
   void operator()(sim::TimeMode& value) { pick(value, 2); }
   template <typename T>
@@ -230,6 +233,12 @@ void each(sim::DioReading& v, F& f) {
   f(v.input_count), f(v.inputs), f(v.output_count), f(v.outputs);
   limit(v.input_count, sim::DioParams::kMaxLines);
   limit(v.output_count, sim::DioParams::kMaxLines);
+}
+template <typename F>
+void each(sim::GripperReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.state), f(v.outer_beam), f(v.inner_beam), f(v.holding), f(v.stored), f(v.gap_m);
+  limit(v.stored, sim::GripperParams::kMaxStored);
 }
 template <typename F>
 void each(sim::OpaqueReading& v, F& f) {
@@ -375,6 +384,10 @@ void each(sim::AnalogOutputCommand& v, F& f) {
 template <typename F>
 void each(sim::LightCommand& v, F& f) {
   f(v.enabled), f(v.colour), f(v.period_s), f(v.duty_cycle);
+}
+template <typename F>
+void each(sim::GripCommand& v, F& f) {
+  f(v.action);
 }
 template <typename F>
 void each(sim::OpaqueCommand& v, F& f) {
@@ -1049,6 +1062,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
                 arrives_if<sim::FiducialReading>(*sensor, GetParam()) ||
                 arrives_if<sim::GpsReading>(*sensor, GetParam()) ||
+                arrives_if<sim::GripperReading>(*sensor, GetParam()) ||
                 arrives_if<sim::ImuReading>(*sensor, GetParam()) ||
                 arrives_if<sim::LaserReading>(*sensor, GetParam()) ||
                 arrives_if<sim::PoseReading>(*sensor, GetParam()) ||
@@ -1099,6 +1113,7 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
     all.emplace_back("collision", std::make_unique<sim::CollisionReading>());
     all.emplace_back("fiducial", std::make_unique<sim::FiducialReading>());
     all.emplace_back("gps", std::make_unique<sim::GpsReading>());
+    all.emplace_back("gripper", std::make_unique<sim::GripperReading>());
     all.emplace_back("imu", std::make_unique<sim::ImuReading>());
     all.emplace_back("laser", std::make_unique<sim::LaserReading>());
     all.emplace_back("odometry", std::make_unique<sim::PoseReading>());
