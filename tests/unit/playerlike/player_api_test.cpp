@@ -213,6 +213,28 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
   EXPECT_EQ(refused, 21);
 }
 
+TEST(PageOfProxies, SaysWhatPioneersHave) {
+  std::vector<std::string> interfaces;
+  std::istringstream lines(content("docs/player_api.md"));
+  static const std::regex kPioneers(R"(\| `\w+` \| `(\w+)` \| .*\bPioneer\b.*)");
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch row;
+    if (std::regex_match(line, row, kPioneers)) interfaces.push_back(row[1]);
+  }
+  EXPECT_GE(interfaces.size(), 17U);
+  for (const char* world : {"cave.json", "office.json"}) {
+    const sim::Simulation simulation(
+        sim::load_world(std::string(PLAYPEN_SOURCE_DIR "/worlds/") + world));
+    const auto robots = playerlike::describe_robots(simulation);
+    for (const auto& robot : robots) {
+      for (const std::string& interface : interfaces) {
+        EXPECT_NO_THROW(
+            static_cast<void>(playerlike::find_interface(robots, robot.port, interface, 0)));
+      }
+    }
+  }
+}
+
 // --- Localisation
 
 // As a course's programs read it, which 20 of them do.
