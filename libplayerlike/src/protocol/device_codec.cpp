@@ -37,15 +37,16 @@ constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 
 /// The value among `all` whose name stands under a key.
 template <typename Status>
-Status require_status(const json& in, std::initializer_list<Status> all) {
-  const json& word = require(in, "status");
+Status require_status(const json& in, std::initializer_list<Status> all,
+                      const char* key = "status") {
+  const json& word = require(in, key);
   std::string names;
   for (const Status status : all) {
     if (word == sim::to_string(status)) return status;
     names += names.empty() ? "" : ", ";
     names += sim::to_string(status);
   }
-  refuse_value("status", "one of " + names, word);
+  refuse_value(key, "one of " + names, word);
 }
 
 const json::array_t& require_list(const json& in, const char* key) {
@@ -203,27 +204,8 @@ void read(const json& in, Encoding, sim::ImuReading& reading) {
   reading.yaw_rad = require_number(in, "yaw");
 }
 
-constexpr std::array<std::string_view, 4> kGripperStates = {"open", "closed", "moving", "error"};
-constexpr std::array<std::string_view, 5> kGripActions = {"open", "close", "stop", "store",
-                                                          "retrieve"};
-
-/// The number of the word under a key in a list of words.
-template <std::size_t kCount>
-std::size_t require_word(const json& in, const char* key,
-                         const std::array<std::string_view, kCount>& words) {
-  const std::string word = require_text(in, key);
-  const auto* const found = std::find(words.begin(), words.end(), word);
-  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  std::string known;
-  for (const std::string_view one : words) {
-    known += known.empty() ? "" : ", ";
-    known += one;
-  }
-  refuse_value(key, "one of " + known, in.at(key));
-}
-
 void write(const sim::GripperReading& reading, json& out, Encoding) {
-  out["state"] = kGripperStates[static_cast<std::size_t>(reading.state)];
+  out["state"] = sim::to_string(reading.state);
   out["outer_beam"] = reading.outer_beam;
   out["inner_beam"] = reading.inner_beam;
   out["holding"] = reading.holding;
@@ -232,7 +214,9 @@ void write(const sim::GripperReading& reading, json& out, Encoding) {
 }
 
 void read(const json& in, Encoding, sim::GripperReading& reading) {
-  reading.state = static_cast<sim::GripperState>(require_word(in, "state", kGripperStates));
+  using State = sim::GripperState;
+  reading.state =
+      require_status(in, {State::kOpen, State::kClosed, State::kMoving, State::kError}, "state");
   reading.outer_beam = require_bool(in, "outer_beam");
   reading.inner_beam = require_bool(in, "inner_beam");
   reading.holding = require_bool(in, "holding");
@@ -526,8 +510,21 @@ json to_json(const sim::LightCommand& command) {
   return out;
 }
 
+// In the order of GripCommand::Action.
+constexpr std::array<std::string_view, 5> kGripActions = {"open", "close", "stop", "store",
+                                                          "retrieve"};
+
 json to_json(const sim::GripCommand& command) {
   return {{"kind", "grip"}, {"action", kGripActions[static_cast<std::size_t>(command.action)]}};
+}
+
+sim::GripCommand read_grip(const json& in) {
+  const std::string action = require_text(in, "action");
+  const auto* const found = std::find(kGripActions.begin(), kGripActions.end(), action);
+  if (found == kGripActions.end()) {
+    refuse_value("action", "open, close, stop, store or retrieve", in.at("action"));
+  }
+  return {static_cast<sim::GripCommand::Action>(found - kGripActions.begin())};
 }
 
 // A command has no encoding of its own to know: in CBOR, too, its bytes are a text in base64.
@@ -626,12 +623,7 @@ const CommandCodec kCommandCodecs[] = {
        if (in.contains("duty_cycle")) command.duty_cycle = require_number(in, "duty_cycle");
        return command;
      }},
-    {"grip",
-     {"kind", "action"},
-     [](const json& in) -> sim::Command {
-       using Action = sim::GripCommand::Action;
-       return sim::GripCommand{static_cast<Action>(require_word(in, "action", kGripActions))};
-     }},
+    {"grip", {"kind", "action"}, [](const json& in) -> sim::Command { return read_grip(in); }},
     {"opaque",
      {"kind", "data"},
      [](const json& in) -> sim::Command {

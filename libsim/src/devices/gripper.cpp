@@ -29,6 +29,20 @@ Pose pose_of(const ObstacleDescription& thing) {
 
 }  // namespace
 
+std::string_view to_string(GripperState state) noexcept {
+  switch (state) {
+    case GripperState::kOpen:
+      return "open";
+    case GripperState::kClosed:
+      return "closed";
+    case GripperState::kMoving:
+      return "moving";
+    case GripperState::kError:
+      break;
+  }
+  return "error";
+}
+
 std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Vec2& size_m,
                                                       double from_m, double to_m) {
   const Vec2 half = 0.5 * size_m;

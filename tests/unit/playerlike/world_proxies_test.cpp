@@ -428,6 +428,41 @@ TEST_P(WorldProxies, GripAndCarry) {
   EXPECT_EQ(error_of([&] { gripper.SetGrip(99); }).GetErrorCode(), PlayerError::kBadArgument);
 }
 
+TEST_P(WorldProxies, GripInTheWayOfMorse) {
+  test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
+  CCMorse::MorseClient client(host.connect(4000));
+  CCMorse::MorseGripper gripper(client.GetRobot("r1"));
+  EXPECT_EQ(gripper.GetStatus(), "");
+  EXPECT_EQ(gripper.GetCapacity(), 1);
+  EXPECT_EQ(gripper.GetOpening(), 0.08);
+  gripper.Close();
+  const auto read = [&client](int rounds) {
+    for (int i = 0; i < rounds; ++i) client.Read();
+  };
+  read(1);
+  EXPECT_EQ(gripper.GetStatus(), "moving");
+  EXPECT_TRUE(gripper.IsInnerBeamBroken());
+  EXPECT_FALSE(gripper.IsOuterBeamBroken());
+  EXPECT_FALSE(gripper.IsHolding());
+  read(3);
+  EXPECT_EQ(gripper.GetStatus(), "closed");
+  EXPECT_TRUE(gripper.IsHolding());
+  EXPECT_NEAR(gripper.GetGap(), 0.04, 1e-9);
+  gripper.Store();
+  gripper.Stop();
+  read(1);
+  EXPECT_EQ(gripper.GetStored(), 1);
+  EXPECT_EQ(gripper.GetStatus(), "open");  // stopped on the way
+  gripper.Retrieve();
+  read(1);
+  EXPECT_EQ(gripper.GetStored(), 0);
+  EXPECT_TRUE(gripper.IsHolding());
+  gripper.Open();
+  read(1);
+  EXPECT_FALSE(gripper.IsHolding());
+  EXPECT_EQ(gripper.GetStatus(), "moving");
+}
+
 TEST_P(WorldProxies, PutPortableThingsAway) {
   test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
   PlayerClient robot(host.connect(6665));

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,9 @@ enum class GripperState {
   kError,  ///< something that cannot be taken stopped them, or what they hold has no room to be put
            ///< down; until the next command that they can follow
 };
+
+/// "open", "closed", "moving" or "error".
+[[nodiscard]] std::string_view to_string(GripperState state) noexcept;
 
 /// What a gripper tells.
 struct GripperReading final : Reading {
