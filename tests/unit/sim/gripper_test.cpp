@@ -9,8 +9,10 @@
 #include <string>
 
 #include "sim/core/error.h"
+#include "sim/devices/fiducial.h"
 #include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/occupancy_map.h"
 
 namespace sim {
 namespace {
@@ -204,6 +206,40 @@ TEST(Gripper, ShowsItsLoadToOthersOnly) {
   ASSERT_FALSE(rig.grip(Action::kOpen));
   rig.run(20);
   EXPECT_NEAR(rig.nearest_m(1), 1.0 - 0.035 - 0.147, 0.002);
+}
+
+TEST(Gripper, HidesItsLoadFromItsRobotsFiducialFinderAndTheMap) {
+  Simulation simulation(load_world_text(
+      R"({"arena": {"size": [4, 3], "obstacles": [{"name": "can", "center": [1.127, 1],
+          "size": [0.04, 0.04], "fiducial": 7, "portable": true}]},
+          "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"fiducial": {},
+                      "gripper": {"length": 0.08, "opening": 0.12, "travel_time": 1}}},
+                     {"name": "r2", "pose": {"x": 2, "y": 1, "yaw_deg": 180},
+                      "devices": {"fiducial": {}}}]})"));
+  const auto seen_by = [&](int robot) {
+    return dynamic_cast<const FiducialFinder&>(
+               simulation.device(robot, simulation.find_device(robot, "fiducial").value()))
+        .reading()
+        .marks.size();
+  };
+  const auto occupied = [&] {
+    return true_map(simulation.world().arena, {.width = 400, .height = 300, .cell_size_m = 0.01})
+        .at(112, 199);
+  };
+  const auto run = [&](int steps) {
+    for (int i = 0; i < steps; ++i) simulation.step();
+  };
+  run(10);
+  EXPECT_EQ(seen_by(0), 1U);
+  EXPECT_EQ(seen_by(1), 1U);
+  EXPECT_EQ(occupied(), 1.0F);
+  ASSERT_FALSE(simulation.apply({0, simulation.find_device(0, "gripper").value()},
+                                GripCommand{Action::kClose}));
+  run(80);
+  EXPECT_EQ(simulation.world().arena.obstacles[0].carried_by, 0);
+  EXPECT_EQ(seen_by(0), 0U);
+  EXPECT_EQ(seen_by(1), 1U);
+  EXPECT_EQ(occupied(), 0.0F);
 }
 
 TEST(Gripper, IsInNobodysWayWithItsLoad) {
