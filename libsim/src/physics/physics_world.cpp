@@ -1029,6 +1029,34 @@ void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double senso
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
 }
 
+void PhysicsWorld::collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+                                 std::vector<Face>& faces) const {
+  Impl& d = *impl_;
+  faces.clear();
+  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
+  const auto add = [&](const EdgeList& list, std::size_t first, std::size_t last,
+                       Contact::Kind kind, int index, double height_m) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Edge& e = list.edges[i];
+      if (std::max(e.x0, e.x1) < low_W.x() || std::min(e.x0, e.x1) > high_W.x()) continue;
+      if (std::max(e.y0, e.y1) < low_W.y() || std::min(e.y0, e.y1) > high_W.y()) continue;
+      faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
+    }
+  };
+  query(d.world, low_W, high_W, [&](const b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.kind == Contact::Kind::kRobot) return;
+    add(d.all_edges, info.first_edge, info.first_edge + info.edge_count, info.kind, info.index,
+        info.height_m);
+  });
+  for (std::size_t i = 0; i < d.robot_circles.size(); ++i) {
+    const int robot = static_cast<int>(i);
+    if (robot == own_robot) continue;
+    add(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], Contact::Kind::kRobot,
+        robot, height_m(robot));
+  }
+}
+
 bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const {
   return impl_->inside_solid(p_W, height_m, own_robot);
 }

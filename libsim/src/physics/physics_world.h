@@ -101,6 +101,20 @@ class PhysicsWorld {
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
                      bool test_inside, scan::EdgeBuffer& edges, const View* view = nullptr) const;
 
+  /// An upright face of something solid, from the floor up: an edge of its outline.
+  struct Face {
+    Contact::Kind kind;
+    int index;        ///< of the obstacle, separator or robot; -1 for borders and walls
+    double height_m;  ///< of the solid [m]; infinite for walls of a map
+    Vec2 p_WA;        ///< [m]
+    Vec2 p_WC;        ///< the solid lies on the left of the way from A to C [m]
+  };
+  /// Collects the faces of all that reaches into a box with sides along W's axes, and perhaps
+  /// some others, in no particular order.
+  /// @param own_robot  robot whose body is left out, or -1.
+  void collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+                     std::vector<Face>& faces) const;
+
   /// Whether a point lies inside a solid that stands higher than `height_m`.
   /// @param own_robot  robot whose body does not count, or -1.
   [[nodiscard]] bool is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const;

@@ -12,8 +12,10 @@
 #include "sim/core/error.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/motion.h"
@@ -122,7 +124,9 @@ struct Simulation::Impl {
       parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
       Device* made = parts.devices.back().get();
       parts.sensors.push_back(dynamic_cast<Sensor*>(made));
-      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr);
+      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr ||
+                           dynamic_cast<const Blobfinder*>(made) != nullptr ||
+                           dynamic_cast<const Camera*>(made) != nullptr);
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
