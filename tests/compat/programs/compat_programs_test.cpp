@@ -48,6 +48,7 @@ const std::string kOffice = "office.json";
 std::vector<Case> cases() {
   return {
       {"background_thread", kCave, {"ended at"}, 1.5},
+      {"blob_chase", kPioneer, {"of 80x60 reached", "#2040e0"}, 0.5, 3.0},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
       {"carlike", "examples/car.json", {"turned"}, 4.5, 5.0},
       {"exceptions", kCave, {"robot on port 6665", "no gripper", "ended:"}, 5.0, 6.1},
