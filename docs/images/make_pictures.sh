@@ -86,7 +86,10 @@ done
 # What a camera sees: its program saves it where it runs.
 programs=$(realpath "$bin")
 (cd "$out" && "$programs/playpen" run "$root/worlds/devices/camera.json" --out camera --seed 1 \
-  --quiet -- "$programs/docs_camera_camera" >camera.log 2>&1)
+  --quiet -- "$programs/docs_camera_camera" >camera.log 2>&1) || {
+  cat "$out/camera.log" >&2
+  exit 1
+}
 take camera0000.ppm devices_camera
 
 "$images/picture_live_window.sh" "$bin/playpen" worlds/examples/thirteen_robots.json "$out/window" \

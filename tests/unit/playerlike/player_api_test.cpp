@@ -196,7 +196,7 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
     }
   }
   EXPECT_GE(works, 10);
-  EXPECT_EQ(refused, 21);
+  EXPECT_EQ(refused, 18);
 }
 
 // --- Localisation
