@@ -10,7 +10,9 @@
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
@@ -23,6 +25,7 @@
 #include "sim/devices/opaque.h"
 #include "sim/devices/pen.h"
 #include "sim/devices/proximity.h"
+#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/speech.h"
 #include "sim/devices/teleport.h"
@@ -164,6 +167,53 @@ BlinkenlightParams parse_blinkenlight(io::Reader& settings, BlinkenlightParams p
   p.period_s = settings.number("period", p.period_s, {0.0, 1e6, false, "s"});
   p.duty_cycle = settings.number("duty_cycle", p.duty_cycle, {0.0, 1.0, false, ""});
   p.p_BL = settings.vec2("position", p.p_BL, {-100.0, 100.0, false, "m"});
+  return p;
+}
+
+// What blobfinders and cameras have in common.
+void parse_view(io::Reader& settings, ViewParams& p) {
+  const auto [width, height] =
+      settings.integer_pair("image", {p.width, p.height}, 1, ViewParams::kMaxWidth);
+  p.width = static_cast<int>(width);
+  p.height = static_cast<int>(height);
+  if (p.height > ViewParams::kMaxHeight) {
+    settings.issue("device/image-height",
+                   "a picture of at most " + std::to_string(ViewParams::kMaxHeight) + " rows",
+                   std::to_string(p.height), "[columns, rows]", "image");
+  }
+  p.field_of_view_rad =
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 170.0, true, "degrees"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.X_BS = settings.pose("pose", p.X_BS);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.ptz = settings.string("ptz", p.ptz);
+}
+
+BlobfinderParams parse_blobfinder(io::Reader& settings, BlobfinderParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  parse_view(settings, p);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  const std::optional<io::Reader> list = settings.child("colours");
+  if (!list) return p;
+  std::vector<io::Reader> elements = settings.array("colours", BlobfinderParams::kMaxColours);
+  if (!list->is_array()) return p;
+  p.colours.clear();
+  for (io::Reader& element : elements) {
+    const std::optional<Colour> colour =
+        element.is_string() ? parse_colour(element.scalar_text().value_or("")) : std::nullopt;
+    if (colour) {
+      p.colours.push_back(*colour);
+    } else {
+      element.issue("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\"",
+                    element.described());
+    }
+  }
+  return p;
+}
+
+CameraParams parse_camera(io::Reader& settings, CameraParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  parse_view(settings, p);
   return p;
 }
 
@@ -374,6 +424,28 @@ ProximityParams parse_proximity(io::Reader& settings, ProximityParams p) {
   return p;
 }
 
+PtzParams parse_ptz(io::Reader& settings, PtzParams p) {
+  constexpr io::NumberRange kView_deg{0.0, 170.0, true, "degrees"};
+  constexpr io::NumberRange kSpeed_deg{0.0, 3600.0, true, "degrees/s"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.pan_max_rad = settings.angle_deg("pan_max_deg", p.pan_max_rad, {0.0, 180.0, false, "degrees"});
+  p.tilt_max_rad =
+      settings.angle_deg("tilt_max_deg", p.tilt_max_rad, {0.0, 60.0, false, "degrees"});
+  p.view_min_rad = settings.angle_deg("field_of_view_min_deg", p.view_min_rad, kView_deg);
+  p.view_max_rad = settings.angle_deg("field_of_view_max_deg", p.view_max_rad, kView_deg);
+  p.pan_speed_radps = settings.angle_deg("pan_speed_deg", p.pan_speed_radps, kSpeed_deg);
+  p.tilt_speed_radps = settings.angle_deg("tilt_speed_deg", p.tilt_speed_radps, kSpeed_deg);
+  p.zoom_speed_radps = settings.angle_deg("zoom_speed_deg", p.zoom_speed_radps, kSpeed_deg);
+  if (p.view_min_rad > p.view_max_rad) {
+    settings.issue("device/ptz-field-of-view",
+                   "a field_of_view_min_deg of at most field_of_view_max_deg",
+                   std::to_string(p.view_min_rad / kDegrees) + " and " +
+                       std::to_string(p.view_max_rad / kDegrees) + " degrees");
+    p.view_min_rad = p.view_max_rad;
+  }
+  return p;
+}
+
 SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
   parse_ranger(settings, p);
   p.field_of_view_rad =
@@ -502,6 +574,34 @@ Properties describe(const BlinkenlightParams& p) {
           {"duty_cycle", p.duty_cycle},
           {"x", p.p_BL.x()},
           {"y", p.p_BL.y()}};
+}
+Properties describe(const ViewParams& p) {
+  return {{"image_width", static_cast<double>(p.width)},
+          {"image_height", static_cast<double>(p.height)},
+          {"field_of_view", p.field_of_view_rad},
+          {"range_max", p.range_max_m},
+          {"mount_x", p.X_BS.x_m},
+          {"mount_y", p.X_BS.y_m},
+          {"mount_yaw", p.X_BS.yaw_rad},
+          {"height", p.height_m}};
+}
+Properties describe(const BlobfinderParams& p) {
+  Properties properties = describe(static_cast<const ViewParams&>(p));
+  properties["frequency"] = p.frequency_hz;
+  properties["noise"] = p.noise_m;
+  properties["colours"] = static_cast<double>(p.colours.size());
+  return properties;
+}
+Properties describe(const CameraParams& p) {
+  Properties properties = describe(static_cast<const ViewParams&>(p));
+  properties["frequency"] = p.frequency_hz;
+  return properties;
+}
+Properties describe(const PtzParams& p) {
+  return {{"frequency", p.frequency_hz},         {"pan_max", p.pan_max_rad},
+          {"tilt_max", p.tilt_max_rad},          {"field_of_view_min", p.view_min_rad},
+          {"field_of_view_max", p.view_max_rad}, {"pan_speed", p.pan_speed_radps},
+          {"tilt_speed", p.tilt_speed_radps},    {"zoom_speed", p.zoom_speed_radps}};
 }
 Properties describe(const DioParams& p) {
   return {{"frequency", p.frequency_hz},
@@ -715,6 +815,14 @@ std::vector<DeviceKind> make_table() {
                                [](D d, const BlinkenlightParams& p, R, M, const RandomStream&) {
                                  return std::make_unique<Blinkenlight>(d.name, p);
                                }),
+      kind<BlobfinderParams>("blobfinder", parse_blobfinder,
+                             [](D d, const BlobfinderParams& p, R, M, RandomStream noise) {
+                               return std::make_unique<Blobfinder>(d.name, p, std::move(noise));
+                             }),
+      kind<CameraParams>("camera", parse_camera,
+                         [](D d, const CameraParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Camera>(d.name, p);
+                         }),
       kind<CollisionParams>("collision", parse_collision,
                             [](D d, const CollisionParams& p, R, M, const RandomStream&) {
                               return std::make_unique<CollisionSensor>(d.name, p);
@@ -773,6 +881,10 @@ std::vector<DeviceKind> make_table() {
                             [](D d, const ProximityParams& p, R, M, const RandomStream&) {
                               return std::make_unique<Proximity>(d.name, p);
                             }),
+      kind<PtzParams>("ptz", parse_ptz,
+                      [](D d, const PtzParams& p, R, M, const RandomStream&) {
+                        return std::make_unique<Ptz>(d.name, p);
+                      }),
       kind<SonarParams>("sonar", parse_sonar,
                         [](D d, const SonarParams& p, R, M model, RandomStream noise) {
                           return make_ranger(d, p, model, std::move(noise));

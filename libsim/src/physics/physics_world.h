@@ -80,9 +80,13 @@ class PhysicsWorld {
   /// Gives an obstacle, by its index, another place, turn, size or height; extended or retracted it
   /// stays as it is.
   void change_obstacle(int obstacle, const ObstacleDescription& now);
-  /// What a robot carries: boxes in its frame B, in nobody's way, but other robots' sensors see
-  /// them as they see the robot.
-  void set_load(int robot, const std::vector<ObstacleDescription>& boxes_B);
+  /// An obstacle that a robot carries.
+  struct Load {
+    int obstacle;               ///< its index in the arena
+    ObstacleDescription box_B;  ///< the same with its place and turn in the robot's frame B
+  };
+  /// What a robot carries: in nobody's way, but other robots' sensors see it as they see the robot.
+  void set_load(int robot, const std::vector<Load>& loads);
   /// The first robot whose footprint overlaps a box; -1 if none does.
   [[nodiscard]] int robot_within(const ObstacleDescription& box) const;
 
@@ -103,6 +107,20 @@ class PhysicsWorld {
   ///                      robots that face away, are left out.
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
                      bool test_inside, scan::EdgeBuffer& edges, const View* view = nullptr) const;
+
+  /// An upright face of something solid, from the floor up: an edge of its outline.
+  struct Face {
+    Contact::Kind kind;
+    int index;        ///< of the obstacle, separator or robot; -1 for borders and walls
+    double height_m;  ///< of the solid [m]; infinite for walls of a map
+    Vec2 p_WA;        ///< [m]
+    Vec2 p_WC;        ///< the solid lies on the left of the way from A to C [m]
+  };
+  /// Collects the faces of all that reaches into a box with sides along W's axes, and perhaps
+  /// some others, in no particular order.
+  /// @param own_robot  robot whose body is left out, or -1.
+  void collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+                     std::vector<Face>& faces) const;
 
   /// Whether a point lies inside a solid that stands higher than `height_m`.
   /// @param own_robot  robot whose body does not count, or -1.

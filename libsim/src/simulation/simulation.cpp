@@ -12,8 +12,10 @@
 #include "sim/core/error.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gripper.h"
 #include "sim/devices/laser.h"
@@ -135,7 +137,9 @@ struct Simulation::Impl {
       parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
       Device* made = parts.devices.back().get();
       parts.sensors.push_back(dynamic_cast<Sensor*>(made));
-      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr);
+      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr ||
+                           dynamic_cast<const Blobfinder*>(made) != nullptr ||
+                           dynamic_cast<const Camera*>(made) != nullptr);
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
@@ -269,14 +273,14 @@ struct Simulation::Impl {
 
   // The physics is told what others see of a robot's load.
   void show_load(std::size_t robot) {
-    std::vector<ObstacleDescription> boxes;
+    std::vector<PhysicsWorld::Load> seen;
     for (const Load& load : loads) {
       if (load.robot != robot || load.inside) continue;
-      boxes.push_back(obstacle(load.obstacle));
-      boxes.back().center = load.X_BT.position();
-      boxes.back().yaw_rad = load.X_BT.yaw_rad;
+      seen.push_back({load.obstacle, obstacle(load.obstacle)});
+      seen.back().box_B.center = load.X_BT.position();
+      seen.back().box_B.yaw_rad = load.X_BT.yaw_rad;
     }
-    physics->set_load(static_cast<int>(robot), boxes);
+    physics->set_load(static_cast<int>(robot), seen);
   }
 
   void move_loads() {

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -42,7 +44,8 @@ constexpr const char* kWorld = R"({
                           "aio": {"inputs": [5, "aio.0"], "outputs": 1}, "speech": {},
                           "blinkenlight": {}, "opaque": {}}},
              {"name": "r2", "fiducial": 3, "pose": {"x": 2, "y": 0.5, "yaw_deg": 90},
-              "devices": {"wifi": {}}}]})";
+              "devices": {"wifi": {}, "ptz": {}, "blobfinder": {"ptz": "ptz"},
+                          "camera": {"ptz": "ptz"}}}]})";
 
 struct Free {
   void operator()(playerc_client_t* c) const { playerc_client_destroy(c); }
@@ -57,6 +60,9 @@ struct Free {
   void operator()(playerc_bumper_t* b) const { playerc_bumper_destroy(b); }
   void operator()(playerc_power_t* p) const { playerc_power_destroy(p); }
   void operator()(playerc_fiducial_t* d) const { playerc_fiducial_destroy(d); }
+  void operator()(playerc_blobfinder_t* d) const { playerc_blobfinder_destroy(d); }
+  void operator()(playerc_camera_t* d) const { playerc_camera_destroy(d); }
+  void operator()(playerc_ptz_t* d) const { playerc_ptz_destroy(d); }
   void operator()(playerc_gps_t* d) const { playerc_gps_destroy(d); }
   void operator()(playerc_gripper_t* d) const { playerc_gripper_destroy(d); }
   void operator()(playerc_imu_t* d) const { playerc_imu_destroy(d); }
@@ -731,6 +737,79 @@ TEST_F(PlayercSensors, Fiducials) {
   ASSERT_EQ(proxy.GetCount(), 1U);
   EXPECT_EQ(finder->fiducials[0].id, 3);
   EXPECT_TRUE(same(finder->fiducials[0].pose, proxy.GetFiducialItem(0).pose));
+}
+
+TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
+  const auto robot = client(6666);
+  const Owned<playerc_ptz_t> head(playerc_ptz_create(robot.get(), 0));
+  const Owned<playerc_blobfinder_t> finder(playerc_blobfinder_create(robot.get(), 0));
+  const Owned<playerc_camera_t> camera(playerc_camera_create(robot.get(), 0));
+  ASSERT_EQ(playerc_ptz_subscribe(head.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_blobfinder_subscribe(finder.get(), PLAYERC_OPEN_MODE), 0);
+  ASSERT_EQ(playerc_camera_subscribe(camera.get(), PLAYERC_OPEN_MODE), 0);
+  EXPECT_EQ(playerc_camera_get_image(camera.get()), -1);  // not yet
+  const auto turn = [&](int rounds) {
+    for (int i = 0; i < rounds; ++i) {
+      ASSERT_TRUE(read_until(robot.get(), head.get())) << playerc_error_str();
+      ASSERT_TRUE(read_until(robot.get(), finder.get())) << playerc_error_str();
+      ASSERT_TRUE(read_until(robot.get(), camera.get())) << playerc_error_str();
+    }
+  };
+  // r1 is at 45 degrees to the left.
+  constexpr double kQuarter = 0.25 * std::numbers::pi;
+  ASSERT_EQ(playerc_ptz_set(head.get(), kQuarter, 0.0, 0.0), 0) << playerc_error_str();
+  turn(1);
+  EXPECT_NEAR(head->pan, 8.0 * std::numbers::pi / 180.0, 1e-6);  // 80 degrees a second
+  EXPECT_EQ(playerc_ptz_query_status(head.get()), 0);
+  EXPECT_EQ(head->status, 1);
+  turn(7);
+  EXPECT_EQ(head->pan, kQuarter);
+  EXPECT_EQ(head->tilt, 0.0);
+  EXPECT_NEAR(head->zoom, std::numbers::pi / 3.0, 1e-9);
+  EXPECT_EQ(head->status, 0);
+  EXPECT_EQ(finder->width, 80U);
+  EXPECT_EQ(finder->height, 60U);
+  ASSERT_EQ(finder->blobs_count, 1U);
+  EXPECT_EQ(finder->blobs[0].color, 0xff8800U);  // of the first robot
+  EXPECT_NEAR(finder->blobs[0].x, 40.0, 2.0);
+  EXPECT_NEAR(finder->blobs[0].range, std::sqrt(2.0) - 0.08, 0.03);
+
+  ASSERT_EQ(playerc_camera_get_image(camera.get()), 0) << playerc_error_str();
+  EXPECT_EQ(camera->width, 80);
+  EXPECT_EQ(camera->height, 60);
+  EXPECT_EQ(camera->bpp, 24);
+  EXPECT_EQ(camera->format, PLAYER_CAMERA_FORMAT_RGB888);
+  EXPECT_EQ(camera->compression, PLAYER_CAMERA_COMPRESS_RAW);
+  ASSERT_EQ(camera->image_count, 80 * 60 * 3);
+  const playerc_blobfinder_blob_t& blob = finder->blobs[0];
+  const unsigned red = playerc_camera_get_pixel_component(camera.get(), blob.x, blob.y, 0);
+  EXPECT_EQ(red, camera->image[3 * (blob.y * 80 + blob.x)]);
+  EXPECT_GT(red, 100U);
+  EXPECT_EQ(playerc_camera_get_pixel_component(camera.get(), blob.x, blob.y, 2), 0U);  // of ff8800
+  EXPECT_EQ(playerc_camera_get_pixel_component(camera.get(), 80, 0, 0), 0U);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("no pixel 80, 0"));
+  std::array<uint8_t, 6> copy = {};
+  playerc_camera_copy_image(camera.get(), copy.data(), 5);
+  EXPECT_TRUE(std::equal(copy.begin(), copy.begin() + 5, camera->image));
+  EXPECT_EQ(copy[5], 0);
+  EXPECT_EQ(playerc_camera_set_source(camera.get(), 0, "PAL"), -1);
+  EXPECT_EQ(playerc_camera_get_source(camera.get()), -1);
+  playerc_camera_decompress(camera.get());
+  const std::string file = testing::TempDir() + "playerc_" + transport_name(GetParam()) + ".ppm";
+  playerc_camera_save(camera.get(), file.c_str());
+  EXPECT_EQ(std::filesystem::file_size(file), 13U + 14400U);  // "P6\n80 60\n255\n"
+  std::filesystem::remove(file);
+
+  // In position control the speeds are those on the way, in velocity control they are the way.
+  ASSERT_EQ(playerc_ptz_set_ws(head.get(), 0.0, 0.0, 0.0, 0.5, 0.0), 0) << playerc_error_str();
+  turn(2);
+  EXPECT_NEAR(head->pan, kQuarter - 0.1, 1e-6);
+  EXPECT_EQ(playerc_ptz_set_control_mode(head.get(), 7), -1);
+  ASSERT_EQ(playerc_ptz_set_control_mode(head.get(), PLAYER_PTZ_VELOCITY_CONTROL), 0);
+  ASSERT_EQ(playerc_ptz_set_ws(head.get(), 0.0, 0.0, 0.0, -1.0, 0.25), 0);
+  turn(2);
+  EXPECT_NEAR(head->pan, kQuarter - 0.3, 1e-6);
+  EXPECT_NEAR(head->tilt, 0.05, 1e-6);
 }
 
 TEST_F(PlayercSensors, SatellitesAndInertia) {

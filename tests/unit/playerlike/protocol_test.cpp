@@ -21,8 +21,10 @@
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
@@ -33,6 +35,7 @@
 #include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
 #include "sim/devices/proximity.h"
+#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
 #include "sim/devices/wifi.h"
@@ -252,6 +255,36 @@ void each(sim::BatteryReading& v, F& f) {
   f(v.power_w);
 }
 template <typename F>
+void each(sim::BlobfinderReading::Blob& v, F& f) {
+  f(v.colour);
+  for (int* pixels : {&v.area, &v.x, &v.y, &v.left, &v.right, &v.top, &v.bottom}) {
+    f(*pixels);
+    limit(*pixels, 1'000'000);
+  }
+  f(v.range_m);
+}
+template <typename F>
+void each(sim::BlobfinderReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.width), f(v.height), f(v.blobs);
+  limit(v.width, 10'000);
+  limit(v.height, 10'000);
+}
+template <typename F>
+void each(sim::CameraReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.width), f(v.height), f(v.pixels);
+  limit(v.width, 7);
+  limit(v.height, 5);
+  v.pixels.resize(static_cast<std::size_t>(3 * v.width * v.height));
+}
+template <typename F>
+void each(sim::PtzReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.pan_rad), f(v.tilt_rad), f(v.view_rad), f(v.moving);
+  f(v.pan_speed_radps), f(v.tilt_speed_radps), f(v.zoom_speed_radps);
+}
+template <typename F>
 void each(sim::BumperReading& v, F& f) {
   each_of_reading(v, f);
   f(v.pressed);
@@ -388,6 +421,14 @@ void each(sim::LightCommand& v, F& f) {
 template <typename F>
 void each(sim::GripCommand& v, F& f) {
   f(v.action);
+}
+template <typename F>
+void each(sim::PointCommand& v, F& f) {
+  f(v.pan_rad), f(v.tilt_rad), f(v.view_rad), f(v.pan_speed_radps), f(v.tilt_speed_radps);
+}
+template <typename F>
+void each(sim::PanCommand& v, F& f) {
+  f(v.pan_speed_radps), f(v.tilt_speed_radps), f(v.zoom_speed_radps);
 }
 template <typename F>
 void each(sim::OpaqueCommand& v, F& f) {
@@ -1056,7 +1097,9 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     EXPECT_TRUE(arrives_if<sim::AioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BlinkenlightReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BlobfinderReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BumperReading>(*sensor, GetParam()) ||
+                arrives_if<sim::CameraReading>(*sensor, GetParam()) ||
                 arrives_if<sim::DioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::OpaqueReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
@@ -1067,6 +1110,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
                 arrives_if<sim::LaserReading>(*sensor, GetParam()) ||
                 arrives_if<sim::PoseReading>(*sensor, GetParam()) ||
                 arrives_if<sim::ProximityReading>(*sensor, GetParam()) ||
+                arrives_if<sim::PtzReading>(*sensor, GetParam()) ||
                 arrives_if<sim::RangerReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WaypointReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WifiReading>(*sensor, GetParam()))
@@ -1106,7 +1150,10 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
     all.emplace_back("aio", std::make_unique<sim::AioReading>());
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
+    all.emplace_back("blobfinder", std::make_unique<sim::BlobfinderReading>());
     all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
+    all.emplace_back("camera", std::make_unique<sim::CameraReading>());
+    all.emplace_back("ptz", std::make_unique<sim::PtzReading>());
     all.emplace_back("blinkenlight", std::make_unique<sim::BlinkenlightReading>());
     all.emplace_back("dio", std::make_unique<sim::DioReading>());
     all.emplace_back("opaque", std::make_unique<sim::OpaqueReading>());

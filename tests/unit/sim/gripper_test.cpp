@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "sim/core/error.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/laser.h"
 #include "sim/simulation/simulation.h"
@@ -211,11 +213,11 @@ TEST(Gripper, ShowsItsLoadToOthersOnly) {
 TEST(Gripper, HidesItsLoadFromItsRobotsFiducialFinderAndTheMap) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [4, 3], "obstacles": [{"name": "can", "center": [1.127, 1],
-          "size": [0.04, 0.04], "fiducial": 7, "portable": true}]},
+          "size": [0.04, 0.04], "fiducial": 7, "colour": "#00ff00", "portable": true}]},
           "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"fiducial": {},
                       "gripper": {"length": 0.08, "opening": 0.12, "travel_time": 1}}},
                      {"name": "r2", "pose": {"x": 2, "y": 1, "yaw_deg": 180},
-                      "devices": {"fiducial": {}}}]})"));
+                      "devices": {"fiducial": {}, "blobfinder": {"height": 0.05}}}]})"));
   const auto seen_by = [&](int robot) {
     return dynamic_cast<const FiducialFinder&>(
                simulation.device(robot, simulation.find_device(robot, "fiducial").value()))
@@ -240,6 +242,14 @@ TEST(Gripper, HidesItsLoadFromItsRobotsFiducialFinderAndTheMap) {
   EXPECT_EQ(seen_by(0), 0U);
   EXPECT_EQ(seen_by(1), 1U);
   EXPECT_EQ(occupied(), 0.0F);
+  // r2 sees it before r1, in its own colour.
+  const auto& blobs = dynamic_cast<const Blobfinder&>(
+                          simulation.device(1, simulation.find_device(1, "blobfinder").value()))
+                          .reading()
+                          .blobs;
+  EXPECT_TRUE(std::any_of(blobs.begin(), blobs.end(), [](const auto& blob) {
+    return blob.colour == Colour{0, 0xff, 0, 0xff};
+  }));
 }
 
 TEST(Gripper, IsInNobodysWayWithItsLoad) {

@@ -133,6 +133,20 @@ struct GripCommand {
 struct OpaqueCommand {
   std::vector<std::uint8_t> data;  ///< at most kMaxOpaque bytes
 };
+/// Point a camera somewhere (ptz). Limits of the head hold.
+struct PointCommand {
+  double pan_rad = 0.0;           ///< to the left [rad]
+  double tilt_rad = 0.0;          ///< upwards [rad]
+  double view_rad = 0.0;          ///< field of view from side to side; 0 or less: it stays [rad]
+  double pan_speed_radps = 0.0;   ///< on the way; 0: as fast as it can. The sign does not matter
+  double tilt_speed_radps = 0.0;  ///< the same [rad/s]
+};
+/// Turn and zoom a camera at speeds, until told otherwise or at a limit (ptz).
+struct PanCommand {
+  double pan_speed_radps = 0.0;   ///< to the left [rad/s]
+  double tilt_speed_radps = 0.0;  ///< upwards [rad/s]
+  double zoom_speed_radps = 0.0;  ///< of the field of view, > 0 widens it [rad/s]
+};
 inline constexpr std::size_t kMaxSpeech = 255;    ///< bytes
 inline constexpr std::size_t kMaxOpaque = 65536;  ///< bytes
 /// Whatever a device can be told to do.
@@ -140,7 +154,7 @@ using Command =
     std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
                  ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
                  PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
-                 LightCommand, GripCommand, OpaqueCommand>;
+                 LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand>;
 
 class Device;
 
