@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Proxies of things that a robot moves with: arrays of actuators, limbs, single axes. Programs with
-/// them compile; no device of Playpen carries their interfaces.
+/// Proxies of things that a robot moves with: arrays of actuators, limbs, single axes. Programs
+/// with them compile; no device of Playpen carries their interfaces.
 
 #include <cstddef>
 #include <cstdint>
