@@ -37,12 +37,13 @@ double SteerTo(double x, double y, double reach, Position2dProxy &pp, Simulation
   return dist;
 }
 
-int main(int argc, char *argv[])
+int main()
 {
   PlayerClient robot("localhost", 6665);
   Position2dProxy p2dProxy(&robot, 0);
   RangerProxy sonarProxy(&robot, 0);
   RangerProxy laserProxy(&robot, 1);
+  BlobfinderProxy blobProxy(&robot, 0);
   GripperProxy gripper(&robot, 0);
   SimulationProxy simProxy(&robot, 0);
   item_t itemList[8];
@@ -58,14 +59,21 @@ int main(int argc, char *argv[])
          laserProxy.GetRangeCount(), gripper.GetPaddlesOpen() ? "open" : "not open");
 
   // to the orange, until it breaks the inner beam
+  int orangeBlobs = 0;
   while (!gripper.GetInnerBreakBeam())
   {
     robot.Read();
+    for (unsigned int i = 0; i < blobProxy.GetCount(); i++)
+    {
+      playerc_blobfinder_blob_t blob = blobProxy[i];
+      int centre = blobProxy.GetWidth() / 2;
+      if ((blob.color & 0xffffff) == 0xffa500 && abs((int)blob.x - centre) < 10) orangeBlobs++;
+    }
     SteerTo(itemList[0].x, itemList[0].y, 0.6, p2dProxy, simProxy);
   }
   p2dProxy.SetSpeed(0, 0);
   printf("between the teeth: %s, laser %.2f\n", itemList[0].name, laserProxy[90]);
-  bool seen = laserProxy[90] < 0.25;
+  bool seen = laserProxy[90] < 0.25 && orangeBlobs > 10;
 
   gripper.Close();
   do
