@@ -19,7 +19,8 @@ if [[ -n $given ]]; then
 else
   cmake --preset dev >/dev/null
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
-    docs_speech_speech docs_blinkenlight_blinkenlight compat_four_ports \
+    docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
+    compat_four_ports \
     par_intro_solution_wall par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest
   bin=build/dev/bin
@@ -82,6 +83,19 @@ for device in speech blinkenlight; do
     "$bin/docs_${device}_$device"
   take "$device/snapshots/scene_000000.200s.png" "devices_$device"
 done
+
+run worlds/devices/gripper.json gripper --snapshot-every 0.2 --duration 2 -- \
+  "$bin/docs_gripper_gripper"
+take gripper/snapshots/scene_000001.800s.png devices_gripper
+
+# What a camera sees: its program saves it where it runs.
+programs=$(realpath "$bin")
+(cd "$out" && "$programs/playpen" run "$root/worlds/devices/camera.json" --out camera --seed 1 \
+  --quiet -- "$programs/docs_camera_camera" >camera.log 2>&1) || {
+  cat "$out/camera.log" >&2
+  exit 1
+}
+take camera0000.ppm devices_camera
 
 "$images/picture_live_window.sh" "$bin/playpen" worlds/examples/thirteen_robots.json "$out/window" \
   "$images/live_window.png" "$bin/docs_thirteen"

@@ -18,6 +18,7 @@
 #include "libCCMorse/MorseDevice.h"
 #include "libCCMorse/MorseError.h"
 #include "libCCMorse/MorseGps.h"
+#include "libCCMorse/MorseGripper.h"
 #include "libCCMorse/MorseImu.h"
 #include "libCCMorse/MorseInfrared.h"
 #include "libCCMorse/MorseLaser.h"

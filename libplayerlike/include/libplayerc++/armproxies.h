@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Proxies of things that a robot grips and moves with: arrays of actuators, limbs, grippers,
-/// single axes. Programs with them compile; no device of Playpen carries their interfaces.
+/// Proxies of things that a robot moves with: arrays of actuators, limbs, single axes. Programs
+/// with them compile; no device of Playpen carries their interfaces.
 
 #include <cstddef>
 #include <cstdint>
@@ -57,68 +57,6 @@ class ActArrayProxy : public ProxyWithoutDevice {
   player_orientation_3d_t GetBaseOrientation() const { return NoDevice(); }
   /// The same as GetActuatorData().
   player_actarray_actuator_t operator[](uint32_t /*aJoint*/) { return NoDevice(); }
-};
-
-/// A gripper with two fingers, break beams between them, and perhaps a store.
-class GripperProxy : public ProxyWithoutDevice {
- public:
-  /// @throws PlayerError kNoSuchDevice, always; see ProxyWithoutDevice.
-  GripperProxy(PlayerClient* aPc, uint32_t aIndex = 0)
-      : ProxyWithoutDevice(aPc, aIndex, PLAYER_GRIPPER_CODE, "GripperProxy::GripperProxy") {}
-
-  /// Asks for what GetPose(), GetOuterSize(), GetInnerSize(), GetNumBeams() and GetCapacity() tell.
-  void RequestGeometry() { NoDevice(); }
-  /// One of PLAYER_GRIPPER_STATE_OPEN, _CLOSED, _MOVING and _ERROR.
-  uint32_t GetState() const { return NoDevice(); }
-  /// Which beams are broken: a bit each.
-  uint32_t GetBeams() const { return NoDevice(); }
-  /// Pose on the robot [m, rad].
-  player_pose3d_t GetPose() const { return NoDevice(); }
-  /// Size from outside [m].
-  player_bbox3d_t GetOuterSize() const { return NoDevice(); }
-  /// Size between the fingers [m].
-  player_bbox3d_t GetInnerSize() const { return NoDevice(); }
-  /// How many break beams there are.
-  uint32_t GetNumBeams() const { return NoDevice(); }
-  /// How many things the store holds at most.
-  uint32_t GetCapacity() const { return NoDevice(); }
-  /// How many things are in the store.
-  uint32_t GetStored() const { return NoDevice(); }
-  /// Opens the fingers.
-  void Open() { NoDevice(); }
-  /// Closes the fingers.
-  void Close() { NoDevice(); }
-  /// Stops the fingers where they are.
-  void Stop() { NoDevice(); }
-  /// Puts what the gripper holds into the store.
-  void Store() { NoDevice(); }
-  /// Takes a thing out of the store.
-  void Retrieve() { NoDevice(); }
-
-  // Names of Player 2.0.
-
-  /// @deprecated Of Player 2.0: whether the outer break beam is broken; see GetBeams().
-  uint32_t GetOuterBreakBeam() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the inner break beam is broken; see GetBeams().
-  uint32_t GetInnerBreakBeam() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the fingers are open; see GetState().
-  uint32_t GetPaddlesOpen() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the fingers are closed; see GetState().
-  uint32_t GetPaddlesClosed() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the fingers move; see GetState().
-  uint32_t GetPaddlesMoving() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the fingers have a fault; see GetState().
-  uint32_t GetGripperError() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the lift is up.
-  uint32_t GetLiftUp() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the lift is down.
-  uint32_t GetLiftDown() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the lift moves.
-  uint32_t GetLiftMoving() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: whether the lift has a fault.
-  uint32_t GetLiftError() const { return NoDevice(); }
-  /// @deprecated Of Player 2.0: a command with its argument; see Open() and Close().
-  void SetGrip(uint8_t /*aCmd*/, uint8_t /*aArg*/ = 0) { NoDevice(); }
 };
 
 /// An arm that is told where its end should be.

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Proxies of cameras and of what is made of their images. Programs with them compile; no device of
-/// Playpen carries their interfaces.
+/// Proxies of what sees in three dimensions. Programs with them compile; no device of Playpen
+/// carries their interfaces.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,78 +13,6 @@
 #include "libplayerc++/proxywithoutdevice.h"
 
 namespace PlayerCc {
-
-/// Blobs of colour in a camera's image.
-class BlobfinderProxy : public ProxyWithoutDevice {
- public:
-  /// @throws PlayerError kNoSuchDevice, always; see ProxyWithoutDevice.
-  BlobfinderProxy(PlayerClient* aPc, uint32_t aIndex = 0)
-      : ProxyWithoutDevice(aPc, aIndex, PLAYER_BLOBFINDER_CODE,
-                           "BlobfinderProxy::BlobfinderProxy") {}
-
-  /// How many blobs are seen.
-  uint32_t GetCount() const { return NoDevice(); }
-  /// A blob: colour, area, middle and edges [pixels], range [m].
-  playerc_blobfinder_blob_t GetBlob(uint32_t /*aIndex*/) const { return NoDevice(); }
-  /// Width of the image [pixels].
-  uint32_t GetWidth() const { return NoDevice(); }
-  /// Height of the image [pixels].
-  uint32_t GetHeight() const { return NoDevice(); }
-  /// The same as GetBlob().
-  playerc_blobfinder_blob_t operator[](uint32_t /*aIndex*/) const { return NoDevice(); }
-};
-
-/// Images of a camera.
-class CameraProxy : public ProxyWithoutDevice {
- public:
-  /// @throws PlayerError kNoSuchDevice, always; see ProxyWithoutDevice.
-  CameraProxy(PlayerClient* aPc, uint32_t aIndex = 0)
-      : ProxyWithoutDevice(aPc, aIndex, PLAYER_CAMERA_CODE, "CameraProxy::CameraProxy") {}
-
-  /// Writes the newest image to a file named by a prefix and a running number of that many digits.
-  void SaveFrame(const std::string /*aPrefix*/, uint32_t /*aWidth*/ = 4) { NoDevice(); }
-  /// Unpacks a compressed image.
-  void Decompress() { NoDevice(); }
-  /// Bits a pixel.
-  uint32_t GetDepth() const { return NoDevice(); }
-  /// Width [pixels].
-  uint32_t GetWidth() const { return NoDevice(); }
-  /// Height [pixels].
-  uint32_t GetHeight() const { return NoDevice(); }
-  /// One of PLAYER_CAMERA_FORMAT_...
-  uint32_t GetFormat() const { return NoDevice(); }
-  /// Size of the image [bytes].
-  uint32_t GetImageSize() const { return NoDevice(); }
-  /// Copies the image: GetImageSize() bytes.
-  void GetImage(uint8_t* /*aImage*/) const { NoDevice(); }
-  /// PLAYER_CAMERA_COMPRESS_RAW or _JPEG.
-  uint32_t GetCompression() const { return NoDevice(); }
-};
-
-/// A camera that pans, tilts and zooms.
-class PtzProxy : public ProxyWithoutDevice {
- public:
-  /// @throws PlayerError kNoSuchDevice, always; see ProxyWithoutDevice.
-  PtzProxy(PlayerClient* aPc, uint32_t aIndex = 0)
-      : ProxyWithoutDevice(aPc, aIndex, PLAYER_PTZ_CODE, "PtzProxy::PtzProxy") {}
-
-  /// Turns the camera to angles [rad] and a zoom [rad of view].
-  void SetCam(double /*aPan*/, double /*aTilt*/, double /*aZoom*/) { NoDevice(); }
-  /// Turns and zooms the camera at speeds [rad/s].
-  void SetSpeed(double /*aPanSpeed*/ = 0, double /*aTiltSpeed*/ = 0, double /*aZoomSpeed*/ = 0) {
-    NoDevice();
-  }
-  /// PLAYER_PTZ_POSITION_CONTROL or PLAYER_PTZ_VELOCITY_CONTROL.
-  void SelectControlMode(uint32_t /*aMode*/) { NoDevice(); }
-  /// Pan [rad].
-  double GetPan() const { return NoDevice(); }
-  /// Tilt [rad].
-  double GetTilt() const { return NoDevice(); }
-  /// Zoom [rad of view].
-  double GetZoom() const { return NoDevice(); }
-  /// State of the device; what it means is the device's matter.
-  int GetStatus() { return NoDevice(); }
-};
 
 /// Images of two cameras, and what is made of the difference.
 class StereoProxy : public ProxyWithoutDevice {

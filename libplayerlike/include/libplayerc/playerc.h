@@ -184,16 +184,13 @@ typedef struct playerc_blinkenlight {
   uint8_t blue;           ///< 0 to 255
 } playerc_blinkenlight_t;
 
-/// A blobfinder device, which no world has.
+/// Blobs of colour in view.
 typedef struct playerc_blobfinder {
-  playerc_device_t info;  ///< common to all devices
-  /// @{
-  /// As in the messages of the interface (libplayerinterface/player_structs.h).
-  unsigned int width;
-  unsigned int height;
-  unsigned int blobs_count;
-  playerc_blobfinder_blob_t* blobs;
-  /// @}
+  playerc_device_t info;             ///< common to all devices
+  unsigned int width;                ///< of the picture [pixels]
+  unsigned int height;               ///< [pixels]
+  unsigned int blobs_count;          ///< how many are in view
+  playerc_blobfinder_blob_t* blobs;  ///< from right to left
 } playerc_blobfinder_t;
 
 /// Bumpers.
@@ -205,22 +202,19 @@ typedef struct playerc_bumper {
   uint8_t* bumpers;               ///< 1: pressed
 } playerc_bumper_t;
 
-/// A camera device, which no world has.
+/// A camera.
 typedef struct playerc_camera {
   playerc_device_t info;  ///< common to all devices
-  /// @{
-  /// As in the messages of the interface (libplayerinterface/player_structs.h).
-  int width;
-  int height;
-  int bpp;
-  int format;
-  int fdiv;
-  int compression;
-  int image_count;
-  uint8_t* image;
-  char norm[16];
-  int source;
-  /// @}
+  int width;              ///< [pixels]
+  int height;             ///< [pixels]
+  int bpp;                ///< bits a pixel: 24
+  int format;             ///< PLAYER_CAMERA_FORMAT_RGB888
+  int fdiv;               ///< 1
+  int compression;        ///< PLAYER_CAMERA_COMPRESS_RAW
+  int image_count;        ///< [bytes]
+  uint8_t* image;         ///< red, green and blue of each pixel, row by row from the top
+  char norm[16];          ///< empty
+  int source;             ///< 0
 } playerc_camera_t;
 
 /// A coopobject device, which no world has.
@@ -303,7 +297,7 @@ typedef struct playerc_graphics3d {
   /// @}
 } playerc_graphics3d_t;
 
-/// A gripper device, which no world has.
+/// A gripper; see playerc_gripper_get_geom() for what tells of its geometry.
 typedef struct playerc_gripper {
   playerc_device_t info;  ///< common to all devices
   /// @{
@@ -539,16 +533,13 @@ typedef struct playerc_power {
   int charging;           ///< 1: in a dock
 } playerc_power_t;
 
-/// A ptz device, which no world has.
+/// A head that pans, tilts and zooms.
 typedef struct playerc_ptz {
   playerc_device_t info;  ///< common to all devices
-  /// @{
-  /// As in the messages of the interface (libplayerinterface/player_structs.h).
-  double pan;
-  double tilt;
-  double zoom;
-  int status;
-  /// @}
+  double pan;             ///< to the left [rad]
+  double tilt;            ///< upwards [rad]
+  double zoom;            ///< field of view [rad]
+  int status;             ///< 1: on its way
 } playerc_ptz_t;
 
 /// Any range finder: a laser, sonars, infra-red rangers.
@@ -954,11 +945,10 @@ int playerc_blinkenlight_blink(playerc_blinkenlight_t* device, uint32_t id, floa
 /// @}
 
 /// @name blobfinder
-///
-/// No world has such a device: create makes the struct, everything else fails.
 /// @{
 
-/// See playerc_device_subscribe().
+/// Makes the struct for a device, subscribes to it, and the reverse; see
+/// playerc_device_subscribe().
 playerc_blobfinder_t* playerc_blobfinder_create(playerc_client_t* client, int index);
 void playerc_blobfinder_destroy(playerc_blobfinder_t* device);
 int playerc_blobfinder_subscribe(playerc_blobfinder_t* device, int access);
@@ -979,21 +969,27 @@ int playerc_bumper_get_geom(playerc_bumper_t* device);
 /// @}
 
 /// @name camera
-///
-/// No world has such a device: create makes the struct, everything else fails.
 /// @{
 
-/// See playerc_device_subscribe().
+/// Makes the struct for a device, subscribes to it, and the reverse; see
+/// playerc_device_subscribe().
 playerc_camera_t* playerc_camera_create(playerc_client_t* client, int index);
 void playerc_camera_destroy(playerc_camera_t* device);
 int playerc_camera_subscribe(playerc_camera_t* device, int access);
 int playerc_camera_unsubscribe(playerc_camera_t* device);
+/// Nothing: pictures are not compressed.
 void playerc_camera_decompress(playerc_camera_t* device);
+/// Writes the newest picture as a binary PPM.
 void playerc_camera_save(playerc_camera_t* device, const char* filename);
+/// Fails: there is nothing to choose.
 int playerc_camera_set_source(playerc_camera_t* device, int source, const char* norm);
+/// Fails as well.
 int playerc_camera_get_source(playerc_camera_t* device);
+/// Fails before the first picture; the newest one is there without asking.
 int playerc_camera_get_image(playerc_camera_t* device);
+/// Copies the newest picture, at most dst_size bytes of it.
 void playerc_camera_copy_image(playerc_camera_t* device, void* dst, size_t dst_size);
+/// A pixel's red (component 0), green (1) or blue (2); 0 where there is none.
 unsigned playerc_camera_get_pixel_component(playerc_camera_t* device, unsigned int x,
                                             unsigned int y, int component);
 /// @}
@@ -1102,7 +1098,7 @@ int playerc_graphics3d_rotate(playerc_graphics3d_t* device, double a, double x, 
 
 /// @name gripper
 ///
-/// No world has such a device: create makes the struct, everything else fails.
+/// What the commands do is told of PlayerCc::GripperProxy. @return 0, or -1 on an error.
 /// @{
 
 /// See playerc_device_subscribe().
@@ -1401,19 +1397,24 @@ int playerc_power_unsubscribe(playerc_power_t* device);
 /// @}
 
 /// @name ptz
-///
-/// No world has such a device: create makes the struct, everything else fails.
 /// @{
 
-/// See playerc_device_subscribe().
+/// Makes the struct for a device, subscribes to it, and the reverse; see
+/// playerc_device_subscribe().
 playerc_ptz_t* playerc_ptz_create(playerc_client_t* client, int index);
 void playerc_ptz_destroy(playerc_ptz_t* device);
 int playerc_ptz_subscribe(playerc_ptz_t* device, int access);
 int playerc_ptz_unsubscribe(playerc_ptz_t* device);
+/// As PlayerCc::PtzProxy::SetCam().
 int playerc_ptz_set(playerc_ptz_t* device, double pan, double tilt, double zoom);
+/// Brings status up to date.
 int playerc_ptz_query_status(playerc_ptz_t* device);
+/// The same at speeds for pan and tilt [rad/s], 0: as fast as it can. In
+/// PLAYER_PTZ_VELOCITY_CONTROL it turns at these speeds until told otherwise, and the angles mean
+/// nothing.
 int playerc_ptz_set_ws(playerc_ptz_t* device, double pan, double tilt, double zoom, double panspeed,
                        double tiltspeed);
+/// @param mode  PLAYER_PTZ_POSITION_CONTROL, as at the start, or PLAYER_PTZ_VELOCITY_CONTROL.
 int playerc_ptz_set_control_mode(playerc_ptz_t* device, int mode);
 /// @}
 

@@ -22,11 +22,14 @@ struct InterfaceRow {
 constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
     {"aio", "aio"},
     {"blinkenlight", "blinkenlight"},
+    {"blobfinder", "blobfinder"},
     {"bumper", "bumper"},
+    {"camera", "camera"},
     {"dio", "dio"},
     {"fiducial", "fiducial"},
     {"gps", "gps"},
     {"graphics2d", "pen"},
+    {"gripper", "gripper"},
     {"imu", "imu"},
     {"ir", "infrared"},
     {"laser", "laser"},
@@ -35,6 +38,7 @@ constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for r
     {"position2d", "pose"},
     {"position2d", "odometry"},
     {"power", "battery"},
+    {"ptz", "ptz"},
     {"ranger", "laser"},
     {"ranger", "sonar"},
     {"ranger", "infrared"},
@@ -99,7 +103,14 @@ bool is_finite(const sim::AnalogOutputCommand& c) { return all_finite({c.voltage
 bool is_finite(const sim::LightCommand& c) {
   return all_finite({c.period_s.value_or(0.0), c.duty_cycle.value_or(0.0)});
 }
+bool is_finite(const sim::GripCommand&) { return true; }
 bool is_finite(const sim::OpaqueCommand&) { return true; }
+bool is_finite(const sim::PointCommand& c) {
+  return all_finite({c.pan_rad, c.tilt_rad, c.view_rad, c.pan_speed_radps, c.tilt_speed_radps});
+}
+bool is_finite(const sim::PanCommand& c) {
+  return all_finite({c.pan_speed_radps, c.tilt_speed_radps, c.zoom_speed_radps});
+}
 
 // What the world itself offers, whatever robots are in it.
 constexpr std::string_view kWorldInterfaces[] = {"log", "map", "simulation"};

@@ -153,27 +153,6 @@ int playerc_blackboard_set_double(playerc_blackboard_t* /*device*/, const char* 
   return refused(__func__);
 }
 
-PLAYERLIKE_CLIB_FRAME(blobfinder, Missing<playerc_blobfinder_t>, PLAYER_BLOBFINDER_CODE)
-
-PLAYERLIKE_CLIB_FRAME(camera, Missing<playerc_camera_t>, PLAYER_CAMERA_CODE)
-void playerc_camera_decompress(playerc_camera_t* /*device*/) { refused(__func__); }
-void playerc_camera_save(playerc_camera_t* /*device*/, const char* /*filename*/) {
-  refused(__func__);
-}
-int playerc_camera_set_source(playerc_camera_t* /*device*/, int /*source*/, const char* /*norm*/) {
-  return refused(__func__);
-}
-int playerc_camera_get_source(playerc_camera_t* /*device*/) { return refused(__func__); }
-int playerc_camera_get_image(playerc_camera_t* /*device*/) { return refused(__func__); }
-void playerc_camera_copy_image(playerc_camera_t* /*device*/, void* /*dst*/, size_t /*dst_size*/) {
-  refused(__func__);
-}
-unsigned playerc_camera_get_pixel_component(playerc_camera_t* /*device*/, unsigned int /*x*/,
-                                            unsigned int /*y*/, int /*component*/) {
-  refused(__func__);
-  return {};
-}
-
 PLAYERLIKE_CLIB_FRAME(coopobject, Missing<playerc_coopobject_t>, PLAYER_COOPOBJECT_CODE)
 int playerc_coopobject_send_position(playerc_coopobject_t* /*device*/, uint16_t /*node_id*/,
                                      uint16_t /*source_id*/, player_pose2d_t /*pos*/,
@@ -214,17 +193,6 @@ int playerc_graphics3d_rotate(playerc_graphics3d_t* /*device*/, double /*a*/, do
                               double /*y*/, double /*z*/) {
   return refused(__func__);
 }
-
-PLAYERLIKE_CLIB_FRAME(gripper, Missing<playerc_gripper_t>, PLAYER_GRIPPER_CODE)
-int playerc_gripper_open_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_close_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_stop_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_store_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-int playerc_gripper_retrieve_cmd(playerc_gripper_t* /*device*/) { return refused(__func__); }
-void playerc_gripper_printout(playerc_gripper_t* /*device*/, const char* /*prefix*/) {
-  refused(__func__);
-}
-int playerc_gripper_get_geom(playerc_gripper_t* /*device*/) { return refused(__func__); }
 
 PLAYERLIKE_CLIB_FRAME(health, Missing<playerc_health_t>, PLAYER_HEALTH_CODE)
 
@@ -349,19 +317,6 @@ int playerc_position3d_set_odom(playerc_position3d_t* /*device*/, double /*ox*/,
   return refused(__func__);
 }
 int playerc_position3d_reset_odom(playerc_position3d_t* /*device*/) { return refused(__func__); }
-
-PLAYERLIKE_CLIB_FRAME(ptz, Missing<playerc_ptz_t>, PLAYER_PTZ_CODE)
-int playerc_ptz_set(playerc_ptz_t* /*device*/, double /*pan*/, double /*tilt*/, double /*zoom*/) {
-  return refused(__func__);
-}
-int playerc_ptz_query_status(playerc_ptz_t* /*device*/) { return refused(__func__); }
-int playerc_ptz_set_ws(playerc_ptz_t* /*device*/, double /*pan*/, double /*tilt*/, double /*zoom*/,
-                       double /*panspeed*/, double /*tiltspeed*/) {
-  return refused(__func__);
-}
-int playerc_ptz_set_control_mode(playerc_ptz_t* /*device*/, int /*mode*/) {
-  return refused(__func__);
-}
 
 PLAYERLIKE_CLIB_FRAME(speechrecognition, Missing<playerc_speechrecognition_t>,
                       PLAYER_SPEECH_RECOGNITION_CODE)

@@ -13,16 +13,20 @@
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
 #include "sim/devices/proximity.h"
+#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
 #include "sim/devices/wifi.h"
@@ -36,15 +40,16 @@ constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 
 /// The value among `all` whose name stands under a key.
 template <typename Status>
-Status require_status(const json& in, std::initializer_list<Status> all) {
-  const json& word = require(in, "status");
+Status require_status(const json& in, std::initializer_list<Status> all,
+                      const char* key = "status") {
+  const json& word = require(in, key);
   std::string names;
   for (const Status status : all) {
     if (word == sim::to_string(status)) return status;
     names += names.empty() ? "" : ", ";
     names += sim::to_string(status);
   }
-  refuse_value("status", "one of " + names, word);
+  refuse_value(key, "one of " + names, word);
 }
 
 const json::array_t& require_list(const json& in, const char* key) {
@@ -118,6 +123,59 @@ void read(const json& in, Encoding, sim::BlinkenlightReading& reading) {
   reading.period_s = require_number(in, "period");
   reading.duty_cycle = require_number(in, "duty_cycle");
   reading.lit = require_bool(in, "lit");
+}
+
+/// A whole number of pixels, from 0 on.
+int require_pixels(const json& in, const char* key, int most) {
+  return static_cast<int>(require_integer(in, key, 0, most));
+}
+
+void write(const sim::BlobfinderReading& reading, json& out, Encoding) {
+  json list = json::array();
+  for (const auto& blob : reading.blobs) {
+    list.push_back({{"colour", sim::to_string(blob.colour)},
+                    {"area", blob.area},
+                    {"x", blob.x},
+                    {"y", blob.y},
+                    {"left", blob.left},
+                    {"right", blob.right},
+                    {"top", blob.top},
+                    {"bottom", blob.bottom},
+                    {"range", blob.range_m}});
+  }
+  out["width"] = reading.width;
+  out["height"] = reading.height;
+  out["blobs"] = std::move(list);
+}
+
+void read(const json& in, Encoding, sim::BlobfinderReading& reading) {
+  constexpr int kGreatest = std::numeric_limits<int>::max();
+  reading.width = require_pixels(in, "width", kGreatest);
+  reading.height = require_pixels(in, "height", kGreatest);
+  for (const json& blob : require_list(in, "blobs")) {
+    reading.blobs.push_back(
+        {require_colour(blob, "colour"), require_pixels(blob, "area", kGreatest),
+         require_pixels(blob, "x", kGreatest), require_pixels(blob, "y", kGreatest),
+         require_pixels(blob, "left", kGreatest), require_pixels(blob, "right", kGreatest),
+         require_pixels(blob, "top", kGreatest), require_pixels(blob, "bottom", kGreatest),
+         require_number(blob, "range")});
+  }
+}
+
+void write(const sim::CameraReading& reading, json& out, Encoding encoding) {
+  out["width"] = reading.width;
+  out["height"] = reading.height;
+  out["pixels"] = bytes(reading.pixels, encoding);
+}
+
+void read(const json& in, Encoding encoding, sim::CameraReading& reading) {
+  reading.width = require_pixels(in, "width", sim::ViewParams::kMaxWidth);
+  reading.height = require_pixels(in, "height", sim::ViewParams::kMaxHeight);
+  reading.pixels = require_bytes(in, "pixels", encoding);
+  const std::int64_t size = std::int64_t{3} * reading.width * reading.height;
+  if (static_cast<std::int64_t>(reading.pixels.size()) != size) {
+    refuse_value("pixels", "three bytes for each pixel", in.at("pixels"));
+  }
 }
 
 void write(const sim::CollisionReading& reading, json& out, Encoding) {
@@ -202,6 +260,27 @@ void read(const json& in, Encoding, sim::ImuReading& reading) {
   reading.yaw_rad = require_number(in, "yaw");
 }
 
+void write(const sim::GripperReading& reading, json& out, Encoding) {
+  out["state"] = sim::to_string(reading.state);
+  out["outer_beam"] = reading.outer_beam;
+  out["inner_beam"] = reading.inner_beam;
+  out["holding"] = reading.holding;
+  out["stored"] = reading.stored;
+  out["gap"] = reading.gap_m;
+}
+
+void read(const json& in, Encoding, sim::GripperReading& reading) {
+  using State = sim::GripperState;
+  reading.state =
+      require_status(in, {State::kOpen, State::kClosed, State::kMoving, State::kError}, "state");
+  reading.outer_beam = require_bool(in, "outer_beam");
+  reading.inner_beam = require_bool(in, "inner_beam");
+  reading.holding = require_bool(in, "holding");
+  reading.stored =
+      static_cast<int>(require_integer(in, "stored", 0, sim::GripperParams::kMaxStored));
+  reading.gap_m = require_number(in, "gap");
+}
+
 void write(const sim::DioReading& reading, json& out, Encoding) {
   out["count"] = reading.input_count;
   out["inputs"] = reading.inputs;
@@ -277,6 +356,26 @@ void read(const json& in, Encoding, sim::ProximityReading& reading) {
     reading.near_objects.push_back(
         {require_text(neighbour, "name"), require_number(neighbour, "distance")});
   }
+}
+
+void write(const sim::PtzReading& reading, json& out, Encoding) {
+  out["pan"] = reading.pan_rad;
+  out["tilt"] = reading.tilt_rad;
+  out["view"] = reading.view_rad;
+  out["pan_speed"] = reading.pan_speed_radps;
+  out["tilt_speed"] = reading.tilt_speed_radps;
+  out["zoom_speed"] = reading.zoom_speed_radps;
+  out["moving"] = reading.moving;
+}
+
+void read(const json& in, Encoding, sim::PtzReading& reading) {
+  reading.pan_rad = require_number(in, "pan");
+  reading.tilt_rad = require_number(in, "tilt");
+  reading.view_rad = require_number(in, "view");
+  reading.pan_speed_radps = require_number(in, "pan_speed");
+  reading.tilt_speed_radps = require_number(in, "tilt_speed");
+  reading.zoom_speed_radps = require_number(in, "zoom_speed");
+  reading.moving = require_bool(in, "moving");
 }
 
 void write(const sim::RangerReading& reading, json& out, Encoding encoding) {
@@ -369,11 +468,14 @@ constexpr ReadingCodec kReadingCodecs[] = {
     reading_codec<sim::AioReading>("aio"),
     reading_codec<sim::BatteryReading>("battery"),
     reading_codec<sim::BlinkenlightReading>("blinkenlight"),
+    reading_codec<sim::BlobfinderReading>("blobfinder"),
     reading_codec<sim::BumperReading>("bumper"),
+    reading_codec<sim::CameraReading>("camera"),
     reading_codec<sim::CollisionReading>("collision"),
     reading_codec<sim::DioReading>("dio"),
     reading_codec<sim::FiducialReading>("fiducial"),
     reading_codec<sim::GpsReading>("gps"),
+    reading_codec<sim::GripperReading>("gripper"),
     reading_codec<sim::ImuReading>("imu"),
     reading_codec<sim::RangerReading>("infrared"),
     reading_codec<sim::LaserReading>("laser"),
@@ -381,6 +483,7 @@ constexpr ReadingCodec kReadingCodecs[] = {
     reading_codec<sim::OpaqueReading>("opaque"),
     reading_codec<sim::PoseReading>("pose"),
     reading_codec<sim::ProximityReading>("proximity"),
+    reading_codec<sim::PtzReading>("ptz"),
     reading_codec<sim::RangerReading>("sonar"),
     reading_codec<sim::WaypointReading>("waypoint"),
     reading_codec<sim::WifiReading>("wifi"),
@@ -486,7 +589,40 @@ json to_json(const sim::LightCommand& command) {
   return out;
 }
 
+// In the order of GripCommand::Action.
+constexpr std::array<std::string_view, 5> kGripActions = {"open", "close", "stop", "store",
+                                                          "retrieve"};
+
+json to_json(const sim::GripCommand& command) {
+  return {{"kind", "grip"}, {"action", kGripActions[static_cast<std::size_t>(command.action)]}};
+}
+
+sim::GripCommand read_grip(const json& in) {
+  const std::string action = require_text(in, "action");
+  const auto* const found = std::find(kGripActions.begin(), kGripActions.end(), action);
+  if (found == kGripActions.end()) {
+    refuse_value("action", "open, close, stop, store or retrieve", in.at("action"));
+  }
+  return {static_cast<sim::GripCommand::Action>(found - kGripActions.begin())};
+}
+
 // A command has no encoding of its own to know: in CBOR, too, its bytes are a text in base64.
+json to_json(const sim::PointCommand& command) {
+  return {{"kind", "point"},
+          {"pan", command.pan_rad},
+          {"tilt", command.tilt_rad},
+          {"view", command.view_rad},
+          {"pan_speed", command.pan_speed_radps},
+          {"tilt_speed", command.tilt_speed_radps}};
+}
+
+json to_json(const sim::PanCommand& command) {
+  return {{"kind", "pan"},
+          {"pan_speed", command.pan_speed_radps},
+          {"tilt_speed", command.tilt_speed_radps},
+          {"zoom_speed", command.zoom_speed_radps}};
+}
+
 json to_json(const sim::OpaqueCommand& command) {
   return {{"kind", "opaque"}, {"data", bytes(command.data, Encoding::kJson)}};
 }
@@ -582,10 +718,24 @@ const CommandCodec kCommandCodecs[] = {
        if (in.contains("duty_cycle")) command.duty_cycle = require_number(in, "duty_cycle");
        return command;
      }},
+    {"grip", {"kind", "action"}, [](const json& in) -> sim::Command { return read_grip(in); }},
     {"opaque",
      {"kind", "data"},
      [](const json& in) -> sim::Command {
        return sim::OpaqueCommand{require_bytes(in, "data", Encoding::kJson)};
+     }},
+    {"point",
+     {"kind", "pan", "tilt", "view", "pan_speed", "tilt_speed"},
+     [](const json& in) -> sim::Command {
+       return sim::PointCommand{require_number(in, "pan"), require_number(in, "tilt"),
+                                require_number(in, "view"), require_number(in, "pan_speed"),
+                                require_number(in, "tilt_speed")};
+     }},
+    {"pan",
+     {"kind", "pan_speed", "tilt_speed", "zoom_speed"},
+     [](const json& in) -> sim::Command {
+       return sim::PanCommand{require_number(in, "pan_speed"), require_number(in, "tilt_speed"),
+                              require_number(in, "zoom_speed")};
      }},
 };
 

@@ -10,11 +10,14 @@
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -22,6 +25,7 @@
 #include "sim/devices/opaque.h"
 #include "sim/devices/pen.h"
 #include "sim/devices/proximity.h"
+#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/speech.h"
 #include "sim/devices/teleport.h"
@@ -166,6 +170,53 @@ BlinkenlightParams parse_blinkenlight(io::Reader& settings, BlinkenlightParams p
   return p;
 }
 
+// What blobfinders and cameras have in common.
+void parse_view(io::Reader& settings, ViewParams& p) {
+  const auto [width, height] =
+      settings.integer_pair("image", {p.width, p.height}, 1, ViewParams::kMaxWidth);
+  p.width = static_cast<int>(width);
+  p.height = static_cast<int>(height);
+  if (p.height > ViewParams::kMaxHeight) {
+    settings.issue("device/image-height",
+                   "a picture of at most " + std::to_string(ViewParams::kMaxHeight) + " rows",
+                   std::to_string(p.height), "[columns, rows]", "image");
+  }
+  p.field_of_view_rad =
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 170.0, true, "degrees"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.X_BS = settings.pose("pose", p.X_BS);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.ptz = settings.string("ptz", p.ptz);
+}
+
+BlobfinderParams parse_blobfinder(io::Reader& settings, BlobfinderParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  parse_view(settings, p);
+  p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
+  const std::optional<io::Reader> list = settings.child("colours");
+  if (!list) return p;
+  std::vector<io::Reader> elements = settings.array("colours", BlobfinderParams::kMaxColours);
+  if (!list->is_array()) return p;
+  p.colours.clear();
+  for (io::Reader& element : elements) {
+    const std::optional<Colour> colour =
+        element.is_string() ? parse_colour(element.scalar_text().value_or("")) : std::nullopt;
+    if (colour) {
+      p.colours.push_back(*colour);
+    } else {
+      element.issue("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\"",
+                    element.described());
+    }
+  }
+  return p;
+}
+
+CameraParams parse_camera(io::Reader& settings, CameraParams p) {
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  parse_view(settings, p);
+  return p;
+}
+
 CollisionParams parse_collision(io::Reader& settings, CollisionParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   return p;
@@ -199,6 +250,24 @@ GpsParams parse_gps(io::Reader& settings, GpsParams p) {
   p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
   p.noise_vertical_m = settings.number("noise_vertical", p.noise_vertical_m, kNoise_m);
   p.satellites = static_cast<int>(settings.integer("satellites", p.satellites, 0, 64));
+  return p;
+}
+
+GripperParams parse_gripper(io::Reader& settings, GripperParams p) {
+  constexpr io::NumberRange kSide_m{0.0, 10.0, true, "m"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  if (std::optional<io::Reader> place = settings.child("pose")) {
+    const Pose X_BG = settings.pose("pose", {});
+    const bool given = place->has("x") || place->has("y") || place->has("yaw_deg");
+    p.X_BG = given ? std::optional(X_BG) : std::nullopt;
+  }
+  p.length_m = settings.number("length", p.length_m, kSide_m);
+  p.thickness_m = settings.number("thickness", p.thickness_m, {0.0, 10.0, false, "m"});
+  p.opening_m = settings.number("opening", p.opening_m, kSide_m);
+  p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
+  p.travel_time_s = settings.number("travel_time", p.travel_time_s, {0.0, 3600.0, true, "s"});
+  p.capacity =
+      static_cast<int>(settings.integer("capacity", p.capacity, 0, GripperParams::kMaxStored));
   return p;
 }
 
@@ -358,6 +427,28 @@ ProximityParams parse_proximity(io::Reader& settings, ProximityParams p) {
   return p;
 }
 
+PtzParams parse_ptz(io::Reader& settings, PtzParams p) {
+  constexpr io::NumberRange kView_deg{0.0, 170.0, true, "degrees"};
+  constexpr io::NumberRange kSpeed_deg{0.0, 3600.0, true, "degrees/s"};
+  p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
+  p.pan_max_rad = settings.angle_deg("pan_max_deg", p.pan_max_rad, {0.0, 180.0, false, "degrees"});
+  p.tilt_max_rad =
+      settings.angle_deg("tilt_max_deg", p.tilt_max_rad, {0.0, 60.0, false, "degrees"});
+  p.view_min_rad = settings.angle_deg("field_of_view_min_deg", p.view_min_rad, kView_deg);
+  p.view_max_rad = settings.angle_deg("field_of_view_max_deg", p.view_max_rad, kView_deg);
+  p.pan_speed_radps = settings.angle_deg("pan_speed_deg", p.pan_speed_radps, kSpeed_deg);
+  p.tilt_speed_radps = settings.angle_deg("tilt_speed_deg", p.tilt_speed_radps, kSpeed_deg);
+  p.zoom_speed_radps = settings.angle_deg("zoom_speed_deg", p.zoom_speed_radps, kSpeed_deg);
+  if (p.view_min_rad > p.view_max_rad) {
+    settings.issue("device/ptz-field-of-view",
+                   "a field_of_view_min_deg of at most field_of_view_max_deg",
+                   std::to_string(p.view_min_rad / kDegrees) + " and " +
+                       std::to_string(p.view_max_rad / kDegrees) + " degrees");
+    p.view_min_rad = p.view_max_rad;
+  }
+  return p;
+}
+
 SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
   parse_ranger(settings, p);
   p.field_of_view_rad =
@@ -487,6 +578,34 @@ Properties describe(const BlinkenlightParams& p) {
           {"x", p.p_BL.x()},
           {"y", p.p_BL.y()}};
 }
+Properties describe(const ViewParams& p) {
+  return {{"image_width", static_cast<double>(p.width)},
+          {"image_height", static_cast<double>(p.height)},
+          {"field_of_view", p.field_of_view_rad},
+          {"range_max", p.range_max_m},
+          {"mount_x", p.X_BS.x_m},
+          {"mount_y", p.X_BS.y_m},
+          {"mount_yaw", p.X_BS.yaw_rad},
+          {"height", p.height_m}};
+}
+Properties describe(const BlobfinderParams& p) {
+  Properties properties = describe(static_cast<const ViewParams&>(p));
+  properties["frequency"] = p.frequency_hz;
+  properties["noise"] = p.noise_m;
+  properties["colours"] = static_cast<double>(p.colours.size());
+  return properties;
+}
+Properties describe(const CameraParams& p) {
+  Properties properties = describe(static_cast<const ViewParams&>(p));
+  properties["frequency"] = p.frequency_hz;
+  return properties;
+}
+Properties describe(const PtzParams& p) {
+  return {{"frequency", p.frequency_hz},         {"pan_max", p.pan_max_rad},
+          {"tilt_max", p.tilt_max_rad},          {"field_of_view_min", p.view_min_rad},
+          {"field_of_view_max", p.view_max_rad}, {"pan_speed", p.pan_speed_radps},
+          {"tilt_speed", p.tilt_speed_radps},    {"zoom_speed", p.zoom_speed_radps}};
+}
 Properties describe(const DioParams& p) {
   return {{"frequency", p.frequency_hz},
           {"inputs", static_cast<double>(p.inputs.size())},
@@ -520,6 +639,19 @@ Properties describe(const GpsParams& p) {
           {"noise", p.noise_m},
           {"noise_vertical", p.noise_vertical_m},
           {"satellites", static_cast<double>(p.satellites)}};
+}
+Properties describe(const GripperParams& p) {
+  const Pose X_BG = p.X_BG.value_or(Pose{});
+  return {{"frequency", p.frequency_hz},
+          {"mount_x", X_BG.x_m},
+          {"mount_y", X_BG.y_m},
+          {"mount_yaw", X_BG.yaw_rad},
+          {"length", p.length_m},
+          {"thickness", p.thickness_m},
+          {"opening", p.opening_m},
+          {"height", p.height_m},
+          {"travel_time", p.travel_time_s},
+          {"capacity", static_cast<double>(p.capacity)}};
 }
 Properties describe(const ImuParams& p) {
   return {{"frequency", p.frequency_hz},
@@ -647,6 +779,29 @@ DeviceKind bumper_kind() {
   return row;
 }
 
+// The middle of a robot's front.
+Pose front_of(const RobotModel& model) {
+  double front_m = 0.0;
+  for (const Vec2& v : model.footprint) front_m = std::max(front_m, v.x());
+  return {front_m, 0.0, 0.0};
+}
+
+DeviceKind gripper_kind() {
+  DeviceKind row = kind<GripperParams>(
+      "gripper", parse_gripper,
+      [](const DeviceDescription& d, const GripperParams& p, const RobotDescription&,
+         const RobotModel& model, const RandomStream&) {
+        return std::make_unique<Gripper>(d.name, p, p.X_BG ? *p.X_BG : front_of(model));
+      });
+  row.model_properties = [](const std::any& params, const RobotModel& model) {
+    GripperParams p =
+        params.has_value() ? std::any_cast<const GripperParams&>(params) : GripperParams{};
+    if (!p.X_BG) p.X_BG = front_of(model);
+    return describe(p);
+  };
+  return row;
+}
+
 std::vector<DeviceKind> make_table() {
   using D = const DeviceDescription&;
   using R = const RobotDescription&;
@@ -666,6 +821,14 @@ std::vector<DeviceKind> make_table() {
                                [](D d, const BlinkenlightParams& p, R, M, const RandomStream&) {
                                  return std::make_unique<Blinkenlight>(d.name, p);
                                }),
+      kind<BlobfinderParams>("blobfinder", parse_blobfinder,
+                             [](D d, const BlobfinderParams& p, R, M, RandomStream noise) {
+                               return std::make_unique<Blobfinder>(d.name, p, std::move(noise));
+                             }),
+      kind<CameraParams>("camera", parse_camera,
+                         [](D d, const CameraParams& p, R, M, const RandomStream&) {
+                           return std::make_unique<Camera>(d.name, p);
+                         }),
       kind<CollisionParams>("collision", parse_collision,
                             [](D d, const CollisionParams& p, R, M, const RandomStream&) {
                               return std::make_unique<CollisionSensor>(d.name, p);
@@ -678,6 +841,7 @@ std::vector<DeviceKind> make_table() {
                       [](D d, const GpsParams& p, R, M, RandomStream noise) {
                         return std::make_unique<Gps>(d.name, p, std::move(noise));
                       }),
+      gripper_kind(),
       kind<ImuParams>("imu", parse_imu,
                       [](D d, const ImuParams& p, R robot, M, RandomStream noise) {
                         return std::make_unique<Imu>(d.name, p, robot.pose.yaw_rad,
@@ -723,6 +887,10 @@ std::vector<DeviceKind> make_table() {
                             [](D d, const ProximityParams& p, R, M, const RandomStream&) {
                               return std::make_unique<Proximity>(d.name, p);
                             }),
+      kind<PtzParams>("ptz", parse_ptz,
+                      [](D d, const PtzParams& p, R, M, const RandomStream&) {
+                        return std::make_unique<Ptz>(d.name, p);
+                      }),
       kind<SonarParams>("sonar", parse_sonar,
                         [](D d, const SonarParams& p, R, M model, RandomStream noise) {
                           return make_ranger(d, p, model, std::move(noise));

@@ -59,7 +59,7 @@ void FiducialFinder::measure(const StepContext& context) {
   const auto& obstacles = context.world.arena.obstacles;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const ObstacleDescription& o = obstacles[i];
-    if (o.state != ObstacleState::kExtended) continue;
+    if (o.state != ObstacleState::kExtended || o.carried_by == context.robot) continue;
     look_at(o.fiducial, {o.center.x(), o.center.y(), o.yaw_rad}, o.height_m,
             {-1, Contact::Kind::kObstacle, static_cast<int>(i)});
   }

@@ -30,7 +30,9 @@ void Proximity::measure(const StepContext& context) {
   if (params_.obstacles) {
     const ArenaDescription& arena = context.world.arena;
     for (const ObstacleDescription& obstacle : arena.obstacles) {
-      if (obstacle.state == ObstacleState::kExtended) look_at(obstacle.name, obstacle.center);
+      if (obstacle.state != ObstacleState::kExtended || obstacle.carried_by == context.robot)
+        continue;
+      look_at(obstacle.name, obstacle.center);
     }
     for (const ObstacleDescription& separator : arena.dock_separators) {
       look_at(separator.name, separator.center);

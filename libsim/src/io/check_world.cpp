@@ -180,7 +180,7 @@ struct NamedSolid {
 std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
   std::vector<NamedSolid> solids;
   for (const ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.state == ObstacleState::kExtended) {
+    if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) {
       solids.push_back({&obstacle, false, Solid(box_of(obstacle))});
     }
   }
@@ -424,19 +424,20 @@ std::vector<ConfigIssue> check_world(const WorldDescription& world) {
   return check_world_parts(world, [](const std::string&) { return true; });
 }
 
-std::optional<std::string> blocked_by(const WorldDescription& world, const std::vector<Pose>& poses,
-                                      std::size_t robot, const Pose& X_WB) {
+namespace {
+
+/// What is in the way of an outline, but for one robot: the first of it, in words.
+std::optional<std::string> first_blockage(const WorldDescription& world,
+                                          const std::vector<Pose>& poses, std::size_t robot,
+                                          const Solid& outline) {
   std::vector<StandingRobot> others;
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
     const RobotModel* model = find_robot_model(world, world.robots[i].model);
     if (i == robot || model == nullptr) continue;
     others.emplace_back(i, Solid(placed(model->footprint, poses.at(i))));
   }
-  const RobotModel* own = find_robot_model(world, world.robots.at(robot).model);
-  SIM_ASSERT(own != nullptr);
   const std::vector<NamedSolid> solids = standing_solids(world.arena);
-  const std::vector<Blockage> found =
-      blockages(world.arena, solids, others, Solid(placed(own->footprint, X_WB)));
+  const std::vector<Blockage> found = blockages(world.arena, solids, others, outline);
   if (found.empty()) return std::nullopt;
   const Blockage& first = found.front();
   switch (first.kind) {
@@ -454,6 +455,21 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
   }
   return "robot " + world.robots[first.robot].name + " stands there, at " +
          place(poses[first.robot].position());
+}
+
+}  // namespace
+
+std::optional<std::string> blocked_by(const WorldDescription& world, const std::vector<Pose>& poses,
+                                      std::size_t robot, const Pose& X_WB) {
+  const RobotModel* own = find_robot_model(world, world.robots.at(robot).model);
+  SIM_ASSERT(own != nullptr);
+  return first_blockage(world, poses, robot, Solid(placed(own->footprint, X_WB)));
+}
+
+std::optional<std::string> put_down_blocked_by(const WorldDescription& world,
+                                               const std::vector<Pose>& poses, std::size_t robot,
+                                               const ObstacleDescription& obstacle) {
+  return first_blockage(world, poses, robot, Solid(box_of(obstacle)));
 }
 
 std::optional<std::string> outside_floor(const ArenaDescription& arena,

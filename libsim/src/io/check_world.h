@@ -27,6 +27,14 @@ using TrustedPart = std::function<bool(const std::string& pointer)>;
                                                     const std::vector<Pose>& poses,
                                                     std::size_t robot, const Pose& X_WB);
 
+/// The same of an obstacle that a robot is to put down: the robot itself is not in the way.
+/// @param robot     index of that robot.
+/// @param obstacle  as it is to stand.
+[[nodiscard]] std::optional<std::string> put_down_blocked_by(const WorldDescription& world,
+                                                             const std::vector<Pose>& poses,
+                                                             std::size_t robot,
+                                                             const ObstacleDescription& obstacle);
+
 /// What is against an obstacle's standing where it does, in words that go on from "obstacle o1
 /// would "; nullopt if nothing.
 [[nodiscard]] std::optional<std::string> outside_floor(const ArenaDescription& arena,

@@ -131,6 +131,8 @@ class WorldReader {
         if (!separators) {
           read_kind(reader, block);
           block.fiducial = read_fiducial(reader);
+          block.portable = reader.boolean("portable", block.portable);
+          if (reader.has("colour")) block.colour = reader.colour("colour", {});
         }
         reader.finish();
       }

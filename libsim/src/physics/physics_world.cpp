@@ -119,7 +119,10 @@ struct Robot {
   double free_m = 0.0;  // nothing solid is nearer than this: what clearance_m found, less
                         // all motion since
   BodyState state;
-  std::vector<int> touching;  // contacts per partner, see ContactCounter
+  std::vector<int> touching;        // contacts per partner, see ContactCounter
+  EdgeList load;                    // outlines of what it carries, in B
+  std::vector<int> load_obstacles;  // whose each of these edges is
+  double seen_radius_m = 0.0;       // of the footprint and the load about B
 };
 
 // Lets the body turn about B, the axle's centre, as its wheels make it: to Box2D a body's velocity
@@ -698,9 +701,9 @@ struct PhysicsWorld::Impl : b2ContactListener {
     robot_circles.clear();
     robot_discs.clear();
     for (const Robot& r : robots) {
-      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.radius_m, 0});
+      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.seen_radius_m, 0});
       robot_discs.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
-                      static_cast<float>(r.radius_m));
+                      static_cast<float>(r.seen_radius_m));
       robot_first_edge.push_back(robot_edges.edges.size());
       const double c = std::cos(r.X_WB.yaw_rad);
       const double s = std::sin(r.X_WB.yaw_rad);
@@ -716,6 +719,12 @@ struct PhysicsWorld::Impl : b2ContactListener {
         const Vec2& a = p[static_cast<std::size_t>(i)];
         const Vec2& b = p[static_cast<std::size_t>((i + 1) % n)];
         robot_edges.add({a.x(), a.y(), b.x(), b.y()}, r.height_m);
+      }
+      for (std::size_t i = 0; i < r.load.edges.size(); ++i) {
+        const Edge& e = r.load.edges[i];
+        robot_edges.add({r.X_WB.x_m + c * e.x0 - s * e.y0, r.X_WB.y_m + s * e.x0 + c * e.y0,
+                         r.X_WB.x_m + c * e.x1 - s * e.y1, r.X_WB.y_m + s * e.x1 + c * e.y1},
+                        r.load.heights_m[i]);
       }
     }
     robot_first_edge.push_back(robot_edges.edges.size());
@@ -845,6 +854,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   r.drive = model.drive.kind;
   r.height_m = model.height_m;
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
+  r.seen_radius_m = r.radius_m;
   r.X_WB = X_WB;
   r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
 
@@ -999,6 +1009,25 @@ void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now)
   d.attach(body, polygon_shape(corners), info, 0.0F);
   d.something_was_placed();
   d.rebuild_fixed_edges();
+}
+
+void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
+  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
+  r.load.clear();
+  r.load_obstacles.clear();
+  r.seen_radius_m = r.radius_m;
+  for (const Load& load : loads) {
+    const ObstacleDescription& box = load.box_B;
+    const std::vector<Vec2> corners = box_corners(box.center, box.size, box.yaw_rad);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2& a = corners[i];
+      const Vec2& b = corners[(i + 1) % corners.size()];
+      r.load.add({a.x(), a.y(), b.x(), b.y()}, box.height_m);
+      r.load_obstacles.push_back(load.obstacle);
+      r.seen_radius_m = std::max(r.seen_radius_m, a.norm());
+    }
+  }
+  impl_->robot_edges_fresh = false;
 }
 
 int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
@@ -1235,6 +1264,40 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
     if (edges.size() > 0) kernel.add(edges);
   }
   kernel.finish(ranges_m);
+}
+
+void PhysicsWorld::collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+                                 std::vector<Face>& faces) const {
+  Impl& d = *impl_;
+  faces.clear();
+  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
+  const auto add = [&](const EdgeList& list, std::size_t first, std::size_t last,
+                       Contact::Kind kind, int index, double height_m) {
+    for (std::size_t i = first; i < last; ++i) {
+      const Edge& e = list.edges[i];
+      if (std::max(e.x0, e.x1) < low_W.x() || std::min(e.x0, e.x1) > high_W.x()) continue;
+      if (std::max(e.y0, e.y1) < low_W.y() || std::min(e.y0, e.y1) > high_W.y()) continue;
+      faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
+    }
+  };
+  query(d.world, low_W, high_W, [&](const b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.kind == Contact::Kind::kRobot) return;
+    add(d.all_edges, info.first_edge, info.first_edge + info.edge_count, info.kind, info.index,
+        info.height_m);
+  });
+  for (std::size_t i = 0; i < d.robot_circles.size(); ++i) {
+    const int robot = static_cast<int>(i);
+    if (robot == own_robot) continue;
+    const Robot& r = d.robots[i];
+    const std::size_t first = d.robot_first_edge[i];
+    const std::size_t load = d.robot_first_edge[i + 1] - r.load_obstacles.size();
+    add(d.robot_edges, first, load, Contact::Kind::kRobot, robot, r.height_m);
+    for (std::size_t k = 0; k < r.load_obstacles.size(); ++k) {
+      add(d.robot_edges, load + k, load + k + 1, Contact::Kind::kObstacle, r.load_obstacles[k],
+          r.load.heights_m[k]);
+    }
+  }
 }
 
 bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const {

@@ -81,6 +81,13 @@ class PhysicsWorld {
   /// Gives an obstacle, by its index, another place, turn, size or height; extended or retracted it
   /// stays as it is.
   void change_obstacle(int obstacle, const ObstacleDescription& now);
+  /// An obstacle that a robot carries.
+  struct Load {
+    int obstacle;               ///< its index in the arena
+    ObstacleDescription box_B;  ///< the same with its place and turn in the robot's frame B
+  };
+  /// What a robot carries: in nobody's way, but other robots' sensors see it as they see the robot.
+  void set_load(int robot, const std::vector<Load>& loads);
   /// The first robot whose footprint overlaps a box; -1 if none does.
   [[nodiscard]] int robot_within(const ObstacleDescription& box) const;
 
@@ -110,6 +117,20 @@ class PhysicsWorld {
   /// Others as for collect_edges().
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
             int own_robot, bool test_inside, std::span<double> ranges_m) const;
+
+  /// An upright face of something solid, from the floor up: an edge of its outline.
+  struct Face {
+    Contact::Kind kind;
+    int index;        ///< of the obstacle, separator or robot; -1 for borders and walls
+    double height_m;  ///< of the solid [m]; infinite for walls of a map
+    Vec2 p_WA;        ///< [m]
+    Vec2 p_WC;        ///< the solid lies on the left of the way from A to C [m]
+  };
+  /// Collects the faces of all that reaches into a box with sides along W's axes, and perhaps
+  /// some others, in no particular order.
+  /// @param own_robot  robot whose body is left out, or -1.
+  void collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+                     std::vector<Face>& faces) const;
 
   /// Whether a point lies inside a solid that stands higher than `height_m`.
   /// @param own_robot  robot whose body does not count, or -1.

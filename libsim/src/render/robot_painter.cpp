@@ -279,6 +279,13 @@ class RobotPainter {
       sensor.add_disc(at(0.40, 0.0), 0.12 * radius);
       painter_.fill(sensor, palette::kWheel);
     }
+    Shape paddles;
+    for (const Polygon& paddle : robot.paddles) {
+      std::vector<Vec2> piece;
+      for (const Vec2& p_B : paddle) piece.push_back(layout_(robot.X_WB * p_B));
+      paddles.add_piece(piece);
+    }
+    painter_.fill(paddles, palette::kWheel);
     outline(body, dark, layout_.line_px(1.5));
     draw_bumpers(robot, dark);
     draw_lights(robot);

@@ -12,9 +12,12 @@
 #include "sim/core/error.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/fiducial.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/motion.h"
 #include "sim/devices/rangers.h"
@@ -86,6 +89,18 @@ struct Simulation::Impl {
       return impl_.place(robot_, X_WB);
     }
     void say(const std::string& text) override { impl_.say(robot_, text); }
+    [[nodiscard]] StepContext context() const override {
+      return {impl_.now_ns, body(), *impl_.physics, static_cast<int>(robot_), impl_.world};
+    }
+    std::optional<std::string> pick_up(int obstacle) override {
+      return impl_.pick_up(robot_, obstacle);
+    }
+    void carry_at(int obstacle, const Pose& X_BT, bool inside) override {
+      impl_.carry_at(robot_, obstacle, X_BT, inside);
+    }
+    std::optional<std::string> put_down(int obstacle) override {
+      return impl_.put_down(robot_, obstacle);
+    }
 
    private:
     Impl& impl_;
@@ -123,7 +138,9 @@ struct Simulation::Impl {
       parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
       Device* made = parts.devices.back().get();
       parts.sensors.push_back(dynamic_cast<Sensor*>(made));
-      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr);
+      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr ||
+                           dynamic_cast<const Blobfinder*>(made) != nullptr ||
+                           dynamic_cast<const Camera*>(made) != nullptr);
       parts.any_last = parts.any_last || parts.last.back();
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
@@ -183,18 +200,101 @@ struct Simulation::Impl {
     SIM_ASSERT(it != obstacles.end());
     ObstacleDescription now = *it;
     edit(now);
-    if (const auto where = io::outside_floor(world.arena, now)) {
-      return "obstacle " + name + " would " + *where;
-    }
+    // A portable one may be put away beyond the floor, as programs for Stage do.
+    const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
+    if (where) return "obstacle " + name + " would " + *where;
     const int robot = physics->robot_within(now);
     if (robot >= 0 && now.state == ObstacleState::kExtended) {
       return "obstacle " + name + " cannot be put there: robot " +
              world.robots[static_cast<std::size_t>(robot)].name + " stands there";
     }
+    const int index = static_cast<int>(it - obstacles.begin());
     *it = std::move(now);
-    physics->change_obstacle(static_cast<int>(it - obstacles.begin()), *it);
+    if (it->carried_by >= 0) let_go(index);
+    physics->change_obstacle(index, *it);
     forget_clearances();
     return std::nullopt;
+  }
+
+  // --- What robots carry
+
+  [[nodiscard]] ObstacleDescription& obstacle(int index) {
+    return world.arena.obstacles.at(static_cast<std::size_t>(index));
+  }
+
+  std::optional<std::string> pick_up(std::size_t robot, int index) {
+    ObstacleDescription& thing = obstacle(index);
+    if (!thing.portable || thing.state != ObstacleState::kExtended || thing.carried_by >= 0) {
+      return "obstacle " + thing.name + " cannot be taken: it is " +
+             (!thing.portable         ? "not portable"
+              : thing.carried_by >= 0 ? "carried already"
+                                      : "retracted");
+    }
+    thing.carried_by = static_cast<int>(robot);
+    const Pose X_WT{thing.center.x(), thing.center.y(), thing.yaw_rad};
+    loads.push_back({robot, index, body_pose(robot).inverse() * X_WT, false});
+    physics->set_extended(index, false);
+    show_load(robot);
+    forget_clearances();
+    return std::nullopt;
+  }
+
+  void carry_at(std::size_t robot, int index, const Pose& X_BT, bool inside) {
+    for (Load& load : loads) {
+      if (load.robot != robot || load.obstacle != index) continue;
+      load.X_BT = X_BT;
+      load.inside = inside;
+    }
+    move_loads();
+    show_load(robot);
+  }
+
+  std::optional<std::string> put_down(std::size_t robot, int index) {
+    ObstacleDescription& thing = obstacle(index);
+    if (thing.carried_by != static_cast<int>(robot)) {
+      return "robot " + world.robots[robot].name + " does not carry obstacle " + thing.name;
+    }
+    std::vector<Pose> poses;
+    for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
+    if (const auto what = io::put_down_blocked_by(world, poses, robot, thing)) {
+      return "obstacle " + thing.name + " cannot be put down: " + *what;
+    }
+    let_go(index);
+    physics->change_obstacle(index, thing);
+    forget_clearances();
+    return std::nullopt;
+  }
+
+  // It stands again where its description says; the physics must still be told where that is.
+  void let_go(int index) {
+    const auto robot = static_cast<std::size_t>(std::exchange(obstacle(index).carried_by, -1));
+    std::erase_if(loads, [&](const Load& load) { return load.obstacle == index; });
+    physics->set_extended(index, true);
+    show_load(robot);
+  }
+
+  // The physics is told what others see of a robot's load.
+  void show_load(std::size_t robot) {
+    std::vector<PhysicsWorld::Load> seen;
+    for (const Load& load : loads) {
+      if (load.robot != robot || load.inside) continue;
+      seen.push_back({load.obstacle, obstacle(load.obstacle)});
+      seen.back().box_B.center = load.X_BT.position();
+      seen.back().box_B.yaw_rad = load.X_BT.yaw_rad;
+    }
+    physics->set_load(static_cast<int>(robot), seen);
+  }
+
+  void move_loads() {
+    for (const Load& load : loads) {
+      const Pose X_WT = body_pose(load.robot) * load.X_BT;
+      obstacle(load.obstacle).center = X_WT.position();
+      obstacle(load.obstacle).yaw_rad = normalize_angle(X_WT.yaw_rad);
+    }
+  }
+
+  [[nodiscard]] const Pose& body_pose(std::size_t robot) const {
+    return physics->body(static_cast<int>(robot)).X_WB;
   }
 
   void step() {
@@ -211,6 +311,7 @@ struct Simulation::Impl {
       }
     }
     physics->step(dt_s);
+    move_loads();
     now_ns += world.simulation.step_ns;
     ++steps;
     record_collisions();
@@ -233,6 +334,7 @@ struct Simulation::Impl {
     }
     physics->set_pose(static_cast<int>(i), X_WB);
     last_positions[i] = X_WB.position();  // the way there does not count
+    move_loads();
     for (const auto& device : robots[i].devices) device->placed(X_WB);
     forget_clearances();
     return std::nullopt;
@@ -240,6 +342,7 @@ struct Simulation::Impl {
 
   void reset() {
     world.arena.obstacles = start_obstacles;
+    loads.clear();
     for (std::size_t i = 0; i < start_looks.size(); ++i) {
       world.robots[i].colour = start_looks[i].colour;
       world.robots[i].fiducial = start_looks[i].fiducial;
@@ -353,6 +456,14 @@ struct Simulation::Impl {
   std::vector<Look> start_looks;  // of the robots
   std::vector<RobotParts> robots;
   std::vector<Vec2> last_positions;
+  // An obstacle that a robot carries.
+  struct Load {
+    std::size_t robot;
+    int obstacle;
+    Pose X_BT;    // of the thing in B
+    bool inside;  // the robot, where nobody sees it
+  };
+  std::vector<Load> loads;
   double farthest_move_m = 0.0;  // of any robot in the last step
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
@@ -627,6 +738,10 @@ std::optional<std::string> Simulation::set_obstacle_state(const std::string& nam
   if (it->type == ObstacleType::kStatic) {
     return "obstacle \"" + name + "\" is static: it can be neither extended nor retracted";
   }
+  if (it->carried_by >= 0) {
+    return "obstacle \"" + name + "\" is carried by robot " +
+           impl_->world.robots[static_cast<std::size_t>(it->carried_by)].name;
+  }
   const int index = static_cast<int>(it - obstacles.begin());
   const bool extend = state == ObstacleState::kExtended;
   if (it->state == state) return std::nullopt;
@@ -674,6 +789,12 @@ std::uint64_t Simulation::state_hash() const {
     }
     if (now.fiducial != start.fiducial) hash.add(now.fiducial);
   }
+  for (const Impl::Load& load : impl_->loads) {
+    for (const double x : {static_cast<double>(load.obstacle), load.X_BT.x_m, load.X_BT.y_m,
+                           load.X_BT.yaw_rad, load.inside ? 1.0 : 0.0}) {
+      hash.add(x);
+    }
+  }
   impl_->layers.base().hash(hash);
   return hash.value();
 }
@@ -698,6 +819,8 @@ void add_readings(const Device& device, RobotSnapshot& shot) {
     for (const auto& mark : seen.marks) {
       shot.sights.emplace_back(seen.X_WS.position(), seen.X_WS * mark.X_ST.position());
     }
+  } else if (const auto* gripper = dynamic_cast<const Gripper*>(&device)) {
+    for (Polygon& paddle : gripper->paddles()) shot.paddles.push_back(std::move(paddle));
   }
 }
 

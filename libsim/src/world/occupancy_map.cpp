@@ -168,7 +168,7 @@ OccupancyMap true_map(const ArenaDescription& arena, const CanvasDescription& gr
     painter.add_convex(outline);
   };
   for (const ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.state == ObstacleState::kExtended) add_box(obstacle);
+    if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) add_box(obstacle);
   }
   for (const ObstacleDescription& separator : arena.dock_separators) add_box(separator);
   painter.add_walls(arena.walls);

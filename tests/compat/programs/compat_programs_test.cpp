@@ -48,9 +48,14 @@ const std::string kOffice = "office.json";
 std::vector<Case> cases() {
   return {
       {"background_thread", kCave, {"ended at"}, 1.5},
+      {"bigbob_collects",
+       "examples/bigbob.json",
+       {"4 sonars, 180 beams", "between the teeth: orange1", "orange2 is at -10 -10"},
+       5.0},
+      {"blob_chase", kPioneer, {"of 80x60 reached", "#2040e0"}, 0.5, 3.0},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
       {"carlike", "examples/car.json", {"turned"}, 4.5, 5.0},
-      {"exceptions", kCave, {"robot on port 6665", "no gripper", "ended:"}, 5.0, 6.1},
+      {"exceptions", kCave, {"robot on port 6665", "no arm", "ended:"}, 5.0, 6.1},
       {"fiducial_chase", kPioneer, {"reached fiducial"}, 0.2},
       {"four_ports", kCave, {"robot 3"}, 1.0, kAny, 0, 4},
       {"globals", kCave, {"after main"}, 1.0},

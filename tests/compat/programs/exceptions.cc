@@ -18,11 +18,11 @@ int main()
   }
   if (!robot) return 1;
   cout << "robot on port " << robot->GetPort() << endl;
-  GripperProxy *gripper = 0;
+  LimbProxy *arm = 0;
   try {
-    gripper = new GripperProxy(robot, 0);
+    arm = new LimbProxy(robot, 0);
   } catch (PlayerError e) {
-    cout << "no gripper: " << e << endl;
+    cout << "no arm: " << e << endl;
   }
   try {
     LaserProxy none(robot, 77);
@@ -39,5 +39,5 @@ int main()
   } catch (PlayerError &e) {
     cout << "ended: " << e.GetErrorStr() << endl;
   }
-  return gripper == 0 ? 0 : 1;
+  return arm == 0 ? 0 : 1;
 }

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -42,7 +44,8 @@ constexpr const char* kWorld = R"({
                           "aio": {"inputs": [5, "aio.0"], "outputs": 1}, "speech": {},
                           "blinkenlight": {}, "opaque": {}}},
              {"name": "r2", "fiducial": 3, "pose": {"x": 2, "y": 0.5, "yaw_deg": 90},
-              "devices": {"wifi": {}}}]})";
+              "devices": {"wifi": {}, "ptz": {}, "blobfinder": {"ptz": "ptz"},
+                          "camera": {"ptz": "ptz"}}}]})";
 
 struct Free {
   void operator()(playerc_client_t* c) const { playerc_client_destroy(c); }
@@ -57,7 +60,11 @@ struct Free {
   void operator()(playerc_bumper_t* b) const { playerc_bumper_destroy(b); }
   void operator()(playerc_power_t* p) const { playerc_power_destroy(p); }
   void operator()(playerc_fiducial_t* d) const { playerc_fiducial_destroy(d); }
+  void operator()(playerc_blobfinder_t* d) const { playerc_blobfinder_destroy(d); }
+  void operator()(playerc_camera_t* d) const { playerc_camera_destroy(d); }
+  void operator()(playerc_ptz_t* d) const { playerc_ptz_destroy(d); }
   void operator()(playerc_gps_t* d) const { playerc_gps_destroy(d); }
+  void operator()(playerc_gripper_t* d) const { playerc_gripper_destroy(d); }
   void operator()(playerc_imu_t* d) const { playerc_imu_destroy(d); }
   void operator()(playerc_localize_t* d) const { playerc_localize_destroy(d); }
   void operator()(playerc_wifi_t* d) const { playerc_wifi_destroy(d); }
@@ -466,15 +473,15 @@ TEST_F(Playerc, LeavesDevicesOfProgramsAlone) {
 
 TEST_F(Playerc, MakesDevicesThatNoWorldHasButRefusesThem) {
   const auto robot = client();
-  playerc_gripper_t* const gripper = playerc_gripper_create(robot.get(), 0);
-  ASSERT_NE(gripper, nullptr);
-  EXPECT_EQ(gripper->info.addr.interf, PLAYER_GRIPPER_CODE);
-  EXPECT_EQ(playerc_gripper_subscribe(gripper, PLAYERC_OPEN_MODE), -1);
-  EXPECT_THAT(playerc_error_str(), HasSubstr("gripper:0"));
-  EXPECT_EQ(playerc_gripper_open_cmd(gripper), -1);
+  playerc_limb_t* const limb = playerc_limb_create(robot.get(), 0);
+  ASSERT_NE(limb, nullptr);
+  EXPECT_EQ(limb->info.addr.interf, PLAYER_LIMB_CODE);
+  EXPECT_EQ(playerc_limb_subscribe(limb, PLAYERC_OPEN_MODE), -1);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("limb:0"));
+  EXPECT_EQ(playerc_limb_home_cmd(limb), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("no world has such a device"));
-  EXPECT_EQ(playerc_gripper_unsubscribe(gripper), 0);
-  playerc_gripper_destroy(gripper);
+  EXPECT_EQ(playerc_limb_unsubscribe(limb), 0);
+  playerc_limb_destroy(limb);
 }
 
 TEST_P(PlayercEverywhere, DrivesABase) {
@@ -732,6 +739,79 @@ TEST_F(PlayercSensors, Fiducials) {
   EXPECT_TRUE(same(finder->fiducials[0].pose, proxy.GetFiducialItem(0).pose));
 }
 
+TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
+  const auto robot = client(6666);
+  const Owned<playerc_ptz_t> head(playerc_ptz_create(robot.get(), 0));
+  const Owned<playerc_blobfinder_t> finder(playerc_blobfinder_create(robot.get(), 0));
+  const Owned<playerc_camera_t> camera(playerc_camera_create(robot.get(), 0));
+  ASSERT_EQ(playerc_ptz_subscribe(head.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_blobfinder_subscribe(finder.get(), PLAYERC_OPEN_MODE), 0);
+  ASSERT_EQ(playerc_camera_subscribe(camera.get(), PLAYERC_OPEN_MODE), 0);
+  EXPECT_EQ(playerc_camera_get_image(camera.get()), -1);  // not yet
+  const auto turn = [&](int rounds) {
+    for (int i = 0; i < rounds; ++i) {
+      ASSERT_TRUE(read_until(robot.get(), head.get())) << playerc_error_str();
+      ASSERT_TRUE(read_until(robot.get(), finder.get())) << playerc_error_str();
+      ASSERT_TRUE(read_until(robot.get(), camera.get())) << playerc_error_str();
+    }
+  };
+  // r1 is at 45 degrees to the left.
+  constexpr double kQuarter = 0.25 * std::numbers::pi;
+  ASSERT_EQ(playerc_ptz_set(head.get(), kQuarter, 0.0, 0.0), 0) << playerc_error_str();
+  turn(1);
+  EXPECT_NEAR(head->pan, 8.0 * std::numbers::pi / 180.0, 1e-6);  // 80 degrees a second
+  EXPECT_EQ(playerc_ptz_query_status(head.get()), 0);
+  EXPECT_EQ(head->status, 1);
+  turn(7);
+  EXPECT_EQ(head->pan, kQuarter);
+  EXPECT_EQ(head->tilt, 0.0);
+  EXPECT_NEAR(head->zoom, std::numbers::pi / 3.0, 1e-9);
+  EXPECT_EQ(head->status, 0);
+  EXPECT_EQ(finder->width, 80U);
+  EXPECT_EQ(finder->height, 60U);
+  ASSERT_EQ(finder->blobs_count, 1U);
+  EXPECT_EQ(finder->blobs[0].color, 0xff8800U);  // of the first robot
+  EXPECT_NEAR(finder->blobs[0].x, 40.0, 2.0);
+  EXPECT_NEAR(finder->blobs[0].range, std::sqrt(2.0) - 0.08, 0.03);
+
+  ASSERT_EQ(playerc_camera_get_image(camera.get()), 0) << playerc_error_str();
+  EXPECT_EQ(camera->width, 80);
+  EXPECT_EQ(camera->height, 60);
+  EXPECT_EQ(camera->bpp, 24);
+  EXPECT_EQ(camera->format, PLAYER_CAMERA_FORMAT_RGB888);
+  EXPECT_EQ(camera->compression, PLAYER_CAMERA_COMPRESS_RAW);
+  ASSERT_EQ(camera->image_count, 80 * 60 * 3);
+  const playerc_blobfinder_blob_t& blob = finder->blobs[0];
+  const unsigned red = playerc_camera_get_pixel_component(camera.get(), blob.x, blob.y, 0);
+  EXPECT_EQ(red, camera->image[3 * (blob.y * 80 + blob.x)]);
+  EXPECT_GT(red, 100U);
+  EXPECT_EQ(playerc_camera_get_pixel_component(camera.get(), blob.x, blob.y, 2), 0U);  // of ff8800
+  EXPECT_EQ(playerc_camera_get_pixel_component(camera.get(), 80, 0, 0), 0U);
+  EXPECT_THAT(playerc_error_str(), HasSubstr("no pixel 80, 0"));
+  std::array<uint8_t, 6> copy = {};
+  playerc_camera_copy_image(camera.get(), copy.data(), 5);
+  EXPECT_TRUE(std::equal(copy.begin(), copy.begin() + 5, camera->image));
+  EXPECT_EQ(copy[5], 0);
+  EXPECT_EQ(playerc_camera_set_source(camera.get(), 0, "PAL"), -1);
+  EXPECT_EQ(playerc_camera_get_source(camera.get()), -1);
+  playerc_camera_decompress(camera.get());
+  const std::string file = testing::TempDir() + "playerc_" + transport_name(GetParam()) + ".ppm";
+  playerc_camera_save(camera.get(), file.c_str());
+  EXPECT_EQ(std::filesystem::file_size(file), 13U + 14400U);  // "P6\n80 60\n255\n"
+  std::filesystem::remove(file);
+
+  // In position control the speeds are those on the way, in velocity control they are the way.
+  ASSERT_EQ(playerc_ptz_set_ws(head.get(), 0.0, 0.0, 0.0, 0.5, 0.0), 0) << playerc_error_str();
+  turn(2);
+  EXPECT_NEAR(head->pan, kQuarter - 0.1, 1e-6);
+  EXPECT_EQ(playerc_ptz_set_control_mode(head.get(), 7), -1);
+  ASSERT_EQ(playerc_ptz_set_control_mode(head.get(), PLAYER_PTZ_VELOCITY_CONTROL), 0);
+  ASSERT_EQ(playerc_ptz_set_ws(head.get(), 0.0, 0.0, 0.0, -1.0, 0.25), 0);
+  turn(2);
+  EXPECT_NEAR(head->pan, kQuarter - 0.3, 1e-6);
+  EXPECT_NEAR(head->tilt, 0.05, 1e-6);
+}
+
 TEST_F(PlayercSensors, SatellitesAndInertia) {
   const Owned<playerc_gps_t> gps(playerc_gps_create(robot_.get(), 0));
   const Owned<playerc_imu_t> imu(playerc_imu_create(robot_.get(), 0));
@@ -802,6 +882,48 @@ TEST_F(PlayercSensors, LocalisationAndRadio) {
 }
 
 // --- What worlds let programs do besides
+
+TEST_F(Playerc, Grips) {
+  const std::string world = folder_.write("can.json", R"({
+    "arena": {"size": [4, 3], "obstacles": [
+      {"name": "can", "center": [1.14, 1], "size": [0.06, 0.04], "portable": true}]},
+    "robots": [{"name": "r1", "pose": {"x": 1, "y": 1},
+                "devices": {"gripper": {"opening": 0.08, "travel_time": 0.4, "capacity": 1}}}]})");
+  const Owned<playerc_client_t> robot(
+      playerc_client_create(nullptr, ("sim:" + world).c_str(), 6665));
+  ASSERT_EQ(playerc_client_connect(robot.get()), 0) << playerc_error_str();
+  const Owned<playerc_gripper_t> gripper(playerc_gripper_create(robot.get(), 0));
+  EXPECT_EQ(playerc_gripper_open_cmd(gripper.get()), -1);  // not subscribed yet
+  ASSERT_EQ(playerc_gripper_subscribe(gripper.get(), PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+  ASSERT_EQ(playerc_gripper_get_geom(gripper.get()), 0);
+  EXPECT_NEAR(gripper->pose.px, 0.087, 1e-12);
+  EXPECT_NEAR(gripper->inner_size.sw, 0.08, 1e-12);
+  EXPECT_NEAR(gripper->outer_size.sw, 0.14, 1e-12);
+  EXPECT_EQ(gripper->num_beams, 2);
+  EXPECT_EQ(gripper->capacity, 1);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_OPEN);
+  EXPECT_EQ(gripper->beams, 0x08U);  // 1.117 is in the can, from 1.11 to 1.17; 1.177 is not
+  ASSERT_EQ(playerc_gripper_close_cmd(gripper.get()), 0);
+  for (int i = 0; i < 4; ++i) ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_CLOSED);
+  ASSERT_EQ(playerc_gripper_store_cmd(gripper.get()), 0);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
+  EXPECT_EQ(gripper->stored, 1);
+  EXPECT_EQ(gripper->beams, 0U);
+  ASSERT_EQ(playerc_gripper_stop_cmd(gripper.get()), 0);
+  ASSERT_EQ(playerc_gripper_retrieve_cmd(gripper.get()), 0);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->stored, 0);
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_CLOSED);
+  testing::internal::CaptureStdout();
+  playerc_gripper_printout(gripper.get(), "r1");
+  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("state 2, beams 0x08, 0 stored"));
+  ASSERT_EQ(playerc_gripper_open_cmd(gripper.get()), 0);
+  ASSERT_TRUE(read_until(robot.get(), gripper.get()));
+  EXPECT_EQ(gripper->state, PLAYER_GRIPPER_STATE_MOVING);
+}
 
 TEST_P(PlayercEverywhere, InputsAndOutputs) {
   const auto robot = client();

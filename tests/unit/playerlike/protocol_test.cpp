@@ -21,17 +21,21 @@
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
+#include "sim/devices/blobfinder.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
+#include "sim/devices/camera.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
+#include "sim/devices/gripper.h"
 #include "sim/devices/imu.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 #include "sim/devices/opaque.h"
 #include "sim/devices/proximity.h"
+#include "sim/devices/ptz.h"
 #include "sim/devices/rangers.h"
 #include "sim/devices/waypoint.h"
 #include "sim/devices/wifi.h"
@@ -113,6 +117,8 @@ class Filler {
   void operator()(std::uint8_t& value) { value = static_cast<std::uint8_t>(random_()); }
   void operator()(sim::BatteryStatus& value) { pick(value, 3); }
   void operator()(sim::WaypointStatus& value) { pick(value, 3); }
+  void operator()(sim::GripperState& value) { pick(value, 4); }
+  void operator()(sim::GripCommand::Action& value) { pick(value, 5); }
   void operator()(sim::LayerKind& value) { pick(value, 3); }
   void operator()(sim::TimeMode& value) { pick(value, 2); }
   template <typename T>
@@ -232,6 +238,12 @@ void each(sim::DioReading& v, F& f) {
   limit(v.output_count, sim::DioParams::kMaxLines);
 }
 template <typename F>
+void each(sim::GripperReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.state), f(v.outer_beam), f(v.inner_beam), f(v.holding), f(v.stored), f(v.gap_m);
+  limit(v.stored, sim::GripperParams::kMaxStored);
+}
+template <typename F>
 void each(sim::OpaqueReading& v, F& f) {
   each_of_reading(v, f);
   f(v.data), f(v.number), f(v.lost);
@@ -241,6 +253,36 @@ void each(sim::BatteryReading& v, F& f) {
   each_of_reading(v, f);
   f(v.charge_percent), f(v.status), f(v.voltage_v), f(v.energy_wh), f(v.capacity_wh);
   f(v.power_w);
+}
+template <typename F>
+void each(sim::BlobfinderReading::Blob& v, F& f) {
+  f(v.colour);
+  for (int* pixels : {&v.area, &v.x, &v.y, &v.left, &v.right, &v.top, &v.bottom}) {
+    f(*pixels);
+    limit(*pixels, 1'000'000);
+  }
+  f(v.range_m);
+}
+template <typename F>
+void each(sim::BlobfinderReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.width), f(v.height), f(v.blobs);
+  limit(v.width, 10'000);
+  limit(v.height, 10'000);
+}
+template <typename F>
+void each(sim::CameraReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.width), f(v.height), f(v.pixels);
+  limit(v.width, 7);
+  limit(v.height, 5);
+  v.pixels.resize(static_cast<std::size_t>(3 * v.width * v.height));
+}
+template <typename F>
+void each(sim::PtzReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.pan_rad), f(v.tilt_rad), f(v.view_rad), f(v.moving);
+  f(v.pan_speed_radps), f(v.tilt_speed_radps), f(v.zoom_speed_radps);
 }
 template <typename F>
 void each(sim::BumperReading& v, F& f) {
@@ -375,6 +417,18 @@ void each(sim::AnalogOutputCommand& v, F& f) {
 template <typename F>
 void each(sim::LightCommand& v, F& f) {
   f(v.enabled), f(v.colour), f(v.period_s), f(v.duty_cycle);
+}
+template <typename F>
+void each(sim::GripCommand& v, F& f) {
+  f(v.action);
+}
+template <typename F>
+void each(sim::PointCommand& v, F& f) {
+  f(v.pan_rad), f(v.tilt_rad), f(v.view_rad), f(v.pan_speed_radps), f(v.tilt_speed_radps);
+}
+template <typename F>
+void each(sim::PanCommand& v, F& f) {
+  f(v.pan_speed_radps), f(v.tilt_speed_radps), f(v.zoom_speed_radps);
 }
 template <typename F>
 void each(sim::OpaqueCommand& v, F& f) {
@@ -1043,16 +1097,20 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     EXPECT_TRUE(arrives_if<sim::AioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BlinkenlightReading>(*sensor, GetParam()) ||
+                arrives_if<sim::BlobfinderReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BumperReading>(*sensor, GetParam()) ||
+                arrives_if<sim::CameraReading>(*sensor, GetParam()) ||
                 arrives_if<sim::DioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::OpaqueReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
                 arrives_if<sim::FiducialReading>(*sensor, GetParam()) ||
                 arrives_if<sim::GpsReading>(*sensor, GetParam()) ||
+                arrives_if<sim::GripperReading>(*sensor, GetParam()) ||
                 arrives_if<sim::ImuReading>(*sensor, GetParam()) ||
                 arrives_if<sim::LaserReading>(*sensor, GetParam()) ||
                 arrives_if<sim::PoseReading>(*sensor, GetParam()) ||
                 arrives_if<sim::ProximityReading>(*sensor, GetParam()) ||
+                arrives_if<sim::PtzReading>(*sensor, GetParam()) ||
                 arrives_if<sim::RangerReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WaypointReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WifiReading>(*sensor, GetParam()))
@@ -1092,13 +1150,17 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
     all.emplace_back("aio", std::make_unique<sim::AioReading>());
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
+    all.emplace_back("blobfinder", std::make_unique<sim::BlobfinderReading>());
     all.emplace_back("bumper", std::make_unique<sim::BumperReading>());
+    all.emplace_back("camera", std::make_unique<sim::CameraReading>());
+    all.emplace_back("ptz", std::make_unique<sim::PtzReading>());
     all.emplace_back("blinkenlight", std::make_unique<sim::BlinkenlightReading>());
     all.emplace_back("dio", std::make_unique<sim::DioReading>());
     all.emplace_back("opaque", std::make_unique<sim::OpaqueReading>());
     all.emplace_back("collision", std::make_unique<sim::CollisionReading>());
     all.emplace_back("fiducial", std::make_unique<sim::FiducialReading>());
     all.emplace_back("gps", std::make_unique<sim::GpsReading>());
+    all.emplace_back("gripper", std::make_unique<sim::GripperReading>());
     all.emplace_back("imu", std::make_unique<sim::ImuReading>());
     all.emplace_back("laser", std::make_unique<sim::LaserReading>());
     all.emplace_back("odometry", std::make_unique<sim::PoseReading>());

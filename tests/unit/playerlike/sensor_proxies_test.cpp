@@ -6,10 +6,13 @@
 #include <libplayerc++/playerc++.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
@@ -20,7 +23,9 @@
 
 namespace {
 
+using PlayerCc::BlobfinderProxy;
 using PlayerCc::BumperProxy;
+using PlayerCc::CameraProxy;
 using PlayerCc::FiducialProxy;
 using PlayerCc::GpsProxy;
 using PlayerCc::ImuProxy;
@@ -30,6 +35,7 @@ using PlayerCc::PlayerClient;
 using PlayerCc::PlayerError;
 using PlayerCc::Position2dProxy;
 using PlayerCc::PowerProxy;
+using PlayerCc::PtzProxy;
 using PlayerCc::RangerProxy;
 using PlayerCc::SonarProxy;
 using PlayerCc::WiFiProxy;
@@ -45,7 +51,8 @@ constexpr double kPi = 3.14159265358979323846;
 // middle of the left part and looks at it.
 std::string room(const std::string& devices, const std::string& more = "") {
   return R"({"arena": {"size": [4, 4],
-               "obstacles": [{"center": [3, 2], "size": [0.4, 0.4], "fiducial": 7}],
+               "obstacles": [{"center": [3, 2], "size": [0.4, 0.4], "fiducial": 7,
+                              "colour": "#ff8000"}],
                "docks": [{"pose": {"x": 1, "y": 2}}]},
     "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}, "devices": )" +
          devices + more + R"(},
@@ -338,6 +345,104 @@ TEST_P(SensorProxies, FiducialTellsTheMarksInView) {
   EXPECT_EQ(finder[0].id, 7);
   EXPECT_EQ(error_code_of([&] { static_cast<void>(finder[1]); }), PlayerError::kBadArgument);
   EXPECT_THAT(printed(finder), HasSubstr("\n7\t"));
+}
+
+TEST_P(SensorProxies, BlobfinderTellsTheBlobsInView) {
+  const auto client = open(room(R"({"blobfinder": {"height": 0.1}})"));
+  BlobfinderProxy finder(client.get(), 0);
+  EXPECT_EQ(finder.GetCount(), 0U);
+  EXPECT_EQ(finder[3].area, 0U);  // each is zero while there are none
+  EXPECT_EQ(finder.GetWidth(), 80U);
+  EXPECT_EQ(finder.GetHeight(), 60U);
+  client->Read();
+  ASSERT_EQ(finder.GetCount(), 1U);
+  const playerc_blobfinder_blob_t blob = finder.GetBlob(0);
+  EXPECT_EQ(blob.color, 0xff8000U);
+  // A face 1.8 m away, 0.4 m wide, 0.16 m high; f = 69.28: columns 40 -+ 7.70, rows from 30 - 2.31
+  // to 30 + 3.85.
+  EXPECT_EQ(blob.left, 32U);
+  EXPECT_EQ(blob.right, 47U);
+  EXPECT_EQ(blob.top, 28U);
+  EXPECT_EQ(blob.bottom, 33U);
+  EXPECT_EQ(blob.area, 16U * 6U);
+  EXPECT_EQ(blob.x, 40U);
+  EXPECT_EQ(blob.y, 31U);
+  EXPECT_NEAR(blob.range, 1.8, 0.01);
+  EXPECT_EQ(finder[0].area, blob.area);
+  EXPECT_EQ(error_code_of([&] { static_cast<void>(finder[1]); }), PlayerError::kBadArgument);
+  EXPECT_EQ(finder.GetInterfaceStr(), "blobfinder");
+  EXPECT_EQ(finder.HasCapability(PLAYER_MSGTYPE_DATA, PLAYER_BLOBFINDER_DATA_BLOBS), 1);
+  EXPECT_THAT(printed(finder), HasSubstr("\n#ff8000\t96\t40\t31\t32\t47\t28\t33\t1.8"));
+}
+
+TEST_P(SensorProxies, PtzTurnsWhatSitsOnIt) {
+  const auto client = open(room(R"({"ptz": {}, "blobfinder": {"height": 0.1, "ptz": "ptz"}})"));
+  PtzProxy head(client.get(), 0);
+  BlobfinderProxy finder(client.get(), 0);
+  EXPECT_NEAR(head.GetZoom(), kPi / 3.0, 1e-9);
+  head.SelectControlMode(PLAYER_PTZ_VELOCITY_CONTROL);
+  EXPECT_EQ(error_code_of([&] { head.SelectControlMode(2); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { head.SetCam(std::nan(""), 0.0, 0.0); }), PlayerError::kBadArgument);
+  head.SetCam(0.2, 0.1, kPi / 6.0);
+  client->Read();
+  // After 0.1 s, at 80, 50 and 30 degrees a second.
+  EXPECT_NEAR(head.GetPan(), 8.0 * kPi / 180.0, 1e-6);
+  EXPECT_NEAR(head.GetTilt(), 5.0 * kPi / 180.0, 1e-6);
+  EXPECT_NEAR(head.GetZoom(), 57.0 * kPi / 180.0, 1e-6);
+  EXPECT_EQ(head.GetStatus(), 1);
+  for (int i = 0; i < 12; ++i) client->Read();
+  EXPECT_EQ(head.GetPan(), 0.2);
+  EXPECT_EQ(head.GetTilt(), 0.1);
+  EXPECT_NEAR(head.GetZoom(), kPi / 6.0, 1e-12);
+  EXPECT_EQ(head.GetStatus(), 0);
+  // f = 40 / tan 15 = 149.28. The left end of the face, at atan(0.2 / 1.8) = 0.1107, stands at
+  // 40 + f tan(0.2 - 0.1107) = 53.4, the right one outside of the picture.
+  ASSERT_EQ(finder.GetCount(), 1U);
+  EXPECT_EQ(finder[0].left, 53U);
+  EXPECT_EQ(finder[0].right, 79U);
+  head.SetSpeed(0.5);
+  client->Read();
+  EXPECT_NEAR(head.GetPan(), 0.25, 1e-9);
+  EXPECT_NEAR(head.GetZoom(), kPi / 6.0, 1e-12);
+  EXPECT_EQ(head.GetInterfaceStr(), "ptz");
+  EXPECT_THAT(printed(head), HasSubstr("\n0.25\t"));
+}
+
+TEST_P(SensorProxies, CameraHandsOverPictures) {
+  const auto client = open(room(R"({"camera": {"height": 0.1, "image": [80, 40]}})"));
+  CameraProxy camera(client.get(), 0);
+  EXPECT_EQ(camera.GetWidth(), 80U);
+  EXPECT_EQ(camera.GetHeight(), 40U);
+  EXPECT_EQ(camera.GetDepth(), 24U);
+  EXPECT_EQ(camera.GetFormat(), static_cast<uint32_t>(PLAYER_CAMERA_FORMAT_RGB888));
+  EXPECT_EQ(camera.GetCompression(), static_cast<uint32_t>(PLAYER_CAMERA_COMPRESS_RAW));
+  ASSERT_EQ(camera.GetImageSize(), 80U * 40U * 3U);
+  std::vector<uint8_t> image(camera.GetImageSize(), 1);
+  camera.GetImage(image.data());
+  EXPECT_EQ(image[0], 0);  // black
+  client->Read();
+  camera.Decompress();
+  camera.GetImage(image.data());
+  EXPECT_EQ(error_code_of([&] { camera.GetImage(nullptr); }), PlayerError::kBadArgument);
+  // The face 1.8 m away: 1 - 0.6 * 1.8 / 12 = 0.91 of (255, 128, 0).
+  const std::size_t middle = 3 * (20 * 80 + 40);
+  EXPECT_EQ(image[middle], 232);
+  EXPECT_EQ(image[middle + 1], 116);
+  EXPECT_EQ(image[middle + 2], 0);
+
+  const std::string prefix = testing::TempDir() + "camera_" + transport_name(GetParam()) + "_";
+  camera.SaveFrame(prefix);
+  camera.SaveFrame(prefix, 2);
+  for (const std::string& name : {prefix + "0000.ppm", prefix + "01.ppm"}) {
+    std::ifstream file(name, std::ios::binary);
+    std::ostringstream content;
+    content << file.rdbuf();
+    EXPECT_EQ(content.str(), "P6\n80 40\n255\n" + std::string(image.begin(), image.end())) << name;
+    std::remove(name.c_str());
+  }
+  EXPECT_EQ(error_code_of([&] { camera.SaveFrame("/no/such/folder/x"); }), PlayerError::kFailed);
+  EXPECT_EQ(camera.GetInterfaceStr(), "camera");
+  EXPECT_THAT(printed(camera), HasSubstr("\n80\t40\t24\t5\t0\t9600\n"));
 }
 
 TEST_P(SensorProxies, GpsTellsThePlaceOnTheEarth) {

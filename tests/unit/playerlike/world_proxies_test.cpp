@@ -405,6 +405,127 @@ TEST_P(WorldProxies, ReadAndSetLines) {
   EXPECT_THAT(text.str(), AllOf(HasSubstr("\n11\n"), HasSubstr("5\t-0.5")));
 }
 
+// The front of r1 is at x = 1.087, its paddles reach to 1.187, the can from 1.11 to 1.15: 0.04 m of
+// 0.08 m across.
+constexpr const char* kCanWorld = R"({
+  "arena": {"size": [4, 2], "obstacles": [
+    {"name": "can", "center": [1.13, 1], "size": [0.04, 0.04], "portable": true}]},
+  "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}, "devices": {"gripper": {
+    "length": 0.1, "opening": 0.08, "thickness": 0.01, "travel_time": 0.6, "capacity": 1}}}]})";
+
+TEST_P(WorldProxies, GripAndCarry) {
+  test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
+  PlayerClient robot(host.connect(6665));
+  GripperProxy gripper(&robot, 0);
+  Position2dProxy position(&robot, 0);
+  SimulationProxy simulation(&robot, 0);
+  const auto read = [&robot](int rounds) {
+    for (int i = 0; i < rounds; ++i) robot.Read();
+  };
+  EXPECT_EQ(gripper.GetState(), 0U);
+  gripper.RequestGeometry();
+  EXPECT_NEAR(gripper.GetPose().px, 0.087, 1e-12);
+  EXPECT_NEAR(gripper.GetInnerSize().sw, 0.08, 1e-12);
+  EXPECT_NEAR(gripper.GetOuterSize().sw, 0.10, 1e-12);
+  EXPECT_NEAR(gripper.GetOuterSize().sl, 0.1, 1e-12);
+  EXPECT_EQ(gripper.GetNumBeams(), 2U);
+  EXPECT_EQ(gripper.GetCapacity(), 1U);
+  read(1);
+  EXPECT_EQ(gripper.GetState(), static_cast<uint32_t>(PLAYER_GRIPPER_STATE_OPEN));
+  // The inner beam is at 1.112, the outer one at 1.162.
+  EXPECT_EQ(gripper.GetBeams(), 0x08U);
+  EXPECT_EQ(gripper.GetInnerBreakBeam(), 1U);
+  EXPECT_EQ(gripper.GetOuterBreakBeam(), 0U);
+  EXPECT_EQ(gripper.GetPaddlesOpen(), 1U);
+  gripper.Close();
+  read(2);
+  EXPECT_EQ(gripper.GetState(), static_cast<uint32_t>(PLAYER_GRIPPER_STATE_MOVING));
+  EXPECT_EQ(gripper.GetPaddlesMoving(), 1U);
+  read(2);  // 0.6 (1 - 0.04 / 0.08) = 0.3 s and a step
+  EXPECT_EQ(gripper.GetState(), static_cast<uint32_t>(PLAYER_GRIPPER_STATE_CLOSED));
+  EXPECT_EQ(gripper.GetPaddlesClosed(), 1U);
+  EXPECT_EQ(gripper.GetPaddlesOpen(), 0U);
+  EXPECT_EQ(gripper.GetGripperError(), 0U);
+  position.SetSpeed(0.2, 0.0);
+  read(10);
+  position.SetSpeed(0.0, 0.0);
+  read(2);
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+  simulation.GetPose2d("can", x, y, yaw);
+  EXPECT_NEAR(x, position.GetXPos() + 0.13, 1e-6);
+  EXPECT_GT(x, 1.3);
+  gripper.Store();
+  read(1);
+  EXPECT_EQ(gripper.GetStored(), 1U);
+  gripper.SetGrip(8);  // retrieve
+  read(1);
+  EXPECT_EQ(gripper.GetStored(), 0U);
+  std::ostringstream text;
+  text << gripper;
+  EXPECT_THAT(text.str(), HasSubstr("closed\t0\t1\t0"));
+  gripper.Open();
+  read(8);
+  EXPECT_EQ(gripper.GetPaddlesOpen(), 1U);
+  EXPECT_EQ(error_of([&] { gripper.SetGrip(4); }).GetErrorCode(), PlayerError::kNotAvailable);
+  EXPECT_EQ(error_of([&] { gripper.SetGrip(99); }).GetErrorCode(), PlayerError::kBadArgument);
+}
+
+TEST_P(WorldProxies, GripInTheWayOfMorse) {
+  test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
+  CCMorse::MorseClient client(host.connect(4000));
+  CCMorse::MorseGripper gripper(client.GetRobot("r1"));
+  EXPECT_EQ(gripper.GetStatus(), "");
+  EXPECT_EQ(gripper.GetCapacity(), 1);
+  EXPECT_EQ(gripper.GetOpening(), 0.08);
+  gripper.Close();
+  const auto read = [&client](int rounds) {
+    for (int i = 0; i < rounds; ++i) client.Read();
+  };
+  read(1);
+  EXPECT_EQ(gripper.GetStatus(), "moving");
+  EXPECT_TRUE(gripper.IsInnerBeamBroken());
+  EXPECT_FALSE(gripper.IsOuterBeamBroken());
+  EXPECT_FALSE(gripper.IsHolding());
+  read(3);
+  EXPECT_EQ(gripper.GetStatus(), "closed");
+  EXPECT_TRUE(gripper.IsHolding());
+  EXPECT_NEAR(gripper.GetGap(), 0.04, 1e-9);
+  gripper.Store();
+  gripper.Stop();
+  read(1);
+  EXPECT_EQ(gripper.GetStored(), 1);
+  EXPECT_EQ(gripper.GetStatus(), "open");  // stopped on the way
+  gripper.Retrieve();
+  read(1);
+  EXPECT_EQ(gripper.GetStored(), 0);
+  EXPECT_TRUE(gripper.IsHolding());
+  gripper.Open();
+  read(1);
+  EXPECT_FALSE(gripper.IsHolding());
+  EXPECT_EQ(gripper.GetStatus(), "moving");
+}
+
+TEST_P(WorldProxies, PutPortableThingsAway) {
+  test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kCanWorld)), GetParam());
+  PlayerClient robot(host.connect(6665));
+  GripperProxy gripper(&robot, 0);
+  SimulationProxy simulation(&robot, 0);
+  gripper.Close();
+  for (int i = 0; i < 5; ++i) robot.Read();
+  EXPECT_EQ(gripper.GetPaddlesClosed(), 1U);
+  simulation.SetPose2d("can", -10.0, -10.0, 0.0);
+  robot.Read();
+  robot.Read();
+  EXPECT_EQ(gripper.GetBeams(), 0U);
+  double x = 0.0;
+  double y = 0.0;
+  double yaw = 0.0;
+  simulation.GetPose2d("can", x, y, yaw);
+  EXPECT_EQ(x, -10.0);
+}
+
 TEST_P(WorldProxies, SwitchLights) {
   const auto robot = client();
   BlinkenLightProxy light(robot.get(), 0);

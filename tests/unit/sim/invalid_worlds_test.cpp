@@ -34,6 +34,8 @@ void PrintTo(const BadWorld& bad, std::ostream* out) { *out << bad.name; }
 
 const BadWorld kBadWorlds[] = {
     {"bad_colour", "world/bad-colour", "/robots/0/colour", 1, "#ff8800", "orange"},
+    {"bad_colour_of_obstacle", "world/bad-colour", "/arena/obstacles/0/colour", 1, "#ff8800",
+     "#ff88"},
     {"bad_name", "world/bad-name", "/robots/0/name", 1, "letters", "my robot"},
     {"canvas_too_large", "world/canvas-too-large", "/canvas/cell_size", 1, "8192", "34200 x 37200"},
     {"conflicting_keys", "world/conflicting-keys", "/arena/size", 1, "either", "both"},

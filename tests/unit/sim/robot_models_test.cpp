@@ -74,7 +74,7 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
     for (int i = 0; i < 100; ++i) simulation.step();
     EXPECT_EQ(simulation.body(0).X_WB, (Pose{3.0, 3.0, 0.0}));
   }
-  EXPECT_THAT(names, ElementsAre("car", "epuck", "omni", "pioneer2dx", "pioneer3dx"));
+  EXPECT_THAT(names, ElementsAre("bigbob", "car", "epuck", "omni", "pioneer2dx", "pioneer3dx"));
 }
 
 // Robots turn about their axles, which need not be the middle of their bodies.

@@ -88,7 +88,7 @@ TEST(ReadWorld, ReadsAllThatAFileMaySay) {
     "arena": {"size": [4, 3], "origin": [-1, -2], "border": false, "border_height": 0.3,
       "obstacles": [
         {"name": "a", "type": "dynamic", "center": [0, 0], "size": [0.4, 0.2], "yaw_deg": 90,
-         "height": 0.5, "state": "retracted"},
+         "height": 0.5, "state": "retracted", "colour": "#ff8800"},
         {"center": [1, 0]}],
       "docks": [{"name": "bay", "pose": {"x": 2, "y": 0, "yaw_deg": 180}, "size": [0.3, 0.3]},
                 {"pose": {"x": 2, "y": 0.5}}],
@@ -117,11 +117,13 @@ TEST(ReadWorld, ReadsAllThatAFileMaySay) {
   EXPECT_EQ(a.yaw_rad, std::numbers::pi / 2);
   EXPECT_EQ(a.height_m, 0.5);
   EXPECT_EQ(a.state, ObstacleState::kRetracted);
+  EXPECT_EQ(a.colour, (Colour{0xff, 0x88, 0x00, 0xff}));
   const ObstacleDescription& unnamed = world.arena.obstacles[1];
   EXPECT_EQ(unnamed.name, "o1");
   EXPECT_EQ(unnamed.type, ObstacleType::kStatic);
   EXPECT_EQ(unnamed.state, ObstacleState::kExtended);
   EXPECT_EQ(unnamed.height_m, 0.16);
+  EXPECT_EQ(unnamed.colour, std::nullopt);
   ASSERT_THAT(world.arena.docks, SizeIs(2));
   EXPECT_EQ(world.arena.docks[0].name, "bay");
   EXPECT_EQ(world.arena.docks[0].pose, (Pose{2, 0, std::numbers::pi}));

@@ -17,7 +17,7 @@ TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 # Bad worlds whose fault is one of form, which a schema can see.
 FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "bad_colour",
-                 "bad_name", "missing_key", "reserved_port", "conflicting_keys"]
+                 "bad_colour_of_obstacle", "bad_name", "missing_key", "reserved_port", "conflicting_keys"]
 
 
 def load(path):

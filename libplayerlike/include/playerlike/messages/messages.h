@@ -164,8 +164,8 @@ struct InterfaceBinding {
 /// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices),
 /// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"
 /// (batteries), "graphics2d" (pens); those of the devices that have their names ("aio",
-/// "blinkenlight", "bumper", "dio", "fiducial", "gps", "imu", "opaque", "speech", "wifi"); and
-/// "log", "map" and "simulation", the world's own, with index 0 on every port.
+/// "blinkenlight", "bumper", "dio", "fiducial", "gps", "gripper", "imu", "opaque", "speech",
+/// "wifi"); and "log", "map" and "simulation", the world's own, with index 0 on every port.
 /// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
 ///         of the interface, the world that does (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,

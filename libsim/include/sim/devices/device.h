@@ -119,9 +119,34 @@ struct LightCommand {
   std::optional<double> period_s;    ///< of one on and off, >= 0; 0: it does not blink [s]
   std::optional<double> duty_cycle;  ///< share of the period that it is lit, [0, 1]
 };
+/// Move the paddles of a gripper, or what they hold (gripper).
+struct GripCommand {
+  enum class Action {
+    kOpen,      ///< and put down what they hold
+    kClose,     ///< until they hold something, or meet
+    kStop,      ///< where they are
+    kStore,     ///< put what they hold into the store
+    kRetrieve,  ///< take what was stored last
+  };
+  Action action = Action::kStop;
+};
 /// Send a message (opaque).
 struct OpaqueCommand {
   std::vector<std::uint8_t> data;  ///< at most kMaxOpaque bytes
+};
+/// Point a camera somewhere (ptz). Limits of the head hold.
+struct PointCommand {
+  double pan_rad = 0.0;           ///< to the left [rad]
+  double tilt_rad = 0.0;          ///< upwards [rad]
+  double view_rad = 0.0;          ///< field of view from side to side; 0 or less: it stays [rad]
+  double pan_speed_radps = 0.0;   ///< on the way; 0: as fast as it can. The sign does not matter
+  double tilt_speed_radps = 0.0;  ///< the same [rad/s]
+};
+/// Turn and zoom a camera at speeds, until told otherwise or at a limit (ptz).
+struct PanCommand {
+  double pan_speed_radps = 0.0;   ///< to the left [rad/s]
+  double tilt_speed_radps = 0.0;  ///< upwards [rad/s]
+  double zoom_speed_radps = 0.0;  ///< of the field of view, > 0 widens it [rad/s]
 };
 inline constexpr std::size_t kMaxSpeech = 255;    ///< bytes
 inline constexpr std::size_t kMaxOpaque = 65536;  ///< bytes
@@ -130,7 +155,7 @@ using Command =
     std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
                  ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
                  PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
-                 LightCommand, OpaqueCommand>;
+                 LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand>;
 
 class Device;
 
@@ -166,6 +191,22 @@ class RobotControl {
   virtual std::optional<std::string> place(const Pose& X_WB) = 0;
   /// Lets everybody know what the robot says: for the log and the run's report.
   virtual void say(const std::string& text) = 0;
+
+  /// What the robot's devices may look at, as in Device::integrate(), between two steps.
+  [[nodiscard]] virtual StepContext context() const = 0;
+  /// Takes an obstacle, by its index, where it stands. From now on it moves with the robot
+  /// (ObstacleDescription::carried_by): it is in nobody's way, and others' sensors see it as a part
+  /// of the robot.
+  /// @return nothing if done, else why not: it is not portable, retracted, or carried already.
+  virtual std::optional<std::string> pick_up(int obstacle) = 0;
+  /// Carries what the robot carries at another place of it.
+  /// @param X_BT    of the thing in B.
+  /// @param inside  nobody's sensors see it there.
+  virtual void carry_at(int obstacle, const Pose& X_BT, bool inside) = 0;
+  /// Puts down what the robot carries, where it is now.
+  /// @return nothing if done, else why not, naming what stands there; the robot goes on carrying
+  /// it.
+  virtual std::optional<std::string> put_down(int obstacle) = 0;
 };
 
 /// A part of a robot that clients address by name. Owned by a Simulation; not thread-safe.

@@ -48,6 +48,7 @@ struct RobotSnapshot {
                                               ///< in W [m]
   std::string says;                           ///< UTF-8; empty: nothing
   std::vector<LightSnapshot> lights;
+  std::vector<Polygon> paddles;  ///< of its grippers, in B [m]
   bool stalled = false;
   bool marked = false;  ///< to be told apart from the others, as the one that a user chose
 };

@@ -137,12 +137,13 @@ class Simulation {
   /// Puts a robot or a block somewhere, at once: a robot as RobotControl::place() does, but its
   /// motors go on as they were told last.
   /// @param pose  X_WB of a robot, the middle of a block.
+  /// A portable block may be put beyond the floor; one that is carried leaves its robot.
   /// @return nothing if done, else why not: no such object, one that stands fast, or what is in the
   ///         way. A block, unless it is retracted, is not put where a robot stands.
   std::optional<std::string> place_object(const std::string& name, const Pose& pose);
   /// Gives a block another size, at once.
   /// @param size_m  along its own axes [m], each > 0.
-  /// @return as place_object().
+  /// @return as place_object(). One that is carried is put down for it, where it is.
   std::optional<std::string> set_block_size(const std::string& name, const Vec2& size_m,
                                             double height_m);
   /// Gives a robot or a block another colour, in pictures.

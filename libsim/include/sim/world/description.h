@@ -39,7 +39,10 @@ struct ObstacleDescription {
   double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
   int fiducial = 0;                   ///< what fiducial devices read of it; 0: they do not see it
-  std::optional<Colour> colour = {};  ///< in pictures; none: that of its type
+  std::optional<Colour> colour = {};  ///< none: in pictures that of its type, and no blobfinder
+                                      ///< sees it
+  bool portable = false;              ///< grippers can take and carry it
+  int carried_by = -1;                ///< index of the robot that carries it now; -1: it stands
 };
 
 /// Corners of a box whose middle has the pose X_WB, counter-clockwise from its front right one, in

@@ -1,0 +1,117 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <fstream>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+#include "libplayerc++/cameraproxy.h"
+#include "proxies/link.h"
+#include "sim/devices/camera.h"
+
+namespace PlayerCc {
+
+CameraProxy::CameraProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
+  CameraProxy::Subscribe(aIndex);
+}
+
+CameraProxy::~CameraProxy() { CameraProxy::Unsubscribe(); }
+
+void CameraProxy::Subscribe(uint32_t aIndex) {
+  const char* fun = "CameraProxy::CameraProxy";
+  Attach(PLAYER_CAMERA_CODE, aIndex, fun);
+  const scoped_lock_t lock(LockData(fun));
+  // A server may say anything.
+  const auto side = [this](const char* name, int most) {
+    return static_cast<uint32_t>(std::clamp(mLink->property(name, 0.0), 0.0, 1.0 * most));
+  };
+  mWidth = side("image_width", sim::ViewParams::kMaxWidth);
+  mHeight = side("image_height", sim::ViewParams::kMaxHeight);
+  mPixels.assign(std::size_t{3} * mWidth * mHeight, 0);
+}
+
+void CameraProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+void CameraProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::CameraReading*>(&aReading.measured);
+  if (reading == nullptr) return;
+  mWidth = static_cast<uint32_t>(reading->width);
+  mHeight = static_cast<uint32_t>(reading->height);
+  mPixels = reading->pixels;
+}
+
+bool CameraProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  return aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_CAMERA_DATA_STATE;
+}
+
+void CameraProxy::SaveFrame(const std::string aPrefix, uint32_t aWidth) {
+  const char* fun = "CameraProxy::SaveFrame";
+  const scoped_lock_t lock(LockData(fun));
+  constexpr uint32_t kMostDigits = 16;
+  std::ostringstream file;
+  file << aPrefix << std::setfill('0') << std::setw(static_cast<int>(std::min(aWidth, kMostDigits)))
+       << mFrame << ".ppm";
+  if (!detail::write_ppm(file.str(), mPixels, mWidth, mHeight)) {
+    throw PlayerError(fun, "the picture " + file.str() + " cannot be written",
+                      PlayerError::kFailed);
+  }
+  ++mFrame;
+}
+
+void CameraProxy::Decompress() { const scoped_lock_t lock(LockData("CameraProxy::Decompress")); }
+
+uint32_t CameraProxy::GetDepth() const {
+  const scoped_lock_t lock(LockData("CameraProxy::GetDepth"));
+  return 24;
+}
+
+uint32_t CameraProxy::GetWidth() const { return GetVar(mWidth); }
+uint32_t CameraProxy::GetHeight() const { return GetVar(mHeight); }
+
+uint32_t CameraProxy::GetFormat() const {
+  const scoped_lock_t lock(LockData("CameraProxy::GetFormat"));
+  return PLAYER_CAMERA_FORMAT_RGB888;
+}
+
+uint32_t CameraProxy::GetImageSize() const {
+  const scoped_lock_t lock(LockData("CameraProxy::GetImageSize"));
+  return static_cast<uint32_t>(mPixels.size());
+}
+
+void CameraProxy::GetImage(uint8_t* aImage) const {
+  const char* fun = "CameraProxy::GetImage";
+  const scoped_lock_t lock(LockData(fun));
+  if (aImage == nullptr) {
+    throw PlayerError(fun, "there is no place for the picture: it is a null pointer",
+                      PlayerError::kBadArgument);
+  }
+  std::copy(mPixels.begin(), mPixels.end(), aImage);
+}
+
+uint32_t CameraProxy::GetCompression() const {
+  const scoped_lock_t lock(LockData("CameraProxy::GetCompression"));
+  return PLAYER_CAMERA_COMPRESS_RAW;
+}
+
+bool detail::write_ppm(const std::string& aFile, const std::vector<uint8_t>& aPixels,
+                       uint32_t aWidth, uint32_t aHeight) {
+  std::ofstream out(aFile, std::ios::binary);
+  out << "P6\n" << aWidth << ' ' << aHeight << "\n255\n";
+  out.write(reinterpret_cast<const char*>(aPixels.data()),
+            static_cast<std::streamsize>(aPixels.size()));
+  out.close();
+  return out.good();
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::CameraProxy& c) {
+  return os << '#' << static_cast<const PlayerCc::ClientProxy&>(c)
+            << "\n#width\theight\tdepth\tformat\tcompression\tsize\n"
+            << c.GetWidth() << '\t' << c.GetHeight() << '\t' << c.GetDepth() << '\t'
+            << c.GetFormat() << '\t' << c.GetCompression() << '\t' << c.GetImageSize() << '\n';
+}
+
+}  // namespace std

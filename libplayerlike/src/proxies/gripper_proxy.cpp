@@ -1,0 +1,172 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ostream>
+#include <string>
+
+#include "devices/errors.h"
+#include "libplayerc++/gripperproxy.h"
+#include "libplayerc++/playerconstants.h"
+#include "proxies/link.h"
+#include "sim/devices/gripper.h"
+
+namespace PlayerCc {
+namespace {
+
+// As Player's drivers for Pioneers have them.
+constexpr uint32_t kOuterBeam = 0x04;
+constexpr uint32_t kInnerBeam = 0x08;
+
+uint32_t state_code(sim::GripperState state) {
+  switch (state) {
+    case sim::GripperState::kOpen:
+      return PLAYER_GRIPPER_STATE_OPEN;
+    case sim::GripperState::kClosed:
+      return PLAYER_GRIPPER_STATE_CLOSED;
+    case sim::GripperState::kMoving:
+      return PLAYER_GRIPPER_STATE_MOVING;
+    case sim::GripperState::kError:
+      break;
+  }
+  return PLAYER_GRIPPER_STATE_ERROR;
+}
+
+sim::GripCommand::Action action_of(int code) {
+  using Action = sim::GripCommand::Action;
+  switch (code) {
+    case PLAYER_GRIPPER_CMD_OPEN:
+      return Action::kOpen;
+    case PLAYER_GRIPPER_CMD_CLOSE:
+      return Action::kClose;
+    case PLAYER_GRIPPER_CMD_STORE:
+      return Action::kStore;
+    case PLAYER_GRIPPER_CMD_RETRIEVE:
+      return Action::kRetrieve;
+    default:
+      return Action::kStop;
+  }
+}
+
+}  // namespace
+
+GripperProxy::GripperProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
+  GripperProxy::Subscribe(aIndex);
+}
+
+GripperProxy::~GripperProxy() { GripperProxy::Unsubscribe(); }
+
+void GripperProxy::Subscribe(uint32_t aIndex) {
+  const char* fun = "GripperProxy::GripperProxy";
+  Attach(PLAYER_GRIPPER_CODE, aIndex, fun);
+  const scoped_lock_t lock(LockData(fun));
+  const double length = mLink->property("length", 0.0);
+  const double opening = mLink->property("opening", 0.0);
+  const double height = mLink->property("height", 0.0);
+  mGeom.pose = {mLink->property("mount_x", 0.0),  mLink->property("mount_y", 0.0), 0.0, 0.0, 0.0,
+                mLink->property("mount_yaw", 0.0)};
+  mGeom.outer_size = {opening + 2.0 * mLink->property("thickness", 0.0), length, height};
+  mGeom.inner_size = {opening, length, height};
+  mGeom.num_beams = 2;
+  mGeom.capacity = static_cast<uint8_t>(mLink->property("capacity", 0.0));
+}
+
+void GripperProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+bool GripperProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_GRIPPER_DATA_STATE) ||
+         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_GRIPPER_REQ_GET_GEOM) ||
+         (aType == PLAYER_MSGTYPE_CMD && aSubtype >= PLAYER_GRIPPER_CMD_OPEN &&
+          aSubtype <= PLAYER_GRIPPER_CMD_RETRIEVE);
+}
+
+void GripperProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::GripperReading*>(&aReading.measured);
+  if (reading == nullptr) return;
+  mState = state_code(reading->state);
+  mBeams = (reading->outer_beam ? kOuterBeam : 0) | (reading->inner_beam ? kInnerBeam : 0);
+  mStored = static_cast<uint32_t>(reading->stored);
+}
+
+void GripperProxy::RequestGeometry() {
+  const scoped_lock_t lock(LockData("GripperProxy::RequestGeometry"));
+}
+
+uint32_t GripperProxy::GetState() const { return GetVar(mState); }
+uint32_t GripperProxy::GetBeams() const { return GetVar(mBeams); }
+player_pose3d_t GripperProxy::GetPose() const { return GetVar(mGeom.pose); }
+player_bbox3d_t GripperProxy::GetOuterSize() const { return GetVar(mGeom.outer_size); }
+player_bbox3d_t GripperProxy::GetInnerSize() const { return GetVar(mGeom.inner_size); }
+uint32_t GripperProxy::GetNumBeams() const { return GetVar(mGeom.num_beams); }
+uint32_t GripperProxy::GetCapacity() const { return GetVar(mGeom.capacity); }
+uint32_t GripperProxy::GetStored() const { return GetVar(mStored); }
+
+void GripperProxy::Grip(const char* aFun, int aAction) {
+  const scoped_lock_t lock(LockData(aFun));
+  playerlike::translated(aFun, [&] {
+    mLink->core->session().send(mLink->binding.reading, sim::GripCommand{action_of(aAction)});
+  });
+}
+
+void GripperProxy::Open() { Grip("GripperProxy::Open", PLAYER_GRIPPER_CMD_OPEN); }
+void GripperProxy::Close() { Grip("GripperProxy::Close", PLAYER_GRIPPER_CMD_CLOSE); }
+void GripperProxy::Stop() { Grip("GripperProxy::Stop", PLAYER_GRIPPER_CMD_STOP); }
+void GripperProxy::Store() { Grip("GripperProxy::Store", PLAYER_GRIPPER_CMD_STORE); }
+void GripperProxy::Retrieve() { Grip("GripperProxy::Retrieve", PLAYER_GRIPPER_CMD_RETRIEVE); }
+
+uint32_t GripperProxy::GetOuterBreakBeam() const { return (GetBeams() & kOuterBeam) != 0 ? 1 : 0; }
+uint32_t GripperProxy::GetInnerBreakBeam() const { return (GetBeams() & kInnerBeam) != 0 ? 1 : 0; }
+uint32_t GripperProxy::GetPaddlesOpen() const {
+  return GetState() == PLAYER_GRIPPER_STATE_OPEN ? 1 : 0;
+}
+uint32_t GripperProxy::GetPaddlesClosed() const {
+  return GetState() == PLAYER_GRIPPER_STATE_CLOSED ? 1 : 0;
+}
+uint32_t GripperProxy::GetPaddlesMoving() const {
+  return GetState() == PLAYER_GRIPPER_STATE_MOVING ? 1 : 0;
+}
+uint32_t GripperProxy::GetGripperError() const {
+  return GetState() == PLAYER_GRIPPER_STATE_ERROR ? 1 : 0;
+}
+
+void GripperProxy::SetGrip(uint8_t aCmd, uint8_t /*aArg*/) {
+  const char* fun = "GripperProxy::SetGrip";
+  switch (aCmd) {  // as the Pioneers' manuals number them
+    case 1:
+      return Grip(fun, PLAYER_GRIPPER_CMD_OPEN);
+    case 2:
+      return Grip(fun, PLAYER_GRIPPER_CMD_CLOSE);
+    case 3:
+    case 15:
+      return Grip(fun, PLAYER_GRIPPER_CMD_STOP);
+    case 7:
+      return Grip(fun, PLAYER_GRIPPER_CMD_STORE);
+    case 8:
+      return Grip(fun, PLAYER_GRIPPER_CMD_RETRIEVE);
+    case 4:
+    case 5:
+    case 6:
+    case 16:
+    case 17:
+      throw PlayerError(fun, "this gripper has no lift, and its pressure cannot be set",
+                        PlayerError::kNotAvailable);
+    default:
+      throw PlayerError(fun, "there is no command " + std::to_string(aCmd) + " of a gripper",
+                        PlayerError::kBadArgument);
+  }
+}
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::GripperProxy& c) {
+  const char* state = c.GetPaddlesOpen() != 0     ? "open"
+                      : c.GetPaddlesClosed() != 0 ? "closed"
+                      : c.GetPaddlesMoving() != 0 ? "moving"
+                      : c.GetGripperError() != 0  ? "error"
+                                                  : "unknown";
+  return os << '#' << static_cast<const PlayerCc::ClientProxy&>(c)
+            << "\n#state\touter beam\tinner beam\tstored\n"
+            << state << '\t' << c.GetOuterBreakBeam() << '\t' << c.GetInnerBreakBeam() << '\t'
+            << c.GetStored() << '\n';
+}
+
+}  // namespace std

@@ -1,0 +1,93 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <ostream>
+#include <string>
+
+#include "devices/errors.h"
+#include "libplayerc++/ptzproxy.h"
+#include "proxies/link.h"
+#include "sim/devices/ptz.h"
+
+namespace PlayerCc {
+namespace {
+
+void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId device,
+          const sim::Command& command) {
+  playerlike::translated(fun, [&] { core.session().send(device, command); });
+}
+
+}  // namespace
+
+PtzProxy::PtzProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
+  PtzProxy::Subscribe(aIndex);
+}
+
+PtzProxy::~PtzProxy() { PtzProxy::Unsubscribe(); }
+
+void PtzProxy::Subscribe(uint32_t aIndex) {
+  const char* fun = "PtzProxy::PtzProxy";
+  Attach(PLAYER_PTZ_CODE, aIndex, fun);
+  const scoped_lock_t lock(LockData(fun));
+  mState.zoom = mLink->property("field_of_view_max", 0.0);
+}
+
+void PtzProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+
+void PtzProxy::HandleReading(const detail::Reading& aReading) {
+  const auto* reading = dynamic_cast<const sim::PtzReading*>(&aReading.measured);
+  if (reading == nullptr) return;
+  mState = {reading->pan_rad, reading->tilt_rad, reading->view_rad, reading->moving};
+}
+
+bool PtzProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
+  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_PTZ_DATA_STATE) ||
+         (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_PTZ_CMD_STATE) ||
+         (aType == PLAYER_MSGTYPE_REQ &&
+          (aSubtype == PLAYER_PTZ_REQ_CONTROL_MODE || aSubtype == PLAYER_PTZ_REQ_STATUS));
+}
+
+void PtzProxy::SetCam(double aPan, double aTilt, double aZoom) {
+  SetCam(aPan, aTilt, aZoom, 0.0, 0.0);
+}
+
+void PtzProxy::SetCam(double aPan, double aTilt, double aZoom, double aPanSpeed,
+                      double aTiltSpeed) {
+  const char* fun = "PtzProxy::SetCam";
+  const scoped_lock_t lock(LockData(fun));
+  send(fun, *mLink->core, mLink->binding.reading,
+       sim::PointCommand{aPan, aTilt, aZoom, aPanSpeed, aTiltSpeed});
+}
+
+void PtzProxy::SetSpeed(double aPanSpeed, double aTiltSpeed, double aZoomSpeed) {
+  const char* fun = "PtzProxy::SetSpeed";
+  const scoped_lock_t lock(LockData(fun));
+  send(fun, *mLink->core, mLink->binding.reading,
+       sim::PanCommand{aPanSpeed, aTiltSpeed, aZoomSpeed});
+}
+
+void PtzProxy::SelectControlMode(uint32_t aMode) {
+  const char* fun = "PtzProxy::SelectControlMode";
+  const scoped_lock_t lock(LockData(fun));
+  if (aMode == PLAYER_PTZ_POSITION_CONTROL || aMode == PLAYER_PTZ_VELOCITY_CONTROL) return;
+  throw PlayerError(fun,
+                    "a control mode is PLAYER_PTZ_POSITION_CONTROL or PLAYER_PTZ_VELOCITY_CONTROL,"
+                    " but is " +
+                        std::to_string(aMode),
+                    PlayerError::kBadArgument);
+}
+
+double PtzProxy::GetPan() const { return GetVar(mState.pan); }
+double PtzProxy::GetTilt() const { return GetVar(mState.tilt); }
+double PtzProxy::GetZoom() const { return GetVar(mState.zoom); }
+int PtzProxy::GetStatus() { return GetVar(mState.moving) ? 1 : 0; }
+
+}  // namespace PlayerCc
+
+namespace std {
+
+std::ostream& operator<<(std::ostream& os, const PlayerCc::PtzProxy& c) {
+  return os << '#' << static_cast<const PlayerCc::ClientProxy&>(c)
+            << "\n#pan [rad]\ttilt [rad]\tzoom [rad]\n"
+            << c.GetPan() << '\t' << c.GetTilt() << '\t' << c.GetZoom() << '\n';
+}
+
+}  // namespace std

@@ -1,0 +1,59 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/devices/device.h"
+#include "sim/devices/view.h"
+
+namespace sim {
+
+class ColumnView;
+
+/// Settings of a camera.
+struct CameraParams : ViewParams {
+  double frequency_hz = 10.0;  ///< pictures a second, (0, 1000]
+};
+
+/// A picture: red, green and blue of each pixel, row by row from the top.
+struct CameraReading final : Reading {
+  int width = 0;                     ///< [pixels]
+  int height = 0;                    ///< [pixels]
+  std::vector<std::uint8_t> pixels;  ///< width * height * 3
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<CameraReading>(*this);
+  }
+};
+
+/// Brightness of what a camera sees at a depth: 1 - 0.6 depth / range_max, and 0.4 beyond.
+[[nodiscard]] double brightness(double depth_m, double range_max_m);
+
+/// Takes pictures (PinholeView) of floor, walls, obstacles and robots in the colours that they have
+/// in the pictures of a run, darker with brightness(). Sides whose normal points along W's x axis
+/// are lighter than those along its y axis, by 0.85 + 0.15 cos(2 yaw), as by windows on two sides.
+/// What lies on the floor, docks and drawings, is not seen.
+class Camera final : public Sensor {
+ public:
+  Camera(std::string name, const CameraParams& params);
+  ~Camera() override;
+
+  [[nodiscard]] const CameraReading& reading() const noexcept override { return reading_; }
+  std::optional<std::string> connect(std::string_view robot,
+                                     const DeviceDirectory& devices) override;
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  std::unique_ptr<ColumnView> view_;
+  CameraReading reading_;
+};
+
+}  // namespace sim

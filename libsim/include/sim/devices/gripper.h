@@ -1,0 +1,128 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/core/time.h"
+#include "sim/devices/device.h"
+
+namespace sim {
+
+/// Settings of a gripper; size and speed are those of Stage's first one (model_gripper).
+struct GripperParams {
+  double frequency_hz = 10.0;  ///< (0, 1000]
+  /// Where the paddles begin, half-way between them; they point along x. None: the middle of the
+  /// robot's front.
+  std::optional<Pose> X_BG;
+  double length_m = 0.12;      ///< of a paddle, > 0 [m]
+  double thickness_m = 0.03;   ///< of a paddle, >= 0 [m]
+  double opening_m = 0.22;     ///< between the open paddles, > 0 [m]
+  double height_m = 0.05;      ///< of paddles and beams above the floor [m]; what is not higher is
+                               ///< neither felt nor taken
+  double travel_time_s = 2.0;  ///< from open to closed, and back, > 0 [s]
+  int capacity = 0;            ///< of the store, 0..kMaxStored
+  static constexpr int kMaxStored = 100;
+};
+
+/// What the paddles do.
+enum class GripperState {
+  kOpen,    ///< as far as they can, or stopped on the way
+  kClosed,  ///< they hold something, or have met
+  kMoving,  ///< opening or closing
+  kError,  ///< something that cannot be taken stopped them, or what they hold has no room to be put
+           ///< down; until the next command that they can follow
+};
+
+/// "open", "closed", "moving" or "error".
+[[nodiscard]] std::string_view to_string(GripperState state) noexcept;
+
+/// What a gripper tells.
+struct GripperReading final : Reading {
+  GripperState state = GripperState::kOpen;
+  bool outer_beam = false;  ///< the beam near the paddles' tips is broken
+  bool inner_beam = false;  ///< that near the robot is
+  bool holding = false;     ///< something is between the paddles, and moves with the robot
+  int stored = 0;           ///< things in the store
+  double gap_m = 0.0;       ///< between the paddles now [m]
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<GripperReading>(*this);
+  }
+};
+
+/// The part of a box that lies in a strip across the gripper: how far it reaches.
+///
+/// Frames: G gripper; T thing, its middle and own axes.
+/// @param X_GT     pose of the box in G.
+/// @param size_m   of the box along its own axes [m].
+/// @param from_m, to_m  the strip is from_m <= x <= to_m in G [m].
+/// @return least and greatest y in G [m]; nullopt if no part lies in the strip.
+[[nodiscard]] std::optional<std::pair<double, double>> reach_across(const Pose& X_GT,
+                                                                    const Vec2& size_m,
+                                                                    double from_m, double to_m);
+
+/// Two paddles before the robot, with two break beams between them.
+///
+/// Takes GripCommand. Closing, the paddles move towards each other until one of them touches an
+/// obstacle that is `portable` and stands between them: it is taken as it stands, and carried
+/// (RobotControl::pick_up). Opening puts it down. The paddles themselves are in nobody's way.
+/// The outer beam lies at three quarters of the paddles' length, the inner one at a quarter, as
+/// Stage's.
+/// While the robot is suspended, or the device switched off, the paddles stand still.
+class Gripper final : public Sensor {
+ public:
+  /// @param X_BG  where the paddles begin, in place of params.X_BG.
+  Gripper(std::string name, const GripperParams& params, const Pose& X_BG);
+
+  [[nodiscard]] const GripperParams& params() const noexcept { return params_; }
+  [[nodiscard]] const Pose& X_BG() const noexcept { return X_BG_; }
+  [[nodiscard]] const GripperReading& reading() const noexcept override { return reading_; }
+  /// Between the paddles now [m].
+  [[nodiscard]] double gap_m() const noexcept;
+  /// Outlines of both paddles now, left and right, in B [m].
+  [[nodiscard]] std::vector<std::vector<Vec2>> paddles() const;
+
+  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  void act(RobotControl& robot) override;
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  enum class Motion { kStill, kOpening, kClosing };
+  // A thing between the paddles, or in the store with how it was held before.
+  struct Held {
+    int obstacle;
+    Pose X_BT;
+    SimTime closed_ns;
+  };
+
+  [[nodiscard]] GripperState state() const noexcept;
+  [[nodiscard]] double gap_at(SimTime closed_ns) const noexcept;
+  std::optional<std::string> open(RobotControl& robot);
+  std::optional<std::string> store(RobotControl& robot);
+  std::optional<std::string> retrieve(RobotControl& robot);
+  void close_further(RobotControl& robot, const StepContext& now);
+  void forget_lost(const StepContext& now);
+  [[nodiscard]] bool is_stopped_at(const StepContext& now, double gap_m) const;
+  [[nodiscard]] bool is_broken(const StepContext& now, double x_m) const;
+
+  GripperParams params_;
+  Pose X_BG_;
+  SimTime travel_ns_;
+  SimTime closed_ns_ = 0;  // how much of travel_ns_ the paddles have closed: 0 is open
+  Motion motion_ = Motion::kStill;
+  bool fault_ = false;
+  std::optional<Held> held_;
+  std::vector<Held> stored_;  // the newest last
+  GripperReading reading_;
+};
+
+}  // namespace sim

@@ -1,0 +1,117 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "devices/column_view.h"
+#include "sim/world/description.h"
+
+namespace sim {
+namespace {
+
+// As in the pictures of a run.
+constexpr Colour kFloor{0xfc, 0xfb, 0xf8};
+constexpr Colour kBorder{0x8c, 0x5e, 0x3c};
+constexpr Colour kStatic{0xcd, 0xd1, 0xd6};
+constexpr Colour kDynamic{0xd6, 0x45, 0x41};
+constexpr Colour kWall{0x45, 0x4b, 0x54};
+// Above all that.
+constexpr Colour kAir{0xdc, 0xe8, 0xf2};
+
+Colour colour_of(const PhysicsWorld::Face& face, const WorldDescription& world) {
+  using Kind = PhysicsWorld::Contact::Kind;
+  const auto index = static_cast<std::size_t>(face.index);
+  switch (face.kind) {
+    case Kind::kRobot:
+      return world.robots[index].colour;
+    case Kind::kObstacle: {
+      const ObstacleDescription& o = world.arena.obstacles[index];
+      return o.colour.value_or(o.type == ObstacleType::kDynamic ? kDynamic : kStatic);
+    }
+    case Kind::kWall:
+      return kWall;
+    case Kind::kBorder:
+    case Kind::kSeparator:
+      break;
+  }
+  return kBorder;
+}
+
+Colour scaled(const Colour& colour, double factor) {
+  const auto channel = [factor](std::uint8_t value) {
+    return static_cast<std::uint8_t>(std::lround(factor * value));
+  };
+  return {channel(colour.r), channel(colour.g), channel(colour.b), 255};
+}
+
+// Light that falls on an upright face.
+double side_light(const PhysicsWorld::Face& face) {
+  const Vec2 e = face.p_WC - face.p_WA;
+  // cos(2 yaw) of the normal, which is a quarter turn from e.
+  const double cos2 = (e.y() * e.y() - e.x() * e.x()) / e.squaredNorm();
+  return 0.85 + 0.15 * cos2;
+}
+
+}  // namespace
+
+double brightness(double depth_m, double range_max_m) {
+  return 1.0 - 0.6 * std::clamp(depth_m / range_max_m, 0.0, 1.0);
+}
+
+Camera::Camera(std::string name, const CameraParams& params)
+    : Sensor(std::move(name), "camera", params.frequency_hz),
+      view_(std::make_unique<ColumnView>(params)) {
+  reading_.width = params.width;
+  reading_.height = params.height;
+}
+
+Camera::~Camera() = default;
+
+std::optional<std::string> Camera::connect(std::string_view robot, const DeviceDirectory& devices) {
+  return view_->connect(robot, devices);
+}
+
+void Camera::measure(const StepContext& context) {
+  stamp(context, reading_);
+  view_->look(context);
+  const ViewParams& params = view_->params();
+  const PinholeView& pinhole = view_->pinhole();
+  const auto width = static_cast<std::size_t>(params.width);
+  reading_.pixels.resize(width * static_cast<std::size_t>(params.height) * 3);
+  const auto put = [this](std::size_t pixel, const Colour& colour) {
+    reading_.pixels[3 * pixel] = colour.r;
+    reading_.pixels[3 * pixel + 1] = colour.g;
+    reading_.pixels[3 * pixel + 2] = colour.b;
+  };
+
+  const double horizon_px = pinhole.row_px(1.0, 0.0);
+  for (int row = 0; row < params.height; ++row) {
+    const double below_px = row + 0.5 - horizon_px;
+    const Colour colour =
+        below_px > 0.0 ? scaled(kFloor, brightness(pinhole.focal_px() * params.height_m / below_px,
+                                                   params.range_max_m))
+                       : kAir;
+    const std::size_t first = static_cast<std::size_t>(row) * width;
+    for (std::size_t column = 0; column < width; ++column) put(first + column, colour);
+  }
+  for (const ColumnView::Run& run : view_->runs()) {
+    const PhysicsWorld::Face& face = view_->faces()[run.face];
+    const double slope = pinhole.slope(run.column);
+    const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
+    const double light =
+        brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
+    const Colour colour = scaled(colour_of(face, context.world), light);
+    for (int row = run.top; row < run.bottom; ++row) {
+      put(static_cast<std::size_t>(row) * width + static_cast<std::size_t>(run.column), colour);
+    }
+  }
+}
+
+void Camera::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add_bytes(reading_.pixels.data(), reading_.pixels.size());
+}
+
+}  // namespace sim

@@ -1,0 +1,159 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "devices/column_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+namespace sim {
+namespace {
+
+// Nearer than this nothing is seen.
+constexpr double kNear_m = 1e-3;
+
+// The smallest box round what a view may see.
+std::pair<Vec2, Vec2> box_round(const Pose& X_WS, double view_rad, double range_m) {
+  Vec2 low = X_WS.position();
+  Vec2 high = low;
+  const auto take_in = [&](double yaw_rad) {
+    const Vec2 p = X_WS.position() + range_m * Vec2(std::cos(yaw_rad), std::sin(yaw_rad));
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  };
+  take_in(X_WS.yaw_rad - 0.5 * view_rad);
+  take_in(X_WS.yaw_rad + 0.5 * view_rad);
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double yaw_rad = 0.5 * std::numbers::pi * quarter;
+    if (std::abs(normalize_angle(yaw_rad - X_WS.yaw_rad)) <= 0.5 * view_rad) take_in(yaw_rad);
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+double PinholeView::focal_px() const { return 0.5 * width / std::tan(0.5 * field_of_view_rad); }
+
+double PinholeView::slope(int column) const { return (0.5 * width - (column + 0.5)) / focal_px(); }
+
+double PinholeView::row_px(double depth_m, double rise_m) const {
+  return 0.5 * height + focal_px() * (std::tan(tilt_rad) - rise_m / depth_m);
+}
+
+std::optional<std::string> ColumnView::connect(std::string_view robot,
+                                               const DeviceDirectory& devices) {
+  if (params_.ptz.empty()) return std::nullopt;
+  head_ = dynamic_cast<const Ptz*>(devices.find(robot, params_.ptz));
+  if (head_ != nullptr) return std::nullopt;
+  return "a device of type \"ptz\" with the name \"" + params_.ptz + "\" on robot " +
+         std::string(robot);
+}
+
+void ColumnView::look(const StepContext& context) {
+  Pose X_BS = params_.X_BS;
+  pinhole_ = {params_.width, params_.height, params_.field_of_view_rad, 0.0};
+  if (head_ != nullptr) {
+    X_BS.yaw_rad += head_->pan_rad();
+    pinhole_.field_of_view_rad = head_->view_rad();
+    pinhole_.tilt_rad = head_->tilt_rad();
+  }
+  X_WS_ = context.body.X_WB * X_BS;
+  const auto [low, high] = box_round(X_WS_, pinhole_.field_of_view_rad, params_.range_max_m);
+  context.physics.collect_faces(low, high, context.robot, faces_);
+  hits_.clear();
+  runs_.clear();
+  for (std::size_t i = 0; i < faces_.size(); ++i) meet(i);
+  std::sort(hits_.begin(), hits_.end(),
+            [this](const Hit& a, const Hit& b) { return before(a, b); });
+  for (std::size_t first = 0; first < hits_.size();) {
+    std::size_t last = first;
+    while (last < hits_.size() && hits_[last].column == hits_[first].column) ++last;
+    paint({hits_.data() + first, last - first});
+    first = last;
+  }
+}
+
+// Whatever the order in which faces were collected, that of hits is one.
+bool ColumnView::before(const Hit& a, const Hit& b) const {
+  const auto key = [this](const Hit& hit) {
+    const PhysicsWorld::Face& face = faces_[hit.face];
+    return std::make_tuple(hit.column, hit.depth_m, hit.back, -face.height_m,
+                           static_cast<int>(face.kind), face.index, face.p_WA.x(), face.p_WA.y());
+  };
+  return key(a) < key(b);
+}
+
+// Sweeps a face over the columns that it spans, in S. On the line through A and C a ray of slope t
+// is at depth x = (A x C) / (e_y - e_x t), e = C - A.
+void ColumnView::meet(std::size_t index) {
+  const PhysicsWorld::Face& face = faces_[index];
+  const double c = std::cos(X_WS_.yaw_rad);
+  const double s = std::sin(X_WS_.yaw_rad);
+  const auto in_sensor = [&](const Vec2& p_W) {
+    const Vec2 d = p_W - X_WS_.position();
+    return Vec2(c * d.x() + s * d.y(), c * d.y() - s * d.x());
+  };
+  const Vec2 a = in_sensor(face.p_WA);
+  const Vec2 b = in_sensor(face.p_WC);
+  if (a.x() < kNear_m && b.x() < kNear_m) return;
+  const double cross = a.x() * b.y() - a.y() * b.x();
+  if (cross == 0.0) return;
+  // With the solid on its left, a face that looks at the lens has it on its right.
+  const bool back = cross > 0.0;
+  if (back && face.height_m >= params_.height_m) return;  // no lid to be seen
+  const Vec2 e = b - a;
+  const auto slope_at = [&](const Vec2& end, const Vec2& other) {
+    if (end.x() >= kNear_m) return end.y() / end.x();
+    const Vec2 cut = end + (kNear_m - end.x()) / (other.x() - end.x()) * (other - end);
+    return cut.y() / cut.x();
+  };
+  const double slope_a = slope_at(a, b);
+  const double slope_b = slope_at(b, a);
+  // Column middles from one slope to the other, the left end included: where faces share a corner
+  // each column belongs to one of them.
+  const double focal_px = pinhole_.focal_px();
+  const double middle = 0.5 * pinhole_.width - 0.5;
+  const double left = std::ceil(middle - focal_px * std::max(slope_a, slope_b));
+  const double right = std::ceil(middle - focal_px * std::min(slope_a, slope_b));
+  const int first = static_cast<int>(std::clamp<double>(left, 0.0, pinhole_.width));
+  const int end = static_cast<int>(std::clamp<double>(right, 0.0, pinhole_.width));
+  const double nearest = std::max(kNear_m, std::min(a.x(), b.x()));
+  const double farthest = std::max(a.x(), b.x());
+  for (int column = first; column < end; ++column) {
+    const double slope = (middle - column) / focal_px;
+    const double depth = std::clamp(cross / (e.y() - e.x() * slope), nearest, farthest);
+    if (depth * std::sqrt(1.0 + slope * slope) > params_.range_max_m) continue;
+    hits_.push_back({column, depth, back, index});
+  }
+}
+
+// One column, from near to far and so from the bottom up.
+void ColumnView::paint(std::span<const Hit> hits) {
+  const int column = hits.front().column;
+  const double slope = pinhole_.slope(column);
+  const double stretch = std::sqrt(1.0 + slope * slope);
+  const auto row = [&](double depth_m, double rise_m) {
+    const double edge = std::ceil(pinhole_.row_px(depth_m, rise_m) - 0.5);
+    return static_cast<int>(std::clamp<double>(edge, 0.0, pinhole_.height));
+  };
+  int taken = pinhole_.height;  // rows from here down
+  for (const Hit& hit : hits) {
+    const PhysicsWorld::Face& face = faces_[hit.face];
+    const int top = row(hit.depth_m, face.height_m - params_.height_m);
+    // A lid begins where its thing's front ends, which is what was painted last; a front stands on
+    // the floor.
+    const int bottom = hit.back ? taken : std::min(taken, row(hit.depth_m, -params_.height_m));
+    if (top >= bottom) continue;
+    double range_m = hit.depth_m * stretch;
+    if (hit.back && !runs_.empty() && runs_.back().column == column) {
+      const PhysicsWorld::Face& front = faces_[runs_.back().face];
+      if (front.kind == face.kind && front.index == face.index) range_m = runs_.back().range_m;
+    }
+    runs_.push_back({column, top, bottom, hit.face, hit.back, range_m});
+    taken = top;
+    if (taken == 0) return;
+  }
+}
+
+}  // namespace sim

@@ -1,0 +1,281 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/devices/gripper.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "physics/physics_world.h"
+#include "sim/world/description.h"
+
+namespace sim {
+namespace {
+
+// Of the paddles' length, from where they begin; as Stage has them, a quarter from either end.
+constexpr double kInnerBeam = 0.25;
+constexpr double kOuterBeam = 0.75;
+
+// What sticks out so little beyond the open paddles still fits between them.
+constexpr double kFits_m = 1e-9;
+
+// No solid is left out of a look along a line.
+constexpr PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
+
+Pose pose_of(const ObstacleDescription& thing) {
+  return {thing.center.x(), thing.center.y(), thing.yaw_rad};
+}
+
+}  // namespace
+
+std::string_view to_string(GripperState state) noexcept {
+  switch (state) {
+    case GripperState::kOpen:
+      return "open";
+    case GripperState::kClosed:
+      return "closed";
+    case GripperState::kMoving:
+      return "moving";
+    case GripperState::kError:
+      break;
+  }
+  return "error";
+}
+
+std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Vec2& size_m,
+                                                      double from_m, double to_m) {
+  const Vec2 half = 0.5 * size_m;
+  const std::array<Vec2, 4> corners = {
+      X_GT * Vec2(half.x(), half.y()), X_GT * Vec2(-half.x(), half.y()),
+      X_GT * Vec2(-half.x(), -half.y()), X_GT * Vec2(half.x(), -half.y())};
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  const auto note = [&](double y) {
+    least = std::min(least, y);
+    greatest = std::max(greatest, y);
+  };
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& a = corners[i];
+    const Vec2& b = corners[(i + 1) % corners.size()];
+    if (a.x() >= from_m && a.x() <= to_m) note(a.y());
+    for (const double x : {from_m, to_m}) {
+      if ((a.x() < x) == (b.x() < x)) continue;
+      note(a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
+    }
+  }
+  if (least > greatest) return std::nullopt;
+  return std::pair(least, greatest);
+}
+
+Gripper::Gripper(std::string name, const GripperParams& params, const Pose& X_BG)
+    : Sensor(std::move(name), "gripper", params.frequency_hz),
+      params_(params),
+      X_BG_(X_BG),
+      travel_ns_(std::max<SimTime>(1, from_seconds(params.travel_time_s))) {}
+
+double Gripper::gap_at(SimTime closed_ns) const noexcept {
+  const double open = static_cast<double>(travel_ns_ - closed_ns) / static_cast<double>(travel_ns_);
+  return params_.opening_m * open;
+}
+
+double Gripper::gap_m() const noexcept { return gap_at(closed_ns_); }
+
+std::vector<std::vector<Vec2>> Gripper::paddles() const {
+  const double inner = 0.5 * gap_m();
+  const double outer = inner + params_.thickness_m;
+  std::vector<std::vector<Vec2>> outlines;
+  for (const double side : {1.0, -1.0}) {
+    outlines.push_back(
+        {X_BG_ * Vec2(0.0, side * inner), X_BG_ * Vec2(params_.length_m, side * inner),
+         X_BG_ * Vec2(params_.length_m, side * outer), X_BG_ * Vec2(0.0, side * outer)});
+  }
+  return outlines;
+}
+
+GripperState Gripper::state() const noexcept {
+  if (fault_) return GripperState::kError;
+  if (motion_ != Motion::kStill) return GripperState::kMoving;
+  const bool closed = held_.has_value() || closed_ns_ == travel_ns_;
+  return closed ? GripperState::kClosed : GripperState::kOpen;
+}
+
+std::optional<std::string> Gripper::carry_out(const Command& command, RobotControl& robot) {
+  const auto* grip = std::get_if<GripCommand>(&command);
+  if (grip == nullptr) return apply(command);
+  forget_lost(robot.context());
+  switch (grip->action) {
+    case GripCommand::Action::kOpen:
+      return open(robot);
+    case GripCommand::Action::kClose:
+      fault_ = false;
+      if (!held_) motion_ = Motion::kClosing;
+      return std::nullopt;
+    case GripCommand::Action::kStop:
+      motion_ = Motion::kStill;
+      return std::nullopt;
+    case GripCommand::Action::kStore:
+      return store(robot);
+    case GripCommand::Action::kRetrieve:
+      break;
+  }
+  return retrieve(robot);
+}
+
+std::optional<std::string> Gripper::open(RobotControl& robot) {
+  if (held_) {
+    if (auto refusal = robot.put_down(held_->obstacle)) {
+      fault_ = true;
+      return "gripper " + name() + " cannot open: " + *refusal;
+    }
+    held_.reset();
+  }
+  fault_ = false;
+  motion_ = Motion::kOpening;
+  return std::nullopt;
+}
+
+std::optional<std::string> Gripper::store(RobotControl& robot) {
+  if (!held_) return "gripper " + name() + " holds nothing that it could store";
+  if (stored_.size() >= static_cast<std::size_t>(params_.capacity)) {
+    return "the store of gripper " + name() + " holds " + std::to_string(params_.capacity) +
+           " things at most";
+  }
+  robot.carry_at(held_->obstacle, Pose{}, true);
+  stored_.push_back(*held_);
+  held_.reset();
+  fault_ = false;
+  motion_ = Motion::kOpening;
+  return std::nullopt;
+}
+
+std::optional<std::string> Gripper::retrieve(RobotControl& robot) {
+  if (stored_.empty()) return "the store of gripper " + name() + " is empty";
+  if (held_) return "gripper " + name() + " holds something, so it can take nothing from its store";
+  held_ = stored_.back();
+  stored_.pop_back();
+  closed_ns_ = held_->closed_ns;
+  fault_ = false;
+  motion_ = Motion::kStill;
+  robot.carry_at(held_->obstacle, held_->X_BT, false);
+  return std::nullopt;
+}
+
+// Somebody else may have put elsewhere what it had.
+void Gripper::forget_lost(const StepContext& now) {
+  const auto is_lost = [&](const Held& held) {
+    return now.world.arena.obstacles[static_cast<std::size_t>(held.obstacle)].carried_by !=
+           now.robot;
+  };
+  if (held_ && is_lost(*held_)) held_.reset();
+  std::erase_if(stored_, is_lost);
+}
+
+void Gripper::act(RobotControl& robot) {
+  if (motion_ == Motion::kStill) return;
+  const StepContext now = robot.context();
+  if (motion_ == Motion::kClosing) {
+    close_further(robot, now);
+    return;
+  }
+  closed_ns_ = std::max<SimTime>(0, closed_ns_ - now.world.simulation.step_ns);
+  if (closed_ns_ == 0) motion_ = Motion::kStill;
+}
+
+void Gripper::close_further(RobotControl& robot, const StepContext& now) {
+  const SimTime next_ns = std::min(travel_ns_, closed_ns_ + now.world.simulation.step_ns);
+  const double before_m = 0.5 * gap_m() + kFits_m;  // of the paddles' inner sides from the middle
+  const double after_m = 0.5 * gap_at(next_ns);
+  const Pose X_GW = (now.body.X_WB * X_BG_).inverse();
+  // Of what a paddle touches in this step, that which reaches farthest out.
+  int touched = -1;
+  double farthest_m = 0.0;
+  bool fits = true;
+  const auto& things = now.world.arena.obstacles;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const ObstacleDescription& thing = things[i];
+    if (!thing.portable || thing.carried_by >= 0 || thing.state != ObstacleState::kExtended ||
+        thing.height_m <= params_.height_m) {
+      continue;
+    }
+    const auto reach = reach_across(X_GW * pose_of(thing), thing.size, 0.0, params_.length_m);
+    if (!reach) continue;
+    const auto& [right_m, left_m] = *reach;
+    if (right_m > before_m || left_m < -before_m) continue;  // beyond a paddle
+    const double out_m = std::max(left_m, -right_m);
+    if (out_m < after_m || out_m < farthest_m) continue;
+    touched = static_cast<int>(i);
+    farthest_m = out_m;
+    fits = out_m <= before_m;
+  }
+  if (touched < 0 && !is_stopped_at(now, 2.0 * after_m)) {
+    closed_ns_ = next_ns;
+    if (closed_ns_ == travel_ns_) motion_ = Motion::kStill;
+    return;
+  }
+  motion_ = Motion::kStill;
+  if (touched < 0 || !fits || robot.pick_up(touched)) {
+    fault_ = true;
+    return;
+  }
+  const double share = std::clamp(1.0 - 2.0 * farthest_m / params_.opening_m, 0.0, 1.0);
+  closed_ns_ = std::max(
+      closed_ns_, static_cast<SimTime>(std::llround(share * static_cast<double>(travel_ns_))));
+  held_ =
+      Held{touched, now.body.X_WB.inverse() * pose_of(things[static_cast<std::size_t>(touched)]),
+           closed_ns_};
+}
+
+// Whether something solid keeps the inner side of a paddle from getting to where it is at that gap.
+bool Gripper::is_stopped_at(const StepContext& now, double gap_m) const {
+  const Pose X_WG = now.body.X_WB * X_BG_;
+  for (const double side : {0.5, -0.5}) {
+    const Vec2 p_WA = X_WG * Vec2(0.0, side * gap_m);
+    const Vec2 p_WC = X_WG * Vec2(params_.length_m, side * gap_m);
+    if (now.physics.is_inside_solid(p_WA, params_.height_m, now.robot) ||
+        !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, kNothing)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Whether something breaks the beam across the gap at x in G.
+bool Gripper::is_broken(const StepContext& now, double x_m) const {
+  const double half_m = 0.5 * gap_m();
+  const Pose X_WG = now.body.X_WB * X_BG_;
+  if (held_) {
+    const auto& thing = now.world.arena.obstacles[static_cast<std::size_t>(held_->obstacle)];
+    const auto reach = reach_across(X_BG_.inverse() * held_->X_BT, thing.size, x_m, x_m);
+    if (reach && reach->first <= half_m && reach->second >= -half_m) return true;
+  }
+  const Vec2 p_WA = X_WG * Vec2(x_m, half_m);
+  const Vec2 p_WC = X_WG * Vec2(x_m, -half_m);
+  return now.physics.is_inside_solid(p_WA, params_.height_m, now.robot) ||
+         !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, kNothing);
+}
+
+void Gripper::measure(const StepContext& context) {
+  forget_lost(context);
+  stamp(context, reading_);
+  reading_.state = state();
+  reading_.outer_beam = is_broken(context, kOuterBeam * params_.length_m);
+  reading_.inner_beam = is_broken(context, kInnerBeam * params_.length_m);
+  reading_.holding = held_.has_value();
+  reading_.stored = static_cast<int>(stored_.size());
+  reading_.gap_m = gap_m();
+}
+
+void Gripper::hash(StateHash& hash) const {
+  Sensor::hash(hash);
+  hash.add(closed_ns_);
+  hash.add(static_cast<std::uint64_t>(motion_));
+  hash.add(fault_);
+  hash.add(static_cast<std::uint64_t>(held_ ? held_->obstacle + 1 : 0));
+  for (const Held& held : stored_) {
+    hash.add(static_cast<std::uint64_t>(held.obstacle));
+    hash.add(held.closed_ns);
+  }
+}
+
+}  // namespace sim
