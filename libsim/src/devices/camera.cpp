@@ -84,9 +84,10 @@ void Camera::measure(const StepContext& context) {
     paint_background();
   }
   reading_.pixels = background_;
+  const double focal_px = pinhole.focal_px();
   for (const ColumnView::Run& run : view_->runs()) {
     const PhysicsWorld::Face& face = view_->faces()[run.face];
-    const double slope = pinhole.slope(run.column);
+    const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
         brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));

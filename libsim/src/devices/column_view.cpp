@@ -58,6 +58,8 @@ void ColumnView::look(const StepContext& context) {
     pinhole_.field_of_view_rad = head_->view_rad();
     pinhole_.tilt_rad = head_->tilt_rad();
   }
+  focal_px_ = pinhole_.focal_px();
+  horizon_px_ = pinhole_.row_px(1.0, 0.0);
   X_WS_ = context.body.X_WB * X_BS;
   const auto [low, high] = box_round(X_WS_, pinhole_.field_of_view_rad, params_.range_max_m);
   context.physics.collect_faces(low, high, context.robot, faces_);
@@ -120,16 +122,15 @@ void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
   const double slope_b = slope_at(b, a);
   // Column middles from one slope to the other, the left end included: where faces share a corner
   // each column belongs to one of them.
-  const double focal_px = pinhole_.focal_px();
   const double middle = 0.5 * pinhole_.width - 0.5;
-  const double left = std::ceil(middle - focal_px * std::max(slope_a, slope_b));
-  const double right = std::ceil(middle - focal_px * std::min(slope_a, slope_b));
+  const double left = std::ceil(middle - focal_px_ * std::max(slope_a, slope_b));
+  const double right = std::ceil(middle - focal_px_ * std::min(slope_a, slope_b));
   const int first = static_cast<int>(std::clamp<double>(left, 0.0, pinhole_.width));
   const int end = static_cast<int>(std::clamp<double>(right, 0.0, pinhole_.width));
   const double nearest = std::max(kNear_m, std::min(a.x(), b.x()));
   const double farthest = std::max(a.x(), b.x());
   for (int column = first; column < end; ++column) {
-    const double slope = (middle - column) / focal_px;
+    const double slope = (middle - column) / focal_px_;
     const double depth = std::clamp(cross / (e.y() - e.x() * slope), nearest, farthest);
     End& end_of_ray = ends_[static_cast<std::size_t>(column)];
     if (depth >= end_of_ray.depth_m) continue;
@@ -144,10 +145,10 @@ void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
 
 // One column, from near to far and so from the bottom up.
 void ColumnView::paint(int column, std::span<const Hit> hits) {
-  const double slope = pinhole_.slope(column);
+  const double slope = (0.5 * pinhole_.width - 0.5 - column) / focal_px_;
   const double stretch = std::sqrt(1.0 + slope * slope);
   const auto row = [&](double depth_m, double rise_m) {
-    const double edge = std::ceil(pinhole_.row_px(depth_m, rise_m) - 0.5);
+    const double edge = std::ceil(horizon_px_ - focal_px_ * rise_m / depth_m - 0.5);
     return static_cast<int>(std::clamp<double>(edge, 0.0, pinhole_.height));
   };
   const std::size_t before_it = runs_.size();

@@ -70,6 +70,8 @@ class ColumnView {
   ViewParams params_;
   const Ptz* head_ = nullptr;
   PinholeView pinhole_{};
+  double focal_px_ = 0.0;    // of pinhole_
+  double horizon_px_ = 0.0;  // row of what is as high as the lens
   Pose X_WS_;
   std::vector<PhysicsWorld::Face> faces_;
   std::vector<End> ends_;  // by column
