@@ -78,14 +78,38 @@ void Camera::measure(const StepContext& context) {
   view_->look(context);
   const ViewParams& params = view_->params();
   const PinholeView& pinhole = view_->pinhole();
-  const auto width = static_cast<std::size_t>(params.width);
-  reading_.pixels.resize(width * static_cast<std::size_t>(params.height) * 3);
-  const auto put = [this](std::size_t pixel, const Colour& colour) {
-    reading_.pixels[3 * pixel] = colour.r;
-    reading_.pixels[3 * pixel + 1] = colour.g;
-    reading_.pixels[3 * pixel + 2] = colour.b;
-  };
+  const auto row_bytes = static_cast<std::size_t>(params.width) * 3;
+  if (background_.empty() || pinhole.tilt_rad != background_tilt_rad_ ||
+      pinhole.field_of_view_rad != background_view_rad_) {
+    paint_background();
+  }
+  reading_.pixels = background_;
+  const double focal_px = pinhole.focal_px();
+  for (const ColumnView::Run& run : view_->runs()) {
+    const PhysicsWorld::Face& face = view_->faces()[run.face];
+    const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
+    const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
+    const double light =
+        brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
+    const Colour colour = scaled(colour_of(face, context.world), light);
+    std::uint8_t* pixel = reading_.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
+                          static_cast<std::size_t>(run.column) * 3;
+    for (int row = run.top; row < run.bottom; ++row) {
+      pixel[0] = colour.r;
+      pixel[1] = colour.g;
+      pixel[2] = colour.b;
+      pixel += row_bytes;
+    }
+  }
+}
 
+// Floor and air, which stay the same while the head does not move.
+void Camera::paint_background() {
+  const ViewParams& params = view_->params();
+  const PinholeView& pinhole = view_->pinhole();
+  background_tilt_rad_ = pinhole.tilt_rad;
+  background_view_rad_ = pinhole.field_of_view_rad;
+  background_.clear();
   const double horizon_px = pinhole.row_px(1.0, 0.0);
   for (int row = 0; row < params.height; ++row) {
     const double below_px = row + 0.5 - horizon_px;
@@ -93,18 +117,8 @@ void Camera::measure(const StepContext& context) {
         below_px > 0.0 ? scaled(kFloor, brightness(pinhole.focal_px() * params.height_m / below_px,
                                                    params.range_max_m))
                        : kAir;
-    const std::size_t first = static_cast<std::size_t>(row) * width;
-    for (std::size_t column = 0; column < width; ++column) put(first + column, colour);
-  }
-  for (const ColumnView::Run& run : view_->runs()) {
-    const PhysicsWorld::Face& face = view_->faces()[run.face];
-    const double slope = pinhole.slope(run.column);
-    const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
-    const double light =
-        brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
-    const Colour colour = scaled(colour_of(face, context.world), light);
-    for (int row = run.top; row < run.bottom; ++row) {
-      put(static_cast<std::size_t>(row) * width + static_cast<std::size_t>(run.column), colour);
+    for (int column = 0; column < params.width; ++column) {
+      background_.insert(background_.end(), {colour.r, colour.g, colour.b});
     }
   }
 }

@@ -58,50 +58,60 @@ void ColumnView::look(const StepContext& context) {
     pinhole_.field_of_view_rad = head_->view_rad();
     pinhole_.tilt_rad = head_->tilt_rad();
   }
+  focal_px_ = pinhole_.focal_px();
+  horizon_px_ = pinhole_.row_px(1.0, 0.0);
   X_WS_ = context.body.X_WB * X_BS;
   const auto [low, high] = box_round(X_WS_, pinhole_.field_of_view_rad, params_.range_max_m);
   context.physics.collect_faces(low, high, context.robot, faces_);
   hits_.clear();
   runs_.clear();
-  for (std::size_t i = 0; i < faces_.size(); ++i) meet(i);
+  ends_.assign(static_cast<std::size_t>(params_.width), {params_.range_max_m, kNothing});
+  // Walls first: most of what is there stands behind them.
+  const double cos_yaw = std::cos(X_WS_.yaw_rad);
+  const double sin_yaw = std::sin(X_WS_.yaw_rad);
+  for (const bool walls : {true, false}) {
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (std::isinf(faces_[i].height_m) == walls) meet(i, cos_yaw, sin_yaw);
+    }
+  }
   std::sort(hits_.begin(), hits_.end(),
             [this](const Hit& a, const Hit& b) { return before(a, b); });
-  for (std::size_t first = 0; first < hits_.size();) {
+  std::size_t first = 0;
+  for (int column = 0; column < params_.width; ++column) {
     std::size_t last = first;
-    while (last < hits_.size() && hits_[last].column == hits_[first].column) ++last;
-    paint({hits_.data() + first, last - first});
+    while (last < hits_.size() && hits_[last].column == column) ++last;
+    paint(column, {hits_.data() + first, last - first});
     first = last;
   }
 }
 
 // Whatever the order in which faces were collected, that of hits is one.
 bool ColumnView::before(const Hit& a, const Hit& b) const {
+  if (a.column != b.column) return a.column < b.column;
+  if (a.depth_m != b.depth_m) return a.depth_m < b.depth_m;
   const auto key = [this](const Hit& hit) {
     const PhysicsWorld::Face& face = faces_[hit.face];
-    return std::make_tuple(hit.column, hit.depth_m, hit.back, -face.height_m,
-                           static_cast<int>(face.kind), face.index, face.p_WA.x(), face.p_WA.y());
+    return std::make_tuple(hit.back, -face.height_m, static_cast<int>(face.kind), face.index,
+                           face.p_WA.x(), face.p_WA.y());
   };
   return key(a) < key(b);
 }
 
 // Sweeps a face over the columns that it spans, in S. On the line through A and C a ray of slope t
 // is at depth x = (A x C) / (e_y - e_x t), e = C - A.
-void ColumnView::meet(std::size_t index) {
+void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
   const PhysicsWorld::Face& face = faces_[index];
-  const double c = std::cos(X_WS_.yaw_rad);
-  const double s = std::sin(X_WS_.yaw_rad);
-  const auto in_sensor = [&](const Vec2& p_W) {
-    const Vec2 d = p_W - X_WS_.position();
-    return Vec2(c * d.x() + s * d.y(), c * d.y() - s * d.x());
-  };
-  const Vec2 a = in_sensor(face.p_WA);
-  const Vec2 b = in_sensor(face.p_WC);
-  if (a.x() < kNear_m && b.x() < kNear_m) return;
-  const double cross = a.x() * b.y() - a.y() * b.x();
-  if (cross == 0.0) return;
+  const double ax = face.p_WA.x() - X_WS_.x_m;
+  const double ay = face.p_WA.y() - X_WS_.y_m;
+  const double bx = face.p_WC.x() - X_WS_.x_m;
+  const double by = face.p_WC.y() - X_WS_.y_m;
   // With the solid on its left, a face that looks at the lens has it on its right.
-  const bool back = cross > 0.0;
-  if (back && face.height_m >= params_.height_m) return;  // no lid to be seen
+  const double cross = ax * by - ay * bx;
+  const bool back = cross >= 0.0;
+  if (back && (cross == 0.0 || face.height_m >= params_.height_m)) return;  // no lid to be seen
+  const Vec2 a(cos_yaw * ax + sin_yaw * ay, cos_yaw * ay - sin_yaw * ax);
+  const Vec2 b(cos_yaw * bx + sin_yaw * by, cos_yaw * by - sin_yaw * bx);
+  if (a.x() < kNear_m && b.x() < kNear_m) return;
   const Vec2 e = b - a;
   const auto slope_at = [&](const Vec2& end, const Vec2& other) {
     if (end.x() >= kNear_m) return end.y() / end.x();
@@ -112,31 +122,36 @@ void ColumnView::meet(std::size_t index) {
   const double slope_b = slope_at(b, a);
   // Column middles from one slope to the other, the left end included: where faces share a corner
   // each column belongs to one of them.
-  const double focal_px = pinhole_.focal_px();
   const double middle = 0.5 * pinhole_.width - 0.5;
-  const double left = std::ceil(middle - focal_px * std::max(slope_a, slope_b));
-  const double right = std::ceil(middle - focal_px * std::min(slope_a, slope_b));
+  const double left = std::ceil(middle - focal_px_ * std::max(slope_a, slope_b));
+  const double right = std::ceil(middle - focal_px_ * std::min(slope_a, slope_b));
   const int first = static_cast<int>(std::clamp<double>(left, 0.0, pinhole_.width));
   const int end = static_cast<int>(std::clamp<double>(right, 0.0, pinhole_.width));
   const double nearest = std::max(kNear_m, std::min(a.x(), b.x()));
   const double farthest = std::max(a.x(), b.x());
   for (int column = first; column < end; ++column) {
-    const double slope = (middle - column) / focal_px;
+    const double slope = (middle - column) / focal_px_;
     const double depth = std::clamp(cross / (e.y() - e.x() * slope), nearest, farthest);
+    End& end_of_ray = ends_[static_cast<std::size_t>(column)];
+    if (depth >= end_of_ray.depth_m) continue;
     if (depth * std::sqrt(1.0 + slope * slope) > params_.range_max_m) continue;
-    hits_.push_back({column, depth, back, index});
+    if (std::isinf(face.height_m)) {
+      end_of_ray = {depth, index};
+    } else {
+      hits_.push_back({column, depth, back, index});
+    }
   }
 }
 
 // One column, from near to far and so from the bottom up.
-void ColumnView::paint(std::span<const Hit> hits) {
-  const int column = hits.front().column;
-  const double slope = pinhole_.slope(column);
+void ColumnView::paint(int column, std::span<const Hit> hits) {
+  const double slope = (0.5 * pinhole_.width - 0.5 - column) / focal_px_;
   const double stretch = std::sqrt(1.0 + slope * slope);
   const auto row = [&](double depth_m, double rise_m) {
-    const double edge = std::ceil(pinhole_.row_px(depth_m, rise_m) - 0.5);
+    const double edge = std::ceil(horizon_px_ - focal_px_ * rise_m / depth_m - 0.5);
     return static_cast<int>(std::clamp<double>(edge, 0.0, pinhole_.height));
   };
+  const std::size_t before_it = runs_.size();
   int taken = pinhole_.height;  // rows from here down
   for (const Hit& hit : hits) {
     const PhysicsWorld::Face& face = faces_[hit.face];
@@ -146,7 +161,7 @@ void ColumnView::paint(std::span<const Hit> hits) {
     const int bottom = hit.back ? taken : std::min(taken, row(hit.depth_m, -params_.height_m));
     if (top >= bottom) continue;
     double range_m = hit.depth_m * stretch;
-    if (hit.back && !runs_.empty() && runs_.back().column == column) {
+    if (hit.back && runs_.size() > before_it) {
       const PhysicsWorld::Face& front = faces_[runs_.back().face];
       if (front.kind == face.kind && front.index == face.index) range_m = runs_.back().range_m;
     }
@@ -154,6 +169,10 @@ void ColumnView::paint(std::span<const Hit> hits) {
     taken = top;
     if (taken == 0) return;
   }
+  const End& end = ends_[static_cast<std::size_t>(column)];
+  if (end.face == kNothing) return;
+  const int foot = std::min(taken, row(end.depth_m, -params_.height_m));
+  if (foot > 0) runs_.push_back({column, 0, foot, end.face, false, end.depth_m * stretch});
 }
 
 }  // namespace sim

@@ -57,16 +57,25 @@ class ColumnView {
     bool back;  ///< it leaves the solid
     std::size_t face;
   };
-  void meet(std::size_t face);
-  void paint(std::span<const Hit> hits);
+  /// Where the ray of a column ends.
+  struct End {
+    double depth_m;
+    std::size_t face;  ///< a wall of a map, which is as high as you like; none: kNothing
+  };
+  static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
+  void meet(std::size_t face, double cos_yaw, double sin_yaw);
+  void paint(int column, std::span<const Hit> hits);
   [[nodiscard]] bool before(const Hit& a, const Hit& b) const;
 
   ViewParams params_;
   const Ptz* head_ = nullptr;
   PinholeView pinhole_{};
+  double focal_px_ = 0.0;    // of pinhole_
+  double horizon_px_ = 0.0;  // row of what is as high as the lens
   Pose X_WS_;
   std::vector<PhysicsWorld::Face> faces_;
-  std::vector<Hit> hits_;
+  std::vector<End> ends_;  // by column
+  std::vector<Hit> hits_;  // in front of those
   std::vector<Run> runs_;
 };
 

@@ -198,6 +198,25 @@ TEST(Blobfinder, AColumnInFrontCutsABlobInTwo) {
   EXPECT_EQ(blobs(simulation)[1].left, 26);
 }
 
+TEST(Blobfinder, WallsOfAMapHideWhatIsBehindThem) {
+  // A wall to the left of y = 4, 1 m away, as high as you like: of the box behind it columns from
+  // 40 on are left.
+  WorldDescription world = room(R"({"blobfinder": {"height": 0.1}, "camera": {"height": 0.1}})",
+                                box(4.2, 4, 0.4, R"(, "height": 0.3, "colour": "#f00")"));
+  world.arena.walls.push_back({{{3.0, 4.0}, {3.2, 4.0}, {3.2, 6.0}, {3.0, 6.0}}});
+  Simulation simulation(world);
+  run(simulation, 10);
+  ASSERT_THAT(blobs(simulation), SizeIs(1));
+  EXPECT_EQ(edges(blobs(simulation)[0]), (std::array{40, 46, 23, 32}));
+  // 0.95 (0x45, 0x4b, 0x54), up to the top row.
+  const CameraReading& picture = device<Camera>(simulation, "camera").reading();
+  const std::size_t pixel = 3 * 39;
+  EXPECT_EQ(picture.pixels[pixel], 66);
+  EXPECT_EQ(picture.pixels[pixel + 1], 71);
+  EXPECT_EQ(picture.pixels[pixel + 2], 80);
+  EXPECT_NE(picture.pixels[pixel + 3], 66);
+}
+
 TEST(Blobfinder, SeesWithinRangeAndWhileExtended) {
   const std::string block = box(4, 4, 0.2, R"(, "type": "dynamic", "name": "d", "colour": "#f00")");
   Simulation near_sighted(room(R"({"blobfinder": {"range_max": 1.89}})", block));

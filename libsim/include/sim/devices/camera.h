@@ -52,7 +52,12 @@ class Camera final : public Sensor {
   void measure(const StepContext& context) override;
 
  private:
+  void paint_background();
+
   std::unique_ptr<ColumnView> view_;
+  std::vector<std::uint8_t> background_;  // for a head that looks like this:
+  double background_tilt_rad_ = 0.0;
+  double background_view_rad_ = 0.0;
   CameraReading reading_;
 };
 
