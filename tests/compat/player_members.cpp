@@ -171,6 +171,9 @@ static_assert(member<bool (Position2dProxy::*)() const, &Position2dProxy::GetSta
 
 static_assert(member < double(LaserProxy::*)(uint32_t) const, &LaserProxy::operator[]> ::exists,
               "");
+static_assert(
+    member<void (PlayerClient::*)(int, int, int, int, int), &PlayerClient::SetReplaceRule>::exists,
+    "");
 static_assert(std::is_constructible<PlayerClient>::value, "");
 static_assert(std::is_constructible<PlayerClient, const char*, int>::value, "");
 static_assert(std::is_constructible<PlayerClient, std::string, uint32_t, int>::value, "");
@@ -179,8 +182,9 @@ static_assert(std::is_constructible<LaserProxy, PlayerClient*, int>::value, "");
 static_assert(std::is_constructible<Position2dProxy, PlayerClient*, uint32_t>::value, "");
 static_assert(std::is_base_of<ClientProxy, LaserProxy>::value, "");
 static_assert(std::is_base_of<ClientProxy, Position2dProxy>::value, "");
-static_assert(!std::is_copy_constructible<LaserProxy>::value, "");
-static_assert(!std::is_copy_constructible<PlayerClient>::value, "");
+static_assert(std::is_copy_constructible<LaserProxy>::value, "");
+static_assert(std::is_copy_constructible<Position2dProxy>::value, "");
+static_assert(std::is_copy_constructible<PlayerClient>::value, "");
 
 // Graphics2dProxy
 static_assert(std::is_constructible<Graphics2dProxy, PlayerClient*, uint32_t>::value, "");
