@@ -19,6 +19,21 @@ bool in_lockstep(const playerlike::RunSettings& settings, const sim::WorldDescri
   return settings.time_mode.value_or(world.simulation.time_mode) == sim::TimeMode::kLockstep;
 }
 
+// Programs that take the end of the run, which they are told by an exception, for an error, end
+// with what they have for errors of all kinds. Other statuses are their own verdict.
+bool only_says_that_the_run_is_over(const playerlike::ProgramEnd& end,
+                                    const playerlike::RunSettings& settings,
+                                    const sim::WorldDescription& world) {
+  constexpr int kReturnedMinusOne = 255;
+  if (end.signal || (end.status != 1 && end.status != kReturnedMinusOne)) return false;
+  std::optional<double> duration_s = settings.duration_s;
+  if (!duration_s && world.simulation.duration_ns) {
+    duration_s = sim::to_seconds(*world.simulation.duration_ns);
+  }
+  constexpr double kRounding_s = 1e-6;
+  return duration_s && simulated_time(settings) > *duration_s - kRounding_s;
+}
+
 }  // namespace
 
 int run(RunRequest request) {
@@ -55,6 +70,12 @@ int run(RunRequest request) {
 
   const bool reported = has_report(settings);
   if (reported && !request.quiet) print_results(settings);
+  if (reported && only_says_that_the_run_is_over(end, settings, world)) {
+    if (!request.quiet) {
+      std::cerr << "playpen: " << program << ' ' << end.text() << " when the run was over\n";
+    }
+    return kOk;
+  }
   if (!end.success()) {
     std::cerr << "playpen: " << program << ' ' << end.text() << '\n';
     return kProgramFailed;

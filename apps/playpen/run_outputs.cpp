@@ -45,6 +45,10 @@ void prepare_outputs(playerlike::RunSettings& settings, const std::string& world
 
 bool has_report(const playerlike::RunSettings& settings) { return fs::exists(report_of(settings)); }
 
+double simulated_time(const playerlike::RunSettings& settings) {
+  return playerlike::simulated_time_of_report(report_of(settings));
+}
+
 void print_results(const playerlike::RunSettings& settings) {
   const fs::path folder(settings.output_folder);
   std::cout << playerlike::summarize_report(report_of(settings))

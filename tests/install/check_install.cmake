@@ -124,4 +124,5 @@ ${package}_made: ${source}\n\t\"${compiler}\" ${CXX_FLAGS} ${source} $(FLAGS) -o
   endif()
 endfunction()
 run_old("${CXX_COMPILER}" wander.cc playerc++ "saw 682 beams, drove to [0-9.]+ [0-9.]+")
+run_old("${CXX_COMPILER}" example.cc playerc++ "read for a second at localhost:6665")
 run_old("${C_COMPILER}" wander.c playerc "drove to [0-9.]+ [0-9.]+")

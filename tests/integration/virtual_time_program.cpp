@@ -281,6 +281,23 @@ void drive_for_ever_in_background() {
   }
 }
 
+void command_for_ever() {
+  PlayerClient robot("localhost", 6665);
+  Position2dProxy position(&robot, 0);
+  while (true) {
+    position.SetSpeed(position.GetXPos() < 1e6 ? 0.01 : 0.0, 0.0);
+  }
+}
+
+void take_the_end_for_an_error() {
+  PlayerClient robot("localhost", 6665);
+  try {
+    while (true) robot.Read();
+  } catch (const PlayerError&) {
+    std::exit(-1);
+  }
+}
+
 void tidy_up_after_the_end() {
   PlayerClient robot("localhost", 6665);
   try {
@@ -438,6 +455,8 @@ int main(int argc, char** argv) {
       {"look_at_the_clock", look_at_the_clock},
       {"drive_for_ever", drive_for_ever},
       {"drive_for_ever_in_background", drive_for_ever_in_background},
+      {"command_for_ever", command_for_ever},
+      {"take_the_end_for_an_error", take_the_end_for_an_error},
       {"tidy_up_after_the_end", tidy_up_after_the_end},
       {"wait_in_background_for_a_place", wait_in_background_for_a_place},
       {"steer_by_hand", steer_by_hand},

@@ -182,6 +182,22 @@ TEST_F(VirtualTime, SoDoesOneThatCatchesAllErrors) {
   EXPECT_DOUBLE_EQ(sim_time(), 5.0);
 }
 
+TEST_F(VirtualTime, SoDoesOneThatNeitherReadsNorSleeps) {
+  EXPECT_EQ(run("command_for_ever", {"--duration", "2"}).status, 0);
+  EXPECT_DOUBLE_EQ(sim_time(), 2.0);
+  EXPECT_NEAR(robot().at("path_length").get<double>(), 0.02, 0.002);
+  const json first = report().at("run").at("state_hash");
+  EXPECT_EQ(run("command_for_ever", {"--duration", "2"}).status, 0);
+  EXPECT_EQ(report().at("run").at("state_hash"), first);
+}
+
+TEST_F(VirtualTime, OneThatTakesTheEndForAnErrorHasNotFailed) {
+  const ProcessResult result = run("take_the_end_for_an_error", {"--duration", "5"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("ended with status 255 when the run was over"));
+  EXPECT_DOUBLE_EQ(sim_time(), 5.0);
+}
+
 TEST_F(VirtualTime, AProgramThatWasToldOfTheEndMayStillSleep) {
   const ProcessResult result = run("tidy_up_after_the_end", {"--duration", "2"});
   EXPECT_EQ(result.status, 1);

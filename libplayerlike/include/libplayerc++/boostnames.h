@@ -16,10 +16,8 @@ namespace PlayerCc {
 /// are the standard library's and our own.
 ///
 /// A program that includes a Boost header itself gets Boost's names of that header and these for
-/// the rest: what namespace boost declares itself is found before what it only uses. Then
-/// boost::mutex::scoped_lock cannot lock PlayerClient::mMutex, whose type is
-/// PlayerClient::mutex_t; PlayerClient::mutex_t::scoped_lock, boost::lock_guard and
-/// std::unique_lock can.
+/// the rest: what namespace boost declares itself is found before what it only uses. Its
+/// boost::mutex::scoped_lock can lock PlayerClient::mMutex, too.
 namespace boost_names {
 
 using std::bind;

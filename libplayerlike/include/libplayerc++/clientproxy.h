@@ -30,13 +30,19 @@ struct Reading;
 ///
 /// A call on a proxy whose client is gone throws PlayerError kDisconnected, except for those
 /// documented otherwise. Threads: as PlayerClient.
+///
+/// A copy is another proxy of the same device, with the data that there were; it goes its own way
+/// from then on, without the subscribers of the read signal. No other thread may use the proxy, nor
+/// read on its client, while it is copied. A Graphics2dProxy cannot be copied: it has a sheet of
+/// its own.
 class ClientProxy {
  public:
   typedef PlayerCc::read_signal_t read_signal_t;
   typedef PlayerCc::read_connection_t connection_t;
   typedef PlayerCc::mutex_t::scoped_lock scoped_lock_t;
 
-  ClientProxy(const ClientProxy&) = delete;
+  /// @throws PlayerError kDisconnected if the client is gone.
+  ClientProxy(const ClientProxy& aOther);
   ClientProxy& operator=(const ClientProxy&) = delete;
 
   /// Ends the subscription. Waits for a subscriber of the read signal that runs in another thread.

@@ -16,9 +16,9 @@ namespace PlayerCc {
 /// meets nothing reads GetMaxRange(). Before the first reading there are 0 beams, while the
 /// settings (angles, resolution, greatest range, frequency, poses) are known from the start.
 ///
-/// Errors: from the first reading on an index that is not below GetCount() is refused with
-/// PlayerError kBadArgument. Before it each beam reads 0, as in Player, so that programs which look
-/// before their first Read() live.
+/// Beams that there are not, before the first reading or at an index that is not below GetCount(),
+/// read 0, as in Player: programs look before their first Read(), or were written for a laser with
+/// more beams. Of the latter a warning on standard error tells, once for each proxy.
 class LaserProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
@@ -107,6 +107,7 @@ class LaserProxy : public ClientProxy {
   std::size_t mStride = 1;
   std::size_t mShown = 0;
   double mRangeRes = 0.0;  // 0: not rounded
+  mutable bool mHasWarned = false;
   player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   player_bbox3d_t mSize = {0.0, 0.0, 0.0};
 };

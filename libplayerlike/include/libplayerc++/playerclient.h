@@ -63,10 +63,13 @@ class PlayerClient {
   /// @param aSession  must not be null.
   explicit PlayerClient(std::unique_ptr<playerlike::Session> aSession);
 
-  PlayerClient(const PlayerClient&) = delete;
+  /// Another name of the same client: whichever of them reads, all proxies get their data, and it
+  /// is connected until the last of them is destroyed.
+  PlayerClient(const PlayerClient& aOther);
   PlayerClient& operator=(const PlayerClient&) = delete;
 
-  /// Disconnects and ends the thread of StartThread(). Threads waiting in Read() throw PlayerError.
+  /// Disconnects and ends the thread of StartThread(), unless there are copies. Threads waiting in
+  /// Read() throw PlayerError.
   ~PlayerClient();
 
   /// Whether the connection is open.
@@ -139,6 +142,13 @@ class PlayerClient {
   /// @param aType     PLAYER_MSGTYPE_DATA, or -1 for all.
   /// @param aInterf   interface code, or -1 for all. Devices subscribed to later obey too.
   void SetReplaceRule(bool aReplace, int aType = -1, int aSubtype = -1, int aInterf = -1);
+  /// @deprecated Of Player 2.0: the same in another order. A rule for an index holds for all of
+  /// the interface's.
+  /// @param aReplace  0: no, else yes.
+  void SetReplaceRule(int aInterf, int aIndex, int aType, int aSubtype, int aReplace) {
+    static_cast<void>(aIndex);
+    SetReplaceRule(aReplace != 0, aType, aSubtype, aInterf);
+  }
 
   /// Asks for the list of devices on this client's port.
   void RequestDeviceList();
@@ -162,7 +172,7 @@ class PlayerClient {
   struct Impl;
   PlayerClient(std::unique_ptr<playerlike::Session> aSession, const std::string& aHostname,
                uint32_t aPort);
-  std::unique_ptr<Impl> mImpl;
+  std::shared_ptr<Impl> mImpl;
 };
 
 }  // namespace PlayerCc

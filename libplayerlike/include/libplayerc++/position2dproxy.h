@@ -32,6 +32,7 @@ class Position2dProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
   Position2dProxy(PlayerClient* aPc, uint32_t aIndex = 0);
+  Position2dProxy(const Position2dProxy& aOther);  ///< see ClientProxy
   ~Position2dProxy() override;
 
   /// Drive.

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "libplayerc++/clientproxy.h"
 
@@ -17,10 +19,14 @@ namespace PlayerCc {
 /// the call returns; a robot's motors go on as they were told last. Nothing here lets simulated
 /// time pass.
 ///
-/// All calls throw PlayerError: kBadArgument for a name or a property that is not there (the text
-/// tells what is), a null pointer, a value_len that does not fit, and for what cannot be done, such
-/// as putting a robot where an obstacle stands (the text tells which); kNotAvailable if the world
-/// or the server does not allow it; kDisconnected if the client is gone.
+/// What cannot be done is left undone, and a warning on standard error tells why: there is no such
+/// name or property (it lists what there is), an obstacle stands where the robot was to be put, the
+/// value_len does not fit, the world or the server does not allow it. It does not throw, as
+/// Player's does not: programs name things of worlds of their own. Where something was asked for,
+/// what is there stays as it is. A proxy tells each such thing once.
+///
+/// All calls throw PlayerError: kBadArgument for a null pointer, and a number that is none;
+/// kDisconnected if the client is gone.
 class SimulationProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice for an index that is not 0, or a port without robots.
@@ -76,6 +82,12 @@ class SimulationProxy : public ClientProxy {
   bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
 
  private:
+  template <typename Action>
+  void Try(const char* aFun, Action aAction);
+  void Tell(const char* aFun, const std::string& aWhy);
+
+  std::vector<std::string> mTold;  // under the client's mutex
+
   static char* Text(const char* aText) { return const_cast<char*>(aText); }
 };
 

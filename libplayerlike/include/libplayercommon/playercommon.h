@@ -9,6 +9,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
+#include <sys/param.h>
 
 #include "libplayercommon/error.h"
 
@@ -35,6 +36,10 @@
 #ifndef BOOL
 #define BOOL int
 #endif
+#if !defined(__cplusplus) && !defined(true)
+#define true 1
+#define false 0
+#endif
 #ifndef TRUE
 #define TRUE 1
 #endif
@@ -60,6 +65,32 @@
 /// Whether an index lies in an array, asserted.
 #ifndef ASSERT_INDEX
 #define ASSERT_INDEX(index, array) assert((size_t)(index) < sizeof(array) / sizeof((array)[0]));
+#endif
+
+/// The same as assert().
+#ifndef VERIFY
+#define VERIFY(m) assert(m)
+#endif
+
+/// The first number of a kind in bytes that a pointer leads to.
+#ifndef GETFIRSTUINT8
+#define GETFIRSTUINT8(x) (*((uint8_t*)(x)))
+#define GETFIRSTINT8(x) (*((int8_t*)(x)))
+#define GETFIRSTUINT16(x) (*((uint16_t*)(x)))
+#define GETFIRSTINT16(x) (*((int16_t*)(x)))
+#define GETFIRSTUINT32(x) (*((uint32_t*)(x)))
+#define GETFIRSTINT32(x) (*((int32_t*)(x)))
+#endif
+
+/// The lower and the upper byte of a number of 16 bits, and such a number made of both.
+#ifndef LOBYTE
+#define LOBYTE(w) ((uint8_t)((w)&0xFF))
+#endif
+#ifndef HIBYTE
+#define HIBYTE(w) ((uint8_t)(((w) >> 8) & 0xFF))
+#endif
+#ifndef MAKEUINT16
+#define MAKEUINT16(lo, hi) ((uint16_t)((((uint16_t)(hi)) << 8) | ((uint16_t)(lo))))
 #endif
 
 /// Longest name of a file.

@@ -18,6 +18,11 @@ void ClientCore::add(DeviceId device, ReadingListener& listener, std::optional<b
   if (replace) session_->set_replace(device, *replace);
 }
 
+bool ClientCore::listens(const ReadingListener& listener) const noexcept {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& e) { return e.listener == &listener; });
+}
+
 void ClientCore::remove(ReadingListener& listener) noexcept {
   const std::lock_guard lock(mutex_);
   const auto it = std::find_if(entries_.begin(), entries_.end(),

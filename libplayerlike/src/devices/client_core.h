@@ -44,7 +44,9 @@ class ClientCore final : private ReadingSink {
   /// Subscribes a listener to a device. The mutex is held by the caller.
   /// @param replace  see Session::set_replace(); nullopt: whatever the session does by itself.
   void add(DeviceId device, ReadingListener& listener, std::optional<bool> replace = std::nullopt);
-  /// The reverse; harmless when it was not added. Takes the mutex; never throws.
+  /// Whether a listener was added. The mutex is held by the caller.
+  [[nodiscard]] bool listens(const ReadingListener& listener) const noexcept;
+  /// The reverse of add(); harmless when it was not added. Takes the mutex; never throws.
   void remove(ReadingListener& listener) noexcept;
 
   /// Waits for a round and hands its readings to the listeners, then calls their notifications.

@@ -61,16 +61,25 @@ std::string summarize(const nlohmann::json& report) {
   return out.str();
 }
 
-}  // namespace
-
-std::string summarize_report(const std::string& file) {
+template <typename Use>
+auto read_report(const std::string& file, Use use) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error("the report " + file + " can't be read");
   try {
-    return summarize(nlohmann::json::parse(in));
+    return use(nlohmann::json::parse(in));
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error("the report " + file + " is not as expected: " + error.what());
   }
+}
+
+}  // namespace
+
+std::string summarize_report(const std::string& file) { return read_report(file, summarize); }
+
+double simulated_time_of_report(const std::string& file) {
+  return read_report(file, [](const nlohmann::json& report) {
+    return report.at("run").at("sim_time").get<double>();
+  });
 }
 
 }  // namespace playerlike

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,6 +12,7 @@
 #include "libplayerc/playerc.h"
 #include "playerc/client.h"
 #include "playerc/guard.h"
+#include "virtual_time/virtual_time.h"
 
 namespace playerlike::clib {
 
@@ -93,13 +96,22 @@ template <typename T>
 /// action(device) for the device behind a struct, as guarded().
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
+  virtual_time::note_look();
   return guarded(fun, [&] { return action(device_of<T>(device)); });
 }
 
-/// Fills an array that a struct points to. @return where it is; null if it is empty.
+/// How long an array of readings must be. Beyond its end there is room, at first zeros, up to the
+/// length that such arrays had in Player 2: programs look at the beams that their own laser had.
+[[nodiscard]] inline std::size_t with_room(std::size_t count) noexcept {
+  constexpr std::size_t kLeast = 1024;
+  return std::max(count, kLeast);
+}
+
+/// Fills an array that a struct points to, with_room().
+/// @return where it is; null if it is empty.
 template <typename T, typename Element>
 [[nodiscard]] T* copied(std::vector<T>& array, uint32_t count, Element element) {
-  array.resize(count);
+  array.resize(with_room(count));
   for (uint32_t i = 0; i < count; ++i) array[i] = element(i);
   return count == 0 ? nullptr : array.data();
 }

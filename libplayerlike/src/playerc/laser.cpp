@@ -35,10 +35,11 @@ class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::L
     robot_pose[2] = robot.pyaw;
     const uint32_t count = used().GetCount();
     scan_count = static_cast<int>(count);
-    ranges_.resize(count);
-    scan_.resize(count);
-    points_.resize(count);
-    intensities_.assign(count, 0);
+    const std::size_t length = playerlike::clib::with_room(count);
+    ranges_.resize(length);
+    scan_.resize(length);
+    points_.resize(length);
+    intensities_.assign(length, 0);
     for (uint32_t i = 0; i < count; ++i) {
       const double range_m = used().GetRange(i);
       const double bearing_rad = scan_start + i * scan_res;

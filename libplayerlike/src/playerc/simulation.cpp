@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "libplayerc++/simulationproxy.h"
 #include "playerc/device.h"
+#include "proxies/simulation_proxy.h"
 
 namespace {
 
@@ -12,8 +13,10 @@ class Simulation final : public playerlike::clib::Backed<playerc_simulation_t, P
 
 template <typename Action>
 int with_proxy(const char* fun, playerc_simulation_t* device, Action action) {
-  return playerlike::clib::with_device<Simulation>(fun, device,
-                                                   [&](Simulation& self) { action(self.used()); });
+  return playerlike::clib::with_device<Simulation>(fun, device, [&](Simulation& self) {
+    const playerlike::StrictSimulation strict;
+    action(self.used());
+  });
 }
 
 }  // namespace

@@ -61,6 +61,28 @@ ClientProxy::ClientProxy(PlayerClient* aPc, uint32_t aIndex)
   mInfo->id = this;
 }
 
+ClientProxy::ClientProxy(const ClientProxy& aOther)
+    : mPc(aOther.GetPlayerClient()),
+      mClient(nullptr),
+      mInfo(nullptr),
+      mFresh(false),
+      mIndex(aOther.mIndex) {
+  const Link& other = *aOther.mLink;
+  mLink = std::make_unique<Link>(*this, other.core);
+  mInfo = &mLink->device;
+  translated("ClientProxy::ClientProxy", [&] {
+    const scoped_lock_t lock(other.core->mutex());
+    other.core->require_usable();
+    mLink->binding = other.binding;
+    mLink->attached = other.attached;
+    mLink->valid = other.valid;
+    mLink->device = other.device;
+    mLink->device.id = this;
+    mFresh = aOther.mFresh;
+    if (other.core->listens(*aOther.mLink)) other.core->add(other.binding.reading, *mLink);
+  });
+}
+
 ClientProxy::~ClientProxy() { ClientProxy::Unsubscribe(); }
 
 void ClientProxy::Subscribe(uint32_t aIndex) { mIndex = aIndex; }

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #include "devices/errors.h"
+#include "devices/warnings.h"
 #include "libplayerc++/laserproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
@@ -89,10 +91,12 @@ bool LaserProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
 double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
   if (mRanges.empty()) return 0.0;
   if (aIndex >= mRanges.size()) {
-    throw PlayerError(aFun,
-                      "there is no beam " + std::to_string(aIndex) + ": the scan has " +
-                          std::to_string(mRanges.size()) + ", counted from 0",
-                      PlayerError::kBadArgument);
+    if (!std::exchange(mHasWarned, true)) {
+      playerlike::warn(std::string(aFun) + ": there is no beam " + std::to_string(aIndex) +
+                       ": the scan has " + std::to_string(mRanges.size()) +
+                       ", counted from 0; beams beyond the last read 0");
+    }
+    return 0.0;
   }
   return mRanges[aIndex];
 }
@@ -163,7 +167,7 @@ double LaserProxy::GetBearing(uint32_t aIndex) const {
   const char* fun = "LaserProxy::GetBearing";
   const scoped_lock_t lock(LockData(fun));
   static_cast<void>(CheckedRange(aIndex, fun));
-  return mRanges.empty() ? 0.0 : Bearing(aIndex);
+  return aIndex < mRanges.size() ? Bearing(aIndex) : 0.0;
 }
 
 int LaserProxy::GetIntensity(uint32_t aIndex) const {

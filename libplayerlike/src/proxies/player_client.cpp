@@ -86,6 +86,8 @@ struct PlayerClient::Impl {
   double retry_time_s = 10.0;
   std::vector<playerc_device_info_t> devices;  // under the client's mutex
 
+  std::atomic<int> copies{1};  // of the client, with the first
+
   std::atomic<bool> stop_run{false};
 
   std::mutex thread_mutex;  // over what follows; never held while waiting for a thread
@@ -102,7 +104,7 @@ PlayerClient::PlayerClient(std::unique_ptr<playerlike::Session> aSession,
                              return playerlike::make_core(std::move(aSession));
                            })),
       mMutex(mCore->mutex()),
-      mImpl(std::make_unique<Impl>()) {
+      mImpl(std::make_shared<Impl>()) {
   mImpl->hostname = aHostname;
   mImpl->port = aPort;
 }
@@ -129,7 +131,13 @@ PlayerClient::PlayerClient(std::unique_ptr<playerlike::Session> aSession)
   mImpl->port = static_cast<uint32_t>(mCore->session().port());
 }
 
+PlayerClient::PlayerClient(const PlayerClient& aOther)
+    : mCore(aOther.mCore), mMutex(mCore->mutex()), mImpl(aOther.mImpl) {
+  ++mImpl->copies;
+}
+
 PlayerClient::~PlayerClient() {
+  if (--mImpl->copies > 0) return;
   Stop();
   mCore->close();  // wakes the threads that wait
   std::vector<std::thread> threads;

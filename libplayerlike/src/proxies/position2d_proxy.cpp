@@ -54,6 +54,11 @@ Position2dProxy::Position2dProxy(PlayerClient* aPc, uint32_t aIndex)
   Position2dProxy::Subscribe(aIndex);
 }
 
+Position2dProxy::Position2dProxy(const Position2dProxy& aOther)
+    : ClientProxy(aOther),
+      mData(aOther.mData),
+      mControl(std::make_unique<Control>(*aOther.mControl)) {}
+
 Position2dProxy::~Position2dProxy() { Position2dProxy::Unsubscribe(); }
 
 void Position2dProxy::Subscribe(uint32_t aIndex) {

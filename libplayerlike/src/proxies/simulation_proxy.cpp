@@ -1,14 +1,33 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "proxies/simulation_proxy.h"
+
+#include <algorithm>
 #include <ostream>
 #include <string>
 
 #include "devices/errors.h"
 #include "devices/object_values.h"
+#include "devices/warnings.h"
 #include "libplayerc++/simulationproxy.h"
 #include "proxies/link.h"
 
+namespace playerlike {
+namespace {
+thread_local int strict = 0;
+}
+
+StrictSimulation::StrictSimulation() noexcept { ++strict; }
+StrictSimulation::~StrictSimulation() { --strict; }
+
+bool StrictSimulation::holds() noexcept { return strict > 0; }
+
+}  // namespace playerlike
+
 namespace PlayerCc {
 namespace {
+
+// A proxy tells so many different things at most, for programs that make names up for ever.
+constexpr std::size_t kMostTold = 20;
 
 // What a name that must be given says.
 std::string text(const char* fun, const char* what, const char* given) {
@@ -40,19 +59,44 @@ bool SimulationProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
          aSubtype <= PLAYER_SIMULATION_REQ_SET_PROPERTY;
 }
 
+// With the client's mutex held.
+template <typename Action>
+void SimulationProxy::Try(const char* aFun, Action aAction) {
+  playerlike::translated(aFun, [&] {
+    try {
+      aAction();
+    } catch (const playerlike::SessionError& e) {
+      using Code = playerlike::SessionError::Code;
+      if (playerlike::StrictSimulation::holds() ||
+          (e.code() != Code::kBadArgument && e.code() != Code::kNotAvailable))
+        throw;
+      Tell(aFun, e.what());
+    }
+  });
+}
+
+void SimulationProxy::Tell(const char* aFun, const std::string& aWhy) {
+  std::string text = std::string(aFun) + " does nothing: " + aWhy;
+  if (mTold.size() >= kMostTold || std::find(mTold.begin(), mTold.end(), text) != mTold.end()) {
+    return;
+  }
+  playerlike::warn(text);
+  mTold.push_back(std::move(text));
+}
+
 void SimulationProxy::SetPose2d(char* identifier, double x, double y, double a) {
   const char* fun = "SimulationProxy::SetPose2d";
   const std::string name = text(fun, "the identifier", identifier);
   playerlike::require_finite(fun, {{"x", x}, {"y", y}, {"a", a}});
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] { mLink->core->session().place_object(name, {x, y, a}); });
+  Try(fun, [&] { mLink->core->session().place_object(name, {x, y, a}); });
 }
 
 void SimulationProxy::GetPose2d(char* identifier, double& x, double& y, double& a) {
   const char* fun = "SimulationProxy::GetPose2d";
   const std::string name = text(fun, "the identifier", identifier);
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] {
+  Try(fun, [&] {
     const sim::Pose pose = mLink->core->session().object_pose(name).pose;
     x = pose.x_m;
     y = pose.y_m;
@@ -67,7 +111,7 @@ void SimulationProxy::SetPose3d(char* identifier, double x, double y, double z, 
   playerlike::require_finite(
       fun, {{"x", x}, {"y", y}, {"z", z}, {"roll", roll}, {"pitch", pitch}, {"yaw", yaw}});
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] { mLink->core->session().place_object(name, {x, y, yaw}); });
+  Try(fun, [&] { mLink->core->session().place_object(name, {x, y, yaw}); });
 }
 
 void SimulationProxy::GetPose3d(char* identifier, double& x, double& y, double& z, double& roll,
@@ -75,7 +119,7 @@ void SimulationProxy::GetPose3d(char* identifier, double& x, double& y, double& 
   const char* fun = "SimulationProxy::GetPose3d";
   const std::string name = text(fun, "the identifier", identifier);
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] {
+  Try(fun, [&] {
     const playerlike::ObjectPose object = mLink->core->session().object_pose(name);
     x = object.pose.x_m;
     y = object.pose.y_m;
@@ -93,7 +137,7 @@ void SimulationProxy::GetProperty(char* identifier, char* name, void* value, siz
   const std::string property = playerlike::property_name(text(fun, "the name", name));
   require_value(fun, value);
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] {
+  Try(fun, [&] {
     const auto now = mLink->core->session().object_property(object, property);
     playerlike::write_property(property, now, value, value_len);
   });
@@ -105,7 +149,7 @@ void SimulationProxy::SetProperty(char* identifier, char* name, void* value, siz
   const std::string property = playerlike::property_name(text(fun, "the name", name));
   require_value(fun, value);
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] {
+  Try(fun, [&] {
     playerlike::Session& session = mLink->core->session();
     const auto now = session.object_property(object, property);
     session.set_object_property(object, property,

@@ -33,6 +33,10 @@ constexpr int kFreeAsks = 4;
 // scan, more than once maybe, so it takes many until it is clear that they wait.
 constexpr long long kFreeLooks = 1'000'000;
 constexpr long long kLooksAStep = 10'000;
+// And for calls of a program that nobody reads for: nothing will ever change for it but the end of
+// the run. It may well compute for long between two reads, so this takes more of them.
+constexpr long long kFreeLooksAlone = 3'000'000;
+constexpr long long kLooksAStepAlone = 1'000;
 // How far a look at the clock moves it while there is no simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
@@ -339,14 +343,15 @@ void note_wait() noexcept {
 }
 
 void note_look() noexcept {
-  if (!background.load(std::memory_order_relaxed)) return;
   ThreadState& thread = state;
-  if (++thread.looks < kFreeLooks) return;
-  thread.looks = kFreeLooks - kLooksAStep;
+  ++thread.looks;
+  const bool alone = !background.load(std::memory_order_relaxed);
+  const long long free_looks = alone ? kFreeLooksAlone : kFreeLooks;
+  if (thread.looks < free_looks) return;
+  thread.looks = free_looks - (alone ? kLooksAStepAlone : kLooksAStep);
   Host* const host = attached.load(std::memory_order_acquire);
-  if (thread.inside > 0 || thread.ended || !thread.takes_part || given_up || host == nullptr) {
-    return;
-  }
+  if (thread.inside > 0 || thread.ended || given_up || host == nullptr) return;
+  if (!thread.takes_part && (!alone || !(thread.programs || is_main(thread)))) return;
   pass(thread, *host, VirtualTimeAccess::core(*host).step_ns());
 }
 

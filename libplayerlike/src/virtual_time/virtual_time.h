@@ -52,8 +52,9 @@ void give_up() noexcept;
 
 /// The calling thread waits for simulated time, and so takes part in the lockstep from now on.
 void note_wait() noexcept;
-/// The calling thread has looked at data that may change in the background. One that does nothing
-/// else for very long lets a step pass now and then.
+/// The calling thread has looked at data or given a command. One that does nothing else for very
+/// long lets a step pass now and then: what it waits for may change in the background, and if
+/// nobody reads there, its run is to end all the same.
 /// Not to be called with a lock held that others need.
 void note_look() noexcept;
 /// From now on there are threads that read in the background, see note_look().

@@ -71,7 +71,7 @@ std::vector<Case> cases() {
       {"posix_threads", kCave, {"nearest"}, 0.5},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
-      {"simulation", kPioneer, {"moved by 0.3", "nobody"}, 0.1, kAny, 0, 1, {"pioneer1"}},
+      {"simulation", kPioneer, {"moved by 0.3", "nobody is at 42"}, 0.1, kAny, 0, 1, {"pioneer1"}},
       {"speaking", kPioneer, {"inputs"}, 1.8, 2.2},
       {"square_by_odometry", kPioneer, {"closed within 0.0"}, 3.9, 4.4},
       {"square_counting_turns", kPioneer, {"at "}, 3.8, 4.2},

@@ -562,6 +562,8 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   // On each side beams stand (k + 0.5) 0.39589 degrees off; 227 of them within 90 degrees. Half of
   // the 454 are shown.
   EXPECT_EQ(scanner->scan_count, 227);
+  EXPECT_EQ(scanner->ranges[1023], 0.0) << "programs for a laser with more beams look there";
+  EXPECT_EQ(scanner->scan[1023][0], 0.0);
   EXPECT_EQ(playerc_laser_set_config(scanner.get(), 0.0, 0.1, -1.0, 0.0, 0, 10.0), -1);
   EXPECT_EQ(playerc_laser_get_id(scanner.get()), 0);
 }

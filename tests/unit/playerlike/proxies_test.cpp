@@ -29,6 +29,7 @@ using test::kPose;
 using test::make_fake_world;
 using test::pose_reading;
 using test::scan;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -61,6 +62,86 @@ TEST_F(Proxies, ClientTellsHostPortAndInterfaces) {
   EXPECT_EQ(client.LookupName(PLAYER_POSITION2D_CODE), "position2d");
   EXPECT_EQ(client.LookupName(9999), "unknown");
   EXPECT_EQ(client.GetOverflowCount(), 3U);
+}
+
+// What boost::mutex looks like, which Player's programs lock their clients with.
+struct ForeignMutex {
+  typedef pthread_mutex_t* native_handle_type;
+  void lock() { pthread_mutex_lock(&handle); }
+  void unlock() { pthread_mutex_unlock(&handle); }
+  pthread_mutex_t handle;
+};
+
+TEST_F(Proxies, TheMutexOfAClientIsThatOfOtherLibrariesToo) {
+  const auto is_free = [this] {
+    return std::async(std::launch::async,
+                      [this] {
+                        const std::unique_lock<PlayerClient::mutex_t> lock(client.mMutex,
+                                                                           std::try_to_lock);
+                        return lock.owns_lock();
+                      })
+        .get();
+  };
+  {
+    const std::unique_lock<ForeignMutex> lock(client.mMutex);
+    EXPECT_FALSE(is_free());
+  }
+  EXPECT_TRUE(is_free());
+  static_assert(!std::is_convertible<PlayerClient::mutex_t&, std::string&>::value, "");
+}
+
+TEST_F(Proxies, CopiesOfAClientAreOneClient) {
+  auto first = std::make_unique<PlayerClient>(fake_session(world));
+  LaserProxy laser(first.get(), 0);
+  PlayerClient second = *first;
+  EXPECT_EQ(second.GetPort(), first->GetPort());
+  world->add_round({{kLaser, scan(0.1, {1.0, 2.0, 3.0})}});
+  second.Read();
+  EXPECT_EQ(laser.GetRange(1), 2.0);
+  first.reset();
+  EXPECT_TRUE(second.Connected());
+  world->add_round({{kLaser, scan(0.2, {4.0, 5.0, 6.0})}});
+  second.Read();
+  EXPECT_EQ(laser.GetRange(1), 5.0);
+}
+
+// Player's proxies could be copied where it was built without Boost.
+TEST_F(Proxies, ACopyOfAProxyGoesItsOwnWay) {
+  auto laser = std::make_unique<LaserProxy>(&client, 0);
+  auto position = std::make_unique<Position2dProxy>(&client, 0);
+  world->add_round({{kLaser, scan(0.1, {1.0, 2.0, 3.0})}, {kPose, pose_reading(0.1, {1, 2, 0.5})}});
+  client.Read();
+  int calls = 0;
+  laser->ConnectReadSignal([&calls] { ++calls; });
+  const LaserProxy other_laser = *laser;
+  Position2dProxy positions[] = {*position, *position};
+  EXPECT_EQ(other_laser.GetCount(), 3U);
+  EXPECT_EQ(other_laser.GetRange(2), 3.0);
+  EXPECT_EQ(other_laser.GetDataTime(), 0.1);
+  EXPECT_EQ(other_laser.GetInterfaceStr(), "laser");
+  EXPECT_EQ(other_laser.GetPlayerClient(), &client);
+  EXPECT_TRUE(other_laser.IsFresh());
+  EXPECT_EQ(positions[1].GetYPos(), 2.0);
+  positions[0].NotFresh();
+  EXPECT_TRUE(positions[1].IsFresh());
+
+  laser.reset();
+  position.reset();
+  world->add_round({{kLaser, scan(0.2, {4.0, 5.0})}, {kPose, pose_reading(0.2, {3, 4, 0.5})}});
+  client.Read();
+  EXPECT_EQ(calls, 0) << "its subscriber is gone with the first";
+  EXPECT_EQ(other_laser.GetCount(), 2U);
+  EXPECT_EQ(positions[0].GetXPos(), 3.0);
+  EXPECT_EQ(positions[1].GetXPos(), 3.0);
+  positions[1].SetSpeed(0.25, 0.5);
+  EXPECT_EQ(last_twist().v_mps, 0.25);
+}
+
+TEST_F(Proxies, ThereIsNoCopyWithoutAClient) {
+  auto brief = std::make_unique<PlayerClient>(fake_session(world));
+  const LaserProxy laser(brief.get(), 0);
+  brief.reset();
+  EXPECT_EQ(error_code_of([&] { const LaserProxy copy = laser; }), PlayerError::kDisconnected);
 }
 
 TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
@@ -608,24 +689,20 @@ TEST_F(Proxies, LaserMembersAgreeWithOneAnother) {
   EXPECT_DOUBLE_EQ(laser.MinLeft(), 0.5);
 }
 
-TEST_F(Proxies, BeamsBeyondTheEndAreRefused) {
+TEST_F(Proxies, BeamsBeyondTheEndReadZeroAndAreToldOfOnce) {
   LaserProxy laser(&client);
   world->add_round({{kLaser, scan(0.1, {2.0, 1.0, 5.0, 4.0, 0.5})}});
   client.Read();
-  try {
-    static_cast<void>(laser[5]);
-    FAIL() << "beam 5 of 5 exists";
-  } catch (const PlayerError& e) {
-    EXPECT_EQ(e.GetErrorCode(), PlayerError::kBadArgument);
-    EXPECT_THAT(e.GetErrorStr(), HasSubstr("beam 5"));
-    EXPECT_THAT(e.GetErrorStr(), HasSubstr("has 5"));
-  }
-  for (const int code : {error_code_of([&] { static_cast<void>(laser.GetRange(5)); }),
-                         error_code_of([&] { static_cast<void>(laser.GetBearing(5)); }),
-                         error_code_of([&] { static_cast<void>(laser.GetPoint(5)); }),
-                         error_code_of([&] { static_cast<void>(laser.GetIntensity(5)); })}) {
-    EXPECT_EQ(code, PlayerError::kBadArgument);
-  }
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(laser[5], 0.0);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              AllOf(HasSubstr("LaserProxy::"), HasSubstr("beam 5"), HasSubstr("has 5")));
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(laser.GetRange(4000000000U), 0.0);
+  EXPECT_EQ(laser.GetBearing(5), 0.0);
+  EXPECT_EQ(laser.GetPoint(6).px, 0.0);
+  EXPECT_EQ(laser.GetIntensity(7), 0);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST_F(Proxies, ConfigureCropsAndThinsTheScan) {

@@ -12,4 +12,8 @@ namespace playerlike {
 /// @throws std::runtime_error naming the file if it can't be read or is no such report.
 [[nodiscard]] std::string summarize_report(const std::string& file);
 
+/// How long a run was, as its report.json says: simulated time [s].
+/// @throws std::runtime_error as summarize_report().
+[[nodiscard]] double simulated_time_of_report(const std::string& file);
+
 }  // namespace playerlike

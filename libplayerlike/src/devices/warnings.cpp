@@ -1,0 +1,14 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "devices/warnings.h"
+
+#include "playerlike/host/log.h"
+
+namespace playerlike {
+
+void warn(const std::string& text) {
+  // Never destroyed: programs have proxies at namespace scope, which may still be used then.
+  static const auto* const log = new sim::LogHook(log_to_stderr(sim::LogLevel::kWarning));
+  (*log)(sim::LogLevel::kWarning, text);
+}
+
+}  // namespace playerlike
