@@ -134,7 +134,9 @@ TEST_P(WorldProxies, SayWhatIsAgainstAPose) {
   for (int i = 0; i < 100; ++i) {
     const std::string name = "z" + std::to_string(i);
     const std::string told = warning(name.c_str(), 1.0, 1.0);
-    if (i > 20) EXPECT_EQ(told, "") << "it is not told for ever";
+    if (i > 20) {
+      EXPECT_EQ(told, "") << "it is not told for ever";
+    }
   }
   EXPECT_EQ(error_of([&] { const SimulationProxy other(robot.get(), 1); }).GetErrorCode(),
             PlayerError::kNoSuchDevice);
