@@ -113,9 +113,6 @@ void check_subclass(PlayerClient* client) {
   use(object.Signal());
 }
 
-// A connection and what is subscribed over it are one each.
-static_assert(std::is_copy_constructible<PlayerClient>::value, "");
-
 // Functions and constants of namespace PlayerCc beside the classes.
 void check_functions() {
   double number = PlayerCc::rtod(1.0) + PlayerCc::dtor(1.0) + PlayerCc::normalize(4.0);

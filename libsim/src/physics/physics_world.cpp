@@ -1018,7 +1018,7 @@ void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
   r.seen_radius_m = r.radius_m;
   for (const Load& load : loads) {
     const ObstacleDescription& box = load.box_B;
-    const std::vector<Vec2> corners = box_corners(box.center, box.size, box.yaw_rad);
+    const std::vector<Vec2> corners = box_corners(box);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2& a = corners[i];
       const Vec2& b = corners[(i + 1) % corners.size()];
