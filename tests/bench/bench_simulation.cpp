@@ -152,11 +152,12 @@ BENCHMARK_CAPTURE(BM_Step, thirteen_robots, kThirteen)->Unit(benchmark::kMicrose
 }  // namespace sim::bench
 
 // With --world FILE: only the cost of a robot among so many, for each --robots N (default 1, 10, 50
-// and 200) that is given. --devices TYPE,TYPE... leaves its robots only devices of those types.
+// and 200) that is given. Its robots have but lasers, motors and odometry; --devices TYPE,TYPE...
+// leaves them other ones (laser and motion must be among them), --devices all all that they have.
 int main(int argc, char** argv) {
   std::string world;
   std::vector<int> counts;
-  std::vector<std::string> types;
+  std::vector<std::string> types = {"laser", "motion", "odometry"};
   for (int i = 1; i + 1 < argc; ++i) {
     const std::string option = argv[i];
     if (option == "--world")
@@ -165,11 +166,13 @@ int main(int argc, char** argv) {
       counts.push_back(std::stoi(argv[++i]));
     else if (option == "--devices") {
       std::stringstream list(argv[++i]);
+      types.clear();
       for (std::string type; std::getline(list, type, ',');) types.push_back(type);
     }
   }
   if (!world.empty()) {
     if (counts.empty()) counts = {1, 10, 50, 200};
+    if (types == std::vector<std::string>{"all"}) types.clear();
     sim::bench::print_crowd(world.c_str(), counts, types);
     return 0;
   }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,7 @@ struct Registry {
   std::mutex mutex;
   std::map<std::string, std::shared_ptr<Host>> hosts;  // by the world file's full path
   int results = 0;                                     // hosts that write results
+  std::set<std::string> replaced_hosts;                // that meant the run's world
   const pid_t process = getpid();
 
   static Registry& instance() {
@@ -108,6 +110,21 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
   return std::make_unique<SocketSession>(std::move(settings));
 }
 
+// Whether a host is named as programs for real robots do: no "tcp://", no port of a server.
+bool is_plain_name(std::string_view host) { return host.find_first_of(":/[") == host.npos; }
+
+// Once for each host.
+void warn_of_host(const std::string& host, const std::string& world) {
+  Registry& registry = Registry::instance();
+  {
+    const std::lock_guard lock(registry.mutex);
+    if (!registry.replaced_hosts.insert(host).second) return;
+  }
+  log_to_stderr()(sim::LogLevel::kWarning, "the program asks for a robot at \"" + host +
+                                               "\" and gets that of this run's world, " + world +
+                                               "; for a server there, name it tcp://" + host);
+}
+
 }  // namespace
 
 std::unique_ptr<Session> open_session(const std::string& host, int port) {
@@ -120,8 +137,11 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     }
     return host_of(file)->connect(port);
   }
-  if (host != "localhost" && host != "127.0.0.1") return connect_to_server(host, port);
   const std::string file(environment("PLAYPEN_WORLD"));
+  if (host != "localhost" && host != "127.0.0.1") {
+    if (file.empty() || !is_plain_name(host)) return connect_to_server(host, port);
+    warn_of_host(host, file);
+  }
   if (file.starts_with(kTcpPrefix)) return connect_to_server(file, port);
   return host_of(file)->connect(port);
 }

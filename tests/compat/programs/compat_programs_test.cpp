@@ -102,6 +102,11 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   const ProcessResult result = playpen(call, options);
   ASSERT_FALSE(result.timed_out) << result.out << result.err;
   EXPECT_EQ(result.status, 0) << result.out << result.err;
+  if (c.program == "two_clients_one_port") {
+    for (const char* host : {"\"192.0.2.17\"", "\"robot-lab\""}) {
+      EXPECT_THAT(result.err, HasSubstr(host));
+    }
+  }
   for (const std::string& part : c.says) EXPECT_THAT(result.out, HasSubstr(part)) << result.err;
 
   const json report = json::parse(read_bytes(fs::path(out) / "report.json"));

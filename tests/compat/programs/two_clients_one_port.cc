@@ -1,12 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Two clients of one robot: one reads and steers, the other only looks.
+// Two clients of one robot, which was at an address of its own: one reads and steers, the other
+// only looks.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 using namespace std;
 
 int main()
 {
-  PlayerClient driver("localhost", 6665), watcher("localhost", 6665);
+  PlayerClient driver("192.0.2.17", 6665), watcher("robot-lab", 6665);
   driver.SetDataMode(PLAYER_DATAMODE_PULL);
   driver.SetReplaceRule(true, PLAYER_MSGTYPE_DATA, -1, -1);
   watcher.SetDataMode(PLAYER_DATAMODE_PULL);

@@ -14,10 +14,11 @@ namespace playerlike {
 ///   by PLAYPEN_WORLD, else of the default world; or, if PLAYPEN_WORLD is "tcp://HOST[:PORT]", the
 ///   server there;
 /// - "sim:FILE": an embedded simulation of that file;
-/// - "tcp://HOST[:PORT]", or any other "HOST[:PORT]": the server there (`playpen serve`), on TCP
-/// port
-///   4000 unless told otherwise. An IPv6 address is in brackets. PLAYPEN_TOKEN holds the tokens to
-///   be presented, separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json".
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": the server there (`playpen serve`), on TCP port 4000
+///   unless told otherwise. An IPv6 address is in brackets. PLAYPEN_TOKEN holds the tokens to be
+///   presented, separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
+/// - any other "HOST": the server there; but as "localhost", with a warning, where PLAYPEN_WORLD is
+///   set, for programs that name a real robot's host.
 ///
 /// All clients that name the same world file share one simulation, which lives until the program
 /// ends.
