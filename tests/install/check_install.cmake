@@ -109,16 +109,16 @@ function(run_old compiler source package pattern)
   # From its own folder, by a relative name: the build may lie below one with a space.
   run("compiling ${source}" ${CMAKE_COMMAND} -E chdir "${old}"
     ${CMAKE_COMMAND} -E env "PKG_CONFIG_PATH=here/${pc_below}"
-    sh -c "'${compiler}' ${CXX_FLAGS} ${source} $(${flags}) -o ${package}_plain")
-  run("running ${source}" ${CMAKE_COMMAND} -E chdir "${old}" "./${package}_plain")
+    sh -c "'${compiler}' ${CXX_FLAGS} ${source} $(${flags}) -o ${source}_plain")
+  run("running ${source}" ${CMAKE_COMMAND} -E chdir "${old}" "./${source}_plain")
   if(NOT run_output MATCHES "${pattern}")
     message(FATAL_ERROR "${source} printed:\n${run_output}")
   endif()
   file(WRITE "${old}/Makefile" "FLAGS = $(shell ${flags})\n\
-${package}_made: ${source}\n\t\"${compiler}\" ${CXX_FLAGS} ${source} $(FLAGS) -o $@\n")
+${source}_made: ${source}\n\t\"${compiler}\" ${CXX_FLAGS} ${source} $(FLAGS) -o $@\n")
   run("making ${source}" ${CMAKE_COMMAND} -E env "PKG_CONFIG_PATH=${pc_folder}"
-    make -C "${old}" ${package}_made)
-  run("running ${source} as made" "${old}/${package}_made" localhost)
+    make -C "${old}" ${source}_made)
+  run("running ${source} as made" "${old}/${source}_made" localhost)
   if(NOT run_output MATCHES "${pattern}")
     message(FATAL_ERROR "${source}, made, printed:\n${run_output}")
   endif()
