@@ -1266,7 +1266,7 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
   kernel.finish(ranges_m);
 }
 
-void PhysicsWorld::collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+void PhysicsWorld::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
                                  std::vector<Face>& faces) const {
   Impl& d = *impl_;
   faces.clear();
@@ -1275,12 +1275,12 @@ void PhysicsWorld::collect_faces(const Vec2& low_W, const Vec2& high_W, int own_
                        Contact::Kind kind, int index, double height_m) {
     for (std::size_t i = first; i < last; ++i) {
       const Edge& e = list.edges[i];
-      if (std::max(e.x0, e.x1) < low_W.x() || std::min(e.x0, e.x1) > high_W.x()) continue;
-      if (std::max(e.y0, e.y1) < low_W.y() || std::min(e.y0, e.y1) > high_W.y()) continue;
+      if (std::max(e.x0, e.x1) < low.x() || std::min(e.x0, e.x1) > high.x()) continue;
+      if (std::max(e.y0, e.y1) < low.y() || std::min(e.y0, e.y1) > high.y()) continue;
       faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
     }
   };
-  query(d.world, low_W, high_W, [&](const b2Fixture& fixture) {
+  query(d.world, low, high, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
     if (info.kind == Contact::Kind::kRobot) return;
     add(d.all_edges, info.first_edge, info.first_edge + info.edge_count, info.kind, info.index,

@@ -129,7 +129,7 @@ class PhysicsWorld {
   /// Collects the faces of all that reaches into a box with sides along W's axes, and perhaps
   /// some others, in no particular order.
   /// @param own_robot  robot whose body is left out, or -1.
-  void collect_faces(const Vec2& low_W, const Vec2& high_W, int own_robot,
+  void collect_faces(const Vec2& low, const Vec2& high, int own_robot,
                      std::vector<Face>& faces) const;
 
   /// Whether a point lies inside a solid that stands higher than `height_m`.
