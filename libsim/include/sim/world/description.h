@@ -53,6 +53,7 @@ struct ObstacleDescription {
   return {X_WB * Vec2(h.x(), -h.y()), X_WB * Vec2(h.x(), h.y()), X_WB * Vec2(-h.x(), h.y()),
           X_WB * Vec2(-h.x(), -h.y())};
 }
+/// Corners of an obstacle, likewise.
 [[nodiscard]] inline std::vector<Vec2> box_corners(const ObstacleDescription& box) {
   return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
 }
