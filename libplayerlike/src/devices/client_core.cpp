@@ -40,13 +40,16 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
 
 void ClientCore::read(const std::atomic<bool>* stop) {
   Notifications notifications;
+  int rounds = 0;
   for (bool done = false; !done;) {
     session_->wait();
     const std::lock_guard lock(mutex_);
     if (stop != nullptr && *stop) return;
     const int count = hand_out(notifications);
-    // Another thread of this client may have taken the round: then there is one more to wait for.
-    done = count > 0 || entries_.empty();
+    // Another thread of this client may have taken the round: then there is one more to wait for,
+    // but not for ever, as that thread may always be first. The data are new all the same.
+    constexpr int kMostRounds = 3;
+    done = count > 0 || entries_.empty() || ++rounds == kMostRounds;
   }
   for (const auto& call : notifications) call();
 }

@@ -350,6 +350,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
 void Host::Core::wait_for_turn(Lock& lock, Client& client) {
   if (wait_is_over(client)) return;
   client.waiting = true;
+  bool told = false;  // threads that only tell each other that they wait would never sleep
   while (client.waiting) {
     if (client.closed) {
       client.waiting = false;
@@ -365,7 +366,7 @@ void Host::Core::wait_for_turn(Lock& lock, Client& client) {
     } else if (may_advance()) {
       advance();
     } else {
-      changed_.notify_all();
+      if (!std::exchange(told, true)) changed_.notify_all();
       wait_for_others(lock, client);
     }
   }
