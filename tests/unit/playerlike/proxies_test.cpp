@@ -458,6 +458,16 @@ TEST_F(Proxies, ThreadReadsInTheBackground) {
   // The destructor ends the thread.
 }
 
+TEST_F(Proxies, ReadDoesNotWaitForEverForRoundsThatAnotherThreadTakes) {
+  Position2dProxy position(&client, 0);
+  for (int i = 0; i < 3; ++i) world->add_round({});  // as if it had
+  world->add_round({{kPose, pose_reading(0.1, {1.0, 0.0, 0.0})}});
+  client.Read();
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 0.0);
+  client.Read();
+  EXPECT_DOUBLE_EQ(position.GetXPos(), 1.0);
+}
+
 TEST_F(Proxies, EndOfTheRunReachesProgramsThatReadInTheBackground) {
   Position2dProxy position(&client, 0);
   client.StartThread();  // meets the end at once
