@@ -110,7 +110,6 @@ struct Robot {
   Twist target;
   bool suspended = false;
   bool shoving = false;  // touches another, or one that does is near
-  bool free = false;     // nothing is so near that it could be reached in this part of a step
   double stall_clock_s = 0.0;
   double moved_m = 0.0;                // in this part of a step, any point of it, at most
   std::vector<b2Fixture*> candidates;  // all that is nearer than candidates_reach_m
@@ -698,10 +697,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
   void rebuild_robot_edges() {
     robot_edges.clear();
     robot_first_edge.clear();
-    robot_circles.clear();
     robot_discs.clear();
     for (const Robot& r : robots) {
-      robot_circles.push_back({r.X_WB.x_m, r.X_WB.y_m, r.seen_radius_m, 0});
       robot_discs.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
                       static_cast<float>(r.seen_radius_m));
       robot_first_edge.push_back(robot_edges.edges.size());
@@ -810,12 +807,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
   bool sweep = true;
   EdgeList robot_edges;
   std::vector<std::size_t> robot_first_edge;
-  struct Circle {
-    double x, y, radius;
-    int robot;
-  };
-  std::vector<Circle> robot_circles;      // round them, for quick refusal
-  scan::DiscBuffer robot_discs;           // the same
+  scan::DiscBuffer robot_discs;           // round them
   std::vector<scan::ScanKernel> kernels;  // of scan(), one a geometry
   scan::EdgeBuffer scan_edges;            // scratch memory of scan()
   bool robot_edges_fresh = false;
@@ -824,6 +816,10 @@ struct PhysicsWorld::Impl : b2ContactListener {
 
   std::vector<Robot> robots;
   double largest_radius_m = 0.0;
+  struct Circle {
+    double x, y, radius;
+    int robot;
+  };
   std::vector<Circle> by_x;  // round the robots, in this order
   std::vector<std::pair<int, int>> near_pairs;
   std::vector<std::vector<int>> near_to;  // the same by robot, in the same order
@@ -1149,35 +1145,6 @@ void append_facing_edges(const EdgeList& list, std::size_t first, std::size_t la
   out.truncate(begin + count);
 }
 
-// Which circles a sensor cannot see any part of, whatever stands between.
-class BlindSide {
- public:
-  explicit BlindSide(const PhysicsWorld::View* view) {
-    if (view == nullptr || view->half_angle_rad >= std::numbers::pi) return;
-    narrow_ = view->half_angle_rad <= 0.5 * std::numbers::pi;
-    limited_ = true;
-    const double right_rad = view->yaw_rad - view->half_angle_rad;
-    const double left_rad = view->yaw_rad + view->half_angle_rad;
-    right_ = {std::cos(right_rad), std::sin(right_rad)};
-    left_ = {std::cos(left_rad), std::sin(left_rad)};
-  }
-  /// @param dx, dy  middle of the circle, from the sensor [m].
-  [[nodiscard]] bool holds(double dx, double dy, double radius_m) const {
-    if (!limited_) return false;
-    const double inside_right = right_.x() * dy - right_.y() * dx;
-    const double inside_left = dx * left_.y() - dy * left_.x();
-    const bool past_right = inside_right < -radius_m;
-    const bool past_left = inside_left < -radius_m;
-    return narrow_ ? past_right || past_left : past_right && past_left;
-  }
-
- private:
-  bool limited_ = false;
-  bool narrow_ = false;  // the view is the part that both of its sides leave, else the rest is
-  Vec2 right_ = Vec2::Zero();
-  Vec2 left_ = Vec2::Zero();
-};
-
 // Calls visit(fixture) for every fixture whose fat box meets the box.
 template <typename Visitor>
 void query(const b2World& world, const Vec2& low, const Vec2& high, Visitor visit) {
@@ -1214,22 +1181,17 @@ void PhysicsWorld::Impl::collect_static_edges(const Vec2& p_WL, double radius_m,
 }
 
 void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
-                                 int own_robot, bool test_inside, scan::EdgeBuffer& edges,
-                                 const View* view) const {
+                                 int own_robot, bool test_inside, scan::EdgeBuffer& edges) const {
   Impl& d = *impl_;
   d.collect_static_edges(p_WL, radius_m, sensor_height_m, edges);
-  const auto append = view == nullptr ? append_edges : append_facing_edges;
   if (!d.robot_edges_fresh) d.rebuild_robot_edges();
-  const BlindSide blind(view);
-  for (std::size_t i = 0; i < d.robot_circles.size(); ++i) {
+  for (std::size_t i = 0; i < d.robots.size(); ++i) {
     if (static_cast<int>(i) == own_robot) continue;
-    const Impl::Circle& circle = d.robot_circles[i];
-    const double reach = radius_m + circle.radius;
-    const double dx = circle.x - p_WL.x();
-    const double dy = circle.y - p_WL.y();
-    if (dx * dx + dy * dy > reach * reach || blind.holds(dx, dy, circle.radius)) continue;
-    append(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL, sensor_height_m,
-           edges);
+    const Robot& r = d.robots[i];
+    const double reach = radius_m + r.seen_radius_m;
+    if ((r.X_WB.position() - p_WL).squaredNorm() > reach * reach) continue;
+    append_edges(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL,
+                 sensor_height_m, edges);
   }
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
 }
@@ -1286,7 +1248,7 @@ void PhysicsWorld::collect_faces(const Vec2& low, const Vec2& high, int own_robo
     add(d.all_edges, info.first_edge, info.first_edge + info.edge_count, info.kind, info.index,
         info.height_m);
   });
-  for (std::size_t i = 0; i < d.robot_circles.size(); ++i) {
+  for (std::size_t i = 0; i < d.robots.size(); ++i) {
     const int robot = static_cast<int>(i);
     if (robot == own_robot) continue;
     const Robot& r = d.robots[i];

@@ -95,19 +95,12 @@ class PhysicsWorld {
   /// below exact_below_m, otherwise a lower bound that is at least that.
   [[nodiscard]] double clearance_m(int robot, double limit_m, double exact_below_m);
 
-  /// Where a sensor looks.
-  struct View {
-    double yaw_rad;         ///< its middle, in W, counter-clockwise [rad]
-    double half_angle_rad;  ///< to either side of that, >= 0; pi and more: all round [rad]
-  };
   /// Collects the edges within radius_m of a sensor at p_WL that stand higher than the sensor.
   /// @param own_robot     robot whose body is not seen, or -1.
   /// @param test_inside   also find out whether p_WL lies inside a solid (edges.inside); may be
   ///                      left out for a sensor that lies within its robot's own footprint.
-  /// @param view          of a sensor that sees from p_WL alone: robots outside it, and edges of
-  ///                      robots that face away, are left out.
   void collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
-                     bool test_inside, scan::EdgeBuffer& edges, const View* view = nullptr) const;
+                     bool test_inside, scan::EdgeBuffer& edges) const;
 
   /// Scans from X_WL, by collect_edges() in parts: nearer robots come first, those that are hidden
   /// behind walls or other robots are left out. The same ranges to the last bit, at a cost that
