@@ -1,28 +1,30 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "physics/physics_world.h"
 
-#include <box2d/b2_distance.h>
 #include <box2d/box2d.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
 #include "physics/feasible_twist.h"
+#include "physics/hilbert_curve.h"
+#include "physics/shapes.h"
 #include "sim/core/assert.h"
 
 namespace sim {
 namespace {
 
-constexpr double kScale = 10.0;  // Box2D units a metre
-constexpr float kScaleF = 10.0F;
-
 // Box2D keeps the hulls of touching polygons apart by their two skins less the slop.
 constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kScale;
+
+// Nearer than this they touch, to Box2D.
+constexpr double kTouchingGap_m = 2.0 * b2_polygonRadius / kScale;
 
 // Farther than this a point of a robot must not move in one step of Box2D: broad phase boxes of
 // obstacles are 1 cm fat, so a contact is known before it is reached.
@@ -44,17 +46,26 @@ constexpr double kStallDelay_s = 0.2;
 // it must look again.
 constexpr double kCandidateMargin_m = 0.1;
 
-// So many of a free robot's contacts, none of which touches, may be out of date.
-constexpr int kMostKeptContacts = 4;
+// How far round a robot whose pace is slow things are looked for as if it were this [m a part of a
+// step]: enough for all that touches.
+constexpr double kLeastTravel_m = 0.25 * kMaxTravel_m;
+
+// Two robots are a pair while no more than this is between the circles round them, and all move.
+constexpr double kPairReach_m = 0.2;
+
+// Of a distance that is not known yet.
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
+
+// How far round a robot walls are looked for, and from where on how near the circle round it comes
+// to them says enough.
+constexpr double kWallSearch_m = 0.25;
+constexpr double kRoughWall_m = 0.05;
+
+// For so many parts of a step Box2D keeps a robot's body that nothing is near to any more.
+constexpr std::uint8_t kKeptParts = 5;
 
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
-
-b2Vec2 to_box2d(const Vec2& p) {
-  return {static_cast<float>(p.x() * kScale), static_cast<float>(p.y() * kScale)};
-}
-
-double metres(float units) { return static_cast<double>(units) / kScale; }
 
 // sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
 double sinc(double x) {
@@ -74,6 +85,14 @@ struct FixtureInfo {
 struct Edge {
   double x0, y0, x1, y1;
 };
+
+// How far a point is from an edge.
+double distance_to(const Edge& edge, const Vec2& p) {
+  const Vec2 a(edge.x0, edge.y0);
+  const Vec2 along = Vec2(edge.x1, edge.y1) - a;
+  const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0.0, 1.0);
+  return (a + t * along - p).norm();
+}
 
 // Edges of everything that does not move, in W, in one array, so that a small world's are
 // collected in one sweep.
@@ -97,32 +116,74 @@ struct EdgeList {
 // More static edges than this are searched by Box2D's tree instead of swept.
 constexpr std::size_t kSweepLimit = 512;
 
-struct Robot {
-  b2Body* body = nullptr;
+// Something near a robot that does not move.
+struct Wall {
+  const b2Shape* shape;
+  Edge edge;  // of a map's wall
+  bool is_edge;
+};
+
+// Something solid that may be the nearest to a robot.
+struct Candidate {
+  const b2Shape* shape;
+  int robot;   // -1: none, but something that does not move
+  b2AABB box;  // round it, if it does not move
+};
+
+// What of a robot is asked for less often.
+struct RobotDetails {
   b2PolygonShape shape;
   b2PolygonShape reaching_shape;  // the same with a wide skin, which finds contacts ahead
-  DriveKind drive = DriveKind::kDifferential;
+  FixtureInfo* info = nullptr;
   double height_m = 0.0;
   double mass_kg = 0.0;
   double inertia_kgm2 = 0.0;
-  double radius_m = 0.0;  // of the footprint about B
-  Pose X_WB;              // exact; yaw not wrapped, in step with the body's angle
-  Twist target;
-  bool suspended = false;
-  bool shoving = false;  // touches another, or one that does is near
-  double stall_clock_s = 0.0;
-  double moved_m = 0.0;                // in this part of a step, any point of it, at most
-  std::vector<b2Fixture*> candidates;  // all that is nearer than candidates_reach_m
+  std::vector<Candidate> candidates;  // all that is nearer than candidates_reach_m
   b2Vec2 nearest_direction{1.0F, 0.0F};
-  double candidates_reach_m = -1.0;  // less all motion since; see clearance_m
-  double free_m = 0.0;  // nothing solid is nearer than this: what clearance_m found, less
-                        // all motion since
-  BodyState state;
-  std::vector<int> touching;        // contacts per partner, see ContactCounter
+  double candidates_reach_m = -1.0;  // when all had gone candidates_gone_m; see clearance_m
+  double candidates_gone_m = 0.0;
+  std::vector<Wall> walls;  // all that it may be near to before it has gone so far:
+  double walls_until_m = kUnknown;
+  std::vector<int> touching;        // contacts per partner, see count_contact
   EdgeList load;                    // outlines of what it carries, in B
   std::vector<int> load_obstacles;  // whose each of these edges is
   double seen_radius_m = 0.0;       // of the footprint and the load about B
 };
+
+struct alignas(64) Robot {
+  // What is asked for most often comes first: one line of the cache, then some others.
+  b2Body* body = nullptr;  // none while nothing is near
+  Twist target;
+  double radius_m = 0.0;           // of the footprint about B
+  double gone_m = 0.0;             // in all: any point of it, at most
+  double wall_until_m = kUnknown;  // nothing solid but robots is reached before it has gone so far
+  bool suspended = false;
+  bool shoving = false;         // touches another, or one that does is near
+  std::uint8_t kept_parts = 0;  // of a step, for which Box2D keeps the body
+  DriveKind drive = DriveKind::kDifferential;
+
+  Pose X_WB;             // exact; yaw not wrapped, in step with the body's angle
+  double moved_m = 0.0;  // in this part of a step: any point of it, at most
+  double stall_clock_s = 0.0;
+  double wall_gone_m = kUnknown;  // what it had gone when it looked for walls
+  BodyState* state = nullptr;
+  RobotDetails* details = nullptr;
+};
+
+// How far a robot's outline is off the line through an edge [m]; below 0: across it.
+double off_line_m(const Robot& r, const Edge& edge, const b2Transform& xf) {
+  const Vec2 a(edge.x0, edge.y0);
+  Vec2 normal = Vec2(edge.y1 - edge.y0, edge.x0 - edge.x1).normalized();
+  if (normal.dot(r.X_WB.position() - a) < 0.0) normal = -normal;
+  const b2Vec2 n(static_cast<float>(normal.x()), static_cast<float>(normal.y()));
+  return metres(least_along(n, r.details->shape, xf)) - normal.dot(a);
+}
+
+// Where a robot's shape is.
+b2Transform transform_of(const Robot& r) {
+  if (r.body != nullptr) return r.body->GetTransform();
+  return {to_box2d(r.X_WB.position()), b2Rot(static_cast<float>(r.X_WB.yaw_rad))};
+}
 
 // Lets the body turn about B, the axle's centre, as its wheels make it: to Box2D a body's velocity
 // is that of its centre of mass. Outlines that are round about B but for rounding keep theirs.
@@ -135,62 +196,84 @@ void center_mass_on_axle(b2Body& body) {
   body.SetMassData(&mass);
 }
 
-b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
-  SIM_ASSERT(vertices.size() >= 3 && vertices.size() <= b2_maxPolygonVertices);
-  std::array<b2Vec2, b2_maxPolygonVertices> points;
-  const std::size_t n = std::min(vertices.size(), points.size());
-  std::transform(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(n),
-                 points.begin(), to_box2d);
-  b2PolygonShape shape;
-  shape.Set(points.data(), static_cast<int32>(n));
-  return shape;
-}
-
-// Least of n . v over the corners v of a polygon or an edge, in W (Box2D units).
-float least_along(const b2Vec2& n, const b2Shape& shape, const b2Transform& xf) {
-  const b2Vec2 local = b2MulT(xf.q, n);
-  float least = std::numeric_limits<float>::infinity();
-  if (shape.GetType() == b2Shape::e_polygon) {
-    const auto& polygon = static_cast<const b2PolygonShape&>(shape);
-    for (int32 i = 0; i < polygon.m_count; ++i) {
-      least = std::min(least, b2Dot(local, polygon.m_vertices[i]));
-    }
-  } else {
-    const auto& edge = static_cast<const b2EdgeShape&>(shape);
-    least = std::min(b2Dot(local, edge.m_vertex1), b2Dot(local, edge.m_vertex2));
-  }
-  return least + b2Dot(n, xf.p);
-}
-
-// Whether some direction shows that a shape is farther from a robot's outline than so much (Box2D
-// units): that of its middle, or one that a side of either looks in.
-bool is_farther(const b2PolygonShape& outline, const b2Transform& xf, const b2Shape& other,
-                const b2Transform& other_xf, const b2Vec2& towards, float least) {
-  const auto apart = [&](const b2Vec2& n) {
-    return least_along(n, other, other_xf) + least_along(-n, outline, xf) > least;
-  };
-  b2Vec2 direction = towards;
-  if (direction.Normalize() > 0.0F && apart(direction)) return true;
-  for (int32 i = 0; i < outline.m_count; ++i) {
-    if (apart(b2Mul(xf.q, outline.m_normals[i]))) return true;
-  }
-  if (other.GetType() == b2Shape::e_polygon) {
-    const auto& polygon = static_cast<const b2PolygonShape&>(other);
-    for (int32 i = 0; i < polygon.m_count; ++i) {
-      if (apart(-b2Mul(other_xf.q, polygon.m_normals[i]))) return true;
-    }
-    return false;
-  }
-  const auto& edge = static_cast<const b2EdgeShape&>(other);
-  b2Vec2 side = b2Mul(other_xf.q, edge.m_vertex2 - edge.m_vertex1);
-  side.Normalize();
-  return apart({side.y, -side.x}) || apart({-side.y, side.x});
+// How far the circles round two robots are apart.
+double circles_apart_m(const Robot& a, const Robot& b) {
+  return std::max(0.0, (a.X_WB.position() - b.X_WB.position()).norm() - a.radius_m - b.radius_m);
 }
 
 const FixtureInfo& info_of(const b2Fixture* fixture) {
   return *reinterpret_cast<const FixtureInfo*>(
       const_cast<b2Fixture*>(fixture)->GetUserData().pointer);
 }
+
+// Contacts of a body, if there is one.
+const b2ContactEdge* contact_list(const b2Body* body) {
+  return body == nullptr ? nullptr : body->GetContactList();
+}
+
+// Calls visit(fixture) for everything but robots whose fat box meets the box.
+template <typename Visitor>
+void visit_fixed(const b2World& world, const b2AABB& box, Visitor visit) {
+  struct Callback : b2QueryCallback {
+    explicit Callback(Visitor& v) : visitor(v) {}
+    bool ReportFixture(b2Fixture* fixture) override {
+      if (info_of(fixture).kind != PhysicsWorld::Contact::Kind::kRobot) visitor(*fixture);
+      return true;
+    }
+    Visitor& visitor;
+  } callback(visit);
+  world.QueryAABB(&callback, box);
+}
+
+template <typename Visitor>
+void visit_fixed(const b2World& world, const Vec2& low, const Vec2& high, Visitor visit) {
+  b2AABB box;
+  box.lowerBound = to_box2d(low);
+  box.upperBound = to_box2d(high);
+  visit_fixed(world, box, visit);
+}
+
+// Two robots that may come near one another.
+struct Pair {
+  int first, second;
+  double both_gone_m;    // when these two had gone so far together,
+  double apart_m;        // so far apart they were, at least
+  b2Vec2 direction;      // from the first to the second, between their nearest points
+  b2SimplexCache cache;  // of these points
+};
+
+bool comes_before(const Pair& a, const Pair& b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+// A robot in that order.
+struct Spot {
+  std::uint32_t place;
+  int robot;
+  double until_m;  // good until the robot has gone so far
+};
+
+// Of a robot and what it carries, in W.
+struct Outline {
+  Vec2 p_WB;
+  double seen_radius_m;                                 // round it, of all
+  std::array<Vec2, b2_maxPolygonVertices + 1> corners;  // of the robot, the first once more at last
+  std::size_t count;                                    // of its edges
+  double height_m;
+  int robot;
+  std::size_t first_load;  // the edges of what it carries, in load_edges
+  std::size_t end_load;
+
+  [[nodiscard]] Edge edge(std::size_t i) const {
+    return {corners[i].x(), corners[i].y(), corners[i + 1].x(), corners[i + 1].y()};
+  }
+};
+
+// Round a robot.
+struct Circle {
+  double x, y, radius;
+  int robot;
+};
 
 }  // namespace
 
@@ -308,7 +391,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
   // The first robot whose footprint overlaps a shape; -1 if none does.
   [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const {
     const auto it = std::find_if(robots.begin(), robots.end(), [&](const Robot& r) {
-      return b2TestOverlap(&shape, 0, &r.shape, 0, xf, r.body->GetTransform());
+      return b2TestOverlap(&shape, 0, &r.details->shape, 0, xf, transform_of(r));
     });
     return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
   }
@@ -342,12 +425,13 @@ struct PhysicsWorld::Impl : b2ContactListener {
     double sign = 1.0;  // the normal points from A to B
     if (other.GetType() == b2Shape::e_polygon) {
       const auto& polygon = static_cast<const b2PolygonShape&>(other);
-      b2CollidePolygons(&manifold, &r.reaching_shape, xf, &polygon, other_xf);
-      points.Initialize(&manifold, xf, r.reaching_shape.m_radius, other_xf, polygon.m_radius);
+      b2CollidePolygons(&manifold, &r.details->reaching_shape, xf, &polygon, other_xf);
+      points.Initialize(&manifold, xf, r.details->reaching_shape.m_radius, other_xf,
+                        polygon.m_radius);
     } else {
       const auto& edge = static_cast<const b2EdgeShape&>(other);
-      b2CollideEdgeAndPolygon(&manifold, &edge, other_xf, &r.reaching_shape, xf);
-      points.Initialize(&manifold, other_xf, edge.m_radius, xf, r.reaching_shape.m_radius);
+      b2CollideEdgeAndPolygon(&manifold, &edge, other_xf, &r.details->reaching_shape, xf);
+      points.Initialize(&manifold, other_xf, edge.m_radius, xf, r.details->reaching_shape.m_radius);
       sign = -1.0;
     }
     if (manifold.pointCount == 0) return;
@@ -355,7 +439,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
     const double ny = sign * static_cast<double>(points.normal.y);
     const double c = std::cos(r.X_WB.yaw_rad);
     const double s = std::sin(r.X_WB.yaw_rad);
-    const double skins = static_cast<double>(r.reaching_shape.m_radius + other.m_radius);
+    const double skins = static_cast<double>(r.details->reaching_shape.m_radius + other.m_radius);
     for (int32 i = 0; i < manifold.pointCount; ++i) {
       const double gap_m = (static_cast<double>(points.separations[i]) + skins) / kScale;
       const double rx = metres(points.points[i].x) - r.X_WB.x_m;
@@ -365,9 +449,47 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
-  // Robots so close that they may reach one another, by a sweep over their order in x.
-  void find_near_pairs() {
-    near_pairs.clear();
+  // Gives Box2D a body for a robot, at rest.
+  void put_into_box2d(Robot& r) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = to_box2d(r.X_WB.position());
+    def.angle = static_cast<float>(r.X_WB.yaw_rad);
+    r.body = world.CreateBody(&def);
+    ++bodies;
+    b2MassData unit;
+    r.details->shape.ComputeMass(&unit, 1.0F);
+    attach(r.body, r.details->shape, r.details->info,
+           static_cast<float>(r.details->mass_kg) / unit.mass);
+    center_mass_on_axle(*r.body);
+    if (r.suspended) make_heavy(*r.body);
+  }
+
+  void take_out_of_box2d(Robot& r) {
+    world.DestroyBody(r.body);
+    r.body = nullptr;
+    --bodies;
+  }
+
+  void keep_in_box2d(Robot& r) {
+    if (r.body == nullptr) put_into_box2d(r);
+    r.kept_parts = kKeptParts;
+  }
+
+  // A mass beside which all others are nothing, rather than a static body: contacts live on.
+  static void make_heavy(b2Body& body) {
+    constexpr float kMore = 1e9F;
+    b2MassData mass;
+    body.GetMassData(&mass);
+    mass.mass *= kMore;
+    mass.I *= kMore;
+    body.SetMassData(&mass);
+  }
+
+  // Puts the robots in order of x.
+  void sort_by_x() {
+    if (order_fresh) return;
+    order_fresh = true;
     for (Circle& circle : by_x) {
       const Robot& r = robots[static_cast<std::size_t>(circle.robot)];
       circle.x = r.X_WB.x_m;
@@ -379,67 +501,217 @@ struct PhysicsWorld::Impl : b2ContactListener {
       for (; j > 0 && by_x[j - 1].x > moving.x; --j) by_x[j] = by_x[j - 1];
       by_x[j] = moving;
     }
+  }
+
+  // Calls visit(circle) for the circle round every robot that may reach into a box, in order of x.
+  template <typename Visitor>
+  void for_robots_in(const Vec2& low, const Vec2& high, Visitor visit) {
+    sort_by_x();
+    auto it = std::partition_point(by_x.begin(), by_x.end(), [&](const Circle& c) {
+      return c.x < low.x() - largest_radius_m;
+    });
+    for (; it != by_x.end() && it->x <= high.x() + largest_radius_m; ++it) {
+      if (it->y + it->radius >= low.y() && it->y - it->radius <= high.y()) visit(*it);
+    }
+  }
+
+  // Lists the pairs of robots that may come near one another before all have gone some way (as
+  // Verlet's neighbour lists do, Phys. Rev. 159, 98, 1967), by a sweep over their order in x.
+  void list_pairs() {
+    pairs_before.swap(pairs);
+    pairs.clear();
+    pairs_until_m = gone_m + 0.5 * (kPairReach_m - 3.0 * kMaxTravel_m);
+    sort_by_x();
     for (std::size_t i = 0; i < by_x.size(); ++i) {
       const Circle& a = by_x[i];
-      const double farthest_x = a.x + a.radius + largest_radius_m + 3.0 * kMaxTravel_m;
+      const double farthest_x = a.x + a.radius + largest_radius_m + kPairReach_m;
       for (std::size_t j = i + 1; j < by_x.size() && by_x[j].x <= farthest_x; ++j) {
         const Circle& b = by_x[j];
-        const double reach = a.radius + b.radius + 3.0 * kMaxTravel_m;
+        const double reach = a.radius + b.radius + kPairReach_m;
         const double dx = b.x - a.x;
         const double dy = b.y - a.y;
-        if (dx * dx + dy * dy < reach * reach &&
-            !is_farther(robots[static_cast<std::size_t>(a.robot)],
-                        robots[static_cast<std::size_t>(b.robot)])) {
-          near_pairs.emplace_back(std::min(a.robot, b.robot), std::max(a.robot, b.robot));
-        }
+        if (dx * dx + dy * dy >= reach * reach) continue;
+        pairs.push_back({std::min(a.robot, b.robot),
+                         std::max(a.robot, b.robot),
+                         0.0,
+                         kUnknown,
+                         {1.0F, 0.0F},
+                         {}});
       }
     }
-    std::sort(near_pairs.begin(), near_pairs.end());
+    std::sort(pairs.begin(), pairs.end(), comes_before);
+    meet_before.swap(meet_gone_m);
+    meet_gone_m.assign(pairs.size(), kUnknown);
+    if (placed) return;
+    // What is known of those that were listed before still holds.
+    std::size_t before = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      while (before < pairs_before.size() && comes_before(pairs_before[before], pairs[i])) ++before;
+      if (before == pairs_before.size() || comes_before(pairs[i], pairs_before[before])) continue;
+      pairs[i] = pairs_before[before];
+      meet_gone_m[i] = meet_before[before];
+    }
+  }
+
+  // How far the outlines of a pair are apart: a lower bound, exact up to `enough_m`.
+  [[nodiscard]] static double distance_m(const Robot& a, const Robot& b, double enough_m,
+                                         Pair& pair) {
+    // Two cheap lower bounds, by the circles round them and along the direction of the last nearest
+    // points, mostly say enough.
+    const double circles_m = circles_apart_m(a, b);
+    if (circles_m > enough_m) return circles_m;
+    const b2Transform xf_a = transform_of(a);
+    const b2Transform xf_b = transform_of(b);
+    const double along_m = metres(least_along(pair.direction, b.details->shape, xf_b) +
+                                  least_along(-pair.direction, a.details->shape, xf_a));
+    if (along_m > enough_m) return along_m;
+    const b2DistanceOutput found =
+        distance_between(a.details->shape, xf_a, b.details->shape, xf_b, pair.cache);
+    if (found.distance > 0.0F) {
+      pair.direction = (1.0F / found.distance) * (found.pointB - found.pointA);
+    }
+    return metres(found.distance);
+  }
+
+  // Finds the robots so close that they may reach one another, and gives bodies to all that
+  // something is near to.
+  void find_near(double dt_s) {
+    if (gone_m >= pairs_until_m) list_pairs();
     near_to.resize(robots.size());
-    for (std::vector<int>& others : near_to) others.clear();
-    for (const auto& [a, b] : near_pairs) {
-      near_to[static_cast<std::size_t>(a)].push_back(b);
-      near_to[static_cast<std::size_t>(b)].push_back(a);
+    for (const NearPair& pair : near_pairs) {
+      near_to[static_cast<std::size_t>(pair.first)].clear();
+      near_to[static_cast<std::size_t>(pair.second)].clear();
+    }
+    near_pairs.clear();
+    const double in_the_way_m = 3.0 * travel_m;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (meet_gone_m[i] - gone_m > 0.5 * in_the_way_m) continue;
+      Pair& pair = pairs[i];
+      Robot& a = robots[static_cast<std::size_t>(pair.first)];
+      Robot& b = robots[static_cast<std::size_t>(pair.second)];
+      double apart_m = pair.apart_m - (a.gone_m + b.gone_m - pair.both_gone_m);
+      if (apart_m > in_the_way_m) continue;
+      // How near exactly need not be known while both can have their way.
+      const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
+      const double touch_m = 2.0 * way_m + kTouchingGap_m;
+      if (pair.apart_m > in_the_way_m || a.shoving || b.shoving || apart_m <= touch_m) {
+        apart_m = distance_m(a, b, pair.apart_m > in_the_way_m ? in_the_way_m : touch_m, pair);
+        pair.apart_m = apart_m;
+        meet_gone_m[i] = gone_m + 0.5 * apart_m;
+        pair.both_gone_m = a.gone_m + b.gone_m;
+        if (apart_m > in_the_way_m) continue;
+      }
+      keep_in_box2d(a);
+      keep_in_box2d(b);
+      near_pairs.push_back({pair.first, pair.second, apart_m});
+    }
+    for (const NearPair& pair : near_pairs) {
+      near_to[static_cast<std::size_t>(pair.first)].push_back({pair.second, pair.apart_m});
+      near_to[static_cast<std::size_t>(pair.second)].push_back({pair.first, pair.apart_m});
+    }
+    for (Robot& r : robots) look_for_walls(r, dt_s);
+  }
+
+  // Finds out whether something that does not move is near a robot.
+  void look_for_walls(Robot& r, double dt_s) {
+    const double reach_m = wall_reach_m();
+    double apart_m = r.wall_until_m - r.gone_m;
+    if (apart_m > reach_m && r.body == nullptr) return;
+    const bool was_near = r.wall_until_m - r.wall_gone_m <= reach_m;
+    // How near exactly need not be known while the robot can have its way.
+    const double way_m = most_travel_m(r, dt_s) + kTouchingGap_m;
+    if (apart_m <= (was_near ? way_m : reach_m) && r.gone_m != r.wall_gone_m) {
+      apart_m = distance_to_walls_m(r);
+      r.wall_until_m = r.gone_m + apart_m;
+      r.wall_gone_m = r.gone_m;
+    }
+    if (apart_m <= reach_m) {
+      keep_in_box2d(r);
+    } else if (r.body != nullptr && --r.kept_parts == 0) {
+      take_out_of_box2d(r);
     }
   }
 
-  // Whether two robots are too far apart for either to be in the other's way.
-  [[nodiscard]] static bool is_farther(const Robot& a, const Robot& b) {
-    const b2Transform& xf_a = a.body->GetTransform();
-    const b2Transform& xf_b = b.body->GetTransform();
-    return sim::is_farther(a.shape, xf_a, b.shape, xf_b, xf_b.p - xf_a.p,
-                           static_cast<float>(3.0 * kMaxTravel_m) * kScaleF);
+  // Nearer than this something that does not move may be in a robot's way.
+  [[nodiscard]] double wall_reach_m() const { return 1.5 * travel_m + kRestingGap_m; }
+
+  // Finds all that may come within reach_m of a robot that fills a box.
+  void collect_candidates(Robot& r, const b2AABB& box, double reach_m) {
+    r.details->candidates.clear();
+    r.details->candidates_reach_m = reach_m;
+    r.details->candidates_gone_m = gone_m;
+    visit_fixed(world, grown(box, reach_m), [&](const b2Fixture& fixture) {
+      r.details->candidates.push_back({fixture.GetShape(), -1, fixture.GetAABB(0)});
+    });
+    const Vec2 p_WB = r.X_WB.position();
+    const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
+    for_robots_in(p_WB - reach, p_WB + reach, [&](const Circle& circle) {
+      const Robot& other = robots[static_cast<std::size_t>(circle.robot)];
+      if (&other != &r) r.details->candidates.push_back({&other.details->shape, circle.robot, {}});
+    });
   }
 
-  // Whether nothing can be reached by the robot, nor reach it, in this part of a step.
-  [[nodiscard]] bool is_free(std::size_t index) const {
+  // How near the nearest solid is to a robot's outline, robots apart: a lower bound, exact where it
+  // matters; at most kWallSearch_m [m].
+  [[nodiscard]] double distance_to_walls_m(Robot& r) {
+    const b2Transform xf = transform_of(r);
+    if (!(r.gone_m < r.details->walls_until_m)) {
+      b2AABB box;
+      r.details->shape.ComputeAABB(&box, xf, 0);
+      r.details->walls.clear();
+      r.details->walls_until_m = r.gone_m + kWallSearch_m;
+      visit_fixed(world, grown(box, 2.0 * kWallSearch_m), [&](const b2Fixture& fixture) {
+        const FixtureInfo& info = info_of(&fixture);
+        const bool edge = info.kind == Contact::Kind::kWall;
+        r.details->walls.push_back(
+            {fixture.GetShape(), edge ? all_edges.edges[info.first_edge] : Edge{}, edge});
+      });
+    }
+    double least_m = kWallSearch_m;
+    for (const Wall& wall : r.details->walls) {
+      if (wall.is_edge) {
+        // Two cheap lower bounds: by the circle round the robot, and how far it is off the line.
+        const double rough_m = std::max(distance_to(wall.edge, r.X_WB.position()) - r.radius_m,
+                                        off_line_m(r, wall.edge, xf));
+        if (rough_m >= std::min(least_m, kRoughWall_m)) {
+          least_m = std::min(least_m, rough_m);
+          continue;
+        }
+      }
+      least_m = std::min(
+          least_m, metres(distance_between(r.details->shape, xf, *wall.shape, unmoved()).distance));
+    }
+    return least_m;
+  }
+
+  // Whether a robot can have its way in this part of a step: it reaches nothing, and if others come
+  // half as near as they are, they do not reach it. Not asked of robots that may be shoved.
+  [[nodiscard]] bool is_free(std::size_t index, double dt_s) const {
     const Robot& r = robots[index];
-    if (r.free_m > 2.0 * kMaxTravel_m + kRestingGap_m) return true;
-    if (!near_to[index].empty()) return false;
-    // Contacts of bodies at rest are kept: not too many, before a step in motion forgets them.
-    int kept = 0;
-    for (const b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
-      if (++kept > kMostKeptContacts || is_near_wall(r, *e->contact)) return false;
-    }
-    return true;
+    const double way_m = most_travel_m(r, dt_s);
+    if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) return false;
+    return std::all_of(near_to[index].begin(), near_to[index].end(), [&](const Neighbour& near) {
+      const double share = robots[static_cast<std::size_t>(near.robot)].suspended ? 1.0 : 0.5;
+      return share * (near.apart_m - kTouchingGap_m) > way_m;
+    });
   }
 
   // Whether a contact is with something that does not move, and that is within reach.
-  [[nodiscard]] static bool is_near_wall(const Robot& r, const b2Contact& contact) {
+  [[nodiscard]] bool is_near_wall(const Robot& r, const b2Contact& contact) const {
     const b2Fixture* other = contact.GetFixtureA();
     if (other->GetBody() == r.body) other = contact.GetFixtureB();
     if (info_of(other).kind == Contact::Kind::kRobot) return false;
     const b2Transform& xf = r.body->GetTransform();
-    return !sim::is_farther(r.shape, xf, *other->GetShape(), other->GetBody()->GetTransform(),
-                            other->GetAABB(0).GetCenter() - xf.p,
-                            static_cast<float>(kMaxTravel_m + kRestingGap_m) * kScaleF);
+    const double apart_m =
+        metres(distance_between(r.details->shape, xf, *other->GetShape(), unmoved()).distance);
+    return apart_m <= wall_reach_m();
   }
 
   // Whether a robot that is shoved might run into something that it does not touch yet.
   [[nodiscard]] bool may_be_shoved_into(std::size_t index) const {
     const Robot& r = robots[index];
-    for (const int near : near_to[index]) {
-      if (!touches(r.body, robots[static_cast<std::size_t>(near)].body)) return true;
+    for (const Neighbour& near : near_to[index]) {
+      if (!touches(r.body, robots[static_cast<std::size_t>(near.robot)].body)) return true;
     }
     for (const b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
       if (!e->contact->IsTouching() && is_near_wall(r, *e->contact)) return true;
@@ -451,32 +723,31 @@ struct PhysicsWorld::Impl : b2ContactListener {
     Robot& r = robots[index];
     if (r.target == Twist{}) return r.target;
     constraints.clear();
-    for (b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
-      const b2Fixture* mine = e->contact->GetFixtureA();
-      const b2Fixture* other = e->contact->GetFixtureB();
-      if (mine->GetBody() != r.body) std::swap(mine, other);
-      if (info_of(other).kind == Contact::Kind::kRobot) continue;
-      add_constraints(r, *other->GetShape(), other->GetBody()->GetTransform(), 1.0, dt_s);
+    const double way_m = most_travel_m(r, dt_s);
+    if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) {
+      for (const Wall& wall : r.details->walls)
+        add_constraints(r, *wall.shape, unmoved(), 1.0, dt_s);
     }
-    for (const int near : near_to[index]) {
-      const Robot& other = robots[static_cast<std::size_t>(near)];
-      if (other.suspended) {  // as good as a wall
-        add_constraints(r, other.shape, other.body->GetTransform(), 1.0, dt_s);
-        continue;
-      }
-      if (touches(r.body, other.body)) continue;  // pushing: Box2D's solver shares the momentum
-      add_constraints(r, other.shape, other.body->GetTransform(), 0.5, dt_s);
+    for (const Neighbour& near : near_to[index]) {
+      const Robot& other = robots[static_cast<std::size_t>(near.robot)];
+      const double share = other.suspended ? 1.0 : 0.5;  // as good as a wall
+      const double apart_m = near.apart_m - r.moved_m - other.moved_m;
+      if (share * (apart_m - kTouchingGap_m) > way_m) continue;
+      // Pushing: Box2D's solver shares the momentum.
+      if (!other.suspended && touches(r.body, other.body)) continue;
+      add_constraints(r, other.details->shape, other.body->GetTransform(), share, dt_s);
     }
     if (constraints.empty()) return r.target;
     switch (r.drive) {
       case DriveKind::kOmnidirectional:
-        return feasible_planar_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
+        return feasible_planar_twist(r.target, r.details->mass_kg, r.details->inertia_kgm2,
+                                     constraints);
       case DriveKind::kCar:
         return feasible_share(r.target, constraints);
       case DriveKind::kDifferential:
         break;
     }
-    return feasible_twist(r.target, r.mass_kg, r.inertia_kgm2, constraints);
+    return feasible_twist(r.target, r.details->mass_kg, r.details->inertia_kgm2, constraints);
   }
 
   [[nodiscard]] static bool touches(const b2Body* a, const b2Body* b) {
@@ -500,47 +771,53 @@ struct PhysicsWorld::Impl : b2ContactListener {
 
   void something_was_placed() {
     placed = true;
+    pairs_until_m = gone_m;
     for (Robot& r : robots) {
-      r.free_m = 0.0;
-      r.candidates_reach_m = -1.0;
+      r.wall_until_m = kUnknown;
+      r.wall_gone_m = kUnknown;
+      r.details->walls_until_m = kUnknown;
+      r.details->candidates_reach_m = -1.0;
     }
   }
 
   // Moves all for a time in which no robot travels farther than kMaxTravel_m. Free robots are done
   // with at once, without Box2D; those that shove one another take several parts.
-  void advance(double dt_s) {
+  void advance(double dt_s, bool first, bool last) {
+    find_near(dt_s);
     if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
       world.Step(0.0F, 1, 1);
       placed = false;
     }
-    find_near_pairs();
     goals.resize(robots.size());
     twists.resize(robots.size());
     farthest_m = 0.0;
+    find_shoving();
     hindered.clear();
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      robots[i].moved_m = 0.0;
-      if (is_free(i)) {
-        move_freely(i, dt_s);
-      } else {
+      Robot& r = robots[i];
+      r.moved_m = 0.0;
+      if (first) r.state->travel_m = r.state->turn_rad = r.state->side_m = 0.0;
+      if (r.shoving || !is_free(i, dt_s)) {
         hindered.push_back(i);
+        continue;
       }
+      move_freely(r, dt_s);
+      if (last) finish_step(r, step_s);
     }
-    find_shoving();
     double shove_m = 0.0;
-    for (const std::size_t i : shoving) shove_m = std::max(shove_m, travel_m(robots[i], dt_s));
+    for (const std::size_t i : shoving) shove_m = std::max(shove_m, most_travel_m(robots[i], dt_s));
     const int parts = std::max(1, static_cast<int>(std::ceil(shove_m / most_shove_m)));
     substep(dt_s / parts, dt_s);
     for (int i = 1; i < parts; ++i) substep(dt_s / parts, 0.0);
-    // So much nearer another robot may have come.
-    for (Robot& r : robots) {
-      r.free_m -= farthest_m;
-      r.candidates_reach_m -= farthest_m;
+    if (last) {
+      for (const std::size_t i : hindered) finish_step(robots[i], step_s);
     }
+    gone_m += farthest_m;
+    order_fresh = false;
   }
 
   // How far any point of a robot that gets its target travels, at most [m].
-  [[nodiscard]] static double travel_m(const Robot& r, double dt_s) {
+  [[nodiscard]] static double most_travel_m(const Robot& r, double dt_s) {
     return (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
             std::abs(r.target.omega_radps) * r.radius_m) *
            dt_s;
@@ -554,38 +831,38 @@ struct PhysicsWorld::Impl : b2ContactListener {
       const auto i = static_cast<std::size_t>(index);
       if (!std::exchange(robots[i].shoving, true)) shoving.push_back(i);
     };
-    for (const auto& [a, b] : near_pairs) {
-      if (!touches(robots[static_cast<std::size_t>(a)].body,
-                   robots[static_cast<std::size_t>(b)].body)) {
+    for (const NearPair& pair : near_pairs) {
+      if (!touches(robots[static_cast<std::size_t>(pair.first)].body,
+                   robots[static_cast<std::size_t>(pair.second)].body)) {
         continue;
       }
-      add(a);
-      add(b);
+      add(pair.first);
+      add(pair.second);
     }
     most_shove_m = std::any_of(shoving.begin(), shoving.end(),
                                [this](std::size_t i) { return may_be_shoved_into(i); })
                        ? kMaxShove_m
                        : kMaxLoneShove_m;
     for (std::size_t i = 0; i < shoving.size(); ++i) {
-      for (const int near : near_to[shoving[i]]) add(near);
+      for (const Neighbour& near : near_to[shoving[i]]) add(near.robot);
     }
   }
 
-  // To Box2D a free robot is a body at rest that is put somewhere else.
-  void move_freely(std::size_t index, double dt_s) {
-    Robot& r = robots[index];
-    if (r.body->IsAwake()) r.body->SetAwake(false);
+  // To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
+  void move_freely(Robot& r, double dt_s) {
+    if (r.body != nullptr && r.body->IsAwake()) r.body->SetAwake(false);
     if (r.target == Twist{}) return;
-    twists[index] = r.target;
-    goals[index] = arc_end(r.X_WB, r.target, dt_s);
-    r.body->SetTransform(to_box2d(goals[index].position()),
-                         static_cast<float>(goals[index].yaw_rad));
-    arrive(index, dt_s);
+    const Pose goal = arc_end(r.X_WB, r.target, dt_s);
+    if (r.body != nullptr) {
+      r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
+    }
+    arrive(r, goal, r.target, dt_s);
   }
 
   // Moves the robots that are hindered: those that shove by dt_s, the others by others_dt_s, in one
-  // step of Box2D; if that is 0 they rest.
+  // step of Box2D. In the first part that is all the time there is; then it is 0, and they rest.
   void substep(double dt_s, double others_dt_s) {
+    if (bodies == 0) return;
     const float inv_dt = static_cast<float>(1.0 / dt_s);
     for (const std::size_t i : hindered) {
       Robot& r = robots[i];
@@ -594,7 +871,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
         r.body->SetAwake(false);
         continue;
       }
-      twists[i] = allowed_twist(i, own_dt_s);
+      if (others_dt_s > 0.0) twists[i] = allowed_twist(i, others_dt_s);
       goals[i] = arc_end(r.X_WB, twists[i], own_dt_s);
       if (goals[i] == r.X_WB && !r.body->IsAwake()) continue;
       // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
@@ -626,7 +903,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
     const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
     if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
         std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
-      arrive(index, dt_s);
+      arrive(r, goal, twists[index], dt_s);
       return;
     }
     const Pose before = r.X_WB;
@@ -636,30 +913,27 @@ struct PhysicsWorld::Impl : b2ContactListener {
     const double dx = r.X_WB.x_m - before.x_m;
     const double dy = r.X_WB.y_m - before.y_m;
     // The wheels' path is the arc whose chord this is.
-    r.state.travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
-    r.state.side_m += dy * std::cos(heading) - dx * std::sin(heading);
+    r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
+    r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
     moved(r, std::hypot(dx, dy), turn);
   }
 
   // The robot is where its twist took it.
-  void arrive(std::size_t index, double dt_s) {
-    Robot& r = robots[index];
-    r.X_WB = goals[index];
-    const double travel = twists[index].v_mps * dt_s;
-    const double side = twists[index].lateral_mps * dt_s;
-    r.state.travel_m += travel;
-    r.state.side_m += side;
-    moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side),
-          twists[index].omega_radps * dt_s);
+  void arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
+    r.X_WB = goal;
+    const double travel = twist.v_mps * dt_s;
+    const double side = twist.lateral_mps * dt_s;
+    r.state->travel_m += travel;
+    r.state->side_m += side;
+    moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
   }
 
   // Books that a robot went so far and turned so much.
   void moved(Robot& r, double way_m, double turn_rad) {
-    r.state.turn_rad += turn_rad;
+    r.state->turn_rad += turn_rad;
     if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
     const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
-    r.free_m -= most_m;
-    r.candidates_reach_m -= most_m;
+    r.gone_m += most_m;
     r.moved_m += most_m;
     farthest_m = std::max(farthest_m, r.moved_m);
   }
@@ -677,11 +951,12 @@ struct PhysicsWorld::Impl : b2ContactListener {
   // Keeps angles small, where single precision is fine.
   void unwind(Robot& r) {
     r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
+    if (r.body == nullptr) return;
     r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
   }
 
   static void finish_step(Robot& r, double dt_s) {
-    BodyState& s = r.state;
+    BodyState& s = *r.state;
     s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
     s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, s.side_m / dt_s};
     s.commanded = r.target;
@@ -694,38 +969,82 @@ struct PhysicsWorld::Impl : b2ContactListener {
     s.stalled = r.stall_clock_s >= kStallDelay_s - 1e-9;
   }
 
-  void rebuild_robot_edges() {
-    robot_edges.clear();
-    robot_first_edge.clear();
+  // Puts the robots in the order in which a Hilbert curve meets them, so that those that follow one
+  // another are near each other. Which way a robot went since it was put somewhere in it matters
+  // little for a while.
+  void sort_by_place() {
+    constexpr double kWhile_m = 0.1;
+    for (Spot& spot : by_place) {
+      const Robot& r = robots[static_cast<std::size_t>(spot.robot)];
+      if (r.gone_m < spot.until_m) continue;
+      spot.place = along_hilbert_curve(r.X_WB.position());
+      spot.until_m = r.gone_m + kWhile_m;
+    }
+    for (std::size_t i = 1; i < by_place.size(); ++i) {  // insertion sort: nearly sorted already
+      const Spot moving = by_place[i];
+      std::size_t j = i;
+      for (; j > 0 && by_place[j - 1].place > moving.place; --j) by_place[j] = by_place[j - 1];
+      by_place[j] = moving;
+    }
+  }
+
+  void rebuild_outlines() {
+    load_edges.clear();
+    outlines.resize(robots.size());
     robot_discs.clear();
-    for (const Robot& r : robots) {
+    sort_by_place();
+    for (std::size_t k = 0; k < by_place.size(); ++k) {
+      const Robot& r = robots[static_cast<std::size_t>(by_place[k].robot)];
       robot_discs.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
-                      static_cast<float>(r.seen_radius_m));
-      robot_first_edge.push_back(robot_edges.edges.size());
+                      static_cast<float>(r.details->seen_radius_m));
       const double c = std::cos(r.X_WB.yaw_rad);
       const double s = std::sin(r.X_WB.yaw_rad);
-      const b2Vec2* v = r.shape.m_vertices;
-      const int n = r.shape.m_count;
-      std::array<Vec2, b2_maxPolygonVertices> p;
-      for (int i = 0; i < n; ++i) {
-        const double x = metres(v[i].x);
-        const double y = metres(v[i].y);
-        p[static_cast<std::size_t>(i)] = {r.X_WB.x_m + c * x - s * y, r.X_WB.y_m + s * x + c * y};
+      Outline& outline = outlines[k];
+      outline.count = static_cast<std::size_t>(r.details->shape.m_count);
+      for (std::size_t i = 0; i < outline.count; ++i) {
+        const double x = metres(r.details->shape.m_vertices[i].x);
+        const double y = metres(r.details->shape.m_vertices[i].y);
+        outline.corners[i] = {r.X_WB.x_m + c * x - s * y, r.X_WB.y_m + s * x + c * y};
       }
-      for (int i = 0; i < n; ++i) {
-        const Vec2& a = p[static_cast<std::size_t>(i)];
-        const Vec2& b = p[static_cast<std::size_t>((i + 1) % n)];
-        robot_edges.add({a.x(), a.y(), b.x(), b.y()}, r.height_m);
+      outline.corners[outline.count] = outline.corners[0];
+      outline.p_WB = r.X_WB.position();
+      outline.seen_radius_m = r.details->seen_radius_m;
+      outline.height_m = r.details->height_m;
+      outline.robot = by_place[k].robot;
+      outline.first_load = load_edges.edges.size();
+      for (std::size_t i = 0; i < r.details->load.edges.size(); ++i) {
+        const Edge& e = r.details->load.edges[i];
+        load_edges.add({r.X_WB.x_m + c * e.x0 - s * e.y0, r.X_WB.y_m + s * e.x0 + c * e.y0,
+                        r.X_WB.x_m + c * e.x1 - s * e.y1, r.X_WB.y_m + s * e.x1 + c * e.y1},
+                       r.details->load.heights_m[i]);
       }
-      for (std::size_t i = 0; i < r.load.edges.size(); ++i) {
-        const Edge& e = r.load.edges[i];
-        robot_edges.add({r.X_WB.x_m + c * e.x0 - s * e.y0, r.X_WB.y_m + s * e.x0 + c * e.y0,
-                         r.X_WB.x_m + c * e.x1 - s * e.y1, r.X_WB.y_m + s * e.x1 + c * e.y1},
-                        r.load.heights_m[i]);
-      }
+      outline.end_load = load_edges.edges.size();
     }
-    robot_first_edge.push_back(robot_edges.edges.size());
-    robot_edges_fresh = true;
+    robot_discs.group();
+    outlines_fresh = true;
+  }
+
+  // Casts a ray from A to C at the robots that may(robot) lets: calls visit(fraction of the line)
+  // for each that it meets from outside, until that returns false.
+  template <typename Filter, typename Visitor>
+  void cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
+    const Vec2 line = p_WC - p_WA;
+    b2RayCastInput input;
+    input.p1 = to_box2d(p_WA);
+    input.p2 = to_box2d(p_WC);
+    input.maxFraction = 1.0F;
+    bool more = true;
+    for_robots_in(p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Circle& circle) {
+      if (!more) return;
+      const Vec2 p_AB = Vec2(circle.x, circle.y) - p_WA;
+      const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // times the line's length
+      if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
+      if (!may(circle.robot)) return;
+      const Robot& r = robots[static_cast<std::size_t>(circle.robot)];
+      b2RayCastOutput output;
+      if (!r.details->shape.RayCast(&output, input, transform_of(r), 0)) return;
+      more = visit(output.fraction);
+    });
   }
 
   [[nodiscard]] bool inside_solid(const Vec2& p_W, double height_m, int own_robot);
@@ -764,7 +1083,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
     const FixtureInfo& mine = info_of(robot_fixture);
     if (mine.kind != Contact::Kind::kRobot) return;
     const FixtureInfo& theirs = info_of(other);
-    std::vector<int>& touching = robots[static_cast<std::size_t>(mine.index)].touching;
+    std::vector<int>& touching = robots[static_cast<std::size_t>(mine.index)].details->touching;
     const std::size_t where = slot(theirs);
     if (touching.size() <= where) touching.resize(where + 1, 0);
     touching[where] += change;
@@ -805,29 +1124,47 @@ struct PhysicsWorld::Impl : b2ContactListener {
   EdgeList all_edges;    // of every static thing, extended or not
   EdgeList fixed_edges;  // of those that are there now
   bool sweep = true;
-  EdgeList robot_edges;
-  std::vector<std::size_t> robot_first_edge;
+  EdgeList load_edges;
+  std::vector<Outline> outlines;
   scan::DiscBuffer robot_discs;           // round them
+  std::vector<Spot> by_place;             // the order of both
   std::vector<scan::ScanKernel> kernels;  // of scan(), one a geometry
   scan::EdgeBuffer scan_edges;            // scratch memory of scan()
-  bool robot_edges_fresh = false;
+  bool outlines_fresh = false;
 
   bool placed = true;  // something was put somewhere since the last step
 
   std::vector<Robot> robots;
+  std::deque<BodyState> states;      // of them
+  std::deque<RobotDetails> details;  // likewise
   double largest_radius_m = 0.0;
-  struct Circle {
-    double x, y, radius;
-    int robot;
-  };
   std::vector<Circle> by_x;  // round the robots, in this order
-  std::vector<std::pair<int, int>> near_pairs;
-  std::vector<std::vector<int>> near_to;  // the same by robot, in the same order
-  double farthest_m = 0.0;                // that any robot has moved in this part of a step
-  std::vector<std::size_t> hindered;      // robots that are not free
+  bool order_fresh = false;
+  std::vector<Pair> pairs;  // all that may come near before gone_m is pairs_until_m, in order
+  std::vector<double> meet_gone_m;  // when any robot has gone so far, each of them may meet
+  std::vector<Pair> pairs_before;   // the same as they were listed before
+  std::vector<double> meet_before;
+  double pairs_until_m = 0.0;
+  struct NearPair {
+    int first, second;
+    double apart_m;  // at least, when this part of a step began
+  };
+  std::vector<NearPair> near_pairs;  // of them, those that may be in each other's way
+  struct Neighbour {
+    int robot;
+    double apart_m;
+  };
+  std::vector<std::vector<Neighbour>> near_to;  // the same by robot, in the same order
+  double step_s = 0.0;                          // the whole step under way
+  double step_gone_m = 0.0;                     // how far any robot went in the last one, at most
+  double travel_m = 0.0;    // of any robot in a part of a step that gets its target, at most
+  double farthest_m = 0.0;  // that any robot has moved in this part of a step
+  double gone_m = 0.0;      // the sum of it: so far any robot has gone, at most
+  int bodies = 0;           // of robots that Box2D has
+  std::vector<std::size_t> hindered;  // robots that are not free
   double most_shove_m = kMaxShove_m;
   std::vector<std::size_t> shoving;  // robots that touch others or are near such
-  std::vector<Pose> goals;           // where each robot gets to in this step if nothing hinders it
+  std::vector<Pose> goals;           // where hindered robots get to if nothing stops them
   std::vector<Twist> twists;         // by which twist
   std::vector<TwistConstraint> constraints;
   std::vector<Contact> contacts;
@@ -844,41 +1181,37 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   Impl& d = *impl_;
   const int index = static_cast<int>(d.robots.size());
   Robot r;
-  r.shape = polygon_shape(model.footprint);
-  r.reaching_shape = r.shape;
-  r.reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  r.state = &d.states.emplace_back();
+  r.details = &d.details.emplace_back();
+  r.details->shape = polygon_shape(model.footprint);
+  r.details->reaching_shape = r.details->shape;
+  r.details->reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
   r.drive = model.drive.kind;
-  r.height_m = model.height_m;
+  r.details->height_m = model.height_m;
   for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
-  r.seen_radius_m = r.radius_m;
+  r.details->seen_radius_m = r.radius_m;
   r.X_WB = X_WB;
-  r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
+  r.state->X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
 
-  b2BodyDef def;
-  def.type = b2_dynamicBody;
-  def.position = to_box2d(X_WB.position());
-  def.angle = static_cast<float>(X_WB.yaw_rad);
-  r.body = d.world.CreateBody(&def);
-  b2MassData unit;
-  r.shape.ComputeMass(&unit, 1.0F);
-  FixtureInfo* info = d.new_info(Contact::Kind::kRobot, index, model.height_m);
-  d.attach(r.body, r.shape, info, static_cast<float>(model.mass_kg) / unit.mass);
-  center_mass_on_axle(*r.body);
-  r.mass_kg = model.mass_kg;
-  r.inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
+  r.details->info = d.new_info(Contact::Kind::kRobot, index, model.height_m);
+  r.details->mass_kg = model.mass_kg;
+  d.put_into_box2d(r);
+  r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
 
   d.largest_radius_m = std::max(d.largest_radius_m, r.radius_m);
+  d.by_place.push_back({0, index, 0.0});
   d.by_x.push_back({X_WB.x_m, X_WB.y_m, r.radius_m, index});
   d.robots.push_back(std::move(r));
+  d.order_fresh = false;
   d.something_was_placed();
-  d.robot_edges_fresh = false;
+  d.outlines_fresh = false;
   return index;
 }
 
 int PhysicsWorld::robot_count() const noexcept { return static_cast<int>(impl_->robots.size()); }
 
 double PhysicsWorld::height_m(int robot) const {
-  return impl_->robots[static_cast<std::size_t>(robot)].height_m;
+  return impl_->robots[static_cast<std::size_t>(robot)].details->height_m;
 }
 
 void PhysicsWorld::set_target(int robot, const Twist& target) {
@@ -890,21 +1223,16 @@ void PhysicsWorld::set_suspended(int robot, bool suspended) {
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
   if (suspended == r.suspended) return;
   r.suspended = suspended;
+  if (suspended) r.target = {};
+  if (r.body == nullptr) return;
   if (!suspended) {
     r.body->ResetMassData();
     center_mass_on_axle(*r.body);
     return;
   }
-  // A mass beside which all others are nothing, rather than a static body: contacts live on.
-  constexpr float kMore = 1e9F;
-  b2MassData mass;
-  r.body->GetMassData(&mass);
-  mass.mass *= kMore;
-  mass.I *= kMore;
-  r.body->SetMassData(&mass);
+  Impl::make_heavy(*r.body);
   r.body->SetLinearVelocity({0.0F, 0.0F});
   r.body->SetAngularVelocity(0.0F);
-  r.target = {};
 }
 
 bool PhysicsWorld::suspended(int robot) const {
@@ -914,14 +1242,18 @@ bool PhysicsWorld::suspended(int robot) const {
 void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
   r.X_WB = X_WB;
-  r.body->SetTransform(to_box2d(X_WB.position()), static_cast<float>(X_WB.yaw_rad));
-  r.body->SetLinearVelocity({0.0F, 0.0F});
-  r.body->SetAngularVelocity(0.0F);
-  r.body->SetAwake(true);
-  r.state = {};
-  r.state.X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
+  for (Spot& spot : impl_->by_place) spot.until_m = 0.0;
+  if (r.body != nullptr) {
+    r.body->SetTransform(to_box2d(X_WB.position()), static_cast<float>(X_WB.yaw_rad));
+    r.body->SetLinearVelocity({0.0F, 0.0F});
+    r.body->SetAngularVelocity(0.0F);
+    r.body->SetAwake(true);
+  }
+  *r.state = {};
+  r.state->X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
   r.stall_clock_s = 0.0;
-  impl_->robot_edges_fresh = false;
+  impl_->outlines_fresh = false;
+  impl_->order_fresh = false;
   impl_->something_was_placed();
 }
 
@@ -930,20 +1262,20 @@ void PhysicsWorld::step(double dt_s) {
   d.contacts.clear();
   d.new_touches.clear();
   double travel_m = 0.0;
-  for (Robot& r : d.robots) {
-    r.state.travel_m = 0.0;
-    r.state.turn_rad = 0.0;
-    r.state.side_m = 0.0;
-    travel_m = std::max(travel_m, Impl::travel_m(r, dt_s));
-  }
+  for (const Robot& r : d.robots) travel_m = std::max(travel_m, Impl::most_travel_m(r, dt_s));
   const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
-  for (int i = 0; i < parts; ++i) d.advance(dt_s / parts);
-  for (Robot& r : d.robots) Impl::finish_step(r, dt_s);
-  d.robot_edges_fresh = false;
+  d.travel_m = std::max(travel_m / parts, kLeastTravel_m);
+  d.step_s = dt_s;
+  const double gone_m = d.gone_m;
+  for (int i = 0; i < parts; ++i) d.advance(dt_s / parts, i == 0, i + 1 == parts);
+  d.step_gone_m = d.gone_m - gone_m;
+  d.outlines_fresh = false;
 }
 
+double PhysicsWorld::farthest_move_m() const noexcept { return impl_->step_gone_m; }
+
 const BodyState& PhysicsWorld::body(int robot) const {
-  return impl_->robots[static_cast<std::size_t>(robot)].state;
+  return *impl_->robots[static_cast<std::size_t>(robot)].state;
 }
 
 const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noexcept {
@@ -953,7 +1285,7 @@ const std::vector<PhysicsWorld::Contact>& PhysicsWorld::new_contacts() const noe
 std::vector<PhysicsWorld::Contact> PhysicsWorld::contacts_of(int robot) const {
   std::vector<Contact> contacts;
   const b2Body* body = impl_->robots[static_cast<std::size_t>(robot)].body;
-  for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+  for (const b2ContactEdge* e = contact_list(body); e != nullptr; e = e->next) {
     if (!e->contact->IsTouching()) continue;
     const b2Fixture* a = e->contact->GetFixtureA();
     const b2Fixture* other = a->GetBody() == body ? e->contact->GetFixtureB() : a;
@@ -966,7 +1298,7 @@ std::vector<PhysicsWorld::Contact> PhysicsWorld::contacts_of(int robot) const {
 std::vector<PhysicsWorld::Touch> PhysicsWorld::touches_of(int robot) const {
   std::vector<Touch> touches;
   const b2Body* body = impl_->robots[static_cast<std::size_t>(robot)].body;
-  for (const b2ContactEdge* e = body->GetContactList(); e != nullptr; e = e->next) {
+  for (const b2ContactEdge* e = contact_list(body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) Impl::add_touch(*e->contact, robot, touches);
   }
   // A step may be made in several parts: what began in one may have ended in another.
@@ -1009,21 +1341,21 @@ void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now)
 
 void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
   Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
-  r.load.clear();
-  r.load_obstacles.clear();
-  r.seen_radius_m = r.radius_m;
+  r.details->load.clear();
+  r.details->load_obstacles.clear();
+  r.details->seen_radius_m = r.radius_m;
   for (const Load& load : loads) {
     const ObstacleDescription& box = load.box_B;
     const std::vector<Vec2> corners = box_corners(box);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2& a = corners[i];
       const Vec2& b = corners[(i + 1) % corners.size()];
-      r.load.add({a.x(), a.y(), b.x(), b.y()}, box.height_m);
-      r.load_obstacles.push_back(load.obstacle);
-      r.seen_radius_m = std::max(r.seen_radius_m, a.norm());
+      r.details->load.add({a.x(), a.y(), b.x(), b.y()}, box.height_m);
+      r.details->load_obstacles.push_back(load.obstacle);
+      r.details->seen_radius_m = std::max(r.details->seen_radius_m, a.norm());
     }
   }
-  impl_->robot_edges_fresh = false;
+  impl_->outlines_fresh = false;
 }
 
 int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
@@ -1033,71 +1365,49 @@ int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {
-  Robot& r = impl_->robots[static_cast<std::size_t>(robot)];
-  const b2AABB& box = r.body->GetFixtureList()->GetAABB(0);
+  Impl& d = *impl_;
+  Robot& r = d.robots[static_cast<std::size_t>(robot)];
+  const b2Transform xf = transform_of(r);
+  b2AABB box;
+  r.details->shape.ComputeAABB(&box, xf, 0);
   // What may be nearest is kept in a list that is good for some way (as Verlet's neighbour lists
   // are, Phys. Rev. 159, 98, 1967), most often the first of it. A list for a far greater limit is
   // too long.
-  if (limit_m > r.candidates_reach_m || r.candidates_reach_m > limit_m + 2.0 * kCandidateMargin_m) {
-    struct Collector : b2QueryCallback {
-      bool ReportFixture(b2Fixture* fixture) override {
-        if (fixture->GetBody() != own) into->push_back(fixture);
-        return true;
-      }
-      const b2Body* own = nullptr;
-      std::vector<b2Fixture*>* into = nullptr;
-    } collector;
-    collector.own = r.body;
-    collector.into = &r.candidates;
-    r.candidates.clear();
-    r.candidates_reach_m = limit_m + kCandidateMargin_m;
-    const float reach = static_cast<float>(r.candidates_reach_m) * kScaleF;
-    b2AABB wide = box;
-    wide.lowerBound -= b2Vec2(reach, reach);
-    wide.upperBound += b2Vec2(reach, reach);
-    impl_->world.QueryAABB(&collector, wide);
+  const double reach_m =
+      r.details->candidates_reach_m - 2.0 * (d.gone_m - r.details->candidates_gone_m);
+  if (limit_m > reach_m || reach_m > limit_m + 2.0 * kCandidateMargin_m) {
+    d.collect_candidates(r, box, limit_m + kCandidateMargin_m);
   }
   double least_m = limit_m;
   std::size_t nearest = 0;
-  for (std::size_t i = 0; i < r.candidates.size(); ++i) {
-    b2Fixture* candidate = r.candidates[i];
-    // Two cheap lower bounds, by the boxes (a little fat) and along the direction of the last
-    // nearest points, mostly say enough.
-    const b2AABB& theirs = candidate->GetAABB(0);
-    const b2Vec2 gap =
-        b2Max(b2Max(theirs.lowerBound - box.upperBound, box.lowerBound - theirs.upperBound),
-              b2Vec2(0.0F, 0.0F));
-    const double boxes_apart_m = metres(gap.Length());
+  for (std::size_t i = 0; i < r.details->candidates.size(); ++i) {
+    // Two cheap lower bounds, by what is round them and along the direction of the last nearest
+    // points, mostly say enough.
+    const Candidate& candidate = r.details->candidates[i];
+    const Robot* other =
+        candidate.robot < 0 ? nullptr : &d.robots[static_cast<std::size_t>(candidate.robot)];
+    const double boxes_apart_m =
+        other == nullptr ? metres(gap_between(box, candidate.box)) : circles_apart_m(r, *other);
     if (boxes_apart_m >= least_m) continue;
-    const b2Transform& xf = r.body->GetTransform();
-    const b2Transform& their_xf = candidate->GetBody()->GetTransform();
-    const float apart = least_along(r.nearest_direction, *candidate->GetShape(), their_xf) +
-                        least_along(-r.nearest_direction, r.shape, xf);
+    const b2Transform their_xf = other == nullptr ? unmoved() : transform_of(*other);
+    const float apart = least_along(r.details->nearest_direction, *candidate.shape, their_xf) +
+                        least_along(-r.details->nearest_direction, r.details->shape, xf);
     const double bound_m = std::max(boxes_apart_m, metres(apart));
     if (bound_m >= least_m) continue;
     if (bound_m >= exact_below_m) {
       least_m = bound_m;
       continue;
     }
-    b2DistanceInput input;
-    input.proxyA.Set(&r.shape, 0);
-    input.proxyB.Set(candidate->GetShape(), 0);
-    input.transformA = xf;
-    input.transformB = their_xf;
-    input.useRadii = false;
-    b2SimplexCache cache;
-    cache.count = 0;
-    b2DistanceOutput output;
-    b2Distance(&output, &cache, &input);
-    if (metres(output.distance) >= least_m) continue;
-    if (output.distance > 0.0F) {
-      r.nearest_direction = (1.0F / output.distance) * (output.pointB - output.pointA);
+    const b2DistanceOutput found =
+        distance_between(r.details->shape, xf, *candidate.shape, their_xf);
+    if (metres(found.distance) >= least_m) continue;
+    if (found.distance > 0.0F) {
+      r.details->nearest_direction = (1.0F / found.distance) * (found.pointB - found.pointA);
     }
-    least_m = metres(output.distance);
+    least_m = metres(found.distance);
     nearest = i;
   }
-  if (nearest > 0) std::swap(r.candidates[0], r.candidates[nearest]);
-  r.free_m = least_m;
+  if (nearest > 0) std::swap(r.details->candidates[0], r.details->candidates[nearest]);
   return least_m;
 }
 
@@ -1121,45 +1431,32 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
   out.truncate(begin + count);
 }
 
-// The same without the edges that face away from the sensor. Those that the scan kernel cannot
-// tell about, in single precision, are kept.
-void append_facing_edges(const EdgeList& list, std::size_t first, std::size_t last,
-                         const Vec2& p_WL, double sensor_height_m, scan::EdgeBuffer& out) {
+// The same of a robot's outline, without the edges that face away from the sensor. Those that the
+// scan kernel cannot tell about, in single precision, are kept.
+void append_facing_edges(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
   constexpr double kDoubt = 1e-6;
   const std::size_t begin = out.size();
-  scan::Edge* target = out.append(last - first);
+  scan::Edge* target = out.append(outline.count);
   std::size_t count = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    if (list.heights_m[i] <= sensor_height_m) continue;
-    const Edge& e = list.edges[i];
-    const double x0 = e.x0 - p_WL.x();
-    const double y0 = e.y0 - p_WL.y();
-    const double x1 = e.x1 - p_WL.x();
-    const double y1 = e.y1 - p_WL.y();
+  double x0 = outline.corners[0].x() - p_WL.x();
+  double y0 = outline.corners[0].y() - p_WL.y();
+  auto fx0 = static_cast<float>(x0);
+  auto fy0 = static_cast<float>(y0);
+  for (std::size_t i = 1; i <= outline.count; ++i) {
+    const double x1 = outline.corners[i].x() - p_WL.x();
+    const double y1 = outline.corners[i].y() - p_WL.y();
+    const auto fx1 = static_cast<float>(x1);
+    const auto fy1 = static_cast<float>(y1);
     const double a = x0 * y1;
     const double b = y0 * x1;
-    target[count] = {static_cast<float>(x0), static_cast<float>(y0), static_cast<float>(x1),
-                     static_cast<float>(y1)};
+    target[count] = {fx0, fy0, fx1, fy1};
     count += a - b < kDoubt * (std::abs(a) + std::abs(b)) ? 1 : 0;
+    x0 = x1;
+    y0 = y1;
+    fx0 = fx1;
+    fy0 = fy1;
   }
   out.truncate(begin + count);
-}
-
-// Calls visit(fixture) for every fixture whose fat box meets the box.
-template <typename Visitor>
-void query(const b2World& world, const Vec2& low, const Vec2& high, Visitor visit) {
-  struct Callback : b2QueryCallback {
-    explicit Callback(Visitor& v) : visitor(v) {}
-    bool ReportFixture(b2Fixture* fixture) override {
-      visitor(*fixture);
-      return true;
-    }
-    Visitor& visitor;
-  } callback(visit);
-  b2AABB box;
-  box.lowerBound = to_box2d(low);
-  box.upperBound = to_box2d(high);
-  world.QueryAABB(&callback, box);
 }
 
 }  // namespace
@@ -1172,9 +1469,8 @@ void PhysicsWorld::Impl::collect_static_edges(const Vec2& p_WL, double radius_m,
     return;
   }
   const Vec2 reach(radius_m, radius_m);
-  query(world, p_WL - reach, p_WL + reach, [&](const b2Fixture& fixture) {
+  visit_fixed(world, p_WL - reach, p_WL + reach, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
-    if (info.kind == Contact::Kind::kRobot) return;
     append_edges(all_edges, info.first_edge, info.first_edge + info.edge_count, p_WL,
                  sensor_height_m, edges);
   });
@@ -1184,14 +1480,19 @@ void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double senso
                                  int own_robot, bool test_inside, scan::EdgeBuffer& edges) const {
   Impl& d = *impl_;
   d.collect_static_edges(p_WL, radius_m, sensor_height_m, edges);
-  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
-  for (std::size_t i = 0; i < d.robots.size(); ++i) {
-    if (static_cast<int>(i) == own_robot) continue;
-    const Robot& r = d.robots[i];
-    const double reach = radius_m + r.seen_radius_m;
-    if ((r.X_WB.position() - p_WL).squaredNorm() > reach * reach) continue;
-    append_edges(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL,
-                 sensor_height_m, edges);
+  if (!d.outlines_fresh) d.rebuild_outlines();
+  for (const Outline& outline : d.outlines) {
+    if (outline.robot == own_robot) continue;
+    const double reach = radius_m + outline.seen_radius_m;
+    if ((outline.p_WB - p_WL).squaredNorm() > reach * reach) continue;
+    if (outline.height_m > sensor_height_m) {
+      for (std::size_t i = 0; i < outline.count; ++i) {
+        const Edge e = outline.edge(i);
+        edges.add(static_cast<float>(e.x0 - p_WL.x()), static_cast<float>(e.y0 - p_WL.y()),
+                  static_cast<float>(e.x1 - p_WL.x()), static_cast<float>(e.y1 - p_WL.y()));
+      }
+    }
+    append_edges(d.load_edges, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
   }
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
 }
@@ -1200,16 +1501,18 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
                         double sensor_height_m, int own_robot, bool test_inside,
                         std::span<double> ranges_m) const {
   Impl& d = *impl_;
-  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
+  if (!d.outlines_fresh) d.rebuild_outlines();
   scan::ScanKernel& kernel = d.kernel_of(geometry);
   scan::EdgeBuffer& edges = d.scan_edges;
   const Vec2 p_WL = X_WL.position();
-  const auto append = [&](std::span<const std::int32_t> robots) {
-    for (const std::int32_t robot : robots) {
-      if (robot == own_robot) continue;
-      const auto i = static_cast<std::size_t>(robot);
-      append_facing_edges(d.robot_edges, d.robot_first_edge[i], d.robot_first_edge[i + 1], p_WL,
-                          sensor_height_m, edges);
+  const auto append = [&](std::span<const std::int32_t> discs) {
+    for (const std::int32_t disc : discs) {
+      const Outline& outline = d.outlines[static_cast<std::size_t>(disc)];
+      if (outline.robot == own_robot) continue;
+      if (outline.height_m > sensor_height_m) append_facing_edges(outline, p_WL, edges);
+      if (outline.first_load == outline.end_load) continue;
+      append_edges(d.load_edges, outline.first_load, outline.end_load, p_WL, sensor_height_m,
+                   edges);
     }
   };
 
@@ -1217,10 +1520,9 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
   if (test_inside) edges.inside = d.inside_solid(p_WL, sensor_height_m, own_robot);
   kernel.begin(X_WL.yaw_rad);
   kernel.locate(d.robot_discs, static_cast<float>(p_WL.x()), static_cast<float>(p_WL.y()));
-  append(kernel.in_view(0));
+  append(kernel.near());
   kernel.add(edges);
   for (int ring = 1; ring < scan::ScanKernel::kRings; ++ring) {
-    if (kernel.in_view(ring).empty()) continue;
     edges.clear();
     append(kernel.visible(ring));
     if (edges.size() > 0) kernel.add(edges);
@@ -1232,32 +1534,27 @@ void PhysicsWorld::collect_faces(const Vec2& low, const Vec2& high, int own_robo
                                  std::vector<Face>& faces) const {
   Impl& d = *impl_;
   faces.clear();
-  if (!d.robot_edges_fresh) d.rebuild_robot_edges();
-  const auto add = [&](const EdgeList& list, std::size_t first, std::size_t last,
-                       Contact::Kind kind, int index, double height_m) {
-    for (std::size_t i = first; i < last; ++i) {
-      const Edge& e = list.edges[i];
-      if (std::max(e.x0, e.x1) < low.x() || std::min(e.x0, e.x1) > high.x()) continue;
-      if (std::max(e.y0, e.y1) < low.y() || std::min(e.y0, e.y1) > high.y()) continue;
-      faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
-    }
+  if (!d.outlines_fresh) d.rebuild_outlines();
+  const auto add = [&](const Edge& e, Contact::Kind kind, int index, double height_m) {
+    if (std::max(e.x0, e.x1) < low.x() || std::min(e.x0, e.x1) > high.x()) return;
+    if (std::max(e.y0, e.y1) < low.y() || std::min(e.y0, e.y1) > high.y()) return;
+    faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
   };
-  query(d.world, low, high, [&](const b2Fixture& fixture) {
+  visit_fixed(d.world, low, high, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
-    if (info.kind == Contact::Kind::kRobot) return;
-    add(d.all_edges, info.first_edge, info.first_edge + info.edge_count, info.kind, info.index,
-        info.height_m);
+    for (std::size_t i = 0; i < info.edge_count; ++i) {
+      add(d.all_edges.edges[info.first_edge + i], info.kind, info.index, info.height_m);
+    }
   });
-  for (std::size_t i = 0; i < d.robots.size(); ++i) {
-    const int robot = static_cast<int>(i);
-    if (robot == own_robot) continue;
-    const Robot& r = d.robots[i];
-    const std::size_t first = d.robot_first_edge[i];
-    const std::size_t load = d.robot_first_edge[i + 1] - r.load_obstacles.size();
-    add(d.robot_edges, first, load, Contact::Kind::kRobot, robot, r.height_m);
-    for (std::size_t k = 0; k < r.load_obstacles.size(); ++k) {
-      add(d.robot_edges, load + k, load + k + 1, Contact::Kind::kObstacle, r.load_obstacles[k],
-          r.load.heights_m[k]);
+  for (const Outline& outline : d.outlines) {
+    if (outline.robot == own_robot) continue;
+    for (std::size_t i = 0; i < outline.count; ++i) {
+      add(outline.edge(i), Contact::Kind::kRobot, outline.robot, outline.height_m);
+    }
+    const Robot& r = d.robots[static_cast<std::size_t>(outline.robot)];
+    for (std::size_t i = outline.first_load; i < outline.end_load; ++i) {
+      add(d.load_edges.edges[i], Contact::Kind::kObstacle,
+          r.details->load_obstacles[i - outline.first_load], d.load_edges.heights_m[i]);
     }
   }
 }
@@ -1271,41 +1568,54 @@ bool PhysicsWorld::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double heigh
   struct Blocked : b2RayCastCallback {
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
       const FixtureInfo& info = info_of(fixture);
-      const bool own = info.kind == Contact::Kind::kRobot && info.index == own_robot;
       const bool wanted = info.kind == target_kind && info.index == target_index;
-      if (own || wanted || info.height_m <= height_m) return -1.0F;
+      if (info.kind == Contact::Kind::kRobot || wanted || info.height_m <= height_m) return -1.0F;
       blocked = true;
       return 0.0F;
     }
     double height_m = 0.0;
-    int own_robot = -1;
     Contact::Kind target_kind = Contact::Kind::kRobot;
     int target_index = -1;
     bool blocked = false;
   } callback;
   callback.height_m = height_m;
-  callback.own_robot = own_robot;
   callback.target_kind = target.kind;
   callback.target_index = target.index;
   // Box2D takes no line without a length.
   if ((p_WC - p_WA).squaredNorm() <= 0.0) return true;
+  // Robots first, which cost less to ask.
+  const int target_robot = target.kind == Contact::Kind::kRobot ? target.index : -1;
+  bool blocked = false;
+  impl_->cast_at_robots(
+      p_WA, p_WC,
+      [&](int robot) {
+        return robot != own_robot && robot != target_robot && this->height_m(robot) > height_m;
+      },
+      [&](float) {
+        blocked = true;
+        return false;
+      });
+  if (blocked) return false;
   impl_->world.RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
   return !callback.blocked;
 }
 
 bool PhysicsWorld::Impl::inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   bool inside = false;
-  query(world, p_W, p_W, [&](b2Fixture& fixture) {
-    const FixtureInfo& info = info_of(&fixture);
-    if (info.height_m <= height_m) return;
-    if (info.kind == Contact::Kind::kRobot && info.index == own_robot) return;
+  visit_fixed(world, p_W, p_W, [&](const b2Fixture& fixture) {
+    if (info_of(&fixture).height_m <= height_m) return;
     inside = inside || fixture.TestPoint(to_box2d(p_W));
+  });
+  for_robots_in(p_W, p_W, [&](const Circle& circle) {
+    const Robot& r = robots[static_cast<std::size_t>(circle.robot)];
+    if (inside || circle.robot == own_robot || r.details->height_m <= height_m) return;
+    inside = r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
   });
   if (inside || !has_walls) return inside;
   // Walls of a map are closed outlines: inside where a ray to the far right crosses an odd number
   // of them (half-open rule at vertices).
   int crossings = 0;
-  query(world, p_W, {wall_right_m, p_W.y()}, [&](const b2Fixture& fixture) {
+  visit_fixed(world, p_W, {wall_right_m, p_W.y()}, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
     if (info.kind != Contact::Kind::kWall) return;
     const Edge& e = all_edges.edges[info.first_edge];
@@ -1316,25 +1626,32 @@ bool PhysicsWorld::Impl::inside_solid(const Vec2& p_W, double height_m, int own_
   return crossings % 2 == 1;
 }
 
+namespace {
+
+void hash_body(const b2Body& body, StateHash& hash) {
+  for (const float x :
+       {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.GetLinearVelocity().x,
+        body.GetLinearVelocity().y, body.GetAngularVelocity()}) {
+    hash.add(static_cast<double>(x));
+  }
+  for (const b2ContactEdge* e = body.GetContactList(); e != nullptr; e = e->next) {
+    hash.add(e->contact->IsTouching());
+    const b2Manifold& manifold = *e->contact->GetManifold();
+    for (int32 i = 0; i < manifold.pointCount; ++i) {
+      hash.add(static_cast<double>(manifold.points[i].normalImpulse));
+    }
+  }
+}
+
+}  // namespace
+
 void PhysicsWorld::hash(StateHash& hash) const {
   for (const Robot& r : impl_->robots) {
     for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.X_WB.yaw_rad, r.stall_clock_s, r.target.v_mps,
                            r.target.omega_radps}) {
       hash.add(x);
     }
-    const b2Body& body = *r.body;
-    for (const float x :
-         {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.GetLinearVelocity().x,
-          body.GetLinearVelocity().y, body.GetAngularVelocity()}) {
-      hash.add(static_cast<double>(x));
-    }
-    for (const b2ContactEdge* e = body.GetContactList(); e != nullptr; e = e->next) {
-      hash.add(e->contact->IsTouching());
-      const b2Manifold& manifold = *e->contact->GetManifold();
-      for (int32 i = 0; i < manifold.pointCount; ++i) {
-        hash.add(static_cast<double>(manifold.points[i].normalImpulse));
-      }
-    }
+    if (r.body != nullptr) hash_body(*r.body, hash);
     if (r.target.lateral_mps != 0.0) hash.add(r.target.lateral_mps);
     if (r.suspended) hash.add(std::string_view("suspended"));
   }
@@ -1344,22 +1661,27 @@ void PhysicsWorld::hash(StateHash& hash) const {
 double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
                                 int own_robot) const {
   struct Closest : b2RayCastCallback {
-    const b2Body* own = nullptr;
     float fraction = 1.0F;
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {
-      if (fixture->GetBody() == own) return -1.0F;
+      if (info_of(fixture).kind == Contact::Kind::kRobot) return -1.0F;
       fraction = f;
       return f;
     }
   } closest;
-  if (own_robot >= 0) closest.own = impl_->robots[static_cast<std::size_t>(own_robot)].body;
   const Vec2 end = p_WL + range_max_m * Vec2(std::cos(angle_rad), std::sin(angle_rad));
   impl_->world.RayCast(&closest, to_box2d(p_WL), to_box2d(end));
+  impl_->cast_at_robots(
+      p_WL, end, [&](int robot) { return robot != own_robot; },
+      [&](float fraction) {
+        closest.fraction = std::min(closest.fraction, fraction);
+        return true;
+      });
   return static_cast<double>(closest.fraction) * range_max_m;
 }
 
 void PhysicsWorld::bare_step(double dt_s) {
   for (Robot& r : impl_->robots) {
+    impl_->keep_in_box2d(r);
     const double yaw = static_cast<double>(r.body->GetAngle());
     r.body->SetLinearVelocity(
         to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));

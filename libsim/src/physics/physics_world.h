@@ -49,6 +49,8 @@ class PhysicsWorld {
   /// Advances by dt_s (> 0).
   void step(double dt_s);
   [[nodiscard]] const BodyState& body(int robot) const;
+  /// How far any point of any robot moved in the last step, at most [m].
+  [[nodiscard]] double farthest_move_m() const noexcept;
 
   /// Whom a contact that began in the last step is with.
   struct Contact {

@@ -265,8 +265,10 @@ std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuf
 /// The same for so many discs.
 std::size_t disc_places(std::size_t disc_count) { return disc_count + 2 * DiscBuffer::kPadding; }
 
-/// Integers a disc: one list a ring, the visible ones, its first and its last beam.
-constexpr std::size_t kDiscIntegers = ScanKernel::kRings + 3;
+/// Integers a disc, or a group of them: two lists a ring, the visible ones, and twice the first and
+/// the last beam. Floats: twice 1/r.
+constexpr std::size_t kDiscIntegers = 2 * ScanKernel::kRings + 5;
+constexpr std::size_t kDiscFloats = 2;
 
 const detail::ScanSteps& steps_by(InstructionSet instructions) {
   SIM_ASSERT(ScanKernel::available(instructions));
@@ -293,6 +295,40 @@ const detail::ScanSteps& steps_by(InstructionSet instructions) {
 
 void EdgeBuffer::grow() { storage_.resize(std::max(2 * storage_.size(), size_ + kPadding)); }
 
+void DiscBuffer::group() {
+  group_count_ = (size_ + kGroupSize - 1) / kGroupSize;
+  for (std::vector<float>* v : {&group_x_, &group_y_, &group_radius_}) {
+    if (v->size() < group_count_ + kPadding) v->resize(group_count_ + kPadding);
+  }
+  for (std::size_t group = 0; group < group_count_; ++group) {
+    const std::size_t first = group * kGroupSize;
+    const std::size_t last = std::min(first + kGroupSize, size_);
+    const auto middle = [&](const std::vector<float>& values) {
+      float low = values[first];
+      float high = values[first];
+      for (std::size_t i = first + 1; i < last; ++i) {
+        low = std::min(low, values[i]);
+        high = std::max(high, values[i]);
+      }
+      return 0.5F * (low + high);
+    };
+    const float x = middle(x_);
+    const float y = middle(y_);
+    float radius = 0.0F;
+    bool numbers = true;
+    for (std::size_t i = first; i < last; ++i) {
+      const float dx = x_[i] - x;
+      const float dy = y_[i] - y;
+      const float reach = std::sqrt(dx * dx + dy * dy) + radius_[i];
+      radius = std::max(radius, reach);
+      numbers = numbers && !std::isnan(reach);
+    }
+    group_x_[group] = x;
+    group_y_[group] = y;
+    group_radius_[group] = numbers ? radius : std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
 void DiscBuffer::grow() {
   const std::size_t size = 2 * x_.size() + kPadding;
   for (std::vector<float>* values : {&x_, &y_, &radius_}) values->resize(size);
@@ -316,6 +352,10 @@ struct ScanKernel::Tables {
       cosines.push_back(static_cast<float>(std::cos(angle_rad)));
       sines.push_back(static_cast<float>(std::sin(angle_rad)));
     }
+    const double half_fan_rad =
+        std::min(0.5 * (count + 1) * resolution_rad + 1e-3, std::numbers::pi);
+    fan_cos = static_cast<float>(std::cos(half_fan_rad));
+    fan_sin = static_cast<float>(std::sin(half_fan_rad));
   }
 
   double resolution_rad;
@@ -323,6 +363,8 @@ struct ScanKernel::Tables {
   std::vector<double> beams;   ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
   std::vector<float> cosines;  ///< cos(k q) for k from -reach to reach
   std::vector<float> sines;    ///< sin(k q), likewise
+  float fan_cos = 0.0F;        ///< see detail::ScanJob
+  float fan_sin = 0.0F;        ///< likewise
 };
 
 ScanKernel::ScanKernel(const ScanGeometry& geometry)
@@ -400,29 +442,24 @@ void ScanKernel::reserve_discs(std::size_t disc_count) {
   if (disc_count <= disc_capacity_ && !disc_integers_.empty()) return;
   disc_capacity_ = std::max(disc_count, 2 * disc_capacity_);
   disc_integers_.resize(kDiscIntegers * disc_places(disc_capacity_));
-  disc_floats_.resize(disc_places(disc_capacity_));
+  disc_floats_.resize(kDiscFloats * disc_places(disc_capacity_));
 }
 
 void ScanKernel::locate(const DiscBuffer& discs, float x_m, float y_m) {
   reserve_discs(discs.size());
-  detail::ScanJob job = this->job();
-  job.disc_x = discs.x_m();
-  job.disc_y = discs.y_m();
-  job.disc_radius = discs.radius_m();
-  job.disc_count = static_cast<std::int32_t>(discs.size());
-  job.sensor_x = x_m;
-  job.sensor_y = y_m;
-  steps_->locate(job);
+  discs_ = &discs;
+  sensor_x_m_ = x_m;
+  sensor_y_m_ = y_m;
+  steps_->locate(disc_job());
 }
 
-std::span<const std::int32_t> ScanKernel::in_view(int ring) const {
-  const auto which = static_cast<std::size_t>(ring);
-  return {disc_integers_.data() + which * disc_places(disc_capacity_),
-          static_cast<std::size_t>(ring_sizes_[ring])};
+std::span<const std::int32_t> ScanKernel::near() const {
+  return {disc_integers_.data(), static_cast<std::size_t>(ring_sizes_[0])};
 }
 
 std::span<const std::int32_t> ScanKernel::visible(int ring) {
-  const detail::ScanJob job = this->job();
+  if (ring_sizes_[ring] == 0 && waiting_sizes_[ring] == 0) return {};
+  const detail::ScanJob job = disc_job();
   return {job.visible, static_cast<std::size_t>(steps_->find_visible(job, ring))};
 }
 
@@ -435,6 +472,21 @@ void ScanKernel::finish(std::span<double> ranges_m) {
   detail::ScanJob job = this->job();
   job.ranges_m = ranges_m.data();
   steps_->finish(job);
+}
+
+detail::ScanJob ScanKernel::disc_job() {
+  detail::ScanJob job = this->job();
+  job.disc_x = discs_->x_m();
+  job.disc_y = discs_->y_m();
+  job.disc_radius = discs_->radius_m();
+  job.disc_count = static_cast<std::int32_t>(discs_->size());
+  job.group_x = discs_->group_x_m();
+  job.group_y = discs_->group_y_m();
+  job.group_radius = discs_->group_radius_m();
+  job.group_count = static_cast<std::int32_t>(discs_->group_count());
+  job.sensor_x = sensor_x_m_;
+  job.sensor_y = sensor_y_m_;
+  return job;
 }
 
 detail::ScanJob ScanKernel::job() {
@@ -466,6 +518,8 @@ detail::ScanJob ScanKernel::job() {
       // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
       // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
       .doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
+      .fan_cos = tables_->fan_cos,
+      .fan_sin = tables_->fan_sin,
       .behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad),
       .candidate_edge = integers_.data(),
       .candidate_first = integers_.data() + step,
@@ -486,14 +540,24 @@ detail::ScanJob ScanKernel::job() {
       .disc_y = nullptr,
       .disc_radius = nullptr,
       .disc_count = 0,
+      .group_x = nullptr,
+      .group_y = nullptr,
+      .group_radius = nullptr,
+      .group_count = 0,
       .sensor_x = 0.0F,
       .sensor_y = 0.0F,
-      .disc_first = discs + (kRings + 1) * disc_step,
-      .disc_last = discs + (kRings + 2) * disc_step,
+      .disc_first = discs + (2 * kRings + 1) * disc_step,
+      .disc_last = discs + (2 * kRings + 2) * disc_step,
       .disc_inverse = disc_floats_.data(),
       .rings = {discs, discs + disc_step, discs + 2 * disc_step, discs + 3 * disc_step},
       .ring_sizes = ring_sizes_,
-      .visible = discs + kRings * disc_step};
+      .group_first = discs + (2 * kRings + 3) * disc_step,
+      .group_last = discs + (2 * kRings + 4) * disc_step,
+      .group_inverse = disc_floats_.data() + disc_step,
+      .waiting = {discs + 4 * disc_step, discs + 5 * disc_step, discs + 6 * disc_step,
+                  discs + 7 * disc_step},
+      .waiting_sizes = waiting_sizes_,
+      .visible = discs + 2 * kRings * disc_step};
   static_assert(kRings == 4);
 }
 

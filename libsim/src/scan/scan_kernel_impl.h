@@ -18,6 +18,7 @@
 // end of the span where 1/r is least, |A cos| <= 1/r and so |B sin| <= 2/r: no cancellation, and a
 // relative error of at most 10 roundings, 6e-7.
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -49,6 +50,8 @@ struct ScanJob {
   float beams_per_rad;     ///< 1 / q
   float beam_offset;       ///< beam coordinate of straight ahead, plus 1
   float doubt_beams;       ///< error bound of a beam coordinate
+  float fan_cos;           ///< of half the angle from the beam before the first to that after the
+  float fan_sin;           ///< last, and a little; -1 and 0 for all that is more than a turn
   float behind_beams;      ///< a quarter turn: an edge across the cut behind spans "minus" more
 
   // Scratch. A candidate is an edge with the span of beams it may be seen by.
@@ -75,6 +78,10 @@ struct ScanJob {
   const float* disc_y;       ///< likewise
   const float* disc_radius;  ///< and room to read some more
   std::int32_t disc_count;
+  const float* group_x;       ///< circles round kGroupSize of them each
+  const float* group_y;       ///< likewise
+  const float* group_radius;  ///< likewise
+  std::int32_t group_count;   ///< 0: discs are not grouped
   float sensor_x;
   float sensor_y;
   // Scratch, by disc: the beams that it may span, and 1/r of its nearest point at most.
@@ -83,7 +90,12 @@ struct ScanJob {
   float* disc_inverse;
   std::int32_t* rings[ScanKernel::kRings];  ///< out: discs in view, by ring
   std::int32_t* ring_sizes;                 ///< out
-  std::int32_t* visible;                    ///< out: of one ring
+  std::int32_t* group_first;                ///< the same by group
+  std::int32_t* group_last;
+  float* group_inverse;
+  std::int32_t* waiting[ScanKernel::kRings];  ///< groups in view whose discs are not yet listed
+  std::int32_t* waiting_sizes;
+  std::int32_t* visible;  ///< out: of one ring
 };
 
 /// What a scan consists of, by one kind of instructions.
@@ -130,7 +142,8 @@ std::int32_t append_lanes(unsigned bits, std::int32_t base, std::int32_t* list,
 /// Bits of the lanes below `count`.
 template <class V>
 unsigned lanes_below(std::int32_t count) {
-  return count >= V::kLanes ? (1U << V::kLanes) - 1U : (1U << count) - 1U;
+  const std::int32_t some = count < 0 ? 0 : count < V::kLanes ? count : V::kLanes;
+  return (1U << some) - 1U;
 }
 
 /// Makes candidates of the edges that face the sensor, and of a few seen almost edge-on.
@@ -422,90 +435,208 @@ void sweep(const ScanJob& job) {
   sweep_wide<V>(job, counts.wide);
 }
 
-/// Whether some beam from first to last sees farther than 1 / nearest.
+/// Whether some beam from first to last sees farther than 1 / nearest. Most spans fit two vectors,
+/// and are looked at without a branch that could not be foreseen.
 template <class V>
 bool is_open(const ScanJob& job, std::int32_t first, std::int32_t last, float nearest) {
-  const std::int32_t block = first & -V::kLanes;
-  const auto window = V::make_window(first - block, last - block);
   const auto least = V::broadcast(nearest);
-  const auto none = V::broadcast(0.0F);
-  for (std::int32_t offset = 0; block + offset <= last; offset += V::kLanes) {
-    const auto open = V::less(V::load_aligned(job.inverse_ranges + block + offset), least);
-    const auto one = V::select(open, V::broadcast(1.0F), none);
-    if (V::bits(V::less(none, V::drop(V::outside(window, offset), one))) != 0) return true;
+  const auto open = [&](std::int32_t beam) {
+    return V::bits(V::less(V::load(job.inverse_ranges + beam), least)) &
+           lanes_below<V>(last - beam + 1);
+  };
+  unsigned any = open(first) | open(first + V::kLanes);
+  for (std::int32_t beam = first + 2 * V::kLanes; beam <= last && any == 0; beam += V::kLanes) {
+    any |= open(beam);
   }
-  return false;
+  return any != 0;
 }
 
-/// Finds the beams that discs may span, and lists those in view. A disc spans the beams within
-/// asin(radius / distance) of its middle, and asin(t) <= t + (pi / 2 - 1) t^3; a beam meets nothing
-/// of it nearer than distance - radius.
+/// Discs as a scan sees them, one a lane. A disc spans the beams within asin(radius / distance) of
+/// its middle, and asin(t) <= t + (pi / 2 - 1) t^3; a beam meets nothing of it nearer than
+/// distance - radius.
 template <class V>
-void locate(const ScanJob& job) {
+struct Sighting {
+  typename V::Float distance;
+  typename V::Float first;    ///< the beams that it may span
+  typename V::Float last;     ///< likewise
+  typename V::Float inverse;  ///< 1/r of its nearest point at most
+  unsigned outside;           ///< bits of those that the sensor is certainly not in
+  unsigned shown;             ///< bits of those of which some part may be in view
+};
+
+template <class V>
+class Sight {
+ public:
   using Float = typename V::Float;
-  const Float sensor_x = V::broadcast(job.sensor_x);
-  const Float sensor_y = V::broadcast(job.sensor_y);
-  const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
-  const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
-  const Float zero = V::broadcast(0.0F);
-  const Float one = V::broadcast(1.0F);
-  const Float doubt = V::broadcast(0.01F + 2.0F * job.doubt_beams);
-  const Float beams_per_rad = V::broadcast(job.beams_per_rad);
-  const Float half_turn = V::broadcast(2.0F * job.behind_beams);
-  const Float straight_ahead = V::broadcast(job.beam_offset);
-  const Float half_fan = V::broadcast(0.5F * static_cast<float>(job.beam_count + 1));
-  const Float range_max = V::broadcast(static_cast<float>(job.range_max_m));
-  const Float beam_count = V::broadcast(static_cast<float>(job.beam_count));
-  // Single precision, of the sensor's and the discs' places as of edges' ranges, costs less.
-  const Float slack = V::broadcast(1e-4F);
-  const Float relative_slack = V::broadcast(2e-5F);
-  for (int ring = 0; ring < ScanKernel::kRings; ++ring) job.ring_sizes[ring] = 0;
-  for (std::int32_t base = 0; base < job.disc_count; base += V::kLanes) {
-    const Float dx = V::load(job.disc_x + base) - sensor_x;
-    const Float dy = V::load(job.disc_y + base) - sensor_y;
-    const Float radius = V::load(job.disc_radius + base) + slack;
-    const Float x = cos_yaw * dx + sin_yaw * dy;
-    const Float y = cos_yaw * dy - sin_yaw * dx;
+
+  explicit Sight(const ScanJob& job)
+      : job_(job),
+        cos_yaw_(V::broadcast(static_cast<float>(job.cos_yaw))),
+        sin_yaw_(V::broadcast(static_cast<float>(job.sin_yaw))),
+        doubt_(V::broadcast(0.01F + 2.0F * job.doubt_beams)),
+        half_fan_(V::broadcast(0.5F * static_cast<float>(job.beam_count + 1))),
+        range_max_(V::broadcast(static_cast<float>(job.range_max_m))),
+        beam_count_(V::broadcast(static_cast<float>(job.beam_count))) {}
+
+  /// Looks at the discs from `base` on, of `count`.
+  [[nodiscard]] Sighting<V> look(const float* disc_x, const float* disc_y, const float* disc_radius,
+                                 std::int32_t base, std::int32_t count) const {
+    // Single precision, of the sensor's and the discs' places as of edges' ranges, costs less.
+    const Float slack = V::broadcast(1e-4F);
+    const Float relative_slack = V::broadcast(2e-5F);
+    const Float zero = V::broadcast(0.0F);
+    const Float one = V::broadcast(1.0F);
+
+    const Float dx = V::load(disc_x + base) - V::broadcast(job_.sensor_x);
+    const Float dy = V::load(disc_y + base) - V::broadcast(job_.sensor_y);
+    const Float radius = V::load(disc_radius + base) + slack;
+    const Float x = cos_yaw_ * dx + sin_yaw_ * dy;
+    const Float y = cos_yaw_ * dy - sin_yaw_ * dx;
     const Float distance = V::sqrt(x * x + y * y);
     const Float t = radius / distance;
-    const Float spread = (t + V::broadcast(0.5708F) * t * t * t) * beams_per_rad + doubt;
-    const Float middle = beam_coordinate<V>(job, x, y);
-    const Float aside = V::abs(middle - straight_ahead);
+    const Float spread =
+        (t + V::broadcast(0.5708F) * t * t * t) * V::broadcast(job_.beams_per_rad) + doubt_;
+    const Float middle = beam_coordinate<V>(job_, x, y);
+    const Float aside = V::abs(middle - V::broadcast(job_.beam_offset));
     const Float nearest = distance - radius - relative_slack * distance;
 
     // Not so where the sensor may be within the disc; nor is anything if there is no number.
     const unsigned outside = V::bits(V::less(zero, nearest));
     const unsigned in_view =
-        V::bits(V::less(aside - spread, half_fan)) & V::bits(V::less(nearest, range_max));
-    const unsigned shown = (in_view | ~outside) & lanes_below<V>(job.disc_count - base);
+        V::bits(V::less(aside - spread, half_fan_)) & V::bits(V::less(nearest, range_max_));
     // Across the cut behind the sensor: as if it spanned all, and nothing could hide it.
-    const auto whole = V::less(aside + spread, half_turn);
+    const auto whole = V::less(aside + spread, V::broadcast(2.0F * job_.behind_beams));
     // Beam i has the coordinate i + 1; from the one before to the one after.
-    V::store_integers(
-        job.disc_first + base,
-        V::select(whole, V::min(V::max(middle - spread - one, zero), beam_count), zero));
-    V::store_integers(
-        job.disc_last + base,
-        V::select(whole, V::min(V::max(middle + spread, zero), beam_count), beam_count) - one);
-    V::store(job.disc_inverse + base, V::select(whole, one / nearest, V::broadcast(1e30F)));
+    return {distance,
+            V::select(whole, V::min(V::max(middle - spread - one, zero), beam_count_), zero),
+            V::select(whole, V::min(V::max(middle + spread, zero), beam_count_), beam_count_) - one,
+            V::select(whole, one / nearest, V::broadcast(1e30F)),
+            outside,
+            (in_view | ~outside) & lanes_below<V>(count - base)};
+  }
 
-    unsigned rest = shown;
+ private:
+  const ScanJob& job_;
+  Float cos_yaw_;
+  Float sin_yaw_;
+  Float doubt_;
+  Float half_fan_;
+  Float range_max_;
+  Float beam_count_;
+};
+
+/// Finds the beams that the discs [begin, end) may span, and lists those in view. @param begin  a
+/// multiple of the number of lanes.
+template <class V>
+void locate_some(const ScanJob& job, const Sight<V>& sight, std::int32_t begin, std::int32_t end) {
+  for (std::int32_t base = begin; base < end; base += V::kLanes) {
+    const Sighting<V> seen =
+        sight.look(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+    if (seen.shown == 0) continue;
+    V::store_integers(job.disc_first + base, seen.first);
+    V::store_integers(job.disc_last + base, seen.last);
+    V::store(job.disc_inverse + base, seen.inverse);
+
+    unsigned rest = seen.shown;
     const auto list = [&](int ring, unsigned bits) {
       job.ring_sizes[ring] =
           append_lanes<V>(bits & rest, base, job.rings[ring], job.ring_sizes[ring]);
       rest &= ~bits;
     };
-    list(0, ~outside | V::bits(V::less(distance, V::broadcast(ScanKernel::kRingLimits_m[0]))));
+    list(0, ~seen.outside |
+                V::bits(V::less(seen.distance, V::broadcast(ScanKernel::kRingLimits_m[0]))));
     for (int ring = 1; ring + 1 < ScanKernel::kRings && rest != 0; ++ring) {
-      list(ring, V::bits(V::less(distance, V::broadcast(ScanKernel::kRingLimits_m[ring]))));
+      list(ring, V::bits(V::less(seen.distance, V::broadcast(ScanKernel::kRingLimits_m[ring]))));
     }
     if (rest != 0) list(ScanKernel::kRings - 1, rest);
   }
 }
 
-/// Lists the discs of a ring that a beam may meet before all that was swept.
+/// The same for a group of discs.
+template <class V>
+void locate_group(const ScanJob& job, const Sight<V>& sight, std::int32_t group) {
+  const std::int32_t begin = group * DiscBuffer::kGroupSize;
+  const std::int32_t end = begin + DiscBuffer::kGroupSize;
+  locate_some<V>(job, sight, begin, end < job.disc_count ? end : job.disc_count);
+}
+
+/// Bits of the groups of discs from `base` on of which some part may be in view. Rougher than
+/// Sight::look(), and faster.
+template <class V>
+unsigned groups_in_view(const ScanJob& job, std::int32_t base) {
+  using Float = typename V::Float;
+  const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
+  const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
+  const Float dx = V::load(job.group_x + base) - V::broadcast(job.sensor_x);
+  const Float dy = V::load(job.group_y + base) - V::broadcast(job.sensor_y);
+  const Float x = cos_yaw * dx + sin_yaw * dy;
+  const Float y = cos_yaw * dy - sin_yaw * dx;
+  // Single precision costs less than this, where anything is in range.
+  const Float radius = V::load(job.group_radius + base) + V::broadcast(1e-3F);
+  const Float reach = radius + V::broadcast(static_cast<float>(job.range_max_m));
+  const unsigned too_far = V::bits(V::less(reach * reach, x * x + y * y));
+  // Beyond the sides of the fan by more than the radius: of either, or of both if the fan is wider
+  // than half a turn.
+  const Float ahead = V::broadcast(job.fan_sin) * x;
+  const Float aside = V::broadcast(job.fan_cos) * y;
+  const unsigned left = V::bits(V::less(radius, aside - ahead));
+  const unsigned right = V::bits(V::less(radius, V::broadcast(0.0F) - aside - ahead));
+  const unsigned outside = job.fan_cos < 0.0F ? left & right : left | right;
+  return ~(too_far | outside) & lanes_below<V>(job.group_count - base);
+}
+
+/// Begins to list discs in view: those of groups of which something may be in the innermost ring.
+/// The other groups in view wait, in a list by the ring that their nearest point may be in.
+template <class V>
+void locate(const ScanJob& job) {
+  for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
+    job.ring_sizes[ring] = 0;
+    job.waiting_sizes[ring] = 0;
+  }
+  const Sight<V> sight(job);
+  if (job.group_count == 0) {
+    locate_some<V>(job, sight, 0, job.disc_count);
+    return;
+  }
+  for (std::int32_t base = 0; base < job.group_count; base += V::kLanes) {
+    unsigned rest = groups_in_view<V>(job, base);
+    if (rest == 0) continue;
+    const Sighting<V> seen =
+        sight.look(job.group_x, job.group_y, job.group_radius, base, job.group_count);
+    V::store_integers(job.group_first + base, seen.first);
+    V::store_integers(job.group_last + base, seen.last);
+    V::store(job.group_inverse + base, seen.inverse);
+    rest &= seen.shown;
+    unsigned farther = rest & seen.outside;
+    for (int ring = ScanKernel::kRings - 1; ring > 0 && farther != 0; --ring) {
+      const auto limit = V::broadcast(1.0F / ScanKernel::kRingLimits_m[ring - 1]);
+      const unsigned here = farther & V::bits(V::less(seen.inverse, limit));
+      job.waiting_sizes[ring] =
+          append_lanes<V>(here, base, job.waiting[ring], job.waiting_sizes[ring]);
+      farther &= ~here;
+      rest &= ~here;
+    }
+    for (; rest != 0; rest &= rest - 1U) {
+      locate_group<V>(job, sight, base + std::countr_zero(rest));
+    }
+  }
+}
+
+/// Lists the discs of a ring that a beam may meet before all that was swept. @pre The same was done
+/// for the rings within it.
 template <class V>
 std::int32_t find_visible(const ScanJob& job, int ring) {
+  if (job.waiting_sizes[ring] > 0) {
+    const Sight<V> sight(job);
+    for (std::int32_t i = 0; i < job.waiting_sizes[ring]; ++i) {
+      const std::int32_t group = job.waiting[ring][i];
+      if (is_open<V>(job, job.group_first[group], job.group_last[group],
+                     job.group_inverse[group])) {
+        locate_group<V>(job, sight, group);
+      }
+    }
+    job.waiting_sizes[ring] = 0;
+  }
   const std::int32_t* const discs = job.rings[ring];
   const std::int32_t size = job.ring_sizes[ring];
   std::int32_t count = 0;

@@ -406,12 +406,13 @@ TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
       for (const DiscedSolid& solid : solids) {
         discs.add(at_x + solid.disc[0], at_y + solid.disc[1], solid.disc[2]);
       }
+      if (round % 3 != 0) discs.group();
       const std::vector<double> expected = scan(geometry, whole, yaw_rad);
       for (const InstructionSet set : instruction_sets()) {
         ScanKernel kernel(geometry, set);
         kernel.begin(yaw_rad);
         kernel.locate(discs, at_x, at_y);
-        const auto near = kernel.in_view(0);
+        const auto near = kernel.near();
         EXPECT_TRUE(std::find(near.begin(), near.end(), 0) != near.end())
             << "what the sensor is within is always listed";
         for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
@@ -434,17 +435,45 @@ TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
   EXPECT_GT(listed, all / 50);
 }
 
+TEST(ScanKernelTest, GroupsOfDiscsThatAreHiddenOrOutOfViewAreNotListed) {
+  // Rows of eight robots: within reach before a wall, beyond the wall, beside it, behind, far off.
+  DiscBuffer discs;
+  for (const auto& [x, y] :
+       {std::pair{2.0F, 0.0F}, {5.0F, 0.0F}, {3.5F, 3.0F}, {-3.0F, 0.0F}, {40.0F, 0.0F}}) {
+    for (int i = 0; i < 8; ++i) discs.add(x, y + 0.05F * static_cast<float>(i), 0.1F);
+  }
+  discs.group();
+  EXPECT_EQ(discs.group_count(), 5U);
+  EdgeBuffer wall;
+  wall.add(3.0F, 2.0F, 3.0F, -2.0F);
+  for (const InstructionSet set : instruction_sets()) {
+    ScanKernel kernel({181, kPi / 180.0, 8.0}, set);
+    kernel.begin(0.0);
+    kernel.add(wall);
+    kernel.locate(discs, 0.0F, 0.0F);
+    std::vector<std::int32_t> listed;
+    for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
+      const auto visible = kernel.visible(ring);
+      listed.insert(listed.end(), visible.begin(), visible.end());
+    }
+    std::sort(listed.begin(), listed.end());
+    EXPECT_THAT(listed,
+                testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23));
+  }
+}
+
 TEST(ScanKernelTest, DiscsThatAreNoNumbersAreListed) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   DiscBuffer discs;
   discs.add(nan, 0.0F, 0.1F);
   discs.add(0.0F, 0.0F, 0.1F);
   discs.add(1.0F, 0.0F, nan);
+  discs.group();
   for (const InstructionSet set : instruction_sets()) {
     ScanKernel kernel(kHokuyo, set);
     kernel.begin(0.3);
     kernel.locate(discs, 0.0F, 0.0F);
-    EXPECT_EQ(kernel.in_view(0).size(), 3U);
+    EXPECT_EQ(kernel.near().size(), 3U);
     EXPECT_EQ(kernel.visible(0).size(), 3U);
   }
 }

@@ -1,0 +1,49 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "physics/shapes.h"
+
+#include <array>
+#include <cstddef>
+
+#include "sim/core/assert.h"
+
+namespace sim {
+
+b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
+  SIM_ASSERT(vertices.size() >= 3 && vertices.size() <= b2_maxPolygonVertices);
+  std::array<b2Vec2, b2_maxPolygonVertices> points;
+  const std::size_t n = std::min(vertices.size(), points.size());
+  std::transform(vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(n),
+                 points.begin(), to_box2d);
+  b2PolygonShape shape;
+  shape.Set(points.data(), static_cast<int32>(n));
+  return shape;
+}
+
+b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a, const b2Shape& b,
+                                  const b2Transform& xf_b, b2SimplexCache& cache) {
+  b2DistanceInput input;
+  input.proxyA.Set(&a, 0);
+  input.proxyB.Set(&b, 0);
+  input.transformA = xf_a;
+  input.transformB = xf_b;
+  input.useRadii = false;
+  b2DistanceOutput output;
+  b2Distance(&output, &cache, &input);
+  return output;
+}
+
+b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a, const b2Shape& b,
+                                  const b2Transform& xf_b) {
+  b2SimplexCache cache;
+  cache.count = 0;
+  return distance_between(a, xf_a, b, xf_b, cache);
+}
+
+b2AABB grown(b2AABB box, double by_m) {
+  const float by = static_cast<float>(by_m) * kScaleF;
+  box.lowerBound -= b2Vec2(by, by);
+  box.upperBound += b2Vec2(by, by);
+  return box;
+}
+
+}  // namespace sim

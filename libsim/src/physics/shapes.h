@@ -1,0 +1,71 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <box2d/b2_collision.h>
+#include <box2d/b2_distance.h>
+#include <box2d/b2_edge_shape.h>
+#include <box2d/b2_polygon_shape.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "sim/core/pose.h"
+
+/// Box2D's shapes, in its units: see docs/decisions/box2d_scale.md.
+namespace sim {
+
+inline constexpr double kScale = 10.0;  ///< Box2D units a metre
+inline constexpr float kScaleF = 10.0F;
+
+[[nodiscard]] inline b2Vec2 to_box2d(const Vec2& p) {
+  return {static_cast<float>(p.x() * kScale), static_cast<float>(p.y() * kScale)};
+}
+
+[[nodiscard]] inline double metres(float units) { return static_cast<double>(units) / kScale; }
+
+/// Of what does not move, whose shapes are given in W.
+[[nodiscard]] inline b2Transform unmoved() {
+  b2Transform xf;
+  xf.SetIdentity();
+  return xf;
+}
+
+/// @param vertices  of a convex polygon, counter-clockwise, 3 to b2_maxPolygonVertices [m].
+[[nodiscard]] b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices);
+
+/// Least of n . v over the corners v of a polygon or an edge, in W.
+[[nodiscard]] inline float least_along(const b2Vec2& n, const b2Shape& shape,
+                                       const b2Transform& xf) {
+  const b2Vec2 local = b2MulT(xf.q, n);
+  float least = std::numeric_limits<float>::infinity();
+  if (shape.GetType() == b2Shape::e_polygon) {
+    const auto& polygon = static_cast<const b2PolygonShape&>(shape);
+    for (int32 i = 0; i < polygon.m_count; ++i) {
+      least = std::min(least, b2Dot(local, polygon.m_vertices[i]));
+    }
+  } else {
+    const auto& edge = static_cast<const b2EdgeShape&>(shape);
+    least = std::min(b2Dot(local, edge.m_vertex1), b2Dot(local, edge.m_vertex2));
+  }
+  return least + b2Dot(n, xf.p);
+}
+
+/// How far two shapes are apart without their skins, and the nearest points of them.
+/// @param cache  of an earlier call for the same shapes, or with a count of 0; is updated.
+[[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
+                                                const b2Shape& b, const b2Transform& xf_b,
+                                                b2SimplexCache& cache);
+[[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
+                                                const b2Shape& b, const b2Transform& xf_b);
+
+/// How far two boxes are apart; 0 if they meet.
+[[nodiscard]] inline float gap_between(const b2AABB& a, const b2AABB& b) {
+  return b2Max(b2Max(b.lowerBound - a.upperBound, a.lowerBound - b.upperBound), b2Vec2(0.0F, 0.0F))
+      .Length();
+}
+
+/// A box that reaches so much farther on all sides [m].
+[[nodiscard]] b2AABB grown(b2AABB box, double by_m);
+
+}  // namespace sim
