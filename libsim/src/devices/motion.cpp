@@ -141,9 +141,9 @@ void PositionControl::hash(StateHash& hash) const {
 
 Motion::Motion(std::string name, const MotionParams& params, const DriveDescription& drive)
     : Actuator(std::move(name), "motion"),
+      enabled_(params.enabled_at_start),
       params_(params),
-      drive_(drive),
-      enabled_(params.enabled_at_start) {}
+      drive_(drive) {}
 
 void Motion::stop() {
   mode_ = Mode::kTwist;

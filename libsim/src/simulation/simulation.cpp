@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 #include "io/check_world.h"
@@ -42,17 +44,33 @@ constexpr double kClearanceLookahead_m = 0.1;
 // sooner.
 constexpr double kClearanceExact_m = 0.05;
 
-struct RobotParts {
+struct alignas(64) RobotParts {
+  // What each step asks for comes first: it fills one line of the cache.
+  RobotStatistics statistics;
+  Vec2 last_position;              // where it was at the end of the last step
+  double clearance_slack_m = 0.0;  // see update_clearance
+  std::uint32_t first_slot = 0;    // of its devices
+  std::uint16_t slot_count = 0;
+  bool any_last = false;  // of them
+  bool has_pen = false;
+
+  Pen* pen = nullptr;  // the first of each, if any
+  Motion* motion = nullptr;
+  double radius_m = 0.0;  // of the footprint about B
   const RobotModel* model = nullptr;
   std::vector<std::unique_ptr<Device>> devices;
-  std::vector<Sensor*> sensors;  // of devices, by device index; nullptr for actuators
-  std::vector<bool> last;        // by device index: looks at others' readings, so comes after them
-  bool any_last = false;
-  Motion* motion = nullptr;  // the first of each, if any
-  Pen* pen = nullptr;
-  RobotStatistics statistics;
-  double radius_m = 0.0;           // of the footprint about B
-  double clearance_slack_m = 0.0;  // see update_clearance
+};
+
+// What a step must know of a device, so that most of them need not be looked at.
+struct Slot {
+  Device* device;
+  SimTime due_ns;       // when a sensor's next reading is
+  std::uint16_t index;  // of the device
+  bool is_sensor;
+  bool integrates;
+  bool last;  // looks at others' readings, so comes after them
+
+  [[nodiscard]] Sensor& sensor() const { return static_cast<Sensor&>(*device); }
 };
 
 }  // namespace
@@ -130,6 +148,7 @@ struct Simulation::Impl {
     for (const Vec2& v : parts.model->footprint) {
       parts.radius_m = std::max(parts.radius_m, v.norm());
     }
+    parts.first_slot = static_cast<std::uint32_t>(slots.size());
     for (const DeviceDescription& device : robot.devices) {
       const auto& kinds = device_kinds();
       const auto row = std::find_if(kinds.begin(), kinds.end(),
@@ -137,16 +156,23 @@ struct Simulation::Impl {
       SIM_ASSERT(row != kinds.end());
       parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
       Device* made = parts.devices.back().get();
-      parts.sensors.push_back(dynamic_cast<Sensor*>(made));
-      parts.last.push_back(dynamic_cast<const Aio*>(made) != nullptr ||
-                           dynamic_cast<const Blobfinder*>(made) != nullptr ||
-                           dynamic_cast<const Camera*>(made) != nullptr);
-      parts.any_last = parts.any_last || parts.last.back();
+      auto* const sensor = dynamic_cast<Sensor*>(made);
+      const bool last = dynamic_cast<const Aio*>(made) != nullptr ||
+                        dynamic_cast<const Blobfinder*>(made) != nullptr ||
+                        dynamic_cast<const Camera*>(made) != nullptr;
+      slots.push_back({made, sensor == nullptr ? 0 : sensor->next_due_ns(),
+                       static_cast<std::uint16_t>(parts.devices.size() - 1), sensor != nullptr,
+                       true, last});
+      actors.push_back({static_cast<std::size_t>(index), made});
+      parts.any_last = parts.any_last || last;
       if (parts.motion == nullptr) parts.motion = dynamic_cast<Motion*>(made);
       if (parts.pen == nullptr) parts.pen = dynamic_cast<Pen*>(made);
     }
     if (parts.pen != nullptr) parts.pen->mark_trail(robot.pose, layers.base());
-    last_positions.push_back(robot.pose.position());
+    parts.slot_count = static_cast<std::uint16_t>(parts.devices.size());
+    parts.has_pen = parts.pen != nullptr;
+    motions.push_back(parts.motion);
+    parts.last_position = robot.pose.position();
     robots.push_back(std::move(parts));
     SIM_ASSERT(index + 1 == static_cast<int>(robots.size()));
   }
@@ -297,29 +323,35 @@ struct Simulation::Impl {
     return physics->body(static_cast<int>(robot)).X_WB;
   }
 
-  void step() {
-    const double dt_s = to_seconds(world.simulation.step_ns);
+  // Lets devices steer. Those that do not are asked once.
+  void act(double dt_s) {
+    auto actor = actors.begin();
     for (std::size_t i = 0; i < robots.size(); ++i) {
+      const auto begin = actor;
+      while (actor != actors.end() && actor->robot == i) ++actor;
       // The command of a suspended robot's motors waits.
       if (physics->suspended(static_cast<int>(i))) continue;
       Control control(*this, i);
-      for (const auto& device : robots[i].devices) {
-        if (device->active()) device->act(control);
+      for (auto own = begin; own != actor; ++own) {
+        if (own->device->active()) own->device->act(control);
       }
-      if (robots[i].motion != nullptr) {
-        physics->set_target(static_cast<int>(i), robots[i].motion->next_target(dt_s));
+      if (motions[i] != nullptr) {
+        physics->set_target(static_cast<int>(i), motions[i]->next_target(dt_s));
       }
     }
+    if (!asked) std::erase_if(actors, [](const Actor& a) { return !a.device->acts(); });
+    asked = true;
+  }
+
+  void step() {
+    const double dt_s = to_seconds(world.simulation.step_ns);
+    act(dt_s);
     physics->step(dt_s);
     move_loads();
     now_ns += world.simulation.step_ns;
     ++steps;
     record_collisions();
     updated.clear();
-    farthest_move_m = 0.0;
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-      farthest_move_m = std::max(farthest_move_m, move_m(i, dt_s));
-    }
     for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
     for (std::size_t i = 0; i < robots.size(); ++i) {
       if (robots[i].any_last) update_devices(i, true);
@@ -333,7 +365,7 @@ struct Simulation::Impl {
       return "robot " + world.robots[i].name + " cannot be put there: " + *what;
     }
     physics->set_pose(static_cast<int>(i), X_WB);
-    last_positions[i] = X_WB.position();  // the way there does not count
+    robots[i].last_position = X_WB.position();  // the way there does not count
     move_loads();
     for (const auto& device : robots[i].devices) device->placed(X_WB);
     forget_clearances();
@@ -350,13 +382,18 @@ struct Simulation::Impl {
     physics = std::make_unique<PhysicsWorld>(world.arena);
     layers.base().clear();
     const std::vector<RobotParts> before = std::exchange(robots, {});
-    last_positions.clear();
+    slots.clear();
+    motions.clear();
+    actors.clear();
+    asked = false;
     for (const RobotDescription& robot : world.robots) add_robot(robot);
     connect_devices();
     for (std::size_t i = 0; i < robots.size(); ++i) {
       robots[i].statistics = before[i].statistics;
       for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
         robots[i].devices[k]->succeed(*before[i].devices[k], now_ns);
+        Slot& slot = slots[robots[i].first_slot + k];
+        if (slot.is_sensor) slot.due_ns = slot.sensor().next_due_ns();
       }
     }
     updated.clear();
@@ -373,11 +410,11 @@ struct Simulation::Impl {
     const int index = static_cast<int>(i);
     const BodyState& body = physics->body(index);
     const Vec2 position = body.X_WB.position();
-    robot.statistics.path_length_m += (position - last_positions[i]).norm();
-    last_positions[i] = position;
+    robot.statistics.path_length_m += (position - robot.last_position).norm();
+    robot.last_position = position;
     if (body.stalled) robot.statistics.stalled_time_s += dt_s;
     update_clearance(i, dt_s);
-    if (robot.pen != nullptr) robot.pen->mark_trail(body.X_WB, layers.base());
+    if (robot.has_pen) robot.pen->mark_trail(body.X_WB, layers.base());
     update_devices(i, false);
   }
 
@@ -386,12 +423,15 @@ struct Simulation::Impl {
     RobotParts& robot = robots[i];
     const int index = static_cast<int>(i);
     const StepContext context{now_ns, physics->body(index), *physics, index, world};
-    for (std::size_t k = 0; k < robot.devices.size(); ++k) {
-      if (robot.last[k] != last) continue;
-      robot.devices[k]->integrate(context);
-      if (robot.sensors[k] != nullptr && robot.sensors[k]->update(context)) {
-        updated.push_back({index, static_cast<int>(k)});
+    for (Slot& slot : std::span(slots).subspan(robot.first_slot, robot.slot_count)) {
+      if (slot.last != last) continue;
+      if (slot.integrates) {
+        slot.device->integrate(context);
+        slot.integrates = slot.device->integrates();
       }
+      if (!slot.is_sensor || now_ns < slot.due_ns) continue;
+      if (slot.sensor().update(context)) updated.push_back({index, slot.index});
+      slot.due_ns = slot.sensor().next_due_ns();
     }
   }
 
@@ -407,7 +447,7 @@ struct Simulation::Impl {
   void update_clearance(std::size_t i, double dt_s) {
     RobotParts& robot = robots[i];
     if (robot.statistics.least_clearance_m <= 0.0) return;
-    robot.clearance_slack_m -= move_m(i, dt_s) + farthest_move_m;
+    robot.clearance_slack_m -= move_m(i, dt_s) + physics->farthest_move_m();
     if (robot.clearance_slack_m > 0.0) return;
     measure_clearance(i, robot.statistics.least_clearance_m + kClearanceLookahead_m);
   }
@@ -455,7 +495,15 @@ struct Simulation::Impl {
   };
   std::vector<Look> start_looks;  // of the robots
   std::vector<RobotParts> robots;
-  std::vector<Vec2> last_positions;
+  std::vector<Slot> slots;       // in order of robot and device
+  std::vector<Motion*> motions;  // of the robots
+  // A device that steers, or was not yet asked to.
+  struct Actor {
+    std::size_t robot;
+    Device* device;
+  };
+  std::vector<Actor> actors;  // in the same order
+  bool asked = false;         // all of them, once
   // An obstacle that a robot carries.
   struct Load {
     std::size_t robot;
@@ -464,7 +512,6 @@ struct Simulation::Impl {
     bool inside;  // the robot, where nobody sees it
   };
   std::vector<Load> loads;
-  double farthest_move_m = 0.0;  // of any robot in the last step
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
   std::vector<Utterance> said;

@@ -243,10 +243,20 @@ class Device {
   virtual std::optional<std::string> carry_out(const Command& command, RobotControl& robot);
 
   /// Called before each step in which the device is active and its robot may move, in order of
-  /// device: the moment to steer.
-  virtual void act(RobotControl& robot) { static_cast<void>(robot); }
-  /// Called once each step, before readings are made (for what must be integrated).
-  virtual void integrate(const StepContext& context) { static_cast<void>(context); }
+  /// device: the moment to steer. By default it does nothing, and is not called again.
+  virtual void act(RobotControl& robot) {
+    static_cast<void>(robot);
+    acts_ = false;
+  }
+  /// Called once each step, before readings are made (for what must be integrated). By default it
+  /// does nothing, and is not called again.
+  virtual void integrate(const StepContext& context) {
+    static_cast<void>(context);
+    integrates_ = false;
+  }
+  /// Whether act() and integrate() do something; before their first call they may.
+  [[nodiscard]] bool acts() const noexcept { return acts_; }
+  [[nodiscard]] bool integrates() const noexcept { return integrates_; }
 
   /// Another device of the robot steers from now on.
   virtual void motors_taken() {}
@@ -272,9 +282,11 @@ class Device {
   virtual void deactivated(RobotControl& robot) { static_cast<void>(robot); }
 
  private:
+  bool active_ = true;
+  bool acts_ = true;
+  bool integrates_ = true;
   std::string name_;
   std::string type_;
-  bool active_ = true;
 };
 
 /// A device that makes readings at its own frequency.
@@ -292,6 +304,8 @@ class Sensor : public Device {
   /// The newest reading; sequence 0 before the first.
   [[nodiscard]] virtual const Reading& reading() const noexcept = 0;
   [[nodiscard]] double frequency_hz() const noexcept { return frequency_hz_; }
+  /// When update() will make the next reading, or let it pass.
+  [[nodiscard]] SimTime next_due_ns() const noexcept { return next_due_ns_; }
 
   void succeed(const Device& before, SimTime now_ns) override;
   void hash(StateHash& hash) const override;

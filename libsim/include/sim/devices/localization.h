@@ -108,10 +108,10 @@ class Odometry final : public Sensor {
   OdometryParams params_;
   double wheel_separation_m_;
   bool omnidirectional_;
-  RandomStream noise_;
   Pose X_SB_;
-  Pose X_SR_;                   ///< B at the last reading
-  double path_length_m_ = 0.0;  ///< since then
+  double path_length_m_ = 0.0;  ///< since the last reading
+  RandomStream noise_;
+  Pose X_SR_;  ///< B at the last reading
   PoseReading reading_;
 };
 

@@ -124,14 +124,15 @@ class Motion final : public Actuator {
   void command_car(double v_mps, double steering_rad);
   void command_turn(double v_mps, double lateral_mps, double turn_rate_radps);
 
+  // What each step asks for comes first: it shares lines of the cache.
+  Mode mode_ = Mode::kTwist;
+  bool enabled_;
+  Twist commanded_;  ///< clamped, as last told
+  Twist target_;     ///< after the acceleration limit
   MotionParams params_;
   DriveDescription drive_;
-  bool enabled_;
-  Mode mode_ = Mode::kTwist;
   HeadingCommand heading_;
   PositionControl position_;
-  Twist commanded_;                      ///< clamped, as last told
-  Twist target_;                         ///< after the acceleration limit
   double commanded_steering_rad_ = 0.0;  ///< of a car
   double steering_rad_ = 0.0;            ///< of a car, after the limit of its rate
 };
