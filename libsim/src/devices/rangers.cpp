@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "physics/physics_world.h"
@@ -14,16 +15,19 @@ namespace {
 
 constexpr double kDegrees = std::numbers::pi / 180.0;
 
-// Whether some point within reach_m of the origin may see an edge that is within range_m of it.
-bool may_be_seen(const scan::Edge& edge, double reach_m, double range_m) {
+// The square of how near an edge comes to the origin [m2]; nothing if no point within reach_m of it
+// sees the edge within range_m.
+std::optional<double> distance2_if_seen(const scan::Edge& edge, double reach_m, double range_m) {
   const Vec2 a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
   const Vec2 along = Vec2(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m)) - a;
   const double length2 = along.squaredNorm();
   const double behind = a.x() * along.y() - a.y() * along.x();
-  if (behind > 0.0 && behind * behind > reach_m * reach_m * length2) return false;
+  if (behind > 0.0 && behind * behind > reach_m * reach_m * length2) return std::nullopt;
   const double t = std::clamp(-a.dot(along) / length2, 0.0, 1.0);
   const double farthest_m = reach_m + range_m;
-  return (a + t * along).squaredNorm() <= farthest_m * farthest_m;
+  const double distance2 = (a + t * along).squaredNorm();
+  if (distance2 > farthest_m * farthest_m) return std::nullopt;
+  return distance2;
 }
 
 }  // namespace
@@ -74,9 +78,14 @@ void Ranger::measure(const StepContext& context) {
   context.physics.collect_edges(X_WB.position(), params_.range_max_m + reach_m_, params_.height_m,
                                 context.robot, false, edges_);
   reading_.X_WB = X_WB;
-  seen_.clear();
+  for (scan::EdgeColumns& shell : shells_) shell.clear();
   for (const scan::Edge& edge : edges_.edges()) {
-    if (may_be_seen(edge, reach_m_, params_.range_max_m)) seen_.add(edge);
+    const auto distance2 = distance2_if_seen(edge, reach_m_, params_.range_max_m);
+    if (!distance2) continue;
+    const auto shell =
+        std::count_if(kShellLimits_m.begin(), kShellLimits_m.end(),
+                      [&](double limit_m) { return *distance2 >= limit_m * limit_m; });
+    shells_[static_cast<std::size_t>(shell)].add(edge);
   }
   for (std::size_t i = 0; i < params_.X_BS.size(); ++i) {
     const Pose X_WS = X_WB * params_.X_BS[i];
@@ -84,8 +93,7 @@ void Ranger::measure(const StepContext& context) {
     double range_m = 0.0;
     if (!may_be_inside_ ||
         !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
-      range_m = seen_.least_range_in_cone_m(
-          {p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad}, params_.range_max_m);
+      range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad});
     }
     // As with the laser: without an echo there is nothing to be uncertain about.
     if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {
@@ -93,6 +101,17 @@ void Ranger::measure(const StepContext& context) {
     }
     reading_.ranges_m[i] = range_m;
   }
+}
+
+double Ranger::least_range_m(const scan::Cone& cone) {
+  // Rounding, by far.
+  constexpr double kSlack_m = 1e-6;
+  double least_m = params_.range_max_m;
+  for (std::size_t i = 0; i < shells_.size(); ++i) {
+    if (i > 0 && least_m < kShellLimits_m[i - 1] - reach_m_ - kSlack_m) break;
+    if (shells_[i].size() > 0) least_m = shells_[i].least_range_in_cone_m(cone, least_m);
+  }
+  return least_m;
 }
 
 void Ranger::hash(StateHash& hash) const {

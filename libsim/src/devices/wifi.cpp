@@ -63,24 +63,36 @@ Wifi::Wifi(std::string name, const WifiParams& params, RandomStream noise)
 void Wifi::measure(const StepContext& context) {
   stamp(context, reading_);
   reading_.own_ip = ip_of(false, static_cast<std::size_t>(context.robot));
-  reading_.links.clear();
+  const std::vector<RobotDescription>& robots = context.world.robots;
+  if (!looked_) {
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      if (static_cast<int>(i) != context.robot && has_card(robots[i])) peers_.push_back(i);
+    }
+    looked_ = true;
+  }
   const Vec2 p_WB = context.body.X_WB.position();
+  std::vector<WifiReading::Link>& links = reading_.links;
+  std::size_t count = 0;
   const auto hear = [&](const std::string& name, bool access_point, std::size_t number,
                         const Vec2& p_W) {
     const double level =
         level_at_dbm(params_, (p_W - p_WB).norm()) + noise_.gaussian(params_.noise_db);
     if (level < params_.least_dbm) return;
-    reading_.links.push_back(
-        {name, mac_of(name), ip_of(access_point, number), access_point, level});
+    if (count == links.size()) links.emplace_back();
+    // Mostly the same are heard as last time: then all but the level is there.
+    WifiReading::Link& link = links[count++];
+    if (link.name != name || link.access_point != access_point) {
+      link = {name, mac_of(name), ip_of(access_point, number), access_point, level};
+    }
+    link.level_dbm = level;
   };
-  for (std::size_t i = 0; i < context.world.robots.size(); ++i) {
-    const RobotDescription& robot = context.world.robots[i];
-    if (static_cast<int>(i) == context.robot || !has_card(robot)) continue;
-    hear(robot.name, false, i, context.physics.body(static_cast<int>(i)).X_WB.position());
+  for (const std::size_t i : peers_) {
+    hear(robots[i].name, false, i, context.physics.body(static_cast<int>(i)).X_WB.position());
   }
   for (std::size_t i = 0; i < params_.access_points.size(); ++i) {
     hear(params_.access_points[i].name, true, i, params_.access_points[i].p_W);
   }
+  links.resize(count);
 }
 
 void Wifi::hash(StateHash& hash) const {

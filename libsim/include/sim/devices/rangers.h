@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -82,12 +83,20 @@ class Ranger final : public Sensor {
   void measure(const StepContext& context) override;
 
  private:
+  /// Where the next shell begins [m].
+  static constexpr std::array<double, 3> kShellLimits_m = {0.5, 1.0, 2.0};
+
+  /// Of all edges in the shells, at most the range of the settings.
+  [[nodiscard]] double least_range_m(const scan::Cone& cone);
+
   RangerParams params_;
   bool may_be_inside_;
   RandomStream noise_;
   double reach_m_ = 0.0;  ///< of the farthest transducer from the middle of the axle
   scan::EdgeBuffer edges_;
-  scan::EdgeColumns seen_;  ///< scratch: those that any transducer may see
+  /// Scratch: those that any transducer may see, in shells round the robot: an echo from a nearer
+  /// one mostly makes it needless to look at the others.
+  std::array<scan::EdgeColumns, kShellLimits_m.size() + 1> shells_;
   RangerReading reading_;
 };
 

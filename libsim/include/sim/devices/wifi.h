@@ -83,6 +83,8 @@ class Wifi final : public Sensor {
  private:
   WifiParams params_;
   RandomStream noise_;
+  bool looked_ = false;
+  std::vector<std::size_t> peers_;  ///< robots that have a card; found at the first reading
   WifiReading reading_;
 };
 
