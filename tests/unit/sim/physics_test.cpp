@@ -293,6 +293,64 @@ TEST(PhysicsWorld, WallsOfAMapStopARobotFromOutsideOnly) {
   EXPECT_THAT(world.clearance_m(0, 1.0, 1.0), testing::DoubleNear(0.0015, 0.0005));
 }
 
+TEST(PhysicsWorld, RobotPutBesideAWallTouchesItUntilItIsPutElsewhere) {
+  PhysicsWorld world(floor_4x4());
+  world.add_robot(s1r_model(), {2.0, 2.0, 0.0});
+  run(world, 50);
+  world.set_pose(0, {4.0 - 0.087 - 0.0016, 2.0, 0.0});
+  world.step(kStep_s);
+  ASSERT_EQ(world.new_contacts().size(), 1U);
+  EXPECT_EQ(world.new_contacts()[0].kind, PhysicsWorld::Contact::Kind::kBorder);
+  EXPECT_EQ(world.contacts_of(0).size(), 1U);
+  run(world, 50);
+  EXPECT_TRUE(world.new_contacts().empty()) << "it is still the same";
+  EXPECT_EQ(world.contacts_of(0).size(), 1U);
+  world.set_pose(0, {2.0, 2.0, 0.0});
+  world.step(kStep_s);
+  EXPECT_TRUE(world.contacts_of(0).empty());
+}
+
+TEST(PhysicsWorld, RobotsThatNothingIsNearAreSolidAllTheSame) {
+  constexpr PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
+  PhysicsWorld world(floor_4x4());
+  world.add_robot(s1r_model(), {1.4, 2.0, 0.0});
+  world.add_robot(s1r_model(), {2.0, 2.0, 0.0});
+  world.set_target(1, {0.2, 0.0, 0.0});
+  run(world, 300);  // to (2.6, 2)
+  EXPECT_TRUE(world.is_inside_solid({2.6, 2.0}, 0.1, 0));
+  EXPECT_FALSE(world.is_inside_solid({2.6, 2.0}, 0.1, 1)) << "its own body does not count";
+  EXPECT_FALSE(world.is_inside_solid({2.6, 2.0}, 0.3, 0)) << "above it";
+  EXPECT_FALSE(world.is_inside_solid({2.0, 2.0}, 0.1, 0)) << "where it was";
+  EXPECT_FALSE(world.is_line_free({1.4, 2.0}, {3.5, 2.0}, 0.1, 0, kNothing));
+  EXPECT_TRUE(world.is_line_free({1.4, 2.0}, {3.5, 2.0}, 0.3, 0, kNothing));
+  EXPECT_TRUE(world.is_line_free({1.4, 2.0}, {3.5, 2.0}, 0.1, 0,
+                                 {0, PhysicsWorld::Contact::Kind::kRobot, 1}));
+  EXPECT_TRUE(world.is_line_free({1.4, 2.0}, {2.5, 2.0}, 0.1, 0, kNothing)) << "ends before it";
+  EXPECT_TRUE(world.is_line_free({1.4, 2.5}, {3.5, 2.5}, 0.1, 0, kNothing)) << "passes it";
+  EXPECT_NEAR(world.ray_cast_m({1.4, 2.0}, 0.0, 5.0, 0), 2.6 - 0.087 - 1.4, 1e-5);
+  EXPECT_NEAR(world.clearance_m(0, 5.0, 5.0), 2.6 - 0.087 - 1.487, 1e-5);
+  ObstacleDescription place = box("place", 2.6, 2.0, 0.1, 0.1);
+  EXPECT_EQ(world.robot_within(place), 1);
+}
+
+TEST(PhysicsWorld, RobotsThatMeetFromAfarCollideOnceAndPushEvenly) {
+  const ArenaDescription arena = floor_4x4();
+  PhysicsWorld world(arena);
+  world.add_robot(s1r_model(), {1.0, 2.0, 0.0});
+  world.add_robot(s1r_model(), {3.0, 2.0, kPi});
+  for (int r = 0; r < 2; ++r) world.set_target(r, {0.4, 0.0, 0.0});
+  std::size_t begun = 0;
+  for (int i = 0; i < 500; ++i) {
+    world.step(kStep_s);
+    begun += world.new_contacts().size();
+    ASSERT_LT(deepest_overlap_m(world, arena), 0.002) << "step " << i;
+  }
+  EXPECT_EQ(begun, 2U) << "once for each";
+  EXPECT_NEAR(world.body(0).X_WB.x_m + world.body(1).X_WB.x_m, 4.0, 0.01);
+  EXPECT_TRUE(world.body(0).stalled);
+  EXPECT_TRUE(world.body(1).stalled);
+}
+
 TEST(PhysicsWorld, ClearanceIsTheDistanceToTheNearestSolid) {
   ArenaDescription arena = floor_4x4();
   arena.obstacles.push_back(box("b", 2.0, 2.0, 0.2, 0.2));

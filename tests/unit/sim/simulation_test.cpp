@@ -433,6 +433,23 @@ std::uint64_t library_fingerprint() {
   return hash.value();
 }
 
+TEST(SimulationDevices, ThatDoNothingInAStepAreAskedOnce) {
+  Simulation simulation(room());
+  const auto device = [&](const char* name) -> const Device& {
+    return simulation.device(0, simulation.find_device(0, name).value());
+  };
+  EXPECT_TRUE(device("laser").acts()) << "it might";
+  simulation.step();
+  EXPECT_FALSE(device("laser").acts());
+  EXPECT_FALSE(device("laser").integrates());
+  EXPECT_TRUE(device("motion").acts());
+  EXPECT_TRUE(device("odometry").integrates());
+  simulation.reset();
+  simulation.step();
+  EXPECT_TRUE(device("motion").acts());
+  EXPECT_FALSE(device("laser").acts());
+}
+
 // The golden value holds for Debug and Release, gcc and clang, static and shared libraries.
 TEST(SimulationHash, IsTheGoldenOneInEveryBuild) {
   std::ifstream golden(PLAYPEN_SOURCE_DIR "/tests/golden/thirteen_robots.txt");
