@@ -725,8 +725,9 @@ struct PhysicsWorld::Impl : b2ContactListener {
     constraints.clear();
     const double way_m = most_travel_m(r, dt_s);
     if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) {
-      for (const Wall& wall : r.details->walls)
+      for (const Wall& wall : r.details->walls) {
         add_constraints(r, *wall.shape, unmoved(), 1.0, dt_s);
+      }
     }
     for (const Neighbour& near : near_to[index]) {
       const Robot& other = robots[static_cast<std::size_t>(near.robot)];
