@@ -14,6 +14,11 @@ struct TwistConstraint {
   double turning;         ///< lever of the contact point about the axle's centre [m]
   double limit;           ///< greatest closing speed [m/s], >= 0
   double sideways = 0.0;  ///< component of the normal to the left
+
+  /// How fast a twist closes the gap [m/s].
+  [[nodiscard]] double closing(const Twist& twist) const {
+    return along * twist.v_mps + sideways * twist.lateral_mps + turning * twist.omega_radps;
+  }
 };
 
 /// The feasible twist nearest to `target` in kinetic energy: it minimises

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <deque>
 #include <limits>
 #include <numbers>
@@ -25,6 +26,9 @@ constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kSca
 
 // Nearer than this they touch, to Box2D.
 constexpr double kTouchingGap_m = 2.0 * b2_polygonRadius / kScale;
+
+// By so much a gap may be less after a part of a step than the constraints say, as they are linear.
+constexpr double kSecondOrder_m = 0.0003;
 
 // Farther than this a point of a robot must not move in one step of Box2D: broad phase boxes of
 // obstacles are 1 cm fat, so a contact is known before it is reached.
@@ -61,7 +65,7 @@ constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 constexpr double kWallSearch_m = 0.25;
 constexpr double kRoughWall_m = 0.05;
 
-// For so many parts of a step Box2D keeps a robot's body that nothing is near to any more.
+// For so many parts of a step Box2D keeps the body of a robot that nothing hinders any more.
 constexpr std::uint8_t kKeptParts = 5;
 
 constexpr int kVelocityIterations = 8;
@@ -85,14 +89,6 @@ struct FixtureInfo {
 struct Edge {
   double x0, y0, x1, y1;
 };
-
-// How far a point is from an edge.
-double distance_to(const Edge& edge, const Vec2& p) {
-  const Vec2 a(edge.x0, edge.y0);
-  const Vec2 along = Vec2(edge.x1, edge.y1) - a;
-  const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0.0, 1.0);
-  return (a + t * along - p).norm();
-}
 
 // Edges of everything that does not move, in W, in one array, so that a small world's are
 // collected in one sweep.
@@ -118,16 +114,20 @@ constexpr std::size_t kSweepLimit = 512;
 
 // Something near a robot that does not move.
 struct Wall {
-  const b2Shape* shape;
-  Edge edge;  // of a map's wall
-  bool is_edge;
+  const b2Shape* shape = nullptr;
+  b2SimplexCache cache{};  // of its and the robot's nearest points
+  bool is_edge = false;    // of a map, whose start, direction and length are:
+  Vec2 start = Vec2::Zero();
+  Vec2 along = Vec2::UnitX();
+  double length_m = 0.0;
 };
 
 // Something solid that may be the nearest to a robot.
 struct Candidate {
   const b2Shape* shape;
-  int robot;   // -1: none, but something that does not move
-  b2AABB box;  // round it, if it does not move
+  int robot;             // -1: none, but something that does not move
+  b2AABB box;            // round it, if it does not move
+  b2SimplexCache cache;  // of its and the robot's nearest points
 };
 
 // What of a robot is asked for less often.
@@ -152,7 +152,7 @@ struct RobotDetails {
 
 struct alignas(64) Robot {
   // What is asked for most often comes first: one line of the cache, then some others.
-  b2Body* body = nullptr;  // none while nothing is near
+  b2Body* body = nullptr;  // none while nothing hinders it
   Twist target;
   double radius_m = 0.0;           // of the footprint about B
   double gone_m = 0.0;             // in all: any point of it, at most
@@ -170,13 +170,38 @@ struct alignas(64) Robot {
   RobotDetails* details = nullptr;
 };
 
-// How far a robot's outline is off the line through an edge [m]; below 0: across it.
-double off_line_m(const Robot& r, const Edge& edge, const b2Transform& xf) {
-  const Vec2 a(edge.x0, edge.y0);
-  Vec2 normal = Vec2(edge.y1 - edge.y0, edge.x0 - edge.x1).normalized();
-  if (normal.dot(r.X_WB.position() - a) < 0.0) normal = -normal;
+// How far a robot's outline is off the line through an edge.
+struct OffLine {
+  double apart_m;    // below 0: across it
+  b2Vec2 direction;  // to it
+  bool exact;  // the edge is where the line is nearest: so far the robot is from the edge, too
+};
+
+OffLine off_line(const Robot& r, const Wall& wall, const b2Transform& xf) {
+  Vec2 normal(wall.along.y(), -wall.along.x());
+  if (normal.dot(r.X_WB.position() - wall.start) < 0.0) normal = -normal;
   const b2Vec2 n(static_cast<float>(normal.x()), static_cast<float>(normal.y()));
-  return metres(least_along(n, r.details->shape, xf)) - normal.dot(a);
+  const b2Vec2 local = b2MulT(xf.q, n);
+  const b2PolygonShape& shape = r.details->shape;
+  const b2Vec2* nearest = std::min_element(
+      shape.m_vertices, shape.m_vertices + shape.m_count,
+      [&](const b2Vec2& p, const b2Vec2& q) { return b2Dot(local, p) < b2Dot(local, q); });
+  const b2Vec2 corner = b2Mul(xf, *nearest);
+  const Vec2 off = Vec2(metres(corner.x), metres(corner.y)) - wall.start;
+  const double way_m = wall.along.dot(off);
+  const double apart_m = normal.dot(off);
+  return {apart_m, -n, apart_m > 0.0 && way_m >= 0.0 && way_m <= wall.length_m};
+}
+
+// Whether a wall may be so near to a robot, by the circle round it.
+bool may_reach(const Robot& r, const Wall& wall, double reach_m) {
+  if (!wall.is_edge) return true;
+  const Vec2 off = r.X_WB.position() - wall.start;
+  const double way_m = wall.along.dot(off);
+  const double past_m = std::max({0.0, -way_m, way_m - wall.length_m});
+  const double aside_m = wall.along.x() * off.y() - wall.along.y() * off.x();
+  const double within_m = reach_m + r.radius_m;
+  return past_m * past_m + aside_m * aside_m < within_m * within_m;
 }
 
 // Where a robot's shape is.
@@ -194,6 +219,21 @@ void center_mass_on_axle(b2Body& body) {
   body.GetMassData(&mass);
   mass.center.SetZero();
   body.SetMassData(&mass);
+}
+
+// How far any corner of a robot gets in a direction of W, at most, by a twist as if it were
+// straight.
+double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
+                 double dt_s) {
+  const b2Vec2 n = b2MulT(xf.q, direction);
+  float lever = -b2_maxFloat;  // about B, in the sense of the turn
+  const float sense = twist.omega_radps < 0.0 ? -1.0F : 1.0F;
+  for (int32 i = 0; i < r.details->shape.m_count; ++i) {
+    lever = std::max(lever, sense * b2Cross(r.details->shape.m_vertices[i], n));
+  }
+  return (static_cast<double>(n.x) * twist.v_mps + static_cast<double>(n.y) * twist.lateral_mps +
+          metres(lever) * std::abs(twist.omega_radps)) *
+         dt_s;
 }
 
 // How far the circles round two robots are apart.
@@ -419,7 +459,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
   // `share` is the part of the gap that r may close in this step.
   void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                        double share, double dt_s) {
-    const b2Transform& xf = r.body->GetTransform();
+    const b2Transform xf = transform_of(r);
     b2Manifold manifold;
     b2WorldManifold points;
     double sign = 1.0;  // the normal points from A to B
@@ -553,13 +593,18 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
-  // How far the outlines of a pair are apart: a lower bound, exact up to `enough_m`.
+  // How far the outlines of a pair are apart, along its direction: a lower bound, exact up to
+  // `enough_m`.
   [[nodiscard]] static double distance_m(const Robot& a, const Robot& b, double enough_m,
                                          Pair& pair) {
     // Two cheap lower bounds, by the circles round them and along the direction of the last nearest
     // points, mostly say enough.
     const double circles_m = circles_apart_m(a, b);
-    if (circles_m > enough_m) return circles_m;
+    if (circles_m > enough_m) {
+      const Vec2 way = (b.X_WB.position() - a.X_WB.position()).normalized();
+      pair.direction = {static_cast<float>(way.x()), static_cast<float>(way.y())};
+      return circles_m;
+    }
     const b2Transform xf_a = transform_of(a);
     const b2Transform xf_b = transform_of(b);
     const double along_m = metres(least_along(pair.direction, b.details->shape, xf_b) +
@@ -573,8 +618,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return metres(found.distance);
   }
 
-  // Finds the robots so close that they may reach one another, and gives bodies to all that
-  // something is near to.
+  // Finds the robots so close that they may reach one another, and how near walls are. What was put
+  // somewhere may touch already, so Box2D gets all that something is near to.
   void find_near(double dt_s) {
     if (gone_m >= pairs_until_m) list_pairs();
     near_to.resize(robots.size());
@@ -584,8 +629,14 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
     near_pairs.clear();
     const double in_the_way_m = 3.0 * travel_m;
+    // Whether it may be so soon cannot be foreseen: to list first, without a branch, costs less.
+    may_meet.resize(pairs.size());
+    std::size_t count = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      if (meet_gone_m[i] - gone_m > 0.5 * in_the_way_m) continue;
+      may_meet[count] = i;
+      count += meet_gone_m[i] - gone_m <= 0.5 * in_the_way_m ? 1 : 0;
+    }
+    for (const std::size_t i : std::span(may_meet).first(count)) {
       Pair& pair = pairs[i];
       Robot& a = robots[static_cast<std::size_t>(pair.first)];
       Robot& b = robots[static_cast<std::size_t>(pair.second)];
@@ -601,13 +652,15 @@ struct PhysicsWorld::Impl : b2ContactListener {
         pair.both_gone_m = a.gone_m + b.gone_m;
         if (apart_m > in_the_way_m) continue;
       }
-      keep_in_box2d(a);
-      keep_in_box2d(b);
-      near_pairs.push_back({pair.first, pair.second, apart_m});
+      if (placed) keep_in_box2d(a);
+      if (placed) keep_in_box2d(b);
+      near_pairs.push_back({pair.first, pair.second, apart_m, pair.direction});
     }
     for (const NearPair& pair : near_pairs) {
-      near_to[static_cast<std::size_t>(pair.first)].push_back({pair.second, pair.apart_m});
-      near_to[static_cast<std::size_t>(pair.second)].push_back({pair.first, pair.apart_m});
+      near_to[static_cast<std::size_t>(pair.first)].push_back(
+          {pair.second, pair.apart_m, pair.direction});
+      near_to[static_cast<std::size_t>(pair.second)].push_back(
+          {pair.first, pair.apart_m, -pair.direction});
     }
     for (Robot& r : robots) look_for_walls(r, dt_s);
   }
@@ -616,7 +669,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
   void look_for_walls(Robot& r, double dt_s) {
     const double reach_m = wall_reach_m();
     double apart_m = r.wall_until_m - r.gone_m;
-    if (apart_m > reach_m && r.body == nullptr) return;
+    if (apart_m > reach_m) return;
     const bool was_near = r.wall_until_m - r.wall_gone_m <= reach_m;
     // How near exactly need not be known while the robot can have its way.
     const double way_m = most_travel_m(r, dt_s) + kTouchingGap_m;
@@ -625,11 +678,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
       r.wall_until_m = r.gone_m + apart_m;
       r.wall_gone_m = r.gone_m;
     }
-    if (apart_m <= reach_m) {
-      keep_in_box2d(r);
-    } else if (r.body != nullptr && --r.kept_parts == 0) {
-      take_out_of_box2d(r);
-    }
+    if (placed && apart_m <= reach_m) keep_in_box2d(r);
   }
 
   // Nearer than this something that does not move may be in a robot's way.
@@ -641,14 +690,30 @@ struct PhysicsWorld::Impl : b2ContactListener {
     r.details->candidates_reach_m = reach_m;
     r.details->candidates_gone_m = gone_m;
     visit_fixed(world, grown(box, reach_m), [&](const b2Fixture& fixture) {
-      r.details->candidates.push_back({fixture.GetShape(), -1, fixture.GetAABB(0)});
+      r.details->candidates.push_back({fixture.GetShape(), -1, fixture.GetAABB(0), {}});
     });
     const Vec2 p_WB = r.X_WB.position();
     const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
     for_robots_in(p_WB - reach, p_WB + reach, [&](const Circle& circle) {
       const Robot& other = robots[static_cast<std::size_t>(circle.robot)];
-      if (&other != &r) r.details->candidates.push_back({&other.details->shape, circle.robot, {}});
+      if (&other == &r) return;
+      r.details->candidates.push_back({&other.details->shape, circle.robot, {}, {}});
     });
+  }
+
+  [[nodiscard]] Wall wall_of(const b2Fixture& fixture) const {
+    Wall wall;
+    wall.shape = fixture.GetShape();
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.kind != Contact::Kind::kWall) return wall;
+    const Edge& edge = all_edges.edges[info.first_edge];
+    const Vec2 way(edge.x1 - edge.x0, edge.y1 - edge.y0);
+    wall.length_m = way.norm();
+    if (wall.length_m <= 0.0) return wall;
+    wall.is_edge = true;
+    wall.start = {edge.x0, edge.y0};
+    wall.along = way / wall.length_m;
+    return wall;
   }
 
   // How near the nearest solid is to a robot's outline, robots apart: a lower bound, exact where it
@@ -660,26 +725,28 @@ struct PhysicsWorld::Impl : b2ContactListener {
       r.details->shape.ComputeAABB(&box, xf, 0);
       r.details->walls.clear();
       r.details->walls_until_m = r.gone_m + kWallSearch_m;
-      visit_fixed(world, grown(box, 2.0 * kWallSearch_m), [&](const b2Fixture& fixture) {
-        const FixtureInfo& info = info_of(&fixture);
-        const bool edge = info.kind == Contact::Kind::kWall;
-        r.details->walls.push_back(
-            {fixture.GetShape(), edge ? all_edges.edges[info.first_edge] : Edge{}, edge});
-      });
+      visit_fixed(world, grown(box, 2.0 * kWallSearch_m),
+                  [&](const b2Fixture& fixture) { r.details->walls.push_back(wall_of(fixture)); });
     }
     double least_m = kWallSearch_m;
-    for (const Wall& wall : r.details->walls) {
+    for (Wall& wall : r.details->walls) {
+      // Two cheap lower bounds, by the circle round the robot and by how far it is off the line,
+      // mostly say enough.
+      if (!may_reach(r, wall, least_m)) continue;
       if (wall.is_edge) {
-        // Two cheap lower bounds: by the circle round the robot, and how far it is off the line.
-        const double rough_m = std::max(distance_to(wall.edge, r.X_WB.position()) - r.radius_m,
-                                        off_line_m(r, wall.edge, xf));
-        if (rough_m >= std::min(least_m, kRoughWall_m)) {
-          least_m = std::min(least_m, rough_m);
+        const OffLine off = off_line(r, wall, xf);
+        if (off.exact || off.apart_m >= std::min(least_m, kRoughWall_m)) {
+          least_m = std::min(least_m, off.apart_m);
+          continue;
+        }
+        if (!may_reach(r, wall, kRoughWall_m)) {
+          least_m = std::min(least_m, kRoughWall_m);
           continue;
         }
       }
-      least_m = std::min(
-          least_m, metres(distance_between(r.details->shape, xf, *wall.shape, unmoved()).distance));
+      const b2DistanceOutput found =
+          distance_between(r.details->shape, xf, *wall.shape, unmoved(), wall.cache);
+      least_m = std::min(least_m, metres(found.distance));
     }
     return least_m;
   }
@@ -719,13 +786,26 @@ struct PhysicsWorld::Impl : b2ContactListener {
     return false;
   }
 
+  // Whether a robot that gets its target stays clear of a wall: of the line through its edge.
+  [[nodiscard]] static bool keeps_off(const Robot& r, const Wall& wall, const b2Transform& xf,
+                                      double dt_s) {
+    const OffLine off = off_line(r, wall, xf);
+    return off.apart_m > 0.0 && advance_m(r, xf, off.direction, r.target, dt_s) + kSecondOrder_m <=
+                                    off.apart_m - kTouchingGap_m;
+  }
+
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s) {
     Robot& r = robots[index];
-    if (r.target == Twist{}) return r.target;
     constraints.clear();
+    if (r.target == Twist{}) return r.target;
     const double way_m = most_travel_m(r, dt_s);
-    if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) {
+    // What is farther away, or not that way, leaves the robot its target, and clear of it.
+    const b2Transform xf = transform_of(r);
+    const double reach_m = way_m + kTouchingGap_m + kSecondOrder_m;
+    if (r.wall_until_m - r.gone_m <= reach_m) {
       for (const Wall& wall : r.details->walls) {
+        if (!may_reach(r, wall, reach_m)) continue;
+        if (wall.is_edge && keeps_off(r, wall, xf, dt_s)) continue;
         add_constraints(r, *wall.shape, unmoved(), 1.0, dt_s);
       }
     }
@@ -733,10 +813,15 @@ struct PhysicsWorld::Impl : b2ContactListener {
       const Robot& other = robots[static_cast<std::size_t>(near.robot)];
       const double share = other.suspended ? 1.0 : 0.5;  // as good as a wall
       const double apart_m = near.apart_m - r.moved_m - other.moved_m;
-      if (share * (apart_m - kTouchingGap_m) > way_m) continue;
+      const double mine_m = share * (apart_m - kTouchingGap_m);
+      if (mine_m > way_m) continue;
+      if (apart_m > 0.0 &&
+          advance_m(r, xf, near.direction, r.target, dt_s) + kSecondOrder_m <= mine_m) {
+        continue;
+      }
       // Pushing: Box2D's solver shares the momentum.
       if (!other.suspended && touches(r.body, other.body)) continue;
-      add_constraints(r, other.details->shape, other.body->GetTransform(), share, dt_s);
+      add_constraints(r, other.details->shape, transform_of(other), share, dt_s);
     }
     if (constraints.empty()) return r.target;
     switch (r.drive) {
@@ -752,7 +837,8 @@ struct PhysicsWorld::Impl : b2ContactListener {
   }
 
   [[nodiscard]] static bool touches(const b2Body* a, const b2Body* b) {
-    for (const b2ContactEdge* e = a->GetContactList(); e != nullptr; e = e->next) {
+    if (b == nullptr) return false;
+    for (const b2ContactEdge* e = contact_list(a); e != nullptr; e = e->next) {
       if (e->other == b && e->contact->IsTouching()) return true;
     }
     return false;
@@ -781,8 +867,9 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
   }
 
-  // Moves all for a time in which no robot travels farther than kMaxTravel_m. Free robots are done
-  // with at once, without Box2D; those that shove one another take several parts.
+  // Moves all for a time in which no robot travels farther than kMaxTravel_m. Robots that are free,
+  // or stay clear of all that is near, are done with at once, without Box2D; those that shove one
+  // another take several parts.
   void advance(double dt_s, bool first, bool last) {
     find_near(dt_s);
     if (placed) {  // lets Box2D find the contacts of what was put somewhere since the last step
@@ -805,6 +892,22 @@ struct PhysicsWorld::Impl : b2ContactListener {
       move_freely(r, dt_s);
       if (last) finish_step(r, step_s);
     }
+    std::erase_if(hindered, [&](std::size_t i) {
+      Robot& r = robots[i];
+      if (!r.shoving) {
+        twists[i] = allowed_twist(i, dt_s);
+        if (stays_clear(r, twists[i], dt_s)) {
+          move_freely(r, dt_s);
+          if (last) finish_step(r, step_s);
+          return true;
+        }
+      }
+      keep_in_box2d(r);
+      for (const Neighbour& near : near_to[i]) {
+        keep_in_box2d(robots[static_cast<std::size_t>(near.robot)]);
+      }
+      return false;
+    });
     double shove_m = 0.0;
     for (const std::size_t i : shoving) shove_m = std::max(shove_m, most_travel_m(robots[i], dt_s));
     const int parts = std::max(1, static_cast<int>(std::ceil(shove_m / most_shove_m)));
@@ -815,6 +918,19 @@ struct PhysicsWorld::Impl : b2ContactListener {
     }
     gone_m += farthest_m;
     order_fresh = false;
+  }
+
+  // Whether a robot that is not free has its way after all: it touches nothing, and by the
+  // constraints that were just found for it, it will not either.
+  [[nodiscard]] bool stays_clear(const Robot& r, const Twist& allowed, double dt_s) const {
+    if (allowed != r.target || r.target == Twist{}) return false;
+    for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
+      if (e->contact->IsTouching()) return false;
+    }
+    const double spare = (kTouchingGap_m - kRestingGap_m + kSecondOrder_m) / dt_s;
+    return std::all_of(constraints.begin(), constraints.end(), [&](const TwistConstraint& c) {
+      return c.closing(allowed) + spare <= c.limit;
+    });
   }
 
   // How far any point of a robot that gets its target travels, at most [m].
@@ -851,7 +967,13 @@ struct PhysicsWorld::Impl : b2ContactListener {
 
   // To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
   void move_freely(Robot& r, double dt_s) {
-    if (r.body != nullptr && r.body->IsAwake()) r.body->SetAwake(false);
+    if (r.body != nullptr) {
+      if (--r.kept_parts == 0) {
+        take_out_of_box2d(r);
+      } else if (r.body->IsAwake()) {
+        r.body->SetAwake(false);
+      }
+    }
     if (r.target == Twist{}) return;
     const Pose goal = arc_end(r.X_WB, r.target, dt_s);
     if (r.body != nullptr) {
@@ -872,7 +994,7 @@ struct PhysicsWorld::Impl : b2ContactListener {
         r.body->SetAwake(false);
         continue;
       }
-      if (others_dt_s > 0.0) twists[i] = allowed_twist(i, others_dt_s);
+      if (others_dt_s > 0.0 && r.shoving) twists[i] = allowed_twist(i, others_dt_s);
       goals[i] = arc_end(r.X_WB, twists[i], own_dt_s);
       if (goals[i] == r.X_WB && !r.body->IsAwake()) continue;
       // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
@@ -1145,15 +1267,18 @@ struct PhysicsWorld::Impl : b2ContactListener {
   std::vector<double> meet_gone_m;  // when any robot has gone so far, each of them may meet
   std::vector<Pair> pairs_before;   // the same as they were listed before
   std::vector<double> meet_before;
+  std::vector<std::size_t> may_meet;  // those of them that may meet in this part of a step
   double pairs_until_m = 0.0;
   struct NearPair {
     int first, second;
-    double apart_m;  // at least, when this part of a step began
+    double apart_m;    // at least, when this part of a step began,
+    b2Vec2 direction;  // along this, from the first to the second
   };
   std::vector<NearPair> near_pairs;  // of them, those that may be in each other's way
   struct Neighbour {
     int robot;
     double apart_m;
+    b2Vec2 direction;  // towards it
   };
   std::vector<std::vector<Neighbour>> near_to;  // the same by robot, in the same order
   double step_s = 0.0;                          // the whole step under way
@@ -1196,7 +1321,7 @@ int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
 
   r.details->info = d.new_info(Contact::Kind::kRobot, index, model.height_m);
   r.details->mass_kg = model.mass_kg;
-  d.put_into_box2d(r);
+  d.keep_in_box2d(r);
   r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
 
   d.largest_radius_m = std::max(d.largest_radius_m, r.radius_m);
@@ -1384,7 +1509,7 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
   for (std::size_t i = 0; i < r.details->candidates.size(); ++i) {
     // Two cheap lower bounds, by what is round them and along the direction of the last nearest
     // points, mostly say enough.
-    const Candidate& candidate = r.details->candidates[i];
+    Candidate& candidate = r.details->candidates[i];
     const Robot* other =
         candidate.robot < 0 ? nullptr : &d.robots[static_cast<std::size_t>(candidate.robot)];
     const double boxes_apart_m =
@@ -1400,7 +1525,7 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
       continue;
     }
     const b2DistanceOutput found =
-        distance_between(r.details->shape, xf, *candidate.shape, their_xf);
+        distance_between(r.details->shape, xf, *candidate.shape, their_xf, candidate.cache);
     if (metres(found.distance) >= least_m) continue;
     if (found.distance > 0.0F) {
       r.details->nearest_direction = (1.0F / found.distance) * (found.pointB - found.pointA);
@@ -1414,50 +1539,44 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
 
 namespace {
 
+// Edges are many, so they are handled as one vector each.
+using Four = double __attribute__((vector_size(4 * sizeof(double))));
+using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
+
+// Writes the edge between two points of W, which follow one another in memory, relative to
+// `origin`.
+void put_edge(scan::Edge* to, const double* points, const Four& origin) {
+  static_assert(sizeof(scan::Edge) == sizeof(FourFloats));
+  Four both;
+  std::memcpy(&both, points, sizeof both);
+  const FourFloats edge = __builtin_convertvector(both - origin, FourFloats);
+  std::memcpy(&to->x0_m, &edge, sizeof edge);
+}
+
 // Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
+  static_assert(sizeof(Edge) == sizeof(Four));
   const std::size_t begin = out.size();
   const bool all_high_enough = list.least_height_m > sensor_height_m;
-  scan::Edge* target = out.append(last - first);
-  const double x = p_WL.x();
-  const double y = p_WL.y();
+  scan::Edge* const target = out.append(last - first);
+  const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
   std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
     if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
-    const Edge& e = list.edges[i];
-    target[count++] = {static_cast<float>(e.x0 - x), static_cast<float>(e.y0 - y),
-                       static_cast<float>(e.x1 - x), static_cast<float>(e.y1 - y)};
+    put_edge(target + count++, &list.edges[i].x0, origin);
   }
   out.truncate(begin + count);
 }
 
-// The same of a robot's outline, without the edges that face away from the sensor. Those that the
-// scan kernel cannot tell about, in single precision, are kept.
-void append_facing_edges(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
-  constexpr double kDoubt = 1e-6;
-  const std::size_t begin = out.size();
-  scan::Edge* target = out.append(outline.count);
-  std::size_t count = 0;
-  double x0 = outline.corners[0].x() - p_WL.x();
-  double y0 = outline.corners[0].y() - p_WL.y();
-  auto fx0 = static_cast<float>(x0);
-  auto fy0 = static_cast<float>(y0);
-  for (std::size_t i = 1; i <= outline.count; ++i) {
-    const double x1 = outline.corners[i].x() - p_WL.x();
-    const double y1 = outline.corners[i].y() - p_WL.y();
-    const auto fx1 = static_cast<float>(x1);
-    const auto fy1 = static_cast<float>(y1);
-    const double a = x0 * y1;
-    const double b = y0 * x1;
-    target[count] = {fx0, fy0, fx1, fy1};
-    count += a - b < kDoubt * (std::abs(a) + std::abs(b)) ? 1 : 0;
-    x0 = x1;
-    y0 = y1;
-    fx0 = fx1;
-    fy0 = fy1;
+// The same of a robot's outline.
+void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
+  static_assert(sizeof(Vec2) == 2 * sizeof(double));
+  scan::Edge* const target = out.append(outline.count);
+  const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
+  for (std::size_t i = 0; i < outline.count; ++i) {
+    put_edge(target + i, outline.corners[i].data(), origin);
   }
-  out.truncate(begin + count);
 }
 
 }  // namespace
@@ -1510,7 +1629,7 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
     for (const std::int32_t disc : discs) {
       const Outline& outline = d.outlines[static_cast<std::size_t>(disc)];
       if (outline.robot == own_robot) continue;
-      if (outline.height_m > sensor_height_m) append_facing_edges(outline, p_WL, edges);
+      if (outline.height_m > sensor_height_m) append_robot(outline, p_WL, edges);
       if (outline.first_load == outline.end_load) continue;
       append_edges(d.load_edges, outline.first_load, outline.end_load, p_WL, sensor_height_m,
                    edges);
@@ -1523,11 +1642,9 @@ void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
   kernel.locate(d.robot_discs, static_cast<float>(p_WL.x()), static_cast<float>(p_WL.y()));
   append(kernel.near());
   kernel.add(edges);
-  for (int ring = 1; ring < scan::ScanKernel::kRings; ++ring) {
-    edges.clear();
-    append(kernel.visible(ring));
-    if (edges.size() > 0) kernel.add(edges);
-  }
+  edges.clear();
+  append(kernel.visible());
+  if (edges.size() > 0) kernel.add(edges);
   kernel.finish(ranges_m);
 }
 

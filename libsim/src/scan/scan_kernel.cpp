@@ -2,8 +2,11 @@
 #include "sim/scan/scan_kernel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "scan/scan_kernel_impl.h"
 #include "sim/core/assert.h"
@@ -48,6 +51,12 @@ struct Scalar {
   static float min(float a, float b) { return a < b ? a : b; }
   static float max(float a, float b) { return a > b ? a : b; }
   static float sqrt(float value) { return std::sqrt(value); }
+  /// Least of each of kLanes blocks of eight, that begin at a multiple of 32 bytes.
+  static float minima(const float* from) {
+    float least = from[0];
+    for (int i = 1; i < kBlockBeams; ++i) least = min(from[i], least);
+    return least;
+  }
   static float truncate(float value) { return static_cast<float>(static_cast<int>(value)); }
 
   static bool less(float a, float b) { return a < b; }
@@ -125,6 +134,15 @@ struct Sse2 {
   static Float min(Float a, Float b) { return _mm_min_ps(a, b); }
   static Float max(Float a, Float b) { return _mm_max_ps(a, b); }
   static Float sqrt(Float value) { return _mm_sqrt_ps(value); }
+  static Float minima(const float* from) {
+    const Float r0 = min(_mm_load_ps(from), _mm_load_ps(from + 4));
+    const Float r1 = min(_mm_load_ps(from + 8), _mm_load_ps(from + 12));
+    const Float r2 = min(_mm_load_ps(from + 16), _mm_load_ps(from + 20));
+    const Float r3 = min(_mm_load_ps(from + 24), _mm_load_ps(from + 28));
+    const Float r01 = min(_mm_unpacklo_ps(r0, r1), _mm_unpackhi_ps(r0, r1));
+    const Float r23 = min(_mm_unpacklo_ps(r2, r3), _mm_unpackhi_ps(r2, r3));
+    return min(_mm_movelh_ps(r01, r23), _mm_movehl_ps(r23, r01));
+  }
   static Float truncate(Float value) { return _mm_cvtepi32_ps(_mm_cvttps_epi32(value)); }
 
   static Mask less(Float a, Float b) { return _mm_cmplt_ps(a, b); }
@@ -265,11 +283,6 @@ std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuf
 /// The same for so many discs.
 std::size_t disc_places(std::size_t disc_count) { return disc_count + 2 * DiscBuffer::kPadding; }
 
-/// Integers a disc, or a group of them: two lists a ring, the visible ones, and twice the first and
-/// the last beam. Floats: twice 1/r.
-constexpr std::size_t kDiscIntegers = 2 * ScanKernel::kRings + 5;
-constexpr std::size_t kDiscFloats = 2;
-
 const detail::ScanSteps& steps_by(InstructionSet instructions) {
   SIM_ASSERT(ScanKernel::available(instructions));
   switch (instructions) {
@@ -334,8 +347,10 @@ void DiscBuffer::grow() {
   for (std::vector<float>* values : {&x_, &y_, &radius_}) values->resize(size);
 }
 
+namespace {
+
 /// What depends on the geometry alone, shared by copies of a kernel.
-struct ScanKernel::Tables {
+struct Tables {
   explicit Tables(const ScanGeometry& geometry)
       // One beam alone has no neighbour to tell its resolution: any will do.
       : resolution_rad(geometry.beam_count == 1 ? 1.0 : geometry.resolution_rad),
@@ -367,33 +382,116 @@ struct ScanKernel::Tables {
   float fan_sin = 0.0F;        ///< likewise
 };
 
+}  // namespace
+
+/// Scratch memory, and the job that points into it.
+struct ScanKernel::Scratch {
+  Scratch(const ScanGeometry& geometry, std::shared_ptr<const Tables> its_tables)
+      : tables(std::move(its_tables)),
+        inverse_ranges(static_cast<std::size_t>(geometry.beam_count + 2 * detail::kBeamPadding)) {
+    const double beams_per_rad = 1.0 / tables->resolution_rad;
+    const auto beam_count = static_cast<double>(geometry.beam_count);
+    job.beam_count = geometry.beam_count;
+    job.range_max_m = geometry.range_max_m;
+    job.resolution_rad = tables->resolution_rad;
+    job.beams = tables->beams.data() + 2;
+    job.cos_table = tables->cosines.data() + tables->reach;
+    job.sin_table = tables->sines.data() + tables->reach;
+    job.beams_per_rad = static_cast<float>(beams_per_rad);
+    job.beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0);
+    // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
+    // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
+    job.doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0));
+    job.fan_cos = tables->fan_cos;
+    job.fan_sin = tables->fan_sin;
+    job.behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad);
+
+    // Blocks of beams are aligned, so that none straddles two lines of the cache.
+    constexpr std::size_t kAlignment = 32;
+    void* aligned = inverse_ranges.data();
+    std::size_t space = inverse_ranges.size() * sizeof(float);
+    std::align(kAlignment, space - kAlignment, aligned, space);
+    job.inverse_ranges = static_cast<float*>(aligned);
+
+    minima.resize(places(static_cast<std::size_t>(geometry.beam_count / detail::kBlockBeams)));
+    job.minima = minima.data();
+    reserve_edges(1);
+    reserve_discs(1);
+  }
+
+  void reserve_edges(std::size_t count) {
+    if (count <= edge_capacity) return;
+    edge_capacity = std::max(count, 2 * edge_capacity);
+    const std::size_t step = places(edge_capacity);
+    std::array integers{
+        &job.candidate_edge, &job.candidate_first, &job.candidate_last, &job.narrow, &job.medium,
+        &job.wide,           &job.first,           &job.last,           &job.anchor};
+    std::array floats{&job.candidate_low, &job.candidate_high, &job.a, &job.b};
+    share(edge_integers, integers, step);
+    share(edge_floats, floats, step);
+  }
+
+  void reserve_discs(std::size_t count) {
+    if (count <= disc_capacity) return;
+    disc_capacity = std::max(count, 2 * disc_capacity);
+    const std::size_t step = disc_places(disc_capacity);
+    std::array integers{&job.disc_first, &job.disc_last, &job.group_first, &job.group_last,
+                        &job.groups,     &job.some,      &job.near,        &job.visible};
+    std::array floats{&job.disc_inverse, &job.group_inverse};
+    share(disc_integers, integers, step);
+    share(disc_floats, floats, step);
+  }
+
+  std::shared_ptr<const Tables> tables;
+  detail::ScanJob job{};
+  detail::Located located;  ///< discs, of the scan that was begun
+  bool inside = false;      ///< it began inside a solid
+  std::vector<float> inverse_ranges;
+  std::vector<float> minima;
+  std::vector<std::int32_t> edge_integers;
+  std::vector<float> edge_floats;
+  std::size_t edge_capacity = 0;
+  std::vector<std::int32_t> disc_integers;
+  std::vector<float> disc_floats;
+  std::size_t disc_capacity = 0;
+
+ private:
+  /// Makes all of these point to arrays of `step` values.
+  template <typename T, std::size_t kCount>
+  static void share(std::vector<T>& memory, const std::array<T**, kCount>& among,
+                    std::size_t step) {
+    memory.resize(kCount * step);
+    for (std::size_t i = 0; i < kCount; ++i) *among[i] = memory.data() + i * step;
+  }
+};
+
 ScanKernel::ScanKernel(const ScanGeometry& geometry)
     : ScanKernel(geometry, available(InstructionSet::kAvx2)   ? InstructionSet::kAvx2
                            : available(InstructionSet::kSse2) ? InstructionSet::kSse2
                                                               : InstructionSet::kScalar) {}
 
 ScanKernel::ScanKernel(const ScanGeometry& geometry, InstructionSet instructions)
-    : geometry_(geometry),
-      instructions_(instructions),
-      steps_(&steps_by(instructions)),
-      tables_(std::make_shared<const Tables>(geometry)),
-      inverse_ranges_(static_cast<std::size_t>(geometry.beam_count + 2 * detail::kBeamPadding)) {
+    : geometry_(geometry), instructions_(instructions), steps_(&steps_by(instructions)) {
   SIM_ASSERT(geometry.beam_count >= 1 && geometry.beam_count <= 1'000'000);
   SIM_ASSERT(geometry.beam_count == 1 || geometry.resolution_rad > 0.0);
   SIM_ASSERT(geometry.range_max_m > 0.0);
-  reserve(0);
-  reserve_discs(0);
+  scratch_ = std::make_unique<Scratch>(geometry, std::make_shared<const Tables>(geometry));
 }
 
-void ScanKernel::reserve(std::size_t edge_count) {
-  if (edge_count <= edge_capacity_ && !integers_.empty()) return;
-  // An edge may need three places: a candidate's own, and two if it gets a second look.
-  constexpr std::size_t kIntegerArrays = 9;
-  constexpr std::size_t kFloatArrays = 4;
-  edge_capacity_ = std::max(edge_count, 2 * edge_capacity_);
-  integers_.resize(kIntegerArrays * places(edge_capacity_));
-  floats_.resize(kFloatArrays * places(edge_capacity_));
+ScanKernel::ScanKernel(const ScanKernel& other)
+    : geometry_(other.geometry_),
+      instructions_(other.instructions_),
+      steps_(other.steps_),
+      scratch_(std::make_unique<Scratch>(other.geometry_, other.scratch_->tables)) {}
+
+ScanKernel& ScanKernel::operator=(const ScanKernel& other) {
+  ScanKernel copy(other);
+  return *this = std::move(copy);
 }
+
+ScanKernel::ScanKernel(ScanKernel&&) noexcept = default;
+ScanKernel& ScanKernel::operator=(ScanKernel&&) noexcept = default;
+ScanKernel::~ScanKernel() = default;
 
 bool ScanKernel::available(InstructionSet instructions) noexcept {
   switch (instructions) {
@@ -422,143 +520,56 @@ void ScanKernel::scan(const EdgeBuffer& edges, double yaw_rad, std::span<double>
 }
 
 void ScanKernel::begin(double yaw_rad) {
-  cos_yaw_ = std::cos(yaw_rad);
-  sin_yaw_ = std::sin(yaw_rad);
-  inside_ = false;
-  steps_->clear(job());
+  scratch_->job.cos_yaw = std::cos(yaw_rad);
+  scratch_->job.sin_yaw = std::sin(yaw_rad);
+  scratch_->inside = false;
+  steps_->clear(scratch_->job);
 }
 
 void ScanKernel::add(const EdgeBuffer& edges) {
-  if (edges.inside) inside_ = true;
-  if (inside_) return;
-  reserve(edges.size());
-  detail::ScanJob job = this->job();
-  job.edges = edges.edges().data();
-  job.edge_count = static_cast<std::int32_t>(edges.size());
-  steps_->sweep(job);
-}
-
-void ScanKernel::reserve_discs(std::size_t disc_count) {
-  if (disc_count <= disc_capacity_ && !disc_integers_.empty()) return;
-  disc_capacity_ = std::max(disc_count, 2 * disc_capacity_);
-  disc_integers_.resize(kDiscIntegers * disc_places(disc_capacity_));
-  disc_floats_.resize(kDiscFloats * disc_places(disc_capacity_));
+  Scratch& scratch = *scratch_;
+  if (edges.inside) scratch.inside = true;
+  if (scratch.inside) return;
+  scratch.reserve_edges(edges.size());
+  scratch.job.edges = edges.edges().data();
+  scratch.job.edge_count = static_cast<std::int32_t>(edges.size());
+  steps_->sweep(scratch.job);
 }
 
 void ScanKernel::locate(const DiscBuffer& discs, float x_m, float y_m) {
-  reserve_discs(discs.size());
-  discs_ = &discs;
-  sensor_x_m_ = x_m;
-  sensor_y_m_ = y_m;
-  steps_->locate(disc_job());
+  Scratch& scratch = *scratch_;
+  scratch.reserve_discs(discs.size());
+  detail::ScanJob& job = scratch.job;
+  job.disc_x = discs.x_m();
+  job.disc_y = discs.y_m();
+  job.disc_radius = discs.radius_m();
+  job.disc_count = static_cast<std::int32_t>(discs.size());
+  job.group_x = discs.group_x_m();
+  job.group_y = discs.group_y_m();
+  job.group_radius = discs.group_radius_m();
+  job.group_count = static_cast<std::int32_t>(discs.group_count());
+  job.sensor_x = x_m;
+  job.sensor_y = y_m;
+  scratch.located = steps_->locate(job);
 }
 
 std::span<const std::int32_t> ScanKernel::near() const {
-  return {disc_integers_.data(), static_cast<std::size_t>(ring_sizes_[0])};
+  return {scratch_->job.near, static_cast<std::size_t>(scratch_->located.near)};
 }
 
-std::span<const std::int32_t> ScanKernel::visible(int ring) {
-  if (ring_sizes_[ring] == 0 && waiting_sizes_[ring] == 0) return {};
-  const detail::ScanJob job = disc_job();
-  return {job.visible, static_cast<std::size_t>(steps_->find_visible(job, ring))};
+std::span<const std::int32_t> ScanKernel::visible() {
+  const std::int32_t count = steps_->find_visible(scratch_->job, scratch_->located.groups);
+  return {scratch_->job.visible, static_cast<std::size_t>(count)};
 }
 
 void ScanKernel::finish(std::span<double> ranges_m) {
   SIM_ASSERT(ranges_m.size() == static_cast<std::size_t>(geometry_.beam_count));
-  if (inside_) {
+  if (scratch_->inside) {
     std::fill(ranges_m.begin(), ranges_m.end(), 0.0);
     return;
   }
-  detail::ScanJob job = this->job();
-  job.ranges_m = ranges_m.data();
-  steps_->finish(job);
-}
-
-detail::ScanJob ScanKernel::disc_job() {
-  detail::ScanJob job = this->job();
-  job.disc_x = discs_->x_m();
-  job.disc_y = discs_->y_m();
-  job.disc_radius = discs_->radius_m();
-  job.disc_count = static_cast<std::int32_t>(discs_->size());
-  job.group_x = discs_->group_x_m();
-  job.group_y = discs_->group_y_m();
-  job.group_radius = discs_->group_radius_m();
-  job.group_count = static_cast<std::int32_t>(discs_->group_count());
-  job.sensor_x = sensor_x_m_;
-  job.sensor_y = sensor_y_m_;
-  return job;
-}
-
-detail::ScanJob ScanKernel::job() {
-  const std::size_t step = places(edge_capacity_);
-  const std::size_t disc_step = disc_places(disc_capacity_);
-  std::int32_t* const discs = disc_integers_.data();
-
-  // Blocks of beams are aligned, so that none straddles two lines of the cache.
-  constexpr std::size_t kAlignment = 32;
-  void* aligned = inverse_ranges_.data();
-  std::size_t space = inverse_ranges_.size() * sizeof(float);
-  std::align(kAlignment, space - kAlignment, aligned, space);
-
-  const double beams_per_rad = 1.0 / tables_->resolution_rad;
-  const auto beam_count = static_cast<double>(geometry_.beam_count);
-  return {
-      .edges = nullptr,
-      .edge_count = 0,
-      .cos_yaw = cos_yaw_,
-      .sin_yaw = sin_yaw_,
-      .beam_count = geometry_.beam_count,
-      .range_max_m = geometry_.range_max_m,
-      .resolution_rad = tables_->resolution_rad,
-      .beams = tables_->beams.data() + 2,
-      .cos_table = tables_->cosines.data() + tables_->reach,
-      .sin_table = tables_->sines.data() + tables_->reach,
-      .beams_per_rad = static_cast<float>(beams_per_rad),
-      .beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0),
-      // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
-      // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
-      .doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0)),
-      .fan_cos = tables_->fan_cos,
-      .fan_sin = tables_->fan_sin,
-      .behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad),
-      .candidate_edge = integers_.data(),
-      .candidate_first = integers_.data() + step,
-      .candidate_last = integers_.data() + 2 * step,
-      .candidate_low = floats_.data(),
-      .candidate_high = floats_.data() + step,
-      .narrow = integers_.data() + 3 * step,
-      .medium = integers_.data() + 4 * step,
-      .wide = integers_.data() + 5 * step,
-      .first = integers_.data() + 6 * step,
-      .last = integers_.data() + 7 * step,
-      .anchor = integers_.data() + 8 * step,
-      .a = floats_.data() + 2 * step,
-      .b = floats_.data() + 3 * step,
-      .inverse_ranges = static_cast<float*>(aligned),
-      .ranges_m = nullptr,
-      .disc_x = nullptr,
-      .disc_y = nullptr,
-      .disc_radius = nullptr,
-      .disc_count = 0,
-      .group_x = nullptr,
-      .group_y = nullptr,
-      .group_radius = nullptr,
-      .group_count = 0,
-      .sensor_x = 0.0F,
-      .sensor_y = 0.0F,
-      .disc_first = discs + (2 * kRings + 1) * disc_step,
-      .disc_last = discs + (2 * kRings + 2) * disc_step,
-      .disc_inverse = disc_floats_.data(),
-      .rings = {discs, discs + disc_step, discs + 2 * disc_step, discs + 3 * disc_step},
-      .ring_sizes = ring_sizes_,
-      .group_first = discs + (2 * kRings + 3) * disc_step,
-      .group_last = discs + (2 * kRings + 4) * disc_step,
-      .group_inverse = disc_floats_.data() + disc_step,
-      .waiting = {discs + 4 * disc_step, discs + 5 * disc_step, discs + 6 * disc_step,
-                  discs + 7 * disc_step},
-      .waiting_sizes = waiting_sizes_,
-      .visible = discs + 2 * kRings * disc_step};
-  static_assert(kRings == 4);
+  scratch_->job.ranges_m = ranges_m.data();
+  steps_->finish(scratch_->job);
 }
 
 }  // namespace sim::scan

@@ -48,6 +48,15 @@ struct Avx2 {
   static Float min(Float a, Float b) { return _mm256_min_ps(a, b); }
   static Float max(Float a, Float b) { return _mm256_max_ps(a, b); }
   static Float sqrt(Float value) { return _mm256_sqrt_ps(value); }
+  static Float minima(const float* from) {
+    const Float r04 = least_quarters(from, from + 32);
+    const Float r15 = least_quarters(from + 8, from + 40);
+    const Float r26 = least_quarters(from + 16, from + 48);
+    const Float r37 = least_quarters(from + 24, from + 56);
+    const Float r0145 = min(_mm256_unpacklo_ps(r04, r15), _mm256_unpackhi_ps(r04, r15));
+    const Float r2367 = min(_mm256_unpacklo_ps(r26, r37), _mm256_unpackhi_ps(r26, r37));
+    return min(_mm256_shuffle_ps(r0145, r2367, 0x44), _mm256_shuffle_ps(r0145, r2367, 0xEE));
+  }
   static Float truncate(Float value) { return _mm256_cvtepi32_ps(_mm256_cvttps_epi32(value)); }
 
   static Mask less(Float a, Float b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
@@ -110,6 +119,12 @@ struct Avx2 {
   }
 
  private:
+  /// Of two blocks of eight, one in each half: the lesser ones of those four places apart.
+  static Float least_quarters(const float* low, const float* high) {
+    const Float a = _mm256_load_ps(low);
+    const Float b = _mm256_load_ps(high);
+    return min(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
+  }
   static Double pair(const double* low, const double* high) {
     return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
   }

@@ -18,7 +18,6 @@
 // end of the span where 1/r is least, |A cos| <= 1/r and so |B sin| <= 2/r: no cancellation, and a
 // relative error of at most 10 roundings, 6e-7.
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -33,6 +32,9 @@ inline constexpr int kBeamPadding = 40;
 /// a loop of unforeseeable length, which would cost more than a few idle lanes. Most spans are so.
 inline constexpr int kNarrowBeams = 16;
 inline constexpr int kMediumBeams = 32;
+
+/// What discs may be hidden behind is known for blocks of so many beams.
+inline constexpr int kBlockBeams = 8;
 
 /// What a scan reads and writes. Every array is big enough to be handled in groups of 8.
 struct ScanJob {
@@ -70,6 +72,7 @@ struct ScanJob {
   float* a;               ///< coefficient A [1/m]
   float* b;               ///< coefficient B [1/m]
   float* inverse_ranges;  ///< greatest 1/r so far of every beam, at a multiple of 32 bytes [1/m]
+  float* minima;          ///< the least of them in each block of kBlockBeams beams
 
   double* ranges_m;  ///< out, beam_count
 
@@ -88,22 +91,27 @@ struct ScanJob {
   std::int32_t* disc_first;
   std::int32_t* disc_last;
   float* disc_inverse;
-  std::int32_t* rings[ScanKernel::kRings];  ///< out: discs in view, by ring
-  std::int32_t* ring_sizes;                 ///< out
-  std::int32_t* group_first;                ///< the same by group
+  std::int32_t* group_first;  ///< the same by group
   std::int32_t* group_last;
   float* group_inverse;
-  std::int32_t* waiting[ScanKernel::kRings];  ///< groups in view whose discs are not yet listed
-  std::int32_t* waiting_sizes;
-  std::int32_t* visible;  ///< out: of one ring
+  std::int32_t* groups;   ///< those in view
+  std::int32_t* some;     ///< some of them, to look at their discs
+  std::int32_t* near;     ///< out: near discs in view
+  std::int32_t* visible;  ///< out: other discs that may be seen
+};
+
+/// How many discs were located.
+struct Located {
+  std::int32_t near = 0;    ///< in ScanJob::near
+  std::int32_t groups = 0;  ///< in ScanJob::groups
 };
 
 /// What a scan consists of, by one kind of instructions.
 struct ScanSteps {
   void (*clear)(const ScanJob&);
   void (*sweep)(const ScanJob&);
-  void (*locate)(const ScanJob&);
-  std::int32_t (*find_visible)(const ScanJob&, int ring);  ///< returns how many are visible
+  Located (*locate)(const ScanJob&);
+  std::int32_t (*find_visible)(const ScanJob&, std::int32_t groups);  ///< returns how many are
   void (*finish)(const ScanJob&);
 };
 
@@ -411,6 +419,9 @@ void sweep_wide(const ScanJob& job, std::int32_t count) {
   }
 }
 
+/// As 1/r of what is so near that nothing can be nearer [1/m].
+inline constexpr float kNothingNearer = 1e30F;
+
 /// Begins with no beam meeting anything.
 template <class V>
 void clear(const ScanJob& job) {
@@ -418,6 +429,10 @@ void clear(const ScanJob& job) {
   const auto least_inverse = V::broadcast(static_cast<float>(0.999999 / job.range_max_m));
   for (std::int32_t beam = 0; beam < job.beam_count; beam += V::kLanes) {
     V::store(job.inverse_ranges + beam, least_inverse);
+  }
+  // Through what is left of the last block beyond the last beam, nothing is seen.
+  for (std::int32_t beam = job.beam_count; (beam & (kBlockBeams - 1)) != 0; ++beam) {
+    job.inverse_ranges[beam] = kNothingNearer;
   }
 }
 
@@ -435,17 +450,39 @@ void sweep(const ScanJob& job) {
   sweep_wide<V>(job, counts.wide);
 }
 
-/// Whether some beam from first to last sees farther than 1 / nearest. Most spans fit two vectors,
-/// and are looked at without a branch that could not be foreseen.
+/// Fills job.minima.
+template <class V>
+void find_minima(const ScanJob& job) {
+  const std::int32_t blocks = (job.beam_count + kBlockBeams - 1) / kBlockBeams;
+  for (std::int32_t block = 0; block < blocks; block += V::kLanes) {
+    V::store(job.minima + block, V::minima(job.inverse_ranges + block * kBlockBeams));
+  }
+}
+
+/// Whether some beam from first to last, or a few before or after, sees farther than 1 / nearest:
+/// by the minima, which were found before.
 template <class V>
 bool is_open(const ScanJob& job, std::int32_t first, std::int32_t last, float nearest) {
+  const auto least = V::broadcast(nearest);
+  const std::int32_t end = last / kBlockBeams + 1;
+  unsigned any = 0;
+  for (std::int32_t block = first / kBlockBeams; block < end; block += V::kLanes) {
+    any |= V::bits(V::less(V::load(job.minima + block), least)) & lanes_below<V>(end - block);
+  }
+  return any != 0;
+}
+
+/// The same by the beams themselves. Most spans fit three vectors, and are looked at without a
+/// branch that could not be foreseen.
+template <class V>
+bool is_open_to_a_beam(const ScanJob& job, std::int32_t first, std::int32_t last, float nearest) {
   const auto least = V::broadcast(nearest);
   const auto open = [&](std::int32_t beam) {
     return V::bits(V::less(V::load(job.inverse_ranges + beam), least)) &
            lanes_below<V>(last - beam + 1);
   };
-  unsigned any = open(first) | open(first + V::kLanes);
-  for (std::int32_t beam = first + 2 * V::kLanes; beam <= last && any == 0; beam += V::kLanes) {
+  unsigned any = open(first) | open(first + V::kLanes) | open(first + 2 * V::kLanes);
+  for (std::int32_t beam = first + 3 * V::kLanes; beam <= last && any == 0; beam += V::kLanes) {
     any |= open(beam);
   }
   return any != 0;
@@ -456,13 +493,19 @@ bool is_open(const ScanJob& job, std::int32_t first, std::int32_t last, float ne
 /// distance - radius.
 template <class V>
 struct Sighting {
-  typename V::Float distance;
   typename V::Float first;    ///< the beams that it may span
   typename V::Float last;     ///< likewise
   typename V::Float inverse;  ///< 1/r of its nearest point at most
-  unsigned outside;           ///< bits of those that the sensor is certainly not in
+  unsigned near;              ///< bits of those whose middle is near
   unsigned shown;             ///< bits of those of which some part may be in view
 };
+
+/// Bits of the lanes whose squared distance is less than that of `limit`, or where there is no
+/// number.
+template <class V>
+unsigned lanes_within(typename V::Float limit, typename V::Float squared) {
+  return ~V::bits(V::less_equal(limit * limit, squared));
+}
 
 template <class V>
 class Sight {
@@ -476,7 +519,7 @@ class Sight {
         doubt_(V::broadcast(0.01F + 2.0F * job.doubt_beams)),
         half_fan_(V::broadcast(0.5F * static_cast<float>(job.beam_count + 1))),
         range_max_(V::broadcast(static_cast<float>(job.range_max_m))),
-        beam_count_(V::broadcast(static_cast<float>(job.beam_count))) {}
+        last_beam_(V::broadcast(static_cast<float>(job.beam_count - 1))) {}
 
   /// Looks at the discs from `base` on, of `count`.
   [[nodiscard]] Sighting<V> look(const float* disc_x, const float* disc_y, const float* disc_radius,
@@ -492,7 +535,8 @@ class Sight {
     const Float radius = V::load(disc_radius + base) + slack;
     const Float x = cos_yaw_ * dx + sin_yaw_ * dy;
     const Float y = cos_yaw_ * dy - sin_yaw_ * dx;
-    const Float distance = V::sqrt(x * x + y * y);
+    const Float squared = x * x + y * y;
+    const Float distance = V::sqrt(squared);
     const Float t = radius / distance;
     const Float spread =
         (t + V::broadcast(0.5708F) * t * t * t) * V::broadcast(job_.beams_per_rad) + doubt_;
@@ -504,14 +548,16 @@ class Sight {
     const unsigned outside = V::bits(V::less(zero, nearest));
     const unsigned in_view =
         V::bits(V::less(aside - spread, half_fan_)) & V::bits(V::less(nearest, range_max_));
-    // Across the cut behind the sensor: as if it spanned all, and nothing could hide it.
-    const auto whole = V::less(aside + spread, V::broadcast(2.0F * job_.behind_beams));
+    // Round the sensor, or across the cut behind it: as if it spanned all, and nothing could hide
+    // it.
+    const Float farthest =
+        V::select(V::less(zero, nearest), aside + spread, V::broadcast(kNothingNearer));
+    const auto part = V::less(farthest, V::broadcast(2.0F * job_.behind_beams));
     // Beam i has the coordinate i + 1; from the one before to the one after.
-    return {distance,
-            V::select(whole, V::min(V::max(middle - spread - one, zero), beam_count_), zero),
-            V::select(whole, V::min(V::max(middle + spread, zero), beam_count_), beam_count_) - one,
-            V::select(whole, one / nearest, V::broadcast(1e30F)),
-            outside,
+    return {V::select(part, V::min(V::max(middle - spread - one, zero), last_beam_), zero),
+            V::select(part, V::min(V::max(middle + spread - one, zero), last_beam_), last_beam_),
+            V::select(part, one / nearest, V::broadcast(kNothingNearer)),
+            lanes_within<V>(V::broadcast(ScanKernel::kNear_m), squared),
             (in_view | ~outside) & lanes_below<V>(count - base)};
   }
 
@@ -522,59 +568,33 @@ class Sight {
   Float doubt_;
   Float half_fan_;
   Float range_max_;
-  Float beam_count_;
+  Float last_beam_;
 };
 
-/// Finds the beams that the discs [begin, end) may span, and lists those in view. @param begin  a
-/// multiple of the number of lanes.
+/// What can be told of discs without their bearings: rougher than Sight::look(), and faster.
 template <class V>
-void locate_some(const ScanJob& job, const Sight<V>& sight, std::int32_t begin, std::int32_t end) {
-  for (std::int32_t base = begin; base < end; base += V::kLanes) {
-    const Sighting<V> seen =
-        sight.look(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
-    if (seen.shown == 0) continue;
-    V::store_integers(job.disc_first + base, seen.first);
-    V::store_integers(job.disc_last + base, seen.last);
-    V::store(job.disc_inverse + base, seen.inverse);
+struct Glance {
+  typename V::Float squared;  ///< distance of its middle
+  typename V::Float radius;
+  unsigned in_view;  ///< bits of those of which some part may be in view
+};
 
-    unsigned rest = seen.shown;
-    const auto list = [&](int ring, unsigned bits) {
-      job.ring_sizes[ring] =
-          append_lanes<V>(bits & rest, base, job.rings[ring], job.ring_sizes[ring]);
-      rest &= ~bits;
-    };
-    list(0, ~seen.outside |
-                V::bits(V::less(seen.distance, V::broadcast(ScanKernel::kRingLimits_m[0]))));
-    for (int ring = 1; ring + 1 < ScanKernel::kRings && rest != 0; ++ring) {
-      list(ring, V::bits(V::less(seen.distance, V::broadcast(ScanKernel::kRingLimits_m[ring]))));
-    }
-    if (rest != 0) list(ScanKernel::kRings - 1, rest);
-  }
-}
-
-/// The same for a group of discs.
+/// Takes a glance at the discs from `base` on, of `count`.
 template <class V>
-void locate_group(const ScanJob& job, const Sight<V>& sight, std::int32_t group) {
-  const std::int32_t begin = group * DiscBuffer::kGroupSize;
-  const std::int32_t end = begin + DiscBuffer::kGroupSize;
-  locate_some<V>(job, sight, begin, end < job.disc_count ? end : job.disc_count);
-}
-
-/// Bits of the groups of discs from `base` on of which some part may be in view. Rougher than
-/// Sight::look(), and faster.
-template <class V>
-unsigned groups_in_view(const ScanJob& job, std::int32_t base) {
+Glance<V> glance_at(const ScanJob& job, const float* disc_x, const float* disc_y,
+                    const float* disc_radius, std::int32_t base, std::int32_t count) {
   using Float = typename V::Float;
   const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
   const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
-  const Float dx = V::load(job.group_x + base) - V::broadcast(job.sensor_x);
-  const Float dy = V::load(job.group_y + base) - V::broadcast(job.sensor_y);
+  const Float dx = V::load(disc_x + base) - V::broadcast(job.sensor_x);
+  const Float dy = V::load(disc_y + base) - V::broadcast(job.sensor_y);
   const Float x = cos_yaw * dx + sin_yaw * dy;
   const Float y = cos_yaw * dy - sin_yaw * dx;
+  const Float squared = x * x + y * y;
   // Single precision costs less than this, where anything is in range.
-  const Float radius = V::load(job.group_radius + base) + V::broadcast(1e-3F);
+  const Float radius = V::load(disc_radius + base) + V::broadcast(1e-3F);
   const Float reach = radius + V::broadcast(static_cast<float>(job.range_max_m));
-  const unsigned too_far = V::bits(V::less(reach * reach, x * x + y * y));
+  const unsigned too_far = V::bits(V::less(reach * reach, squared));
   // Beyond the sides of the fan by more than the radius: of either, or of both if the fan is wider
   // than half a turn.
   const Float ahead = V::broadcast(job.fan_sin) * x;
@@ -582,71 +602,99 @@ unsigned groups_in_view(const ScanJob& job, std::int32_t base) {
   const unsigned left = V::bits(V::less(radius, aside - ahead));
   const unsigned right = V::bits(V::less(radius, V::broadcast(0.0F) - aside - ahead));
   const unsigned outside = job.fan_cos < 0.0F ? left & right : left | right;
-  return ~(too_far | outside) & lanes_below<V>(job.group_count - base);
+  return {squared, radius, ~(too_far | outside) & lanes_below<V>(count - base)};
 }
 
-/// Begins to list discs in view: those of groups of which something may be in the innermost ring.
-/// The other groups in view wait, in a list by the ring that their nearest point may be in.
+/// Lists the groups of discs that may be in view, and the near discs of them.
 template <class V>
-void locate(const ScanJob& job) {
-  for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
-    job.ring_sizes[ring] = 0;
-    job.waiting_sizes[ring] = 0;
+Located locate(const ScanJob& job) {
+  const auto near_m = V::broadcast(ScanKernel::kNear_m);
+  const std::int32_t group_count =
+      (job.disc_count + DiscBuffer::kGroupSize - 1) / DiscBuffer::kGroupSize;
+  Located located;
+  std::int32_t near_groups = 0;
+  for (std::int32_t base = 0; base < group_count; base += V::kLanes) {
+    unsigned in_view = lanes_below<V>(group_count - base);
+    unsigned near = in_view;
+    if (job.group_count != 0) {
+      const Glance<V> seen =
+          glance_at<V>(job, job.group_x, job.group_y, job.group_radius, base, group_count);
+      in_view = seen.in_view;
+      near = in_view & lanes_within<V>(near_m + seen.radius, seen.squared);
+    }
+    located.groups = append_lanes<V>(in_view, base, job.groups, located.groups);
+    near_groups = append_lanes<V>(near, base, job.some, near_groups);
   }
-  const Sight<V> sight(job);
+  for (std::int32_t i = 0; i < near_groups; ++i) {
+    const std::int32_t begin = job.some[i] * DiscBuffer::kGroupSize;
+    for (std::int32_t base = begin; base < begin + DiscBuffer::kGroupSize; base += V::kLanes) {
+      const Glance<V> seen =
+          glance_at<V>(job, job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+      const unsigned near = seen.in_view & lanes_within<V>(near_m, seen.squared);
+      located.near = append_lanes<V>(near, base, job.near, located.near);
+    }
+  }
+  return located;
+}
+
+/// Of the groups in view, lists those that a beam may meet before all that was swept, or all if the
+/// discs are not grouped. Returns how many they are.
+template <class V>
+std::int32_t find_open_groups(const ScanJob& job, const Sight<V>& sight, std::int32_t groups) {
   if (job.group_count == 0) {
-    locate_some<V>(job, sight, 0, job.disc_count);
-    return;
+    for (std::int32_t i = 0; i < groups; ++i) job.some[i] = job.groups[i];
+    return groups;
   }
   for (std::int32_t base = 0; base < job.group_count; base += V::kLanes) {
-    unsigned rest = groups_in_view<V>(job, base);
-    if (rest == 0) continue;
     const Sighting<V> seen =
         sight.look(job.group_x, job.group_y, job.group_radius, base, job.group_count);
     V::store_integers(job.group_first + base, seen.first);
     V::store_integers(job.group_last + base, seen.last);
     V::store(job.group_inverse + base, seen.inverse);
-    rest &= seen.shown;
-    unsigned farther = rest & seen.outside;
-    for (int ring = ScanKernel::kRings - 1; ring > 0 && farther != 0; --ring) {
-      const auto limit = V::broadcast(1.0F / ScanKernel::kRingLimits_m[ring - 1]);
-      const unsigned here = farther & V::bits(V::less(seen.inverse, limit));
-      job.waiting_sizes[ring] =
-          append_lanes<V>(here, base, job.waiting[ring], job.waiting_sizes[ring]);
-      farther &= ~here;
-      rest &= ~here;
-    }
-    for (; rest != 0; rest &= rest - 1U) {
-      locate_group<V>(job, sight, base + std::countr_zero(rest));
-    }
   }
+  std::int32_t open = 0;
+  for (std::int32_t i = 0; i < groups; ++i) {
+    const std::int32_t k = job.groups[i];
+    job.some[open] = k;
+    open += is_open<V>(job, job.group_first[k], job.group_last[k], job.group_inverse[k]) ? 1 : 0;
+  }
+  return open;
 }
 
-/// Lists the discs of a ring that a beam may meet before all that was swept. @pre The same was done
-/// for the rings within it.
+/// Of the discs that are not near, lists those that a beam may meet before all that was swept.
+/// Returns how many they are.
 template <class V>
-std::int32_t find_visible(const ScanJob& job, int ring) {
-  if (job.waiting_sizes[ring] > 0) {
-    const Sight<V> sight(job);
-    for (std::int32_t i = 0; i < job.waiting_sizes[ring]; ++i) {
-      const std::int32_t group = job.waiting[ring][i];
-      if (is_open<V>(job, job.group_first[group], job.group_last[group],
-                     job.group_inverse[group])) {
-        locate_group<V>(job, sight, group);
-      }
+std::int32_t find_visible(const ScanJob& job, std::int32_t groups) {
+  if (groups == 0) return 0;
+  find_minima<V>(job);
+  const Sight<V> sight(job);
+  const std::int32_t open = find_open_groups<V>(job, sight, groups);
+  std::int32_t in_view = 0;
+  for (std::int32_t i = 0; i < open; ++i) {
+    const std::int32_t begin = job.some[i] * DiscBuffer::kGroupSize;
+    for (std::int32_t base = begin; base < begin + DiscBuffer::kGroupSize; base += V::kLanes) {
+      const Sighting<V> seen =
+          sight.look(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+      V::store_integers(job.disc_first + base, seen.first);
+      V::store_integers(job.disc_last + base, seen.last);
+      V::store(job.disc_inverse + base, seen.inverse);
+      in_view = append_lanes<V>(seen.shown & ~seen.near, base, job.visible, in_view);
     }
-    job.waiting_sizes[ring] = 0;
   }
-  const std::int32_t* const discs = job.rings[ring];
-  const std::int32_t size = job.ring_sizes[ring];
   std::int32_t count = 0;
-  for (std::int32_t i = 0; i < size; ++i) {
-    const std::int32_t disc = discs[i];
-    job.visible[count] = disc;
-    count +=
-        is_open<V>(job, job.disc_first[disc], job.disc_last[disc], job.disc_inverse[disc]) ? 1 : 0;
+  for (std::int32_t i = 0; i < in_view; ++i) {
+    const std::int32_t k = job.visible[i];
+    job.visible[count] = k;
+    count += is_open<V>(job, job.disc_first[k], job.disc_last[k], job.disc_inverse[k]) ? 1 : 0;
   }
-  return count;
+  std::int32_t seen = 0;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const std::int32_t k = job.visible[i];
+    job.visible[seen] = k;
+    seen +=
+        is_open_to_a_beam<V>(job, job.disc_first[k], job.disc_last[k], job.disc_inverse[k]) ? 1 : 0;
+  }
+  return seen;
 }
 
 /// Turns what was swept into ranges.

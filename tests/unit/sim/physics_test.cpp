@@ -293,6 +293,63 @@ TEST(PhysicsWorld, WallsOfAMapStopARobotFromOutsideOnly) {
   EXPECT_THAT(world.clearance_m(0, 1.0, 1.0), testing::DoubleNear(0.0015, 0.0005));
 }
 
+TEST(PhysicsWorld, RobotsAmongTheWallsOfAMapNeverSinkInByTwoMillimetres) {
+  ArenaDescription arena = floor_4x4();
+  arena.size = {1.6, 1.6};
+  ArenaDescription same_with_boxes = arena;
+  for (const ObstacleDescription& o :
+       {box("a", 0.8, 0.8, 0.2, 0.2, 0.4), box("b", 0.3, 1.1, 0.1, 0.3),
+        box("c", 1.2, 0.5, 0.3, 0.02), box("d", 1.1, 1.2, 0.1, 0.1, 0.7)}) {
+    same_with_boxes.obstacles.push_back(o);
+    arena.walls.push_back({test::box_polygon(o)});
+  }
+  PhysicsWorld world(arena);
+  for (const Vec2& p : {Vec2(0.2, 0.2), Vec2(0.6, 0.2), Vec2(1.4, 0.2), Vec2(0.2, 0.6),
+                        Vec2(0.6, 1.4), Vec2(1.4, 1.4), Vec2(1.4, 1.0)}) {
+    world.add_robot(s1r_model(), {p.x(), p.y(), 0.0});
+  }
+  ASSERT_EQ(deepest_overlap_m(world, same_with_boxes), 0.0);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  double deepest_m = 0.0;
+  std::size_t touches = 0;
+  for (int i = 0; i < 6000; ++i) {
+    for (int r = 0; i % 50 == 0 && r < world.robot_count(); ++r) {
+      world.set_target(r, {0.5 * uniform(random), 3.0 * uniform(random), 0.0});
+    }
+    world.step(kStep_s);
+    for (const PhysicsWorld::Contact& contact : world.new_contacts()) {
+      if (contact.kind == PhysicsWorld::Contact::Kind::kWall) ++touches;
+    }
+    deepest_m = std::max(deepest_m, deepest_overlap_m(world, same_with_boxes));
+  }
+  EXPECT_LT(deepest_m, 0.002);
+  EXPECT_GT(touches, 20U);
+}
+
+// Three millimetres aside are more than it takes to touch, and less than a robot goes in a step.
+TEST(PhysicsWorld, RobotThatPassesCloselyHasItsWay) {
+  double half_width_m = 0.0;
+  for (const Vec2& v : s1r_model().footprint) half_width_m = std::max(half_width_m, v.y());
+  constexpr double kAside_m = 0.003;
+  const double y_m = 4.0 - half_width_m - kAside_m;
+  const double wall_m = y_m - half_width_m - kAside_m;
+  ArenaDescription arena = floor_4x4();
+  arena.walls.push_back({{{1.5, 1.0}, {2.5, 1.0}, {2.5, wall_m}, {1.5, wall_m}}});
+  PhysicsWorld world(arena);
+  world.add_robot(s1r_model(), {1.0, y_m, 0.0});
+  world.set_target(0, {0.5, 0.0, 0.0});
+  for (int i = 1; i <= 400; ++i) {
+    world.step(kStep_s);
+    ASSERT_NEAR(world.body(0).X_WB.x_m, 1.0 + 0.005 * i, 1e-9);
+    ASSERT_TRUE(world.new_contacts().empty());
+  }
+  EXPECT_EQ(world.body(0).X_WB.y_m, y_m);
+  world.set_target(0, {0.5, 0.5, 0.0});  // to the border
+  run(world, 20);
+  EXPECT_EQ(world.contacts_of(0).size(), 1U);
+}
+
 TEST(PhysicsWorld, RobotPutBesideAWallTouchesItUntilItIsPutElsewhere) {
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {2.0, 2.0, 0.0});

@@ -415,15 +415,17 @@ TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
         const auto near = kernel.near();
         EXPECT_TRUE(std::find(near.begin(), near.end(), 0) != near.end())
             << "what the sensor is within is always listed";
-        for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
+        const auto add = [&](std::span<const std::int32_t> some) {
           EdgeBuffer edges;
-          for (const std::int32_t disc : kernel.visible(ring)) {
+          for (const std::int32_t disc : some) {
             if (disc == 0) continue;
             add_all(edges, solids[static_cast<std::size_t>(disc - 1)].edges);
             if (set == InstructionSet::kScalar) ++listed;
           }
           kernel.add(edges);
-        }
+        };
+        add(near);
+        add(kernel.visible());
         std::vector<double> ranges_m(static_cast<std::size_t>(geometry.beam_count));
         kernel.finish(ranges_m);
         EXPECT_EQ(ranges_m, expected) << "instruction set " << static_cast<int>(set);
@@ -451,11 +453,9 @@ TEST(ScanKernelTest, GroupsOfDiscsThatAreHiddenOrOutOfViewAreNotListed) {
     kernel.begin(0.0);
     kernel.add(wall);
     kernel.locate(discs, 0.0F, 0.0F);
-    std::vector<std::int32_t> listed;
-    for (int ring = 0; ring < ScanKernel::kRings; ++ring) {
-      const auto visible = kernel.visible(ring);
-      listed.insert(listed.end(), visible.begin(), visible.end());
-    }
+    std::vector<std::int32_t> listed(kernel.near().begin(), kernel.near().end());
+    const auto visible = kernel.visible();
+    listed.insert(listed.end(), visible.begin(), visible.end());
     std::sort(listed.begin(), listed.end());
     EXPECT_THAT(listed,
                 testing::ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23));
@@ -474,7 +474,7 @@ TEST(ScanKernelTest, DiscsThatAreNoNumbersAreListed) {
     kernel.begin(0.3);
     kernel.locate(discs, 0.0F, 0.0F);
     EXPECT_EQ(kernel.near().size(), 3U);
-    EXPECT_EQ(kernel.visible(0).size(), 3U);
+    EXPECT_EQ(kernel.visible().size(), 0U) << "they are listed already";
   }
 }
 

@@ -112,7 +112,6 @@ class DiscBuffer {
 };
 
 namespace detail {
-struct ScanJob;
 struct ScanSteps;
 }  // namespace detail
 
@@ -162,6 +161,12 @@ class ScanKernel {
   /// @param instructions  the instructions to use; they must be available().
   ScanKernel(const ScanGeometry& geometry, InstructionSet instructions);
 
+  ScanKernel(const ScanKernel& other);
+  ScanKernel& operator=(const ScanKernel& other);
+  ScanKernel(ScanKernel&& other) noexcept;
+  ScanKernel& operator=(ScanKernel&& other) noexcept;
+  ~ScanKernel();
+
   /// Whether this processor and this build of the library have the instructions.
   [[nodiscard]] static bool available(InstructionSet instructions) noexcept;
 
@@ -178,21 +183,18 @@ class ScanKernel {
   /// Adds edges to the scan that was begun. If the sensor is inside a solid, so says `edges`.
   void add(const EdgeBuffer& edges);
 
-  /// Discs that are located fall into so many rings by the distance of their middles.
-  static constexpr int kRings = 4;
-  /// A ring's outer limit [m]; the last one has none.
-  static constexpr float kRingLimits_m[kRings - 1] = {1.5F, 3.0F, 5.0F};
+  /// Discs whose middles are nearer than this are better added at once than asked about [m].
+  static constexpr float kNear_m = 2.0F;
   /// Finds where discs stand, as seen by the scan that was begun. (x, y) is the sensor's place in
   /// W [m]; errors of single precision are allowed for. The discs must not change before the last
   /// visible().
   void locate(const DiscBuffer& discs, float x_m, float y_m);
-  /// Indices of the located discs in the innermost ring of which a part may be in view and in
-  /// range. Errs on the side of listing. Holds until the next locate().
+  /// Indices of the near ones of which a part may be in view. Errs on the side of listing. Holds
+  /// until the next locate().
   [[nodiscard]] std::span<const std::int32_t> near() const;
-  /// Of all those in a ring the ones that some beam may meet before any edge that was added; the
-  /// others are hidden. Errs on the side of listing. Holds until the next call. To be called for
-  /// ring after ring, from the innermost on.
-  [[nodiscard]] std::span<const std::int32_t> visible(int ring);
+  /// Indices of those that are not near, but that some beam may meet before any edge that was
+  /// added; the others are hidden. Errs on the side of listing. Holds until the next call.
+  [[nodiscard]] std::span<const std::int32_t> visible();
   /// @param ranges_m  as for scan().
   void finish(std::span<double> ranges_m);
 
@@ -200,32 +202,12 @@ class ScanKernel {
   [[nodiscard]] InstructionSet instructions() const noexcept { return instructions_; }
 
  private:
-  struct Tables;
-
-  void reserve(std::size_t edge_count);        ///< scratch memory
-  void reserve_discs(std::size_t disc_count);  ///< likewise
-  [[nodiscard]] detail::ScanJob job();         ///< without edges, discs and ranges
-  [[nodiscard]] detail::ScanJob disc_job();    ///< without edges and ranges
+  struct Scratch;
 
   ScanGeometry geometry_;
   InstructionSet instructions_;
-  const detail::ScanSteps* steps_;           ///< by these instructions
-  std::shared_ptr<const Tables> tables_;     ///< what depends on the geometry alone
-  std::vector<float> inverse_ranges_;        ///< scratch, one a beam, padded [1/m]
-  std::vector<std::int32_t> integers_;       ///< scratch, several a edge
-  std::vector<float> floats_;                ///< scratch, several a edge
-  std::size_t edge_capacity_ = 0;            ///< edges that the scratch memory is enough for
-  std::vector<std::int32_t> disc_integers_;  ///< scratch, several a disc
-  std::vector<float> disc_floats_;           ///< likewise
-  std::size_t disc_capacity_ = 0;            ///< discs that this is enough for
-  const DiscBuffer* discs_ = nullptr;        ///< that were located
-  float sensor_x_m_ = 0.0F;                  ///< in W
-  float sensor_y_m_ = 0.0F;                  ///< likewise
-  std::int32_t ring_sizes_[kRings] = {};     ///< located discs
-  std::int32_t waiting_sizes_[kRings] = {};  ///< groups of them of which nothing is known yet
-  double cos_yaw_ = 1.0;                     ///< of the scan that was begun
-  double sin_yaw_ = 0.0;                     ///< likewise
-  bool inside_ = false;                      ///< it began inside a solid
+  const detail::ScanSteps* steps_;  ///< by these instructions
+  std::unique_ptr<Scratch> scratch_;
 };
 
 }  // namespace sim::scan
