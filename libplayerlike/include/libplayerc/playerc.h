@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "libplayercommon/playercommon.h"
+#include "libplayerinterface/interface_util.h"
 #include "libplayerinterface/player.h"
 
 #ifdef __cplusplus

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "libplayerc++/playerc++.h"
+#include "libplayercore/playercore.h"
 #include "playerlike/host/embedded.h"
 #include "reachable_host.h"
 #include "sim/simulation/simulation.h"
@@ -1041,6 +1043,56 @@ TEST_P(PlayercEverywhere, MovesThingsByName) {
   EXPECT_EQ(playerc_simulation_pause(simulation.get()), -1);
   EXPECT_EQ(playerc_simulation_reset(simulation.get()), -1);
   EXPECT_EQ(playerc_simulation_save(simulation.get()), -1);
+}
+
+TEST(PlayercNames, InterfacesHaveNamesAndCodes) {
+  EXPECT_EQ(itable_init(), 0);
+  EXPECT_STREQ(interf_to_str(PLAYER_LASER_CODE), "laser");
+  EXPECT_STREQ(interf_to_str(60000), "unknown");
+  EXPECT_EQ(str_to_interf("position2d"), PLAYER_POSITION2D_CODE);
+  EXPECT_EQ(str_to_interf("lazer"), 0xFFFF);
+  EXPECT_EQ(str_to_interf(nullptr), 0xFFFF);
+  player_interface_t interface {};
+  EXPECT_EQ(lookup_interface("sonar", &interface), 0);
+  EXPECT_EQ(interface.interf, PLAYER_SONAR_CODE);
+  EXPECT_STREQ(interface.name, "sonar");
+  EXPECT_EQ(lookup_interface_code(PLAYER_MAP_CODE, &interface), 0);
+  EXPECT_STREQ(interface.name, "map");
+  EXPECT_EQ(lookup_interface_code(-1, &interface), -1);
+  EXPECT_EQ(lookup_interface("lazer", &interface), -1);
+  EXPECT_EQ(lookup_interface("sonar", nullptr), -1);
+  EXPECT_STREQ(lookup_interface_name(0, PLAYER_GPS_CODE), "gps");
+  EXPECT_EQ(lookup_interface_name(PLAYER_GPS_CODE + 1, PLAYER_GPS_CODE), nullptr);
+  EXPECT_EQ(lookup_interface_name(0, -5), nullptr);
+  itable_destroy();
+  EXPECT_STREQ(interf_to_str(PLAYER_LASER_CODE), "laser") << "there is nothing to destroy";
+}
+
+TEST(PlayercNames, KindsOfMessagesHaveNamesAndCodes) {
+  for (std::uint8_t code = PLAYER_MSGTYPE_DATA; code <= PLAYER_MSGTYPE_RESP_NACK; ++code) {
+    EXPECT_EQ(str_to_msgtype(msgtype_to_str(code)), code);
+  }
+  EXPECT_STREQ(msgtype_to_str(PLAYER_MSGTYPE_CMD), "command");
+  EXPECT_STREQ(msgtype_to_str(0), "unknown");
+  EXPECT_STREQ(msgtype_to_str(7), "unknown");
+  EXPECT_EQ(str_to_msgtype("letter"), 0xFF);
+  EXPECT_EQ(str_to_msgtype(nullptr), 0xFF);
+}
+
+TEST(PlayercNames, AddressesOfHostsAreText) {
+  std::uint32_t address = 0;
+  ASSERT_EQ(hostname_to_packedaddr(&address, "127.0.0.1"), 0);
+  std::array<char, 16> text{};
+  packedaddr_to_dottedip(text.data(), text.size(), address);
+  EXPECT_STREQ(text.data(), "127.0.0.1");
+  packedaddr_to_dottedip(text.data(), 4, address);
+  EXPECT_STREQ(text.data(), "127");
+  packedaddr_to_dottedip(nullptr, 4, address);
+  packedaddr_to_dottedip(text.data(), 0, address);
+  EXPECT_STREQ(text.data(), "127");
+  EXPECT_EQ(hostname_to_packedaddr(&address, "no host.invalid"), -1);
+  EXPECT_EQ(hostname_to_packedaddr(nullptr, "127.0.0.1"), -1);
+  EXPECT_EQ(hostname_to_packedaddr(&address, nullptr), -1);
 }
 
 TEST_F(Playerc, WritesALog) {
