@@ -12,8 +12,8 @@
 extern "C" {
 #endif
 
-/// Writes an address as text, "127.0.0.1" for instance. @param dest  room for `len` bytes; what does
-/// not fit is cut off.
+/// Writes an address as text, "127.0.0.1" for instance. @param dest  room for `len` bytes; what
+/// does not fit is cut off.
 void packedaddr_to_dottedip(char* dest, size_t len, uint32_t addr);
 /// Looks up a host by its name, or takes dotted text as it is. May wait for a name server.
 /// @param dest  is written if the host is known. @return 0, or -1 if it is not.

@@ -2,9 +2,9 @@
 #pragma once
 
 /// @file
-/// Names of Player's interfaces and of kinds of messages, and their codes. For C and C++. Texts that
-/// are returned are the library's own: they stay, and must not be altered. May be called by any
-/// thread at any time.
+/// Names of Player's interfaces and of kinds of messages, and their codes. For C and C++. Texts
+/// that are returned are the library's own: they stay, and must not be altered. May be called by
+/// any thread at any time.
 
 #include <stdint.h>
 
