@@ -1,8 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program that names Player's headers without their folders.
+// A program that leaves out the folders of Player's headers.
 #include <clientproxy.h>
 #include <libplayercore/playercore.h>
-#include <player.h>
 #include <playerc++.h>
 #include <playerc.h>
 #include <playerclient.h>
