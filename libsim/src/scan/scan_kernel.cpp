@@ -278,6 +278,7 @@ std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int3
 namespace {
 
 /// Length of a scratch array for so many edges: whole groups, with room to write beyond the last.
+/// An edge may need three places: a candidate's own, and two if it gets a second look.
 std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuffer::kPadding; }
 
 /// The same for so many discs.
