@@ -51,7 +51,18 @@ struct FakeWorld {
   std::atomic<std::uint64_t> resizes{0};
   sim::ViewMode view_mode = sim::ViewMode::kGround;
   bool view_mode_locked = false;
-  std::vector<std::pair<std::string, int>> saved;  ///< pictures: name, scale
+  struct SavedImage {
+    std::string name;
+    int scale;
+    std::optional<sim::LayerId> layer;
+  };
+  struct SavedMap {
+    sim::LayerId layer;
+    std::string name;
+    sim::io::MapMode mode;
+  };
+  std::vector<SavedImage> saved;
+  std::vector<SavedMap> saved_maps;
   int joins = 0;
   sim::SimTime slept_ns = 0;
   playerlike::TimeStatistics time;
@@ -283,10 +294,15 @@ class FakeSession final : public playerlike::Session {
     return {c.width, c.height, c.cell_size_m, c.origin.x(), c.origin.y()};
   }
   std::uint64_t canvas_generation() const noexcept override { return world_->resizes; }
-  void save_image(const std::string& name, int scale) override {
+  void save_image(const std::string& name, int scale, std::optional<sim::LayerId> layer) override {
     const std::lock_guard lock(world_->mutex);
     require_open();
-    world_->saved.emplace_back(name, scale);
+    world_->saved.push_back({name, scale, layer});
+  }
+  void save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) override {
+    const std::lock_guard lock(world_->mutex);
+    require_open();
+    world_->saved_maps.push_back({layer, name, mode});
   }
   sim::ViewMode view_mode() const override {
     const std::lock_guard lock(world_->mutex);

@@ -131,6 +131,34 @@ class GridMapLayer : public Drawing {
   }
   /// @}
 
+  /// @name Files
+  /// What is saved goes into the run's output folder (`playpen run --out FOLDER`, PLAYPEN_OUT), on
+  /// a server into that of the server; names are plain file names, with or without the ending.
+  /// @{
+  /// Writes this layer alone, also if it is hidden, as a PNG with aScale x aScale pixels a cell;
+  /// with its transparency, and white where nothing is drawn.
+  /// @throws PlayerError kBadArgument for a name that is not a plain file name or a scale outside
+  ///         1..64; kNotAvailable if the run has no output folder.
+  void SaveImage(const std::string& aName, int aScale = 1) const;
+
+  /// What a map file tells of a cell: see sim::io::MapMode.
+  enum MapMode {
+    TRINARY,  ///< occupied (over 0.65), free (below 0.196) or unknown
+    SCALE     ///< the occupancy, to within 1/500
+  };
+  /// Writes a grey layer as a map of ROS's map_server: NAME.yaml and the picture NAME.pgm.
+  /// @throws PlayerError as SaveImage(); kNotAvailable too if the layer is not grey.
+  void SaveMap(const std::string& aName, MapMode aMode = TRINARY) const;
+  /// Reads a map of map_server into a grey layer: each cell whose middle the map covers gets the
+  /// occupancy that the map has there, wherever in the world and of whatever size the map and its
+  /// cells are; all other cells stay as they are.
+  /// @param aFile  the YAML file, a path on the machine of the program.
+  /// @return how many cells the map covers.
+  /// @throws PlayerError kBadArgument for files that are not there or not right, saying where and
+  ///         what; kNotAvailable if the layer is not grey.
+  int LoadMap(const std::string& aFile);
+  /// @}
+
  private:
   friend class WindowProxy;
   struct Style;
@@ -144,6 +172,7 @@ class GridMapLayer : public Drawing {
   void ChangeStyle(const char* aFunction, Change aChange);
 
   void RequireNumbers(const char* aFunction, const char* aInstead) const;
+  void RequireGrey(const char* aFunction) const;
   template <typename T>
   void PutAll(const T* aCells, std::size_t aCount);
   template <typename T>

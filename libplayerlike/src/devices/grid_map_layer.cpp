@@ -8,6 +8,8 @@
 #include "devices/errors.h"
 #include "libCCMorse/GridMapLayer.h"
 #include "sim/canvas/layers.h"
+#include "sim/core/error.h"
+#include "sim/io/map_file.h"
 
 namespace CCMorse {
 
@@ -287,5 +289,80 @@ void GridMapLayer::PutCells(const double* aCells, std::size_t aCount) { PutAll(a
 void GridMapLayer::TakeCells(std::vector<std::uint8_t>& aCells) const { TakeAll(aCells); }
 void GridMapLayer::TakeCells(std::vector<float>& aCells) const { TakeAll(aCells); }
 void GridMapLayer::TakeCells(std::vector<double>& aCells) const { TakeAll(aCells); }
+
+// --- Files
+
+void GridMapLayer::SaveImage(const std::string& aName, int aScale) const {
+  RequireUsable("SaveImage");
+  translated(Fun("SaveImage").c_str(),
+             [&] { Core()->session().save_image(aName, aScale, LayerNumber()); });
+}
+
+void GridMapLayer::RequireGrey(const char* aFunction) const {
+  RequireUsable(aFunction);
+  if (GetKind() == GREY) return;
+  throw PlayerError(Fun(aFunction),
+                    "maps are of occupancies, which only layers of the kind GREY hold",
+                    PlayerError::kNotAvailable);
+}
+
+void GridMapLayer::SaveMap(const std::string& aName, MapMode aMode) const {
+  RequireGrey("SaveMap");
+  translated(Fun("SaveMap").c_str(), [&] {
+    Core()->session().save_map(
+        LayerNumber(), aName,
+        aMode == SCALE ? sim::io::MapMode::kScale : sim::io::MapMode::kTrinary);
+  });
+}
+
+int GridMapLayer::LoadMap(const std::string& aFile) {
+  RequireGrey("LoadMap");
+  const std::string fun = Fun("LoadMap");
+  sim::OccupancyMap map;
+  try {
+    map = sim::io::read_map(aFile);
+  } catch (const sim::ConfigError& e) {
+    throw PlayerError(fun, e.what(), PlayerError::kBadArgument);
+  }
+  // Which cells lie in the map, and where: one place for each column and row, -1 for none.
+  const playerlike::CanvasInfo canvas = Core()->session().canvas_info();
+  const auto places = [&](int cells, double origin, int places_there, double map_origin) {
+    std::vector<int> there(static_cast<std::size_t>(cells), -1);
+    for (int i = 0; i < cells; ++i) {
+      const double middle = origin + (i + 0.5) * canvas.cell_size_m;
+      const double place = std::floor((middle - map_origin) / map.cell_size_m);
+      if (place >= 0.0 && place < places_there) {
+        there[static_cast<std::size_t>(i)] = static_cast<int>(place);
+      }
+    }
+    return there;
+  };
+  const std::vector<int> columns =
+      places(canvas.width, canvas.origin_x_m, map.width, map.origin.x());
+  std::vector<int> rows =  // from the bottom
+      places(canvas.height, canvas.origin_y_m, map.height, map.origin.y());
+  const auto covered = [](const std::vector<int>& there) {
+    const auto is_in = [](int place) { return place >= 0; };
+    const auto first = std::find_if(there.begin(), there.end(), is_in);
+    const auto end = std::find_if_not(first, there.end(), is_in);
+    return std::pair(static_cast<int>(first - there.begin()), static_cast<int>(end - first));
+  };
+  std::reverse(rows.begin(), rows.end());
+  const auto [left, width] = covered(columns);
+  const auto [top, height] = covered(rows);
+  std::vector<sim::CellValue> values;
+  values.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int row = top; row < top + height; ++row) {
+    const int map_row = map.height - 1 - rows[static_cast<std::size_t>(row)];
+    for (int column = left; column < left + width; ++column) {
+      values.push_back(
+          sim::CellValue::of(map.at(columns[static_cast<std::size_t>(column)], map_row)));
+    }
+  }
+  translated(fun.c_str(), [&] {
+    Core()->session().draw_cells(LayerNumber(), {left, top, width, height}, values);
+  });
+  return static_cast<int>(values.size());
+}
 
 }  // namespace CCMorse

@@ -139,7 +139,9 @@ class Host::Core : private ViewedRun {
     return action(simulation_.layers(), layer_book_);
   }
   void resize_canvas(Client& client, int width, int height);
-  void save_image(Client& client, const std::string& name, int scale);
+  void save_image(Client& client, const std::string& name, int scale,
+                  std::optional<sim::LayerId> layer);
+  void save_map(Client& client, sim::LayerId layer, const std::string& name, sim::io::MapMode mode);
   sim::ViewMode view_mode() const;
   void set_view_mode(Client& client, sim::ViewMode mode);
   sim::OccupancyMap world_map(double cell_size_m) const;

@@ -993,15 +993,34 @@ CanvasInfo Host::Core::canvas_info() const {
   return {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()};
 }
 
-void Host::Core::save_image(Client& client, const std::string& name, int scale) {
+// Files are written without the mutex: that may take a while.
+void Host::Core::save_image(Client& client, const std::string& name, int scale,
+                            std::optional<sim::LayerId> layer) {
   const std::string file = picture_file(settings_.output_folder, name, scale);
   sim::CanvasDescription canvas;
   std::vector<std::uint8_t> rgba;
-  with_layers(client, [&](sim::LayerStack& layers, const LayerBook&) {
+  with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
+    if (layer) book.require(client.number, *layer);
     canvas = layers.description();
-    rgba = layers.composed();
+    rgba = layer ? layers.picture(*layer) : layers.composed();
   });
   write_picture(canvas, rgba, scale, file);
+}
+
+void Host::Core::save_map(Client& client, sim::LayerId layer, const std::string& name,
+                          sim::io::MapMode mode) {
+  const std::string stem = map_stem(settings_.output_folder, name);
+  sim::OccupancyMap map;
+  with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
+    book.require(client.number, layer);
+    if (layers.kind(layer) != sim::LayerKind::kGrey) {
+      throw SessionError(SessionError::Code::kBadArgument,
+                         "only grey layers can be saved as maps, but \"" +
+                             layers.style(layer).name + "\" is of another kind");
+    }
+    map = occupancy_map(layers, layer);
+  });
+  write_map_files(map, stem, mode);
 }
 
 sim::ViewMode Host::Core::view_mode() const {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -117,13 +118,7 @@ void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
     sim::render::write_png(sim::render::draw_canvas(canvas, stack.picture(id), cell_scale(canvas)),
                            stem + ".png");
     if (layers[i].kind != sim::LayerKind::kGrey) continue;
-    sim::OccupancyMap map;
-    map.width = canvas.width;
-    map.height = canvas.height;
-    map.cell_size_m = canvas.cell_size_m;
-    map.origin = canvas.origin;
-    for (const sim::CellValue& cell : stack.cells(id)) map.cells.push_back(cell.occupancy());
-    sim::io::write_map(map, stem);
+    sim::io::write_map(occupancy_map(stack, id), stem);
   }
 }
 
@@ -161,6 +156,38 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
             {"state_hash", hex(simulation.state_hash())}}},
           {"robots", robots},
           {"said", said}};
+}
+
+// The path, without ending, of files that a client wants saved in the output folder: a "picture" or
+// a "map". The first ending may stand in the name.
+std::string saved_stem(const std::string& folder, const std::string& what, const std::string& name,
+                       std::initializer_list<std::string_view> endings) {
+  const std::string_view first = *endings.begin();
+  if (!is_plain_file_name(name)) {
+    throw SessionError(
+        SessionError::Code::kBadArgument,
+        "a " + what + " is saved in the run's output folder, under a plain file name of 1 to " +
+            std::to_string(kMaxFileName) + " characters such as \"map" + std::string(first) +
+            "\", without folders and no dot in front; but the name is \"" +
+            name.substr(0, kMaxFileName) + '"');
+  }
+  if (folder.empty()) {
+    throw SessionError(SessionError::Code::kNotAvailable,
+                       "there is no folder to save " + what +
+                           "s in: name one by `playpen run --out FOLDER` or PLAYPEN_OUT");
+  }
+  const std::string plain =
+      name.ends_with(first) ? name.substr(0, name.size() - first.size()) : name;
+  const std::string stem = (fs::path(folder) / plain).string();
+  for (const std::string_view ending : endings) {
+    const std::string file = stem + std::string(ending);
+    std::error_code ignored;  // what cannot be looked at cannot be written either
+    if (fs::is_symlink(file, ignored)) {
+      throw SessionError(SessionError::Code::kNotAvailable,
+                         file + " is a link, which may lead out of the output folder");
+    }
+  }
+  return stem;
 }
 
 }  // namespace
@@ -224,43 +251,47 @@ bool is_plain_file_name(const std::string& name) {
          });
 }
 
+sim::OccupancyMap occupancy_map(const sim::LayerStack& stack, sim::LayerId layer) {
+  const sim::CanvasDescription canvas = stack.description();
+  sim::OccupancyMap map;
+  map.width = canvas.width;
+  map.height = canvas.height;
+  map.cell_size_m = canvas.cell_size_m;
+  map.origin = canvas.origin;
+  const std::vector<sim::CellValue> cells = stack.cells(layer);
+  map.cells.reserve(cells.size());
+  for (const sim::CellValue& cell : cells) map.cells.push_back(cell.occupancy());
+  return map;
+}
+
 std::string picture_file(const std::string& folder, const std::string& name, int scale) {
   constexpr int kMaxScale = 64;
-  if (!is_plain_file_name(name)) {
-    throw SessionError(
-        SessionError::Code::kBadArgument,
-        "a picture is saved in the run's output folder, under a plain file name of 1 "
-        "to " +
-            std::to_string(kMaxFileName) +
-            " characters such as \"map.png\", without folders and no dot in front; "
-            "but the name is \"" +
-            name.substr(0, kMaxFileName) + '"');
-  }
+  const std::string stem = saved_stem(folder, "picture", name, {".png"});
   if (scale < 1 || scale > kMaxScale) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a picture has 1 to " + std::to_string(kMaxScale) +
                            " pixels along a cell's side, but " + std::to_string(scale) +
                            " were asked for");
   }
-  if (folder.empty()) {
-    throw SessionError(SessionError::Code::kNotAvailable,
-                       "there is no folder to save pictures in: name one by `playpen run --out "
-                       "FOLDER` or PLAYPEN_OUT");
-  }
-  const std::filesystem::path file =
-      std::filesystem::path(folder) / (name.ends_with(".png") ? name : name + ".png");
-  std::error_code ignored;  // what cannot be looked at cannot be written either
-  if (std::filesystem::is_symlink(file, ignored)) {
-    throw SessionError(SessionError::Code::kNotAvailable,
-                       file.string() + " is a link, which may lead out of the output folder");
-  }
-  return file.string();
+  return stem + ".png";
+}
+
+std::string map_stem(const std::string& folder, const std::string& name) {
+  return saved_stem(folder, "map", name, {".yaml", ".pgm"});
 }
 
 void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::uint8_t>& rgba,
                    int scale, const std::string& file) {
   try {
     sim::render::write_png(sim::render::draw_canvas(canvas, rgba, scale), file);
+  } catch (const std::exception& e) {
+    throw SessionError(SessionError::Code::kNotAvailable, e.what());
+  }
+}
+
+void write_map_files(const sim::OccupancyMap& map, const std::string& stem, sim::io::MapMode mode) {
+  try {
+    sim::io::write_map(map, stem, mode);
   } catch (const std::exception& e) {
     throw SessionError(SessionError::Code::kNotAvailable, e.what());
   }

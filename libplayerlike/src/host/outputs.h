@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "playerlike/messages/messages.h"
+#include "sim/canvas/layers.h"
+#include "sim/io/map_file.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/occupancy_map.h"
 
 namespace playerlike {
 
@@ -34,6 +37,9 @@ inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 /// without separators and control characters, and no dot in front.
 [[nodiscard]] bool is_plain_file_name(const std::string& name);
 
+/// A grey layer's cells as an occupancy grid. @pre stack.contains(layer)
+[[nodiscard]] sim::OccupancyMap occupancy_map(const sim::LayerStack& stack, sim::LayerId layer);
+
 /// Where a picture goes that a client wants saved.
 /// @throws SessionError as Session::save_image().
 [[nodiscard]] std::string picture_file(const std::string& folder, const std::string& name,
@@ -42,5 +48,12 @@ inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 /// @throws SessionError kNotAvailable if it cannot be written.
 void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::uint8_t>& rgba,
                    int scale, const std::string& file);
+
+/// Where the two files of a map go that a client wants saved, without their endings.
+/// @throws SessionError as Session::save_map().
+[[nodiscard]] std::string map_stem(const std::string& folder, const std::string& name);
+/// Writes a map as sim::io::write_map() does.
+/// @throws SessionError kNotAvailable if it cannot be written.
+void write_map_files(const sim::OccupancyMap& map, const std::string& stem, sim::io::MapMode mode);
 
 }  // namespace playerlike

@@ -98,7 +98,8 @@ const NativeHandler::Request* NativeHandler::find_request(std::string_view name)
       {"layers", {"id", "do"}, &H::layers},
       {"canvas_image", {"id", "do"}, &H::canvas_image},
       {"resize_canvas", {"id", "do", "width", "height"}, &H::resize_canvas},
-      {"save_image", {"id", "do", "name", "scale"}, &H::save_image},
+      {"save_image", {"id", "do", "name", "scale", "layer"}, &H::save_image},
+      {"save_map", {"id", "do", "layer", "name", "mode"}, &H::save_map},
       {"view_mode", {"id", "do"}, &H::view_mode},
       {"set_view_mode", {"id", "do", "mode"}, &H::set_view_mode},
       {"world_map", {"id", "do", "cell_size", "tile"}, &H::world_map},
@@ -486,7 +487,20 @@ json NativeHandler::resize_canvas(const json& request) {
 
 json NativeHandler::save_image(const json& request) {
   const auto scale = integer_or(request, "scale", 1, -kMaxCell, kMaxCell);
-  session().save_image(protocol::require_text(request, "name"), static_cast<int>(scale));
+  std::optional<sim::LayerId> layer;
+  if (request.contains("layer")) layer = require_layer(request);
+  session().save_image(protocol::require_text(request, "name"), static_cast<int>(scale), layer);
+  return json::object();
+}
+
+json NativeHandler::save_map(const json& request) {
+  sim::io::MapMode mode = sim::io::MapMode::kTrinary;
+  if (request.contains("mode")) {
+    const auto named = sim::io::parse_map_mode(protocol::require_text(request, "mode"));
+    if (!named) protocol::refuse_value("mode", "trinary or scale", request["mode"]);
+    mode = *named;
+  }
+  session().save_map(require_layer(request), protocol::require_text(request, "name"), mode);
   return json::object();
 }
 

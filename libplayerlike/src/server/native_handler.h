@@ -96,6 +96,7 @@ class NativeHandler final : public Handler {
   json canvas_image(const json& request);
   json resize_canvas(const json& request);
   json save_image(const json& request);
+  json save_map(const json& request);
   json view_mode(const json& request);
   json set_view_mode(const json& request);
   json world_map(const json& request);

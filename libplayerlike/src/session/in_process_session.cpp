@@ -161,8 +161,14 @@ std::uint64_t InProcessSession::canvas_generation() const noexcept {
   return core()->canvas_generation();
 }
 
-void InProcessSession::save_image(const std::string& name, int scale) {
-  core()->save_image(*client_, name, scale);
+void InProcessSession::save_image(const std::string& name, int scale,
+                                  std::optional<sim::LayerId> layer) {
+  core()->save_image(*client_, name, scale, layer);
+}
+
+void InProcessSession::save_map(sim::LayerId layer, const std::string& name,
+                                sim::io::MapMode mode) {
+  core()->save_map(*client_, layer, name, mode);
 }
 
 sim::ViewMode InProcessSession::view_mode() const { return core()->view_mode(); }

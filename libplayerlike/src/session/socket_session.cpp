@@ -669,8 +669,15 @@ std::uint64_t SocketSession::canvas_generation() const noexcept {
   return canvas_generation_.load(std::memory_order_acquire);
 }
 
-void SocketSession::save_image(const std::string& name, int scale) {
-  request({{"do", "save_image"}, {"name", name}, {"scale", scale}});
+void SocketSession::save_image(const std::string& name, int scale,
+                               std::optional<sim::LayerId> layer) {
+  json what = {{"do", "save_image"}, {"name", name}, {"scale", scale}};
+  if (layer) what["layer"] = *layer;
+  request(what);
+}
+
+void SocketSession::save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) {
+  request({{"do", "save_map"}, {"layer", layer}, {"name", name}, {"mode", to_string(mode)}});
 }
 
 sim::ViewMode SocketSession::view_mode() const {

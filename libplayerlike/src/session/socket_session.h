@@ -80,7 +80,8 @@ class SocketSession final : public Session {
   void resize_canvas(int width, int height) override;
   CanvasInfo canvas_info() const override;
   std::uint64_t canvas_generation() const noexcept override;
-  void save_image(const std::string& name, int scale) override;
+  void save_image(const std::string& name, int scale, std::optional<sim::LayerId> layer) override;
+  void save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) override;
   sim::ViewMode view_mode() const override;
   void set_view_mode(sim::ViewMode mode) override;
   sim::OccupancyMap world_map(double cell_size_m) override;

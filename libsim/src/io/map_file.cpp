@@ -255,6 +255,15 @@ float occupancy(std::uint8_t shade, const Description& description) {
 
 }  // namespace
 
+std::optional<MapMode> parse_map_mode(std::string_view text) {
+  for (const MapMode mode : {MapMode::kTrinary, MapMode::kScale}) {
+    if (text == to_string(mode)) return mode;
+  }
+  return std::nullopt;
+}
+
+std::string_view to_string(MapMode mode) { return mode == MapMode::kScale ? "scale" : "trinary"; }
+
 void write_map(const OccupancyMap& map, const std::string& stem, MapMode mode) {
   SIM_ASSERT(map.width >= 1 && map.height >= 1);
   SIM_ASSERT(map.cells.size() ==
@@ -272,7 +281,7 @@ void write_map(const OccupancyMap& map, const std::string& stem, MapMode mode) {
   YAML::Emitter yaml;
   yaml << YAML::BeginMap;
   yaml << YAML::Key << "image" << YAML::Value << fs::path(image).filename().string();
-  yaml << YAML::Key << "mode" << YAML::Value << (scale ? "scale" : "trinary");
+  yaml << YAML::Key << "mode" << YAML::Value << std::string(to_string(mode));
   yaml << YAML::Key << "resolution" << YAML::Value << number_text(map.cell_size_m);
   yaml << YAML::Key << "origin" << YAML::Value << YAML::Flow << YAML::BeginSeq
        << number_text(map.origin.x()) << number_text(map.origin.y()) << "0" << YAML::EndSeq;

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <thread>
 
 #include "playerlike/host/host.h"
 #include "reachable_host.h"
+#include "sim/io/map_file.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -255,6 +258,68 @@ TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "elsewhere.png"));
   const auto nowhere = create(two_robots());
   EXPECT_EQ(refusal([&] { nowhere->connect(6665)->save_image("map"); }), kNotAvailable);
+}
+
+TEST_P(HostCanvas, LayersAreSavedOneByOne) {
+  const test_support::TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path().string();
+  const auto host = create(two_robots(R"(, "origin": [0.5, 0.25])"), settings);
+  const auto session = host->connect(6665);
+  const LayerId map = session->create_layer(LayerKind::kGrey, named("map"));
+  const LayerId dots = session->create_layer(LayerKind::kColour, named("dots"));
+  dot(*session, 3, 4, kRed, dots);
+  dot(*session, 5, 6, kBlue);  // on the canvas
+  const std::array<CellValue, 3> occupancies = {CellValue::of(0.0F), CellValue::of(0.3F),
+                                                CellValue::of(1.0F)};
+  session->draw_cells(map, {0, 49, 3, 1}, occupancies);
+
+  session->save_image("dots", 1, dots);
+  // Read as a map of map_server: red is dark enough to be occupied, white is free.
+  std::ofstream(folder.path() / "dots.yaml")
+      << "{image: dots.png, resolution: 0.02, origin: [0, 0, 0], negate: 0, "
+         "occupied_thresh: 0.65, free_thresh: 0.196}";
+  const sim::OccupancyMap picture = sim::io::read_map((folder.path() / "dots.yaml").string());
+  ASSERT_EQ(picture.width, 100);
+  ASSERT_EQ(picture.height, 50);
+  EXPECT_EQ(picture.at(3, 4), 1.0F);
+  EXPECT_EQ(picture.at(5, 6), 0.0F) << "the canvas's are not there";
+
+  session->save_map(map, "plan", sim::io::MapMode::kTrinary);
+  session->save_map(map, "shades.yaml", sim::io::MapMode::kScale);
+  for (const char* file : {"plan.yaml", "plan.pgm", "shades.yaml", "shades.pgm"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
+  }
+  const sim::OccupancyMap plan = sim::io::read_map((folder.path() / "plan.yaml").string());
+  EXPECT_EQ(plan.width, 100);
+  EXPECT_EQ(plan.height, 50);
+  EXPECT_DOUBLE_EQ(plan.cell_size_m, 0.02);
+  EXPECT_DOUBLE_EQ(plan.origin.x(), 0.5);
+  EXPECT_DOUBLE_EQ(plan.origin.y(), 0.25);
+  EXPECT_EQ(plan.at(0, 49), 0.0F);
+  EXPECT_EQ(plan.at(1, 49), 0.5F) << "neither free nor occupied";
+  EXPECT_EQ(plan.at(2, 49), 1.0F);
+  EXPECT_EQ(plan.at(3, 49), 0.5F);
+  const sim::OccupancyMap shades = sim::io::read_map((folder.path() / "shades.yaml").string());
+  EXPECT_NEAR(shades.at(1, 49), 0.3F, 1.0 / 500.0);
+
+  const auto save_map = [&](LayerId layer, const char* name) {
+    return refusal([&] { session->save_map(layer, name, sim::io::MapMode::kTrinary); });
+  };
+  EXPECT_EQ(save_map(dots, "dots"), kBadArgument) << "no occupancies";
+  EXPECT_EQ(save_map(99, "plan"), kBadArgument);
+  EXPECT_EQ(save_map(map, "../plan"), kBadArgument);
+  EXPECT_EQ(save_map(map, ""), kBadArgument);
+  EXPECT_EQ(refusal([&] { session->save_image("dots", 1, 99); }), kBadArgument);
+  const auto other = host->connect(6666);
+  EXPECT_EQ(refusal([&] { other->save_image("dots", 1, dots); }), kBadArgument)
+      << "somebody else's";
+  std::filesystem::create_symlink(folder.path() / "elsewhere", folder.path() / "link.pgm");
+  EXPECT_EQ(save_map(map, "link"), kNotAvailable);
+  const auto nowhere = create(two_robots())->connect(6665);
+  const LayerId lost = nowhere->create_layer(LayerKind::kGrey, named("map"));
+  EXPECT_EQ(refusal([&] { nowhere->save_map(lost, "map", sim::io::MapMode::kTrinary); }),
+            kNotAvailable);
 }
 
 TEST_P(HostCanvas, WorldMapShowsTheArena) {

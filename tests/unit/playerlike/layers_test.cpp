@@ -8,6 +8,8 @@
 
 #include "fake_session.h"
 #include "libCCMorse/WindowProxy.h"
+#include "sim/io/map_file.h"
+#include "temporary_folder.h"
 
 namespace {
 
@@ -21,6 +23,7 @@ using test::fake_session;
 using test::FakeWorld;
 using test::make_fake_world;
 using testing::ElementsAre;
+using testing::FieldsAre;
 using testing::HasSubstr;
 
 constexpr std::size_t kCells = 172 * 186;
@@ -297,6 +300,114 @@ TEST_F(Layers, ImagesBecomeCellsOfTheLayersKind) {
   EXPECT_EQ(grey.GetCell(0, 0), 1.0);
   EXPECT_EQ(grey.GetCell(1, 0), 0.0);
   EXPECT_EQ(grey.GetImage(3), rgb);
+}
+
+TEST_F(Layers, AreSavedByTheWorldOneByOne) {
+  GridMapLayer& trail = window.CreateLayer("trail", GridMapLayer::BINARY);
+  GridMapLayer& map = window.CreateLayer("map", GridMapLayer::GREY);
+  trail.SaveImage("way");
+  map.SaveImage("big.png", 4);
+  window.GetLayer("canvas").SaveImage("floor");
+  ASSERT_EQ(world->saved.size(), 3U);
+  const sim::LayerId trail_id = world->saved[0].layer.value_or(-1);
+  const sim::LayerId map_id = world->saved[1].layer.value_or(-1);
+  EXPECT_EQ(world->layers.style(trail_id).name, "trail");
+  EXPECT_EQ(world->layers.style(map_id).name, "map");
+  EXPECT_THAT(world->saved,
+              ElementsAre(FieldsAre("way", 1, trail_id), FieldsAre("big.png", 4, map_id),
+                          FieldsAre("floor", 1, sim::kBaseLayer)));
+
+  map.SaveMap("plan");
+  map.SaveMap("shades", GridMapLayer::SCALE);
+  EXPECT_THAT(world->saved_maps,
+              ElementsAre(FieldsAre(map_id, "plan", sim::io::MapMode::kTrinary),
+                          FieldsAre(map_id, "shades", sim::io::MapMode::kScale)));
+  EXPECT_EQ(error_code_of([&] { trail.SaveMap("way"); }), PlayerError::kNotAvailable);
+  EXPECT_EQ(world->saved_maps.size(), 2U);
+}
+
+// A map of 3 x 2 cells of 4 cm whose bottom left corner lies at (0.10, 0.06): each of its cells
+// covers 2 x 2 of the canvas's, columns 5 to 10 and rows 185 - 3 = 182 up to 179.
+class LoadedMaps : public Layers {
+ protected:
+  LoadedMaps() {
+    sim::OccupancyMap map;
+    map.width = 3;
+    map.height = 2;
+    map.cell_size_m = 0.04;
+    map.origin = {0.10, 0.06};
+    map.cells = {0.0F, 1.0F, 0.5F,   // the upper row
+                 1.0F, 0.0F, 0.0F};  // the lower one
+    sim::io::write_map(map, stem);
+  }
+
+  test_support::TemporaryFolder folder;
+  std::string stem = (folder.path() / "map").string();
+};
+
+TEST_F(LoadedMaps, LieAtTheirPlaceInTheWorld) {
+  GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
+  layer.SetCells(std::vector<double>(kCells, 0.25));
+  EXPECT_EQ(layer.LoadMap(stem + ".yaml"), 24);
+  const double expected[2][3] = {{0.0, 1.0, 0.5}, {1.0, 0.0, 0.0}};
+  std::size_t others = 0;
+  for (int row = 0; row < 186; ++row) {
+    for (int column = 0; column < 172; ++column) {
+      if (column >= 5 && column <= 10 && row >= 179 && row <= 182) {
+        EXPECT_EQ(layer.GetCell(column, row), expected[(row - 179) / 2][(column - 5) / 2])
+            << column << ", " << row;
+      } else {
+        others += layer.GetCell(column, row) == 0.25;
+      }
+    }
+  }
+  EXPECT_EQ(others, kCells - 24) << "what the map does not cover stays";
+}
+
+TEST_F(LoadedMaps, ThatReachBeyondTheCanvasAreCutOff) {
+  GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
+  window.Resize(8,
+                5);  // to x = 0.16, y = 0.10: the lower left cell of the map, half the middle one
+  EXPECT_EQ(layer.LoadMap(stem + ".yaml"), 6);
+  EXPECT_EQ(layer.GetCell(5, 0), 1.0);
+  EXPECT_EQ(layer.GetCell(6, 1), 1.0);
+  EXPECT_EQ(layer.GetCell(7, 1), 0.0);
+  EXPECT_EQ(layer.GetCell(5, 2), 0.5);
+  window.Resize(4, 5);
+  EXPECT_EQ(layer.LoadMap(stem + ".yaml"), 0) << "it lies wholly outside";
+}
+
+TEST_F(LoadedMaps, WithSmallerCellsAreLookedAtInTheMiddles) {
+  sim::OccupancyMap map;  // 4 x 4 cells of 1 cm: 2 x 2 of the canvas's
+  map.width = map.height = 4;
+  map.cell_size_m = 0.01;
+  map.cells = {1, 1, 0, 0,  //
+               1, 0, 0, 1,  // the middles lie on the corners of four cells: the upper right counts
+               0, 0, 0, 0,  //
+               0, 0, 1, 0};
+  sim::io::write_map(map, stem);
+  GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
+  EXPECT_EQ(layer.LoadMap(stem + ".yaml"), 4);
+  EXPECT_EQ(layer.GetCell(0, 184), 1.0);
+  EXPECT_EQ(layer.GetCell(1, 184), 0.0);
+  EXPECT_EQ(layer.GetCell(0, 185), 0.0);
+  EXPECT_EQ(layer.GetCell(1, 185), 0.0);
+}
+
+TEST_F(LoadedMaps, OrLayersThatAreNotRightAreRefused) {
+  GridMapLayer& layer = window.CreateLayer("map", GridMapLayer::GREY);
+  try {
+    layer.LoadMap(stem + "_2.yaml");
+    FAIL();
+  } catch (const PlayerError& e) {
+    EXPECT_EQ(e.GetErrorCode(), PlayerError::kBadArgument);
+    EXPECT_THAT(e.GetErrorStr(), HasSubstr(stem + "_2.yaml"));
+  }
+  EXPECT_EQ(error_code_of([&] { layer.LoadMap(stem + ".pgm"); }), PlayerError::kBadArgument);
+  EXPECT_EQ(error_code_of([&] { window.GetLayer("canvas").LoadMap(stem + ".yaml"); }),
+            PlayerError::kNotAvailable);
+  window.RemoveLayer("map");
+  EXPECT_EQ(error_code_of([&] { layer.LoadMap(stem + ".yaml"); }), PlayerError::kNotAvailable);
 }
 
 TEST_F(Layers, AreResizedWithTheCanvas) {

@@ -762,6 +762,18 @@ TEST(NativeFiles, PicturesStayInTheOutputFolder) {
   EXPECT_TRUE(fs::exists(folder.path() / "now.png"));
   EXPECT_EQ(client.error("save_image", {{"name", "../now"}}), "session/bad-argument");
   EXPECT_EQ(client.error("save_image", {{"name", "now"}, {"scale", 1000}}), "session/bad-argument");
+  EXPECT_EQ(client.error("save_image", {{"name", "floor"}, {"layer", 0}}), "");
+  EXPECT_TRUE(fs::exists(folder.path() / "floor.png"));
+  EXPECT_EQ(client.error("save_image", {{"name", "floor"}, {"layer", 7}}), "session/bad-argument");
+  EXPECT_EQ(client.error("save_map", {{"name", "map"}, {"layer", 0}}), "session/bad-argument");
+  EXPECT_EQ(client.error("save_map", {{"name", "map"}}), "protocol/bad-value");
+  const json layer = client.ask("create_layer", {{"kind", "grey"}, {"style", {{"name", "map"}}}});
+  EXPECT_EQ(client.error("save_map", {{"name", "map"}, {"layer", layer["layer"]}}), "");
+  EXPECT_TRUE(fs::exists(folder.path() / "map.yaml"));
+  EXPECT_TRUE(fs::exists(folder.path() / "map.pgm"));
+  EXPECT_EQ(
+      client.error("save_map", {{"name", "map"}, {"layer", layer["layer"]}, {"mode", "negative"}}),
+      "protocol/bad-value");
 }
 
 // --- what is wrong

@@ -21,6 +21,7 @@ using test::fake_session;
 using test::FakeWorld;
 using test::make_fake_world;
 using testing::ElementsAre;
+using testing::FieldsAre;
 using testing::HasSubstr;
 
 typedef unsigned char uchar;
@@ -355,8 +356,8 @@ TEST_F(Window, ViewModesGoToTheWorld) {
 TEST_F(Window, PicturesAreSavedByTheWorld) {
   window.SaveImage("map");
   window.SaveImage("big.png", 4);
-  EXPECT_THAT(world->saved, ElementsAre(std::pair<std::string, int>("map", 1),
-                                        std::pair<std::string, int>("big.png", 4)));
+  EXPECT_THAT(world->saved, ElementsAre(FieldsAre("map", 1, std::nullopt),
+                                        FieldsAre("big.png", 4, std::nullopt)));
 }
 
 TEST_F(Window, SeveralThreadsMayDraw) {

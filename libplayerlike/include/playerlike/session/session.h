@@ -13,6 +13,7 @@
 #include "playerlike/messages/messages.h"
 #include "playerlike/session/draw_queue.h"
 #include "sim/canvas/layers.h"
+#include "sim/io/map_file.h"
 #include "sim/world/occupancy_map.h"
 
 namespace playerlike {
@@ -149,10 +150,18 @@ class Session {
   /// canvas_info(). Cheap.
   [[nodiscard]] virtual std::uint64_t canvas_generation() const noexcept = 0;
   /// Writes canvas_image() as a PNG, scale x scale pixels a cell, into the run's output folder.
-  /// @param name  a plain file name; ".png" is added unless it is there.
-  /// @throws SessionError kBadArgument for any other name, or a scale outside 1..64; kNotAvailable
-  ///         if the run has no output folder, or the file cannot be written.
-  virtual void save_image(const std::string& name, int scale = 1) = 0;
+  /// @param name   a plain file name; ".png" is added unless it is there.
+  /// @param layer  this one alone instead, also if it is hidden.
+  /// @throws SessionError kBadArgument for any other name, a scale outside 1..64, or a layer that
+  ///         is not this session's; kNotAvailable if the run has no output folder, or the file
+  ///         cannot be written.
+  virtual void save_image(const std::string& name, int scale = 1,
+                          std::optional<sim::LayerId> layer = std::nullopt) = 0;
+  /// Writes a grey layer as the pair of files that ROS's map_server reads, NAME.yaml and NAME.pgm,
+  /// into the run's output folder: see sim::io::write_map().
+  /// @param name  a plain file name, with or without ".yaml".
+  /// @throws SessionError as save_image(), also kBadArgument for a layer of another kind.
+  virtual void save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) = 0;
 
   [[nodiscard]] virtual sim::ViewMode view_mode() const = 0;
   /// @throws SessionError kNotAvailable if the world has locked another mode.

@@ -1,7 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim/world/occupancy_map.h"
 
@@ -14,6 +16,12 @@ enum class MapMode {
   kTrinary,  ///< occupied, free or unknown; what most tools take a map for
   kScale,    ///< all shades between free and occupied
 };
+
+/// The mode of that name, as the key `mode` has it: "trinary" or "scale"; nullopt for anything
+/// else.
+[[nodiscard]] std::optional<MapMode> parse_map_mode(std::string_view text);
+/// The name that parse_map_mode reads.
+[[nodiscard]] std::string_view to_string(MapMode mode);
 
 /// Writes STEM.pgm (raw PGM, 8 bit, the maximum 255) and STEM.yaml, which names it.
 ///
