@@ -164,7 +164,9 @@ class Host::Core : private ViewedRun {
   bool begin_away(const void* what);
   void end_away();
   /// Who is away for that thinks again from now on: all, or the first.
-  void call_back(const void* what, bool all);
+  /// @param patient  waits for the mutex as long as it takes; else some 20 ms: whoever is away then
+  ///                 comes back by end_away() only.
+  void call_back(const void* what, bool all, bool patient);
   /// Virtual time: the program starts a thread. Time stands until that has waited for something.
   void add_thread(ThinkerId thinker);
   /// The calling thread is one of these, and has begun.

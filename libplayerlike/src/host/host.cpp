@@ -96,6 +96,8 @@ ThinkerId this_thinker() noexcept {
   return own_thinker;
 }
 
+bool is_thinker() noexcept { return own_thinker != 0; }
+
 void set_this_thinker(ThinkerId thinker) noexcept { own_thinker = thinker; }
 
 // --- Construction
@@ -780,8 +782,17 @@ void Host::Core::end_away() {
   }
 }
 
-void Host::Core::call_back(const void* what, bool all) {
-  const Lock lock = lock_soon();
+void Host::Core::call_back(const void* what, bool all, bool patient) {
+  Lock lock(mutex_, std::defer_lock);
+  if (patient) {
+    lock = lock_soon();
+  } else {
+    constexpr int kTries = 200;
+    for (int i = 0; !lock.try_lock(); ++i) {
+      if (i == kTries) return;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  }
   call_back_locked(what, all);
 }
 

@@ -40,6 +40,10 @@ constexpr long long kLooksAStepAlone = 1'000;
 // How far a look at the clock moves it while there is no simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
+/// In place of a thinker's number: a thread that a library starts on Playpen's behalf, as encoders
+/// of films do. It is Playpen's own.
+constexpr unsigned long long kLibraryThread = ~0ULL;
+
 /// What is known of a thread. Needs no construction, nor destruction, so it can be used at any
 /// time.
 struct ThreadState {
@@ -105,6 +109,15 @@ bool is_programs_code(const void* address) {
   }
   return !name.starts_with("libplaypen_") && !name.starts_with("libopencv_") &&
          !name.starts_with("libspdlog.");
+}
+
+/// Whether code is Playpen's own; where it is linked into the program, the program's counts, too.
+bool is_playpens_code(const void* address) {
+  if (in_program(address)) return true;
+  Dl_info info{};
+  if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return true;
+  const std::string_view file = info.dli_fname;
+  return file.substr(file.rfind('/') + 1).starts_with("libplaypen_");
 }
 
 /// The code that a thread will run, as far as can be told from how it is started.
@@ -202,13 +215,13 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
 
 unsigned long long on_begin_thread(const void* caller, const void* start, const void* argument) {
   const ThreadState& thread = state;
-  if (thread.inside > 0 || thread.ended || given_up.load(std::memory_order_acquire)) return 0;
+  if (thread.ended || given_up.load(std::memory_order_acquire)) return 0;
+  const bool playpen_starts_it = thread.inside > 0;
   const Inside inside;
   try {
-    if (thread.starts_for_program == 0 &&
-        !is_programs_code(code_of_thread(caller, start, argument))) {
-      return 0;
-    }
+    const void* const code = code_of_thread(caller, start, argument);
+    if (playpen_starts_it) return is_playpens_code(code) ? 0 : kLibraryThread;
+    if (thread.starts_for_program == 0 && !is_programs_code(code)) return 0;
     const ThinkerId thinker = new_thinker();
     const std::lock_guard lock(lists_mutex);
     if (Host* const host = attached.load()) {
@@ -227,6 +240,10 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
 }
 
 void on_thread_begun(unsigned long long number) {
+  if (number == kLibraryThread) {
+    ++state.inside;  // until it ends
+    return;
+  }
   state.programs = true;
   const Inside inside;
   set_this_thinker(number);
@@ -236,6 +253,7 @@ void on_thread_begun(unsigned long long number) {
 }
 
 void on_thread_failed(unsigned long long number) {
+  if (number == kLibraryThread) return;
   const Inside inside;
   const std::lock_guard lock(lists_mutex);
   std::erase(early_threads(), number);
@@ -246,6 +264,9 @@ int on_begin_wait(const void* what) {
   const ThreadState& thread = state;
   Host* const host = attached.load(std::memory_order_acquire);
   if (thread.inside > 0 || thread.ended || host == nullptr) return 0;
+  // A library's thread holds up nobody. It must not wait for the simulation here either: with what
+  // it has locked it could hold up the thread that draws, for which the simulation may be waiting.
+  if (!is_thinker()) return 0;
   const Inside inside;
   away_threads.fetch_add(1);  // before anybody may look
   if (VirtualTimeAccess::core(*host).begin_away(what)) return 1;
@@ -266,7 +287,8 @@ void on_signalled(const void* what, int all) {
   Host* const host = attached.load(std::memory_order_acquire);
   if (host == nullptr) return;
   const Inside inside;
-  VirtualTimeAccess::core(*host).call_back(what, all != 0);
+  // For the same reason a library's thread does not wait here for long.
+  VirtualTimeAccess::core(*host).call_back(what, all != 0, is_thinker());
 }
 
 constexpr PlaypenVirtualTimeHooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,

@@ -22,6 +22,8 @@ using ThinkerId = std::uint64_t;
 [[nodiscard]] ThinkerId new_thinker() noexcept;
 /// The calling thread's own.
 [[nodiscard]] ThinkerId this_thinker() noexcept;
+/// Whether it has one: whether it has asked for it, or was given one.
+[[nodiscard]] bool is_thinker() noexcept;
 /// Gives the calling thread one that was made for it, before it uses its own.
 void set_this_thinker(ThinkerId thinker) noexcept;
 
