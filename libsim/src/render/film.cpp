@@ -18,6 +18,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "sim/render/render.h"
 
@@ -39,15 +40,15 @@ std::string lower_case_ending(const std::string& path) {
 
 namespace fs = std::filesystem;
 
-enum class FilmKind { kMpeg4, kMotionJpeg, kPictures };
+enum class FilmKind { kMp4, kAvi, kPictures };
 
 std::optional<FilmKind> kind_of(const std::string& path) {
   if (path.empty()) return std::nullopt;
   std::error_code error;
   if (path.ends_with('/') || fs::is_directory(path, error)) return FilmKind::kPictures;
   const std::string ending = lower_case_ending(path);
-  if (ending == ".mp4") return FilmKind::kMpeg4;
-  if (ending == ".avi") return FilmKind::kMotionJpeg;
+  if (ending == ".mp4") return FilmKind::kMp4;
+  if (ending == ".avi") return FilmKind::kAvi;
   return ending.empty() ? std::optional(FilmKind::kPictures) : std::nullopt;
 }
 
@@ -152,8 +153,8 @@ namespace {
 
 class Video final : public FilmWriter::Impl {
  public:
-  Video(const std::string& name, double frames_per_second, int fourcc)
-      : Impl(name), frames_per_second_(frames_per_second), fourcc_(fourcc) {
+  Video(const std::string& name, double frames_per_second, FilmKind kind)
+      : Impl(name), frames_per_second_(frames_per_second), kind_(kind) {
     // OpenCV only says that it failed. Opening the file here tells why, and before a run, not
     // after.
     errno = 0;
@@ -178,12 +179,25 @@ class Video final : public FilmWriter::Impl {
     if (width < 2 || height < 2) {
       fail(path, "a frame of " + size_text(frame.width, frame.height) + " pixels is too small");
     }
-    // FFmpeg encodes on this thread with these codecs; OpenCV's own writer of MJPG would use its
-    // pool of threads, and is the second choice where OpenCV was built without FFmpeg.
-    const cv::Size size(width, height);
+    struct Encoder {
+      int api;
+      int codec;
+    };
+    // H.264 is what browsers play. FFmpeg may be built without it, and OpenCV without FFmpeg.
+    const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
+    const int mpeg4 = cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+    const int motion_jpeg = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
+    const std::vector<Encoder> encoders =
+        kind_ == FilmKind::kMp4
+            ? std::vector<Encoder>{{cv::CAP_FFMPEG, h264},
+                                   {cv::CAP_FFMPEG, mpeg4},
+                                   {cv::CAP_ANY, mpeg4}}
+            : std::vector<Encoder>{{cv::CAP_FFMPEG, motion_jpeg}, {cv::CAP_ANY, motion_jpeg}};
     try {
-      if (!writer_.open(path, cv::CAP_FFMPEG, fourcc_, frames_per_second_, size)) {
-        writer_.open(path, fourcc_, frames_per_second_, size);
+      for (const Encoder& encoder : encoders) {
+        if (writer_.open(path, encoder.api, encoder.codec, frames_per_second_, {width, height})) {
+          break;
+        }
       }
     } catch (const cv::Exception& error) {
       fail(path, error.what());
@@ -212,7 +226,7 @@ class Video final : public FilmWriter::Impl {
   }
 
   double frames_per_second_;
-  int fourcc_;
+  FilmKind kind_;
   cv::Mat bgr_;             // of the film's own size
   cv::VideoWriter writer_;  // opened with the first frame, which tells the size
 };
@@ -260,9 +274,7 @@ FilmWriter::FilmWriter(const std::string& path, double frames_per_second) {
   if (kind == FilmKind::kPictures) {
     impl_ = std::make_unique<Pictures>(path);
   } else {
-    const int fourcc = kind == FilmKind::kMpeg4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v')
-                                                : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-    impl_ = std::make_unique<Video>(path, frames_per_second, fourcc);
+    impl_ = std::make_unique<Video>(path, frames_per_second, kind);
   }
 }
 

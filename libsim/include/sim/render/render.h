@@ -106,11 +106,13 @@ void write_png(const Image& image, const std::string& path, PngEffort effort = P
 /// the library's things then outlive the handler. Not needed otherwise.
 void prepare_pictures();
 
-/// Writes a film, frame by frame: ".mp4" (MPEG-4) or ".avi" (Motion JPEG) by the file's ending, or
-/// a folder of pictures frame_000001.png, frame_000002.png, ... if the name has no ending, ends in
-/// a slash or is that of a folder. A folder that is not there is made; frames of an earlier film in
-/// it are removed. A film is complete after finish(), or when the writer is destroyed; without a
-/// frame no file and no new folder remains.
+/// Writes a film, frame by frame: ".mp4" (H.264, or MPEG-4 Part 2 where FFmpeg lacks that) or
+/// ".avi" (Motion JPEG) by the file's ending, or a folder of pictures frame_000001.png,
+/// frame_000002.png, ... if the name has no ending, ends in a slash or is that of a folder. A
+/// folder that is not there is made; frames of an earlier film in it are removed. A film is
+/// complete after finish(), or when the writer is destroyed; without a frame no file and no new
+/// folder remains. Equal pictures give equal films on one machine; FFmpeg's encoder of H.264 uses
+/// threads of its own, as many as suit the processors, and its bytes depend on how many.
 class FilmWriter {
  public:
   /// @param frames_per_second  1..1000; a folder of pictures does not keep it.
