@@ -2,7 +2,7 @@
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
 # From a fresh machine to a film: installs what is missing, builds what is needed, and lets a robot
-# explore an arena that it does not know, all by itself. Results: out/demo/.
+# explore an arena that it does not know, all by itself. Says how good its map is. Results: out/demo/.
 set -euo pipefail
 
 case ${1:-} in
@@ -41,12 +41,12 @@ quietly() {
   fi
 }
 
-headline "1/3  Packages"
+headline "1/4  Packages"
 "$root/apps/install_dependencies.sh" build ||
   fail "packages are missing and could not be installed; the reason is above"
 echo "     all there"
 
-headline "2/3  Build"
+headline "2/4  Build"
 mkdir -p "$build" "$out"
 : >"$log"
 launcher=()
@@ -65,7 +65,7 @@ else
 fi
 echo "     $build/bin/playpen, $build/bin/par_exploration_solution_nearest"
 
-headline "3/3  A robot explores an arena that it does not know"
+headline "3/4  A robot explores an arena that it does not know"
 results=(film.mp4 scene.png canvas.png layers/occupancy.pgm layers/occupancy.yaml report.json
   trajectory.csv)
 # Those of an earlier run must not pass for this one's.
@@ -77,6 +77,13 @@ results=(film.mp4 scene.png canvas.png layers/occupancy.pgm layers/occupancy.yam
 for file in "${results[@]}"; do
   [[ -s $out/$file ]] || fail "the run ended well but left no $out/$file; please report this"
 done
+
+headline "4/4  The same again, judged as a student's program is"
+"$build/bin/playpen" grade worlds/tasks/par_exploration.task.json \
+  worlds/tasks/par_exploration.json --seeds 1, --out "$out/grade" \
+  -- "$build/bin/par_exploration_solution_nearest" ||
+  fail "the run did not pass; the reasons are above"
+
 echo
 headline "Look at"
 echo "  $root/$out/film.mp4         how it went, 2.5 times as fast"
