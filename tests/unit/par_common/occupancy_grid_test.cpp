@@ -49,9 +49,9 @@ TEST(OccupancyGrid, ConvergesToItsLimitsAndCanChangeItsMind) {
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({5, 0})), 3.5F);
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({2, 0})), -3.5F);
   EXPECT_NEAR(map.probability({5, 0}), 0.970688, 1e-6);  // 1 / (1 + e^-3.5)
-  // The obstacle is gone. Free is p < 0.35: log odds below -0.619. From 3.5 that takes
-  // (3.5 + 0.619) / 0.40 = 10.3, so 11 scans.
-  for (int i = 0; i < 10; ++i) map.update(one_beam(0.9));
+  // The obstacle is gone. Free is p < 0.196: log odds below -1.412. From 3.5 that takes
+  // (3.5 + 1.412) / 0.40 = 12.3, so 13 scans.
+  for (int i = 0; i < 12; ++i) map.update(one_beam(0.9));
   EXPECT_NE(map.state({5, 0}), CellState::kFree);
   map.update(one_beam(0.9));
   EXPECT_EQ(map.state({5, 0}), CellState::kFree);

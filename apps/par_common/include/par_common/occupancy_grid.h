@@ -27,12 +27,14 @@ struct OccupancyParams {
   /// Added to those of a cell that a beam passes: p = 0.4.
   double miss_log_odds = -0.40;
   /// Log odds stay within +-this, so that a cell that was seen free a thousand times can still
-  /// change its mind in ten scans when somebody moves a block: p = 0.97.
+  /// change its mind in a dozen scans when somebody moves a block: p = 0.97.
   double limit_log_odds = 3.5;
   /// Probabilities above this are occupied ...
   double occupied_threshold = 0.65;
-  /// ... below this free, and between them unknown. (The prior is 0.5.)
-  double free_threshold = 0.35;
+  /// ... below this free, and between them unknown. (The prior is 0.5.) Both are those by which
+  /// ROS's map_saver judges: what is called known here is known in a saved map, too. A cell is free
+  /// once four scans more have seen it free than not.
+  double free_threshold = 0.196;
   /// A beam ends on the face of an obstacle, and where faces lie on borders of cells, rounding and
   /// noise put half the ends into the free cell in front. So the end is taken this much further
   /// along the beam [m].
