@@ -62,9 +62,9 @@ take planning_2/scene.png planning_2
 run worlds/tasks/par_exploration.json exploration --snapshot-every 4 -- \
   "$bin/par_exploration_solution_nearest"
 take exploration/snapshots/scene_000024.000s.png exploration
-run worlds/tasks/par_exploration.json exploration_map --snapshot-every 65 --view-mode full-screen -- \
+run worlds/tasks/par_exploration.json exploration_map --snapshot-every 64 --view-mode full-screen -- \
   "$bin/par_exploration_solution_nearest"
-take exploration_map/snapshots/scene_000065.000s.png exploration_map
+take exploration_map/snapshots/scene_000064.000s.png exploration_map
 run worlds/tasks/par_exploration.json exploration_corner --snapshot-every 28 --view-mode mini-map -- \
   "$bin/par_exploration_solution_nearest"
 take exploration_corner/snapshots/scene_000028.000s.png exploration_mini_map
