@@ -45,19 +45,24 @@ void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
              });
   command.add_option("--out", settings.output_folder, "Folder for results [out/<world's name>]")
       ->type_name("DIR");
-  add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
-             playerlike::kFilmExpected, [&settings](const std::string& text) {
-               settings.film = text;
-               return sim::render::FilmWriter::is_film_name(text);
-             });
+  CLI::Option* const record =
+      add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
+                 playerlike::kFilmExpected, [&settings](const std::string& text) {
+                   settings.film = text;
+                   return sim::render::FilmWriter::is_film_name(text);
+                 });
   add_parsed(command, "--record-fps", "Frames a second of the film [25]", "N",
-             playerlike::kFilmFpsExpected, [&settings](const std::string& text) {
+             playerlike::kFilmFpsExpected,
+             [&settings](const std::string& text) {
                return playerlike::parse_film_fps(text, settings.film_fps);
-             });
+             })
+      ->needs(record);
   add_parsed(command, "--record-speed", "Simulated seconds a second of the film [1]", "X",
-             playerlike::kFilmSpeedExpected, [&settings](const std::string& text) {
+             playerlike::kFilmSpeedExpected,
+             [&settings](const std::string& text) {
                return playerlike::parse_film_speed(text, settings.film_speed);
-             });
+             })
+      ->needs(record);
   add_parsed(command, "--snapshot-every", "Simulated seconds between pictures in DIR/snapshots",
              "S", playerlike::kSnapshotPeriodExpected, [&settings](const std::string& text) {
                double period_s = 0.0;

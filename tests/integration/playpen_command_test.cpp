@@ -65,6 +65,16 @@ TEST(PlaypenCommand, UnknownCommandsAndMissingArgumentsAreBadInput) {
   }
 }
 
+TEST(PlaypenCommand, SettingsOfAFilmThatNobodyRecordsAreRefused) {
+  const TemporaryFolder folder;
+  const std::string world = folder.write("room.json", room_world());
+  for (const char* option : {"--record-fps", "--record-speed"}) {
+    const ProcessResult result = playpen({"run", world, option, "5", "--", "/bin/true"});
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(option), HasSubstr("--record")));
+  }
+}
+
 TEST(PlaypenCommand, BadOptionValuesAreRefusedByNameAndValue) {
   struct Case {
     const char* option;
