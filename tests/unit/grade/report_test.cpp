@@ -79,6 +79,15 @@ TEST(Table, HasALineARunThenFaultsThenASummary) {
             "  simulated time [s]: 61.0 to 61.0, mean 61.0\n");
 }
 
+TEST(Table, OfOneRunNeedsNoSummary) {
+  EXPECT_EQ(table(grade_of({good_run()})),
+            "world  seed        end        reached  coverage  correct  path[m]  ratio  coll  "
+            "clear[m]  sim[s]  wall[s]\n"
+            "room      1  pass  by itself      yes     0.988    1.000    12.35   1.23     0  "
+            "   0.032    61.0      0.2\n"
+            "explore: 1 of 1 runs passed\n");
+}
+
 TEST(Table, TellsEndingsInWords) {
   GradedRun run = good_run();
   const auto text_for = [&run](Ending ending) {
