@@ -21,41 +21,66 @@
 namespace imr {
 namespace detail {
 
+/// What a check is of.
+enum class Check { kAssertion, kArgument, kIo };
+
 /// Throws the exception of a failed check: "file:line: kind 'condition' failed: message".
 ///
 /// @param file       source file, as the compiler names it.
 /// @param line       line of the check.
-/// @param kind       "assertion" or "argument check".
+/// @param check      tells the kind: "assertion", "argument check" or "i/o check".
 /// @param condition  text of the condition.
 /// @param message    may be empty; then the part after "failed" is left out.
-/// @throws imr::exception always.
-[[noreturn]] void throw_failed_check(const char* file, int line, const char* kind,
-                                     const char* condition, const std::string& message);
+/// @throws imr::exception always; argument_error or io_error for these kinds.
+[[noreturn]] void throw_failed_check(const char* file, int line, Check check, const char* condition,
+                                     const std::string& message);
 
 }  // namespace detail
+
+/// Throws an exception of any type that is made of a text unless the condition holds.
+template <typename Exception>
+void assert_exception(bool condition, const std::string& message) {
+  if (!condition) throw Exception(message);
+}
+
+/// Throws imr::bad_usage unless the condition holds.
+inline void assert_usage(bool condition, const std::string& message) {
+  assert_exception<bad_usage>(condition, message);
+}
+
+/// Throws imr::io_error unless the condition holds.
+inline void assert_io(bool condition, const std::string& message) {
+  assert_exception<io_error>(condition, message);
+}
+
 }  // namespace imr
 
 /// Common part of the two checks with a message; for use by the macros below only.
-#define IMR_DETAIL_CHECK(kind, condition, ...)                                \
-  do {                                                                        \
-    if (!static_cast<bool>(condition)) {                                      \
-      ::std::ostringstream imr_check_text_;                                   \
-      imr_check_text_ << __VA_ARGS__;                                         \
-      ::imr::detail::throw_failed_check(__FILE__, __LINE__, kind, #condition, \
-                                        imr_check_text_.str());               \
-    }                                                                         \
+#define IMR_DETAIL_CHECK(check, condition, ...)                                          \
+  do {                                                                                   \
+    if (!static_cast<bool>(condition)) {                                                 \
+      ::std::ostringstream imr_check_text_;                                              \
+      imr_check_text_ << __VA_ARGS__;                                                    \
+      ::imr::detail::throw_failed_check(__FILE__, __LINE__, ::imr::detail::Check::check, \
+                                        #condition, imr_check_text_.str());              \
+    }                                                                                    \
   } while (false)
 
 /// Throws imr::exception unless the condition holds. The condition may contain commas.
-#define IMR_ASSERT(...)                                                                     \
-  do {                                                                                      \
-    if (!static_cast<bool>(__VA_ARGS__)) {                                                  \
-      ::imr::detail::throw_failed_check(__FILE__, __LINE__, "assertion", #__VA_ARGS__, ""); \
-    }                                                                                       \
+#define IMR_ASSERT(...)                                                                       \
+  do {                                                                                        \
+    if (!static_cast<bool>(__VA_ARGS__)) {                                                    \
+      ::imr::detail::throw_failed_check(__FILE__, __LINE__, ::imr::detail::Check::kAssertion, \
+                                        #__VA_ARGS__, "");                                    \
+    }                                                                                         \
   } while (false)
 
 /// Throws imr::exception with a message unless the condition holds.
-#define IMR_ASSERT_MSG(condition, ...) IMR_DETAIL_CHECK("assertion", condition, __VA_ARGS__)
+#define IMR_ASSERT_MSG(condition, ...) IMR_DETAIL_CHECK(kAssertion, condition, __VA_ARGS__)
 
-/// Throws imr::exception with a message unless the condition, which judges an argument, holds.
-#define ASSERT_ARGUMENT(condition, ...) IMR_DETAIL_CHECK("argument check", condition, __VA_ARGS__)
+/// Throws imr::argument_error with a message unless the condition, which judges an argument, holds.
+#define ASSERT_ARGUMENT(condition, ...) IMR_DETAIL_CHECK(kArgument, condition, __VA_ARGS__)
+
+/// Throws imr::io_error with a message unless the condition, which judges a file or a device,
+/// holds.
+#define ASSERT_IO(condition, ...) IMR_DETAIL_CHECK(kIo, condition, __VA_ARGS__)

@@ -213,6 +213,21 @@ class CConfig {
     set_typed(name, value, std::is_same<T, std::string>());
   }
 
+  /// What is declared of an option.
+  struct OptionInfo {
+    std::string name;
+    std::string description;
+    std::string type;          ///< in words, as in the help table: "int", "string", ...
+    bool has_default = false;  ///< and default_text is one that set() understands
+    std::string default_text;
+  };
+  /// All options, in the order of their declaration.
+  std::vector<OptionInfo> options() const;
+
+  /// Prints a line "name=value" for each option, in that order; nothing after the "=" of one
+  /// without a value.
+  void print(std::ostream& out) const;
+
   /// Whether an option of this name was added.
   bool has(const std::string& name) const;
 

@@ -59,6 +59,48 @@ bool enabled(Level level) noexcept;
 void write_line(Level level, const std::string& text) noexcept;
 
 }  // namespace logging
+
+/// @name Loggers with names
+/// As course programs set them up and name them (names and signatures: J. Faigl,
+/// github.com/comrob/gsoa, crl/src/logging.h). There all lines went through log4cxx; here INFO()
+/// and the rest go where they always go, and a name only matters to INFO_M() and the like.
+/// @{
+
+/// A logger; it has a name and nothing else.
+class CLogger {
+ public:
+  explicit CLogger(const std::string& name) : name_(name) {}
+  const std::string& getName() const noexcept { return name_; }
+
+ private:
+  std::string name_;
+};
+
+/// Lives until the process ends.
+typedef const CLogger* CLoggerPtr;
+
+/// The logger of the program, called "root" until initLogger() names it.
+extern CLoggerPtr logger;
+
+/// The logger of a name; the same one each time. Safe from any thread.
+CLoggerPtr getLogger(const char* loggerName);
+
+/// Names the logger of the program. Not while other threads use it.
+void initLogger(const std::string& loggerName);
+/// As above.
+void initLogger(const char* loggerName);
+/// Also takes the level from a configuration file of log4cxx: that of the line
+/// "log4j.rootLogger=LEVEL, ..." (ALL, TRACE, DEBUG, INFO, WARN, ERROR, FATAL, OFF). The rest of
+/// the file, which tells where lines go, does not count; nor does the level if IMR_LOG_LEVEL is
+/// set. A file that can't be read, or has no such line, is told of in a WARN line, and the level
+/// stays.
+/// @param configName  null or "": no file.
+void initLogger(const char* loggerName, const char* configName);
+
+/// Nothing is left to be done at the end.
+void shutdownLogger();
+/// @}
+
 }  // namespace imr
 
 /// Common part of the four macros; for their use only.
@@ -85,6 +127,10 @@ void write_line(Level level, const std::string& text) noexcept;
 #undef INFO
 #undef WARN
 #undef ERROR
+#undef DEBUG_M
+#undef INFO_M
+#undef WARN_M
+#undef ERROR_M
 /// Short for IMR_LOG_DEBUG.
 #define DEBUG(...) IMR_LOG_DEBUG(__VA_ARGS__)
 /// Short for IMR_LOG_INFO.
@@ -93,4 +139,9 @@ void write_line(Level level, const std::string& text) noexcept;
 #define WARN(...) IMR_LOG_WARN(__VA_ARGS__)
 /// Short for IMR_LOG_ERROR.
 #define ERROR(...) IMR_LOG_ERROR(__VA_ARGS__)
+/// The same with a logger's name in front: "[DEBUG] name: text".
+#define DEBUG_M(logger, ...) IMR_LOG_DEBUG((logger)->getName() << ": " << __VA_ARGS__)
+#define INFO_M(logger, ...) IMR_LOG_INFO((logger)->getName() << ": " << __VA_ARGS__)
+#define WARN_M(logger, ...) IMR_LOG_WARN((logger)->getName() << ": " << __VA_ARGS__)
+#define ERROR_M(logger, ...) IMR_LOG_ERROR((logger)->getName() << ": " << __VA_ARGS__)
 #endif

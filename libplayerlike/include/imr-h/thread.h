@@ -68,6 +68,13 @@ class CThread {
   /// wait forever, it logs a WARN line and returns.
   void join();
 
+  /// Whether the body runs now.
+  bool isRunning() const;
+  /// Whether the body has run and ended since it was last executed.
+  bool isFinished() const;
+  /// Lets other threads run first.
+  void yield();
+
  protected:
   /// What the thread does; it ends when this returns.
   virtual void threadBody() = 0;

@@ -359,9 +359,8 @@ int GridMapLayer::LoadMap(const std::string& aFile) {
           sim::CellValue::of(map.at(columns[static_cast<std::size_t>(column)], map_row)));
     }
   }
-  translated(fun.c_str(), [&] {
-    Core()->session().draw_cells(LayerNumber(), {left, top, width, height}, values);
-  });
+  const sim::CellRect rect{left, top, width, height};
+  translated(fun.c_str(), [&] { Core()->session().draw_cells(LayerNumber(), rect, values); });
   return static_cast<int>(values.size());
 }
 

@@ -178,7 +178,7 @@ std::string saved_stem(const std::string& folder, const std::string& what, const
   }
   const std::string plain =
       name.ends_with(first) ? name.substr(0, name.size() - first.size()) : name;
-  const std::string stem = (fs::path(folder) / plain).string();
+  std::string stem = (fs::path(folder) / plain).string();
   for (const std::string_view ending : endings) {
     const std::string file = stem + std::string(ending);
     std::error_code ignored;  // what cannot be looked at cannot be written either

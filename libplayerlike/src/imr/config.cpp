@@ -474,6 +474,16 @@ ConfigValue::~ConfigValue() = default;
 
 }  // namespace detail
 
+namespace {
+
+// A value as set() takes it: texts without the marks that the help table has.
+std::string plain_text(const ConfigValue& value) {
+  if (value.type() != typeid(std::string)) return value.text();
+  return static_cast<const detail::TypedConfigValue<std::string>&>(value).value();
+}
+
+}  // namespace
+
 struct CConfig::Impl {
   mutable std::mutex mutex;  // Guards all below.
   std::vector<Option> options;
@@ -622,6 +632,31 @@ void CConfig::load_file(const std::string& path) {
 }
 
 void CConfig::check_required() const { throw_if_missing(impl_->copy_of_options()); }
+
+std::vector<CConfig::OptionInfo> CConfig::options() const {
+  std::vector<OptionInfo> infos;
+  for (const Option& option : impl_->copy_of_options()) {
+    OptionInfo info;
+    info.name = option.name;
+    info.description = option.description;
+    info.type = type_words(option.prototype->type()).name;
+    if (!option.is_required) {
+      info.default_text = plain_text(*option.prototype);
+      ParseResult result = ParseResult::kMalformed;
+      info.has_default = option.prototype->parsed(info.default_text, result) != nullptr &&
+                         result == ParseResult::kOk;
+      if (!info.has_default) info.default_text.clear();
+    }
+    infos.push_back(std::move(info));
+  }
+  return infos;
+}
+
+void CConfig::print(std::ostream& out) const {
+  for (const Option& option : impl_->copy_of_options()) {
+    out << option.name << '=' << (option.value == nullptr ? "" : plain_text(*option.value)) << '\n';
+  }
+}
 
 std::string CConfig::help(const std::string& program) const {
   struct Row {

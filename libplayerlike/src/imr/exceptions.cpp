@@ -15,16 +15,21 @@ namespace detail {
 
 void throw_invalid_argument(const char* message) {
   const bool has_message = message != nullptr && *message != '\0';
-  throw exception(has_message ? message : "invalid argument");
+  throw argument_error(has_message ? message : "invalid argument");
 }
 
-void throw_failed_check(const char* file, int line, const char* kind, const char* condition,
+void throw_failed_check(const char* file, int line, Check check, const char* condition,
                         const std::string& message) {
+  const char* const kind = check == Check::kArgument ? "argument check"
+                           : check == Check::kIo     ? "i/o check"
+                                                     : "assertion";
   std::string text =
       std::string(file) + ":" + std::to_string(line) + ": " + kind + " '" + condition + "' failed";
   if (!message.empty()) {
     text += ": " + message;
   }
+  if (check == Check::kArgument) throw argument_error(text);
+  if (check == Check::kIo) throw io_error(text);
   throw exception(text);
 }
 

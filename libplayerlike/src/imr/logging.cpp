@@ -7,6 +7,9 @@
 #include <cctype>
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <map>
+#include <mutex>
 
 namespace imr::logging {
 namespace {
@@ -95,3 +98,86 @@ void write_line(Level level, const std::string& text) noexcept {
 }
 
 }  // namespace imr::logging
+
+namespace imr {
+namespace {
+
+// Initialised before all code, and never destroyed: lines may be logged at any time.
+const CLogger& root_logger() {
+  static const auto* const root = new CLogger("root");
+  return *root;
+}
+
+std::string trimmed(const std::string& text) {
+  const char* const kBlanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
+}
+
+// The level of a word of log4cxx.
+bool parse_log4cxx_level(const std::string& word, logging::Level& level) {
+  std::string lower = word;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](char character) {
+    return static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
+  });
+  if (lower == "all" || lower == "trace") lower = "debug";
+  if (lower == "fatal") lower = "error";
+  return logging::parse_level(lower, level);
+}
+
+// The root logger's level of a properties file of log4cxx; says what is wrong if there is none.
+bool read_level(const std::string& file, logging::Level& level, std::string& problem) {
+  std::ifstream in(file);
+  if (!in) {
+    problem = "it can't be read";
+    return false;
+  }
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos) continue;
+    const std::string key = trimmed(line.substr(0, equals));
+    if (key != "log4j.rootLogger" && key != "log4j.rootCategory") continue;
+    const std::string value = line.substr(equals + 1);
+    const std::string word = trimmed(value.substr(0, value.find(',')));
+    if (parse_log4cxx_level(word, level)) return true;
+    problem = "its " + key + " begins with '" + word + "', which is no level";
+    return false;
+  }
+  problem = "it has no line that begins with log4j.rootLogger=";
+  return false;
+}
+
+}  // namespace
+
+CLoggerPtr logger = &root_logger();
+
+CLoggerPtr getLogger(const char* loggerName) {
+  static std::mutex* const mutex = new std::mutex;
+  static auto* const loggers = new std::map<std::string, CLogger>;
+  const std::string name = loggerName == nullptr ? "" : loggerName;
+  const std::lock_guard<std::mutex> lock(*mutex);
+  return &loggers->try_emplace(name, name).first->second;
+}
+
+void initLogger(const std::string& loggerName) { logger = getLogger(loggerName.c_str()); }
+
+void initLogger(const char* loggerName) { logger = getLogger(loggerName); }
+
+void initLogger(const char* loggerName, const char* configName) {
+  initLogger(loggerName);
+  const char* const chosen = std::getenv("IMR_LOG_LEVEL");
+  if (configName == nullptr || *configName == '\0' || (chosen != nullptr && *chosen != '\0'))
+    return;
+  logging::Level level = logging::current_level();
+  std::string problem;
+  if (read_level(configName, level, problem)) {
+    logging::set_level(level);
+  } else {
+    IMR_LOG_WARN("the level of the log is not taken from " << configName << ": " << problem);
+  }
+}
+
+void shutdownLogger() {}
+
+}  // namespace imr

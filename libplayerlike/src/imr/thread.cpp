@@ -22,6 +22,7 @@ struct CThread::State {
   std::mutex mutex;
   std::condition_variable ended;  // Announces that running became false.
   bool running = false;
+  bool finished = false;
   std::thread thread;
 };
 
@@ -75,6 +76,7 @@ void CThread::execute() {
     state_->thread.join();
   }
   state_->running = true;
+  state_->finished = false;
   try {
     const playerlike::virtual_time::StartsForProgram scope;
     state_->thread = std::thread(&CThread::run, this, state_);
@@ -103,6 +105,18 @@ void CThread::join() {
   }
 }
 
+bool CThread::isRunning() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->running;
+}
+
+bool CThread::isFinished() const {
+  const std::lock_guard<std::mutex> lock(state_->mutex);
+  return state_->finished;
+}
+
+void CThread::yield() { std::this_thread::yield(); }
+
 void CThread::run(CThread* self, std::shared_ptr<State> state) {
   // Announces the end on every way out, the platform's thread cancellation included.
   struct EndAnnouncer {
@@ -110,6 +124,7 @@ void CThread::run(CThread* self, std::shared_ptr<State> state) {
     ~EndAnnouncer() {
       const std::lock_guard<std::mutex> lock(state.mutex);
       state.running = false;
+      state.finished = true;
       state.ended.notify_all();
     }
   };

@@ -609,4 +609,35 @@ TEST_F(Config, MayBeUsedByManyThreads) {
   }
 }
 
+TEST_F(Config, TellsWhatItsOptionsAre) {
+  CConfig config;
+  config.add<std::string>("host", "where", "localhost");
+  config.add<std::string>("title", "of the window", "");
+  config.add<int>("port", "of the server");
+  config.add<double>("speed", "in m/s", 0.1);
+  config.add<bool>("loud", "much output", false);
+  config.add<course::Point>("goal", "in m", course::Point{1.5, 2.0});
+  config.add<course::ReadOnly>("mode", "of work", course::ReadOnly());
+  const std::vector<CConfig::OptionInfo> options = config.options();
+  ASSERT_EQ(options.size(), 7U);
+  EXPECT_EQ(options[0].name, "host");
+  EXPECT_EQ(options[0].description, "where");
+  EXPECT_EQ(options[0].type, "string");
+  const auto default_of = [&](std::size_t i) {
+    return options[i].has_default ? "=" + options[i].default_text : std::string("none");
+  };
+  EXPECT_EQ(default_of(0), "=localhost");
+  EXPECT_EQ(default_of(1), "=");
+  EXPECT_EQ(default_of(2), "none");
+  EXPECT_EQ(default_of(3), "=0.1");
+  EXPECT_EQ(default_of(4), "=false");
+  EXPECT_EQ(default_of(5), "=1.5,2");
+  EXPECT_EQ(default_of(6), "none") << "it can't be written, so not be read again";
+
+  std::ostringstream out;
+  config.set("speed", "0.25");
+  config.print(out);
+  EXPECT_THAT(out.str(), HasSubstr("host=localhost\ntitle=\nport=\nspeed=0.25\nloud=false\n"));
+}
+
 }  // namespace

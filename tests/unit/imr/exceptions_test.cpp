@@ -110,6 +110,37 @@ TEST(ImrAssert, IsOneStatement) {
   EXPECT_TRUE(reached_else);
 }
 
+// The type of the exception that the function throws, as far as it is one of imr's.
+template <typename Exception, typename Function>
+bool throws(const Function& function) {
+  try {
+    function();
+  } catch (const Exception&) {
+    return true;
+  } catch (const imr::exception&) {
+  }
+  return false;
+}
+
+TEST(ImrException, KindsCanBeCaughtAloneOrTogether) {
+  EXPECT_TRUE(throws<imr::argument_error>([] { imr::assert_argument(false, "m"); }));
+  EXPECT_FALSE(throws<imr::io_error>([] { imr::assert_argument(false, "m"); }));
+  EXPECT_TRUE(throws<imr::io_error>([] { imr::assert_io(false, "no file"); }));
+  EXPECT_TRUE(throws<imr::bad_usage>([] { imr::assert_usage(false, "twice"); }));
+  EXPECT_TRUE(throws<imr::bad_code>([] { imr::assert_exception<imr::bad_code>(false, "code"); }));
+  EXPECT_EQ(message_of([] { imr::assert_io(false, "no file"); }), "no file");
+  EXPECT_NO_THROW({
+    imr::assert_io(true, "m");
+    imr::assert_usage(true, "m");
+    imr::assert_exception<imr::io_error>(true, "m");
+  });
+  EXPECT_TRUE(throws<imr::argument_error>([] { ASSERT_ARGUMENT(false, "m"); }));
+  EXPECT_TRUE(throws<imr::io_error>([] { ASSERT_IO(false, "m"); }));
+  EXPECT_FALSE(throws<imr::argument_error>([] { IMR_ASSERT(false); }));
+  EXPECT_THAT(message_of([] { ASSERT_IO(1 > 2, "map " << 3); }),
+              EndsWith("i/o check '1 > 2' failed: map 3"));
+}
+
 TEST(SPosition, StartsAtTheOriginAndKeepsValues) {
   const imr::robot::SPosition origin;
   EXPECT_EQ(origin.x, 0.0);

@@ -16,7 +16,10 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "temporary_folder.h"
 
 // An operator<< that argument-dependent lookup does not find, as course programs write them.
 std::ostream& operator<<(std::ostream& out, const std::vector<int>& values);
@@ -27,6 +30,7 @@ std::ostream& operator<<(std::ostream& out, const std::vector<int>& values) {
 namespace {
 
 using imr::logging::Level;
+using testing::AllOf;
 using testing::HasSubstr;
 
 class Logging : public testing::Test {
@@ -188,6 +192,78 @@ TEST_F(Logging, LinesOfManyThreadsDoNotMix) {
               "[INFO] " + std::to_string(thread) + " " + std::to_string(number) + " " + filler);
   }
   EXPECT_EQ(next, std::vector<int>(kThreads, kLines));
+}
+
+class Loggers : public Logging {
+ protected:
+  void TearDown() override {
+    imr::initLogger("root");
+    Logging::TearDown();
+  }
+  // What initLogger() prints, and the level afterwards, with a configuration of this text.
+  std::pair<std::string, Level> with_configuration(const std::string& text) {
+    const std::string file = folder_.write("log.cfg", text);
+    const std::string printed = stderr_of([&] { imr::initLogger("robot", file.c_str()); });
+    return {printed, imr::logging::current_level()};
+  }
+
+  test_support::TemporaryFolder folder_;
+};
+
+TEST_F(Loggers, HaveNames) {
+  using imr::logger;
+  EXPECT_EQ(logger->getName(), "root");
+  imr::initLogger("robot");
+  EXPECT_EQ(logger->getName(), "robot");
+  imr::initLogger(std::string("planner"));
+  EXPECT_EQ(logger->getName(), "planner");
+  EXPECT_EQ(logger, imr::getLogger("planner"));
+  const imr::CLoggerPtr other = imr::getLogger("map");
+  EXPECT_EQ(stderr_of([&] {
+              INFO("as ever");
+              DEBUG_M(other, "a " << 1);
+              INFO_M(other, "b");
+              WARN_M(logger, "c");
+              ERROR_M(other, "d");
+            }),
+            "[INFO] as ever\n[DEBUG] map: a 1\n[INFO] map: b\n[WARN] planner: c\n[ERROR] map: d\n");
+  imr::shutdownLogger();
+}
+
+TEST_F(Loggers, TakeTheLevelFromAConfiguration) {
+  const auto level = [&](const std::string& text) {
+    imr::logging::set_level(Level::kInfo);
+    const auto [printed, found] = with_configuration(text);
+    EXPECT_EQ(printed, "");
+    return found;
+  };
+  EXPECT_EQ(level("# log4cxx\nlog4j.rootLogger=DEBUG, A1\nlog4j.appender.A1=x\n"), Level::kDebug);
+  EXPECT_EQ(level("log4j.appender.A1=x\n  log4j.rootLogger = WARN , A1"), Level::kWarn);
+  EXPECT_EQ(level("log4j.rootCategory=FATAL\n"), Level::kError);
+  EXPECT_EQ(level("log4j.rootLogger=all\r\n"), Level::kDebug);
+  EXPECT_EQ(level("log4j.rootLogger=OFF\n"), Level::kOff);
+  EXPECT_EQ(imr::logger->getName(), "robot");
+}
+
+TEST_F(Loggers, KeepTheLevelIfAConfigurationIsOfNoUse) {
+  imr::logging::set_level(Level::kInfo);
+  EXPECT_THAT(with_configuration("log4j.rootLogger=LOUD, A1\n").first,
+              AllOf(HasSubstr("[WARN]"), HasSubstr("log.cfg"), HasSubstr("'LOUD'")));
+  EXPECT_THAT(with_configuration("log4j.appender.A1=x\n").first, HasSubstr("log4j.rootLogger="));
+  EXPECT_THAT(stderr_of([] { imr::initLogger("robot", "/nowhere/log.cfg"); }),
+              AllOf(HasSubstr("/nowhere/log.cfg"), HasSubstr("read")));
+  EXPECT_EQ(stderr_of([] {
+              imr::initLogger("robot", "");
+              imr::initLogger("robot", nullptr);
+            }),
+            "");
+  EXPECT_EQ(imr::logging::current_level(), Level::kInfo);
+}
+
+TEST_F(Loggers, LeaveTheLevelOfTheEnvironmentAlone) {
+  setenv("IMR_LOG_LEVEL", "error", 1);
+  imr::logging::set_level_from_environment();
+  EXPECT_EQ(with_configuration("log4j.rootLogger=DEBUG\n").second, Level::kError);
 }
 
 }  // namespace

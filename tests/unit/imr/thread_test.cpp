@@ -272,4 +272,18 @@ TEST(CThreadDeathTest, ExitInTheBodyEndsTheProcessWithItsStatus) {
       testing::ExitedWithCode(3), "");
 }
 
+TEST(CThread, TellsWhetherItRunsOrHasEnded) {
+  course::Worker worker([](course::Worker& self) { self.wait_for_stop(); });
+  EXPECT_FALSE(worker.isRunning());
+  EXPECT_FALSE(worker.isFinished());
+  worker.execute();
+  worker.yield();
+  EXPECT_TRUE(worker.isRunning());
+  EXPECT_FALSE(worker.isFinished());
+  worker.stop();
+  worker.join();
+  EXPECT_FALSE(worker.isRunning());
+  EXPECT_TRUE(worker.isFinished());
+}
+
 }  // namespace
