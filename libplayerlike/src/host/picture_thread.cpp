@@ -55,6 +55,7 @@ void PictureThread::end_thread() {
 
 void PictureThread::work() {
   const virtual_time::Inside inside;
+  const virtual_time::StartsForLibraries starts;
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return !jobs_.empty() || last_; });

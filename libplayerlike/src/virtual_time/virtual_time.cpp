@@ -49,6 +49,7 @@ constexpr unsigned long long kLibraryThread = ~0ULL;
 struct ThreadState {
   int inside = 0;
   int starts_for_program = 0;
+  int starts_for_libraries = 0;
   bool ended = false;
   bool takes_part = false;
   bool programs = false;        ///< started by the program's own code
@@ -109,15 +110,6 @@ bool is_programs_code(const void* address) {
   }
   return !name.starts_with("libplaypen_") && !name.starts_with("libopencv_") &&
          !name.starts_with("libspdlog.");
-}
-
-/// Whether code is Playpen's own; where it is linked into the program, the program's counts, too.
-bool is_playpens_code(const void* address) {
-  if (in_program(address)) return true;
-  Dl_info info{};
-  if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return true;
-  const std::string_view file = info.dli_fname;
-  return file.substr(file.rfind('/') + 1).starts_with("libplaypen_");
 }
 
 /// The code that a thread will run, as far as can be told from how it is started.
@@ -216,12 +208,14 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
 unsigned long long on_begin_thread(const void* caller, const void* start, const void* argument) {
   const ThreadState& thread = state;
   if (thread.ended || given_up.load(std::memory_order_acquire)) return 0;
-  const bool playpen_starts_it = thread.inside > 0;
+  if (thread.starts_for_libraries > 0) return kLibraryThread;
+  if (thread.inside > 0) return 0;
   const Inside inside;
   try {
-    const void* const code = code_of_thread(caller, start, argument);
-    if (playpen_starts_it) return is_playpens_code(code) ? 0 : kLibraryThread;
-    if (thread.starts_for_program == 0 && !is_programs_code(code)) return 0;
+    if (thread.starts_for_program == 0 &&
+        !is_programs_code(code_of_thread(caller, start, argument))) {
+      return 0;
+    }
     const ThinkerId thinker = new_thinker();
     const std::lock_guard lock(lists_mutex);
     if (Host* const host = attached.load()) {
@@ -241,7 +235,9 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
 
 void on_thread_begun(unsigned long long number) {
   if (number == kLibraryThread) {
-    ++state.inside;  // until it ends
+    // Until it ends. What it starts is the library's, too.
+    ++state.inside;
+    ++state.starts_for_libraries;
     return;
   }
   state.programs = true;
@@ -331,6 +327,9 @@ Inside::~Inside() { --state.inside; }
 
 StartsForProgram::StartsForProgram() noexcept { ++state.starts_for_program; }
 StartsForProgram::~StartsForProgram() { --state.starts_for_program; }
+
+StartsForLibraries::StartsForLibraries() noexcept { ++state.starts_for_libraries; }
+StartsForLibraries::~StartsForLibraries() { --state.starts_for_libraries; }
 
 void attach(const std::shared_ptr<Host>& host) {
   const std::lock_guard lock(lists_mutex);

@@ -42,6 +42,16 @@ class StartsForProgram {
   ~StartsForProgram();
 };
 
+/// While one lives, threads that its thread starts are those of libraries that work for Playpen, as
+/// encoders of films do: nothing is virtual for them, and what they wait for holds up nobody.
+class StartsForLibraries {
+ public:
+  StartsForLibraries() noexcept;
+  StartsForLibraries(const StartsForLibraries&) = delete;
+  StartsForLibraries& operator=(const StartsForLibraries&) = delete;
+  ~StartsForLibraries();
+};
+
 /// From now on sleeps move this simulation's time, and the clocks tell it; it must be in lockstep.
 /// The first one stays until it is detached: a program has one clock.
 void attach(const std::shared_ptr<Host>& host);
