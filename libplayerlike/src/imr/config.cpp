@@ -16,16 +16,19 @@
 
 #include "imr-h/imr_config.h"
 #include "sim/core/number_text.h"
+#include "text.h"
 #include "type_name.h"
 
 namespace imr {
 namespace {
 
 using detail::ConfigValue;
+using detail::kWhiteSpace;
+using detail::lower_case;
 using detail::ParseResult;
+using detail::trimmed;
 using ValuePointer = std::shared_ptr<const ConfigValue>;
 
-constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 constexpr std::size_t kHelpColumns = 100;
 constexpr std::size_t kLeastDescriptionColumns = 30;
 
@@ -35,22 +38,6 @@ bool is_white_space(char character) {
 
 bool is_letter_or_digit(char character) {
   return std::isalnum(static_cast<unsigned char>(character)) != 0;
-}
-
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kWhiteSpace);
-  if (first == std::string_view::npos) {
-    return {};
-  }
-  const std::size_t last = text.find_last_not_of(kWhiteSpace);
-  return std::string(text.substr(first, last - first + 1));
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char character) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
-  });
-  return text;
 }
 
 template <typename Number>

@@ -2,14 +2,14 @@
 #define IMR_LOGGING_NO_SHORT_NAMES
 #include "imr-h/logging.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <map>
 #include <mutex>
+
+#include "text.h"
 
 namespace imr::logging {
 namespace {
@@ -61,10 +61,7 @@ Level current_level() noexcept { return stored_level().load(std::memory_order_re
 void set_level_from_environment() noexcept { set_level(level_from_environment()); }
 
 bool parse_level(const std::string& text, Level& level) {
-  std::string word = text;
-  std::transform(word.begin(), word.end(), word.begin(), [](char character) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
-  });
+  const std::string word = detail::lower_case(text);
   if (word == "debug") {
     level = Level::kDebug;
   } else if (word == "info") {
@@ -108,21 +105,11 @@ const CLogger& root_logger() {
   return *root;
 }
 
-std::string trimmed(const std::string& text) {
-  const char* const kBlanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) + 1 - first);
-}
-
 // The level of a word of log4cxx.
 bool parse_log4cxx_level(const std::string& word, logging::Level& level) {
-  std::string lower = word;
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char character) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(character)));
-  });
-  if (lower == "all" || lower == "trace") lower = "debug";
-  if (lower == "fatal") lower = "error";
+  const std::string lower = detail::lower_case(word);
+  if (lower == "all" || lower == "trace") return logging::parse_level("debug", level);
+  if (lower == "fatal") return logging::parse_level("error", level);
   return logging::parse_level(lower, level);
 }
 
@@ -136,10 +123,10 @@ bool read_level(const std::string& file, logging::Level& level, std::string& pro
   for (std::string line; std::getline(in, line);) {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos) continue;
-    const std::string key = trimmed(line.substr(0, equals));
+    const std::string key = detail::trimmed(line.substr(0, equals));
     if (key != "log4j.rootLogger" && key != "log4j.rootCategory") continue;
     const std::string value = line.substr(equals + 1);
-    const std::string word = trimmed(value.substr(0, value.find(',')));
+    const std::string word = detail::trimmed(value.substr(0, value.find(',')));
     if (parse_log4cxx_level(word, level)) return true;
     problem = "its " + key + " begins with '" + word + "', which is no level";
     return false;
