@@ -15,8 +15,8 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 Groups (default: build):
   build   compiler, CMake and the libraries that Playpen links
   test    GoogleTest, Google Benchmark, ffprobe, which looks at films, a display without a
-          screen for the live window, Python and pkg-config, and MORSE's client library where
-          there is a package of it
+          screen for the live window, Python and pkg-config, and, where they can be had, MORSE's
+          client library and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
 
@@ -177,8 +177,6 @@ if $need_runtime; then
   if [[ -n $runtime ]]; then missing+=("$runtime"); fi
 fi
 mapfile -t missing_extras < <(missing_optional "${optional[@]}")
-missing+=("${missing_extras[@]}")
-((${#missing[@]} > 0)) || exit 0
 
 unknown=()
 for package in "${missing[@]}"; do
@@ -193,10 +191,18 @@ if ((${#unknown[@]} > 0)); then
     "Still to be installed: ${missing[*]}"
 fi
 
-echo "Installing ${#missing[@]} packages: ${missing[*]}"
-if ! apt_get install -y --no-install-recommends "${missing[@]}" >/dev/null; then
+# install PACKAGE...
+install() {
+  echo "Installing $# packages: $*"
+  apt_get install -y --no-install-recommends "$@" >/dev/null
+}
+
+if ((${#missing[@]} > 0)) && ! install "${missing[@]}"; then
   fail "apt-get could not install the packages (see above)." \
     "Common reasons: no network, a full disk, or an interrupted earlier installation," \
     "which 'dpkg --configure -a' (as root) mends. Still to be installed: ${missing[*]}"
+fi
+if ((${#missing_extras[@]} > 0)) && ! install "${missing_extras[@]}"; then
+  echo "Without ${missing_extras[*]} a few tests are skipped." >&2
 fi
 echo "Packages are ready."
