@@ -1,15 +1,16 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# From a fresh machine to a film: installs what is missing, builds what is needed, and lets a robot
-# explore an arena that it does not know, all by itself. Says how good its map is. Results: out/demo/.
+# From a fresh machine to a film: installs what is missing, builds what is needed, lets a robot
+# explore an arena that it does not know, all by itself, and says how good its map is.
+# Results: out/demo/.
 set -euo pipefail
 
 case ${1:-} in
   '') ;;
   --help | -h)
     echo "Usage: apps/demo.sh"
-    sed -n '4,5s/^# //p' "${BASH_SOURCE[0]}"
+    sed -n '4,6s/^# //p' "${BASH_SOURCE[0]}"
     exit 0
     ;;
   *)

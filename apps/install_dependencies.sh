@@ -37,7 +37,8 @@ build_packages=(
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
   python3=python3 pkg-config=pkg-config)
-# Where the system has no such package (the first: Ubuntu 24.04), the tests that want it are skipped.
+# Where the system has no such package (Ubuntu 24.04 lacks the first), the tests that want it are
+# skipped.
 optional_test_packages=(python3-morse-simulator libboost-program-options-dev)
 lint_packages=(
   clang=clang clang-format=clang-format clang-tidy=clang-tidy shellcheck=shellcheck git=git)

@@ -630,8 +630,7 @@ std::vector<CConfig::OptionInfo> CConfig::options() const {
     if (!option.is_required) {
       info.default_text = plain_text(*option.prototype);
       ParseResult result = ParseResult::kMalformed;
-      info.has_default = option.prototype->parsed(info.default_text, result) != nullptr &&
-                         result == ParseResult::kOk;
+      info.has_default = option.prototype->parsed(info.default_text, result) != nullptr;
       if (!info.has_default) info.default_text.clear();
     }
     infos.push_back(std::move(info));

@@ -99,12 +99,6 @@ void write_line(Level level, const std::string& text) noexcept {
 namespace imr {
 namespace {
 
-// Initialised before all code, and never destroyed: lines may be logged at any time.
-const CLogger& root_logger() {
-  static const auto* const root = new CLogger("root");
-  return *root;
-}
-
 // The level of a word of log4cxx.
 bool parse_log4cxx_level(const std::string& word, logging::Level& level) {
   const std::string lower = detail::lower_case(word);
@@ -137,9 +131,10 @@ bool read_level(const std::string& file, logging::Level& level, std::string& pro
 
 }  // namespace
 
-CLoggerPtr logger = &root_logger();
+CLoggerPtr logger = getLogger("root");
 
 CLoggerPtr getLogger(const char* loggerName) {
+  // Never destroyed: lines may be logged to the very end.
   static std::mutex* const mutex = new std::mutex;
   static auto* const loggers = new std::map<std::string, CLogger>;
   const std::string name = loggerName == nullptr ? "" : loggerName;
