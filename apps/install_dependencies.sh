@@ -31,7 +31,7 @@ build_packages=(
   "g++=g++" cmake=cmake ninja-build=ninja make=make
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
-  libopencv-highgui-dev libx11-dev
+  libopencv-highgui-dev libx11-dev libpng-dev
   libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
 )
 test_packages=(

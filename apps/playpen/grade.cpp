@@ -62,6 +62,7 @@ int grade_program(GradeRequest request) {
                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const PreloadedLibrary virtual_time;
   virtual_time.add_to(settings.virtual_time);
+  add_libraries_folder(settings.virtual_time);
   settings.output_folder =
       request.output_folder.empty() ? "out/grade/" + settings.task.name : request.output_folder;
 

@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -15,17 +16,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kName = "libplaypen_virtual_time.so";
+constexpr const char* kFolderVariable = "PLAYPEN_LIBRARIES";
 // These would mean something to the loader, which knows no way to write them otherwise.
 constexpr const char* kSpecial = " :;$\t\n";
 
-/// The file, looked for beside the folder that this program lies in, so that an installed tree can
-/// be moved.
-fs::path find_library() {
+/// Where Playpen's own libraries may lie: beside the folder that this program lies in, so that an
+/// installed tree can be moved.
+std::array<fs::path, 2> library_folders() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  return {(folder / PLAYPEN_LIBRARIES_FROM_COMMAND / "playpen").lexically_normal(),
+          (folder / "../lib/playpen").lexically_normal()};
+}
+
+fs::path find_library() {
+  std::error_code error;
   std::string places;
-  for (const char* place : {PLAYPEN_LIBRARIES_FROM_COMMAND, "../lib"}) {
-    fs::path file = (folder / place / "playpen" / kName).lexically_normal();
+  for (const fs::path& folder : library_folders()) {
+    fs::path file = folder / kName;
     if (fs::is_regular_file(file, error)) return file;
     if (places.empty()) places = file.string();
   }
@@ -40,6 +48,17 @@ std::string environment(const char* name) {
 }
 
 }  // namespace
+
+void add_libraries_folder(playerlike::EnvironmentChanges& environment_changes) {
+  if (!environment(kFolderVariable).empty()) return;
+  std::error_code error;
+  for (const fs::path& folder : library_folders()) {
+    if (fs::is_directory(folder, error)) {
+      environment_changes[kFolderVariable] = folder.string();
+      return;
+    }
+  }
+}
 
 PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()) {
   if (file_.find_first_of(kSpecial) == std::string::npos) return;

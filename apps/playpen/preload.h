@@ -7,6 +7,10 @@
 
 namespace playpen {
 
+/// Tells a program, by PLAYPEN_LIBRARIES, the folder of the libraries that it may load: a program
+/// that is linked statically cannot know. A folder that the user has set stays.
+void add_libraries_folder(playerlike::EnvironmentChanges& environment);
+
 /// The library that makes a program's time virtual (docs/virtual_time.md), made ready to be
 /// preloaded. To be kept until the program has ended.
 class PreloadedLibrary {

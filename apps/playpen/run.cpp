@@ -63,12 +63,17 @@ int run(RunRequest request) {
   std::optional<PreloadedLibrary> virtual_time;
   settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
   playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
+  add_libraries_folder(environment);
   if (settings.virtual_time) virtual_time.emplace().add_to(environment);
   const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment);
 
   viewer.reset();  // it has nothing to show any more
 
   const bool reported = has_report(settings);
+  if (reported && !has_pictures(settings)) {
+    std::cerr << "playpen: not all pictures could be written; the reason is above\n";
+    return kProgramFailed;
+  }
   if (reported && !request.quiet) print_results(settings);
   if (reported && only_says_that_the_run_is_over(end, settings, world)) {
     if (!request.quiet) {

@@ -45,6 +45,11 @@ void prepare_outputs(playerlike::RunSettings& settings, const std::string& world
 
 bool has_report(const playerlike::RunSettings& settings) { return fs::exists(report_of(settings)); }
 
+bool has_pictures(const playerlike::RunSettings& settings) {
+  const fs::path folder(settings.output_folder);
+  return fs::exists(folder / "scene.png") && fs::exists(folder / "canvas.png");
+}
+
 double simulated_time(const playerlike::RunSettings& settings) {
   return playerlike::simulated_time_of_report(report_of(settings));
 }

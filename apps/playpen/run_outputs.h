@@ -18,6 +18,9 @@ void prepare_outputs(playerlike::RunSettings& settings, const std::string& world
 /// Whether the run has written its report.
 [[nodiscard]] bool has_report(const playerlike::RunSettings& settings);
 
+/// Whether the run's pictures are there, too.
+[[nodiscard]] bool has_pictures(const playerlike::RunSettings& settings);
+
 /// How long the run was, as its report says: simulated time [s].
 [[nodiscard]] double simulated_time(const playerlike::RunSettings& settings);
 

@@ -11,6 +11,9 @@ install(TARGETS playpen_sim playpen_playerlike
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
+# What pictures and films need, loaded from beside the library.
+install(TARGETS playpen_text playpen_film LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/playpen")
+
 # Folders, not file sets: CMake has those from 3.23 on, Ubuntu 22.04 has 3.22.
 foreach(_dir IN ITEMS libsim/include libplayerlike/include)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${_dir}/"
@@ -44,6 +47,5 @@ install(FILES
   "${PROJECT_BINARY_DIR}/package/playpenConfig.cmake"
   "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
-  "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenOpenCV.cmake"
   DESTINATION "${_playpen_package_dir}")
 include(playpen_pkgconfig)

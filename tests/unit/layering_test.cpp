@@ -145,8 +145,11 @@ std::vector<std::string> violations(const Source& source) {
       refuse("Box2D belongs in libsim/src/physics");
     }
     if (is_opencv &&
-        !(path.starts_with("libsim/src/canvas/") || path.starts_with("libsim/src/render/"))) {
-      refuse("OpenCV belongs in libsim/src/canvas and libsim/src/render");
+        !(path.starts_with("libsim/src/render/modules/") && path.ends_with("_module.cpp"))) {
+      refuse("OpenCV belongs in the modules of libsim/src/render/modules");
+    }
+    if (include == "png.h" && path != "libsim/src/canvas/png_codec.cpp") {
+      refuse("libpng belongs in libsim/src/canvas/png_codec.cpp");
     }
     if (include == "opencv2/highgui.hpp" || include.starts_with("X11/")) {
       refuse("windows belong in apps/playpen/view");
@@ -355,9 +358,16 @@ TEST(LayeringRules, KeepThirdPartyLibrariesInTheirPlaces) {
                   "#include <nlohmann/json.hpp>\n#include <yaml-cpp/yaml.h>\n"}),
       ElementsAre(HasSubstr("Box2D"), HasSubstr("OpenCV"), HasSubstr("JSON"), HasSubstr("YAML")));
   EXPECT_THAT(violations({"libsim/src/physics/x.cpp", "#include <box2d/box2d.h>\n"}), IsEmpty());
-  EXPECT_THAT(violations({"libsim/src/render/x.cpp", "#include <opencv2/highgui.hpp>\n"}),
-              ElementsAre(HasSubstr("apps/playpen/view")));
-  EXPECT_THAT(violations({"libsim/src/canvas/x.cpp", "#include <opencv2/core.hpp>\n"}), IsEmpty());
+  EXPECT_THAT(
+      violations({"libsim/src/render/modules/x_module.cpp", "#include <opencv2/highgui.hpp>\n"}),
+      ElementsAre(HasSubstr("apps/playpen/view")));
+  EXPECT_THAT(violations({"libsim/src/render/x.cpp", "#include <opencv2/core.hpp>\n"}),
+              ElementsAre(HasSubstr("OpenCV belongs in the modules")));
+  EXPECT_THAT(
+      violations({"libsim/src/render/modules/x_module.cpp", "#include <opencv2/core.hpp>\n"}),
+      IsEmpty());
+  EXPECT_THAT(violations({"libsim/src/render/png.cpp", "#include <png.h>\n"}),
+              ElementsAre(HasSubstr("png_codec.cpp")));
   EXPECT_THAT(
       violations({"libplayerlike/include/playerlike/x.h", "#include <nlohmann/json.hpp>\n"}),
       ElementsAre(HasSubstr("public headers")));

@@ -31,7 +31,6 @@ struct Registry {
   static Registry& instance() {
     static Registry* registry = [] {
       auto* made = new Registry;
-      sim::render::prepare_pictures();
       std::atexit(finish_all);
       return made;
     }();
@@ -45,6 +44,16 @@ struct Registry {
     for (const auto& [key, host] : registry.hosts) host->finish();
   }
 };
+
+/// What draws the pictures of a run must outlive the exit handler that may draw the last of them:
+/// it is loaded now, and the handler registered again, so that it runs first. Twice does no harm.
+void prepare_drawing(const RunSettings& settings) {
+  const bool draws = !settings.output_folder.empty() || settings.view_socket;
+  if (!draws && settings.film.empty()) return;
+  sim::render::prepare_pictures();
+  if (!settings.film.empty()) sim::render::prepare_films();
+  std::atexit(Registry::finish_all);
+}
 
 std::string full_path(const std::string& file) {
   return file.empty() ? file : std::filesystem::absolute(file).lexically_normal().string();
@@ -67,6 +76,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);
       }
     }
+    prepare_drawing(settings);
     // A program has one clock, the first world's.
     const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
     settings.virtual_time = virtual_time_wanted && virtual_time::active();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -221,9 +222,10 @@ void remove_results(const std::string& folder) {
   });
 }
 
-void write_outputs(const std::string& folder, const sim::Simulation& simulation,
-                   const sim::SceneSnapshot& scene, const TimeStatistics& time) {
-  const fs::path out(folder);
+namespace {
+
+void write_pictures(const fs::path& out, const sim::Simulation& simulation,
+                    const sim::SceneSnapshot& scene) {
   const bool mini_map = scene.view_mode == sim::ViewMode::kMiniMap;
   sim::render::SceneRenderer renderer({.size_px = kSceneSize_px});
   sim::render::write_png(
@@ -233,7 +235,21 @@ void write_outputs(const std::string& folder, const sim::Simulation& simulation,
                                                   cell_scale(scene.canvas_description)),
                          (out / "canvas.png").string());
   write_layers(out, simulation.layers());
-  // Last, so that a report means that all is there.
+}
+
+}  // namespace
+
+void write_outputs(const std::string& folder, const sim::Simulation& simulation,
+                   const sim::SceneSnapshot& scene, const TimeStatistics& time) {
+  const fs::path out(folder);
+  // Pictures that fail are no reason to keep back the report, which is written last: whoever waits
+  // for it finds all there is.
+  std::exception_ptr failure;
+  try {
+    write_pictures(out, simulation, scene);
+  } catch (const std::exception&) {
+    failure = std::current_exception();
+  }
   const std::string file = (out / "report.json").string();
   std::ofstream stream(file, std::ios::trunc);
   // What robots said may be any bytes.
@@ -241,6 +257,7 @@ void write_outputs(const std::string& folder, const sim::Simulation& simulation,
          << '\n';
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file);
+  if (failure) std::rethrow_exception(failure);
 }
 
 bool is_plain_file_name(const std::string& name) {

@@ -28,6 +28,7 @@ void remove_snapshots(const std::string& folder);
 /// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
 /// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
 /// layers of one name get their clients' ports behind it, and a number if that is not enough.
+/// The report is written last, also where pictures could not be written.
 /// @throws std::runtime_error naming the file that could not be written.
 void write_outputs(const std::string& folder, const sim::Simulation& simulation,
                    const sim::SceneSnapshot& scene, const TimeStatistics& time);

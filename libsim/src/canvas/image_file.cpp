@@ -7,9 +7,10 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string_view>
+
+#include "canvas/png_codec.h"
 
 namespace sim {
 namespace {
@@ -53,26 +54,22 @@ std::uint8_t grey(std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32
 }
 
 // 8 bits of a sample of 8 or 16.
-std::uint8_t to_8_bits(std::uint8_t sample) { return sample; }
-std::uint8_t to_8_bits(std::uint16_t sample) {
-  return static_cast<std::uint8_t>((sample + 128u) / 257u);
+std::uint8_t to_8_bits(const std::uint8_t* sample, int bytes) {
+  if (bytes == 1) return *sample;
+  return static_cast<std::uint8_t>((sample[0] * 256u + sample[1] + 128u) / 257u);
 }
 
-// The loops are written out because OpenCV's own conversions may use its thread pool.
-template <typename Sample>
-void convert(const cv::Mat& decoded, GreyImage& image) {
-  const int channels = decoded.channels();
-  auto out = image.pixels.begin();
-  for (int y = 0; y < decoded.rows; ++y) {
-    const Sample* in = decoded.ptr<Sample>(y);
-    for (int x = 0; x < decoded.cols; ++x, in += channels) {
-      if (channels == 1) {
-        *out++ = to_8_bits(in[0]);
-      } else {  // OpenCV's order is blue, green, red, alpha
-        *out++ = grey(to_8_bits(in[2]), to_8_bits(in[1]), to_8_bits(in[0]),
-                      channels == 4 ? to_8_bits(in[3]) : 255u);
-      }
-    }
+std::uint8_t grey_of_pixel(const std::uint8_t* samples, int channels, int bytes) {
+  const auto sample = [&](int channel) {
+    return std::uint32_t{to_8_bits(samples + channel * bytes, bytes)};
+  };
+  switch (channels) {
+    case 1:
+      return static_cast<std::uint8_t>(sample(0));
+    case 2:
+      return grey(sample(0), sample(0), sample(0), sample(1));
+    default:
+      return grey(sample(0), sample(1), sample(2), channels == 4 ? sample(3) : 255u);
   }
 }
 
@@ -85,19 +82,17 @@ GreyImage load_png(const std::string& path, const Bytes& bytes) {
            std::uint32_t{bytes[at + 2]} << 8 | std::uint32_t{bytes[at + 3]};
   };
   check_size(path, number_at(16), number_at(20));
-  cv::Mat decoded;
-  try {
-    decoded = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    decoded.release();
-  }
-  if (decoded.empty()) fail(path, "the PNG is damaged");
-  GreyImage image{decoded.cols, decoded.rows, Bytes(decoded.total())};
-  if (decoded.depth() == CV_8U) {
-    convert<std::uint8_t>(decoded, image);
-  } else {
-    convert<std::uint16_t>(decoded, image);
-  }
+  GreyImage image{static_cast<int>(number_at(16)), static_cast<int>(number_at(20)), {}};
+  image.pixels.resize(static_cast<std::size_t>(image.width) *
+                      static_cast<std::size_t>(image.height));
+  auto out = image.pixels.begin();
+  const bool whole = decode_png(bytes, image.width, image.height, [&out](const PngRow& row) {
+    const std::uint8_t* samples = row.samples;
+    for (int x = 0; x < row.width; ++x, samples += row.channels * row.bytes_per_sample) {
+      *out++ = grey_of_pixel(samples, row.channels, row.bytes_per_sample);
+    }
+  });
+  if (!whole) fail(path, "the PNG is damaged");
   return image;
 }
 
@@ -146,8 +141,7 @@ class PgmReader {
   std::size_t at_ = 2;  // after P2 or P5
 };
 
-// Netpbm's PGM, https://netpbm.sourceforge.net/doc/pgm.html. Read here, not by OpenCV, which does
-// not scale maxima other than 255 alike in the two kinds.
+// Netpbm's PGM, https://netpbm.sourceforge.net/doc/pgm.html
 GreyImage load_pgm(const std::string& path, const Bytes& bytes) {
   PgmReader reader(path, bytes);
   const std::uint32_t width = reader.number("width");

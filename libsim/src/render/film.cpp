@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <istream>
-#include <opencv2/videoio.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -20,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/modules/module_file.h"
 #include "sim/render/render.h"
 
 namespace sim::render {
@@ -151,10 +151,21 @@ struct FilmWriter::Impl {
 
 namespace {
 
+const modules::FilmFunctions& film_functions(const std::string& path) {
+  try {
+    return modules::film_functions();
+  } catch (const std::runtime_error& error) {
+    fail(path, error.what());
+  }
+}
+
 class Video final : public FilmWriter::Impl {
  public:
   Video(const std::string& name, double frames_per_second, FilmKind kind)
-      : Impl(name), frames_per_second_(frames_per_second), kind_(kind) {
+      : Impl(name),
+        functions_(film_functions(name)),
+        frames_per_second_(frames_per_second),
+        kind_(kind) {
     // OpenCV only says that it failed. Opening the file here tells why, and before a run, not
     // after.
     errno = 0;
@@ -162,13 +173,15 @@ class Video final : public FilmWriter::Impl {
       fail(path, errno != 0 ? std::strerror(errno) : "unknown reason");
     }
   }
+  Video(const Video&) = delete;
+  Video& operator=(const Video&) = delete;
   ~Video() override {
-    writer_.release();
+    close();
     if (frame_count == 0) std::remove(path.c_str());  // no film: leave no empty file
   }
 
   void finish() override {
-    writer_.release();
+    close();
     if (frame_count > 0 && !is_whole(path)) fail(path, "it is not whole (is the disk full?)");
   }
 
@@ -179,56 +192,29 @@ class Video final : public FilmWriter::Impl {
     if (width < 2 || height < 2) {
       fail(path, "a frame of " + size_text(frame.width, frame.height) + " pixels is too small");
     }
-    struct Encoder {
-      int api;
-      int codec;
-    };
-    // H.264 is what browsers play. FFmpeg may be built without it, and OpenCV without FFmpeg.
-    const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
-    const int mpeg4 = cv::VideoWriter::fourcc('m', 'p', '4', 'v');
-    const int motion_jpeg = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-    const std::vector<Encoder> encoders =
-        kind_ == FilmKind::kMp4
-            ? std::vector<Encoder>{{cv::CAP_FFMPEG, h264},
-                                   {cv::CAP_FFMPEG, mpeg4},
-                                   {cv::CAP_ANY, mpeg4}}
-            : std::vector<Encoder>{{cv::CAP_FFMPEG, motion_jpeg}, {cv::CAP_ANY, motion_jpeg}};
-    try {
-      for (const Encoder& encoder : encoders) {
-        if (writer_.open(path, encoder.api, encoder.codec, frames_per_second_, {width, height})) {
-          break;
-        }
-      }
-    } catch (const cv::Exception& error) {
-      fail(path, error.what());
-    }
-    if (!writer_.isOpened()) fail(path, "OpenCV has no encoder for it on this computer");
-    bgr_.create(height, width, CV_8UC3);
+    encoder_ = functions_.open(path.c_str(), kind_ == FilmKind::kAvi, frames_per_second_, width,
+                               height, problem_.data(), problem_.size());
+    if (encoder_ == nullptr) fail(path, problem_.data());
+  }
+
+  void close() {
+    if (encoder_ != nullptr) functions_.close(encoder_);
+    encoder_ = nullptr;
   }
 
   void write(const Image& frame) override {
     if (frame_count == 0) open(frame);
-    for (int y = 0; y < bgr_.rows; ++y) {
-      const std::uint8_t* rgb = frame.rgb.data() + 3 * static_cast<std::size_t>(y) *
-                                                       static_cast<std::size_t>(frame.width);
-      std::uint8_t* out = bgr_.ptr(y);
-      for (int x = 0; x < bgr_.cols; ++x, rgb += 3, out += 3) {
-        out[0] = rgb[2];
-        out[1] = rgb[1];
-        out[2] = rgb[0];
-      }
-    }
-    try {
-      writer_.write(bgr_);
-    } catch (const cv::Exception& error) {
-      fail(path, error.what());
+    if (!functions_.add(encoder_, frame.rgb.data(), 3 * static_cast<std::size_t>(frame.width),
+                        problem_.data(), problem_.size())) {
+      fail(path, problem_.data());
     }
   }
 
+  const modules::FilmFunctions& functions_;
   double frames_per_second_;
   FilmKind kind_;
-  cv::Mat bgr_;             // of the film's own size
-  cv::VideoWriter writer_;  // opened with the first frame, which tells the size
+  modules::FilmEncoder* encoder_ = nullptr;  // opened with the first frame, which tells the size
+  std::array<char, 1024> problem_{};
 };
 
 class Pictures final : public FilmWriter::Impl {

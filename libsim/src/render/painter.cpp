@@ -7,17 +7,18 @@
 #include <cstddef>
 #include <cstring>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <utility>
+
+#include "render/modules/module_file.h"
 
 namespace sim::render {
 namespace {
 
-// Text is drawn this many times too large and averaged: finer than putText's own smoothing, and
+// Text is drawn this many times too large and averaged: finer than the module's own smoothing, and
 // widths of strokes come in quarters of a pixel.
 constexpr int kTextOversampling = 4;
-constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
-constexpr double kFontCapHeight = 21.0;  // of that font at scale 1 [pixels]
+constexpr double kFontCapHeight = 21.0;  // of the text module's font at scale 1 [pixels]
 constexpr std::size_t kMaxTextLength = 256;
 
 double font_scale(const TextStyle& style) {
@@ -44,11 +45,10 @@ std::vector<Word> words_of(const std::string& text, const TextStyle& style) {
   for (std::size_t begin = 0; begin < length;) {
     const std::size_t end = std::min(text.find(' ', begin), length);
     if (end > begin) {
-      int baseline = 0;
       const std::string word = text.substr(begin, end - begin);
-      const cv::Size size =
-          cv::getTextSize(word, kFont, font_scale(style), stroke_width(style, 0.0), &baseline);
-      const double width_px = static_cast<double>(size.width) / kTextOversampling;
+      const int width = modules::text_functions().width(word.c_str(), font_scale(style),
+                                                        stroke_width(style, 0.0));
+      const double width_px = static_cast<double>(width) / kTextOversampling;
       words.push_back({word, at_px, width_px});
       at_px += width_px;
     }
@@ -507,14 +507,18 @@ Painter::TextMask Painter::make_text_mask(const std::string& text, const TextSty
   mask.top = -cap_height - room;
   mask.width = static_cast<int>(std::ceil(text_width_px(text, style))) + 2 * room + 2;
   mask.height = cap_height + 2 * room;
-  cv::Mat large =
-      cv::Mat::zeros(mask.height * kTextOversampling, mask.width * kTextOversampling, CV_8UC1);
+  const int large_width = mask.width * kTextOversampling;
+  const int large_height = mask.height * kTextOversampling;
+  std::vector<std::uint8_t> large(static_cast<std::size_t>(large_width) *
+                                  static_cast<std::size_t>(large_height));
   for (const Word& word : words) {
-    const cv::Point origin(
-        static_cast<int>(std::lround((word.start_px + room) * kTextOversampling)) + quarter_px,
-        -mask.top * kTextOversampling);
-    cv::putText(large, word.text, origin, kFont, font_scale(style), cv::Scalar(255),
-                stroke_width(style, rim_px), cv::LINE_AA);
+    const int x =
+        static_cast<int>(std::lround((word.start_px + room) * kTextOversampling)) + quarter_px;
+    if (!modules::text_functions().draw(word.text.c_str(), x, -mask.top * kTextOversampling,
+                                        font_scale(style), stroke_width(style, rim_px),
+                                        large.data(), large_width, large_height)) {
+      throw std::runtime_error("OpenCV cannot draw the text \"" + word.text + '"');
+    }
   }
   mask.coverage.reserve(static_cast<std::size_t>(mask.width) *
                         static_cast<std::size_t>(mask.height));
@@ -522,7 +526,9 @@ Painter::TextMask Painter::make_text_mask(const std::string& text, const TextSty
     for (int x = 0; x < mask.width; ++x) {
       std::uint32_t total = 0;
       for (int sub = 0; sub < kTextOversampling; ++sub) {
-        const std::uint8_t* row = large.ptr(y * kTextOversampling + sub) + x * kTextOversampling;
+        const std::uint8_t* row =
+            large.data() + static_cast<std::ptrdiff_t>(y * kTextOversampling + sub) * large_width +
+            static_cast<std::ptrdiff_t>(x) * kTextOversampling;
         for (int i = 0; i < kTextOversampling; ++i) total += row[i];
       }
       constexpr std::uint32_t kMost = 255 * kTextOversampling * kTextOversampling;

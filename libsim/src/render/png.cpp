@@ -3,9 +3,10 @@
 #include <cstddef>
 #include <cstring>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 
+#include "canvas/png_codec.h"
+#include "render/modules/module_file.h"
 #include "sim/render/render.h"
 
 namespace sim::render {
@@ -17,32 +18,16 @@ namespace {
 
 }  // namespace
 
-void prepare_pictures() { static_cast<void>(cv::haveImageWriter("picture.png")); }
-
 void write_png(const Image& image, const std::string& path, PngEffort effort) {
   const std::size_t samples =
       3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgb.size() != samples) {
     fail(path, "it has no pixels, or not as many as its size says");
   }
-  // Swapped by hand: cv::cvtColor may use OpenCV's pool of threads.
-  cv::Mat bgr(image.height, image.width, CV_8UC3);
-  for (std::size_t i = 0; i < samples; i += 3) {
-    bgr.data[i] = image.rgb[i + 2];
-    bgr.data[i + 1] = image.rgb[i + 1];
-    bgr.data[i + 2] = image.rgb[i];
-  }
-  // Encoded in memory and written here, so that the reason of a failure is known. The bytes depend
-  // on the picture alone: the PNG holds no time or name.
-  std::vector<std::uint8_t> bytes;
-  bool encoded = false;
-  try {
-    encoded = cv::imencode(".png", bgr, bytes,
-                           {cv::IMWRITE_PNG_COMPRESSION, effort == PngEffort::kQuick ? 1 : 6});
-  } catch (const cv::Exception& error) {
-    fail(path, error.what());
-  }
-  if (!encoded) fail(path, "the PNG encoder failed");
+  // Encoded in memory and written here, so that the reason of a failure is known.
+  const std::vector<std::uint8_t> bytes =
+      encode_png(image.width, image.height, image.rgb.data(), effort == PngEffort::kQuick ? 1 : 6);
+  if (bytes.empty()) fail(path, "the PNG encoder failed");
   errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (file) {

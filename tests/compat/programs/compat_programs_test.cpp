@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "playpen_process.h"
+#include "run_process.h"
 #include "temporary_folder.h"
 
 namespace {
@@ -21,8 +22,10 @@ using nlohmann::json;
 using test_support::playpen;
 using test_support::ProcessResult;
 using test_support::read_bytes;
+using test_support::run_process;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double kAny = 1e9;
 
@@ -121,6 +124,16 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   }
   EXPECT_LE(collisions, c.most_collisions) << result.out << result.err;
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
+}
+
+// Pictures and films need OpenCV, which brings 250 libraries along: only who draws loads it.
+TEST(PlainClient, LoadsAtMost15LibrariesAndNoneThatDraws) {
+  const ProcessResult result = run_process({PROGRAMS "loaded_libraries"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, Not(HasSubstr("opencv")));
+  const std::size_t at = result.out.rfind("libraries ");
+  ASSERT_NE(at, std::string::npos) << result.out;
+  EXPECT_LE(std::stoi(result.out.substr(at + 10)), 15) << result.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, CompatPrograms, testing::ValuesIn(cases()),

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "canvas/image_file.h"
+#include "render/modules/module_file.h"
 
 namespace sim::render {
 namespace {
@@ -918,6 +919,29 @@ TEST(FilmWriter, LeavesNoFileWithoutFrames) {
   const std::string pictures = folder.file("pictures");
   { const FilmWriter film(pictures, 25.0); }
   EXPECT_FALSE(std::filesystem::exists(pictures));
+}
+
+TEST(PictureModules, OneThatIsMissingIsToldWithThePlacesWhereItWasLookedFor) {
+  EXPECT_THAT(error_of([] { static_cast<void>(modules::load_module("libplaypen_x.so", "x")); }),
+              testing::AllOf(HasSubstr("libplaypen_x.so"), HasSubstr("is missing; looked for in /"),
+                             HasSubstr("lib/playpen"), HasSubstr("PLAYPEN_LIBRARIES")));
+}
+
+TEST(PictureModules, AreAlsoLookedForInTheFolderThatTheEnvironmentNames) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("libplaypen_x.so");
+  std::ofstream(file) << "this is no library";
+  setenv("PLAYPEN_LIBRARIES", std::filesystem::path(file).parent_path().c_str(), 1);
+  const std::string error =
+      error_of([] { static_cast<void>(modules::load_module("libplaypen_x.so", "x")); });
+  unsetenv("PLAYPEN_LIBRARIES");
+  EXPECT_THAT(error, testing::AllOf(HasSubstr(file), HasSubstr("cannot be loaded")));
+}
+
+TEST(PictureModules, OneWithoutTheFunctionIsRefused) {
+  EXPECT_THAT(
+      error_of([] { static_cast<void>(modules::load_module("libplaypen_text.so", "no_such")); }),
+      testing::AllOf(HasSubstr("libplaypen_text.so"), HasSubstr("no_such")));
 }
 
 }  // namespace

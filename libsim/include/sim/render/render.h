@@ -101,10 +101,14 @@ enum class PngEffort {
 /// the reason.
 void write_png(const Image& image, const std::string& path, PngEffort effort = PngEffort::kSmall);
 
-/// Makes what the picture library keeps until the process ends. Call
-/// it before std::atexit() with a handler that writes pictures: handlers run in reverse order, so
-/// the library's things then outlive the handler. Not needed otherwise.
-void prepare_pictures();
+/// Loads what draws letters: OpenCV, in a module of its own, which otherwise the first picture
+/// loads. Call it before std::atexit() with a handler that draws pictures: handlers run in reverse
+/// order, so what the module keeps then outlives the handler. Not needed otherwise. Where the
+/// module is missing, this does nothing, and the first picture tells why.
+void prepare_pictures() noexcept;
+
+/// Loads what encodes films, as prepare_pictures() does for pictures.
+void prepare_films() noexcept;
 
 /// Writes a film, frame by frame: ".mp4" (H.264, or MPEG-4 Part 2 where FFmpeg lacks that) or
 /// ".avi" (Motion JPEG) by the file's ending, or a folder of pictures frame_000001.png,

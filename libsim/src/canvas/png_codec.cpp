@@ -1,0 +1,140 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "canvas/png_codec.h"
+
+#include <png.h>
+
+#include <csetjmp>
+#include <cstddef>
+#include <cstring>
+#include <new>
+#include <utility>
+
+namespace sim {
+namespace {
+
+// libpng leaves a function by longjmp() where something is wrong. So everything with a destructor
+// lives in these structs, outside of the functions that call setjmp().
+
+void ignore_warning(png_structp /*png*/, png_const_charp /*text*/) {}
+
+[[noreturn]] void leave(png_structp png, png_const_charp /*text*/) { png_longjmp(png, 1); }
+
+struct Decoder {
+  explicit Decoder(const std::vector<std::uint8_t>& file) : bytes(file) {
+    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, &leave, &ignore_warning);
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+
+  const std::vector<std::uint8_t>& bytes;
+  std::size_t at = 0;
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::vector<std::uint8_t> samples;  // one row, or all of an interlaced picture
+};
+
+void read_bytes(png_structp png, png_bytep out, std::size_t size) {
+  auto& decoder = *static_cast<Decoder*>(png_get_io_ptr(png));
+  if (decoder.bytes.size() - decoder.at < size) png_error(png, "the file is cut short");
+  std::memcpy(out, decoder.bytes.data() + decoder.at, size);
+  decoder.at += size;
+}
+
+/// Makes room for samples, without an exception through libpng.
+bool make_room(std::vector<std::uint8_t>& samples, std::size_t size) {
+  try {
+    samples.resize(size);
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+bool decode(Decoder& decoder, std::uint32_t width, std::uint32_t height,
+            const std::function<void(const PngRow&)>& visit) {
+  if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;  // NOLINT(cert-err52-cpp): see above
+  png_set_read_fn(decoder.png, &decoder, &read_bytes);
+  png_read_info(decoder.png, decoder.info);
+  if (png_get_image_width(decoder.png, decoder.info) != width ||
+      png_get_image_height(decoder.png, decoder.info) != height) {
+    return false;
+  }
+  png_set_expand(decoder.png);
+  const int passes = png_set_interlace_handling(decoder.png);
+  png_read_update_info(decoder.png, decoder.info);
+  const std::size_t stride = png_get_rowbytes(decoder.png, decoder.info);
+  PngRow row;
+  row.width = static_cast<int>(width);
+  row.channels = png_get_channels(decoder.png, decoder.info);
+  row.bytes_per_sample = png_get_bit_depth(decoder.png, decoder.info) / 8;
+  if (!make_room(decoder.samples, passes == 1 ? stride : stride * height)) return false;
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t y = 0; y < height; ++y) {
+      std::uint8_t* const samples = decoder.samples.data() + (passes == 1 ? 0 : y * stride);
+      png_read_row(decoder.png, samples, nullptr);
+      row.samples = samples;
+      if (pass == passes - 1) visit(row);
+    }
+  }
+  png_read_end(decoder.png, nullptr);
+  return true;
+}
+
+struct Encoder {
+  Encoder() {
+    png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, &leave, &ignore_warning);
+    if (png != nullptr) info = png_create_info_struct(png);
+  }
+  Encoder(const Encoder&) = delete;
+  Encoder& operator=(const Encoder&) = delete;
+  ~Encoder() { png_destroy_write_struct(&png, &info); }
+
+  png_structp png = nullptr;
+  png_infop info = nullptr;
+  std::vector<std::uint8_t> bytes;
+};
+
+void write_bytes(png_structp png, png_bytep in, std::size_t size) {
+  auto& bytes = static_cast<Encoder*>(png_get_io_ptr(png))->bytes;
+  const std::size_t begin = bytes.size();
+  if (!make_room(bytes, begin + size)) png_error(png, "no memory");
+  std::memcpy(bytes.data() + begin, in, size);
+}
+
+bool encode(Encoder& encoder, int width, int height, const std::uint8_t* rgb, int level) {
+  if (setjmp(png_jmpbuf(encoder.png)) != 0) return false;  // NOLINT(cert-err52-cpp): see above
+  png_set_write_fn(encoder.png, &encoder, &write_bytes, nullptr);
+  png_set_IHDR(encoder.png, encoder.info, static_cast<png_uint_32>(width),
+               static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_compression_level(encoder.png, level);
+  // Our pictures are of flat colours: filters, tried on each row, take as long again and more than
+  // the packing, and make no smaller file.
+  png_set_filter(encoder.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_write_info(encoder.png, encoder.info);
+  for (int y = 0; y < height; ++y) {
+    png_write_row(encoder.png,
+                  rgb + 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(y));
+  }
+  png_write_end(encoder.png, nullptr);
+  return true;
+}
+
+}  // namespace
+
+bool decode_png(const std::vector<std::uint8_t>& bytes, int width, int height,
+                const std::function<void(const PngRow&)>& row) {
+  Decoder decoder(bytes);
+  return decoder.info != nullptr && decode(decoder, static_cast<std::uint32_t>(width),
+                                           static_cast<std::uint32_t>(height), row);
+}
+
+std::vector<std::uint8_t> encode_png(int width, int height, const std::uint8_t* rgb, int level) {
+  Encoder encoder;
+  if (encoder.info == nullptr || !encode(encoder, width, height, rgb, level)) return {};
+  return std::move(encoder.bytes);
+}
+
+}  // namespace sim

@@ -1,0 +1,111 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What it costs to start: the libraries that a plain client loads, the processor time from exec to
+// the end of its first Read(), and that of a whole run of a minute with its pictures. Processor
+// time of the kernel and the process, not the wall clock's, as getrusage() tells it of children.
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "figures.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kRuns = 50;
+
+double milliseconds(const timeval& time) {
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
+}
+
+/// Runs a program, its output thrown away. @return its and its children's processor time [ms].
+double processor_time_ms(const std::vector<std::string>& command) {
+  std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
+  for (const std::string& part : command) arguments.push_back(const_cast<char*>(part.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (std::freopen("/dev/null", "w", stdout) == nullptr) _exit(127);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  int status = 0;
+  rusage usage{};
+  if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0) {
+    throw std::runtime_error(command[0] + " failed");
+  }
+  return milliseconds(usage.ru_utime) + milliseconds(usage.ru_stime);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The medians of commands that take turns, so that what disturbs one disturbs all.
+std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& commands) {
+  std::vector<std::vector<double>> times(commands.size());
+  for (int run = 0; run < kRuns; ++run) {
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+      times[i].push_back(processor_time_ms(commands[i]));
+    }
+  }
+  std::vector<double> result;
+  result.reserve(times.size());
+  for (auto& values : times) result.push_back(median(std::move(values)));
+  return result;
+}
+
+/// What a command prints after the last blank of its last line, as a number.
+double last_number(const std::string& command) {
+  std::FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(cert-env33-c): our own program
+  if (pipe == nullptr) throw std::runtime_error(command + " failed");
+  std::array<char, 1024> line{};
+  std::string last;
+  while (std::fgets(line.data(), line.size(), pipe) != nullptr) last = line.data();
+  if (pclose(pipe) != 0) throw std::runtime_error(command + " failed");
+  return std::stod(last.substr(last.find_last_of(' ') + 1));
+}
+
+}  // namespace
+
+int main() {
+  try {
+    const fs::path out = fs::temp_directory_path() / ("bench_start_" + std::to_string(getpid()));
+    // Nothing of a user's settings may slow a start, or speed it up.
+    for (const char* name : {"PLAYPEN_WORLD", "PLAYPEN_OUT", "PLAYPEN_VIEW", "PLAYPEN_RECORD"}) {
+      unsetenv(name);
+    }
+    const std::vector<double> ms =
+        medians_ms({{EMPTY_PROGRAM},
+                    {PLAIN_CLIENT},
+                    {PLAYPEN_COMMAND, "--version"},
+                    {PLAYPEN_COMMAND, "run", PLAYPEN_SOURCE_DIR "/worlds/cave.json", "--duration",
+                     "60", "--quiet", "--out", out.string(), "--", SONAR_WANDERER}});
+    std::printf(
+        "processor time, medians of %d: empty program %.2f ms, plain client %.2f ms,\n"
+        "playpen --version %.2f ms, a minute in the cave with its pictures %.1f ms\n",
+        kRuns, ms[0], ms[1], ms[2], ms[3]);
+    sim::bench::figure("libraries_loaded", last_number(PLAIN_CLIENT));
+    sim::bench::figure("start_cpu_ms", ms[1] - ms[0]);
+    sim::bench::figure("version_cpu_ms", ms[2] - ms[0]);
+    sim::bench::figure("run_60s_cpu_ms", ms[3]);
+    fs::remove_all(out);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_start: %s\n", error.what());
+    return 1;
+  }
+}
