@@ -39,3 +39,13 @@ function(playpen_bind_own_functions target)
     target_link_options(${target} PRIVATE LINKER:-Bsymbolic-functions)
   endif()
 endfunction()
+
+# playpen_find_modules_from_programs(TARGET): programs that link the installed static library look for
+# the modules that it loads in the installation, wherever they lie themselves. Shared libraries look
+# beside themselves.
+function(playpen_find_modules_from_programs target)
+  if(NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+    target_link_options(${target} INTERFACE
+      "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/playpen>")
+  endif()
+endfunction()
