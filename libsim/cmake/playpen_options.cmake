@@ -49,3 +49,32 @@ function(playpen_find_modules_from_programs target)
       "$<INSTALL_INTERFACE:LINKER:-rpath,$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/playpen>")
   endif()
 endfunction()
+
+# playpen_group_sources(TARGET [ALONE source...]): with PLAYPEN_UNITY, sources of one folder are
+# compiled together, twelve at a time: most of a source's time is spent on the headers of others.
+# Those that are to be compiled alone, or have properties of their own, are.
+function(playpen_group_sources target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
+  if(NOT PLAYPEN_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # Warns of types with members of the anonymous namespace, unless they lie in the main file.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_source_file_property(own ${source} COMPILE_DEFINITIONS)
+    get_source_file_property(own_options ${source} COMPILE_OPTIONS)
+    if(own OR own_options OR source IN_LIST arg_ALONE OR IS_ABSOLUTE "${source}")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      continue()
+    endif()
+    get_filename_component(folder ${source} DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    math(EXPR number "${${group}_count} + 0")
+    math(EXPR ${group}_count "${number} + 1")
+    math(EXPR part "${number} / 12")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP "${group}_${part}")
+  endforeach()
+endfunction()

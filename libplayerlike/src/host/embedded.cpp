@@ -105,7 +105,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
 
 constexpr std::string_view kFilePrefix = "sim:";
 
-std::string_view environment(const char* name) {
+std::string_view variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? std::string_view() : std::string_view(value);
 }
@@ -114,9 +114,9 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
   // What the server does takes the time it takes.
   if (virtual_time::active()) virtual_time::give_up();
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
-  const std::string_view run = environment("PLAYPEN_RUN");
+  const std::string_view run = variable("PLAYPEN_RUN");
   settings.quiet_end =
-      (!run.empty() && run != "0") || environment("PLAYPEN_WORLD").starts_with(kTcpPrefix);
+      (!run.empty() && run != "0") || variable("PLAYPEN_WORLD").starts_with(kTcpPrefix);
   return std::make_unique<SocketSession>(std::move(settings));
 }
 
@@ -147,7 +147,7 @@ std::unique_ptr<Session> open_session(const std::string& host, int port) {
     }
     return host_of(file)->connect(port);
   }
-  const std::string file(environment("PLAYPEN_WORLD"));
+  const std::string file(variable("PLAYPEN_WORLD"));
   if (host != "localhost" && host != "127.0.0.1") {
     if (file.empty() || !is_plain_name(host)) return connect_to_server(host, port);
     warn_of_host(host, file);

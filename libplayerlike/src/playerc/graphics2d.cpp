@@ -4,9 +4,8 @@
 
 namespace {
 
-using Proxy = PlayerCc::Graphics2dProxy;
-
-class Graphics2d final : public playerlike::clib::Backed<playerc_graphics2d_t, Proxy> {};
+class Graphics2d final
+    : public playerlike::clib::Backed<playerc_graphics2d_t, PlayerCc::Graphics2dProxy> {};
 
 template <typename Action>
 int with_proxy(const char* fun, playerc_graphics2d_t* device, Action action) {
@@ -19,7 +18,7 @@ int with_proxy(const char* fun, playerc_graphics2d_t* device, Action action) {
 PLAYERLIKE_CLIB_FRAME(graphics2d, Graphics2d, PLAYER_GRAPHICS2D_CODE)
 
 int playerc_graphics2d_setcolor(playerc_graphics2d_t* device, player_color_t col) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) {
+  return with_proxy(__func__, device, [&](PlayerCc::Graphics2dProxy& proxy) {
     proxy.Color(col);
     device->color = col;
   });
@@ -27,25 +26,29 @@ int playerc_graphics2d_setcolor(playerc_graphics2d_t* device, player_color_t col
 
 int playerc_graphics2d_draw_points(playerc_graphics2d_t* device, player_point_2d_t pts[],
                                    int count) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.DrawPoints(pts, count); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Graphics2dProxy& proxy) { proxy.DrawPoints(pts, count); });
 }
 
 int playerc_graphics2d_draw_polyline(playerc_graphics2d_t* device, player_point_2d_t pts[],
                                      int count) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.DrawPolyline(pts, count); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Graphics2dProxy& proxy) { proxy.DrawPolyline(pts, count); });
 }
 
 int playerc_graphics2d_draw_multiline(playerc_graphics2d_t* device, player_point_2d_t pts[],
                                       int count) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.DrawMultiline(pts, count); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Graphics2dProxy& proxy) { proxy.DrawMultiline(pts, count); });
 }
 
 int playerc_graphics2d_draw_polygon(playerc_graphics2d_t* device, player_point_2d_t pts[],
                                     int count, int filled, player_color_t fill_color) {
-  return with_proxy(__func__, device,
-                    [&](Proxy& proxy) { proxy.DrawPolygon(pts, count, filled != 0, fill_color); });
+  return with_proxy(__func__, device, [&](PlayerCc::Graphics2dProxy& proxy) {
+    proxy.DrawPolygon(pts, count, filled != 0, fill_color);
+  });
 }
 
 int playerc_graphics2d_clear(playerc_graphics2d_t* device) {
-  return with_proxy(__func__, device, [](Proxy& proxy) { proxy.Clear(); });
+  return with_proxy(__func__, device, [](PlayerCc::Graphics2dProxy& proxy) { proxy.Clear(); });
 }

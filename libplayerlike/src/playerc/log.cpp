@@ -22,30 +22,29 @@ int change(const char* fun, playerc_log_t* device, Action action) {
     self.refresh_state();
   });
 }
-using Proxy = PlayerCc::LogProxy;
 
 }  // namespace
 
 PLAYERLIKE_CLIB_FRAME(log, Log, PLAYER_LOG_CODE)
 
 int playerc_log_set_write_state(playerc_log_t* device, int state) {
-  return change(__func__, device, [&](Proxy& proxy) { proxy.SetWriteState(state); });
+  return change(__func__, device, [&](PlayerCc::LogProxy& proxy) { proxy.SetWriteState(state); });
 }
 
 int playerc_log_set_read_state(playerc_log_t* device, int state) {
-  return change(__func__, device, [&](Proxy& proxy) { proxy.SetReadState(state); });
+  return change(__func__, device, [&](PlayerCc::LogProxy& proxy) { proxy.SetReadState(state); });
 }
 
 int playerc_log_set_read_rewind(playerc_log_t* device) {
-  return change(__func__, device, [](Proxy& proxy) { proxy.Rewind(); });
+  return change(__func__, device, [](PlayerCc::LogProxy& proxy) { proxy.Rewind(); });
 }
 
 int playerc_log_get_state(playerc_log_t* device) {
-  return change(__func__, device, [](Proxy& proxy) { proxy.QueryState(); });
+  return change(__func__, device, [](PlayerCc::LogProxy& proxy) { proxy.QueryState(); });
 }
 
 int playerc_log_set_filename(playerc_log_t* device, const char* fname) {
-  return change(__func__, device, [&](Proxy& proxy) {
+  return change(__func__, device, [&](PlayerCc::LogProxy& proxy) {
     if (fname == nullptr) playerlike::clib::refuse("the name of the file is a null pointer");
     proxy.SetFilename(fname);
   });

@@ -22,18 +22,18 @@ int with_proxy(const char* fun, playerc_position2d_t* device, Action action) {
   return playerlike::clib::with_device<Position2d>(fun, device,
                                                    [&](Position2d& self) { action(self.used()); });
 }
-using Proxy = PlayerCc::Position2dProxy;
 
 }  // namespace
 
 PLAYERLIKE_CLIB_FRAME(position2d, Position2d, PLAYER_POSITION2D_CODE)
 
 int playerc_position2d_enable(playerc_position2d_t* device, int enable) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.SetMotorEnable(enable != 0); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.SetMotorEnable(enable != 0); });
 }
 
 int playerc_position2d_get_geom(playerc_position2d_t* device) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) {
+  return with_proxy(__func__, device, [&](PlayerCc::Position2dProxy& proxy) {
     proxy.RequestGeom();
     const player_pose3d_t offset = proxy.GetOffset();
     const player_bbox3d_t size = proxy.GetSize();
@@ -48,28 +48,34 @@ int playerc_position2d_get_geom(playerc_position2d_t* device) {
 
 int playerc_position2d_set_cmd_vel(playerc_position2d_t* device, double vx, double vy, double va,
                                    int /*state*/) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.SetSpeed(vx, vy, va); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.SetSpeed(vx, vy, va); });
 }
 
 int playerc_position2d_set_cmd_pose_with_vel(playerc_position2d_t* device, player_pose2d_t pos,
                                              player_pose2d_t vel, int /*state*/) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.GoTo(pos, vel); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.GoTo(pos, vel); });
 }
 
 int playerc_position2d_set_cmd_vel_head(playerc_position2d_t* device, double vx, double vy,
                                         double pa, int /*state*/) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.SetVelHead(vx, vy, pa); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.SetVelHead(vx, vy, pa); });
 }
 
 int playerc_position2d_set_cmd_pose(playerc_position2d_t* device, double gx, double gy, double ga,
                                     int /*state*/) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.GoTo(gx, gy, ga); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.GoTo(gx, gy, ga); });
 }
 
 int playerc_position2d_set_cmd_car(playerc_position2d_t* device, double vx, double a) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.SetCarlike(vx, a); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.SetCarlike(vx, a); });
 }
 
 int playerc_position2d_set_odom(playerc_position2d_t* device, double ox, double oy, double oa) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.SetOdometry(ox, oy, oa); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::Position2dProxy& proxy) { proxy.SetOdometry(ox, oy, oa); });
 }

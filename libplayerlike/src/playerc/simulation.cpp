@@ -7,9 +7,9 @@ namespace {
 
 using playerlike::clib::refuse;
 using playerlike::clib::tell;
-using Proxy = PlayerCc::SimulationProxy;
 
-class Simulation final : public playerlike::clib::Backed<playerc_simulation_t, Proxy> {};
+class Simulation final
+    : public playerlike::clib::Backed<playerc_simulation_t, PlayerCc::SimulationProxy> {};
 
 template <typename Action>
 int with_proxy(const char* fun, playerc_simulation_t* device, Action action) {
@@ -25,12 +25,13 @@ PLAYERLIKE_CLIB_FRAME(simulation, Simulation, PLAYER_SIMULATION_CODE)
 
 int playerc_simulation_set_pose2d(playerc_simulation_t* device, char* name, double gx, double gy,
                                   double ga) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) { proxy.SetPose2d(name, gx, gy, ga); });
+  return with_proxy(__func__, device,
+                    [&](PlayerCc::SimulationProxy& proxy) { proxy.SetPose2d(name, gx, gy, ga); });
 }
 
 int playerc_simulation_get_pose2d(playerc_simulation_t* device, char* identifier, double* x,
                                   double* y, double* a) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) {
+  return with_proxy(__func__, device, [&](PlayerCc::SimulationProxy& proxy) {
     player_pose2d_t pose = {0.0, 0.0, 0.0};
     proxy.GetPose2d(identifier, pose.px, pose.py, pose.pa);
     tell(x, pose.px);
@@ -41,14 +42,15 @@ int playerc_simulation_get_pose2d(playerc_simulation_t* device, char* identifier
 
 int playerc_simulation_set_pose3d(playerc_simulation_t* device, char* name, double gx, double gy,
                                   double gz, double groll, double gpitch, double gyaw) {
-  return with_proxy(__func__, device,
-                    [&](Proxy& proxy) { proxy.SetPose3d(name, gx, gy, gz, groll, gpitch, gyaw); });
+  return with_proxy(__func__, device, [&](PlayerCc::SimulationProxy& proxy) {
+    proxy.SetPose3d(name, gx, gy, gz, groll, gpitch, gyaw);
+  });
 }
 
 int playerc_simulation_get_pose3d(playerc_simulation_t* device, char* identifier, double* x,
                                   double* y, double* z, double* roll, double* pitch, double* yaw,
                                   double* time) {
-  return with_proxy(__func__, device, [&](Proxy& proxy) {
+  return with_proxy(__func__, device, [&](PlayerCc::SimulationProxy& proxy) {
     player_pose3d_t pose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
     double now_s = 0.0;
     proxy.GetPose3d(identifier, pose.px, pose.py, pose.pz, pose.proll, pose.ppitch, pose.pyaw,
@@ -65,29 +67,32 @@ int playerc_simulation_get_pose3d(playerc_simulation_t* device, char* identifier
 
 int playerc_simulation_set_property(playerc_simulation_t* device, char* name, char* property,
                                     void* value, size_t value_len) {
-  return with_proxy(__func__, device,
-                    [&](Proxy& proxy) { proxy.SetProperty(name, property, value, value_len); });
+  return with_proxy(__func__, device, [&](PlayerCc::SimulationProxy& proxy) {
+    proxy.SetProperty(name, property, value, value_len);
+  });
 }
 
 int playerc_simulation_get_property(playerc_simulation_t* device, char* name, char* property,
                                     void* value, size_t value_len) {
-  return with_proxy(__func__, device,
-                    [&](Proxy& proxy) { proxy.GetProperty(name, property, value, value_len); });
+  return with_proxy(__func__, device, [&](PlayerCc::SimulationProxy& proxy) {
+    proxy.GetProperty(name, property, value, value_len);
+  });
 }
 
 int playerc_simulation_pause(playerc_simulation_t* device) {
-  return with_proxy(__func__, device, [](Proxy& /*proxy*/) {
+  return with_proxy(__func__, device, [](PlayerCc::SimulationProxy& /*proxy*/) {
     refuse("clients cannot stop time: it stands while they think, and goes on when they read");
   });
 }
 
 int playerc_simulation_reset(playerc_simulation_t* device) {
-  return with_proxy(__func__, device, [](Proxy& /*proxy*/) {
+  return with_proxy(__func__, device, [](PlayerCc::SimulationProxy& /*proxy*/) {
     refuse("a run cannot begin anew: put robots back by playerc_simulation_set_pose2d()");
   });
 }
 
 int playerc_simulation_save(playerc_simulation_t* device) {
-  return with_proxy(__func__, device,
-                    [](Proxy& /*proxy*/) { refuse("a world cannot be written while it runs"); });
+  return with_proxy(__func__, device, [](PlayerCc::SimulationProxy& /*proxy*/) {
+    refuse("a world cannot be written while it runs");
+  });
 }

@@ -34,7 +34,7 @@
 namespace playerlike::protocol {
 namespace {
 
-constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostInteger = std::numeric_limits<std::int64_t>::max();
 
 // --- readings
 
@@ -318,8 +318,8 @@ void write(const sim::OpaqueReading& reading, json& out, Encoding encoding) {
 
 void read(const json& in, Encoding encoding, sim::OpaqueReading& reading) {
   reading.data = require_bytes(in, "data", encoding);
-  reading.number = static_cast<std::uint64_t>(require_integer(in, "number", 0, kMost));
-  reading.lost = static_cast<std::uint64_t>(require_integer(in, "lost", 0, kMost));
+  reading.number = static_cast<std::uint64_t>(require_integer(in, "number", 0, kMostInteger));
+  reading.lost = static_cast<std::uint64_t>(require_integer(in, "lost", 0, kMostInteger));
 }
 
 void write(const sim::PoseReading& reading, json& out, Encoding) {
@@ -411,7 +411,7 @@ void write(const sim::WaypointReading& reading, json& out, Encoding) {
 void read(const json& in, Encoding, sim::WaypointReading& reading) {
   using Status = sim::WaypointStatus;
   reading.status = require_status(in, {Status::kArrived, Status::kTransit, Status::kStop});
-  reading.goal_number = static_cast<std::uint64_t>(require_integer(in, "goal_number", 0, kMost));
+  reading.goal_number = static_cast<std::uint64_t>(require_integer(in, "goal_number", 0, kMostInteger));
   reading.goal_m = {require_number(in, "x"), require_number(in, "y")};
   reading.distance_m = require_number(in, "distance");
 }
@@ -756,8 +756,8 @@ DecodedReading decode_reading(const json& reading, Encoding encoding) {
   decoded.device = require_device_id(reading, "device");
   const std::string type = require_text(reading, "type");
   decoded.reading = codec_of(type).read(reading, encoding);
-  decoded.reading->sequence = static_cast<std::uint64_t>(require_integer(reading, "seq", 0, kMost));
-  decoded.reading->time_ns = require_integer(reading, "t", 0, kMost);
+  decoded.reading->sequence = static_cast<std::uint64_t>(require_integer(reading, "seq", 0, kMostInteger));
+  decoded.reading->time_ns = require_integer(reading, "t", 0, kMostInteger);
   return decoded;
 }
 

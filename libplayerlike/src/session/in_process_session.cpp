@@ -11,7 +11,9 @@ namespace playerlike {
 namespace {
 
 // Nobody is to wait for a thread that has ended.
-thread_local Farewell<Host> farewell([](Host& host) { host.thinker_ended(this_thinker()); });
+thread_local Farewell<Host> farewell_to_host([](Host& host) {
+  host.thinker_ended(this_thinker());
+});
 
 // Virtual time, too, is to know when a thread that lives in it ends.
 struct VirtualLife {
@@ -37,7 +39,7 @@ InProcessSession::~InProcessSession() { close(); }
 InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->core_); }
 
 void InProcessSession::note_wait() const {
-  farewell.remember(host_);
+  farewell_to_host.remember(host_);
   // Drivers are Playpen's own.
   if (client_->follower || !virtual_time::active()) return;
   remember_thread();

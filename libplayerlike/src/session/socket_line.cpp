@@ -19,7 +19,7 @@ constexpr milliseconds kFlushPeriod(20);
 // A server that does not say good-bye in return is left without.
 constexpr milliseconds kGoodBye(1000);
 // What a message is besides its drawings, and the most that one takes [bytes].
-constexpr std::size_t kMessageOverhead = 256;
+constexpr std::size_t kCallOverhead = 256;
 constexpr std::size_t drawing_bytes(Encoding encoding) {
   return encoding == Encoding::kCbor ? 28 : 96;
 }
@@ -99,7 +99,7 @@ void SocketLine::replace(std::shared_ptr<Connection> connection, const std::stri
 
 std::string SocketLine::take_drawings(Encoding encoding, std::size_t limit) {
   std::string bytes;
-  const std::size_t room = limit > kMessageOverhead ? limit - kMessageOverhead : 0;
+  const std::size_t room = limit > kCallOverhead ? limit - kCallOverhead : 0;
   const std::size_t most = std::max<std::size_t>(room / drawing_bytes(encoding), 1);
   drawings_.drain([&](std::span<const sim::DrawOperation> drawings) {
     while (!drawings.empty()) {

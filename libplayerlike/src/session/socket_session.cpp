@@ -33,7 +33,7 @@ constexpr double kLongest_s = 1e9;  // 30 years
 // Of a message that sets cells, besides the cells [bytes].
 constexpr std::size_t kMessageOverhead = 512;
 // Longest side of a rectangle in a message.
-constexpr std::size_t kMaxSide = 8192;
+constexpr std::size_t kMaxMapSide = 8192;
 // Sides of the tiles in which maps are fetched [cells]: 4 MiB each.
 constexpr int kTileSide = 1024;
 
@@ -43,7 +43,7 @@ Connection::Clock::duration wall(double seconds) {
 }
 
 // Nobody is to wait for a thread that has ended.
-thread_local Farewell<SocketLine> farewell([](SocketLine& line) {
+thread_local Farewell<SocketLine> farewell_to_server([](SocketLine& line) {
   try {
     line.tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
   } catch (const std::exception&) {
@@ -283,7 +283,7 @@ json SocketSession::request(json request) const {
 }
 
 json SocketSession::read(json request) const {
-  farewell.remember(line_);
+  farewell_to_server.remember(line_);
   return with_connection([&] { return line_->wait(request); });
 }
 
@@ -576,10 +576,11 @@ void SocketSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
   const std::size_t most = std::max<std::size_t>(
       (connection->message_limit() - kMessageOverhead) / (encoding == Encoding::kCbor ? 4 : 6), 1);
   const auto width = static_cast<std::size_t>(rect.width);
-  const std::size_t most_columns = std::min({width, most, kMaxSide});
+  const std::size_t most_columns = std::min({width, most, kMaxMapSide});
   const auto columns = static_cast<int>(most_columns);
-  const auto rows = static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1),
-                                               kMaxSide, static_cast<std::size_t>(rect.height)}));
+  const auto rows =
+      static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1), kMaxMapSide,
+                                 static_cast<std::size_t>(rect.height)}));
   const auto set = [&](const sim::CellRect& part, std::span<const sim::CellValue> cells) {
     request({{"do", "set_cells"},
              {"layer", layer},
@@ -707,7 +708,7 @@ sim::OccupancyMap SocketSession::world_map(double cell_size_m) {
   json answer = tile(0, 0);
   return understood([&] {
     const auto side = [&](const char* key) {
-      return static_cast<int>(protocol::require_integer(answer, key, 1, kMaxSide));
+      return static_cast<int>(protocol::require_integer(answer, key, 1, kMaxMapSide));
     };
     const Encoding encoding = line_->connection()->encoding();
     sim::OccupancyMap part = protocol::decode_map(protocol::require(answer, "map"), encoding);

@@ -10,7 +10,7 @@ namespace sim {
 namespace {
 
 constexpr int kCoordinateLimit = 1 << 30;
-constexpr int kMaxCells = 8192;
+constexpr int kMaxCanvasSide = 8192;
 
 // floor(value), saturated; NaN counts as far to the left.
 int saturated_floor(double value) noexcept {
@@ -26,7 +26,7 @@ Canvas::Canvas(const CanvasDescription& description)
     : cells_(description.width, description.height, CellValue{}),
       cell_size_m_(description.cell_size_m),
       origin_(description.origin) {
-  SIM_ASSERT(width() <= kMaxCells && height() <= kMaxCells);
+  SIM_ASSERT(width() <= kMaxCanvasSide && height() <= kMaxCanvasSide);
   SIM_ASSERT(cell_size_m_ > 0.0);
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/core/degrees.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
@@ -40,7 +41,6 @@ constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
 constexpr io::NumberRange kPower_w{0.0, 10000.0, false, "W"};
 constexpr io::NumberRange kVoltage_v{0.0, 1000.0, true, "V"};
 constexpr io::NumberRange kNorth{-360.0, 360.0, false, "degrees"};
-constexpr double kDegrees = std::numbers::pi / 180.0;
 // Of robots that have no steering: beyond it the turn rate has long reached its limit.
 constexpr double kMostSteering_rad = 80.0 * kDegrees;
 

@@ -20,7 +20,7 @@ constexpr Colour kWall{0x45, 0x4b, 0x54};
 // Above all that.
 constexpr Colour kAir{0xdc, 0xe8, 0xf2};
 
-Colour colour_of(const PhysicsWorld::Face& face, const WorldDescription& world) {
+Colour shown_colour(const PhysicsWorld::Face& face, const WorldDescription& world) {
   using Kind = PhysicsWorld::Contact::Kind;
   const auto index = static_cast<std::size_t>(face.index);
   switch (face.kind) {
@@ -91,7 +91,7 @@ void Camera::measure(const StepContext& context) {
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
         brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
-    const Colour colour = scaled(colour_of(face, context.world), light);
+    const Colour colour = scaled(shown_colour(face, context.world), light);
     std::uint8_t* pixel = reading_.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;
     for (int row = run.top; row < run.bottom; ++row) {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "sim/core/degrees.h"
 
 namespace sim {
 namespace {
 
-constexpr double kDegrees = std::numbers::pi / 180.0;
 constexpr double kUtmScale = 0.9996;
 constexpr int kLeastSatellites = 4;  // three coordinates and the receiver's clock
 

@@ -3,17 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
+#include "sim/core/degrees.h"
 
 namespace sim {
 namespace {
-
-constexpr double kDegrees = std::numbers::pi / 180.0;
 
 // The square of how near an edge comes to the origin [m2]; nothing if no point within reach_m of it
 // sees the edge within range_m.

@@ -20,7 +20,7 @@ constexpr std::size_t kMostVertices = 8;
 constexpr double kLeastArea_m2 = 1e-4;
 
 constexpr NumberRange kVertex{-100.0, 100.0, false, "m"};
-constexpr NumberRange kLength{0.0, 100.0, true, "m"};
+constexpr NumberRange kRobotLength{0.0, 100.0, true, "m"};
 
 std::vector<std::string> type_names(const std::vector<DeviceType>& types) {
   std::vector<std::string> names;
@@ -62,12 +62,12 @@ void read_device(Reader& settings, const std::string& name,
   devices[name] = {name, type_name, std::move(params)};
 }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double area_m2(const Polygon& outline) {
   double twice = 0.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    twice += cross(outline[i], outline[(i + 1) % outline.size()]);
+    twice += cross_product(outline[i], outline[(i + 1) % outline.size()]);
   }
   return 0.5 * twice;
 }
@@ -80,7 +80,7 @@ bool is_convex(const Polygon& outline) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = outline[(i + 1) % n] - outline[i];
     const Vec2 after = outline[(i + 2) % n] - outline[(i + 1) % n];
-    const double turn_rad = std::atan2(cross(before, after), before.dot(after));
+    const double turn_rad = std::atan2(cross_product(before, after), before.dot(after));
     if (turn_rad < 1e-6) return false;
     turned_rad += turn_rad;
   }
@@ -120,12 +120,12 @@ DriveDescription read_drive(Reader& model) {
   if (!reader) return drive;
   const std::string kind =
       reader->choice("kind", "differential", {"differential", "omnidirectional", "car"});
-  drive.wheel_radius_m = reader->number("wheel_radius", drive.wheel_radius_m, kLength);
-  drive.wheel_separation_m = reader->number("wheel_separation", drive.wheel_separation_m, kLength);
+  drive.wheel_radius_m = reader->number("wheel_radius", drive.wheel_radius_m, kRobotLength);
+  drive.wheel_separation_m = reader->number("wheel_separation", drive.wheel_separation_m, kRobotLength);
   if (kind == "omnidirectional") drive.kind = DriveKind::kOmnidirectional;
   if (kind == "car") {
     drive.kind = DriveKind::kCar;
-    drive.wheelbase_m = reader->number("wheelbase", drive.wheelbase_m, kLength);
+    drive.wheelbase_m = reader->number("wheelbase", drive.wheelbase_m, kRobotLength);
     drive.max_steering_rad =
         reader->angle_deg("max_steering_deg", drive.max_steering_rad, {0.0, 80.0, true, "degrees"});
     drive.max_steering_rate_radps = reader->angle_deg(

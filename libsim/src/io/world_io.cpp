@@ -29,7 +29,7 @@ constexpr std::size_t kMaxRobots = 1000;
 constexpr std::size_t kMaxObstacles = 100'000;
 
 constexpr NumberRange kPosition{-1e6, 1e6, false, "m"};
-constexpr NumberRange kLength{0.0, 10'000.0, true, "m"};
+constexpr NumberRange kArenaLength{0.0, 10'000.0, true, "m"};
 constexpr NumberRange kHeight{0.0, 10.0, true, "m"};
 
 /// Colours of robots that are given none, told apart at a glance and none of them the red of
@@ -102,7 +102,7 @@ class WorldReader {
     } else {
       const bool has_size = reader->has("size");
       const bool has_origin = reader->has("origin");
-      arena.size = reader->vec2("size", arena.size, kLength);
+      arena.size = reader->vec2("size", arena.size, kArenaLength);
       arena.origin = reader->vec2("origin", arena.origin, kPosition);
       read_map(*reader, has_size, has_origin);
     }
@@ -125,7 +125,7 @@ class WorldReader {
         if (reader.require("center", "[x, y] of the middle of the box, in m")) {
           block.center = reader.vec2("center", block.center, kPosition);
         }
-        block.size = reader.vec2("size", block.size, kLength);
+        block.size = reader.vec2("size", block.size, kArenaLength);
         block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
         block.height_m = reader.number("height", block.height_m, kHeight);
         if (!separators) {
@@ -175,7 +175,7 @@ class WorldReader {
         if (reader.require("pose", "{\"x\", \"y\", \"yaw_deg\"} of its middle")) {
           dock.pose = reader.pose("pose", dock.pose);
         }
-        dock.size = reader.vec2("size", dock.size, kLength);
+        dock.size = reader.vec2("size", dock.size, kArenaLength);
         reader.finish();
       }
       if (dock.name.empty()) unnamed.push_back(docks.size());
@@ -284,7 +284,7 @@ class WorldReader {
     if (map.simplify_m > 0.0) simplify_walls(arena.walls, map.simplify_m);
     if (!has_size) {
       arena.size = Vec2(image.width, image.height) * map.resolution_m;
-      if (arena.size.maxCoeff() > kLength.max) {
+      if (arena.size.maxCoeff() > kArenaLength.max) {
         reader->issue("world/map-too-large", "a floor of at most 10000 m a side",
                       number_text(arena.size.maxCoeff()) + " m", "use a smaller resolution",
                       "resolution");

@@ -25,7 +25,7 @@
 namespace sim::render {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+[[noreturn]] void refuse_film(const std::string& path, const std::string& reason) {
   throw std::runtime_error(path + ": cannot write the film: " + reason);
 }
 
@@ -55,9 +55,9 @@ std::optional<FilmKind> kind_of(const std::string& path) {
 FilmKind required_kind_of(const std::string& path) {
   const std::optional<FilmKind> kind = kind_of(path);
   if (kind) return *kind;
-  fail(path, path.empty() ? "it has no name"
-                          : "unknown ending \"" + lower_case_ending(path) +
-                                "\", expected .mp4, .avi, or none for a folder of pictures");
+  refuse_film(path, path.empty() ? "it has no name"
+                                 : "unknown ending \"" + lower_case_ending(path) +
+                                       "\", expected .mp4, .avi, or none for a folder of pictures");
 }
 
 // Whether a file is called frame_000001.png, or with another number.
@@ -123,14 +123,14 @@ struct FilmWriter::Impl {
   void add(const Image& frame) {
     if (frame.rgb.size() !=
         3 * static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height)) {
-      fail(path, "a frame has not as many pixels as its size says");
+      refuse_film(path, "a frame has not as many pixels as its size says");
     }
     if (frame_count == 0) {
       frame_width = frame.width;
       frame_height = frame.height;
     } else if (frame.width != frame_width || frame.height != frame_height) {
-      fail(path, "a frame is " + size_text(frame.width, frame.height) +
-                     " pixels, those before were " + size_text(frame_width, frame_height));
+      refuse_film(path, "a frame is " + size_text(frame.width, frame.height) +
+                            " pixels, those before were " + size_text(frame_width, frame_height));
     }
     write(frame);
     ++frame_count;
@@ -155,7 +155,7 @@ const modules::FilmFunctions& film_functions(const std::string& path) {
   try {
     return modules::film_functions();
   } catch (const std::runtime_error& error) {
-    fail(path, error.what());
+    refuse_film(path, error.what());
   }
 }
 
@@ -170,7 +170,7 @@ class Video final : public FilmWriter::Impl {
     // after.
     errno = 0;
     if (!std::ofstream(path, std::ios::binary | std::ios::trunc)) {
-      fail(path, errno != 0 ? std::strerror(errno) : "unknown reason");
+      refuse_film(path, errno != 0 ? std::strerror(errno) : "unknown reason");
     }
   }
   Video(const Video&) = delete;
@@ -182,7 +182,8 @@ class Video final : public FilmWriter::Impl {
 
   void finish() override {
     close();
-    if (frame_count > 0 && !is_whole(path)) fail(path, "it is not whole (is the disk full?)");
+    if (frame_count > 0 && !is_whole(path))
+      refuse_film(path, "it is not whole (is the disk full?)");
   }
 
  private:
@@ -190,11 +191,12 @@ class Video final : public FilmWriter::Impl {
     const int width = frame.width & ~1;
     const int height = frame.height & ~1;
     if (width < 2 || height < 2) {
-      fail(path, "a frame of " + size_text(frame.width, frame.height) + " pixels is too small");
+      refuse_film(path,
+                  "a frame of " + size_text(frame.width, frame.height) + " pixels is too small");
     }
     encoder_ = functions_.open(path.c_str(), kind_ == FilmKind::kAvi, frames_per_second_, width,
                                height, problem_.data(), problem_.size());
-    if (encoder_ == nullptr) fail(path, problem_.data());
+    if (encoder_ == nullptr) refuse_film(path, problem_.data());
   }
 
   void close() {
@@ -206,7 +208,7 @@ class Video final : public FilmWriter::Impl {
     if (frame_count == 0) open(frame);
     if (!functions_.add(encoder_, frame.rgb.data(), 3 * static_cast<std::size_t>(frame.width),
                         problem_.data(), problem_.size())) {
-      fail(path, problem_.data());
+      refuse_film(path, problem_.data());
     }
   }
 
@@ -223,14 +225,14 @@ class Pictures final : public FilmWriter::Impl {
     std::error_code error;
     made_ = fs::create_directories(path, error);
     if (error || !fs::is_directory(path, error)) {
-      fail(path, error ? error.message() : "it is there, and no folder");
+      refuse_film(path, error ? error.message() : "it is there, and no folder");
     }
     try {
       for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
         if (is_frame(entry.path())) fs::remove(entry.path());
       }
     } catch (const fs::filesystem_error& problem) {
-      fail(path, problem.code().message());
+      refuse_film(path, problem.code().message());
     }
   }
   ~Pictures() override {
@@ -255,7 +257,7 @@ class Pictures final : public FilmWriter::Impl {
 FilmWriter::FilmWriter(const std::string& path, double frames_per_second) {
   const FilmKind kind = required_kind_of(path);
   if (!(frames_per_second >= 1.0 && frames_per_second <= 1000.0)) {
-    fail(path, "frames per second must be in 1..1000");
+    refuse_film(path, "frames per second must be in 1..1000");
   }
   if (kind == FilmKind::kPictures) {
     impl_ = std::make_unique<Pictures>(path);

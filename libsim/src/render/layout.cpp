@@ -10,14 +10,14 @@ namespace {
 
 constexpr int kLeastSizeWithTextPx = 200;
 
-std::uint8_t mix(std::uint8_t a, std::uint8_t b, double share) {
+std::uint8_t mix_channel(std::uint8_t a, std::uint8_t b, double share) {
   return static_cast<std::uint8_t>(std::lround(a + (b - a) * share));
 }
 
 }  // namespace
 
 Colour mix(Colour a, Colour b, double share) {
-  return {mix(a.r, b.r, share), mix(a.g, b.g, share), mix(a.b, b.b, share)};
+  return {mix_channel(a.r, b.r, share), mix_channel(a.g, b.g, share), mix_channel(a.b, b.b, share)};
 }
 
 double luma(Colour colour) {

@@ -12,7 +12,7 @@
 namespace sim::render {
 namespace {
 
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+[[noreturn]] void refuse_picture(const std::string& path, const std::string& reason) {
   throw std::runtime_error(path + ": cannot write the picture: " + reason);
 }
 
@@ -22,12 +22,12 @@ void write_png(const Image& image, const std::string& path, PngEffort effort) {
   const std::size_t samples =
       3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgb.size() != samples) {
-    fail(path, "it has no pixels, or not as many as its size says");
+    refuse_picture(path, "it has no pixels, or not as many as its size says");
   }
   // Encoded in memory and written here, so that the reason of a failure is known.
   const std::vector<std::uint8_t> bytes =
       encode_png(image.width, image.height, image.rgb.data(), effort == PngEffort::kQuick ? 1 : 6);
-  if (bytes.empty()) fail(path, "the PNG encoder failed");
+  if (bytes.empty()) refuse_picture(path, "the PNG encoder failed");
   errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   if (file) {
@@ -35,7 +35,7 @@ void write_png(const Image& image, const std::string& path, PngEffort effort) {
                static_cast<std::streamsize>(bytes.size()));
     file.close();
   }
-  if (!file) fail(path, errno != 0 ? std::strerror(errno) : "unknown reason");
+  if (!file) refuse_picture(path, errno != 0 ? std::strerror(errno) : "unknown reason");
 }
 
 }  // namespace sim::render
