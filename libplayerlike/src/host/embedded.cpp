@@ -32,17 +32,20 @@ struct Registry {
     static Registry* registry = [] {
       auto* made = new Registry;
       sim::render::prepare_pictures();
-      std::atexit(finish_all);
+      on_exit([](int status, void*) { finish_all(status); }, nullptr);
       return made;
     }();
     return *registry;
   }
 
-  static void finish_all() {
+  static void finish_all(int status) {
     Registry& registry = instance();
     if (getpid() != registry.process) return;  // a forked child: the run is not its own
     const std::lock_guard lock(registry.mutex);
-    for (const auto& [key, host] : registry.hosts) host->finish();
+    for (const auto& [key, host] : registry.hosts) {
+      host->note_program_ends(status);
+      host->finish();
+    }
   }
 };
 
@@ -74,6 +77,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     unsetenv("PLAYPEN_VIEW");
     const sim::LogHook log = log_to_stderr();
     host = Host::create(sim::load_world(file), settings, log);
+    host->watch_program();
     ++registry.results;
     if (settings.virtual_time) {
       if (host->time().mode == sim::TimeMode::kLockstep) {
