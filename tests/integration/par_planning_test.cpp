@@ -67,7 +67,7 @@ TEST_F(ParPlanning, BothSolutionsReachTheGoalInBothWorldsWithoutCollisions) {
       EXPECT_LT(distance_m(3.1, 3.3), 0.05) << program;
       // Obstacles are grown by 0.13 m, the S1R's circle has 0.098 m, cells 0.02 m.
       EXPECT_GT(robot().at("least_clearance").get<double>(), 0.01) << program;
-      for (const char* layer : {"map", "inflated", "path", "smoothed"}) {
+      for (const char* layer : {"map", "inflated", "path", "smoothed", "goal"}) {
         EXPECT_THAT(output("layers/" + std::string(layer) + ".png"), HasSubstr("PNG")) << layer;
       }
     }
@@ -148,6 +148,22 @@ TEST_F(ParPlanning, RefusesABadMapWithFileAndLine) {
   const ProcessResult none = run(kWorlds[0], {THETA_PROGRAM, "--map", folder_ / "none.txt"});
   EXPECT_EQ(none.status, 1);
   EXPECT_THAT(none.err, AllOf(HasSubstr("none.txt"), HasSubstr("cannot be read")));
+}
+
+TEST_F(ParPlanning, TheGoalIsMarkedWhereItIs) {
+  std::string first_mark;
+  for (const char* program : {TEMPLATE_PROGRAM, DIJKSTRA_PROGRAM}) {
+    std::vector<std::string> marks;
+    for (const char* goal : {"--goal-x=0.5", "--goal-x=0.56", "--goal-x=9"}) {
+      static_cast<void>(run(kWorlds[0], {program, goal, "--goal-y=3.4"}, {"--duration", "0.3"}));
+      marks.push_back(output("layers/goal.png"));
+    }
+    EXPECT_FALSE(marks[0] == marks[1]) << program;
+    EXPECT_FALSE(marks[0] == marks[2]) << program << ": the last goal is off the canvas";
+    EXPECT_FALSE(marks[1] == marks[2]) << program;
+    if (first_mark.empty()) first_mark = marks[0];
+    EXPECT_TRUE(marks[0] == first_mark) << program;
+  }
 }
 
 TEST_F(ParPlanning, TheTemplateStandsStillAndEndsWell) {

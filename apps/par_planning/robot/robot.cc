@@ -22,6 +22,7 @@ const char* const MAP = "map";
 const char* const INFLATED = "inflated";
 const char* const PATH = "path";
 const char* const SMOOTHED = "smoothed";
+const char* const GOAL = "goal";
 
 par::FollowerParams followerParams(imr::CConfig& cfg) {
   par::FollowerParams params;
@@ -67,6 +68,7 @@ CRobot::CRobot(imr::CConfig& cfg)
   window.CreateLayer(MAP, CCMorse::GridMapLayer::BINARY, 2).SetColour("#202020");
   window.CreateLayer(PATH, CCMorse::GridMapLayer::BINARY, 3).SetColour("#1030a0");
   window.CreateLayer(SMOOTHED, CCMorse::GridMapLayer::BINARY, 4).SetColour("#ff8800");
+  window.CreateLayer(GOAL, CCMorse::GridMapLayer::BINARY, 5).SetColour("#d6006c");
   while (!position->IsFresh()) {
     client->Read();
   }
@@ -95,6 +97,7 @@ void CRobot::threadBody() {
 bool CRobot::navigation() {
   fetchMap();
   drawCells(MAP, walls);
+  drawGoal();
 
   // To a planner the robot is a point, if obstacles are grown by the robot's radius. Beyond the
   // edges of the map are walls.
@@ -239,6 +242,23 @@ void CRobot::drawCells(const std::string& layer, const par::Mask& cells) const {
       const CCMorse::ImagePoint_t corner = pixelOf({column, row});
       for (int y = 0; y < pixelsPerCell; y++) {
         for (int x = 0; x < pixelsPerCell; x++) drawing.SetCell(corner.x + x, corner.y + y, 1);
+      }
+    }
+  }
+}
+
+void CRobot::drawGoal() const {
+  CCMorse::GridMapLayer& drawing = window.GetLayer(GOAL);
+  drawing.Clear();
+  const par::Cell cell = walls.frame().cell_of({goalX, goalY});
+  if (!walls.contains(cell)) return;
+  const CCMorse::ImagePoint_t middle = pixelOf(cell);
+  for (int dy = -6; dy <= 6; dy++) {
+    for (int dx = -6; dx <= 6; dx++) {
+      // In pixels of the canvas. The robot has room inside the ring.
+      const double distance = std::hypot(dx, dy);
+      if (distance < 1.5 || (distance > 5.0 && distance < 6.4)) {
+        drawing.SetCell(middle.x + dx, middle.y + dy, 1);
       }
     }
   }

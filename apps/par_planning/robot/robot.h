@@ -45,6 +45,8 @@ class CRobot : public imr::concurrent::CThread {
   // are one pixel, if the map is larger than the canvas.
   CCMorse::ImagePoint_t pixelOf(const par::Cell& cell) const;
   void drawCells(const std::string& layer, const par::Mask& cells) const;
+  // A dot and a ring round it where the robot is to go.
+  void drawGoal() const;
   // The planned way is drawn with a margin [pixels], to be seen under the smoothed one.
   void drawWay(const std::string& layer, const par::Path& way, int margin) const;
 

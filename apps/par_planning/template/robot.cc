@@ -37,6 +37,7 @@ CRobot::CRobot(imr::CConfig& cfg)
   window.CreateLayer("map", CCMorse::GridMapLayer::BINARY, 2).SetColour("#202020");
   window.CreateLayer("path", CCMorse::GridMapLayer::BINARY, 3).SetColour("#1030a0");
   window.CreateLayer("smoothed", CCMorse::GridMapLayer::BINARY, 4).SetColour("#ff8800");
+  window.CreateLayer("goal", CCMorse::GridMapLayer::BINARY, 5).SetColour("#d6006c");
   // Proxies are empty until the first data come.
   while (!position->IsFresh()) {
     client->Read();
@@ -64,6 +65,8 @@ void CRobot::threadBody() {
 }
 
 void CRobot::navigation() {
+  drawGoal(window.GetLayer("goal"), cellOf(goalX, goalY));
+
   // Simulated time stands still while you compute: it goes on in Read() only.
   const Map map = mapFile.empty() ? fetchMap() : loadMap(mapFile);
   drawMap(window.GetLayer("map"), map);
@@ -106,6 +109,18 @@ double CRobot::xOf(const Map& map, const Cell& cell) const {
 
 double CRobot::yOf(const Map& map, const Cell& cell) const {
   return (map.height - 1 - cell.row + 0.5) * map.cellSize;  // rows count from the top, y from below
+}
+
+void CRobot::drawGoal(CCMorse::GridMapLayer& layer, const Cell& goal) const {
+  // A dot and a ring of 0.12 m round it, in which the robot has room.
+  for (int dy = -6; dy <= 6; dy++) {
+    for (int dx = -6; dx <= 6; dx++) {
+      const double distance = std::hypot(dx, dy);
+      if (distance < 1.5 || (distance > 5.0 && distance < 6.4)) {
+        layer.SetCell(goal.column + dx, goal.row + dy, 1);
+      }
+    }
+  }
 }
 
 Map CRobot::loadMap(const std::string& file) const {

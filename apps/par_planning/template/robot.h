@@ -60,6 +60,8 @@ class CRobot : public imr::concurrent::CThread {
   void drawPath(CCMorse::GridMapLayer& layer, const std::vector<Cell>& path) const;
   bool decideSpeeds(const std::vector<Cell>& path);  // to follow it; true at its end
 
+  void drawGoal(CCMorse::GridMapLayer& layer, const Cell& goal) const;  // works
+
   // From metres to cells and back; these work.
   Cell cellOf(double x, double y) const;
   double xOf(const Map& map, const Cell& cell) const;

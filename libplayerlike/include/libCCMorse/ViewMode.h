@@ -7,7 +7,7 @@ namespace CCMorse {
 enum ViewMode {
   GROUND,       ///< it lies on the arena's floor; obstacles and robots stand on it
   MINI_MAP,     ///< in a corner of the picture of the arena
-  FULL_SCREEN,  ///< alone, its cells crisp
+  FULL_SCREEN,  ///< instead of the arena, its cells crisp, the robots on it
 };
 
 }  // namespace CCMorse

@@ -74,6 +74,15 @@ class ClientCore final : private ReadingSink {
   /// Throws SessionError if the client is gone, or the run over in the background.
   void require_usable() const;
 
+  /// Notes that the program has looked at data of a sensor; see Session::note_looks(). The mutex is
+  /// held by the caller.
+  void note_look(bool has_data) {
+    constexpr int kAtOnce = 1024;
+    if (++looks_ < kAtOnce) return;
+    looks_ = 0;
+    session_->note_looks(kAtOnce, has_data);
+  }
+
   /// Where a robot's localisation last said that it is, for devices that report it too; under
   /// the mutex. Poses of the arena's localisation win over odometry.
   void note_pose(int robot, const sim::Pose& pose, bool absolute);
@@ -120,6 +129,7 @@ class ClientCore final : private ReadingSink {
   std::map<int, KnownPose> poses_;
   std::map<int, bool> replace_rules_;
   std::map<sim::LayerId, bool> sheets_;  // layers of graphics proxies -> in use
+  int looks_ = 0;                        // not told to the session yet
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
 };

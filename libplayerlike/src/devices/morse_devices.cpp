@@ -67,6 +67,7 @@ PlayerCc::mutex_t::scoped_lock MorseDevice::Lock(const char* aFunction) const {
   if (Core()->closed() || Core()->run_is_over()) {
     translated(Fun(aFunction).c_str(), [&] { Core()->require_usable(); });
   }
+  Core()->note_look(/*has_data=*/true);
   return lock;
 }
 
@@ -124,11 +125,13 @@ void MorseSensor::Detach() { Core()->remove(*mReceiver); }
 
 bool MorseSensor::IsValid() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
+  Core()->note_look(mReceiver->valid);
   return mReceiver->valid;
 }
 
 bool MorseSensor::IsFresh() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
+  Core()->note_look(mReceiver->valid);
   return mReceiver->fresh;
 }
 

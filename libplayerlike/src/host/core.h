@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/idle_calls.h"
 #include "host/recorder.h"
 #include "host/run_log.h"
 #include "host/view_controls.h"
@@ -74,8 +75,12 @@ struct Client {
   std::atomic<bool> closed{false};
   std::atomic<WallClock::rep> last_seen{0};
 
-  std::mutex input_mutex;  ///< guards the commands; taken after Core's mutex
+  /// Whether it is a client of this process's program: neither a driver's nor a server's.
+  [[nodiscard]] bool is_programs() const noexcept { return !follower && !helper && !notify; }
+
+  std::mutex input_mutex;  ///< guards the commands and idle; taken after Core's mutex
   std::vector<std::pair<DeviceId, sim::Command>> commands;
+  IdleCalls idle;
   DrawQueue drawings;  ///< any thread may push; the rest under Core's mutex
 };
 
@@ -128,6 +133,10 @@ class Host::Core : private ViewedRun {
   std::optional<std::string> set_time_factor(double factor);
 
   void send(Client& client, DeviceId device, const sim::Command& command);
+  /// See Session::note_looks().
+  void note_looks(Client& client, int count, bool has_data);
+  void watch_program();
+  void note_program_ends(int status);
   void flush_drawings(Client& client);
   /// Does something with the layers, after what the client has drawn so far: calls
   /// action(layers, book) under the mutex.
@@ -227,6 +236,11 @@ class Host::Core : private ViewedRun {
   void wait_for_others(Lock& lock, const Client& client);
   [[nodiscard]] WallClock::time_point silence_deadline() const;
   void note_silence();
+  /// With the client's input mutex held. @return whether warn_if_nobody_reads() is to be called.
+  [[nodiscard]] bool note_command(Client& client);
+  void warn_if_nobody_reads(Client& client);
+  [[nodiscard]] std::string cure_for_standing_time() const;
+  void start_busy_alarm(const Lock& held);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThinkerId thinker, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
@@ -291,7 +305,10 @@ class Host::Core : private ViewedRun {
   const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
   const sim::SimTime step_ns_;
   std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
-  bool end_told_ = false;                ///< a session has thrown because the run is over
+  std::atomic<bool> wants_time_{false};  ///< the program has subscribed to something or commanded
+  bool watches_program_ = false;         ///< see Host::watch_program()
+  bool nobody_reads_told_ = false;
+  bool end_told_ = false;  ///< a session has thrown because the run is over
   bool ended_by_program_ = false;
   int sleeps_after_end_ = 0;
   std::vector<const void*> ended_threads_;  ///< pthread_t of those that lived in virtual time

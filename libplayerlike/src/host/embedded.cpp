@@ -31,17 +31,24 @@ struct Registry {
   static Registry& instance() {
     static Registry* registry = [] {
       auto* made = new Registry;
-      std::atexit(finish_all);
+      finish_at_exit();
       return made;
     }();
     return *registry;
   }
 
-  static void finish_all() {
+  static void finish_at_exit() {
+    on_exit([](int status, void*) { finish_all(status); }, nullptr);
+  }
+
+  static void finish_all(int status) {
     Registry& registry = instance();
     if (getpid() != registry.process) return;  // a forked child: the run is not its own
     const std::lock_guard lock(registry.mutex);
-    for (const auto& [key, host] : registry.hosts) host->finish();
+    for (const auto& [key, host] : registry.hosts) {
+      host->note_program_ends(status);
+      host->finish();
+    }
   }
 };
 
@@ -52,7 +59,7 @@ void prepare_drawing(const RunSettings& settings) {
   if (!draws && settings.film.empty()) return;
   sim::render::prepare_pictures();
   if (!settings.film.empty()) sim::render::prepare_films();
-  std::atexit(Registry::finish_all);
+  Registry::finish_at_exit();
 }
 
 std::string full_path(const std::string& file) {
@@ -84,6 +91,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     unsetenv("PLAYPEN_VIEW");
     const sim::LogHook log = log_to_stderr();
     host = Host::create(sim::load_world(file), settings, log);
+    host->watch_program();
     ++registry.results;
     if (settings.virtual_time) {
       if (host->time().mode == sim::TimeMode::kLockstep) {

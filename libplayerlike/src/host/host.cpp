@@ -1,21 +1,20 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/host.h"
 
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "host/busy_alarm.h"
 #include "host/core.h"
 #include "host/end_of_program.h"
 #include "host/object_properties.h"
@@ -37,6 +36,15 @@ constexpr sim::SimTime kEmptyRound_ns = sim::kNanosecondsPerSecond / 10;
 constexpr int kReadsAfterEnd = 1000;
 // The same for one that sleeps in virtual time, a millisecond each; it may have others to wait for.
 constexpr int kSleepsAfterEnd = 1000;
+// How often a program may command or look while simulated time stands still before it is told that
+// nobody calls Read(); see IdleCalls. Before the first Read() few have a reason to. Afterwards one
+// may well send a command for each beam of a scan, and look at each beam many times; but
+// virtual_time::note_look() lets time pass after three million looks.
+constexpr double kCommandsBeforeFirstStep = 1000.0;
+constexpr double kCommandsInAStep = 10'000.0;
+constexpr double kCommandsAfterSleeps = 20.0;  // a robot; the same for the least of the two above
+constexpr double kLooksWithoutData = 1000.0;
+constexpr double kLooksInAStep = 2'000'000.0;
 // Virtual time: how often it is looked whether a thread is blocked, and when it is.
 constexpr std::chrono::milliseconds kLookForBlocked(20);
 constexpr std::chrono::milliseconds kBlocked(100);
@@ -62,22 +70,6 @@ bool replaces_earlier_ones(const sim::Command& command) {
          std::holds_alternative<sim::CarCommand>(command) ||
          std::holds_alternative<sim::MotorEnableCommand>(command) ||
          std::holds_alternative<sim::SetPoseCommand>(command);
-}
-
-pid_t this_thread() { return static_cast<pid_t>(syscall(SYS_gettid)); }
-
-// How often a thread has gone to sleep by itself, if it sleeps now.
-std::optional<std::uint64_t> sleeps_since(pid_t thread) {
-  std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");
-  bool asleep = false;
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("State:")) asleep = line.find("S (") != std::string::npos;
-    constexpr std::string_view kSwitches = "voluntary_ctxt_switches:";
-    if (asleep && line.starts_with(kSwitches)) {
-      return std::strtoull(line.c_str() + kSwitches.size(), nullptr, 10);
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -234,6 +226,7 @@ void Host::Core::subscribe(Client& client, DeviceId device) {
     it->replace = client.replace_by_default;
   }
   ++it->count;
+  if (client.is_programs() && !wants_time_.exchange(true)) start_busy_alarm(lock);
 }
 
 void Host::Core::unsubscribe(Client& client, DeviceId device) {
@@ -493,6 +486,7 @@ void Host::Core::advance() {
   if (!first_step_) {
     first_step_ = now;
     last_progress_ = now;
+    if (watches_program_) dismiss_busy_alarm();
   }
   for (const auto& client : clients_) apply_inputs(*client);
   if (hand_) hand_->before_step(simulation_);
@@ -962,20 +956,105 @@ std::optional<std::string> Host::Core::set_time_factor(double factor) {
 void Host::Core::send(Client& client, DeviceId device, const sim::Command& command) {
   require_open(client);
   touch(client);
+  const bool is_programs = client.is_programs();
+  if (is_programs && !wants_time_.load(std::memory_order_relaxed) && !wants_time_.exchange(true)) {
+    start_busy_alarm(lock_soon());
+  }
+  bool look = false;
+  bool full = false;
   {
     const std::lock_guard input(client.input_mutex);
+    look = is_programs && note_command(client);
     // Of such commands in a row to the same device only the last counts.
     if (replaces_earlier_ones(command) && !client.commands.empty() &&
         client.commands.back().first == device &&
         client.commands.back().second.index() == command.index()) {
       client.commands.back().second = command;
-      return;
+    } else {
+      client.commands.emplace_back(device, command);
+      full = client.commands.size() > kCommandLimit;
     }
-    client.commands.emplace_back(device, command);
-    if (client.commands.size() <= kCommandLimit) return;
   }
+  if (look) warn_if_nobody_reads(client);
+  if (!full) return;
   const Lock lock = lock_soon();
   apply_inputs(client);
+}
+
+// --- Programs that let no time pass
+// -----------------------------------------------------------------
+
+bool Host::Core::note_command(Client& client) {
+  const sim::SimTime now_ns = this->now_ns();
+  const auto robots = static_cast<double>(robots_.size());
+  const double share = 1.0 / std::max(now_ns == 0 ? kCommandsBeforeFirstStep : kCommandsInAStep,
+                                      kCommandsAfterSleeps * robots);
+  // In virtual time sleeps let time pass.
+  return turns_ ? client.idle.note(now_ns, share)
+                : client.idle.note_command(now_ns, share, 1.0 / (kCommandsAfterSleeps * robots));
+}
+
+void Host::Core::note_looks(Client& client, int count, bool has_data) {
+  if (!client.is_programs()) return;
+  bool look = false;
+  {
+    const std::lock_guard input(client.input_mutex);
+    look = client.idle.note(now_ns(), count / (has_data ? kLooksInAStep : kLooksWithoutData));
+  }
+  if (look) warn_if_nobody_reads(client);
+}
+
+void Host::Core::warn_if_nobody_reads(Client& client) {
+  const Lock lock = lock_soon();
+  const ThinkerId self = this_thinker();
+  const bool others_may_read = std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
+    if (!c->joined || c->silent || c->follower || c->owner == self) return false;
+    return !c->waiting || !gate_open();
+  });
+  {
+    const std::lock_guard input(client.input_mutex);
+    if (nobody_reads_told_ || paced_ || over() || others_may_read) return client.idle.postpone();
+    if (!client.idle.look(simulation_.now_ns())) return;
+  }
+  nobody_reads_told_ = true;
+  if (watches_program_) dismiss_busy_alarm();
+  warn(
+      "the program goes on commanding robots or looking at their data, but simulated time stands "
+      "still: it does not call Read(). " +
+      cure_for_standing_time());
+}
+
+std::string Host::Core::cure_for_standing_time() const {
+  return std::string(
+             "Time passes only while the program waits in Read(): call client.Read() in each turn "
+             "of its loop (in C: playerc_client_read(client))") +
+         (turns_ ? ", or sleep" : "; its sleeps count only under `playpen run`");
+}
+
+void Host::Core::watch_program() {
+  const Lock lock = lock_soon();
+  watches_program_ = true;
+}
+
+void Host::Core::start_busy_alarm(const Lock& /*held*/) {
+  if (!watches_program_ || paced_ || over() || simulation_.now_ns() > 0) return;
+  std::ostringstream limit;
+  limit << settings_.silence_limit_s;
+  set_busy_alarm(settings_.silence_limit_s,
+                 "the program has been busy for " + limit.str() +
+                     " s of processor time, but no simulated time has passed: it has not called "
+                     "Read(). " +
+                     cure_for_standing_time());
+}
+
+void Host::Core::note_program_ends(int status) {
+  const Lock lock = lock_soon();
+  if (watches_program_) dismiss_busy_alarm();
+  if (nobody_reads_told_ || busy_alarm_rang() || paced_ || ended_ || !wants_time_) return;
+  // A program that gives up because of an error knows why.
+  if (simulation_.now_ns() > 0 || status != 0) return;
+  warn("nothing was simulated: the program has ended without calling Read(). " +
+       cure_for_standing_time());
 }
 
 // --- The canvas
@@ -1130,6 +1209,7 @@ void Host::Core::prefer_real_time(const std::string& reason) {
 
 void Host::Core::start_pacing(const std::string& warning) {
   paced_ = true;
+  if (watches_program_) dismiss_busy_alarm();
   if (turns_) virtual_time::give_up();
   warn(warning);
   pacer_ = std::thread([this] { pace(); });
@@ -1227,6 +1307,7 @@ void Host::Core::stop_pacer() {
 void Host::Core::finish() noexcept {
   try {
     const Lock lock = lock_soon();
+    if (watches_program_) dismiss_busy_alarm();
     ended_by_program_ = true;
     if (!ended_) {
       for (const auto& client : clients_) apply_inputs(*client);
@@ -1534,6 +1615,8 @@ std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()
 
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
 void Host::check_silence() { core_->check_silence(); }
+void Host::watch_program() { core_->watch_program(); }
+void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends(status); }
 void Host::thinker_ended(ThinkerId thinker) noexcept { InsideCore(*core_)->thinker_ended(thinker); }
 AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm)); }
 bool Host::cancel_alarm(AlarmId alarm) { return core_->cancel_alarm(alarm); }

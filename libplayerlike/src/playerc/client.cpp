@@ -214,6 +214,7 @@ using playerlike::clib::Client;
 using playerlike::clib::Device;
 using playerlike::clib::guarded;
 using playerlike::clib::refuse;
+using playerlike::clib::reported;
 using std::chrono::milliseconds;
 
 namespace {
@@ -292,7 +293,7 @@ void playerc_client_set_transport(playerc_client_t* client, unsigned int transpo
 }
 
 int playerc_client_connect(playerc_client_t* client) {
-  return guarded(__func__, [&] { Client::of(client).connect(); });
+  return reported(__func__, [&] { Client::of(client).connect(); });
 }
 
 int playerc_client_disconnect(playerc_client_t* client) {
@@ -404,7 +405,7 @@ int playerc_client_get_devlist(playerc_client_t* client) {
 
 int playerc_client_subscribe(playerc_client_t* client, int code, int index, int access,
                              char* drivername, size_t len) {
-  return guarded(__func__, [&] {
+  return reported(__func__, [&] {
     Client& self = Client::of(client);
     std::string name;
     if (Device* const device = self.find(code, index)) {

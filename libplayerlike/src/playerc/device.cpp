@@ -118,6 +118,7 @@ void require_done(int result, const char* property) {
 }  // namespace playerlike::clib
 
 using playerlike::clib::guarded;
+using playerlike::clib::reported;
 using playerlike::clib::require;
 using playerlike::clib::require_done;
 using playerlike::clib::require_proxy;
@@ -141,7 +142,7 @@ void playerc_device_term(playerc_device_t* device) {
 }
 
 int playerc_device_subscribe(playerc_device_t* device, int access) {
-  return guarded(__func__, [&] { require(device).subscribe(access); });
+  return reported(__func__, [&] { require(device).subscribe(access); });
 }
 
 int playerc_device_unsubscribe(playerc_device_t* device) {

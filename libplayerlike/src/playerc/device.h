@@ -93,11 +93,11 @@ template <typename T>
   return static_cast<T&>(*device);
 }
 
-/// action(device) for the device behind a struct, as guarded().
+/// action(device) for the device behind a struct, as reported().
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
   virtual_time::note_look();
-  return guarded(fun, [&] { return action(device_of<T>(device)); });
+  return reported(fun, [&] { return action(device_of<T>(device)); });
 }
 
 /// How long an array of readings must be. Beyond its end there is room, at first zeros, up to the

@@ -1,6 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerc/guard.h"
 
+#include <mutex>
+#include <set>
+
+#include "devices/warnings.h"
 #include "libplayerc/playerc.h"
 
 namespace playerlike::clib {
@@ -16,6 +20,19 @@ std::string& last_error() {
 
 void set_error(const char* fun, const std::string& why) {
   last_error() = std::string(fun) + ": " + why;
+}
+
+void report_error(const char* fun, const std::string& why) {
+  set_error(fun, why);
+  constexpr std::size_t kMostTexts = 100;
+  // Never destroyed: programs may call from the destructors of static objects.
+  static auto* const mutex = new std::mutex;
+  static auto* const told = new std::set<std::string>;
+  {
+    const std::lock_guard lock(*mutex);
+    if (told->size() >= kMostTexts || !told->insert(last_error()).second) return;
+  }
+  warn(last_error());
 }
 
 void refuse(const std::string& why) {

@@ -75,6 +75,7 @@ ClientProxy::ClientProxy(const ClientProxy& aOther)
     other.core->require_usable();
     mLink->binding = other.binding;
     mLink->attached = other.attached;
+    mLink->has_readings = other.has_readings;
     mLink->valid = other.valid;
     mLink->device = other.device;
     mLink->device.id = this;
@@ -117,6 +118,7 @@ void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun,
     const auto rule = rules.find(static_cast<int>(aInterface));
     if (rule != rules.end()) replace = rule->second;
     if (aHasReadings) core.add(mLink->binding.reading, *mLink, replace);
+    mLink->has_readings = aHasReadings;
     mLink->attached = true;
     info.subscribed = 1;
   });
@@ -126,6 +128,7 @@ ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
   playerlike::virtual_time::note_look();
   scoped_lock_t lock(mLink->core->mutex());
   translated(aFun, [&] { mLink->core->require_usable(); });
+  mLink->note_look();
   return lock;
 }
 
@@ -142,12 +145,14 @@ bool ClientProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
 bool ClientProxy::IsValid() const {
   playerlike::virtual_time::note_look();
   const scoped_lock_t lock(mLink->core->mutex());
+  mLink->note_look();
   return mLink->valid;
 }
 
 bool ClientProxy::IsFresh() const {
   playerlike::virtual_time::note_look();
   const scoped_lock_t lock(mLink->core->mutex());
+  mLink->note_look();
   return mFresh;
 }
 

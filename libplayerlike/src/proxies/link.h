@@ -22,6 +22,10 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   std::function<void()> notification() override;
   void on_close() override;
 
+  /// Notes that the program looks at the data; with the client's mutex held.
+  void note_look() const {
+    if (has_readings) core->note_look(valid);
+  }
   /// Notes that there are data of this time [s]; with the client's mutex held.
   void refresh(double time_s);
 
@@ -38,6 +42,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   const std::shared_ptr<playerlike::ClientCore> core;
   playerlike::InterfaceBinding binding;
   bool attached = false;
+  bool has_readings = false;  ///< of the device behind it, which it is subscribed to
   bool valid = false;
   playerc_device_t device = {};
 };

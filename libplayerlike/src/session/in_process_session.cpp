@@ -85,6 +85,10 @@ void InProcessSession::send(DeviceId device, const sim::Command& command) {
   core()->send(*client_, device, command);
 }
 
+void InProcessSession::note_looks(int count, bool has_data) {
+  core()->note_looks(*client_, count, has_data);
+}
+
 void InProcessSession::join() {
   note_wait();
   core()->join(*client_, this_thinker());

@@ -30,6 +30,7 @@ class InProcessSession final : public Session {
   int take(ReadingSink& sink) override;
   bool peek(std::chrono::milliseconds timeout) override;
   void send(DeviceId device, const sim::Command& command) override;
+  void note_looks(int count, bool has_data) override;
   void join() override;
   std::unique_ptr<Session> open_follower() override;
   const void* simulation() const noexcept override;

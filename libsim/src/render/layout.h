@@ -78,6 +78,7 @@ struct Layout {
   double pixels_per_m = 1.0;
   Rectangle floor;
   Vec2 origin = Vec2::Zero();  ///< W position of the floor's bottom left corner [m]
+  bool floor_only = false;     ///< robots that lie beyond the floor are left out
 
   Layout(const ArenaDescription& arena, const RenderOptions& options);
 

@@ -741,8 +741,13 @@ class RobotPainter {
   }
 
   [[nodiscard]] bool has_place(const RobotSnapshot& robot) const {
-    return !robot.footprint.empty() && is_drawable(layout_(robot.X_WB.position())) &&
-           std::isfinite(robot.X_WB.yaw_rad);
+    const Vec2 center = layout_(robot.X_WB.position());
+    if (robot.footprint.empty() || !is_drawable(center) || !std::isfinite(robot.X_WB.yaw_rad)) {
+      return false;
+    }
+    const Vec2 reach = Vec2::Constant(marked_radius_px(robot));
+    return !layout_.floor_only ||
+           rectangle(center - reach, center + reach).overlap(layout_.floor) > 0.0;
   }
   static Rectangle rectangle(const Vec2& low, const Vec2& high) {
     return {low.x(), low.y(), high.x(), high.y()};

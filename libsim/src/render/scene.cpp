@@ -250,8 +250,8 @@ class ArenaView {
     return best;
   }
 
-  // The canvas alone. Its picture has the size that the arena's has, so that a film may change its
-  // mode.
+  // The canvas with the robots on it. Its picture has the size that the arena's has, so that a film
+  // may change its mode.
   const Image& draw_full_screen(const SceneSnapshot& scene) {
     const CanvasDescription& canvas = scene.canvas_description;
     const bool footer = options_.legend && layout_.text;
@@ -281,6 +281,18 @@ class ArenaView {
                                       .cell_px = cell_px,
                                       .part = place},
                                      cells_of(scene, true), full_ground_, nullptr);
+    // W as the canvas shows it.
+    Layout on_canvas = layout_;
+    on_canvas.pixels_per_m = cell_px / canvas.cell_size_m;
+    on_canvas.origin = canvas.origin;
+    on_canvas.floor_only = true;
+    on_canvas.floor = {static_cast<double>(left), static_cast<double>(top),
+                       left + canvas.width * cell_px, top + canvas.height * cell_px};
+    painter_.set_clip(place);
+    draw_robots(scene, on_canvas, painter_);
+    painter_.clear_clip();
+    if (options_.names && layout_.text) draw_names(scene, on_canvas, painter_);
+    if (layout_.text) draw_speech(scene, on_canvas, painter_);
     if (footer) {
       const double bottom = layout_.height;
       draw_footer(

@@ -498,7 +498,7 @@ TEST(DrawView, AllModesGivePicturesOfOneSize) {
   }
 }
 
-TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColourAndNoRobots) {
+TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColour) {
   SceneSnapshot scene = small_scene();
   scene.view_mode = ViewMode::kFullScreen;
   Sequence sequence;
@@ -520,8 +520,51 @@ TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColourAndNoRobots) {
           << x << ", " << y;
     }
   }
-  scene.robots = {robot_at({2.0, 2.0, 0.0}, {0, 0, 255, 255})};
-  EXPECT_TRUE(draw_view(scene, plain_options()).rgb == image.rgb);
+}
+
+TEST(DrawView, FullScreenShowsRobotsAtTheScaleOfTheCanvas) {
+  SceneSnapshot scene = small_scene();
+  scene.view_mode = ViewMode::kFullScreen;
+  scene.canvas_description.origin = {1.0, 0.5};
+  for (int i = 0; i < 40 * 40; ++i) scene.canvas.insert(scene.canvas.end(), {0, 160, 0, 255});
+  const Image empty = draw_view(scene, plain_options());
+  constexpr double kUp_rad = 1.5707963267948966;
+  scene.robots = {robot_at({2.0, 2.0, kUp_rad}, {0, 0, 255, 255}),
+                  robot_at({1.0, 3.5, kUp_rad}, {255, 0, 0, 255})};
+  const Image image = draw_view(scene, plain_options());
+  // As above, 24 px a cell of 0.1 m, and the canvas in columns and rows 20 to 979. So the first
+  // robot is at (20 + 1.0 * 240, 980 - 1.5 * 240) = (260, 620) and reaches 24 px to each side. Its
+  // nose is an arrow head whose tip is 0.82 of that ahead: 20 px above the centre.
+  EXPECT_EQ(pixel(image, 260, 620), (Rgb{0, 0, 255}));
+  EXPECT_EQ(pixel(image, 260, 640), (Rgb{0, 0, 255}));
+  EXPECT_TRUE(is_light(pixel(image, 260, 601)));
+  for (const auto& [x, y] : {std::pair{260, 590}, {230, 620}, {290, 620}, {260, 650}}) {
+    EXPECT_EQ(pixel(image, x, y), (Rgb{0, 160, 0})) << x << ", " << y;
+  }
+  // The second one stands astride the left edge, at (20, 980 - 3.0 * 240 = 260), and is cut off
+  // there.
+  EXPECT_EQ(pixel(image, 30, 260), (Rgb{255, 0, 0}));
+  for (int x = 0; x < 20; ++x) EXPECT_EQ(pixel(image, x, 260), pixel(empty, x, 260)) << x;
+}
+
+TEST(DrawView, FullScreenSaysNothingOfRobotsBeyondTheCanvas) {
+  SceneSnapshot scene = small_scene();
+  scene.view_mode = ViewMode::kFullScreen;
+  scene.canvas_description.width = 20;  // up to x = 2 m
+  RenderOptions options;
+  const Image empty = draw_view(scene, options);
+  scene.robots = {robot_at({3.0, 2.0, 0.0}, {0, 0, 255, 255})};
+  scene.robots[0].says = "hello";
+  EXPECT_TRUE(draw_view(scene, options).rgb == empty.rgb);
+  scene.robots[0].X_WB.x_m = 1.0;
+  const Image with = draw_view(scene, options);
+  scene.robots[0].says.clear();
+  const Image silent = draw_view(scene, options);
+  options.names = false;
+  const Image nameless = draw_view(scene, options);
+  EXPECT_FALSE(with.rgb == silent.rgb);
+  EXPECT_FALSE(silent.rgb == nameless.rgb);
+  EXPECT_FALSE(nameless.rgb == empty.rgb);
 }
 
 TEST(DrawView, FullScreenShrinksACanvasOfMoreCellsThanPixelsByAWholeNumber) {

@@ -53,6 +53,14 @@ class Host : public std::enable_shared_from_this<Host> {
   /// RunSettings::silence_limit_s, and no longer waits for them. To be called now and then.
   void check_silence();
 
+  /// For the simulation of a program in this process, in lockstep: from now on the program is told,
+  /// as a warning, when it has used RunSettings::silence_limit_s of processor time without letting
+  /// any simulated time pass, though it has subscribed to a device or commanded one.
+  void watch_program();
+  /// That program ends with this exit status: it is told, as a warning, if it has let no simulated
+  /// time pass. Not if the status is not 0, as it then knows of an error.
+  void note_program_ends(int status);
+
   /// A thinker takes no more part, see EventClient.
   void thinker_ended(ThinkerId thinker) noexcept;
 

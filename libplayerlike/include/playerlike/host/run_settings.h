@@ -30,7 +30,9 @@ struct RunSettings {
   bool progress = false;       ///< a progress line on stderr, if that is a terminal
   bool virtual_time = false;   ///< sleeps of the program move lockstep time (docs/virtual_time.md)
   bool quiet_end = false;      ///< an uncaught end-of-run error ends the program with status 0
-  double silence_limit_s = 5.0;  ///< wall time after which a thinking client stops counting
+  /// Wall time after which a thinking client stops counting, and processor time after which a
+  /// program that has let no simulated time pass is told so [s].
+  double silence_limit_s = 5.0;
 
   /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a
   /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,

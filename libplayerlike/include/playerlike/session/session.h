@@ -75,6 +75,14 @@ class Session {
 
   /// Queues a command for the next step.
   virtual void send(DeviceId device, const sim::Command& command) = 0;
+  /// Notes that the program has looked at readings so many times. A session whose simulated time
+  /// passes only while the program waits warns one that goes on looking or commanding without ever
+  /// waiting.
+  /// @param has_data  whether the device it looked at last has had a reading.
+  virtual void note_looks(int count, bool has_data) {
+    static_cast<void>(count);
+    static_cast<void>(has_data);
+  }
 
   /// Takes part in the lockstep from now on, with the calling thread as this session's owner, as
   /// after a wait(), but without waiting: simulated time stands until this thread waits. So a

@@ -44,9 +44,11 @@ struct RenderOptions {
 ///   (1e9 pixels) are left out.
 /// - mini-map: the same with a bare floor; the canvas, framed, with a dot for each robot, in that
 ///   corner of the floor where it covers least of obstacles and docks.
-/// - full-screen: the canvas alone on white, each cell the same whole number of pixels wide, in the
+/// - full-screen: the canvas on white, each cell the same whole number of pixels wide, in the
 ///   middle of the picture. One with more cells than the picture has pixels is shrunk, each pixel
-///   showing the mean of the cells under it.
+///   showing the mean of the cells under it. The robots stand on it, at its scale and cut off at
+///   its edge, with their lights, bumpers, rings, names and bubbles as on the ground; nothing else
+///   of the arena is drawn.
 ///
 /// The legend names the visible layers but the base: a swatch of a layer's colour, for a grey layer
 /// the shades of free, unknown and occupied. What has no room is left out: first the words for

@@ -147,7 +147,7 @@ struct RobotDescription {
 enum class ViewMode {
   kGround,      ///< it lies on the floor; obstacles and robots stand on it
   kMiniMap,     ///< in a corner of the picture of the arena
-  kFullScreen,  ///< alone, its cells crisp
+  kFullScreen,  ///< instead of the arena, its cells crisp, the robots on it
 };
 
 /// The grid-map that robots draw on with their pens.

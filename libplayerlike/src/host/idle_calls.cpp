@@ -1,0 +1,89 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/idle_calls.h"
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace playerlike {
+
+pid_t this_thread() noexcept { return static_cast<pid_t>(syscall(SYS_gettid)); }
+
+std::optional<std::uint64_t> sleeps_since(pid_t thread) {
+  std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");
+  bool asleep = false;
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("State:")) asleep = line.find("S (") != std::string::npos;
+    constexpr std::string_view kSwitches = "voluntary_ctxt_switches:";
+    if (asleep && line.starts_with(kSwitches)) {
+      return std::strtoull(line.c_str() + kSwitches.size(), nullptr, 10);
+    }
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+// How often the calling thread has gone to sleep by itself.
+long own_sleeps() {
+  rusage usage{};
+  return getrusage(RUSAGE_THREAD, &usage) == 0 ? usage.ru_nvcsw : 0;
+}
+
+}  // namespace
+
+void IdleCalls::begin_at(sim::SimTime now_ns) {
+  *this = IdleCalls();
+  since_ns_ = now_ns;
+}
+
+bool IdleCalls::note(sim::SimTime now_ns, double share) {
+  if (now_ns != since_ns_) begin_at(now_ns);
+  used_ += share;
+  return used_ >= next_look_;
+}
+
+bool IdleCalls::note_command(sim::SimTime now_ns, double share, double share_after_sleep) {
+  if (now_ns != since_ns_) begin_at(now_ns);
+  // Not of the first one: most programs send one command and read.
+  if (used_ > 0.0) {
+    const long sleeps = own_sleeps();
+    const long before = std::exchange(own_sleeps_, sleeps);
+    if (before >= 0 && sleeps != before) share = share_after_sleep;
+  }
+  return note(now_ns, share);
+}
+
+bool IdleCalls::look(sim::SimTime now_ns) {
+  if (now_ns != since_ns_) return false;
+  postpone();
+  const std::optional<Sleepers> before = std::move(sleepers_);
+  sleepers_ = sleepers();
+  return used_ >= 1.0 && sleepers_ && sleepers_ == before;
+}
+
+std::optional<IdleCalls::Sleepers> IdleCalls::sleepers() {
+  Sleepers found;
+  std::error_code error;
+  const pid_t self = this_thread();
+  std::filesystem::directory_iterator tasks("/proc/self/task", error);
+  for (; !error && tasks != std::filesystem::directory_iterator(); tasks.increment(error)) {
+    const auto thread = static_cast<pid_t>(std::atol(tasks->path().filename().string().c_str()));
+    if (thread == self) continue;
+    const std::optional<std::uint64_t> sleeps = sleeps_since(thread);
+    if (!sleeps) return std::nullopt;
+    found[thread] = *sleeps;
+  }
+  if (error) return std::nullopt;
+  return found;
+}
+
+}  // namespace playerlike
