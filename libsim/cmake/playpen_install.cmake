@@ -11,6 +11,17 @@ install(TARGETS playpen_sim playpen_playerlike
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
+# The shared library beside static ones.
+if(TARGET playpen_player)
+  install(TARGETS playpen_player
+    EXPORT playpenTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  # Whoever builds the command can install the package.
+  if(TARGET playpen)
+    add_dependencies(playpen playpen_player)
+  endif()
+endif()
+
 # Folders, not file sets: CMake has those from 3.23 on, Ubuntu 22.04 has 3.22.
 foreach(_dir IN ITEMS libsim/include libplayerlike/include)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${_dir}/"
@@ -46,4 +57,4 @@ install(FILES
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenOpenCV.cmake"
   DESTINATION "${_playpen_package_dir}")
-include(playpen_pkgconfig)
+include(playpen_player_names)
