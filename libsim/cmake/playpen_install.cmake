@@ -57,4 +57,7 @@ install(FILES
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenOpenCV.cmake"
   DESTINATION "${_playpen_package_dir}")
-include(playpen_player_names)
+# With sanitizers there is no shared library beside static ones.
+if(BUILD_SHARED_LIBS OR TARGET playpen_player)
+  include(playpen_player_names)
+endif()

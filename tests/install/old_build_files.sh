@@ -115,6 +115,9 @@ try "${cxx[@]}" example.cc -Ihere/include/player-3.1 -Ihere/include/player-3.1/p
 LD_LIBRARY_PATH=$libraries prints 'read for a second at localhost:6665' ./hand
 try "${cc[@]}" wander.c -Ihere/include/player-2.1 -L"$libraries" -lplayerc -lm -o hand_c
 LD_LIBRARY_PATH=$libraries prints "$drove" ./hand_c
+# By Playpen's own name: the shared library, also where there is an archive of that name.
+try "${cxx[@]}" -L"$libraries" -lplaypen_playerlike wander.o -o own_name
+LD_LIBRARY_PATH=$libraries prints "$drove" ./own_name
 # A makefile for a Player in /usr/local, unchanged: the compiler and the linker are told by variables.
 CPATH=here/include/player-3.1 LIBRARY_PATH=$libraries LD_RUN_PATH=$libraries \
   prints '' make -f Makefile.names CXX="${cxx[*]}" CC="${cc[*]}"
