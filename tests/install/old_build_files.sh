@@ -88,7 +88,7 @@ pkg-config --atleast-version=3.0 playerc++ || fail "playerc++ has no version of 
   try "${cxx[@]}" -c $(pkg-config --cflags playerc++) wander.cc
   try "${cc[@]}" -c $(pkg-config --cflags playerc) wander.c -o wander_c.o
 }
-# Where the linker leaves out libraries that nothing has needed yet, as Ubuntu's does.
+# Where the linker leaves out libraries that nothing has needed yet, as gcc of Debian and Ubuntu has it do.
 for package in playerc++ playerc playercore playerinterface 'playerc++ playerc' 'playerc playerc++'; do
   read -ra flags <<<"$(pkg-config --libs "$package")"
   try "${cxx[@]}" -Wl,--as-needed "${flags[@]}" wander.o -o "as_needed_before"
@@ -116,8 +116,11 @@ LD_LIBRARY_PATH=$libraries prints 'read for a second at localhost:6665' ./hand
 try "${cc[@]}" wander.c -Ihere/include/player-2.1 -L"$libraries" -lplayerc -lm -o hand_c
 LD_LIBRARY_PATH=$libraries prints "$drove" ./hand_c
 # By Playpen's own name: the shared library, also where there is an archive of that name.
-try "${cxx[@]}" -L"$libraries" -lplaypen_playerlike wander.o -o own_name
+try "${cxx[@]}" wander.o -L"$libraries" -lplaypen_playerlike -o own_name
 LD_LIBRARY_PATH=$libraries prints "$drove" ./own_name
+# Bare names before the sources, with what the guide says for compilers that drop them.
+try "${cxx[@]}" -Wl,--no-as-needed -L"$libraries" -lplayerc++ wander.o -o names_before
+LD_LIBRARY_PATH=$libraries prints "$drove" ./names_before
 # A makefile for a Player in /usr/local, unchanged: the compiler and the linker are told by variables.
 CPATH=here/include/player-3.1 LIBRARY_PATH=$libraries LD_RUN_PATH=$libraries \
   prints '' make -f Makefile.names CXX="${cxx[*]}" CC="${cc[*]}"
