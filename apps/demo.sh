@@ -55,7 +55,8 @@ if command -v ccache >/dev/null 2>&1; then
   launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 fi
 quietly "configuring" cmake --preset release "${launcher[@]}"
-targets=(playpen par_exploration_solution_nearest)
+# The command, the package that `cmake --install` installs, and the programs that the guides run.
+targets=(programs)
 jobs=$(nproc)
 if [[ -t 1 ]]; then
   # On a terminal ninja shows its progress in one line.
@@ -64,7 +65,7 @@ if [[ -t 1 ]]; then
 else
   quietly "the build" cmake --build "$build" --parallel "$jobs" --target "${targets[@]}"
 fi
-echo "     $build/bin/playpen, $build/bin/par_exploration_solution_nearest"
+echo "     $build/bin/playpen, and the course's programs beside it"
 
 headline "3/4  A robot explores an arena that it does not know"
 results=(film.mp4 scene.png canvas.png layers/occupancy.pgm layers/occupancy.yaml report.json

@@ -13,10 +13,10 @@ Installs what is missing of the groups, from Debian or Ubuntu packages (Debian 1
 or newer). Does nothing, and needs no rights, when all of it is there.
 
 Groups (default: build):
-  build   compiler, CMake and the libraries that Playpen links
+  build   compiler, CMake, make and pkg-config, and the libraries that Playpen links
   test    GoogleTest, Google Benchmark, ffprobe, which looks at films, a display without a
-          screen for the live window, Python and pkg-config, and, where they can be had, MORSE's
-          client library and Boost.Program_options
+          screen for the live window, Python, and, where they can be had, MORSE's client library
+          and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
 
@@ -28,7 +28,7 @@ TEXT
 # One entry a package: its name, or name=command where any installed version of that command
 # will do, wherever it came from.
 build_packages=(
-  "g++=g++" cmake=cmake ninja-build=ninja make=make
+  "g++=g++" cmake=cmake ninja-build=ninja make=make pkg-config=pkg-config
   libbox2d-dev libeigen3-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-videoio-dev
   libopencv-highgui-dev libx11-dev libpng-dev
@@ -36,7 +36,7 @@ build_packages=(
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
-  python3=python3 pkg-config=pkg-config)
+  python3=python3)
 # Where the system has no such package (Ubuntu 24.04 lacks the first), the tests that want it are
 # skipped.
 optional_test_packages=(python3-morse-simulator libboost-program-options-dev)

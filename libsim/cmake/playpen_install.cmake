@@ -13,6 +13,16 @@ install(TARGETS playpen_sim playpen_playerlike
 
 # What pictures and films need, loaded from beside the library.
 install(TARGETS playpen_text playpen_film LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/playpen")
+# The shared library beside static ones.
+if(TARGET playpen_player)
+  install(TARGETS playpen_player
+    EXPORT playpenTargets
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  # Whoever builds the command can install the package.
+  if(TARGET playpen)
+    add_dependencies(playpen playpen_player)
+  endif()
+endif()
 
 # Folders, not file sets: CMake has those from 3.23 on, Ubuntu 22.04 has 3.22.
 foreach(_dir IN ITEMS libsim/include libplayerlike/include)
@@ -48,4 +58,7 @@ install(FILES
   "${PROJECT_BINARY_DIR}/package/playpenConfigVersion.cmake"
   "${CMAKE_CURRENT_LIST_DIR}/FindPlaypenBox2D.cmake"
   DESTINATION "${_playpen_package_dir}")
-include(playpen_pkgconfig)
+# With sanitizers there is no shared library beside static ones.
+if(BUILD_SHARED_LIBS OR TARGET playpen_player)
+  include(playpen_player_names)
+endif()

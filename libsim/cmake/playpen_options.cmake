@@ -35,7 +35,8 @@ endif()
 # where a program has one of the same name: by chance, or its copy of an inline function of a common
 # header, which may be compiled without optimisation.
 function(playpen_bind_own_functions target)
-  if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND UNIX AND NOT APPLE)
     target_link_options(${target} PRIVATE LINKER:-Bsymbolic-functions)
   endif()
 endfunction()

@@ -81,49 +81,28 @@ if(EXISTS "${prefix}/bin/playpen")
   endif()
 endif()
 
-# Programs as old as Player: one command with what pkg-config says, no build system, and nothing set
-# when they run. Through a name without spaces, since a shell splits at them what stands for a
-# command's output; and as makefiles do, where the flags become part of a line and may hold spaces.
-set(old "${STAGE_DIR}/old")
-file(REMOVE_RECURSE "${old}")
-file(COPY "${CONSUMER_DIR}/../old/" DESTINATION "${old}")
-file(GLOB_RECURSE pc_files "${prefix}/*.pc")
-list(LENGTH pc_files pc_count)
-if(NOT pc_count EQUAL 2)
-  message(FATAL_ERROR "these were installed for pkg-config, not playerc++.pc and playerc.pc: ${pc_files}")
-endif()
-foreach(pc_file IN LISTS pc_files)
-  file(READ "${pc_file}" text)
-  if(text MATCHES "=/")
-    message(FATAL_ERROR "${pc_file} names a folder of this machine:\n${text}")
+# Programs as old as Player, by build files as they were written for it.
+find_program(bash bash REQUIRED)
+run("building by old build files" ${CMAKE_COMMAND} -E env
+  "CXX=${CXX_COMPILER}" "CXXFLAGS=${CXX_FLAGS}" "CC=${C_COMPILER}" "CFLAGS=${CXX_FLAGS}"
+  "${bash}" "${CMAKE_CURRENT_LIST_DIR}/old_build_files.sh" "${prefix}" "${STAGE_DIR}/old")
+message(STATUS "${run_output}")
+
+# A Player that is there already keeps its names; a second installation of Playpen finds its own.
+set(other "${STAGE_DIR}/other")
+file(REMOVE_RECURSE "${other}")
+file(GLOB_RECURSE link "${prefix}/libplayerc++.so")
+file(RELATIVE_PATH link "${prefix}" "${link}")
+file(WRITE "${other}/${link}" "another Player")
+foreach(time IN ITEMS first second)
+  execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}"
+    --prefix ${other} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
+  file(READ "${other}/${link}" text)
+  string(REGEX REPLACE "[ \n]+" " " err "${err}")
+  if(NOT status EQUAL 0 OR NOT text STREQUAL "another Player"
+      OR NOT err MATCHES "libplayerc\\+\\+\\.so is there already and not Playpen's"
+      OR err MATCHES "libplayerc\\.so is there already")
+    message(FATAL_ERROR "installing beside another Player, the ${time} time (${status}):\n${err}\n${text}")
   endif()
 endforeach()
-list(GET pc_files 0 pc_file)
-get_filename_component(pc_folder "${pc_file}" DIRECTORY)
-file(RELATIVE_PATH pc_below "${prefix}" "${pc_folder}")
-file(CREATE_LINK "${prefix}" "${old}/here" SYMBOLIC)
-
-# run_old(COMPILER SOURCE PACKAGE PATTERN): compiles a source both ways, and runs it.
-function(run_old compiler source package pattern)
-  set(flags "pkg-config --cflags --libs ${package}")
-  # From its own folder, by a relative name: the build may lie below one with a space.
-  run("compiling ${source}" ${CMAKE_COMMAND} -E chdir "${old}"
-    ${CMAKE_COMMAND} -E env "PKG_CONFIG_PATH=here/${pc_below}"
-    sh -c "'${compiler}' ${CXX_FLAGS} ${source} $(${flags}) -o ${source}_plain")
-  run("running ${source}" ${CMAKE_COMMAND} -E chdir "${old}" "./${source}_plain")
-  if(NOT run_output MATCHES "${pattern}")
-    message(FATAL_ERROR "${source} printed:\n${run_output}")
-  endif()
-  file(WRITE "${old}/Makefile" "FLAGS = $(shell ${flags})\n\
-${source}_made: ${source}\n\t\"${compiler}\" ${CXX_FLAGS} ${source} $(FLAGS) -o $@\n")
-  run("making ${source}" ${CMAKE_COMMAND} -E env "PKG_CONFIG_PATH=${pc_folder}"
-    make -C "${old}" ${source}_made)
-  run("running ${source} as made" "${old}/${source}_made" localhost)
-  if(NOT run_output MATCHES "${pattern}")
-    message(FATAL_ERROR "${source}, made, printed:\n${run_output}")
-  endif()
-endfunction()
-run_old("${CXX_COMPILER}" wander.cc playerc++ "saw 682 beams, drove to [0-9.]+ [0-9.]+")
-run_old("${CXX_COMPILER}" example.cc playerc++ "read for a second at localhost:6665")
-run_old("${CXX_COMPILER}" flat.cc playerc++ "laser:0 .*position2d:0 ")
-run_old("${C_COMPILER}" wander.c playerc "drove to [0-9.]+ [0-9.]+")
+file(REMOVE_RECURSE "${other}")

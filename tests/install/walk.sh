@@ -1,0 +1,151 @@
+#!/usr/bin/env bash
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#
+# What a new user does, from a clone to programs of one's own. See usage().
+set -euo pipefail
+
+usage() {
+  cat <<'TEXT'
+Usage: tests/install/walk.sh FOLDER
+
+Walks through what a new user does, and fails at the first thing that does not work: clones Playpen, runs
+the demo and docs/start_here.md to its end, fills in a template and has it graded, runs a program for
+Pioneers that pkg-config's flags compile, and tries `playpen new`, `list` and `doctor`. FOLDER, which is
+emptied first, is the user's home. On a machine that has none of Playpen's packages, the demo installs
+them.
+
+Environment:
+  PLAYPEN_WALK_SOURCE  what is cloned: a checkout or an address (default: this checkout)
+  PLAYPEN_WALK_CLONE   a clone below FOLDER to go on with, so that what was built there is not built again;
+                       FOLDER is not emptied then
+TEXT
+}
+if (($# != 1)) || [[ $1 == -* ]]; then
+  usage >&2
+  exit 2
+fi
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+fail() {
+  printf 'walk: %s\n' "$@" >&2
+  exit 1
+}
+headline() { printf '\n##### %s\n' "$*"; }
+# has FILE...: these must be there, and hold something.
+has() {
+  local file
+  for file in "$@"; do [[ -s $file ]] || fail "$file was not written"; done
+}
+# says PATTERN COMMAND...: runs it, shows what it prints, which must match.
+says() {
+  local pattern=$1 output status=0
+  shift
+  printf -- '--- %s\n' "$*"
+  output=$("$@" 2>&1 </dev/null) || status=$?
+  printf '%s\n' "$output"
+  ((status == 0)) || fail "'$*' ended with status $status"
+  grep -qE -- "$pattern" <<<"$output" || fail "'$*' does not say '$pattern'"
+}
+
+if [[ -n ${PLAYPEN_WALK_CLONE:-} ]]; then
+  clone=$(cd "$PLAYPEN_WALK_CLONE" && pwd)
+  HOME=$(cd "$1" && pwd)
+else
+  source=${PLAYPEN_WALK_SOURCE:-$(cd "$here/../.." && pwd)}
+  rm -rf -- "$1"
+  mkdir -p -- "$1/src"
+  HOME=$(cd "$1" && pwd)
+  headline "Clone"
+  clone=$HOME/src/playpen
+  git clone --quiet -- "$source" "$clone"
+fi
+export HOME
+unset PKG_CONFIG_PATH CMAKE_PREFIX_PATH CPATH LIBRARY_PATH LD_RUN_PATH LD_LIBRARY_PATH
+rm -rf -- "$HOME/playpen" "$HOME/walk" "$clone/out"
+mkdir -p -- "$HOME/walk"
+
+headline "The demo, and start_here to its end"
+"$here/pages.sh" --clone "$clone" --home "$HOME" "$clone/docs/start_here.md"
+(cd "$clone/out/demo" && has film.mp4 scene.png canvas.png layers/occupancy.pgm report.json)
+(cd "$HOME/start_here" && has out/par_intro/scene.png out/my_world/report.json my_world.png \
+  out/mine/trajectory.csv)
+playpen=$HOME/playpen/bin/playpen
+
+headline "A template, filled in and graded"
+cp -r "$clone/apps/par_intro/template" "$HOME/walk/intro"
+cd "$HOME/walk/intro"
+# The body of the function that the template leaves to its reader.
+awk '
+  /^void CRobot::decideSpeeds\(\) \{/ {
+    print
+    print "  double left = laser->GetMaxRange(), right = left;"
+    print "  for (unsigned i = 0; i < laser->GetCount(); ++i) {"
+    print "    const double bearing = laser->GetBearing(i);"
+    print "    if (bearing < -0.9 || bearing > 0.9) continue;"
+    print "    double& side = bearing < 0 ? right : left;"
+    print "    if ((*laser)[i] < side) side = (*laser)[i];"
+    print "  }"
+    print "  const bool close = left < 0.3 || right < 0.3;"
+    print "  forwardSpeed = close ? 0.0 : 0.3;"
+    print "  if (!close) turnRate = 0.0;"
+    print "  if (close && turnRate == 0.0) turnRate = left < right ? -1.0 : 1.0;"
+    print "}"
+    skip = 1
+    found = 1
+  }
+  !skip { print }
+  /^\}/ { skip = 0 }
+  END { exit !found }' robot.cc >filled.cc || fail "the template has no decideSpeeds()"
+mv filled.cc robot.cc
+says . cmake -S . -B build "-DCMAKE_PREFIX_PATH=$HOME/playpen"
+says . cmake --build build
+says '5 of 5 runs passed' "$playpen" grade par_intro -- build/par_intro_template
+
+headline "A program for Pioneers, by pkg-config"
+mkdir "$HOME/walk/pioneer"
+cd "$HOME/walk/pioneer"
+cat >wander.cc <<'TEXT'
+#include <libplayerc++/playerc++.h>
+
+int main() {
+  PlayerCc::PlayerClient robot("localhost", 6665);
+  PlayerCc::Position2dProxy drive(&robot, 0);
+  PlayerCc::SonarProxy sonar(&robot, 0);
+  drive.SetMotorEnable(true);
+  for (;;) {
+    robot.Read();
+    const double left = std::min(sonar[1], sonar[2]), right = std::min(sonar[5], sonar[6]);
+    const double ahead = std::min(sonar[3], sonar[4]);
+    if (std::min(ahead, std::min(left, right)) < 0.7) {
+      drive.SetSpeed(0.0, left < right ? -0.7 : 0.7);
+    } else {
+      drive.SetSpeed(0.4, 0.0);
+    }
+  }
+}
+TEXT
+export PKG_CONFIG_PATH=$HOME/playpen/lib/pkgconfig
+# shellcheck disable=SC2046  # pkg-config's words are flags
+g++ wander.cc $(pkg-config --cflags --libs playerc++) -o wander
+says '60.0 s simulated' "$playpen" run cave --duration 60 -- ./wander
+has out/cave/scene.png out/cave/report.json
+
+headline "playpen new, list and doctor"
+known() { "$playpen" --help | grep -qE "^ +$1 "; }
+if known list; then
+  says 'cave' "$playpen" list
+fi
+if known new; then
+  for kind in intro planning exploration client; do
+    cd "$HOME/walk"
+    says . "$playpen" new "$kind" "new_$kind"
+    cd "new_$kind"
+    says . cmake -S . -B build "-DCMAKE_PREFIX_PATH=$HOME/playpen"
+    says . cmake --build build
+  done
+fi
+if known doctor; then
+  says . "$playpen" doctor
+fi
+
+headline "The walk is at its end"
