@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "robot.h"
 
+#include <cmath>
 #include <string>
 
 #include "imr-h/logging.h"
@@ -11,6 +12,7 @@
 namespace {
 
 const double RADIUS = 0.125;    // of the robot, with some room for driving inexactly [m]
+const double REACH = 0.15;      // see moveToFree() [m]
 const double SAME_TIME = 1e-3;  // times that differ by less are the same moment [s]
 
 // The window, with the layers of the task. They lie over one another as sheets of glass do, the
@@ -145,11 +147,12 @@ CRobot::CRobot(imr::CConfig& cfg)
       shared(unknownMap(window)),
       collector(cfg, *dataClient, shared),
       client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
-      position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))) {
+      position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))),
+      laser(new CCMorse::LaserProxy(client.get(), cfg.get<unsigned>("laser-index"))) {
   // A client takes part in the run from its first Read() on. When both have read, neither thread
   // can miss what the other one sees, whichever of them starts first.
   collector.waitForData();
-  while (!position->IsFresh()) client->Read();
+  while (!position->IsFresh() || !laser->IsFresh()) client->Read();
 }
 
 CRobot::~CRobot() {
@@ -174,6 +177,7 @@ void CRobot::threadBody() {
   // thread no longer takes part: when its client is gone.
   shared.close();
   collector.stop();
+  laser.reset();
   position.reset();
   client.reset();
   collector.join();
@@ -186,13 +190,16 @@ void CRobot::explore() {
   while (!q && shared.waitFor(position->GetDataTime(), map, pose)) {
     const Map inflated = inflate(map, RADIUS);
     const std::vector<Cell> frontiers = findFrontiers(map);
-    if (isFinished(frontiers)) break;
 
-    Cell goal = cellOf(pose.x, pose.y);
+    // The robot's own cell may lie in a grown obstacle; the way then starts from the nearest free
+    // one.
+    Cell start = cellOf(pose.x, pose.y);
+    Cell goal = start;
+    const bool hasGoal =
+        moveToFree(inflated, start) && chooseGoal(inflated, start, frontiers, goal);
+    if (isFinished(hasGoal)) break;
     std::vector<Cell> path;
-    if (chooseGoal(inflated, frontiers, goal)) {
-      path = plan(inflated, cellOf(pose.x, pose.y), goal);
-    }
+    if (hasGoal) path = plan(inflated, start, goal);
     draw(inflated, frontiers, path);
 
     decideSpeeds(path);
@@ -207,22 +214,55 @@ void CRobot::explore() {
 
 Cell CRobot::cellOf(double x, double y) const { return {window.GetX(x), window.GetY(y)}; }
 
+double CRobot::xOf(const Cell& cell) const { return (cell.column + 0.5) * window.GetCellSize(); }
+
+double CRobot::yOf(const Cell& cell) const {
+  // Rows count from the top, y from below.
+  return (window.GetHeight() - 1 - cell.row + 0.5) * window.GetCellSize();
+}
+
+bool CRobot::moveToFree(const Map& map, Cell& cell) const {
+  const Cell from = cell;
+  double least = REACH / map.cellSize;
+  bool found = false;
+  for (int row = 0; row < map.height; row++) {
+    for (int column = 0; column < map.width; column++) {
+      const double distance = std::hypot(column - from.column, row - from.row);
+      if (found ? distance >= least : distance > least) continue;
+      if (!map.isFree({column, row})) continue;
+      cell = {column, row};
+      least = distance;
+      found = true;
+    }
+  }
+  return found;
+}
+
 // --- Yours: the map ------------------------------------------------------------------------------
 
 void CCollector::addScan() {
   // Beam i was measured in the direction pose.yaw + laser.GetBearing(i), from the LASER, which is
   // 0.035 m ahead of the robot's centre. It ended after laser[i] metres at something, unless that
-  // is GetMaxRange(): then it met nothing.
+  // is GetMaxRange(): then it met nothing. A place (x, y) lies in the cell of column window.GetX(x)
+  // and row window.GetY(y).
   //
-  // Try first: make the cell where each beam ends 1, and see whether drawMap() shows walls. Next:
-  // every cell the beam passed is free: Bresenham's line. Then: a scan may err (5 mm of noise
-  // here), so do not set cells, but let each scan make them a little more likely free or occupied.
-  // Look up "occupancy grid" and "log odds".
+  // Try first: make the cell where each beam ends 1, and see whether drawMap() shows walls. A beam
+  // may end off the map. The face of an obstacle lies between two cells: take the end 0.01 m
+  // further on.
+  // Then: every cell that a beam passed is free (look up "Bresenham's line"), but not a cell in
+  // which another beam of the same scan ends: beams graze along walls. The laser does not see the
+  // floor on which the robot stands: it is free, too, within 0.07 m of its centre.
+  // Then: a scan may err (5 mm of noise here), so do not set cells, but let each scan make them a
+  // little more likely free or occupied. Look up "occupancy grid" and "log odds": a number l for
+  // each cell, in a variable of your own in robot.h, at first 0. A scan in which the cell is
+  // occupied adds 0.9, one in which it is free subtracts 0.4, and l stays within -4 and 4. The
+  // probability of the cell is 1 / (1 + exp(-l)).
 }
 
 void CCollector::drawMap() {
-  // The whole map at once: window.GetLayer("occupancy").SetCells(map.occupied). Is it needed ten
-  // times a second?
+  // Try first: the whole map at once, window.GetLayer("occupancy").SetCells(map.occupied). This
+  // layer is what is graded.
+  // Next: is it needed ten times a second?
 }
 
 void CCollector::drawScan() {
@@ -239,6 +279,10 @@ Map CRobot::inflate(const Map& map, double radius) const {
   // Where may the robot's CENTRE be? Nowhere nearer than its radius to what is occupied. If
   // obstacles are grown by that radius, the robot may be planned for as if it were a point. What is
   // unknown is not grown: nobody knows that anything is there.
+  //
+  // Try first: as in the planning task, cells whose centres are within radius of that of an
+  // occupied one become 1. There, too, the cells just off the map count as occupied: the arena ends
+  // in a wall.
   static_cast<void>(radius);
   return map;
 }
@@ -252,13 +296,21 @@ std::vector<Cell> CRobot::findFrontiers(const Map& map) const {
   return std::vector<Cell>();
 }
 
-bool CRobot::chooseGoal(const Map& map, const std::vector<Cell>& frontiers, Cell& goal) const {
-  // Where to go next; false if there is nowhere to go.
+bool CRobot::chooseGoal(const Map& map, const Cell& from, const std::vector<Cell>& frontiers,
+                        Cell& goal) {
+  // Where to go next, from a free cell; false if there is nowhere to go.
   //
-  // Try first: the frontier that is nearest as the crow flies. Next: the one that is nearest to
-  // drive to; one run of Dijkstra's algorithm tells the way to all of them. What if a frontier
-  // cannot be reached, or is still there when the robot has been there?
+  // Try first: the frontier that is nearest as the crow flies, and see where that robot gets stuck.
+  // Then: the one that is nearest to drive to. Flood the free cells of the map from `from`, as in
+  // plan(), until the first frontier cell comes out. Frontiers in grown obstacles never do.
+  // Then: a frontier may still be there when the robot has looked at it. Keep a count for each
+  // cell, in a variable of your own: 1 more for the goal each turn, 10 more while it is nearer than
+  // 0.15 m. Frontier cells within 0.1 m of a cell with more than 300 are given up: they are no
+  // goals again.
+  // Next: keep a goal until it is no frontier any more, rather than change it each turn. Look at a
+  // frontier from farther away. Go where there is more to be seen.
   static_cast<void>(map);
+  static_cast<void>(from);
   static_cast<void>(frontiers);
   static_cast<void>(goal);
   return false;
@@ -266,7 +318,10 @@ bool CRobot::chooseGoal(const Map& map, const std::vector<Cell>& frontiers, Cell
 
 std::vector<Cell> CRobot::plan(const Map& map, const Cell& from, const Cell& to) const {
   // The cells from `from` to `to`, each a neighbour of the one before; empty if there is no way.
-  // You have done this in the planning task. May the way lead through unknown cells?
+  //
+  // Try first: flooding over free cells, as in the planning task. The way must not lead through
+  // unknown cells: they are not grown.
+  // Next: keep more room to obstacles where there is some.
   static_cast<void>(map);
   static_cast<void>(from);
   static_cast<void>(to);
@@ -277,15 +332,24 @@ void CRobot::decideSpeeds(const std::vector<Cell>& path) {
   // Sets forwardSpeed [m/s] and turnRate [rad/s], so that the robot follows the path. The S1R
   // drives at most 0.5 m/s and turns at most 3 rad/s.
   //
-  // Try first: turn towards a point a little ahead on the path; drive when it is straight ahead.
-  // Then: what if the map was wrong, or is not as new as the last scan? Look at the scan before
-  // each command: a robot that touches something has failed.
+  // Try first: turn towards the cell 5 cells ahead on the path (where it is: xOf(), yOf()) with
+  // turnRate = 3 * angle, and drive at 0.2 m/s while the angle is less than 0.3 rad. Without a
+  // path, or when it has no more than 5 cells, turn on the spot at 2 rad/s: that shows the laser
+  // all there is to see from here.
+  // Then: the map may be wrong, or not know yet what the last scan shows. Beam i ended, seen from
+  // the robot's centre, at x = 0.035 + r * cos(b) ahead and y = r * sin(b) to the left, with the
+  // range r = (*laser)[i] and the bearing b = laser->GetBearing(i). If any end has x between 0 and
+  // 0.14 m and y between -0.1 and 0.1 m, do not drive, only turn: a robot that touches something
+  // has failed.
   static_cast<void>(path);
 }
 
-bool CRobot::isFinished(const std::vector<Cell>& frontiers) const {
+bool CRobot::isFinished(bool hasGoal) {
   // When is the arena explored? The frame ends the program if this is true.
-  static_cast<void>(frontiers);
+  //
+  // Try first: when there has been no goal for 20 turns. After one turn it is too early: the first
+  // scans are not enough for any cell to be free for certain.
+  static_cast<void>(hasGoal);
   return false;
 }
 

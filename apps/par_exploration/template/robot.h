@@ -19,7 +19,8 @@ struct Cell {
 };
 
 // What the robot knows: for each cell how likely it is occupied. 0 is free for certain, 1 occupied
-// for certain, and 0.5 that nobody knows.
+// for certain, and 0.5 that nobody knows. What counts as free and as occupied is what maps for ROS
+// take for it; the rest is unknown.
 struct Map {
   int width = 0;                 // columns
   int height = 0;                // rows
@@ -29,6 +30,8 @@ struct Map {
   bool contains(const Cell& cell) const {
     return cell.column >= 0 && cell.row >= 0 && cell.column < width && cell.row < height;
   }
+  bool isFree(const Cell& cell) const { return at(cell) < 0.196; }
+  bool isOccupied(const Cell& cell) const { return at(cell) > 0.65; }
   double& at(const Cell& cell) {
     return occupied[static_cast<std::size_t>(cell.row * width + cell.column)];
   }
@@ -120,13 +123,18 @@ class CRobot : public imr::concurrent::CThread {
   // Yours, in this order:
   Map inflate(const Map& map, double radius) const;       // grown obstacles
   std::vector<Cell> findFrontiers(const Map& map) const;  // where the known ends
-  bool chooseGoal(const Map& map, const std::vector<Cell>& frontiers, Cell& goal) const;
+  bool chooseGoal(const Map& map, const Cell& from, const std::vector<Cell>& frontiers, Cell& goal);
   std::vector<Cell> plan(const Map& map, const Cell& from, const Cell& to) const;
-  void decideSpeeds(const std::vector<Cell>& path);           // to follow it
-  bool isFinished(const std::vector<Cell>& frontiers) const;  // the end of the exploration
+  void decideSpeeds(const std::vector<Cell>& path);  // to follow it
+  bool isFinished(bool hasGoal);                     // the end of the exploration
   void draw(const Map& inflated, const std::vector<Cell>& frontiers, const std::vector<Cell>& path);
 
-  Cell cellOf(double x, double y) const;  // from metres to cells; this works
+  // These work: from metres to cells and back, and from a cell that is not free to the nearest one
+  // that is (false if there is none close by).
+  Cell cellOf(double x, double y) const;
+  double xOf(const Cell& cell) const;
+  double yOf(const Cell& cell) const;
+  bool moveToFree(const Map& map, Cell& cell) const;
 
   // Two connections to the robot, for two threads. The order matters: what is declared last is
   // destroyed first, and each needs what is above it to the end.
@@ -136,6 +144,7 @@ class CRobot : public imr::concurrent::CThread {
   CCollector collector;
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::Position2dProxy> position;
+  std::unique_ptr<CCMorse::LaserProxy> laser;  // the same laser as the collector's
 
   imr::robot::SPosition pose;  // of the robot, in the arena
   double forwardSpeed = 0.0;   // commanded [m/s], ahead is positive

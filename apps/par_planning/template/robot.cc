@@ -12,6 +12,10 @@ namespace {
 
 const double RADIUS = 0.13;  // of the robot, with some room for driving inexactly [m]
 
+// The robot and its goal may be nearer than RADIUS to a wall: the goal of this task lies 0.12 m
+// from a block. Then the nearest free cell is meant, if it is not farther away than this [m].
+const double REACH = 0.15;
+
 }  // namespace
 
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
@@ -74,9 +78,12 @@ void CRobot::navigation() {
   const Map inflated = inflate(map, RADIUS);
   drawMap(window.GetLayer("inflated"), inflated);
 
-  const Cell start = cellOf(position->GetXPos(), position->GetYPos());
-  const Cell goal = cellOf(goalX, goalY);
-  const std::vector<Cell> path = plan(inflated, start, goal);
+  Cell start = cellOf(position->GetXPos(), position->GetYPos());
+  Cell goal = cellOf(goalX, goalY);
+  std::vector<Cell> path;
+  if (moveToFree(inflated, start) && moveToFree(inflated, goal)) {
+    path = plan(inflated, start, goal);
+  }
   drawPath(window.GetLayer("path"), path);
   if (path.empty()) INFO("There is no way to (" << goalX << ", " << goalY << ") m");
 
@@ -103,12 +110,28 @@ void CRobot::navigation() {
 
 Cell CRobot::cellOf(double x, double y) const { return {window.GetX(x), window.GetY(y)}; }
 
-double CRobot::xOf(const Map& map, const Cell& cell) const {
-  return (cell.column + 0.5) * map.cellSize;
+double CRobot::xOf(const Cell& cell) const { return (cell.column + 0.5) * window.GetCellSize(); }
+
+double CRobot::yOf(const Cell& cell) const {
+  // Rows count from the top, y from below.
+  return (window.GetHeight() - 1 - cell.row + 0.5) * window.GetCellSize();
 }
 
-double CRobot::yOf(const Map& map, const Cell& cell) const {
-  return (map.height - 1 - cell.row + 0.5) * map.cellSize;  // rows count from the top, y from below
+bool CRobot::moveToFree(const Map& map, Cell& cell) const {
+  const Cell from = cell;
+  double least = REACH / window.GetCellSize();
+  bool found = false;
+  for (int row = 0; row < map.height; row++) {
+    for (int column = 0; column < map.width; column++) {
+      const double distance = std::hypot(column - from.column, row - from.row);
+      if (found ? distance >= least : distance > least) continue;
+      if (map.isOccupied({column, row})) continue;
+      cell = {column, row};
+      least = distance;
+      found = true;
+    }
+  }
+  return found;
 }
 
 void CRobot::drawGoal(CCMorse::GridMapLayer& layer, const Cell& goal) const {
@@ -124,13 +147,13 @@ void CRobot::drawGoal(CCMorse::GridMapLayer& layer, const Cell& goal) const {
 }
 
 Map CRobot::loadMap(const std::string& file) const {
-  // The first line of the file is the number of rows; then come the rows, the top one first: '.'
-  // is a free cell and '#' a wall. worlds/maps/two_rooms.txt is one. A cell is
-  // window.GetCellSize() wide.
+  // The first line of the file is the number of rows; then come the rows, the top one first: '.' is
+  // a free cell and '#' a wall. worlds/maps/two_rooms.txt is one. A cell is window.GetCellSize()
+  // wide.
   //
-  // Try first: read the height with std::ifstream and >>, then each row with >> into a
-  // std::string. Then think of files that are not there, too short, or hold other characters: say
-  // what is wrong, and in which line.
+  // Try first: read the height with std::ifstream and >>, then each row with >> into a std::string.
+  // Then think of files that are not there, too short, or hold other characters: say what is wrong,
+  // and in which line.
   INFO("loadMap() is empty: " << file << " is not read");
   return Map();
 }
@@ -149,8 +172,11 @@ Map CRobot::inflate(const Map& map, double radius) const {
   // Where may the robot's CENTRE be? Nowhere nearer than its radius to a wall. If walls are grown
   // by that radius, the robot may be planned for as if it were a point.
   //
-  // Try first: for each wall cell, occupy all cells within radius / cellSize of it. Next: that
-  // looks at each cell many times; how does it get faster? (Look up "distance transform".)
+  // Try first: for each wall cell, occupy all cells whose centres are within radius of its centre.
+  // Then: the arena ends in a wall, which is not on the map. Take the cells just off the map, all
+  // round it (column -1 and width, row -1 and height), for wall cells, too.
+  // Next: that looks at each cell many times; how does it get faster? (Look up "distance
+  // transform".)
   static_cast<void>(radius);
   return map;
 }
@@ -158,11 +184,14 @@ Map CRobot::inflate(const Map& map, double radius) const {
 std::vector<Cell> CRobot::plan(const Map& map, const Cell& from, const Cell& to) {
   // The cells from `from` to `to`, each a neighbour of the one before; empty if there is no way.
   //
-  // Try first: flooding. Put `from` into a std::queue; take a cell out, put its free neighbours in
-  // that were not in before, and note for each of them from where it was reached. When `to` comes
-  // out, walk back along the notes.
-  // Try next: Dijkstra's algorithm. A std::priority_queue, and diagonal steps that cost sqrt(2).
-  // May a diagonal step brush the corner of a wall? What if `from` itself lies in a grown wall?
+  // Both ends are free cells of the map: navigation() sees to that.
+  //
+  // Try first: flooding. Put `from` into a std::queue; take a cell out, put its free neighbours
+  // (left, right, above and below) in that were not in before, and note for each of them from where
+  // it was reached. When `to` comes out, walk back along the notes. The map ends somewhere: a
+  // neighbour may be off it.
+  // Next: Dijkstra's algorithm. A std::priority_queue, and diagonal steps that cost sqrt(2). May a
+  // diagonal step brush the corner of a wall?
   static_cast<void>(map);
   static_cast<void>(from);
   static_cast<void>(to);
@@ -173,19 +202,21 @@ std::vector<Cell> CRobot::smooth(const Map& map, const std::vector<Cell>& path) 
   // A way over neighbours has corners every few cells. If all cells on the straight line between
   // two cells of the way are free, those between can be left out.
   //
-  // Try first: Bresenham's line from the first cell to the last that it can see; go on from there.
+  // Try first: from the first cell to the last one of the way that it can see, and on from there
+  // until the end. The cells on a straight line: look up "Bresenham's line".
   static_cast<void>(map);
   return path;
 }
 
 void CRobot::drawMap(CCMorse::GridMapLayer& layer, const Map& map) const {
-  // layer.SetCell(column, row, 1) sets a cell.
+  // Try first: layer.SetCell(column, row, 1) for each cell that is occupied.
   static_cast<void>(layer);
   static_cast<void>(map);
 }
 
 void CRobot::drawPath(CCMorse::GridMapLayer& layer, const std::vector<Cell>& path) const {
-  // layer.SetLine(column0, row0, column1, row1) draws in the layer's own colour.
+  // Try first: layer.SetLine(column0, row0, column1, row1) from each cell of the way to the next
+  // one; it draws in the layer's own colour.
   static_cast<void>(layer);
   static_cast<void>(path);
 }
@@ -195,9 +226,11 @@ bool CRobot::decideSpeeds(const std::vector<Cell>& path) {
   // xOf(), yOf(). The direction of a point is std::atan2(dy, dx); minus the yaw, and brought into
   // -pi..pi by std::remainder(angle, 2 * PI), it tells how far to turn.
   //
-  // Try first: turn on the spot towards the next cell of the smoothed way (turnRate proportional to
-  // the angle), drive when the angle is small, and when the cell is near go on to the one after.
-  // Return true when the last one is reached.
+  // Try first: remember in a variable of your own, in robot.h, which cell of the smoothed way comes
+  // next. Turn towards it with turnRate = 3 * angle, and drive at 0.2 m/s while the angle is less
+  // than 0.2 rad. When the cell is nearer than 0.03 m, go on to the one after. Return true when the
+  // last one is reached. A way without cells leads nowhere: stand still.
+  // Next: drive faster, without swinging, and without standing still at each corner.
   static_cast<void>(path);
   forwardSpeed = 0.0;
   turnRate = 0.0;

@@ -64,8 +64,11 @@ class CRobot : public imr::concurrent::CThread {
 
   // From metres to cells and back; these work.
   Cell cellOf(double x, double y) const;
-  double xOf(const Map& map, const Cell& cell) const;
-  double yOf(const Map& map, const Cell& cell) const;
+  double xOf(const Cell& cell) const;
+  double yOf(const Cell& cell) const;
+  // Replaces a cell that is not free by the nearest one that is; false if there is none close by.
+  // This works, too.
+  bool moveToFree(const Map& map, Cell& cell) const;
 
   std::string mapFile;  // empty: ask the world
   double goalX, goalY;  // where to go [m]

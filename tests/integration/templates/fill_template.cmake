@@ -1,0 +1,62 @@
+# Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+# A template of a task with its functions filled in. A file of fillings consists of parts, each below
+# a line that says where it belongs:
+#   // function: TEXT                    replaces the function of robot.cc whose first line begins so
+#   // insert into FILE before: TEXT     goes before the first line of FILE that begins with TEXT
+# What stands above the first part is left out.
+
+# playpen_fill_template(TEMPLATE FILLING FOLDER): writes main.cc, robot.cc and robot.h into the
+# folder; stops if a part of the filling has no place in the template.
+function(playpen_fill_template template filling folder)
+  foreach(file IN ITEMS main.cc robot.cc robot.h)
+    file(READ "${template}/${file}" "text_${file}")
+  endforeach()
+  file(READ "${filling}" rest)
+  set(starts "\n// (function|insert into)")
+  while(TRUE)
+    string(REGEX MATCH "${starts}" start "${rest}")
+    if(start STREQUAL "")
+      break()
+    endif()
+    # The line that says where, and the part below it, up to the next such line.
+    string(FIND "${rest}" "${start}" at)
+    math(EXPR at "${at} + 1")
+    string(SUBSTRING "${rest}" ${at} -1 rest)
+    string(FIND "${rest}" "\n" head_end)
+    string(SUBSTRING "${rest}" 0 ${head_end} head)
+    string(SUBSTRING "${rest}" ${head_end} -1 rest)
+    string(REGEX MATCH "${starts}" next "${rest}")
+    set(part "${rest}")
+    if(next)
+      string(FIND "${rest}" "${next}" part_end)
+      string(SUBSTRING "${rest}" 0 ${part_end} part)
+    endif()
+
+    if(head MATCHES "^// function: (.*)$")
+      set(file robot.cc)
+      set(anchor "\n${CMAKE_MATCH_1}")
+    elseif(head MATCHES "^// insert into ([a-z.]+) before: (.*)$")
+      set(file "${CMAKE_MATCH_1}")
+      set(anchor "\n${CMAKE_MATCH_2}")
+    else()
+      message(FATAL_ERROR "${filling}: what does '${head}' mean?")
+    endif()
+    string(FIND "${text_${file}}" "${anchor}" at)
+    if(at EQUAL -1)
+      message(FATAL_ERROR "${template}/${file} has no place for '${head}' of ${filling}")
+    endif()
+    string(SUBSTRING "${text_${file}}" 0 ${at} before)
+    string(SUBSTRING "${text_${file}}" ${at} -1 after)
+    if(head MATCHES "^// function")
+      string(FIND "${after}" "\n}\n" function_end)
+      math(EXPR function_end "${function_end} + 2")
+      string(SUBSTRING "${after}" ${function_end} -1 after)
+      string(STRIP "${part}" part)
+      set(part "\n${part}")
+    endif()
+    set("text_${file}" "${before}${part}${after}")
+  endwhile()
+  foreach(file IN ITEMS main.cc robot.cc robot.h)
+    file(CONFIGURE OUTPUT "${folder}/${file}" CONTENT "${text_${file}}" @ONLY)
+  endforeach()
+endfunction()
