@@ -18,6 +18,9 @@ class PreloadedLibrary {
   PreloadedLibrary& operator=(const PreloadedLibrary&) = delete;
   ~PreloadedLibrary();
 
+  /// The library's path, without blanks.
+  [[nodiscard]] const std::string& file() const noexcept { return file_; }
+
   /// Lets a program load it, after what it is to preload anyway.
   void add_to(playerlike::EnvironmentChanges& environment) const;
 

@@ -127,3 +127,7 @@ run_old("${CXX_COMPILER}" wander.cc playerc++ "saw 682 beams, drove to [0-9.]+ [
 run_old("${CXX_COMPILER}" example.cc playerc++ "read for a second at localhost:6665")
 run_old("${CXX_COMPILER}" flat.cc playerc++ "laser:0 .*position2d:0 ")
 run_old("${C_COMPILER}" wander.c playerc "drove to [0-9.]+ [0-9.]+")
+
+if(EXISTS "${prefix}/bin/playpen")
+  include("${CMAKE_CURRENT_LIST_DIR}/check_command.cmake")
+endif()
