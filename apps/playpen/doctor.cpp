@@ -47,11 +47,11 @@ void print(const Finding& finding) {
   const std::size_t columns = terminal_columns(STDOUT_FILENO);
   std::cout << "  " << label(finding.health, shows_colour(STDOUT_FILENO)) << "  "
             << wrapped(finding.text, columns, kIndent) << '\n';
-  if (finding.cure.empty()) return;
-  constexpr const char* kArrow = "-> ";
-  std::cout << std::string(kIndent, ' ') << kArrow
-            << wrapped(finding.cure, columns, kIndent + std::char_traits<char>::length(kArrow))
-            << '\n';
+  const std::string arrow = std::string(kIndent, ' ') + "-> ";
+  if (!finding.cure.empty()) {
+    std::cout << arrow << wrapped(finding.cure, columns, arrow.size()) << '\n';
+  }
+  if (!finding.command.empty()) std::cout << arrow << finding.command << '\n';
 }
 
 int doctor() {

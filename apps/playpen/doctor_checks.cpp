@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "doctor_checks.h"
 
-#include <libplayerc++/playerc++.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -14,6 +13,7 @@
 #include <iostream>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -22,12 +22,14 @@
 
 #include "environment.h"
 #include "own_folders.h"
+#include "playerlike/host/embedded.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "project.h"
 #include "shipped.h"
 #include "sim/core/error.h"
 #include "sim/render/render.h"
+#include "terminal.h"
 
 namespace playpen {
 namespace {
@@ -157,7 +159,7 @@ bool look_for(const Tool& tool, const fs::path& log, Findings& findings) {
       return true;
     }
   }
-  findings.push_back({Health::kAmiss, std::string(tool.what) + ": none",
+  findings.push_back({Health::kAmiss, std::string(tool.what) + ": none", "",
                       std::string("sudo apt install ") + tool.package});
   return false;
 }
@@ -176,7 +178,7 @@ void check_pkgconfig(const fs::path& log, Findings& findings) {
   } else if (outcome_of(query, log, {{"PKG_CONFIG_PATH", folder->string()}}).success) {
     findings.push_back({Health::kNote,
                         "pkg-config finds playerc++ and playerc only if it is told where to look",
-                        "export PKG_CONFIG_PATH=" + folder->string()});
+                        "", "export PKG_CONFIG_PATH=" + shell_word(folder->string())});
   } else {
     findings.push_back({Health::kAmiss,
                         "pkg-config does not take " + (*folder / "playerc++.pc").string(),
@@ -215,14 +217,33 @@ Finding trial_build(const ScratchFolder& scratch) {
 
 constexpr int kProbeRounds = 9;  // of 0.1 s
 
+/// Counts what a laser reads.
+class Readings : public playerlike::ReadingSink {
+ public:
+  void on_reading(playerlike::DeviceId /*device*/, const sim::Reading& /*reading*/) override {
+    ++count_;
+  }
+  [[nodiscard]] int count() const noexcept { return count_; }
+
+ private:
+  int count_ = 0;
+};
+
+/// What a client library does for a program that reads a laser.
 int probe_run() {
-  PlayerCc::PlayerClient client("localhost", 6665);
-  PlayerCc::Position2dProxy position(&client, 0);
-  PlayerCc::LaserProxy laser(&client, 0);
-  position.SetSpeed(0.2, 0.0);
-  for (int round = 0; round < kProbeRounds; ++round) client.Read();
-  if (laser.GetCount() == 0) {
-    std::cerr << "the laser has no beams\n";
+  constexpr int kPort = 6665;
+  const std::unique_ptr<playerlike::Session> session = playerlike::open_session("localhost", kPort);
+  for (const playerlike::DeviceInfo& device : session->robots().front().devices) {
+    if (device.type == "laser") session->subscribe(device.id);
+  }
+  Readings readings;
+  for (int round = 0; round < kProbeRounds; ++round) {
+    session->wait();
+    static_cast<void>(session->take(readings));
+  }
+  if (readings.count() != kProbeRounds) {
+    std::cerr << "the laser gave " << readings.count() << " readings in " << kProbeRounds
+              << " rounds\n";
     return 1;
   }
   return 0;
@@ -322,7 +343,7 @@ Findings check_run() {
       }
     }
     return {{Health::kGood,
-             "a program drove a robot in the default world; pictures and report are "
+             "a program read a laser in the default world; pictures and report are "
              "written",
              ""}};
   } catch (const std::exception& error) {

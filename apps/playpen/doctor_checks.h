@@ -18,8 +18,9 @@ enum class Health {
 /// What was found out about one thing.
 struct Finding {
   Health health = Health::kGood;
-  std::string text;  ///< what was looked at, and how it is
-  std::string cure;  ///< what to do; "": nothing
+  std::string text;          ///< what was looked at, and how it is
+  std::string cure;          ///< what to do; "": nothing
+  std::string command = {};  ///< that does it, to be copied from the terminal; "": none
 };
 
 using Findings = std::vector<Finding>;

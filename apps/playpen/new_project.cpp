@@ -10,22 +10,12 @@
 #include "command_line.h"
 #include "project.h"
 #include "sim/core/error.h"
+#include "terminal.h"
 
 namespace playpen {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A word as a shell reads it.
-std::string shell_word(const std::string& word) {
-  const bool is_plain = !word.empty() && word.find_first_not_of(
-                                             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                             "0123456789_-./+:@%,=~") == std::string::npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + '\'';
-}
 
 void print_next_steps(const ProjectTemplate& kind, const std::string& folder,
                       const std::string& invocation) {

@@ -18,7 +18,7 @@ class PreloadedLibrary {
   PreloadedLibrary& operator=(const PreloadedLibrary&) = delete;
   ~PreloadedLibrary();
 
-  /// The library's path, without blanks.
+  /// Where the library lies.
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
 
   /// Lets a program load it, after what it is to preload anyway.
@@ -26,6 +26,7 @@ class PreloadedLibrary {
 
  private:
   std::string file_;
+  std::string name_;         ///< by which it is preloaded: without blanks
   std::string link_folder_;  ///< "": not needed
 };
 

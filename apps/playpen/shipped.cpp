@@ -104,9 +104,11 @@ std::vector<std::string> nearest_names(const std::string& name,
     const fs::path neighbour = entry.path().filename();
     if (beside.size() == kMostNeighbours) break;
     if (neighbour.extension() != kWorldSuffix) continue;
-    beside.push_back((path.parent_path() / neighbour).string());
+    beside.push_back(neighbour.string());
   }
-  std::vector<std::string> nearest = sim::nearest_words(name, beside, kMostSuggestions);
+  std::vector<std::string> nearest =
+      sim::nearest_words(path.filename().string(), beside, kMostSuggestions);
+  for (std::string& near : nearest) near = (path.parent_path() / near).string();
   const auto add = [&nearest](const std::string& near) {
     // "par_intro" and "tasks/par_intro" are the same one.
     const auto is_same = [&near](const std::string& other) {
@@ -139,7 +141,7 @@ std::vector<std::string> nearest_names(const std::string& name,
   const std::string list =
       kind ? std::string("playpen list ") + to_string(*kind) + 's' : "playpen list";
   hint += '\'' + list + "' shows the names";
-  throw ConfigError(ConfigIssue{"file/missing", name, "", "a " + what + ": a file, or a name",
+  throw ConfigError(ConfigIssue{"file/missing", name, "", "a " + what + " file, or the name of one",
                                 "no file and no " + what + " of that name", hint});
 }
 

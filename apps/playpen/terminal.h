@@ -23,6 +23,9 @@ inline constexpr std::size_t kUsualColumns = 80;
 /// `indent` blanks. Lines break at blanks; a longer word has a line of its own.
 [[nodiscard]] std::string wrapped(const std::string& text, std::size_t columns, std::size_t indent);
 
+/// A word as a shell reads it: in single quotes if it needs them.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
 /// What is printed in colour, if it is.
 enum class Tint { kGood, kBad, kWarning, kStrong };
 

@@ -133,7 +133,7 @@ TEST(PlaypenDoctor, FindsThatRunsWorkAndProgramsCanBeBuilt) {
   const ProcessResult result = playpen({"doctor"}, options);
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("playpen " PLAYPEN_VERSION), HasSubstr("Runs work."),
-                                HasSubstr("drove a robot in the default world"),
+                                HasSubstr("read a laser in the default world"),
                                 HasSubstr("configured and built by CMake"), HasSubstr("Films"),
                                 HasSubstr("Core dumps"), Not(HasSubstr("BROKEN"))));
   EXPECT_THAT(result.out, ContainsRegex("AMISS +there is no display"));
