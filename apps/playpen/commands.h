@@ -28,19 +28,9 @@ struct RunRequest {
   std::vector<std::string> command;  ///< program and arguments
 };
 
-/// Finds the world that a user means: a file, or the name of a shipped world such as
-/// "tasks/par_intro", looked for in the worlds folder that belongs to this program.
-/// @return a path, "" for "default" and "" (the default world), or `name` if nothing was found.
-[[nodiscard]] std::string find_world(const std::string& name);
-
-/// Finds the task that a user means, as find_world() does: a file, or the name of a shipped task
-/// such as "par_intro" or "tasks/par_intro".
-/// @return a path, or `name` if nothing was found.
-[[nodiscard]] std::string find_task(const std::string& name);
-
 /// What `playpen grade` was asked for.
 struct GradeRequest {
-  std::string task;                  ///< as the user wrote it, see find_task()
+  std::string task;                  ///< as the user wrote it, see load_task()
   std::vector<std::string> worlds;   ///< see find_world(); none: those of the task
   std::vector<std::uint64_t> seeds;  ///< none: those of the task
   int jobs = 0;                      ///< 0: as many as there are processors
@@ -81,8 +71,9 @@ struct ServeRequest {
 ///         output folder can't be prepared or there can be no window.
 [[nodiscard]] int serve(ServeRequest request);
 
-/// Validates worlds; prints a line for each sound one and every issue of the others.
-[[nodiscard]] int check(const std::vector<std::string>& worlds);
+/// Validates worlds, tasks and robot models, files or names (see find_files()); prints a line for
+/// each sound one and every issue of the others.
+[[nodiscard]] int check(const std::vector<std::string>& names);
 
 /// What `playpen render` was asked for.
 struct RenderRequest {

@@ -13,6 +13,8 @@
 #include "commands.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
+#include "shipped.h"
+#include "terminal.h"
 
 namespace playpen {
 namespace {
@@ -50,7 +52,7 @@ void write_file(const fs::path& file, const std::string& text) {
 
 int grade_program(GradeRequest request) {
   grade::GradeSettings settings;
-  settings.task = grade::read_task(find_task(request.task));
+  settings.task = load_task(request.task);
   for (std::string& world : request.worlds) world = find_world(world);
   if (!request.worlds.empty()) grade::choose_worlds(settings.task, request.worlds);
   if (!request.seeds.empty()) settings.task.seeds = request.seeds;
@@ -71,7 +73,8 @@ int grade_program(GradeRequest request) {
       grade::grade(settings, [&line](const grade::Progress& progress) { line.show(progress); });
   line.clear();
   result.program = request.command;  // as the user wrote it
-  std::cout << grade::table(result);
+  std::cout << grade::table(
+      result, {.columns = terminal_columns(STDOUT_FILENO), .colour = shows_colour(STDOUT_FILENO)});
   const fs::path file = request.json_file.empty() ? fs::path(settings.output_folder) / "grade.json"
                                                   : fs::path(request.json_file);
   write_file(file, grade::json_text(result));

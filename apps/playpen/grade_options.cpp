@@ -1,13 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "grade_options.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <sstream>
 
-#include "commands.h"
+#include "command_line.h"
 #include "parsed_option.h"
 
 namespace playpen {
@@ -35,20 +33,22 @@ bool parse_seeds(const std::string& text, std::vector<std::uint64_t>& seeds) {
 
 }  // namespace
 
-void add_grade(CLI::App& app, const std::vector<std::string>& program, int& status) {
+void add_grade(CommandLine& line) {
   const auto request = std::make_shared<GradeRequest>();
-  request->command = program;
   CLI::App& command =
-      *app.add_subcommand("grade", "Run a client program on the worlds of a task and judge it");
+      line.add_command("grade", "Run a client program on the worlds of a task and judge it");
+  line.with_program.insert(&command);
   command.footer(
       "After '--' come the client program and its arguments, for example\n"
-      "playpen grade par_intro --seeds 5 -- ./robot\n"
+      "  playpen grade par_intro --seeds 5 -- ./robot\n"
+      "'playpen list tasks' shows the names of tasks.\n"
       "Exit status: 0 all runs passed, 1 some did not, 2 bad input.");
-  command.add_option("task", request->task, "Task file, or the name of a shipped task (par_intro)")
-      ->required()
-      ->type_name("");
-  command.add_option("world", request->worlds, "World files or names [those of the task]")
-      ->type_name("");
+  CLI::Option* const task = command.add_option(
+      "task", request->task, "Task file, or the name of a shipped task (par_intro)");
+  line.takes(task->required()->type_name(""), ValueKind::Kind::kTask);
+  CLI::Option* const worlds =
+      command.add_option("world", request->worlds, "World files or names [those of the task]");
+  line.takes(worlds->type_name(""), ValueKind::Kind::kWorld);
   add_parsed(command, "--seeds", "N: the seeds 1 to N; or a list of seeds, '7,' for one", "N,N,...",
              "a number from 1 to 10000, or different seeds with commas between them",
              [request](const std::string& text) { return parse_seeds(text, request->seeds); });
@@ -57,7 +57,7 @@ void add_grade(CLI::App& app, const std::vector<std::string>& program, int& stat
                int& jobs = request->jobs;
                return parse_number(text, jobs) && jobs >= 1 && jobs <= 1000;
              });
-  add_parsed(command, "--timeout", "Seconds by the clock on the wall that a run may take", "S",
+  add_parsed(command, "--timeout", "Wall-clock limit of a run [the task's]", "S",
              "a number of seconds above 0", [request](const std::string& text) {
                double seconds = 0.0;
                const bool good =
@@ -65,13 +65,16 @@ void add_grade(CLI::App& app, const std::vector<std::string>& program, int& stat
                if (good) request->timeout_s = seconds;
                return good;
              });
-  command.add_option("--out", request->output_folder, "Folder for results [out/grade/<task>]")
-      ->type_name("DIR");
-  command.add_option("--json", request->json_file, "The grade as JSON [<out>/grade.json]")
-      ->type_name("FILE");
-  command.callback([request, &status] {
-    if (request->command.empty()) throw CLI::RequiredError("-- PROGRAM");
-    status = grade_program(*request);
+  CLI::Option* const out =
+      command.add_option("--out", request->output_folder, "Folder for results [out/grade/<task>]");
+  line.takes(out->type_name("DIR"), ValueKind::Kind::kFolder);
+  CLI::Option* const json =
+      command.add_option("--json", request->json_file, "The grade as JSON [<out>/grade.json]");
+  line.takes(json->type_name("FILE"), ValueKind::Kind::kFile);
+  command.callback([request, &line] {
+    if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
+    request->command = line.program;
+    line.status = grade_program(*request);
   });
 }
 

@@ -60,7 +60,7 @@ void add_libraries_folder(playerlike::EnvironmentChanges& environment_changes) {
   }
 }
 
-PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()) {
+PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()), name_(file_) {
   if (file_.find_first_of(kSpecial) == std::string::npos) return;
   // Then by another name. /tmp has none of them.
   std::string folder = "/tmp/playpen-XXXXXX";
@@ -77,7 +77,7 @@ PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()) {
                              " cannot be preloaded from a path with blanks, nor linked to from "
                              "/tmp (do without: playpen run --real-sleep)");
   }
-  file_ = (fs::path(folder) / kName).string();
+  name_ = (fs::path(folder) / kName).string();
 }
 
 PreloadedLibrary::~PreloadedLibrary() {
@@ -90,7 +90,7 @@ void PreloadedLibrary::add_to(playerlike::EnvironmentChanges& environment_change
     const std::string present = environment(variable);
     environment_changes[variable] = present.empty() ? text : present + ':' + text;
   };
-  append("LD_PRELOAD", file_);
+  append("LD_PRELOAD", name_);
   // AddressSanitizer wants to be the first library. It need not be before this one.
   append("ASAN_OPTIONS", "verify_asan_link_order=0");
 }

@@ -22,11 +22,15 @@ class PreloadedLibrary {
   PreloadedLibrary& operator=(const PreloadedLibrary&) = delete;
   ~PreloadedLibrary();
 
+  /// Where the library lies.
+  [[nodiscard]] const std::string& file() const noexcept { return file_; }
+
   /// Lets a program load it, after what it is to preload anyway.
   void add_to(playerlike::EnvironmentChanges& environment) const;
 
  private:
   std::string file_;
+  std::string name_;         ///< by which it is preloaded: without blanks
   std::string link_folder_;  ///< "": not needed
 };
 

@@ -5,12 +5,16 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "commands.h"
+#include "command_line.h"
+#include "parsed_option.h"
+#include "run_options.h"
+#include "shipped.h"
 #include "sim/io/map_file.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/occupancy_map.h"
@@ -61,7 +65,7 @@ int render(const RenderRequest& request) {
     give_map(request, sim::io::read_map(request.world));
     return kOk;
   }
-  sim::WorldDescription world = sim::load_world(find_world(request.world));
+  sim::WorldDescription world = load_found_world(find_world(request.world));
   playerlike::RunSettings settings;
   settings.view_mode = request.view_mode;
   settings.apply_to(world);
@@ -78,6 +82,36 @@ int render(const RenderRequest& request) {
     sim::render::write_png(sim::render::draw_view(scene, options), request.file);
   }
   return kOk;
+}
+
+void add_render(CommandLine& line) {
+  const auto request = std::make_shared<RenderRequest>();
+  CLI::App& command = line.add_command("render", "Draw a world as it is at its start");
+  CLI::Option* const world = command.add_option(
+      "world", request->world,
+      "World file or name of a shipped world, or a map (a map_server file, .yaml)");
+  line.takes(world->required()->type_name(""), ValueKind::Kind::kWorld);
+  CLI::Option* const out =
+      add_parsed(command, "--out", "Picture, or with --map also the map's .yaml", "FILE.png",
+                 "a file ending in .png (or .yaml)", [request](const std::string& text) {
+                   request->file = text;
+                   return text.size() > 4 && (text.ends_with(".png") || text.ends_with(".yaml"));
+                 });
+  line.takes(out->required(), ValueKind::Kind::kFile);
+  add_parsed(command, "--size", "Pixels along the longer side [1000]", "PX",
+             "a whole number from 64 to 8192", [request](const std::string& text) {
+               int& size_px = request->size_px;
+               return parse_number(text, size_px) && size_px >= 64 && size_px <= 8192;
+             });
+  add_view_mode(line, command, request->view_mode);
+  CLI::Option* const canvas = command.add_flag("--canvas", request->canvas,
+                                               "The canvas alone, a whole number of pixels a cell");
+  command
+      .add_flag("--map", request->map,
+                "The true map, a cell of the canvas each: as a picture, or as a map_server pair")
+      ->excludes(canvas);
+  command.footer("For example: playpen render cave --out cave.png");
+  command.callback([request, &line] { line.status = render(*request); });
 }
 
 }  // namespace playpen

@@ -7,7 +7,7 @@
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "run_outputs.h"
-#include "sim/simulation/simulation.h"
+#include "shipped.h"
 #include "viewer_process.h"
 
 namespace playpen {
@@ -44,7 +44,7 @@ int run(RunRequest request) {
         request.world + ' ' + request.command.front());
   }
   const std::string world_file = find_world(request.world);
-  sim::WorldDescription world = sim::load_world(world_file);
+  sim::WorldDescription world = load_found_world(world_file);
   request.settings.apply_to(world);  // says what does not go with the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
   playerlike::RunSettings& settings = request.settings;

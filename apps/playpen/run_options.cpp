@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 
 #include "parsed_option.h"
 #include "sim/render/render.h"
@@ -10,16 +11,18 @@
 
 namespace playpen {
 
-void add_view_mode(CLI::App& command, std::optional<sim::ViewMode>& mode) {
-  add_parsed(command, "--view-mode",
-             "How the canvas is shown: ground, mini-map or full-screen [the world's]", "MODE",
-             playerlike::kViewModeExpected, [&mode](const std::string& text) {
-               mode = sim::parse_view_mode(text);
-               return mode.has_value();
-             });
+void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode) {
+  CLI::Option* const option =
+      add_parsed(command, "--view-mode",
+                 "How the canvas is shown: ground, mini-map or full-screen [the world's]", "MODE",
+                 playerlike::kViewModeExpected, [&mode](const std::string& text) {
+                   mode = sim::parse_view_mode(text);
+                   return mode.has_value();
+                 });
+  line.takes(option, {"ground", "mini-map", "full-screen"});
 }
 
-void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
+void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time) {
   add_parsed(command, "--duration", "Simulated seconds after which the run ends", "S",
              "a number of seconds above 0", [&settings](const std::string& text) {
@@ -36,21 +39,25 @@ void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
                if (good) settings.seed = seed;
                return good;
              });
-  add_parsed(command, "--time", "lockstep, real, or a factor of real time [" + default_time + "]",
-             "MODE", "lockstep, real, or a factor above 0", [&settings](const std::string& text) {
-               sim::TimeMode mode = sim::TimeMode::kLockstep;
-               const bool good = playerlike::parse_time_mode(text, mode, settings.time_factor);
-               if (good) settings.time_mode = mode;
-               return good;
-             });
-  command.add_option("--out", settings.output_folder, "Folder for results [out/<world's name>]")
-      ->type_name("DIR");
+  CLI::Option* const time = add_parsed(
+      command, "--time", "lockstep, real, or a factor of real time [" + default_time + "]", "MODE",
+      "lockstep, real, or a factor above 0", [&settings](const std::string& text) {
+        sim::TimeMode mode = sim::TimeMode::kLockstep;
+        const bool good = playerlike::parse_time_mode(text, mode, settings.time_factor);
+        if (good) settings.time_mode = mode;
+        return good;
+      });
+  line.takes(time, {"lockstep", "real"});
+  CLI::Option* const out = command.add_option("--out", settings.output_folder,
+                                              "Folder for results [out/<world's name>]");
+  line.takes(out->type_name("DIR"), ValueKind::Kind::kFolder);
   CLI::Option* const record =
       add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
                  playerlike::kFilmExpected, [&settings](const std::string& text) {
                    settings.film = text;
                    return sim::render::FilmWriter::is_film_name(text);
                  });
+  line.takes(record, ValueKind::Kind::kFile);
   add_parsed(command, "--record-fps", "Frames a second of the film [25]", "N",
              playerlike::kFilmFpsExpected,
              [&settings](const std::string& text) {
@@ -70,7 +77,36 @@ void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
                if (good) settings.snapshot_period_s = period_s;
                return good;
              });
-  add_view_mode(command, settings.view_mode);
+  add_view_mode(line, command, settings.view_mode);
+}
+
+CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {
+  CLI::Option* const option = command.add_option(
+      "world", world, "World file, or the name of a shipped world (cave), or 'default'");
+  return line.takes(option->required()->type_name(""), ValueKind::Kind::kWorld);
+}
+
+void add_run(CommandLine& line) {
+  const auto request = std::make_shared<RunRequest>();
+  CLI::App& command = line.add_command("run", "Run a client program on a world");
+  line.with_program.insert(&command);
+  command.footer(
+      "After '--' come the client program and its arguments, for example\n"
+      "  playpen run par_intro --duration 60 -- ./robot --port 6665\n"
+      "'playpen list worlds' shows the names of worlds.\n"
+      "Exit status: 0 fine, 1 the program failed, 2 bad input.");
+  add_world(line, command, request->world);
+  add_run_settings(line, command, request->settings, "the world's, else lockstep");
+  command.add_flag("--view", request->view,
+                   "Watch and steer in a window, in real time unless --time gives a factor");
+  command.add_flag("--real-sleep", request->real_sleep,
+                   "In lockstep: the program's sleeps and clocks are real, not simulated time");
+  command.add_flag("--quiet", request->quiet, "No progress, no summary");
+  command.callback([request, &line] {
+    if (line.program.empty()) throw CLI::RequiredError("-- PROGRAM");
+    request->command = line.program;
+    line.status = run(*request);
+  });
 }
 
 }  // namespace playpen

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "command_line.h"
 #include "playerlike/host/run_settings.h"
 
 namespace playpen {
@@ -13,10 +14,13 @@ namespace playpen {
 /// --snapshot-every and --view-mode.
 /// @param settings  gets what they say; lives as long as the command.
 /// @param default_time  what --time is without one, for the help.
-void add_run_settings(CLI::App& command, playerlike::RunSettings& settings,
+void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time);
 
 /// Adds --view-mode.
-void add_view_mode(CLI::App& command, std::optional<sim::ViewMode>& mode);
+void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode);
+
+/// Adds the argument that names a world, see find_world().
+CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world);
 
 }  // namespace playpen

@@ -47,7 +47,7 @@ bool has_report(const playerlike::RunSettings& settings) { return fs::exists(rep
 
 bool has_pictures(const playerlike::RunSettings& settings) {
   const fs::path folder(settings.output_folder);
-  return fs::exists(folder / "scene.png") && fs::exists(folder / "canvas.png");
+  return fs::is_regular_file(folder / "scene.png") && fs::is_regular_file(folder / "canvas.png");
 }
 
 double simulated_time(const playerlike::RunSettings& settings) {

@@ -13,7 +13,7 @@
 #include "playerlike/host/program.h"
 #include "playerlike/server/server.h"
 #include "run_outputs.h"
-#include "sim/simulation/simulation.h"
+#include "shipped.h"
 #include "viewer_process.h"
 
 namespace playpen {
@@ -88,7 +88,7 @@ void wait_for_end(const playerlike::Host& host, const playerlike::Server& server
 
 int serve(ServeRequest request) {
   const std::string world_file = find_world(request.world);
-  sim::WorldDescription world = sim::load_world(world_file);
+  sim::WorldDescription world = load_found_world(world_file);
   playerlike::RunSettings& settings = request.settings;
   if (request.view) pace_for_view(settings, world);
   if (!settings.time_mode && !world.simulation.time_mode_given) {

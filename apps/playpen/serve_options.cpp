@@ -1,12 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "serve_options.h"
-
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
 
-#include "commands.h"
+#include "command_line.h"
 #include "parsed_option.h"
 #include "run_options.h"
 
@@ -76,18 +74,15 @@ void add_limits(CLI::App& command, playerlike::ServerLimits& limits) {
 
 }  // namespace
 
-void add_serve(CLI::App& app, int& status) {
+void add_serve(CommandLine& line) {
   const auto request = std::make_shared<ServeRequest>();
   playerlike::ServerSettings& server = request->server;
-  CLI::App& command = *app.add_subcommand("serve", "Offer a world to client programs over TCP");
+  CLI::App& command = line.add_command("serve", "Offer a world to client programs over TCP");
   command.footer(
-      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do; see docs/remote.md.\n"
+      "Clients connect with PLAYPEN_WORLD=tcp://HOST:PORT, or as MORSE's do; see\n"
+      "docs/remote.md.\n"
       "Ends on Ctrl-C (SIGINT) or SIGTERM, with reports and pictures written.");
-  command
-      .add_option("world", request->world,
-                  "World file, or the name of a shipped world (tasks/par_intro), or 'default'")
-      ->required()
-      ->type_name("");
+  add_world(line, command, request->world);
   add_parsed(command, "--port", "TCP port; 0: any free one [4000]", "PORT",
              "a whole number from 0 to 65535",
              [&server](const std::string& text) { return parse_port(text, server.port); });
@@ -95,10 +90,9 @@ void add_serve(CLI::App& app, int& status) {
       .add_option("--bind", server.bind,
                   "Address to listen on, or a name of this machine [127.0.0.1]")
       ->type_name("ADDRESS");
-  command
-      .add_option("--token-file", request->token_file,
-                  "File with the tokens that clients must present")
-      ->type_name("FILE");
+  CLI::Option* const token_file = command.add_option(
+      "--token-file", request->token_file, "File with the tokens that clients must present");
+  line.takes(token_file->type_name("FILE"), ValueKind::Kind::kFile);
   command.add_flag("--open", server.open, "Let other machines connect without a token");
   add_parsed(command, "--clients",
              "Hold time until so many clients have joined; 0: do not wait [the world's]", "N",
@@ -108,7 +102,7 @@ void add_serve(CLI::App& app, int& status) {
                if (good) request->clients = clients;
                return good;
              });
-  add_run_settings(command, request->settings, "the world's, else real");
+  add_run_settings(line, command, request->settings, "the world's, else real");
   add_parsed(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]", "PORT",
              "a whole number from 0 to 65535",
              [&server](const std::string& text) { return parse_port(text, server.stream_port); });
@@ -120,14 +114,15 @@ void add_serve(CLI::App& app, int& status) {
                return good;
              });
   add_limits(command, server.limits);
-  add_parsed(command, "--log-level", "debug, info, warning or error [info]", "LEVEL",
-             "debug, info, warning or error", [request](const std::string& text) {
-               return parse_log_level(text, request->log_level);
-             });
+  CLI::Option* const log_level = add_parsed(
+      command, "--log-level", "debug, info, warning or error [info]", "LEVEL",
+      "debug, info, warning or error",
+      [request](const std::string& text) { return parse_log_level(text, request->log_level); });
+  line.takes(log_level, {"debug", "info", "warning", "error"});
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time gives a factor");
   command.add_flag("--quiet", request->quiet, "No summary");
-  command.callback([request, &status] { status = serve(*request); });
+  command.callback([request, &line] { line.status = serve(*request); });
 }
 
 }  // namespace playpen

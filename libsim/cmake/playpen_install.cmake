@@ -44,6 +44,15 @@ if(TARGET playpen)
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/playpen")
 endif()
 
+if(TARGET playpen)
+  foreach(_template IN ITEMS par_intro par_planning par_exploration client)
+    string(REPLACE "par_" "" _name "${_template}")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/apps/${_template}/template/"
+      DESTINATION "${CMAKE_INSTALL_DATADIR}/playpen/templates/${_name}"
+      PATTERN build EXCLUDE PATTERN out EXCLUDE)
+  endforeach()
+endif()
+
 install(EXPORT playpenTargets NAMESPACE playpen:: DESTINATION "${_playpen_package_dir}")
 configure_package_config_file(
   "${CMAKE_CURRENT_LIST_DIR}/playpenConfig.cmake.in"
@@ -62,3 +71,4 @@ install(FILES
 if(BUILD_SHARED_LIBS OR TARGET playpen_player)
   include(playpen_player_names)
 endif()
+include(playpen_build_package)

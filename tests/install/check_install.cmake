@@ -106,3 +106,7 @@ foreach(time IN ITEMS first second)
   endif()
 endforeach()
 file(REMOVE_RECURSE "${other}")
+
+if(EXISTS "${prefix}/bin/playpen")
+  include("${CMAKE_CURRENT_LIST_DIR}/check_command.cmake")
+endif()

@@ -506,7 +506,7 @@ TEST(WindowToolkit, IsLoadedByTheWindowsProcessAlone) {
     return result.out;
   };
   for (const char* program : {PLAYPEN_COMMAND, WINDOW_PROGRAM}) {
-    EXPECT_THAT(libraries(program), AllOf(HasSubstr("opencv_core"), Not(HasSubstr("highgui")),
+    EXPECT_THAT(libraries(program), AllOf(HasSubstr("libbox2d"), Not(HasSubstr("opencv")),
                                           Not(HasSubstr("libQt")), Not(HasSubstr("libgtk"))))
         << program;
   }

@@ -47,10 +47,11 @@ TEST(PlaypenCommand, VersionIsTheProjects) {
 }
 
 TEST(PlaypenCommand, EachCommandHasHelp) {
-  for (const char* command : {"run", "serve", "grade", "check", "render"}) {
+  for (const char* command :
+       {"run", "serve", "grade", "check", "render", "list", "new", "doctor"}) {
     const ProcessResult result = playpen({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
-    EXPECT_THAT(result.out, HasSubstr("world")) << command;
+    EXPECT_THAT(result.out, HasSubstr(std::string("Usage: playpen ") + command)) << command;
   }
 }
 
@@ -123,7 +124,7 @@ TEST(PlaypenCheck, SaysWhatASoundWorldHolds) {
   const std::string world = folder.write("room.json", room_world());
   const ProcessResult result = playpen({"check", world});
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.out, world + ": ok (1 robot, 0 obstacles, 2.00 m x 2.00 m)\n");
+  EXPECT_EQ(result.out, world + ": ok (world: 1 robot, 0 obstacles, 2.00 m x 2.00 m)\n");
   EXPECT_THAT(result.err, IsEmpty());
 }
 

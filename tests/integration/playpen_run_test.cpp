@@ -211,15 +211,16 @@ TEST_F(PlaypenRun, AProgramThatNeverConnectsIsAFailureAndOldResultsDoNotHideIt) 
   EXPECT_EQ(output("mine.txt"), "kept");
 }
 
-TEST_F(PlaypenRun, ResultsThatCannotBeWrittenAreAFailureThatSaysSo) {
+TEST_F(PlaypenRun, PicturesThatCannotBeWrittenAreAFailureThatSaysSo) {
   // A folder where a picture is to be written; made by the program's shell, as earlier results go.
   const ProcessResult result =
       run({"--duration", "1"}, {"sh", "-c", "mkdir \"$1\" && exec \"$0\"", TEMPLATE_PROGRAM,
                                 (fs::path(out_) / "scene.png").string()});
   EXPECT_EQ(result.status, 1);
   EXPECT_THAT(result.err, HasSubstr("results of the run are missing"));
-  EXPECT_THAT(result.err, HasSubstr("there is no report"));
+  EXPECT_THAT(result.err, HasSubstr("not all pictures could be written"));
   EXPECT_THAT(result.err, Not(HasSubstr("never connected")));
+  EXPECT_TRUE(fs::is_regular_file(fs::path(out_) / "report.json")) << "it waits for no picture";
 }
 
 TEST_F(PlaypenRun, PassesSignalsOnToTheProgram) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "grade/text.h"
@@ -72,6 +73,22 @@ std::string number_or_dash(const std::optional<double>& value, int decimals) {
   return value ? sim::fixed_text(*value, decimals) : "-";
 }
 
+/// A column of the table.
+struct Column {
+  const char* heading;
+  bool is_words;     ///< to the left; numbers are to the right
+  bool is_optional;  ///< not shown if no run has it
+};
+
+constexpr Column kColumns[] = {
+    {"world", true, false}, {"seed", false, false}, {"", true, false},        {"end", true, false},
+    {"goal", false, true},  {"cover", false, true}, {"correct", false, true}, {"path", false, true},
+    {"ratio", false, true}, {"coll", false, true},  {"clear", false, true},   {"sim", false, true},
+    {"wall", false, true},
+};
+constexpr std::size_t kVerdict = 2;
+constexpr std::size_t kLeastColumns = 4;  ///< world, seed, verdict and end are always shown
+
 using Row = std::vector<std::string>;
 
 Row row_of(const GradedRun& run) {
@@ -91,24 +108,81 @@ Row row_of(const GradedRun& run) {
           run.ending == Ending::kNotRun ? "-" : sim::fixed_text(run.wall_time_s, 1)};
 }
 
-/// Rows under one another; words to the left, numbers to the right.
-std::string aligned(const std::vector<Row>& rows) {
-  const auto is_words = [](std::size_t column) { return column == 0 || column == 3; };
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string blanks(widths[i] - row[i].size(), ' ');
-      if (i > 0) text += "  ";
-      text += is_words(i) ? row[i] + blanks : blanks + row[i];
+/// The runs' rows, and which columns of them are shown how wide.
+class Table {
+ public:
+  Table(const std::vector<GradedRun>& runs, const TableStyle& style) : style_(style) {
+    Row headings;
+    for (const Column& column : kColumns) headings.emplace_back(column.heading);
+    rows_.push_back(std::move(headings));
+    for (const GradedRun& run : runs) rows_.push_back(row_of(run));
+    for (std::size_t i = 0; i < std::size(kColumns); ++i) {
+      const auto is_measured = [i](const Row& row) { return row[i] != "-"; };
+      const bool any = std::any_of(rows_.begin() + 1, rows_.end(), is_measured);
+      if (any || !kColumns[i].is_optional) shown_.push_back(i);
     }
-    text += '\n';
+    fit();
   }
-  return text;
-}
+
+  [[nodiscard]] std::string text() const {
+    std::string text = line(rows_.front());
+    std::string world;
+    for (std::size_t r = 1; r < rows_.size(); ++r) {
+      if (worlds_are_headings_ && rows_[r].front() != world) {
+        world = rows_[r].front();
+        text += world + ":\n";
+      }
+      text += line(rows_[r]);
+    }
+    return text;
+  }
+
+ private:
+  [[nodiscard]] std::size_t width_of(std::size_t column) const {
+    std::size_t width = 0;
+    for (const Row& row : rows_) width = std::max(width, row[column].size());
+    return width;
+  }
+
+  [[nodiscard]] std::size_t width() const {
+    std::size_t width = 0;
+    for (const std::size_t column : shown_) {
+      width += width_of(column) + (width > 0 ? gap_ : 0);
+    }
+    return width;
+  }
+
+  void fit() {
+    if (width() <= style_.columns) return;
+    gap_ = 1;
+    if (width() <= style_.columns) return;
+    worlds_are_headings_ = true;
+    shown_.erase(shown_.begin());
+    while (width() > style_.columns && shown_.size() >= kLeastColumns) shown_.pop_back();
+  }
+
+  [[nodiscard]] std::string line(const Row& row) const {
+    std::string text;
+    for (const std::size_t column : shown_) {
+      const std::string blanks(width_of(column) - row[column].size(), ' ');
+      const std::string cell = column == kVerdict ? coloured(row[column]) : row[column];
+      if (column != shown_.front()) text += std::string(gap_, ' ');
+      text += kColumns[column].is_words ? cell + blanks : blanks + cell;
+    }
+    return text + '\n';
+  }
+
+  [[nodiscard]] std::string coloured(const std::string& verdict) const {
+    if (!style_.colour || verdict.empty()) return verdict;
+    return (verdict == "pass" ? "\033[32m" : "\033[1;31m") + verdict + "\033[0m";
+  }
+
+  TableStyle style_;
+  std::vector<Row> rows_;
+  std::vector<std::size_t> shown_;
+  std::size_t gap_ = 2;
+  bool worlds_are_headings_ = false;
+};
 
 template <typename T>
 ordered_json or_null(const std::optional<T>& value) {
@@ -147,11 +221,8 @@ std::size_t Grade::passed() const noexcept {
       std::count_if(runs.begin(), runs.end(), [](const GradedRun& run) { return run.passed(); }));
 }
 
-std::string table(const Grade& grade) {
-  std::vector<Row> rows = {{"world", "seed", "", "end", "reached", "coverage", "correct", "path[m]",
-                            "ratio", "coll", "clear[m]", "sim[s]", "wall[s]"}};
-  for (const GradedRun& run : grade.runs) rows.push_back(row_of(run));
-  std::string text = aligned(rows);
+std::string table(const Grade& grade, const TableStyle& style) {
+  std::string text = Table(grade.runs, style).text();
   for (const GradedRun& run : grade.runs) {
     for (const std::string& fault : run.faults) {
       text += run.world + " seed " + std::to_string(run.seed) + ": " + fault + '\n';

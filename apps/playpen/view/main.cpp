@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // playpen-view TITLE: the window of `playpen run --view`, which starts it. Shows the frames that
 // come through its standard input, a socket, and sends keys back (playerlike/view/protocol.h).
+// playpen-view --check: tells whether there is a display, and how large it is.
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -154,6 +155,10 @@ int main(int argc, char** argv) {
   try {
     const std::string title = argv[1];
     KeyWatch keys;
+    if (title == "--check") {  // 'playpen doctor' asks whether there is a display
+      std::cout << keys.screen_width_px() << " x " << keys.screen_height_px() << " pixels\n";
+      return 0;
+    }
     // Keys are taken from X, so the toolkit must show its window there, and (GTK) take events in
     // the way that leaves them to others. Qt's warnings mean nothing to users.
     setenv("QT_QPA_PLATFORM", "xcb", 1);

@@ -68,27 +68,39 @@ ConfigError::ConfigError(std::vector<ConfigIssue> issues)
 ConfigError::ConfigError(ConfigIssue issue)
     : ConfigError(std::vector<ConfigIssue>{std::move(issue)}) {}
 
-std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
-  if (word.empty() || word.size() > kLongestWord) return "";
+std::vector<std::string> nearest_words(const std::string& word,
+                                       const std::vector<std::string>& known, std::size_t most) {
+  if (word.empty() || word.size() > kLongestWord) return {};
   const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
-  std::string best;
-  std::size_t best_distance = limit + 1;
+  std::vector<std::pair<std::size_t, std::string>> near;  // by distance
   for (const std::string& candidate : known) {
     if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = edit_distance(word, candidate);
-    if (distance < best_distance && distance < std::min(word.size(), candidate.size())) {
-      best = candidate;
-      best_distance = distance;
+    if (distance <= limit && distance < std::min(word.size(), candidate.size())) {
+      near.emplace_back(distance, candidate);
     }
   }
-  if (!best.empty()) return best;
+  std::stable_sort(near.begin(), near.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> words;
+  for (auto& [distance, candidate] : near) {
+    if (words.size() == most) return words;
+    words.push_back(std::move(candidate));
+  }
+  if (!words.empty()) return words;
   for (const std::string& candidate : known) {
+    if (words.size() == most) break;
     if (word.size() >= 2 && candidate.size() >= 2 &&
         (candidate.starts_with(word) || word.starts_with(candidate))) {
-      return candidate;
+      words.push_back(candidate);
     }
   }
-  return "";
+  return words;
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+  const std::vector<std::string> nearest = nearest_words(word, known, 1);
+  return nearest.empty() ? "" : nearest.front();
 }
 
 }  // namespace sim

@@ -154,6 +154,18 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   return model;
 }
 
+/// Reads a model's text. Issues are added to `document`; the model counts only if there are none.
+RobotModel read_model_text(std::string_view text, Reader::Document& document,
+                           const std::vector<DeviceType>& types) {
+  if (text.size() > kMaxFileBytes) {
+    document.add({"file/too-large", document.file, "", "at most 16 MiB", "more", ""});
+  } else if (parse_document(text, document)) {
+    Reader root(document, document.root, "");
+    return read_model_document(root, types);
+  }
+  return {};
+}
+
 bool is_file_name(const std::string& name) {
   return name.find('/') != std::string::npos || name.ends_with(".json");
 }
@@ -291,16 +303,21 @@ std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
       return std::nullopt;
     }
   }
-  RobotModel model;
-  if (text.size() > kMaxFileBytes) {
-    document.add({"file/too-large", document.file, "", "at most 16 MiB", "more", ""});
-  } else if (parse_document(text, document)) {
-    Reader root(document, document.root, "");
-    model = read_model_document(root, types);
-  }
+  RobotModel model = read_model_text(text, document, types);
   if (document.issues.empty()) return model;
   for (ConfigIssue& issue : document.issues) world.add(std::move(issue));
   return std::nullopt;
+}
+
+RobotModel read_robot_model(const std::string& path, const std::vector<DeviceType>& device_types) {
+  Reader::Document document;
+  document.file = path;
+  document.what = "robot model";
+  std::string text;
+  if (!read_file(path, text, document, "a file with a robot model")) throw_issues(document);
+  RobotModel model = read_model_text(text, document, device_types);
+  throw_issues(document);
+  return model;
 }
 
 }  // namespace sim::io

@@ -68,6 +68,7 @@ class WorldReader {
     if (!root.expect_object()) return world_;
     static_cast<void>(root.string("$schema", ""));
     world_.name = root.string("name", world_.name);
+    world_.description = root.string("description", "");
     read_arena(root);
     read_simulation(root);
     read_canvas(root);
@@ -531,11 +532,37 @@ WorldDescription read_world_text(std::string_view text, const std::string& file,
   return world;
 }
 
+namespace {
+
+/// Whether a file, by its ending and its first word, is one of Stage's or Player's.
+bool is_stage_file(const std::string& path, std::string_view text) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (ending != ".world" && ending != ".inc" && ending != ".cfg") return false;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
+    if (text[at] != '#') break;  // a comment up to the end of the line
+    at = std::min(text.find('\n', at), text.size());
+  }
+  // JSON begins with a bracket, a quote, a number or the '/' of a comment.
+  return at != std::string_view::npos &&
+         ((text[at] >= 'a' && text[at] <= 'z') || (text[at] >= 'A' && text[at] <= 'Z'));
+}
+
+}  // namespace
+
 WorldDescription read_world(const std::string& path, const std::vector<DeviceType>& device_types) {
   Reader::Document document;
   document.file = path;
   std::string text;
   if (!read_file(path, text, document)) throw_issues(document);
+  if (is_stage_file(path, text)) {
+    document.add(
+        {"world/stage-file", path, "", "a world file of Playpen, in JSON",
+         path.ends_with(".cfg") ? "a configuration file of Player" : "a world file of Stage",
+         "docs/coming_from_stage.md shows how to write it as JSON; 'playpen run cave' is a "
+         "cave with Pioneers"});
+    throw_issues(document);
+  }
   return read_world_text(text, path, device_types);
 }
 

@@ -10,6 +10,10 @@ WorldDescription load_world(const std::string& path) {
   return io::read_world(path, device_types());
 }
 
+RobotModel load_model(const std::string& path) {
+  return io::read_robot_model(path, device_types());
+}
+
 WorldDescription load_world_text(std::string_view text, const std::string& file) {
   return io::read_world_text(text, file, device_types());
 }

@@ -6,7 +6,10 @@
 
 #include <csignal>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "grade/grade.h"
 #include "grade/text.h"
@@ -62,13 +65,13 @@ Grade grade_of(std::vector<GradedRun> runs) {
 }
 
 TEST(Table, HasALineARunThenFaultsThenASummary) {
-  EXPECT_EQ(table(grade_of({good_run(), crashed_run()})),
-            "world      seed        end        reached  coverage  correct  path[m]  ratio  coll  "
-            "clear[m]  sim[s]  wall[s]\n"
-            "room          1  pass  by itself      yes     0.988    1.000    12.35   1.23     0  "
-            "   0.032    61.0      0.2\n"
-            "long_room    12  FAIL  signal 11        -         -        -        -      -     -  "
-            "       -       -      1.5\n"
+  EXPECT_EQ(table(grade_of({good_run(), crashed_run()}), {.columns = 200}),
+            "world      seed        end        goal  cover  correct   path  ratio  coll  clear  "
+            " sim  wall\n"
+            "room          1  pass  by itself   yes  0.988    1.000  12.35   1.23     0  0.032  "
+            "61.0   0.2\n"
+            "long_room    12  FAIL  signal 11     -      -        -      -      -     -      -  "
+            "   -   1.5\n"
             "long_room seed 12: the program was ended by signal 11 (Segmentation fault)\n"
             "explore: 1 of 2 runs passed\n"
             "  coverage: 0.988 to 0.988, mean 0.988\n"
@@ -80,12 +83,70 @@ TEST(Table, HasALineARunThenFaultsThenASummary) {
 }
 
 TEST(Table, OfOneRunNeedsNoSummary) {
-  EXPECT_EQ(table(grade_of({good_run()})),
-            "world  seed        end        reached  coverage  correct  path[m]  ratio  coll  "
-            "clear[m]  sim[s]  wall[s]\n"
-            "room      1  pass  by itself      yes     0.988    1.000    12.35   1.23     0  "
-            "   0.032    61.0      0.2\n"
+  EXPECT_EQ(table(grade_of({good_run()}), {.columns = 200}),
+            "world  seed        end        goal  cover  correct   path  ratio  coll  clear   sim  "
+            "wall\n"
+            "room      1  pass  by itself   yes  0.988    1.000  12.35   1.23     0  0.032  61.0  "
+            " 0.2\n"
             "explore: 1 of 1 runs passed\n");
+}
+
+/// The lines of a table of runs, without what stands below.
+std::vector<std::string> rows_of(const std::vector<GradedRun>& runs, const TableStyle& style) {
+  std::istringstream lines(table(grade_of(runs), style));
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(lines, line) && !line.starts_with("explore: ");) {
+    rows.push_back(line);
+  }
+  return rows;
+}
+
+TEST(Table, HasNoColumnForWhatNoRunHasMeasured) {
+  GradedRun run = good_run();
+  run.measures.reached.reset();
+  run.measures.coverage.reset();
+  run.measures.correctness.reset();
+  run.measures.path_ratio.reset();
+  EXPECT_THAT(rows_of({run}, {}),
+              testing::ElementsAre("world  seed        end         path  coll  clear   sim  wall",
+                                   "room      1  pass  by itself  12.35     0  0.032  61.0   0.2"));
+}
+
+TEST(Table, LosesBlanksThenNamesThenColumnsUntilItFits) {
+  // With everything measured, 7 + 4 + 4 + 9 + 4 + 5 + 7 + 5 + 5 + 4 + 5 + 4 + 4 = 67 characters and
+  // 12 gaps, of one blank each: 79.
+  GradedRun run = good_run();
+  run.world = "kitchen";
+  const std::vector<std::string> tight = rows_of({run}, {.columns = 80});
+  ASSERT_EQ(tight.size(), 2U);
+  EXPECT_EQ(tight[0],
+            "world   seed      end       goal cover correct  path ratio coll clear  sim wall");
+  EXPECT_EQ(tight[0].size(), 79U);
+  // A longer name becomes a heading, once for all runs of that world.
+  run.world = "the_kitchen_of_the_house";
+  GradedRun second = run;
+  second.seed = 2;
+  const std::vector<std::string> headed = rows_of({run, second}, {.columns = 80});
+  ASSERT_EQ(headed.size(), 4U);
+  EXPECT_EQ(headed[1], "the_kitchen_of_the_house:");
+  EXPECT_EQ(headed[2], "   1 pass by itself  yes 0.988   1.000 12.35  1.23    0 0.032 61.0  0.2");
+  for (const std::size_t columns : {71U, 60U, 50U, 40U, 30U}) {
+    const std::vector<std::string> rows = rows_of({run}, {.columns = columns});
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_LE(rows[0].size(), columns);
+    EXPECT_LE(rows[2].size(), columns);
+    EXPECT_THAT(rows[2], HasSubstr("1 pass by itself"));
+  }
+}
+
+TEST(Table, ColoursVerdictsOnlyIfItIsToldTo) {
+  const std::string plain = table(grade_of({good_run(), crashed_run()}), {.columns = 80});
+  EXPECT_THAT(plain, testing::Not(HasSubstr("\033")));
+  std::string coloured = table(grade_of({good_run(), crashed_run()}), {80, true});
+  EXPECT_THAT(coloured, HasSubstr("\033[32mpass\033[0m"));
+  EXPECT_THAT(coloured, HasSubstr("\033[1;31mFAIL\033[0m"));
+  // Without the colours it is the same table.
+  EXPECT_EQ(std::regex_replace(coloured, std::regex("\033\\[[0-9;]*m"), ""), plain);
 }
 
 TEST(Table, TellsEndingsInWords) {
@@ -93,7 +154,7 @@ TEST(Table, TellsEndingsInWords) {
   const auto text_for = [&run](Ending ending) {
     run.ending = ending;
     run.status = 3;
-    return table(grade_of({run}));
+    return table(grade_of({run}), {.columns = 200});
   };
   EXPECT_THAT(text_for(Ending::kTimeOver), HasSubstr("  time over  "));
   EXPECT_THAT(text_for(Ending::kBadStatus), HasSubstr("  status 3  "));

@@ -59,6 +59,18 @@ TEST(NearestWord, PrefersTheNearerAndOfEqualsTheFirst) {
   EXPECT_EQ(nearest_word("size", {"sizes", "sized"}), "sizes");
 }
 
+TEST(NearestWords, AreOrderedByTheirDistanceAndAtMostSoMany) {
+  const std::vector<std::string> known{"par_planning", "par_introd", "par_intro", "cave"};
+  // "par_intr" is one letter from par_intro and two from par_introd; its limit is 8 / 3 = 2.
+  EXPECT_EQ(nearest_words("par_intr", known, 3),
+            (std::vector<std::string>{"par_intro", "par_introd"}));
+  EXPECT_EQ(nearest_words("par_intr", known, 1), std::vector<std::string>{"par_intro"});
+  EXPECT_TRUE(nearest_words("office", known, 3).empty());
+  // None is near: those that it begins.
+  EXPECT_EQ(nearest_words("par", known, 2),
+            (std::vector<std::string>{"par_planning", "par_introd"}));
+}
+
 TEST(NearestWord, KnowsAbbreviationsButNoSingleLetters) {
   EXPECT_EQ(nearest_word("yaw", {"x", "y", "yaw_deg"}), "yaw_deg");
   EXPECT_EQ(nearest_word("z", {"x", "y"}), "");

@@ -204,6 +204,28 @@ TEST(ModelFiles, AreToldOfOnceWithTheirOwnLines) {
   EXPECT_EQ(issues[1].line, 4);
 }
 
+TEST(ModelFiles, CanBeReadOnTheirOwn) {
+  for (const ShippedModel& model : shipped_models()) {
+    const std::string file =
+        std::string(PLAYPEN_SOURCE_DIR) + "/worlds/models/" + model.name + ".json";
+    const RobotModel read = load_model(file);
+    EXPECT_EQ(read.name, model.name);
+    EXPECT_FALSE(read.description.empty()) << model.name;
+  }
+  const test_support::TemporaryFolder folder;
+  const std::string bad = folder.write("bad.json", "{\n\"name\": \"bad\",\n\"mass\": -1}");
+  try {
+    static_cast<void>(load_model(bad));
+    FAIL() << "accepted";
+  } catch (const ConfigError& error) {
+    ASSERT_EQ(error.issues().size(), 2U) << error.what();  // the mass, and no footprint
+    EXPECT_EQ(error.issues()[0].file, bad);
+    EXPECT_THAT(error.what(), testing::HasSubstr("/mass"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("footprint"));
+  }
+  EXPECT_THROW(static_cast<void>(load_model(folder / "none.json")), ConfigError);
+}
+
 TEST(ModelFiles, AreNotReadFromDevices) {
   try {
     static_cast<void>(load_world_text(R"({"robots": [{"model": "/dev/zero"}]})"));

@@ -12,6 +12,7 @@
 
 #include "device_table.h"
 #include "sim/world/view_mode.h"
+#include "temporary_folder.h"
 
 namespace sim::io {
 namespace {
@@ -84,7 +85,7 @@ TEST(ReadWorld, TheEmptyObjectIsTheDefaultWorld) {
 
 TEST(ReadWorld, ReadsAllThatAFileMaySay) {
   const WorldDescription world = read(R"({
-    "$schema": "x", "name": "intro",
+    "$schema": "x", "name": "intro", "description": "A room to try all in.",
     "arena": {"size": [4, 3], "origin": [-1, -2], "border": false, "border_height": 0.3,
       "obstacles": [
         {"name": "a", "type": "dynamic", "center": [0, 0], "size": [0.4, 0.2], "yaw_deg": 90,
@@ -104,6 +105,7 @@ TEST(ReadWorld, ReadsAllThatAFileMaySay) {
       "drivers": [{"type": "snd", "goal": 1.50, "name": "x", "fast": true}]}]
   })");
   EXPECT_EQ(world.name, "intro");
+  EXPECT_EQ(world.description, "A room to try all in.");
   EXPECT_EQ(world.arena.preset, "");
   EXPECT_EQ(world.arena.size, Vec2(4, 3));
   EXPECT_EQ(world.arena.origin, Vec2(-1, -2));
@@ -359,6 +361,24 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   const std::vector<ConfigIssue> endless = issues_of_file("/dev/zero");
   ASSERT_THAT(endless, SizeIs(1));
   EXPECT_EQ(endless[0].id, "file/too-large");
+}
+
+TEST(ReadWorld, FilesOfStageAndPlayerPointToThePageAboutThem) {
+  const test_support::TemporaryFolder folder;
+  for (const char* name : {"simple.world", "pioneer.inc", "simple.cfg"}) {
+    const std::string file =
+        folder.write(name, "# Desc: 1 pioneer\n\n  # Author: R. V.\ninclude \"map.inc\"\n");
+    const std::vector<ConfigIssue> issues = issues_of_file(file);
+    ASSERT_THAT(issues, SizeIs(1)) << name;
+    EXPECT_EQ(issues[0].id, "world/stage-file") << name;
+    EXPECT_THAT(issues[0].found, HasSubstr(name == std::string("simple.cfg") ? "Player" : "Stage"));
+    EXPECT_THAT(issues[0].hint, HasSubstr("docs/coming_from_stage.md"));
+  }
+  // The ending alone says nothing, nor does a file without a word in it.
+  EXPECT_THAT(issues_of_file(folder.write("json.world", "// ours\n{}")), testing::IsEmpty());
+  const std::vector<ConfigIssue> empty = issues_of_file(folder.write("empty.world", " \n"));
+  ASSERT_THAT(empty, SizeIs(1));
+  EXPECT_EQ(empty[0].id, "file/empty");
 }
 
 TEST(ReadWorld, TextsBeyondTheLimitsAreRefused) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,5 +45,10 @@ class ConfigError : public std::runtime_error {
 /// `word` is the beginning of (or the other way round; two letters at least) is given.
 [[nodiscard]] std::string nearest_word(const std::string& word,
                                        const std::vector<std::string>& known);
+
+/// As nearest_word(), all words that are near, the nearest first, at most `most` of them.
+[[nodiscard]] std::vector<std::string> nearest_words(const std::string& word,
+                                                     const std::vector<std::string>& known,
+                                                     std::size_t most);
 
 }  // namespace sim

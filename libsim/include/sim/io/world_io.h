@@ -39,6 +39,11 @@ struct DeviceType {
 [[nodiscard]] WorldDescription read_world_text(std::string_view text, const std::string& file,
                                                const std::vector<DeviceType>& device_types);
 
+/// Reads the file of a robot model (docs/robot_models.md).
+/// @throws ConfigError with every issue found, as read_world().
+[[nodiscard]] RobotModel read_robot_model(const std::string& path,
+                                          const std::vector<DeviceType>& device_types);
+
 /// Issues that no single value shows: duplicate names or ports, poses off the floor, robots that
 /// overlap obstacles, walls or one another. Empty if the world is sound.
 [[nodiscard]] std::vector<ConfigIssue> check_world(const WorldDescription& world);

@@ -187,6 +187,10 @@ class Simulation {
 /// @throws ConfigError with all issues of the file.
 [[nodiscard]] WorldDescription load_world(const std::string& path);
 
+/// Reads the file of a robot model with all built-in devices.
+/// @throws ConfigError with all issues of the file.
+[[nodiscard]] RobotModel load_model(const std::string& path);
+
 /// As load_world, from text; `file` is what messages call it and whose folder maps lie in.
 [[nodiscard]] WorldDescription load_world_text(std::string_view text,
                                                const std::string& file = "<memory>");

@@ -163,7 +163,8 @@ struct CanvasDescription {
 /// A whole world, as a file describes it.
 struct WorldDescription {
   std::string name = "unnamed";
-  std::string file;  ///< where it was read from, "" if nowhere
+  std::string description;  ///< for people, a sentence; "": none
+  std::string file;         ///< where it was read from, "" if nowhere
   ArenaDescription arena;
   SimulationDescription simulation;
   /// The kinds of robot that are not the library's own, by what RobotDescription::model says.

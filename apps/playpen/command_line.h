@@ -1,0 +1,70 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "commands.h"
+
+namespace playpen {
+
+/// What the value of an option or argument can be, for shells that complete it.
+struct ValueKind {
+  enum class Kind { kAnything, kFile, kFolder, kWorld, kTask, kNamedFile, kChoice };
+  Kind kind = Kind::kAnything;
+  std::vector<std::string> choices;  ///< of kChoice
+};
+
+/// The description of the whole command line: its commands, their options and what they do. Help,
+/// manual page, completion and the hints for misspelt words are all made from it.
+struct CommandLine {
+  /// @param invocation  how the user calls this program, "playpen" or a path.
+  explicit CommandLine(std::string invocation);
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  CLI::App app;
+  std::string invocation;
+  std::vector<std::string> program;  ///< the client program and its arguments: what follows "--"
+  int status = kOk;                  ///< what the command that has run gives back
+
+  std::set<const CLI::App*> with_program;  ///< commands that are followed by "-- PROGRAM"
+  std::map<const CLI::Option*, ValueKind> value_kinds;  ///< those that are not kAnything
+
+  /// Adds a command. `action` runs it and gives back its exit status.
+  CLI::App& add_command(const std::string& name, const std::string& description);
+  /// Says what an option's value can be. @return the option.
+  CLI::Option* takes(CLI::Option* option, ValueKind::Kind kind);
+  /// Says which values an option has. @return the option.
+  CLI::Option* takes(CLI::Option* option, std::vector<std::string> choices);
+  /// The commands that are not hidden, in order.
+  [[nodiscard]] std::vector<const CLI::App*> commands() const;
+  /// The command of that name.
+  /// @throws CLI::ParseError naming the nearest one if there is none.
+  [[nodiscard]] const CLI::App& command(const std::string& name) const;
+
+  /// Parses the arguments (without the program's own name) and runs the command that they name.
+  /// @return the exit status.
+  /// @throws what the commands throw (commands.h).
+  [[nodiscard]] int run(std::vector<std::string> arguments);
+
+ private:
+  [[nodiscard]] int explain(const CLI::ParseError& error) const;
+};
+
+/// Each adds one command to the command line.
+void add_run(CommandLine& line);
+void add_serve(CommandLine& line);
+void add_grade(CommandLine& line);
+void add_check(CommandLine& line);
+void add_render(CommandLine& line);
+void add_list(CommandLine& line);
+void add_new(CommandLine& line);
+void add_doctor(CommandLine& line);
+void add_help(CommandLine& line);
+void add_completion(CommandLine& line);
+
+}  // namespace playpen

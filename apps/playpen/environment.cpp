@@ -1,0 +1,34 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "environment.h"
+
+namespace playpen {
+
+const std::vector<EnvironmentVariable>& environment_variables() {
+  static const auto* const variables = new std::vector<EnvironmentVariable>{
+      {"IMR_LOG_LEVEL", "The least level of the lines that imr-h's log shows: debug, info, ...",
+       false},
+      {"NO_COLOR", "If it is set, the command prints no colours.", false},
+      {"PLAYPEN_DURATION", "Simulated seconds after which a run ends.", true},
+      {"PLAYPEN_ENCODING", "How a program talks to a server: cbor or json.", false},
+      {"PLAYPEN_OUT", "The folder for results.", true},
+      {"PLAYPEN_PROGRESS", "If it is 1, a line on the terminal shows the progress.", true},
+      {"PLAYPEN_RECORD", "The film to record.", true},
+      {"PLAYPEN_RECORD_FPS", "Frames a second of the film.", true},
+      {"PLAYPEN_RECORD_SPEED", "Simulated seconds a second of the film.", true},
+      {"PLAYPEN_RUN", "If it is 1, a program that the end of the run ends has status 0.", true},
+      {"PLAYPEN_SEED", "The seed of all noise.", true},
+      {"PLAYPEN_SILENCE_LIMIT",
+       "Wall-clock seconds after which a client that does not read no longer holds up the others.",
+       false},
+      {"PLAYPEN_SNAPSHOT_EVERY", "Simulated seconds between pictures.", true},
+      {"PLAYPEN_TIME", "lockstep, real, or a factor of real time.", true},
+      {"PLAYPEN_TOKEN", "The token that a program presents to a server.", false},
+      {"PLAYPEN_VIEW", "The number of the descriptor that leads to the live window.", true},
+      {"PLAYPEN_VIEW_MODE", "How the canvas is shown: ground, mini-map or full-screen.", true},
+      {"PLAYPEN_VIRTUAL_TIME", "If it is 1, sleeps of the program are simulated time.", true},
+      {"PLAYPEN_WORLD", "The world that \"localhost\" means: a file, or tcp://HOST[:PORT].", true},
+  };
+  return *variables;
+}
+
+}  // namespace playpen

@@ -1,0 +1,189 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// `playpen new` and `playpen doctor`, of the build folder. Projects are built as its output says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::playpen;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::run_process;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// In a folder, with the patience that a compiler needs on a busy machine.
+ProcessOptions in(const std::string& folder) {
+  ProcessOptions options;
+  options.folder = folder;
+  options.timeout = std::chrono::minutes(20);
+  options.environment["CXX"] = CXX_COMPILER;
+  return options;
+}
+
+/// The commands among what `playpen new` prints: its indented lines.
+std::vector<std::string> commands_of(const std::string& text) {
+  std::vector<std::string> commands;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("  ")) commands.push_back(line.substr(2));
+  }
+  return commands;
+}
+
+/// Makes a project in "my robot" of a folder and carries out what it prints, but for grading.
+void build_and_run(const std::string& kind, const std::string& result) {
+  const TemporaryFolder folder;
+  const ProcessOptions options = in(folder / ".");
+  const ProcessResult made = playpen({"new", kind, "my robot"}, options);
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_TRUE(fs::exists(folder / "my robot/README.md"));
+  const std::vector<std::string> commands = commands_of(made.out);
+  ASSERT_EQ(commands.size(), kind == "client" ? 3U : 4U) << made.out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ProcessResult step = run_process({"sh", "-c", commands[i]}, options);
+    ASSERT_EQ(step.status, 0) << commands[i] << '\n' << step.out << step.err;
+  }
+  EXPECT_TRUE(fs::exists(folder / result)) << result;
+}
+
+TEST(PlaypenNew, TheIntroTemplateBuildsAndRuns) {
+  build_and_run("intro", "out/par_intro/report.json");
+}
+
+TEST(PlaypenNew, ThePlanningTemplateBuildsAndRuns) {
+  // It has planned nothing, and says so by its status: what counts is that it was built.
+  const TemporaryFolder folder;
+  const ProcessOptions options = in(folder / ".");
+  ASSERT_EQ(playpen({"new", "planning", "p"}, options).status, 0);
+  ASSERT_EQ(run_process({"cmake", "-S", "p", "-B", "p/build"}, options).status, 0);
+  const ProcessResult built = run_process({"cmake", "--build", "p/build"}, options);
+  EXPECT_EQ(built.status, 0) << built.out << built.err;
+  EXPECT_TRUE(fs::exists(folder / "p/build/par_planning_template"));
+}
+
+TEST(PlaypenNew, TheExplorationTemplateBuildsAndRuns) {
+  build_and_run("exploration", "out/par_exploration/report.json");
+}
+
+TEST(PlaypenNew, TheClientBuildsAndDrives) { build_and_run("client", "out/cave/report.json"); }
+
+TEST(PlaypenNew, PrintsTheNextCommandsForTheTask) {
+  const TemporaryFolder folder;
+  const ProcessResult made = playpen({"new", "planning", "p"}, in(folder / "."));
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("cmake -S p -B p/build"),
+                              HasSubstr("run par_planning -- p/build/par_planning_template"),
+                              HasSubstr("grade par_planning -- p/build/par_planning_template"),
+                              HasSubstr("p/README.md")));
+  // Nothing that was built in the source tree comes along.
+  EXPECT_FALSE(fs::exists(folder / "p/build"));
+}
+
+TEST(PlaypenNew, KeepsWhatIsThereAlready) {
+  const TemporaryFolder folder;
+  const std::string mine = folder.write("full/robot.cc", "int mine;");
+  const ProcessResult full = playpen({"new", "intro", folder / "full"});
+  EXPECT_EQ(full.status, 2);
+  EXPECT_THAT(full.err, AllOf(HasSubstr("not empty"), HasSubstr("full")));
+  EXPECT_EQ(read_bytes(mine), "int mine;");
+  EXPECT_FALSE(fs::exists(folder / "full/CMakeLists.txt"));
+
+  const ProcessResult file = playpen({"new", "intro", mine});
+  EXPECT_EQ(file.status, 2);
+  EXPECT_THAT(file.err, HasSubstr("is a file"));
+
+  fs::create_directory(folder / "empty");
+  EXPECT_EQ(playpen({"new", "intro", folder / "empty"}).status, 0);
+  EXPECT_EQ(playpen({"new", "intro", folder / "a/b/c"}).status, 0);
+}
+
+TEST(PlaypenNew, OfACommandWithoutTemplatesSaysWhatIsMissing) {
+  const TemporaryFolder prefix;
+  const std::string command = prefix.write("bin/playpen", "");
+  fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
+  fs::permissions(command, fs::perms::owner_all);
+  const ProcessResult result = run_process({command, "new", "client", prefix / "robot"});
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("share/playpen/templates/client"), HasSubstr("install Playpen")));
+}
+
+TEST(PlaypenDoctor, FindsThatRunsWorkAndProgramsCanBeBuilt) {
+  const TemporaryFolder folder;
+  ProcessOptions options = in(folder / ".");
+  options.environment["DISPLAY"] = "";
+  options.environment["WAYLAND_DISPLAY"] = "";
+  const ProcessResult result = playpen({"doctor"}, options);
+  EXPECT_EQ(result.status, 0) << result.out << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("playpen " PLAYPEN_VERSION), HasSubstr("Runs work."),
+                                HasSubstr("read a laser in the default world"),
+                                HasSubstr("configured and built by CMake"), HasSubstr("Films"),
+                                HasSubstr("Core dumps"), Not(HasSubstr("BROKEN"))));
+  EXPECT_THAT(result.out, ContainsRegex("AMISS +there is no display"));
+  EXPECT_THAT(result.out, HasSubstr("--record film.mp4"));
+  EXPECT_TRUE(fs::is_empty(folder / ".")) << "it leaves something behind";
+  std::istringstream lines(result.out);
+  for (std::string line; std::getline(lines, line);) {
+    // A line may be longer only if it is a path that nobody can break.
+    const bool is_one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
+    EXPECT_TRUE(line.size() <= 80 || is_one_word) << line;
+  }
+}
+
+/// What doctor prints with these variables, without a compiler, which costs time.
+ProcessResult doctor_with(const std::map<std::string, std::string>& environment) {
+  ProcessOptions options;
+  options.environment = environment;
+  options.environment["CXX"] = "no-such-compiler";
+  return playpen({"doctor"}, options);
+}
+
+TEST(PlaypenDoctor, TellsOfVariablesAndOfABadDisplay) {
+  const ProcessResult result = doctor_with({{"DISPLAY", ":4321"},
+                                            {"PLAYPEN_SEED", "seven"},
+                                            {"PLAYPEN_WROLD", "cave.json"},
+                                            {"PLAYPEN_ENCODING", "json"}});
+  EXPECT_EQ(result.status, 0) << result.out;  // a run sets PLAYPEN_SEED itself
+  EXPECT_THAT(result.out, ContainsRegex("AMISS +the display :4321"));
+  EXPECT_THAT(result.out, ContainsRegex("AMISS +PLAYPEN_SEED"));
+  EXPECT_THAT(result.out, ContainsRegex("note +PLAYPEN_ENCODING=json"));
+  EXPECT_THAT(result.out, ContainsRegex("AMISS +PLAYPEN_WROLD"));
+  EXPECT_THAT(result.out, HasSubstr("did you mean PLAYPEN_WORLD?"));
+  EXPECT_THAT(result.out, AllOf(ContainsRegex("AMISS +C\\+\\+ compiler: none"),
+                                HasSubstr("sudo apt install g++")));
+}
+
+TEST(PlaypenDoctor, FailsWhereRunsCannotWork) {
+  const TemporaryFolder prefix;
+  const std::string command = prefix.write("bin/playpen", "");
+  fs::copy_file(PLAYPEN_COMMAND, command, fs::copy_options::overwrite_existing);
+  fs::permissions(command, fs::perms::owner_all);
+  ProcessOptions options;
+  options.environment["CXX"] = "no-such-compiler";
+  const ProcessResult result = run_process({command, "doctor"}, options);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out,
+              AllOf(ContainsRegex("BROKEN +the folder of worlds"),
+                    ContainsRegex("BROKEN +the library that makes sleeps"),
+                    ContainsRegex("AMISS +--view lacks"),
+                    ContainsRegex("AMISS +'playpen new' lacks"), HasSubstr("Runs do not work")));
+}
+
+}  // namespace
