@@ -131,21 +131,13 @@ says '60.0 s simulated' "$playpen" run cave --duration 60 -- ./wander
 has out/cave/scene.png out/cave/report.json
 
 headline "playpen new, list and doctor"
-known() { "$playpen" --help | grep -qE "^ +$1 "; }
-if known list; then
-  says 'cave' "$playpen" list
-fi
-if known new; then
-  for kind in intro planning exploration client; do
-    cd "$HOME/walk"
-    says . "$playpen" new "$kind" "new_$kind"
-    cd "new_$kind"
-    says . cmake -S . -B build "-DCMAKE_PREFIX_PATH=$HOME/playpen"
-    says . cmake --build build
-  done
-fi
-if known doctor; then
-  says . "$playpen" doctor
-fi
+says 'cave' "$playpen" list
+for kind in intro planning exploration client; do
+  cd "$HOME/walk"
+  says . "$playpen" new "$kind" "new_$kind"
+  says . cmake -S "new_$kind" -B "new_$kind/build"
+  says . cmake --build "new_$kind/build"
+done
+says . "$playpen" doctor
 
 headline "The walk is at its end"
