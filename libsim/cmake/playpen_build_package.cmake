@@ -4,6 +4,9 @@
 set(_playpen_build_package_dir "${PROJECT_BINARY_DIR}/lib/cmake/playpen")
 # Static libraries name all that they link, the targets of the build alone too.
 set(_playpen_build_targets playpen_sim playpen_playerlike playpen_build_flags playpen_asio)
+if(TARGET playpen_player)
+  list(APPEND _playpen_build_targets playpen_player)
+endif()
 export(TARGETS ${_playpen_build_targets} NAMESPACE playpen::
   FILE "${_playpen_build_package_dir}/playpenTargets.cmake")
 # As that of an installation, with the folder of the worlds in the source tree.
