@@ -31,6 +31,17 @@ if(PLAYPEN_PCH)
     "$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576;-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>")
 endif()
 
+# playpen_join(TARGET [SOURCE...]): where PLAYPEN_JOIN asks for it, a library is compiled a dozen
+# sources at once, so that what they include is read, and what they instantiate is made, once for all
+# of them. These sources stay alone: names in their unnamed namespaces are also those of others.
+function(playpen_join target)
+  if("libraries" IN_LIST PLAYPEN_JOIN)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    target_compile_options(${target} PRIVATE -Wno-shadow)  # a local name may be another source's, too
+    set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
 # playpen_bind_own_functions(TARGET): calls within a shared library go to its own functions, also
 # where a program has one of the same name: by chance, or its copy of an inline function of a common
 # header, which may be compiled without optimisation.
