@@ -44,8 +44,9 @@ apps/install_dependencies.sh build test
 
 launcher=()
 if command -v ccache >/dev/null 2>&1; then
-  # What ccache has need not be compiled, and it cannot store what used a precompiled header.
-  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH=)
+  # What ccache has need not be compiled: it cannot store what used a precompiled header, and has
+  # more of use where each test is compiled by itself.
+  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH= -DPLAYPEN_JOIN=)
 fi
 jobs=$(nproc)
 mkdir -p "build/$preset"

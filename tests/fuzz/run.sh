@@ -66,7 +66,7 @@ for program in "${programs[@]}"; do
   echo "== $name, $seconds s"
   # A seed that is longer than this is cut, so that small inputs are tried often.
   if ! ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 \
-    "$program" -max_total_time="$seconds" -timeout=60 -rss_limit_mb=2048 -max_len=8192 \
+    "$program" -max_total_time="$seconds" -timeout=600 -rss_limit_mb=2048 -max_len=8192 \
     -print_final_stats=1 -verbosity=0 -artifact_prefix="$found/" "$discovered" "${seeds[@]}"; then
     failed+=("$name")
   fi

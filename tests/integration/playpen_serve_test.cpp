@@ -220,9 +220,13 @@ TEST_F(PlaypenServe, LimitsAreOptions) {
   EXPECT_THAT(server_->output(), HasSubstr(", clock synchronisation on "));
   RawClient silent = connect();
   EXPECT_THAT(silent.rest(), HasSubstr("server/first-request"));
-  RawClient client = connect();
-  client.send(std::string(400, 'x'));
-  EXPECT_THAT(client.rest(), HasSubstr("protocol/too-long"));
+  std::string answer;
+  do {  // on a loaded machine this client may be late, too
+    RawClient client = connect();
+    static_cast<void>(client.send_if_open(std::string(400, 'x')));
+    answer = client.rest();
+  } while (answer.find("server/first-request") != std::string::npos);
+  EXPECT_THAT(answer, HasSubstr("protocol/too-long"));
 }
 
 TEST_F(PlaypenServe, TheShellsSettingsOfRunsDoNotCount) {

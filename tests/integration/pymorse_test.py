@@ -26,8 +26,8 @@ except ImportError as error:
 
 PLAYPEN, REPOSITORY = sys.argv[1:3]
 WORLD = os.path.join(REPOSITORY, "worlds/examples/remote.json")
-# Whatever takes longer has failed; nothing is measured.
-TIMEOUT = 100
+# Whatever takes longer hangs; nothing is measured.
+TIMEOUT = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
 
 
 class Server:

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "libCCMorse/CCMorse.h"
-#include "playerlike/host/host.h"
+#include "patient_host.h"
 #include "sim/core/random_stream.h"
 #include "sim/simulation/simulation.h"
 
@@ -52,11 +52,15 @@ double distance_to(const sim::ObstacleDescription& box, const Vec2& p_W) {
 /// How far a point is from all that is solid [m].
 double clearance(const sim::ArenaDescription& arena, const Vec2& p_W) {
   double least_m = std::min({p_W.x(), p_W.y(), arena.size.x() - p_W.x(), arena.size.y() - p_W.y()});
+  const auto look_at = [&](const sim::ObstacleDescription& box) {
+    // Most are farther away than what is known, even from the circle round their corners.
+    if ((p_W - box.center).norm() - 0.5 * box.size.norm() >= least_m) return;
+    least_m = std::min(least_m, distance_to(box, p_W));
+  };
   for (const auto& box : arena.obstacles) {
-    if (box.state == sim::ObstacleState::kExtended)
-      least_m = std::min(least_m, distance_to(box, p_W));
+    if (box.state == sim::ObstacleState::kExtended) look_at(box);
   }
-  for (const auto& box : arena.dock_separators) least_m = std::min(least_m, distance_to(box, p_W));
+  for (const auto& box : arena.dock_separators) look_at(box);
   return least_m;
 }
 
@@ -175,7 +179,7 @@ struct Outcome {
 
 Outcome run(const Case& c) {
   Outcome outcome;
-  const auto host = playerlike::Host::create(c.world);
+  const auto host = test::patient_host(c.world);
   CCMorse::PlayerClient client(host->connect(6665));
   CCMorse::Position2dProxy position(&client, 0);
   CCMorse::SndDriver driver(&client);

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "patience.h"
 #include "playerlike/view/protocol.h"
 
 namespace test_support {
@@ -100,7 +101,10 @@ class FakeViewer {
     std::size_t got = 0;
     while (got < count) {
       pollfd readable{ours_, POLLIN, 0};
-      if (poll(&readable, 1, 60'000) <= 0) throw std::runtime_error("the run sends nothing");
+      const std::chrono::milliseconds longest = patience();
+      if (poll(&readable, 1, static_cast<int>(longest.count())) <= 0) {
+        throw std::runtime_error("the run sends nothing");
+      }
       const ssize_t part = recv(ours_, bytes.data() + got, count - got, 0);
       if (part <= 0) return false;
       got += static_cast<std::size_t>(part);

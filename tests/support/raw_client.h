@@ -20,10 +20,12 @@
 #include <string_view>
 #include <utility>
 
+#include "patience.h"
+
 namespace test_support {
 
 /// A client that is nothing but a TCP socket, for what no well-behaved client would do. Whatever
-/// takes longer than a minute throws std::runtime_error.
+/// takes longer than patience() throws std::runtime_error.
 class RawClient {
  public:
   struct Unconnected {};
@@ -138,7 +140,10 @@ class RawClient {
   /// @return false when the other end has closed.
   bool receive() {
     pollfd readable{descriptor_, POLLIN, 0};
-    if (poll(&readable, 1, 60'000) <= 0) throw std::runtime_error("nothing comes");
+    const std::chrono::milliseconds longest = patience();
+    if (poll(&readable, 1, static_cast<int>(longest.count())) <= 0) {
+      throw std::runtime_error("nothing comes");
+    }
     std::array<char, 65536> buffer{};
     const ssize_t count = recv(descriptor_, buffer.data(), buffer.size(), 0);
     if (count <= 0) return false;

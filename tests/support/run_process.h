@@ -21,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "patience.h"
+
 /// Running built programs from tests, with their output captured and an end to their patience.
 namespace test_support {
 
@@ -36,7 +38,7 @@ struct ProcessResult {
 struct ProcessOptions {
   std::map<std::string, std::string> environment;  ///< variables to set on top of ours
   std::string folder;                              ///< to run in; "": ours
-  std::chrono::seconds timeout{60};
+  std::chrono::seconds timeout = patience();
 };
 
 /// A running program. Its standard input is a pipe that stays open, and silent, until the end.
@@ -101,7 +103,7 @@ class Process {
   [[nodiscard]] ProcessResult kill_now() {
     kill_group();
     // The pipes end with their last holder, unless one of them went off into another group.
-    deadline_ = std::min(deadline_, std::chrono::steady_clock::now() + std::chrono::seconds(5));
+    deadline_ = std::min(deadline_, std::chrono::steady_clock::now() + std::chrono::seconds(20));
     return finish();
   }
 

@@ -8,6 +8,7 @@
                                                          stands for anything
 The server must end well, too, when it is told to.
 """
+import os
 import pathlib
 import re
 import signal
@@ -15,7 +16,8 @@ import socket
 import subprocess
 import sys
 
-TIMEOUT_S = 60
+# Whatever takes longer hangs.
+TIMEOUT_S = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
 
 
 def converse(port, script):

@@ -10,6 +10,7 @@
 #include <limits>
 #include <thread>
 
+#include "patient_host.h"
 #include "playerlike/host/host.h"
 #include "reachable_host.h"
 #include "sim/io/map_file.h"
@@ -78,7 +79,7 @@ class HostCanvas : public testing::TestWithParam<test::Transport> {
   std::shared_ptr<test::ReachableHost> create(sim::WorldDescription world,
                                               RunSettings settings = {}) {
     hosts.push_back(std::make_shared<test::ReachableHost>(
-        Host::create(std::move(world), std::move(settings)), GetParam()));
+        test::patient_host(std::move(world), std::move(settings)), GetParam()));
     return hosts.back();
   }
 

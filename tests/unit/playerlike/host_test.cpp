@@ -16,6 +16,7 @@
 #include <mutex>
 #include <thread>
 
+#include "patient_host.h"
 #include "reachable_host.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
@@ -53,11 +54,11 @@ class HostTest : public testing::Test {
   // What tests talk to; sessions must go before the next one is started.
   std::shared_ptr<ReachableHost> start(sim::WorldDescription world, RunSettings settings = {}) {
     reachable.reset();
-    host = Host::create(std::move(world), std::move(settings),
-                        [this](sim::LogLevel, std::string_view text) {
-                          const std::lock_guard lock(log_mutex);
-                          log += std::string(text) + '\n';
-                        });
+    host = test::patient_host(std::move(world), std::move(settings),
+                              [this](sim::LogLevel, std::string_view text) {
+                                const std::lock_guard lock(log_mutex);
+                                log += std::string(text) + '\n';
+                              });
     reachable = std::make_shared<ReachableHost>(host, transport);
     return reachable;
   }

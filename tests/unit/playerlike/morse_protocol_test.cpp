@@ -14,6 +14,8 @@
 #include <sstream>
 #include <thread>
 
+#include "patience.h"
+#include "patient_host.h"
 #include "playerlike/server/server.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
@@ -97,8 +99,8 @@ class MorseProtocol : public testing::Test {
   }
 
   MorseClient start(RunSettings run = {}) {
-    host = Host::create(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/remote.json"),
-                        std::move(run));
+    host = test::patient_host(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/remote.json"),
+                              std::move(run));
     server = std::make_unique<Server>(host, settings, [this](sim::LogLevel, std::string_view text) {
       const std::lock_guard lock(mutex_);
       log_ += std::string(text) + '\n';
@@ -114,7 +116,7 @@ class MorseProtocol : public testing::Test {
   RawClient accepted(int port) {
     const std::size_t before = server->connections();
     RawClient connection("127.0.0.1", port);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + test_support::patience();
     while (server->connections() <= before && std::chrono::steady_clock::now() < end) {
       std::this_thread::yield();
     }
@@ -274,7 +276,7 @@ TEST_F(MorseProtocol, QuitAndTerminateAnswerAndEndTheServer) {
     MorseClient client = start();
     EXPECT_FALSE(server->done());
     EXPECT_EQ(client.get("simulation " + service), nullptr);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    const auto end = std::chrono::steady_clock::now() + test_support::patience();
     while (!server->done() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
     EXPECT_TRUE(server->done()) << service;
     server.reset();

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 
+#include "patient_host.h"
 #include "protocol/codec.h"
 #include "server/native_handler.h"
 #include "temporary_folder.h"
@@ -251,7 +252,7 @@ std::string encoding_name(const testing::TestParamInfo<Encoding>& tested) {
 class NativeProtocol : public testing::TestWithParam<Encoding> {
  protected:
   explicit NativeProtocol(const std::string& simulation = R"("time": "lockstep")")
-      : host(Host::create(two_robots(simulation))), hub(host) {}
+      : host(test::patient_host(two_robots(simulation))), hub(host) {}
   void SetUp() override { client.emplace(hub, GetParam()); }
   void TearDown() override {
     client.reset();
@@ -268,7 +269,7 @@ INSTANTIATE_TEST_SUITE_P(Encodings, NativeProtocol,
 // --- hello
 
 TEST(NativeHello, AnswersWhatAClientNeeds) {
-  FakeHub hub(Host::create(two_robots()));
+  FakeHub hub(test::patient_host(two_robots()));
   Client client(hub);
   const json answer =
       client.say_hello({{"version", 1}, {"port", 6666}, {"name", "walker"}, {"tokens", {"x"}}});
@@ -294,7 +295,7 @@ TEST(NativeHello, AnswersWhatAClientNeeds) {
 }
 
 TEST(NativeHello, RefusesWhatItDoesNotUnderstandAndStaysInMorsesForm) {
-  FakeHub hub(Host::create(two_robots()));
+  FakeHub hub(test::patient_host(two_robots()));
   const std::vector<std::pair<json, std::string>> bad = {
       {json::object(), "protocol/bad-value"},
       {json::array(), "protocol/bad-value"},
@@ -332,7 +333,7 @@ AccessSettings guarded() {
 }
 
 TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
-  FakeHub hub(Host::create(two_robots()), guarded());
+  FakeHub hub(test::patient_host(two_robots()), guarded());
   Client stranger(hub);
   EXPECT_EQ(stranger.say_hello({{"version", 1}})["error"], "access/denied");
   EXPECT_EQ(stranger.say_hello({{"version", 1}, {"tokens", {"guess"}}})["error"], "access/denied");
@@ -358,7 +359,7 @@ TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
 TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {
   AccessSettings access = guarded();
   access.open_watching = true;
-  FakeHub hub(Host::create(two_robots()), access);
+  FakeHub hub(test::patient_host(two_robots()), access);
   Client watcher(hub, Encoding::kJson, {{"watch", true}});
   EXPECT_FALSE(watcher.welcome.contains("key"));
   EXPECT_EQ(watcher.welcome["canvas"]["height"], 50);
@@ -372,7 +373,7 @@ TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {
 }
 
 TEST(NativeAccess, FollowersNeedTheKeyAndTheTokensOfTheirLeader) {
-  FakeHub hub(Host::create(two_robots()), guarded());
+  FakeHub hub(test::patient_host(two_robots()), guarded());
   const json both = {"server-token", "robot-token"};
   Client leader(hub, Encoding::kJson, {{"tokens", both}, {"port", 6666}});
   const std::string key = leader.welcome["key"];
@@ -654,7 +655,7 @@ TEST_P(NativeProtocol, PreferRealTimeIsForSimulationsWhoseModeNobodyChose) {
   EXPECT_EQ(client->error("prefer_real_time", {{"reason", "a thread reads"}}), "");
   EXPECT_EQ(client->ask("time")["time"]["mode"], "lockstep");
   EXPECT_EQ(client->error("prefer_real_time", {{"reason", "a\nb"}}), "protocol/bad-value");
-  FakeHub undecided(Host::create(two_robots("\"step\": 0.01")));
+  FakeHub undecided(test::patient_host(two_robots("\"step\": 0.01")));
   Client other(undecided, GetParam());
   EXPECT_EQ(other.error("prefer_real_time", {{"reason", "a thread reads"}}), "");
   EXPECT_EQ(other.ask("time")["time"]["mode"], "paced");
@@ -756,7 +757,7 @@ TEST(NativeFiles, PicturesStayInTheOutputFolder) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;
   settings.output_folder = folder.path().string();
-  FakeHub hub(Host::create(two_robots(), settings));
+  FakeHub hub(test::patient_host(two_robots(), settings));
   Client client(hub, Encoding::kJson);
   EXPECT_EQ(client.error("save_image", {{"name", "now"}, {"scale", 2}}), "");
   EXPECT_TRUE(fs::exists(folder.path() / "now.png"));

@@ -17,6 +17,7 @@
 
 #include "fake_session.h"
 #include "libCCMorse/CCMorse.h"
+#include "patient_host.h"
 #include "playerlike/host/host.h"
 #include "reachable_host.h"
 #include "sim/core/error.h"
@@ -45,13 +46,13 @@ std::string room(const std::string& drivers, const std::string& simulation = "{}
 
 struct SndDriverTest : testing::TestWithParam<Transport> {
   void start(const std::string& text) {
-    host =
-        std::make_unique<ReachableHost>(Host::create(sim::load_world_text(text), {},
-                                                     [this](sim::LogLevel, std::string_view line) {
-                                                       const std::lock_guard lock(log_mutex);
-                                                       log += std::string(line) + '\n';
-                                                     }),
-                                        GetParam());
+    host = std::make_unique<ReachableHost>(
+        test::patient_host(sim::load_world_text(text), {},
+                           [this](sim::LogLevel, std::string_view line) {
+                             const std::lock_guard lock(log_mutex);
+                             log += std::string(line) + '\n';
+                           }),
+        GetParam());
   }
   // Nothing may be said: no thread was silent, nothing was refused.
   void TearDown() override { EXPECT_EQ(log, ""); }
@@ -271,7 +272,7 @@ std::string two_threads_run(Transport transport) {
     "robots": [{"name": "r1", "pose": {"x": 0.8, "y": 1.5},
                 "devices": {"laser": {"noise": 0.01}}},
                {"name": "r2", "pose": {"x": 3.2, "y": 0.6, "yaw_deg": 180}}]})");
-  const auto host = std::make_unique<ReachableHost>(Host::create(world), transport);
+  const auto host = std::make_unique<ReachableHost>(test::patient_host(world), transport);
   std::ostringstream trace;
   trace.precision(17);
   std::atomic<bool> done{false};
@@ -463,7 +464,7 @@ TEST(SndDriversTable, DriversTakeTheFirstFreeIndex) {
 }
 
 TEST(SndDriversTable, AHostRefusesAWorldWithABadDriver) {
-  EXPECT_THROW(static_cast<void>(Host::create(
+  EXPECT_THROW(static_cast<void>(test::patient_host(
                    sim::load_world_text(R"({"robots": [{"drivers": [{"type": "teapot"}]}]})"))),
                sim::ConfigError);
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "libplayerc++/playerc++.h"
+#include "patient_host.h"
 #include "playerlike/host/embedded.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"
@@ -82,7 +83,7 @@ DeviceId subscribe_position(Session& session) {
 /// A host with a server on any free port.
 struct Served {
   explicit Served(const std::string& simulation = "{}", ServerSettings settings = {})
-      : host(Host::create(two_robots(simulation))) {
+      : host(test::patient_host(two_robots(simulation))) {
     settings.port = 0;
     server = std::make_unique<Server>(host, std::move(settings));
   }
@@ -330,10 +331,10 @@ TEST(SocketSessions, AServerThatFallsSilentIsGivenUpDuringAWait) {
 TEST(SocketSessions, AWaitMayTakeLongerThanARequestIfTheServerLives) {
   const Served served(R"({"clients": 2})");
   const auto session = connect(served.port());
-  session->set_request_timeout(1.0);
+  session->set_request_timeout(4.0);
   subscribe_position(*session);
   std::thread late([&] {
-    std::this_thread::sleep_for(milliseconds(2000));  // twice what a request may take
+    std::this_thread::sleep_for(milliseconds(8000));  // twice what a request may take
     const auto other = connect(served.port(), 6666);
     subscribe_position(*other);
     read(*other);
@@ -423,7 +424,7 @@ TEST(SocketSessions, AnotherWorldIsNotTakenForTheOldOne) {
   const auto session = connect(relay.port());
   session->set_retries(1, 0.01);
   served.reset();
-  const auto other = Host::create(sim::load_world_text(
+  const auto other = test::patient_host(sim::load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"name": "x", "pose": {"x": 1, "y": 1}}]})"));
   ServerSettings settings;
   settings.port = 0;
@@ -548,7 +549,7 @@ std::vector<std::uint8_t> picture_of(Session& session) {
 }
 
 TEST(SocketSessions, DrawTheSameAsInProcess) {
-  const auto host = Host::create(two_robots());
+  const auto host = test::patient_host(two_robots());
   const std::vector<std::uint8_t> expected = picture_of(*host->connect(6665));
   ServerSettings small;
   small.limits.message_bytes = 1024;  // less than three rows: cut into many messages

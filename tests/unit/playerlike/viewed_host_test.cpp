@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "fake_viewer.h"
+#include "patience.h"
 #include "playerlike/host/embedded.h"
 #include "playerlike/host/host.h"
 #include "sim/core/error.h"
@@ -79,7 +80,7 @@ class ViewedHostTest : public testing::Test {
   }
   std::string wait_for_log(const std::string& words) {
     std::unique_lock lock(log_mutex);
-    logged.wait_for(lock, std::chrono::seconds(60),
+    logged.wait_for(lock, test_support::patience(),
                     [&] { return log.find(words) != std::string::npos; });
     return log;
   }

@@ -12,6 +12,7 @@
 #include <mutex>
 
 #include "fake_viewer.h"
+#include "patience.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
 
@@ -62,7 +63,7 @@ class FakeRun final : public ViewedRun {
   /// Waits until so many things were told. @return all of them.
   [[nodiscard]] std::vector<std::string> told(std::size_t count) {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, std::chrono::seconds(60), [&] { return told_.size() >= count; });
+    changed_.wait_for(lock, test_support::patience(), [&] { return told_.size() >= count; });
     return told_;
   }
 

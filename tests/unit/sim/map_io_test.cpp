@@ -170,13 +170,13 @@ TEST(TraceWalls, FourMillionCellsTakeWellUnderASecond) {
 }
 
 /// A folder of its own for each test, removed at its end.
-class MapFile : public testing::Test {
+class MapIo : public testing::Test {
  protected:
-  MapFile() {
+  MapIo() {
     std::string pattern = (std::filesystem::temp_directory_path() / "map_io_test_XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
   }
-  ~MapFile() override { std::filesystem::remove_all(folder_); }
+  ~MapIo() override { std::filesystem::remove_all(folder_); }
 
   void write_pgm(const char* name, int width, int height, const std::string& pixels) const {
     std::ofstream(folder_ / name, std::ios::binary) << "P5\n"
@@ -190,7 +190,7 @@ class MapFile : public testing::Test {
   std::filesystem::path folder_;
 };
 
-TEST_F(MapFile, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
+TEST_F(MapIo, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
   // Grey 100 is darker than half of 255, 128 is not.
   write_pgm("m.pgm", 3, 2, std::string("\xff\x64\x80\xff\xff\xff", 6));
   const WorldDescription world =
@@ -236,7 +236,7 @@ TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
   }
 }
 
-TEST_F(MapFile, ThresholdDecidesWhatIsDark) {
+TEST_F(MapIo, ThresholdDecidesWhatIsDark) {
   write_pgm("m.pgm", 2, 1, std::string("\x32\xc8", 2));  // 50 and 200
   const auto walls = [this](const char* threshold) {
     return read(std::string(R"({"robots": [], "arena": {"map": {"image": "m.pgm", )") +
@@ -248,7 +248,7 @@ TEST_F(MapFile, ThresholdDecidesWhatIsDark) {
   ASSERT_EQ(walls("1"), 1U);    // both, as one block
 }
 
-TEST_F(MapFile, SizeAndOriginOfTheArenaStandIfGiven) {
+TEST_F(MapIo, SizeAndOriginOfTheArenaStandIfGiven) {
   write_pgm("m.pgm", 2, 1, std::string("\xff\xff", 2));
   const WorldDescription world =
       read(R"({"robots": [], "arena": {"size": [5, 4], "origin": [-1, -1],
@@ -258,7 +258,7 @@ TEST_F(MapFile, SizeAndOriginOfTheArenaStandIfGiven) {
   EXPECT_EQ(world.arena.map->origin, Vec2(-1, -1));
 }
 
-TEST_F(MapFile, TooLargeAPictureIsRefused) {
+TEST_F(MapIo, TooLargeAPictureIsRefused) {
   write_pgm("m.pgm", 8193, 1, std::string(8193, '\xff'));
   try {
     static_cast<void>(read(R"({"arena": {"map": {"image": "m.pgm"}}})"));
@@ -270,7 +270,7 @@ TEST_F(MapFile, TooLargeAPictureIsRefused) {
   }
 }
 
-TEST_F(MapFile, NoiseIsRefusedAsTooComplex) {
+TEST_F(MapIo, NoiseIsRefusedAsTooComplex) {
   std::string pixels(1200 * 1200, '\xff');
   for (std::size_t row = 0; row < 1200; row += 2) {
     for (std::size_t column = 0; column < 1200; column += 2) pixels[row * 1200 + column] = '\0';
