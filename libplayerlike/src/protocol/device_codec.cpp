@@ -411,7 +411,8 @@ void write(const sim::WaypointReading& reading, json& out, Encoding) {
 void read(const json& in, Encoding, sim::WaypointReading& reading) {
   using Status = sim::WaypointStatus;
   reading.status = require_status(in, {Status::kArrived, Status::kTransit, Status::kStop});
-  reading.goal_number = static_cast<std::uint64_t>(require_integer(in, "goal_number", 0, kMostInteger));
+  reading.goal_number =
+      static_cast<std::uint64_t>(require_integer(in, "goal_number", 0, kMostInteger));
   reading.goal_m = {require_number(in, "x"), require_number(in, "y")};
   reading.distance_m = require_number(in, "distance");
 }
@@ -756,7 +757,8 @@ DecodedReading decode_reading(const json& reading, Encoding encoding) {
   decoded.device = require_device_id(reading, "device");
   const std::string type = require_text(reading, "type");
   decoded.reading = codec_of(type).read(reading, encoding);
-  decoded.reading->sequence = static_cast<std::uint64_t>(require_integer(reading, "seq", 0, kMostInteger));
+  decoded.reading->sequence =
+      static_cast<std::uint64_t>(require_integer(reading, "seq", 0, kMostInteger));
   decoded.reading->time_ns = require_integer(reading, "t", 0, kMostInteger);
   return decoded;
 }

@@ -121,7 +121,8 @@ DriveDescription read_drive(Reader& model) {
   const std::string kind =
       reader->choice("kind", "differential", {"differential", "omnidirectional", "car"});
   drive.wheel_radius_m = reader->number("wheel_radius", drive.wheel_radius_m, kRobotLength);
-  drive.wheel_separation_m = reader->number("wheel_separation", drive.wheel_separation_m, kRobotLength);
+  drive.wheel_separation_m =
+      reader->number("wheel_separation", drive.wheel_separation_m, kRobotLength);
   if (kind == "omnidirectional") drive.kind = DriveKind::kOmnidirectional;
   if (kind == "car") {
     drive.kind = DriveKind::kCar;
