@@ -70,7 +70,7 @@ std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& comm
 
 /// What a command prints after the last blank of its last line, as a number.
 double last_number(const std::string& command) {
-  std::FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(cert-env33-c): our own program
+  std::FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error(command + " failed");
   std::array<char, 1024> line{};
   std::string last;

@@ -54,7 +54,7 @@ bool make_room(std::vector<std::uint8_t>& samples, std::size_t size) {
 
 bool decode(Decoder& decoder, std::uint32_t width, std::uint32_t height,
             const std::function<void(const PngRow&)>& visit) {
-  if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;  // NOLINT(cert-err52-cpp): see above
+  if (setjmp(png_jmpbuf(decoder.png)) != 0) return false;
   png_set_read_fn(decoder.png, &decoder, &read_bytes);
   png_read_info(decoder.png, decoder.info);
   if (png_get_image_width(decoder.png, decoder.info) != width ||
@@ -104,7 +104,7 @@ void write_bytes(png_structp png, png_bytep in, std::size_t size) {
 }
 
 bool encode(Encoder& encoder, int width, int height, const std::uint8_t* rgb, int level) {
-  if (setjmp(png_jmpbuf(encoder.png)) != 0) return false;  // NOLINT(cert-err52-cpp): see above
+  if (setjmp(png_jmpbuf(encoder.png)) != 0) return false;
   png_set_write_fn(encoder.png, &encoder, &write_bytes, nullptr);
   png_set_IHDR(encoder.png, encoder.info, static_cast<png_uint_32>(width),
                static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
