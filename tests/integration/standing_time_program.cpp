@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cstddef>
 #include <cstdio>
 #include <ctime>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <string>
@@ -70,9 +72,20 @@ int command_and_compute() {
   return 0;
 }
 
+/// Whether a thread of this process sleeps, by the state that proc(5) gives it.
+bool sleeps(pid_t thread) {
+  std::ifstream file("/proc/self/task/" + std::to_string(thread) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  const std::size_t end_of_name = text.rfind(") ");
+  return end_of_name != std::string::npos && text.compare(end_of_name + 2, 1, "S") == 0;
+}
+
 int command_in_a_thread() {
   Robot robot;
   std::thread([&] {
+    // Not while main() is still on its way into join(): it might be about to read.
+    while (!sleeps(getpid())) std::this_thread::yield();
     for (int i = 0; i < 100000; ++i) robot.position.SetSpeed(0.2, 0.0);
   }).join();
   return 0;

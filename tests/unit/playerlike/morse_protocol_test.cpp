@@ -399,6 +399,9 @@ TEST_F(MorseProtocol, SleepsStandSideBySide) {
   settings.sync_port = 0;  // time stands until all of them wait
   MorseClient client = start();
   MorseClient other = connect();
+  // Both have been taken when they are answered: the next connection is the clock's.
+  client.get("time now");
+  other.get("time now");
   RawClient clock = accepted(server->sync_port());
   client.send("long time sleep [3]");
   client.send("short time sleep [1]");
