@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -52,7 +53,7 @@ void* open(const std::string& name) { return dlopen(name.c_str(), RTLD_NOW | RTL
 
 /// @return null if there is no such file anywhere; `places` gets where it was looked for.
 void* open_somewhere(const std::string& file, std::string& places) {
-  std::vector<fs::path> folders = own_folders();
+  const std::vector<fs::path> folders = own_folders();
   const char* const named = std::getenv("PLAYPEN_LIBRARIES");
   std::error_code error;
   const auto try_folder = [&](const fs::path& folder) -> void* {
@@ -72,7 +73,9 @@ void* open_somewhere(const std::string& file, std::string& places) {
     throw std::runtime_error("the library " + file +
                              ", which draws pictures, cannot be loaded: " + problem);
   }
-  return named == nullptr || *named == '\0' ? nullptr : try_folder(named);
+  const fs::path last = named == nullptr ? "" : named;
+  const bool tried = std::find(folders.begin(), folders.end(), last) != folders.end();
+  return last.empty() || tried ? nullptr : try_folder(last);
 }
 
 template <typename Functions>
