@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cmath>
 #include <mutex>
+#include <set>
 
 namespace playerlike {
 namespace {
@@ -16,9 +17,16 @@ namespace {
 constinit std::mutex mutex;  // over timer
 constinit timer_t timer{};
 constinit std::atomic<bool> timer_runs{false};
-// What the handler writes. Never freed: the handler may be running.
+// What the handler writes.
 constinit std::atomic<const std::string*> alarm_text{nullptr};
 constinit std::atomic<bool> rang{false};
+
+/// A text that stays where it is until the process ends: the handler may be running whenever its
+/// text would be freed. There are few different ones.
+const std::string& kept(const std::string& text) {
+  static auto* const texts = new std::set<std::string>;
+  return *texts->insert(text).first;
+}
 
 extern "C" void on_busy(int /*signal*/) {
   const int error = errno;
@@ -47,7 +55,7 @@ void set_busy_alarm(double cpu_s, const std::string& text) {
   event.sigev_notify = SIGEV_SIGNAL;
   event.sigev_signo = SIGURG;
   if (timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer) != 0) return;
-  alarm_text = new std::string("playpen: warning: " + text + '\n');
+  alarm_text = &kept("playpen: warning: " + text + '\n');
   const double whole = std::floor(cpu_s);
   itimerspec times{};
   times.it_value = {static_cast<time_t>(whole), static_cast<long>(1e9 * (cpu_s - whole))};
