@@ -10,6 +10,10 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"NO_COLOR", "If it is set, the command prints no colours.", false},
       {"PLAYPEN_DURATION", "Simulated seconds after which a run ends.", true},
       {"PLAYPEN_ENCODING", "How a program talks to a server: cbor or json.", false},
+      {"PLAYPEN_LIBRARIES",
+       "The folder of the modules that draw letters and encode films, where they do not lie beside "
+       "Playpen's own libraries.",
+       false},
       {"PLAYPEN_OUT", "The folder for results.", true},
       {"PLAYPEN_PROGRESS", "If it is 1, a line on the terminal shows the progress.", true},
       {"PLAYPEN_RECORD", "The film to record.", true},

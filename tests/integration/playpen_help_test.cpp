@@ -41,6 +41,18 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+// `doctor` takes a variable that is not listed for a misspelt one.
+TEST(PlaypenHelp, TheManualPageListsTheVariablesOfStartHere) {
+  const std::string page = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/start_here.md");
+  const std::string manual = playpen({"help", "--man"}).out;
+  const std::regex variable("`(PLAYPEN_[A-Z_]+)`");
+  int count = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), variable), end; it != end; ++it, ++count) {
+    EXPECT_THAT(manual, HasSubstr(it->str(1)));
+  }
+  EXPECT_GT(count, 15);
+}
+
 TEST(PlaypenHelp, OfACommandIsThatOfItsOption) {
   EXPECT_EQ(playpen({"help"}).out, playpen({"--help"}).out);
   for (const std::string& command : kCommands) {
