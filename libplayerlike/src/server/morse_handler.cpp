@@ -14,7 +14,6 @@ using nlohmann::json;
 /// Of an id, as in MORSE.
 constexpr std::size_t kMaxId = 80;
 /// Tokens that a connection may present.
-constexpr std::size_t kMaxTokensOfClient = 64;
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
@@ -56,7 +55,7 @@ MorseConnection::MorseConnection(Peer& peer, Hub& hub)
 MorseConnection::~MorseConnection() { state_->forget(*this); }
 
 void MorseConnection::present(std::string token) {
-  if (tokens_.size() >= kMaxTokensOfClient) throw MorseRefusal("access/denied: too many tokens");
+  if (tokens_.size() >= kMaxTokens) throw MorseRefusal("access/denied: too many tokens");
   tokens_.push_back(std::move(token));
   rights_ = hub_.access().rights(tokens_);
 }

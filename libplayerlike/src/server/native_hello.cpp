@@ -16,7 +16,6 @@ using protocol::json;
 using protocol::ProtocolError;
 
 constexpr std::size_t kMaxName = 64;
-constexpr std::size_t kMaxTokensOfHello = 64;
 
 /// 128 bits that nobody can guess, in hexadecimal.
 std::string unguessable() {
@@ -45,7 +44,7 @@ std::vector<std::string> tokens_of(const json& argument) {
   if (!argument.contains("tokens")) return tokens;
   const json& list = argument["tokens"];
   const bool good =
-      list.is_array() && list.size() <= kMaxTokensOfHello &&
+      list.is_array() && list.size() <= kMaxTokens &&
       std::all_of(list.begin(), list.end(), [](const json& t) { return t.is_string(); });
   // What was found is not shown: it may be a token.
   if (!good) {

@@ -44,6 +44,9 @@ class Access {
   bool open_watching_ = false;
 };
 
+/// The most tokens that one connection may present.
+inline constexpr std::size_t kMaxTokens = 64;
+
 /// The other end of a connection, as those see it who answer. Used by the server's thread only.
 class Peer {
  public:

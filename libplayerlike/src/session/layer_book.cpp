@@ -11,7 +11,6 @@
 namespace playerlike {
 namespace {
 
-constexpr int kMaxSide = 8192;
 constexpr sim::LayerId kNoLayer = -1;
 
 [[noreturn]] void refuse(SessionError::Code code, const std::string& text) {
@@ -123,9 +122,9 @@ void LayerBook::set_style(sim::LayerStack& stack, int client, sim::LayerId layer
 }
 
 void LayerBook::resize(sim::LayerStack& stack, int width, int height) {
-  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+  if (width < 1 || height < 1 || width > sim::kMaxCanvasSide || height > sim::kMaxCanvasSide) {
     refuse(SessionError::Code::kBadArgument,
-           "the grid-map's sides are 1 to " + std::to_string(kMaxSide) + " cells, but " +
+           "the grid-map's sides are 1 to " + std::to_string(sim::kMaxCanvasSide) + " cells, but " +
                std::to_string(width) + " x " + std::to_string(height) + " were asked for");
   }
   if (width == stack.width() && height == stack.height()) return;

@@ -10,7 +10,6 @@ namespace sim {
 namespace {
 
 constexpr int kCoordinateLimit = 1 << 30;
-constexpr int kMaxCanvasSide = 8192;
 
 // floor(value), saturated; NaN counts as far to the left.
 int saturated_floor(double value) noexcept {

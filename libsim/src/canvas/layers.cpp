@@ -13,7 +13,6 @@
 namespace sim {
 namespace {
 
-constexpr int kMaxLayerSide = 8192;
 constexpr float kUnknown = 0.5F;
 
 /// How a layer's cells become colours: its kind and what of its style bears on that.
@@ -371,7 +370,7 @@ std::vector<CellValue> LayerStack::cells(LayerId layer) const {
 }
 
 void LayerStack::resize(int width, int height) {
-  SIM_ASSERT(width >= 1 && width <= kMaxLayerSide && height >= 1 && height <= kMaxLayerSide);
+  SIM_ASSERT(width >= 1 && width <= kMaxCanvasSide && height >= 1 && height <= kMaxCanvasSide);
   if (width == this->width() && height == this->height()) return;
   for (Layer& layer : impl_->layers) layer.cells->resize(width, height);
   impl_->description.width = width;

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "io/cross.h"
 #include "sim/core/assert.h"
 #include "sim/io/world_io.h"
 #include "sim/world/robot_model.h"
@@ -20,7 +21,6 @@ namespace {
 /// What touches does not overlap; files give places to a few digits.
 constexpr double kTouching_m = 1e-6;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 std::string metres(double value) {
   char text[32];
@@ -394,10 +394,9 @@ class Checker {
   }
 
   void check_canvas() {
-    constexpr int kMaxSide = 8192;
     const CanvasDescription& canvas = world_.canvas;
-    if (canvas.width < 1 || canvas.width > kMaxSide || canvas.height < 1 ||
-        canvas.height > kMaxSide) {
+    if (canvas.width < 1 || canvas.width > kMaxCanvasSide || canvas.height < 1 ||
+        canvas.height > kMaxCanvasSide) {
       add("world/out-of-range", "/canvas/size", "1 to 8192 cells along each side",
           std::to_string(canvas.width) + " x " + std::to_string(canvas.height));
     }

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "io/cross.h"
+
 namespace sim::io {
 namespace {
 
@@ -62,12 +64,11 @@ void read_device(Reader& settings, const std::string& name,
   devices[name] = {name, type_name, std::move(params)};
 }
 
-double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 double area_m2(const Polygon& outline) {
   double twice = 0.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    twice += cross_product(outline[i], outline[(i + 1) % outline.size()]);
+    twice += cross(outline[i], outline[(i + 1) % outline.size()]);
   }
   return 0.5 * twice;
 }
@@ -80,7 +81,7 @@ bool is_convex(const Polygon& outline) {
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 before = outline[(i + 1) % n] - outline[i];
     const Vec2 after = outline[(i + 2) % n] - outline[(i + 1) % n];
-    const double turn_rad = std::atan2(cross_product(before, after), before.dot(after));
+    const double turn_rad = std::atan2(cross(before, after), before.dot(after));
     if (turn_rad < 1e-6) return false;
     turned_rad += turn_rad;
   }

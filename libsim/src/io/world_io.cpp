@@ -329,7 +329,6 @@ class WorldReader {
   /// By default the canvas covers the floor in cells of 2 cm, or coarser ones if they would be
   /// more than 4096 a side.
   void read_canvas(Reader& root) {
-    constexpr int kMaxSide = 8192;
     constexpr double kMaxDefaultSide = 4096.0;
     CanvasDescription& canvas = world_.canvas;
     const ArenaDescription& arena = world_.arena;
@@ -353,12 +352,12 @@ class WorldReader {
     std::array<std::int64_t, 2> size = covering;
     if (reader) {
       if (!reader->has("size") && !document_.has_issue_at("/arena") &&
-          (size[0] > kMaxSide || size[1] > kMaxSide)) {
+          (size[0] > kMaxCanvasSide || size[1] > kMaxCanvasSide)) {
         reader->issue("world/canvas-too-large", "at most 8192 cells a side to cover the floor",
                       std::to_string(size[0]) + " x " + std::to_string(size[1]),
                       "enlarge cell_size, or give the size", "cell_size");
       }
-      size = reader->integer_pair("size", size, 1, kMaxSide);
+      size = reader->integer_pair("size", size, 1, kMaxCanvasSide);
       std::vector<std::string> modes;
       for (const ViewMode mode : kViewModes) modes.emplace_back(to_string(mode));
       canvas.view_mode =
@@ -368,8 +367,8 @@ class WorldReader {
       canvas.view_mode_locked = reader->boolean("lock_view_mode", canvas.view_mode_locked);
       reader->finish();
     }
-    canvas.width = static_cast<int>(std::min<std::int64_t>(size[0], kMaxSide));
-    canvas.height = static_cast<int>(std::min<std::int64_t>(size[1], kMaxSide));
+    canvas.width = static_cast<int>(std::min<std::int64_t>(size[0], kMaxCanvasSide));
+    canvas.height = static_cast<int>(std::min<std::int64_t>(size[1], kMaxCanvasSide));
   }
 
   void read_robots(Reader& root) {

@@ -115,7 +115,7 @@ class LayerStack {
 
   /// Changes the number of columns and rows of all layers. What is drawn stays where it is in the
   /// world: the bottom left corner stays, cells are added or cut off at the top and the right.
-  /// @pre sides in 1..8192
+  /// @pre sides in 1..kMaxCanvasSide
   void resize(int width, int height);
 
   /// All visible layers over one another, as RGBA bytes, row-major from the top; where nothing is

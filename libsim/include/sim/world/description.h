@@ -150,10 +150,13 @@ enum class ViewMode {
   kFullScreen,  ///< instead of the arena, its cells crisp, the robots on it
 };
 
+/// The most cells along a side of the grid-map.
+inline constexpr int kMaxCanvasSide = 8192;
+
 /// The grid-map that robots draw on with their pens.
 struct CanvasDescription {
-  int width = 172;                         ///< cells, 1..8192
-  int height = 186;                        ///< cells, 1..8192
+  int width = 172;                         ///< cells, 1..kMaxCanvasSide
+  int height = 186;                        ///< cells, 1..kMaxCanvasSide
   double cell_size_m = 0.02;               ///< [m]
   Vec2 origin = Vec2::Zero();              ///< W position of the canvas's bottom left corner [m]
   ViewMode view_mode = ViewMode::kGround;  ///< at the start
