@@ -31,7 +31,7 @@ void print_next_steps(const ProjectTemplate& kind, const std::string& folder,
   if (*kind.task != '\0') {
     std::cout << "  " << playpen << " grade " << kind.task << " -- " << program << '\n';
   }
-  std::cout << "What to fill in is told in " << (fs::path(folder) / "README.md").string() << ".\n";
+  std::cout << (fs::path(folder) / "README.md").string() << " says what to fill in.\n";
 }
 
 void make_project(const ProjectTemplate& kind, const std::string& target,
