@@ -9,6 +9,9 @@
 #include <filesystem>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
+
+#include "own_folders.h"
 
 namespace playpen {
 namespace {
@@ -23,8 +26,8 @@ constexpr const char* kSpecial = " :;$\t\n";
 /// Where Playpen's own libraries may lie: beside the folder that this program lies in, so that an
 /// installed tree can be moved.
 std::array<fs::path, 2> library_folders() {
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const std::vector<fs::path> own = own_folders();
+  const fs::path folder = own.empty() ? fs::path() : own.front();
   return {(folder / PLAYPEN_LIBRARIES_FROM_COMMAND / "playpen").lexically_normal(),
           (folder / "../lib/playpen").lexically_normal()};
 }
