@@ -35,9 +35,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/worlds/"
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 if(TARGET playpen)
-  file(RELATIVE_PATH _playpen_lib_from_bin
-    "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
-  set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${_playpen_lib_from_bin}")
+  set_target_properties(playpen PROPERTIES INSTALL_RPATH "\$ORIGIN/${playpen_libraries_from_command}")
   # The window's program is looked for beside the command.
   install(TARGETS playpen playpen-view RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(TARGETS playpen_virtual_time

@@ -15,11 +15,32 @@ if(PLAYPEN_SANITIZE)
   target_link_options(playpen_build_flags INTERFACE -fsanitize=${PLAYPEN_SANITIZE})
 endif()
 
-# playpen_precompile(TARGET libraries|tests HEADER...): where PLAYPEN_PCH asks for it, the headers of
-# other libraries that most of a target's sources include are read once for all of them. A source
-# includes what it needs nevertheless: without PLAYPEN_PCH, the default, nobody else does it.
-function(playpen_precompile target part)
-  if(part IN_LIST PLAYPEN_PCH)
+# From an installed program to the libraries beside it: what is loaded or preloaded lies there.
+file(RELATIVE_PATH playpen_libraries_from_command
+  "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+
+# playpen_module(NAME SOURCE): a library that is loaded at run time from lib/playpen. It is not built
+# with sanitizers: it is there before they are, or belongs to a library that has none.
+function(playpen_module name source)
+  add_library(${name} MODULE ${source})
+  set_target_properties(${name} PROPERTIES
+    CXX_STANDARD 20
+    CXX_STANDARD_REQUIRED ON
+    CXX_EXTENSIONS OFF
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON
+    LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib/playpen")
+  target_include_directories(${name} PRIVATE src)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow
+    $<$<BOOL:${PLAYPEN_WERROR}>:-Werror>)
+endfunction()
+
+# playpen_precompile(TARGET HEADER...): where PLAYPEN_PCH asks for it, the headers of other libraries
+# that most of a test's sources include are read once for all of them. A source includes what it needs
+# nevertheless: without PLAYPEN_PCH, the default, nobody else does it.
+function(playpen_precompile target)
+  if("tests" IN_LIST PLAYPEN_PCH)
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
