@@ -21,7 +21,6 @@ namespace {
 /// What touches does not overlap; files give places to a few digits.
 constexpr double kTouching_m = 1e-6;
 
-
 std::string metres(double value) {
   char text[32];
   static_cast<void>(std::snprintf(text, sizeof text, "%.3g m", value));

@@ -64,7 +64,6 @@ void read_device(Reader& settings, const std::string& name,
   devices[name] = {name, type_name, std::move(params)};
 }
 
-
 double area_m2(const Polygon& outline) {
   double twice = 0.0;
   for (std::size_t i = 0; i < outline.size(); ++i) {

@@ -22,7 +22,8 @@ namespace sim {
 /// Not thread-safe: its owner serialises.
 class Canvas {
  public:
-  /// @pre sides in 1..kMaxCanvasSide cells, cell size > 0 (asserted; check_world reports it to users).
+  /// @pre sides in 1..kMaxCanvasSide cells, cell size > 0 (asserted; check_world reports it to
+  /// users).
   explicit Canvas(const CanvasDescription& description);
 
   [[nodiscard]] int width() const noexcept { return cells_.width(); }
