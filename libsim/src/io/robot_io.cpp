@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "io/solid_limits.h"
@@ -237,17 +236,8 @@ std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
   document.what = "robot model";
   std::string text;
   if (is_file_name(name)) {
-    const std::filesystem::path folder = std::filesystem::path(world.file).parent_path();
-    document.file = (folder / name).string();
-    // Reading a pipe or a device might never end.
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(document.file, error);
-    if (std::filesystem::is_other(status)) {
-      robot.issue("world/model-unreadable", "a file with a robot model",
-                  document.file + ": a pipe, a socket or a device", "", "model");
-      return std::nullopt;
-    }
-    if (!read_file(document.file, text, document, "a file with a robot model")) {
+    document.file = (folder_of(world.file) / name).string();
+    if (!read_file(document.file, text, document, "a file with a robot model", NamedBy::kFile)) {
       const ConfigIssue& why = document.issues.front();
       robot.issue(
           "world/model-unreadable", "a file with a robot model", document.file + ": " + why.found,

@@ -259,7 +259,7 @@ class WorldReader {
     arena.map = map;
     if (!named || document_.has_issue_at(reader->pointer())) return;
 
-    const std::filesystem::path folder = std::filesystem::path(document_.file).parent_path();
+    const std::filesystem::path folder = folder_of(document_.file);
     GreyImage image;
     try {
       image = load_grey_image((folder / map.image).string());
