@@ -1,15 +1,22 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "shipped.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
 #include <initializer_list>
 #include <iterator>
+#include <stdexcept>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "own_folders.h"
 #include "sim/core/error.h"
+#include "sim/core/file.h"
 #include "sim/io/settings_file.h"
 #include "sim/simulation/simulation.h"
 
@@ -148,13 +155,54 @@ std::vector<std::string> nearest_names(const std::string& name,
 bool is_file(const std::string& name) {
   std::error_code error;
   const fs::file_status status = fs::status(name, error);
-  return fs::exists(status) && !fs::is_directory(status);
+  if (fs::exists(status)) return !fs::is_directory(status);
+  // Links that lead nowhere, or in a circle: whoever reads them says so.
+  return fs::is_symlink(fs::symlink_status(name, error));
+}
+
+/// A pipe can be read once only, but a world is read several times, the last time by the program.
+/// @return a name that the same content can be read from, by this process and those that it
+///         starts: that of a regular file itself; of a pipe, the name of a descriptor of memory.
+/// @throws ConfigError if a pipe gives nothing, or too much.
+std::string readable_again(const std::string& name) {
+  std::error_code error;
+  if (!fs::is_fifo(fs::status(name, error))) return name;
+  std::string text;
+  if (const auto problem = sim::read_whole_file(name, {.pipes = true}, text)) {
+    const bool too_large = problem->fault == sim::FileFault::kTooLarge;
+    throw ConfigError(
+        ConfigIssue{too_large ? "file/too-large" : "file/unreadable", name, "",
+                    "a pipe that gives a file of at most 16 MiB", problem->found,
+                    too_large ? "" : "does the program that writes into it still run?"});
+  }
+  // Inherited by programs on purpose; of a pipe that the shell has made, it takes the number.
+  int memory = memfd_create("playpen", 0);
+  constexpr std::string_view kOfShell = "/dev/fd/";
+  int number = 0;
+  if (name.starts_with(kOfShell)) {
+    std::from_chars(name.data() + kOfShell.size(), name.data() + name.size(), number);
+  }
+  if (memory >= 0 && number > STDERR_FILENO && dup2(memory, number) == number) {
+    close(memory);
+    memory = number;
+  }
+  std::string_view rest = text;
+  while (memory >= 0 && !rest.empty()) {
+    const ssize_t count = write(memory, rest.data(), rest.size());
+    if (count <= 0) break;
+    rest.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (memory < 0 || !rest.empty()) {
+    throw std::runtime_error("what the pipe '" + name +
+                             "' gives can't be kept: " + std::generic_category().message(errno));
+  }
+  return std::string(kOfShell) + std::to_string(memory);
 }
 
 /// The file that a name stands for by itself, with or without an ending.
 std::optional<std::string> own_file(const std::string& name,
                                     const std::vector<std::string_view>& suffixes) {
-  if (is_file(name)) return name;
+  if (is_file(name)) return readable_again(name);
   for (const std::string_view suffix : suffixes) {
     const std::string file = name + std::string(suffix);
     if (is_file(file)) return file;

@@ -128,6 +128,24 @@ TEST(PlaypenCheck, SaysWhatASoundWorldHolds) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
+TEST(PlaypenCheck, TakesPipesThatTheCommandLineNames) {
+  const TemporaryFolder folder;
+  const std::string world = folder.write("room.json", room_world());
+  const std::string command = PLAYPEN_COMMAND;
+  const auto shell = [](const std::string& line) {
+    return test_support::run_process({"bash", "-c", line});
+  };
+  EXPECT_THAT(shell("cat " + world + " | " + command + " check /dev/stdin").out,
+              HasSubstr(": ok (world: 1 robot"));
+  EXPECT_THAT(shell(command + " check <(cat " + world + ")").out,
+              HasSubstr(": ok (world: 1 robot"));
+  EXPECT_THAT(shell(command + " check <(true)").err, HasSubstr("[file/empty]"));
+  EXPECT_THAT(shell("head -c 20000000 /dev/zero | " + command + " check /dev/stdin").err,
+              HasSubstr("[file/too-large]"));
+  EXPECT_THAT(shell(command + " check /dev/zero").err,
+              AllOf(HasSubstr("found a device"), HasSubstr("[file/not-a-file]")));
+}
+
 TEST(PlaypenCheck, ReportsEveryIssueOfEveryBadWorldAndStillTheGoodOnes) {
   const TemporaryFolder folder;
   const std::string good = folder.write("good.json", room_world());

@@ -70,6 +70,15 @@ class PlaypenRun : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
+// The command reads the world to check it, the program once more.
+TEST_F(PlaypenRun, TakesAWorldFromAPipe) {
+  const std::string line = std::string(PLAYPEN_COMMAND) + " run <(cat " + kIntroWorld +
+                           ") --duration 1 --out " + out_ + " -- " + WALL_PROGRAM;
+  const ProcessResult result = test_support::run_process({"bash", "-c", line});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(report().at("run").at("steps"), 100);
+}
+
 TEST_F(PlaypenRun, LeavesReportPicturesAndTrajectory) {
   world_ = kIntroWorld;
   const ProcessResult result = run({"--duration", "20"}, {WALL_PROGRAM});

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -14,6 +13,7 @@
 #include "grade/shortest_path.h"
 #include "grade/text.h"
 #include "sim/core/error.h"
+#include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "sim/io/map_file.h"
 #include "sim/world/robot_model.h"
@@ -44,10 +44,15 @@ double inscribed_radius(const sim::Polygon& outline) {
 /// Takes the judged robot's figures out of the report. @return what is wrong, if something is.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
                                        Measures& measures) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "no report: the program never connected to the simulation, or was cut short";
+  std::string text;
+  if (const auto problem = sim::read_whole_file(file.string(), {}, text)) {
+    if (problem->fault == sim::FileFault::kMissing) {
+      return "no report: the program never connected to the simulation, or was cut short";
+    }
+    return "the report can't be read: " + problem->found;
+  }
   try {
-    const nlohmann::json report = nlohmann::json::parse(in);
+    const nlohmann::json report = nlohmann::json::parse(text);
     Measures found = measures;
     found.sim_time_s = report.at("run").at("sim_time").get<double>();
     for (const nlohmann::json& robot : report.at("robots")) {

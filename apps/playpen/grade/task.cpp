@@ -221,7 +221,9 @@ class TaskReader {
 }  // namespace
 
 std::string world_name(const std::string& world_file) {
-  return world_file.empty() ? "default" : fs::path(world_file).stem().string();
+  if (world_file.empty()) return "default";
+  if (world_file.starts_with("/dev/fd/")) return "pipe";
+  return fs::path(world_file).stem().string();
 }
 
 Task read_task(const std::string& path) {

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 #include <iomanip>
 #include <locale>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "sim/core/file.h"
 
 namespace playerlike {
 namespace {
@@ -63,10 +64,12 @@ std::string summarize(const nlohmann::json& report) {
 
 template <typename Use>
 auto read_report(const std::string& file, Use use) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error("the report " + file + " can't be read");
+  std::string text;
+  if (const auto problem = sim::read_whole_file(file, {}, text)) {
+    throw std::runtime_error("the report " + file + " can't be read: " + problem->found);
+  }
   try {
-    return use(nlohmann::json::parse(in));
+    return use(nlohmann::json::parse(text));
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error("the report " + file + " is not as expected: " + error.what());
   }

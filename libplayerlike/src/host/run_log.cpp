@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "host/outputs.h"
 #include "protocol/codec.h"
+#include "sim/core/file.h"
 
 namespace playerlike {
 namespace {
@@ -19,7 +21,7 @@ using protocol::json;
 constexpr std::string_view kEnding = ".jsonl";
 constexpr int kVersion = 1;
 constexpr std::size_t kMostWritten = std::size_t{1} << 30U;  // bytes
-constexpr std::uintmax_t kMostRead = std::uintmax_t{1} << 28U;
+constexpr std::size_t kMostRead = std::size_t{1} << 28U;
 
 [[noreturn]] void refuse(SessionError::Code code, const std::string& message) {
   throw SessionError(code, message);
@@ -105,13 +107,13 @@ void RunLog::start(const sim::Simulation& simulation) {
 // Reads the whole file: what is wrong with it is told before it begins.
 void RunLog::load() {
   using Code = SessionError::Code;
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path(), error);
-  if (error) refuse(Code::kNotAvailable, "cannot read " + path() + ": " + error.message());
-  if (size > kMostRead) {
-    refuse(Code::kNotAvailable, path() + " is too long: logs are read up to 256 MiB");
+  std::string text;
+  if (const auto problem = sim::read_whole_file(path(), {.most_bytes = kMostRead}, text)) {
+    refuse(Code::kNotAvailable, problem->fault == sim::FileFault::kTooLarge
+                                    ? path() + " is too long: logs are read up to 256 MiB"
+                                    : "cannot read " + path() + ": " + problem->found);
   }
-  std::ifstream in(path());
+  std::istringstream in(std::move(text));
   std::string line;
   entries_.clear();
   next_ = 0;

@@ -1,20 +1,20 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <typeindex>
 
 #include "imr-h/imr_config.h"
+#include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "text.h"
 #include "type_name.h"
@@ -319,13 +319,11 @@ std::string file_value(const std::string& where, const std::string& text) {
 }
 
 Assignments read_file(const std::vector<Option>& options, const std::string& path) {
-  errno = 0;
-  std::ifstream in(path);
-  if (!in) {
-    const int error = errno;
-    throw exception("can't open configuration file '" + path +
-                    "': " + std::generic_category().message(error));
+  std::string text;
+  if (const auto problem = sim::read_whole_file(path, {.pipes = true}, text)) {
+    throw exception("can't read configuration file '" + path + "': " + problem->found);
   }
+  std::istringstream in(std::move(text));
   Assignments assignments;
   std::map<std::string, std::size_t> first_lines;
   std::string line;

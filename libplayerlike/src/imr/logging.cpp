@@ -5,10 +5,11 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <map>
 #include <mutex>
+#include <sstream>
 
+#include "sim/core/file.h"
 #include "text.h"
 
 namespace imr::logging {
@@ -109,11 +110,12 @@ bool parse_log4cxx_level(const std::string& word, logging::Level& level) {
 
 // The root logger's level of a properties file of log4cxx; says what is wrong if there is none.
 bool read_level(const std::string& file, logging::Level& level, std::string& problem) {
-  std::ifstream in(file);
-  if (!in) {
-    problem = "it can't be read";
+  std::string text;
+  if (const auto error = sim::read_whole_file(file, {.pipes = true}, text)) {
+    problem = "it can't be read: " + error->found;
     return false;
   }
+  std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos) continue;

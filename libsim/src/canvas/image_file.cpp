@@ -2,15 +2,13 @@
 #include "canvas/image_file.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string_view>
 
 #include "canvas/png_codec.h"
+#include "sim/core/file.h"
 
 namespace sim {
 namespace {
@@ -22,16 +20,12 @@ using Bytes = std::vector<std::uint8_t>;
 }
 
 Bytes read_bytes(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  // A folder can be opened, but not read.
-  if (!file || file.peek() == std::ifstream::traits_type::eof()) {
-    fail(path, errno != 0 ? std::string("cannot read the picture: ") + std::strerror(errno)
-                          : "the file is empty, expected a PNG or PGM picture");
+  std::string bytes;
+  if (const auto problem = read_whole_file(path, {.most_bytes = kMaxGreyImageBytes}, bytes)) {
+    fail(path, "cannot read the picture: " + problem->found);
   }
-  Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (file.bad()) fail(path, "cannot read the picture");
-  return bytes;
+  if (bytes.empty()) fail(path, "the file is empty, expected a PNG or PGM picture");
+  return {bytes.begin(), bytes.end()};
 }
 
 bool starts_with(const Bytes& bytes, std::string_view start) {
@@ -44,6 +38,10 @@ void check_size(const std::string& path, std::uint32_t width, std::uint32_t heig
     fail(path, "the picture is " + std::to_string(width) + " x " + std::to_string(height) +
                    " pixels, at most " + std::to_string(kMaxGreyImageSide) +
                    " a side are supported");
+  }
+  if (std::size_t{width} * height > kMaxGreyImagePixels) {
+    fail(path, "the picture is " + std::to_string(width) + " x " + std::to_string(height) +
+                   " pixels, at most " + std::to_string(kMaxGreyImagePixels) + " are supported");
   }
 }
 
@@ -92,7 +90,8 @@ GreyImage load_png(const std::string& path, const Bytes& bytes) {
       *out++ = grey_of_pixel(samples, row.channels, row.bytes_per_sample);
     }
   });
-  if (!whole) fail(path, "the PNG is damaged");
+  if (!whole)
+    fail(path, "the PNG is damaged, or interlaced and too large: save it without interlacing");
   return image;
 }
 

@@ -12,6 +12,8 @@
 namespace sim {
 namespace {
 
+constexpr std::size_t kMostInterlaced = std::size_t{64} << 20;  // bytes
+
 // libpng leaves a function by longjmp() where something is wrong. So everything with a destructor
 // lives in these structs, outside of the functions that call setjmp().
 
@@ -69,6 +71,8 @@ bool decode(Decoder& decoder, std::uint32_t width, std::uint32_t height,
   row.width = static_cast<int>(width);
   row.channels = png_get_channels(decoder.png, decoder.info);
   row.bytes_per_sample = png_get_bit_depth(decoder.png, decoder.info) / 8;
+  // A small file may claim to be a large interlaced picture, all of which must be kept at once.
+  if (passes > 1 && stride * height > kMostInterlaced) return false;
   if (!make_room(decoder.samples, passes == 1 ? stride : stride * height)) return false;
   for (int pass = 0; pass < passes; ++pass) {
     for (std::size_t y = 0; y < height; ++y) {

@@ -32,11 +32,13 @@
 #include "sim/devices/teleport.h"
 #include "sim/devices/waypoint.h"
 #include "sim/devices/wifi.h"
+#include "sim/world/limits.h"
 
 namespace sim {
 namespace {
 
 constexpr io::NumberRange kFrequency{0.0, 1000.0, true, "Hz"};
+constexpr io::NumberRange kRange_m{kLeastLength_m, 1000.0, false, "m"};
 constexpr io::NumberRange kNoise_m{0.0, 100.0, false, "m"};
 constexpr io::NumberRange kPower_w{0.0, 10000.0, false, "W"};
 constexpr io::NumberRange kVoltage_v{0.0, 1000.0, true, "V"};
@@ -136,7 +138,7 @@ BumperSegment parse_segment(io::Reader& reader) {
   constexpr io::NumberRange kPlace_m{-100.0, 100.0, false, "m"};
   segment.X_BS = {reader.number("x", 0.0, kPlace_m), reader.number("y", 0.0, kPlace_m),
                   normalize_angle(reader.angle_deg("yaw_deg", 0.0))};
-  segment.length_m = reader.number("length", segment.length_m, {0.0, 100.0, true, "m"});
+  segment.length_m = reader.number("length", segment.length_m, {kLeastLength_m, 100.0, false, "m"});
   segment.radius_m = reader.number("radius", segment.radius_m, {0.0, 100.0, false, "m"});
   if (segment.radius_m > 0.0 &&
       segment.length_m > 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
@@ -182,8 +184,8 @@ void parse_view(io::Reader& settings, ViewParams& p) {
                    std::to_string(p.height), "[columns, rows]", "image");
   }
   p.field_of_view_rad =
-      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 170.0, true, "degrees"});
-  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.01, 170.0, false, "degrees"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, kRange_m);
   p.X_BS = settings.pose("pose", p.X_BS);
   p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
   p.ptz = settings.string("ptz", p.ptz);
@@ -224,10 +226,10 @@ CollisionParams parse_collision(io::Reader& settings, CollisionParams p) {
 
 FiducialParams parse_fiducial(io::Reader& settings, FiducialParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
-  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, kRange_m);
   p.range_max_id_m = settings.number("range_max_id", p.range_max_id_m, {0.0, 1000.0, false, "m"});
   p.field_of_view_rad =
-      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 360.0, true, "degrees"});
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.01, 360.0, false, "degrees"});
   p.X_BS = settings.pose("pose", p.X_BS);
   p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
   p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
@@ -254,7 +256,7 @@ GpsParams parse_gps(io::Reader& settings, GpsParams p) {
 }
 
 GripperParams parse_gripper(io::Reader& settings, GripperParams p) {
-  constexpr io::NumberRange kSide_m{0.0, 10.0, true, "m"};
+  constexpr io::NumberRange kSide_m{kLeastLength_m, 10.0, false, "m"};
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   if (std::optional<io::Reader> place = settings.child("pose")) {
     const Pose X_BG = settings.pose("pose", {});
@@ -328,7 +330,7 @@ std::vector<Pose> parse_mounts(io::Reader& settings, const std::vector<Pose>& fa
 void parse_ranger(io::Reader& settings, RangerParams& p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
-  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, kRange_m);
   p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
   p.X_BS = parse_mounts(settings, p.X_BS);
 }
@@ -346,8 +348,8 @@ LaserParams parse_laser(io::Reader& settings, LaserParams p) {
   p.noise_m = settings.number("noise", p.noise_m, kNoise_m);
   p.beam_count = static_cast<int>(settings.integer("beams", p.beam_count, 1, 8192));
   p.resolution_rad =
-      settings.angle_deg("resolution_deg", p.resolution_rad, {0.0, 360.0, true, "degrees"});
-  p.range_max_m = settings.number("range_max", p.range_max_m, {0.0, 1000.0, true, "m"});
+      settings.angle_deg("resolution_deg", p.resolution_rad, {1e-4, 360.0, false, "degrees"});
+  p.range_max_m = settings.number("range_max", p.range_max_m, kRange_m);
   p.X_BL = settings.pose("pose", p.X_BL);
   p.height_m = settings.number("height", p.height_m, {0.0, 100.0, false, "m"});
   constexpr io::NumberRange kSize_m{0.0, 100.0, false, "m"};
@@ -422,13 +424,13 @@ PenParams parse_pen(io::Reader& settings, PenParams p) {
 
 ProximityParams parse_proximity(io::Reader& settings, ProximityParams p) {
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
-  p.range_m = settings.number("range", p.range_m, {0.0, 1000.0, true, "m"});
+  p.range_m = settings.number("range", p.range_m, kRange_m);
   p.obstacles = settings.boolean("obstacles", p.obstacles);
   return p;
 }
 
 PtzParams parse_ptz(io::Reader& settings, PtzParams p) {
-  constexpr io::NumberRange kView_deg{0.0, 170.0, true, "degrees"};
+  constexpr io::NumberRange kView_deg{0.01, 170.0, false, "degrees"};
   constexpr io::NumberRange kSpeed_deg{0.0, 3600.0, true, "degrees/s"};
   p.frequency_hz = settings.number("frequency", p.frequency_hz, kFrequency);
   p.pan_max_rad = settings.angle_deg("pan_max_deg", p.pan_max_rad, {0.0, 180.0, false, "degrees"});
@@ -452,7 +454,7 @@ PtzParams parse_ptz(io::Reader& settings, PtzParams p) {
 SonarParams parse_sonar(io::Reader& settings, SonarParams p) {
   parse_ranger(settings, p);
   p.field_of_view_rad =
-      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.0, 180.0, true, "degrees"});
+      settings.angle_deg("field_of_view_deg", p.field_of_view_rad, {0.01, 180.0, false, "degrees"});
   return p;
 }
 
@@ -494,7 +496,7 @@ WifiParams parse_wifi(io::Reader& settings, WifiParams p) {
       if (element.require("name", "the name of its network")) {
         point.name = element.name("name", "");
       }
-      constexpr io::NumberRange kPlace_m{-1e6, 1e6, false, "m"};
+      constexpr io::NumberRange kPlace_m{-kFarthest_m, kFarthest_m, false, "m"};
       point.p_W = {element.number("x", 0.0, kPlace_m), element.number("y", 0.0, kPlace_m)};
       element.finish();
     }

@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <utility>
 
 #include "io/cross.h"
+#include "io/document.h"
+#include "io/solid_limits.h"
 #include "sim/core/assert.h"
+#include "sim/core/number_text.h"
 #include "sim/io/world_io.h"
+#include "sim/world/limits.h"
 #include "sim/world/robot_model.h"
 
 namespace sim::io {
@@ -21,16 +25,10 @@ namespace {
 /// What touches does not overlap; files give places to a few digits.
 constexpr double kTouching_m = 1e-6;
 
-std::string metres(double value) {
-  char text[32];
-  static_cast<void>(std::snprintf(text, sizeof text, "%.3g m", value));
-  return text;
-}
+std::string metres(double value) { return rounded_text(value, 3) + " m"; }
 
 std::string place(const Vec2& p) {
-  char text[64];
-  static_cast<void>(std::snprintf(text, sizeof text, "(%.2f, %.2f)", p.x(), p.y()));
-  return text;
+  return '(' + fixed_text(p.x(), 2) + ", " + fixed_text(p.y(), 2) + ')';
 }
 
 Polygon box_of(const ObstacleDescription& obstacle) {
@@ -238,7 +236,9 @@ class Checker {
 
   std::vector<ConfigIssue> run() {
     check_names_and_ports();
-    if (trusted_("/arena")) {
+    check_models();
+    check_time();
+    if (trusted_("/arena") && check_sizes()) {
       check_arena();
       check_robot_poses();
     }
@@ -325,6 +325,67 @@ class Checker {
         "center is the middle of the box, size its full length and width");
   }
 
+  /// Notes a fault of what stands at `pointer`, unless there is none.
+  /// @return whether there is none.
+  bool sound(const std::optional<SolidFault>& fault, const std::string& pointer,
+             const std::string& name = "") {
+    if (!fault) return true;
+    add("world/out-of-range", pointer + fault->key, fault->expected,
+        fault->found + (name.empty() ? "" : " of " + name), fault->hint);
+    return false;
+  }
+
+  /// Whether the physics can build the arena: what it cannot, is noted.
+  bool check_sizes() {
+    const ArenaDescription& arena = world_.arena;
+    bool all = sound(floor_fault(arena), "/arena") && sound(walls_fault(arena), "/arena");
+    // A preset's own have no place of their own in the file.
+    for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
+      all &= sound(box_fault(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
+    }
+    for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
+      const ObstacleDescription& separator = arena.dock_separators[i];
+      all &= sound(box_fault(separator), separator_pointer(i), separator.name);
+    }
+    for (std::size_t i = 0; i < arena.docks.size(); ++i) {
+      const ObstacleDescription area = area_of(arena.docks[i]);
+      all &= sound(box_fault(area), dock_pointer(i), area.name);
+    }
+    return all;
+  }
+
+  void check_models() {
+    std::set<std::string> checked;
+    for (std::size_t i = 0; i < world_.robots.size(); ++i) {
+      const std::string& name = world_.robots[i].model;
+      const RobotModel* model = find_robot_model(world_, name);
+      if (model == nullptr || !checked.insert(name).second) continue;
+      if (sound(model_fault(*model), robot_pointer(i) + "/model", "model " + name)) continue;
+      bad_models_.insert(name);
+    }
+  }
+
+  void check_time() {
+    const SimulationDescription& simulation = world_.simulation;
+    if (simulation.step_ns <= 0) {
+      add("world/out-of-range", "/simulation/step", "a step longer than 0 s",
+          number_text(to_seconds(simulation.step_ns)) + " s");
+    }
+    if (!(simulation.time_factor > 0.0 && std::isfinite(simulation.time_factor))) {
+      add("world/out-of-range", "/simulation/time", "a factor greater than 0",
+          number_text(simulation.time_factor));
+    }
+  }
+
+  static ObstacleDescription area_of(const DockDescription& dock) {
+    ObstacleDescription area;
+    area.name = dock.name;
+    area.center = dock.pose.position();
+    area.size = dock.size;
+    area.yaw_rad = dock.pose.yaw_rad;
+    return area;
+  }
+
   void check_arena() {
     const ArenaDescription& arena = world_.arena;
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
@@ -334,13 +395,7 @@ class Checker {
       check_inside(arena.dock_separators[i], separator_pointer(i), " separator");
     }
     for (std::size_t i = 0; i < arena.docks.size(); ++i) {
-      const DockDescription& dock = arena.docks[i];
-      ObstacleDescription area;
-      area.name = dock.name;
-      area.center = dock.pose.position();
-      area.size = dock.size;
-      area.yaw_rad = dock.pose.yaw_rad;
-      check_inside(area, dock_pointer(i), " dock");
+      check_inside(area_of(arena.docks[i]), dock_pointer(i), " dock");
     }
   }
 
@@ -351,7 +406,16 @@ class Checker {
       const RobotDescription& robot = world_.robots[i];
       const RobotModel* model = find_robot_model(world_, robot.model);
       const std::string pointer = robot_pointer(i) + "/pose";
-      if (model == nullptr || !trusted_(pointer) || !trusted_(robot_pointer(i) + "/model")) {
+      if (model == nullptr || !trusted_(pointer) || !trusted_(robot_pointer(i) + "/model") ||
+          bad_models_.contains(robot.model)) {
+        continue;
+      }
+      if (!is_place(robot.pose)) {
+        add("world/out-of-range", pointer,
+            "numbers from " + number_text(-kFarthest_m) + " to " + number_text(kFarthest_m) +
+                " m for x and y, and a number for the angle",
+            number_text(robot.pose.x_m) + ", " + number_text(robot.pose.y_m) + " and " +
+                number_text(robot.pose.yaw_rad));
         continue;
       }
       const std::string who = "robot " + robot.name + " at " + place(robot.pose.position());
@@ -399,15 +463,20 @@ class Checker {
       add("world/out-of-range", "/canvas/size", "1 to 8192 cells along each side",
           std::to_string(canvas.width) + " x " + std::to_string(canvas.height));
     }
-    if (!(canvas.cell_size_m > 0.0)) {
+    if (!(canvas.cell_size_m > 0.0 && std::isfinite(canvas.cell_size_m))) {
       add("world/out-of-range", "/canvas/cell_size", "a number greater than 0 m",
-          std::to_string(canvas.cell_size_m));
+          number_text(canvas.cell_size_m));
+    }
+    if (!canvas.origin.allFinite()) {
+      add("world/out-of-range", "/canvas/origin", "two numbers",
+          number_text(canvas.origin.x()) + " and " + number_text(canvas.origin.y()));
     }
   }
 
   const WorldDescription& world_;
   const TrustedPart& trusted_;
   ArenaDescription preset_;
+  std::set<std::string> bad_models_;
   std::vector<ConfigIssue> issues_;
 };
 

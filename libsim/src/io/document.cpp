@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,8 @@
 #include <tuple>
 #include <unordered_set>
 #include <utility>
+
+#include "sim/core/file.h"
 
 namespace sim::io {
 namespace {
@@ -245,6 +246,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     }
     if (issue.id != "file/empty") {
       std::tie(issue.line, issue.column) = line_and_column(text_, at);
+      if (!document_.may_quote) {
+        issue.found = "a text that does not begin with '{'";
+        issue.hint = "is this a " + document_.what + " file? Its lines are not shown";
+      }
     }
     document_.add(std::move(issue));
     return false;
@@ -488,6 +493,31 @@ bool Reader::Document::has_issue_at(std::string_view pointer) const {
   });
 }
 
+namespace {
+
+/// Whether a text is a JSON object at first sight: past blanks and comments comes a '{'.
+bool begins_as_object(std::string_view text) {
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  for (;;) {
+    at = text.find_first_not_of(" \t\r\n", at);
+    if (at == std::string_view::npos) return false;
+    const std::string_view rest = text.substr(at);
+    std::size_t end = 0;
+    if (rest.starts_with("//")) {
+      end = rest.find('\n');
+    } else if (rest.starts_with("/*")) {
+      end = rest.find("*/", 2);
+      if (end != std::string_view::npos) end += 2;
+    } else {
+      return rest.front() == '{';
+    }
+    if (end == std::string_view::npos) return false;
+    at += end;
+  }
+}
+
+}  // namespace
+
 bool parse_document(std::string_view text, Reader::Document& document) {
   if (const std::size_t bad = find_invalid_utf8(text); bad != std::string_view::npos) {
     constexpr const char* kDigits = "0123456789abcdef";
@@ -503,51 +533,72 @@ bool parse_document(std::string_view text, Reader::Document& document) {
     document.add(std::move(issue));
     return false;
   }
+  document.may_quote = begins_as_object(text);
   const char* furthest = text.data();
   Builder builder(text, &furthest, document);
   // "strict" refuses text after the value; comments are skipped by the parser.
-  return nlohmann::json::sax_parse(CountingIterator(text.data(), &furthest),
-                                   CountingIterator(text.data() + text.size(), &furthest), &builder,
-                                   nlohmann::json::input_format_t::json, true, true);
+  const bool sound =
+      nlohmann::json::sax_parse(CountingIterator(text.data(), &furthest),
+                                CountingIterator(text.data() + text.size(), &furthest), &builder,
+                                nlohmann::json::input_format_t::json, true, true);
+  // A text or a number alone is described by what it says.
+  if (!document.may_quote) document.root.text = "...";
+  return sound;
 }
 
 bool read_file(const std::string& path, std::string& text, Reader::Document& document,
-               const char* what) {
+               const char* what, NamedBy named_by) {
   namespace fs = std::filesystem;
   const auto fail = [&](const char* id, const char* expected, std::string found, std::string hint) {
     document.add({id, document.file, "", expected, std::move(found), std::move(hint)});
     return false;
   };
+  const auto problem = read_whole_file(
+      path, {.most_bytes = kMaxFileBytes, .pipes = named_by == NamedBy::kUser}, text);
+  if (!problem) return true;
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) {
-    const std::string near = nearest_word(fs::path(path).filename().string(), neighbours(path));
-    return fail("file/missing", what, "no file of that name",
-                near.empty() ? "the name is relative to the folder " +
-                                   in_quotes(fs::current_path(error).string())
-                             : "did you mean \"" + near + "\"?");
+  switch (problem->fault) {
+    case FileFault::kMissing: {
+      const std::string near = nearest_word(fs::path(path).filename().string(), neighbours(path));
+      return fail("file/missing", what, "no file of that name",
+                  near.empty() ? "the name is relative to the folder " +
+                                     in_quotes(fs::current_path(error).string())
+                               : "did you mean \"" + near + "\"?");
+    }
+    case FileFault::kFolder: {
+      const std::vector<std::string> names = neighbours(fs::path(path) / "x");
+      return fail(
+          "file/not-a-file", what, "a folder",
+          names.empty() ? "" : "name a file in it, for example " + in_quotes(names.front()));
+    }
+    case FileFault::kNotRegular:
+      return fail("file/not-a-file", what, problem->found,
+                  named_by == NamedBy::kFile
+                      ? "a file that another one names must be a regular file"
+                      : "name a regular file, or a pipe as in <(program)");
+    case FileFault::kNoPermission:
+      return fail("file/unreadable", "a file that can be read", problem->found,
+                  "look at its owner and mode with ls -l");
+    case FileFault::kLinkLoop:
+      return fail("file/unreadable", "a file that can be read", problem->found,
+                  "ls -l shows where each link leads; replace one of them by the file");
+    case FileFault::kTooLarge:
+      return fail("file/too-large", "a file of at most 16 MiB", "a larger one",
+                  std::string("is this ") + what + '?');
+    case FileFault::kSilent:
+      return fail("file/unreadable", what, problem->found,
+                  "does the program that writes into it still run?");
+    case FileFault::kOther:
+      break;
   }
-  if (status.type() == fs::file_type::directory) {
-    const std::vector<std::string> names = neighbours(fs::path(path) / "x");
-    return fail("file/not-a-file", what, "a folder",
-                names.empty() ? "" : "name a file in it, for example " + in_quotes(names.front()));
-  }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    return fail("file/unreadable", "a file that can be read", "no permission to open it",
-                "look at its owner and mode with ls -l");
-  }
-  text.assign(kMaxFileBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) {
-    return fail("file/unreadable", "a file that can be read", "an error of the system", "");
-  }
-  if (text.size() > kMaxFileBytes) {
-    return fail("file/too-large", "a file of at most 16 MiB", "a larger one",
-                std::string("is this ") + what + '?');
-  }
-  return true;
+  return fail("file/unreadable", "a file that can be read", problem->found, "");
+}
+
+std::filesystem::path folder_of(const std::string& file) {
+  std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const bool through_pipe =
+      folder == "/dev/fd" || folder == "/proc/self/fd" || file == "/dev/stdin";
+  return through_pipe ? std::filesystem::path() : folder;
 }
 
 void throw_issues(Reader::Document& document) {

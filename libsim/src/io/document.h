@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,6 +44,10 @@ struct Reader::Document {
   std::string what = "world";  ///< what the file holds, for messages
   Value root;
   std::vector<ConfigIssue> issues;
+  /// Whether messages may show parts of the text. Not of a text that does not begin as a JSON
+  /// object does: a world may name any file as a model, and what that holds must not be in the
+  /// message.
+  bool may_quote = true;
 
   /// Adds an issue; after kMaxIssues, one last that says so, and then none.
   void add(ConfigIssue issue);
@@ -60,11 +65,18 @@ struct Reader::Document {
 /// @return false if the text is no JSON; then at least one issue says why.
 bool parse_document(std::string_view text, Reader::Document& document);
 
+/// Who has named a file: a pipe is read only if the user has named it.
+enum class NamedBy : std::uint8_t { kUser, kFile };
+
 /// Reads a file's content.
 /// @param what  the file is expected to be, for messages.
 /// @return false and an issue if it cannot be had.
 bool read_file(const std::string& path, std::string& text, Reader::Document& document,
-               const char* what = "a world file");
+               const char* what = "a world file", NamedBy named_by = NamedBy::kUser);
+
+/// The folder that names in a file are relative to: its own; of what came through a pipe
+/// (/dev/stdin, /dev/fd/N), the current one.
+[[nodiscard]] std::filesystem::path folder_of(const std::string& file);
 
 /// Throws what was found, in the order of the file's lines, that of other files that it names after
 /// its own; returns if that is nothing.

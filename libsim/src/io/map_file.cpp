@@ -83,7 +83,7 @@ class DescriptionReader {
     Reader::Document document;
     document.file = file_;
     std::string text;
-    if (!read_file(file_, text, document, "the YAML file of a map")) {
+    if (!read_file(file_, text, document, "the YAML file of a map", NamedBy::kFile)) {
       throw ConfigError(std::move(document.issues));
     }
     if (text.size() > kMaxYamlBytes) {

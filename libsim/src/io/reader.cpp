@@ -2,20 +2,24 @@
 #include "sim/io/reader.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <unordered_set>
 #include <utility>
 
 #include "io/document.h"
+#include "sim/world/limits.h"
 
 namespace sim::io {
 namespace {
 
 using Kind = Reader::Value::Kind;
 using NumberKind = Reader::Value::NumberKind;
+
+// The least number that a range "greater than 0" takes.
+constexpr double kLeastPositive = 1e-9;
 
 std::string describe(const Reader::Value& value) {
   switch (value.kind) {
@@ -56,10 +60,10 @@ std::string describe(const NumberRange& range) {
 }
 
 bool looks_like_number(const std::string& text) {
-  if (text.empty()) return false;
-  char* end = nullptr;
-  static_cast<void>(std::strtod(text.c_str(), &end));
-  return *end == '\0';
+  double ignored = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, ignored);
+  return result.ec == std::errc() && result.ptr == end;
 }
 
 std::string type_hint(const Reader::Value& value) {
@@ -123,10 +127,19 @@ struct Reader::State {
       return std::nullopt;
     }
     const double v = found.real;
-    if (v < range.min || v > range.max || (range.min_exclusive && v == range.min)) {
+    // What is divided by must not be so small that the quotient is infinite.
+    const bool tiny = range.min_exclusive && range.min == 0.0 && v > 0.0 && v < kLeastPositive;
+    if (v < range.min || v > range.max || (range.min_exclusive && v == range.min) || tiny) {
       const bool huge = range.min <= -1e9 && range.max >= 1e9;
+      std::string hint;
+      if (tiny) {
+        hint = "a number below " + number_text(kLeastPositive) + " counts as 0";
+      } else if (range.min == kLeastLength_m && v >= 0.0 && v < range.min) {
+        hint =
+            "the physics cannot build anything thinner than 1 mm: make it larger or leave it out";
+      }
       add("world/out-of-range", place, huge ? "a number from -1e9 to 1e9" : describe(range),
-          describe(found), "", found.line);
+          describe(found), std::move(hint), found.line);
       return std::nullopt;
     }
     return v;
@@ -417,7 +430,7 @@ Pose Reader::pose(std::string_view key, const Pose& fallback) {
 
 Pose Reader::as_pose(const Pose& fallback) {
   if (!expect_object()) return fallback;
-  const NumberRange position{-1e6, 1e6, false, "m"};
+  constexpr NumberRange position{-kFarthest_m, kFarthest_m, false, "m"};
   Pose pose;
   pose.x_m = number("x", fallback.x_m, position);
   pose.y_m = number("y", fallback.y_m, position);

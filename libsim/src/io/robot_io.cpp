@@ -2,27 +2,20 @@
 #include "io/robot_io.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "io/cross.h"
+#include "io/solid_limits.h"
+#include "sim/world/limits.h"
 
 namespace sim::io {
 namespace {
 
-// Box2D's polygons have no more.
-constexpr std::size_t kMostVertices = 8;
-// A robot of less than this across is lost between the tolerances of the contact solver.
-constexpr double kLeastArea_m2 = 1e-4;
-
 constexpr NumberRange kVertex{-100.0, 100.0, false, "m"};
-constexpr NumberRange kRobotLength{0.0, 100.0, true, "m"};
+constexpr NumberRange kRobotLength{kLeastLength_m, 100.0, false, "m"};
 
 std::vector<std::string> type_names(const std::vector<DeviceType>& types) {
   std::vector<std::string> names;
@@ -64,29 +57,6 @@ void read_device(Reader& settings, const std::string& name,
   devices[name] = {name, type_name, std::move(params)};
 }
 
-double area_m2(const Polygon& outline) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    twice += cross(outline[i], outline[(i + 1) % outline.size()]);
-  }
-  return 0.5 * twice;
-}
-
-// Whether a counter-clockwise outline turns left at each vertex, once round: no straight angles,
-// which the physics would drop.
-bool is_convex(const Polygon& outline) {
-  const std::size_t n = outline.size();
-  double turned_rad = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 before = outline[(i + 1) % n] - outline[i];
-    const Vec2 after = outline[(i + 2) % n] - outline[(i + 1) % n];
-    const double turn_rad = std::atan2(cross(before, after), before.dot(after));
-    if (turn_rad < 1e-6) return false;
-    turned_rad += turn_rad;
-  }
-  return turned_rad < 2.0 * std::numbers::pi + 1e-6;
-}
-
 Polygon read_footprint(Reader& model) {
   if (!model.require("footprint", "the outline: a list of points [x, y] round the robot, in m")) {
     return {};
@@ -101,15 +71,9 @@ Polygon read_footprint(Reader& model) {
   if (!list.is_array()) return {};
   const bool clockwise = area_m2(outline) < 0.0;
   if (clockwise) std::reverse(outline.begin(), outline.end());
-  if (outline.size() < 3 || outline.size() > kMostVertices) {
-    list.issue("world/bad-footprint", "3 to 8 points", std::to_string(outline.size()));
-  } else if (!is_convex(outline)) {
-    list.issue("world/bad-footprint", "the corners of a convex outline, in order",
-               "an outline with a notch, a straight corner or a crossing",
-               "take the convex outline round the robot");
-  } else if (area_m2(outline) < kLeastArea_m2) {
-    list.issue("world/bad-footprint", "an outline of at least 1 cm^2",
-               number_text(area_m2(outline) * 1e4) + " cm^2", "points are in m");
+  if (auto fault = footprint_fault(outline)) {
+    list.issue("world/bad-footprint", std::move(fault->expected), std::move(fault->found),
+               std::move(fault->hint));
   }
   return outline;
 }
@@ -143,8 +107,9 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   if (root.require("name", "what to call the model")) model.name = root.name("name", "");
   model.description = root.string("description", "");
   model.footprint = read_footprint(root);
-  model.height_m = root.number("height", model.height_m, {0.0, 10.0, true, "m"});
-  model.mass_kg = root.number("mass", model.mass_kg, {0.0, 10'000.0, true, "kg"});
+  model.height_m = root.number("height", model.height_m, {kLeastLength_m, 10.0, false, "m"});
+  model.mass_kg =
+      root.number("mass", model.mass_kg, {kLeastMass_kg, kGreatestMass_kg, false, "kg"});
   model.drive = read_drive(root);
   model.max_speed_mps = root.number("max_speed", model.max_speed_mps, {0.0, 20.0, true, "m/s"});
   model.max_turn_rate_radps = root.angle_deg("max_turn_rate_deg", model.max_turn_rate_radps,
@@ -271,17 +236,8 @@ std::optional<RobotModel> read_model(Reader& robot, const std::string& name,
   document.what = "robot model";
   std::string text;
   if (is_file_name(name)) {
-    const std::filesystem::path folder = std::filesystem::path(world.file).parent_path();
-    document.file = (folder / name).string();
-    // Reading a pipe or a device might never end.
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(document.file, error);
-    if (std::filesystem::is_other(status)) {
-      robot.issue("world/model-unreadable", "a file with a robot model",
-                  document.file + ": a pipe, a socket or a device", "", "model");
-      return std::nullopt;
-    }
-    if (!read_file(document.file, text, document, "a file with a robot model")) {
+    document.file = (folder_of(world.file) / name).string();
+    if (!read_file(document.file, text, document, "a file with a robot model", NamedBy::kFile)) {
       const ConfigIssue& why = document.issues.front();
       robot.issue(
           "world/model-unreadable", "a file with a robot model", document.file + ": " + why.found,

@@ -18,6 +18,7 @@
 #include "io/document.h"
 #include "io/map_io.h"
 #include "io/robot_io.h"
+#include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
 
 namespace sim::io {
@@ -28,9 +29,11 @@ constexpr int kMorsePort = 4000;  ///< where all robots are visible
 constexpr std::size_t kMaxRobots = 1000;
 constexpr std::size_t kMaxObstacles = 100'000;
 
-constexpr NumberRange kPosition{-1e6, 1e6, false, "m"};
-constexpr NumberRange kArenaLength{0.0, 10'000.0, true, "m"};
-constexpr NumberRange kHeight{0.0, 10.0, true, "m"};
+constexpr NumberRange kPosition{-kFarthest_m, kFarthest_m, false, "m"};
+constexpr NumberRange kArenaLength{kLeastLength_m, kGreatestLength_m, false, "m"};
+constexpr NumberRange kHeight{kLeastLength_m, 10.0, false, "m"};
+// A cell of the canvas, which physics knows nothing of.
+constexpr NumberRange kCellSide{1e-4, 10.0, false, "m"};
 
 /// Colours of robots that are given none, told apart at a glance and none of them the red of
 /// dynamic blocks.
@@ -246,7 +249,8 @@ class WorldReader {
     MapDescription map;
     const bool named = reader->require("image", "a PNG or PGM file, relative to this file");
     map.image = reader->string("image", "");
-    map.resolution_m = reader->number("resolution", map.resolution_m, {0.0, 10.0, true, "m"});
+    map.resolution_m =
+        reader->number("resolution", map.resolution_m, {kLeastLength_m, 10.0, false, "m"});
     map.origin = reader->vec2("origin", arena.origin, kPosition);
     map.occupied_threshold =
         reader->number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
@@ -255,7 +259,7 @@ class WorldReader {
     arena.map = map;
     if (!named || document_.has_issue_at(reader->pointer())) return;
 
-    const std::filesystem::path folder = std::filesystem::path(document_.file).parent_path();
+    const std::filesystem::path folder = folder_of(document_.file);
     GreyImage image;
     try {
       image = load_grey_image((folder / map.image).string());
@@ -340,7 +344,7 @@ class WorldReader {
     }
     canvas.origin = arena.origin;
     if (reader) {
-      canvas.cell_size_m = reader->number("cell_size", canvas.cell_size_m, {0.0, 10.0, true, "m"});
+      canvas.cell_size_m = reader->number("cell_size", canvas.cell_size_m, kCellSide);
       canvas.origin = reader->vec2("origin", canvas.origin, kPosition);
     }
     // Rounded up to an even number, which films need; 1e-9 forgives 3.42 / 0.02 > 171.

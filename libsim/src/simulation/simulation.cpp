@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/check_world.h"
+#include "io/solid_limits.h"
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/error.h"
@@ -25,6 +26,7 @@
 #include "sim/devices/rangers.h"
 #include "sim/devices/speech.h"
 #include "sim/io/world_io.h"
+#include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
 
 namespace sim {
@@ -229,6 +231,10 @@ struct Simulation::Impl {
     // A portable one may be put away beyond the floor, as programs for Stage do.
     const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
     if (where) return "obstacle " + name + " would " + *where;
+    if (const auto fault = io::box_fault(now)) {
+      return "obstacle " + name + " cannot be so: expected " + fault->expected + ", found " +
+             fault->found;
+    }
     const int robot = physics->robot_within(now);
     if (robot >= 0 && now.state == ObstacleState::kExtended) {
       return "obstacle " + name + " cannot be put there: robot " +
@@ -363,6 +369,9 @@ struct Simulation::Impl {
     for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
     if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
       return "robot " + world.robots[i].name + " cannot be put there: " + *what;
+    }
+    if (!io::is_place(X_WB)) {
+      return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
     }
     physics->set_pose(static_cast<int>(i), X_WB);
     robots[i].last_position = X_WB.position();  // the way there does not count
@@ -718,9 +727,8 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   if (!object) return no_such_object(name);
   if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
   // As a world's reader has it; Box2D makes nothing of smaller boxes.
-  constexpr double kLeastSide_m = 0.001;
-  if (!(size_m.minCoeff() >= kLeastSide_m && height_m > 0.0)) {
-    return "the sides of a block are at least 0.001 m long, and its height is greater than 0 m";
+  if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
+    return "the sides and the height of a block are at least 0.001 m";
   }
   return impl_->change_block(name, [&](ObstacleDescription& block) {
     block.size = size_m;

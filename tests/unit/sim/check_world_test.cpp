@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+#include <memory>
 #include <numbers>
 
 #include "sim/io/world_io.h"
@@ -192,6 +195,97 @@ TEST(CheckWorld, CanvasHasItsLimits) {
   world.canvas.width = 0;
   world.canvas.cell_size_m = 0.0;
   EXPECT_THAT(ids(world), testing::ElementsAre("world/out-of-range", "world/out-of-range"));
+}
+
+/// The first issue of a world, as "pointer: message".
+std::string first_issue(const WorldDescription& world) {
+  const std::vector<ConfigIssue> issues = check_world(world);
+  return issues.empty() ? "" : issues.front().pointer + ": " + issues.front().message();
+}
+
+TEST(CheckWorld, RefusesSidesThatThePhysicsCannotBuild) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  for (const double side_m : {1e-4, 1e-300, 9.99e-4, 0.0, -1.0, kNan, kInf, 2e4}) {
+    WorldDescription world = room();
+    world.arena.obstacles.push_back(box("o1", {1, 1}, {2.0, side_m}));
+    EXPECT_THAT(first_issue(world), HasSubstr("/arena/obstacles/0/size/1: expected a number from "
+                                              "0.001 to 10000 m, found"))
+        << side_m;
+    world = room();
+    world.arena.dock_separators.push_back(box("s1", {1, 1}, {side_m, 1.0}));
+    EXPECT_THAT(first_issue(world), HasSubstr("/arena/dock_separators/0/size/0: ")) << side_m;
+    world = room();
+    world.arena.docks.push_back({"d1", {1, 1, 0}, {side_m, 1.0}});
+    EXPECT_THAT(first_issue(world), HasSubstr("/arena/docks/0/size/0: ")) << side_m;
+    world = room();
+    world.arena.size = {side_m, 4.0};
+    EXPECT_THAT(first_issue(world), HasSubstr("/arena/size/0: ")) << side_m;
+  }
+  WorldDescription least = room();
+  least.arena.obstacles.push_back(box("o1", {1, 1}, {0.001, 0.001}, 0.3));
+  EXPECT_THAT(check_world(least), SizeIs(0));
+}
+
+TEST(CheckWorld, RefusesPlacesThatThePhysicsCannotTellApart) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  for (const double x_m : {1e6, -1e9, 1e300, kNan, kInf}) {
+    WorldDescription world = room();
+    world.arena.obstacles.push_back(box("o1", {x_m, 1}, {0.2, 0.2}));
+    EXPECT_THAT(first_issue(world), HasSubstr("/arena/obstacles/0/center: ")) << x_m;
+    world = room();
+    world.robots[0].pose.x_m = x_m;
+    EXPECT_THAT(first_issue(world), HasSubstr("/robots/0/pose: ")) << x_m;
+    world = room();
+    world.arena.origin = {x_m, 0.0};
+    EXPECT_THAT(first_issue(world), HasSubstr("/arena/origin: ")) << x_m;
+  }
+  // A millionth of 5 km is 5 mm.
+  WorldDescription world = room();
+  world.arena.origin = {4998, 0};
+  world.robots[0].pose = {5000, 2, 0};
+  world.arena.obstacles.push_back(box("o1", {4999, 1}, {0.003, 0.2}));
+  EXPECT_THAT(first_issue(world), HasSubstr("sides of at least 0.0049"));
+  world.arena.obstacles[0].size = {0.006, 0.2};
+  EXPECT_THAT(check_world(world), SizeIs(0));
+}
+
+TEST(CheckWorld, RefusesModelsThatThePhysicsCannotBuild) {
+  const auto issue_of = [](const auto& edit) {
+    WorldDescription world = room();
+    auto model = std::make_shared<RobotModel>(s1r_model());
+    edit(*model);
+    world.models["toy"] = model;
+    world.robots[0].model = "toy";
+    return first_issue(world);
+  };
+  EXPECT_EQ(issue_of([](RobotModel&) {}), "");
+  EXPECT_THAT(issue_of([](RobotModel& m) { m.drive.wheel_radius_m = 1e-300; }),
+              HasSubstr("/robots/0/model/drive/wheel_radius: "));
+  EXPECT_THAT(issue_of([](RobotModel& m) { m.drive.wheel_separation_m = 0.0; }),
+              HasSubstr("/robots/0/model/drive/wheel_separation: "));
+  EXPECT_THAT(issue_of([](RobotModel& m) { m.height_m = 1e-4; }), HasSubstr("/model/height: "));
+  EXPECT_THAT(issue_of([](RobotModel& m) { m.mass_kg = 1e-300; }), HasSubstr("/model/mass: "));
+  EXPECT_THAT(issue_of([](RobotModel& m) { m.footprint.clear(); }), HasSubstr("3 to 8 points"));
+  EXPECT_THAT(issue_of([](RobotModel& m) {
+                m.footprint = {{-50, 0}, {50, 0}, {50, 1e-5}, {-50, 1e-5}};
+              }),
+              HasSubstr("at least 0.001 m wide"));
+  EXPECT_THAT(issue_of([](RobotModel& m) { m.footprint[0].x() = 1e30; }),
+              HasSubstr("at most 100 m from the middle"));
+  EXPECT_THAT(issue_of([](RobotModel& m) { std::reverse(m.footprint.begin(), m.footprint.end()); }),
+              HasSubstr("convex"));
+}
+
+TEST(CheckWorld, RefusesWallsThatThePhysicsCannotBuild) {
+  WorldDescription world = room();
+  world.arena.walls = {{{{1, 1}, {1.0005, 1}, {1, 2}}}};
+  EXPECT_THAT(first_issue(world), HasSubstr("/arena/map/resolution: "));
+  world.arena.walls = {{{{1, 1}, {1, 2}}}};
+  EXPECT_THAT(first_issue(world), HasSubstr("walls of at least 3 vertices"));
+  world.arena.walls = {{{{1, 1}, {1e30, 1}, {1, 2}}}};
+  EXPECT_THAT(first_issue(world), HasSubstr("/arena/map/origin: "));
 }
 
 }  // namespace

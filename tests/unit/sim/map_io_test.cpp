@@ -12,8 +12,10 @@
 #include <fstream>
 #include <random>
 
+#include "canvas/image_file.h"
 #include "device_table.h"
 #include "sim/io/world_io.h"
+#include "temporary_folder.h"
 
 namespace sim::io {
 namespace {
@@ -283,6 +285,41 @@ TEST_F(MapIo, NoiseIsRefusedAsTooComplex) {
     ASSERT_THAT(error.issues(), SizeIs(1)) << error.what();
     EXPECT_EQ(error.issues()[0].id, "world/map-too-complex");
   }
+}
+
+/// What load_grey_image() says of a file of these bytes.
+std::string picture_refusal(const std::string& bytes) {
+  const test_support::TemporaryFolder folder;
+  try {
+    static_cast<void>(load_grey_image(folder.write("picture", bytes)));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+std::string big_endian(std::uint32_t n) {
+  return {static_cast<char>(n >> 24U), static_cast<char>(n >> 16U), static_cast<char>(n >> 8U),
+          static_cast<char>(n)};
+}
+
+TEST(LoadGreyImage, RefusesHugePicturesOfSmallFilesByTheirHeader) {
+  const std::string start = std::string("\x89PNG\r\n\x1a\n") + big_endian(13) + "IHDR";
+  for (const auto& [width, height] : {std::pair(0x7fffffffU, 0x7fffffffU), std::pair(100'000U, 1U),
+                                      std::pair(16384U, 16384U), std::pair(8193U, 8192U)}) {
+    EXPECT_THAT(picture_refusal(start + big_endian(width) + big_endian(height)),
+                testing::HasSubstr("are supported"))
+        << width << " x " << height;
+    EXPECT_THAT(
+        picture_refusal("P5 " + std::to_string(width) + ' ' + std::to_string(height) + " 255\n"),
+        testing::HasSubstr("are supported"))
+        << width << " x " << height;
+  }
+  // Within the limits, but the pixels are not there.
+  EXPECT_THAT(picture_refusal("P5 8192 8192 255\n"), testing::HasSubstr("cut short"));
+  EXPECT_THAT(picture_refusal("P2 8192 8192 255\n"), testing::HasSubstr("cut short"));
+  EXPECT_THAT(picture_refusal("P5 99999999999999999999 1 255\n"),
+              testing::HasSubstr("are supported"));
 }
 
 }  // namespace

@@ -789,7 +789,7 @@ TEST(LoadGreyImage, SaysWhatIsWrong) {
     return error_of([&] { (void)load_grey_image(path); });
   };
   EXPECT_THAT(error_of([&] { (void)load_grey_image(folder.file("none.png")); }),
-              HasSubstr("none.png: cannot read the picture: No such file or directory"));
+              HasSubstr("none.png: cannot read the picture: no file of that name"));
   EXPECT_THAT(error_of([&] { (void)load_grey_image(folder.file("")); }), HasSubstr("directory"));
   EXPECT_THAT(error_with(""), HasSubstr("empty"));
   EXPECT_THAT(error_with("GIF89a"), HasSubstr("not a PNG or PGM picture"));

@@ -341,6 +341,13 @@ TEST(PlaceObject, RefusesWhatCannotBe) {
   EXPECT_THAT(simulation.place_object("zz", {0.0, 0.0, 0.0}).value(),
               HasSubstr("r1, r2, b, border"));
   EXPECT_THAT(simulation.set_block_size("b", {0.0, 1.0}, 0.1).value(), HasSubstr("0.001"));
+  EXPECT_THAT(simulation.set_block_size("b", {0.2, 1e-4}, 0.1).value(), HasSubstr("0.001"));
+  EXPECT_THAT(simulation.set_block_size("b", {0.2, 0.2}, 1e-300).value(), HasSubstr("0.001"));
+  for (const double x_m : {1e30, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_TRUE(simulation.place_object("b", {x_m, 1.0, 0.0})) << x_m;
+    EXPECT_TRUE(simulation.place_object("r1", {x_m, 1.0, 0.0})) << x_m;
+    EXPECT_TRUE(simulation.place_object("r1", {1.0, 1.0, x_m * 1e300})) << x_m;
+  }
   EXPECT_THAT(simulation.set_block_size("r1", {1.0, 1.0}, 0.1).value(), HasSubstr("keeps"));
   EXPECT_THAT(simulation.set_object_colour("border", {}).value(), HasSubstr("keeps"));
   EXPECT_EQ(simulation.find_object("b")->pose, (Pose{1.5, 1.0, 0.0}));

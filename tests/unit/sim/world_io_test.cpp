@@ -3,12 +3,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 #include "device_table.h"
 #include "sim/world/view_mode.h"
@@ -357,10 +361,9 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   EXPECT_EQ(a_folder[0].id, "file/not-a-file");
   EXPECT_THAT(a_folder[0].hint, HasSubstr("cave.json"));  // the first one in it
 
-  // Endless, but read to the limit only.
   const std::vector<ConfigIssue> endless = issues_of_file("/dev/zero");
   ASSERT_THAT(endless, SizeIs(1));
-  EXPECT_EQ(endless[0].id, "file/too-large");
+  EXPECT_EQ(endless[0].id, "file/not-a-file");
 }
 
 TEST(ReadWorld, FilesOfStageAndPlayerPointToThePageAboutThem) {
@@ -397,6 +400,69 @@ TEST(ReadWorld, HundredThousandUnknownKeysEndInAShortReport) {
   std::string text = "{\"a\": 0";
   for (int i = 0; i < 100'000; ++i) text += ", \"k" + std::to_string(i) + "\": 0";
   EXPECT_THAT(issues_of(text + "}"), SizeIs(101));
+}
+
+/// The message of a world file that is refused.
+std::string refusal_of(const std::string& file) {
+  try {
+    static_cast<void>(read_world(file, test::device_table()));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(NamedFiles, AreRegularFiles) {
+  const test_support::TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "fifo").c_str(), 0600), 0);
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const auto& [file, found] :
+       {std::pair("/dev/zero", "a device"), std::pair("fifo", "a pipe"),
+        std::pair("loop", "links that lead round in a circle"), std::pair(".", "a folder")}) {
+    const std::string name(file);
+    EXPECT_THAT(
+        refusal_of(folder.write("map.json", R"({"arena": {"map": {"image": ")" + name + "\"}}}")),
+        testing::AllOf(HasSubstr("world/map-unreadable"), HasSubstr(found)));
+    EXPECT_THAT(
+        refusal_of(folder.write("model.json", R"({"robots": [{"model": "./)" + name + "\"}]}")),
+        testing::AnyOf(testing::AllOf(HasSubstr("world/model-unreadable"), HasSubstr(found)),
+                       HasSubstr(".//dev/zero: no file of that name")));
+  }
+  EXPECT_THAT(refusal_of(folder.write("model.json", R"({"robots": [{"model": "/dev/zero"}]})")),
+              HasSubstr("a device"));
+  EXPECT_THAT(refusal_of("/dev/zero"), HasSubstr("[file/not-a-file]"));
+  EXPECT_THAT(refusal_of(folder / "loop"), HasSubstr("links that lead round in a circle"));
+}
+
+// A world of a stranger may name any file: what that holds is nobody's business.
+TEST(NamedFiles, AreNotQuotedUnlessTheyAreJsonObjects) {
+  const test_support::TemporaryFolder folder;
+  const std::string world = folder.write("world.json", R"({"robots": [{"model": "./secret"}]})");
+  for (const std::string text :
+       {"root:hunter2:19000:0:99999:7:::\nme:hunter2:19000\n", "hunter2", "\"hunter2\"", "4711\n",
+        "-----BEGIN OPENSSH PRIVATE KEY-----\nhunter2\n", "[hunter2]\nkey = hunter2\n",
+        "[\"hunter2\", hunter2]", "// a comment\nhunter2 {", "\"a\": hunter2", "'hunter2'"}) {
+    folder.write("secret", text);
+    EXPECT_THAT(refusal_of(world),
+                testing::AllOf(HasSubstr("secret"), testing::Not(HasSubstr("hunter2")),
+                               testing::Not(HasSubstr("4711")), testing::Not(HasSubstr("root")),
+                               testing::Not(HasSubstr("accepted"))))
+        << text;
+  }
+  // A model with an error shows its line as before.
+  folder.write("secret", "// a robot\n{\"name\": oops}");
+  EXPECT_THAT(refusal_of(world), HasSubstr("'oops' in the line: {\"name\": oops}"));
+}
+
+TEST(ReadWorld, TakesAPipeWhoseNamesAreRelativeToTheCurrentFolder) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const std::string text = R"({"name": "piped", "arena": {"map": {"image": "none.png"}}})";
+  ASSERT_EQ(write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  close(ends[1]);
+  EXPECT_THAT(refusal_of("/dev/fd/" + std::to_string(ends[0])),
+              testing::AllOf(HasSubstr("found none.png: cannot read the picture: no file")));
+  close(ends[0]);
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 # Bad worlds whose fault is one of form, which a schema can see.
 FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "bad_colour",
-                 "bad_colour_of_obstacle", "bad_name", "missing_key", "reserved_port", "conflicting_keys"]
+                 "bad_colour_of_obstacle", "bad_name", "missing_key", "reserved_port", "conflicting_keys",
+                 "obstacle_too_thin", "obstacle_next_to_nothing", "separator_too_thin",
+                 "map_resolution_too_fine"]
 
 
 def load(path):
