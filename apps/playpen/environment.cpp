@@ -25,6 +25,8 @@ const std::vector<EnvironmentVariable>& environment_variables() {
        "Wall-clock seconds after which a client that does not read no longer holds up the others.",
        false},
       {"PLAYPEN_SNAPSHOT_EVERY", "Simulated seconds between pictures.", true},
+      {"PLAYPEN_STATE",
+       "The file in which a run leaves what playpen run needs if the program dies.", true},
       {"PLAYPEN_TIME", "lockstep, real, or a factor of real time.", true},
       {"PLAYPEN_TOKEN", "The token that a program presents to a server.", false},
       {"PLAYPEN_VIEW", "The number of the descriptor that leads to the live window.", true},

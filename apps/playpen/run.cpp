@@ -62,10 +62,15 @@ int run(RunRequest request) {
   const std::string& program = request.command.front();
   std::optional<PreloadedLibrary> virtual_time;
   settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
+  const playerlike::KeptRun kept;
+  settings.kept_run = kept.file();
   playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
   add_libraries_folder(environment);
   if (settings.virtual_time) virtual_time.emplace().add_to(environment);
-  const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment);
+  playerlike::RunWatch watch;
+  watch.kept = &kept;
+  watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
+  const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment, watch);
 
   viewer.reset();  // it has nothing to show any more
 

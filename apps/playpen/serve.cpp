@@ -1,11 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <optional>
+#include <thread>
 
 #include "commands.h"
 #include "playerlike/host/host.h"
@@ -24,32 +26,59 @@ using Clock = std::chrono::steady_clock;
 // How long clients may take to leave when the run is over.
 constexpr auto kLeavingTime = std::chrono::seconds(5);
 constexpr long kLook_ns = 50'000'000;
+constexpr auto kOneRequest = std::chrono::milliseconds(500);
 
-/// Holds SIGINT and SIGTERM back in all threads that are started afterwards, so that they can be
-/// waited for.
+/// Holds SIGINT, SIGTERM and SIGHUP back in all threads that are started afterwards, so that they
+/// can be waited for. Those that this process ignores, as under nohup, stay ignored.
 class HeldSignals {
  public:
   HeldSignals() {
     sigemptyset(&held_);
-    sigaddset(&held_, SIGINT);
-    sigaddset(&held_, SIGTERM);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+      struct sigaction present {};
+      if (sigaction(signal, nullptr, &present) == 0 && present.sa_handler != SIG_IGN) {
+        sigaddset(&held_, signal);
+      }
+    }
     pthread_sigmask(SIG_BLOCK, &held_, &old_mask_);
   }
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
-  ~HeldSignals() { release(); }
-
-  /// Waits a moment. @return whether one came.
-  [[nodiscard]] bool wait() const {
-    const timespec time{0, kLook_ns};
-    return sigtimedwait(&held_, nullptr, &time) > 0;
+  ~HeldSignals() {
+    if (end_on_second_.joinable()) {
+      over_ = true;
+      end_on_second_.join();
+    }
+    pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
   }
-  /// From now on they end this process as they do others.
-  void release() const { pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr); }
+
+  /// Waits a moment. @return the number of one that came; 0: none.
+  [[nodiscard]] int wait() const {
+    const timespec time{0, kLook_ns};
+    const int signal = sigtimedwait(&held_, nullptr, &time);
+    return signal > 0 ? signal : 0;
+  }
+
+  /// From now on, the first one having come, the next one ends this process at once. Copies of the
+  /// first (`timeout` sends two) are none, nor is a further SIGHUP after a first one.
+  void end_on_second(int first) {
+    end_on_second_ = std::thread([this, first, begin = Clock::now()] {
+      while (!over_) {
+        const int signal = wait();
+        if (signal == 0) continue;
+        if (signal == first && (signal == SIGHUP || Clock::now() - begin < kOneRequest)) continue;
+        std::signal(signal, SIG_DFL);
+        pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
+        raise(signal);
+      }
+    });
+  }
 
  private:
   sigset_t held_{};
   sigset_t old_mask_{};
+  std::atomic<bool> over_{false};
+  std::thread end_on_second_;
 };
 
 /// What `playpen run` passes on to its program, by way of the environment, holds here too: so of
@@ -74,11 +103,13 @@ std::string address_text(const std::string& bind, int port) {
 }
 
 /// Serves until a signal comes, or all is over.
-void wait_for_end(const playerlike::Host& host, const playerlike::Server& server,
-                  const HeldSignals& signals) {
+void wait_for_end(playerlike::Host& host, const playerlike::Server& server, HeldSignals& signals) {
   std::optional<Clock::time_point> finished;
   while (!server.done()) {
-    if (signals.wait()) return signals.release();  // a second one ends the process at once
+    if (const int signal = signals.wait(); signal != 0) {
+      host.note_end_request(signal);
+      return signals.end_on_second(signal);
+    }
     if (!finished && host.finished()) finished = Clock::now();
     if (finished && Clock::now() - *finished > kLeavingTime) return;
   }
@@ -113,7 +144,7 @@ int serve(ServeRequest request) {
   prepare_outputs(settings, world_file);
   std::optional<ViewerProcess> viewer;
   if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
-  const HeldSignals signals;
+  HeldSignals signals;
   const auto host =
       playerlike::Host::create(std::move(world), with_environment(settings, world_file), log);
   {
@@ -122,7 +153,6 @@ int serve(ServeRequest request) {
     if (request.server.sync_port) std::cout << ", clock synchronisation on " << server.sync_port();
     std::cout << std::endl;
     wait_for_end(*host, server, signals);
-    signals.release();
     host->finish();
     server.stop();
   }

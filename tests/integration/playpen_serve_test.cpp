@@ -67,7 +67,7 @@ class PlaypenServe : public testing::Test {
 };
 
 TEST_F(PlaypenServe, AnswersUntilASignalThenWritesReportAndPictures) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     start({"--time", "lockstep"});
     RawClient client = connect();
     client.send("1 simulation list_robots\n2 r1.motion set_speed [0.1, 0]\n3 time sleep [1]\n");
@@ -75,6 +75,7 @@ TEST_F(PlaypenServe, AnswersUntilASignalThenWritesReportAndPictures) {
     EXPECT_EQ(client.line(), "2 SUCCESS");
     EXPECT_EQ(client.line(), "3 SUCCESS");
     server_->send_signal(signal);
+    server_->send_signal(signal);  // a copy, as timeout sends one
     EXPECT_THAT(client.rest(), AllOf(HasSubstr("- FAILED"), HasSubstr("server/closing")));
     client.close();
     const ProcessResult end = server_->finish();
@@ -82,6 +83,8 @@ TEST_F(PlaypenServe, AnswersUntilASignalThenWritesReportAndPictures) {
     EXPECT_THAT(end.out, AllOf(HasSubstr("1.0 s simulated"), HasSubstr("pictures:")));
     EXPECT_THAT(end.err, AllOf(HasSubstr("127.0.0.1:"), HasSubstr("3 requests")));
     EXPECT_EQ(report().at("run").at("steps"), 100);
+    EXPECT_EQ(report().at("ended"),
+              json({{"by", "request"}, {"signal", std::string("SIG") + sigabbrev_np(signal)}}));
     for (const char* file : {"scene.png", "canvas.png", "trajectory.csv"}) {
       EXPECT_TRUE(fs::exists(result(file))) << file;
     }

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <optional>
@@ -39,6 +41,8 @@ struct ProcessOptions {
   std::map<std::string, std::string> environment;  ///< variables to set on top of ours
   std::string folder;                              ///< to run in; "": ours
   std::chrono::seconds timeout = patience();
+  std::vector<int> ignored_signals = {};         ///< that it is to ignore from the start
+  std::optional<std::uint64_t> file_limit = {};  ///< bytes that a file of it may have
 };
 
 /// A running program. Its standard input is a pipe that stays open, and silent, until the end.
@@ -61,6 +65,11 @@ class Process {
       dup2(stdin_read, STDIN_FILENO);
       dup2(stdout_write, STDOUT_FILENO);
       dup2(stderr_write, STDERR_FILENO);
+      for (const int signal : options.ignored_signals) std::signal(signal, SIG_IGN);
+      if (options.file_limit) {
+        const rlimit limit{*options.file_limit, *options.file_limit};
+        setrlimit(RLIMIT_FSIZE, &limit);
+      }
       for (const auto& [name, value] : options.environment) {
         setenv(name.c_str(), value.c_str(), 1);
       }
@@ -98,6 +107,8 @@ class Process {
   [[nodiscard]] const std::string& output() const { return result_.out; }
 
   void send_signal(int signal) const { kill(child_, signal); }
+  /// To the program and all that it has started in its group, as a terminal does.
+  void send_signal_to_group(int signal) const { kill(-child_, signal); }
 
   /// Kills the program and all that it has started.
   [[nodiscard]] ProcessResult kill_now() {

@@ -53,6 +53,9 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
   }
   try {
     const nlohmann::json report = nlohmann::json::parse(text);
+    if (report.contains("ended") && report.at("ended").is_null()) {
+      return "the report is of a run that has not ended: the program was cut short";
+    }
     Measures found = measures;
     found.sim_time_s = report.at("run").at("sim_time").get<double>();
     for (const nlohmann::json& robot : report.at("robots")) {

@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "host/idle_calls.h"
+#include "host/kept_layout.h"
+#include "host/outputs.h"
 #include "host/recorder.h"
 #include "host/run_log.h"
 #include "host/view_controls.h"
@@ -137,6 +139,7 @@ class Host::Core : private ViewedRun {
   void note_looks(Client& client, int count, bool has_data);
   void watch_program();
   void note_program_ends(int status);
+  void note_end_request(int signal);
   void flush_drawings(Client& client);
   /// Does something with the layers, after what the client has drawn so far: calls
   /// action(layers, book) under the mutex.
@@ -255,6 +258,10 @@ class Host::Core : private ViewedRun {
   void ring_alarms();
   void end_run();
   void write_results();
+  /// Lets the files of the results follow the run, at most once a second of wall time.
+  void keep_results(WallClock::time_point now);
+  [[nodiscard]] RunEnd reason_of_end() const;
+  void set_phase(KeptRun::Phase phase) noexcept;
   void show_progress(bool last);
   void pace();
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
@@ -288,6 +295,12 @@ class Host::Core : private ViewedRun {
   LayerBook layer_book_;
   std::atomic<std::uint64_t> canvas_generation_{0};
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<KeptWriter> kept_;                ///< none unless the settings name one
+  std::optional<WallClock::time_point> last_kept_;  ///< when the files were last written
+  bool keeping_told_ = false;                       ///< that they cannot be written
+  int end_request_ = 0;                             ///< the signal that asked for the end
+  bool window_closed_ = false;
+  std::optional<int> program_status_;
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   mutable std::mutex mutex_;

@@ -78,6 +78,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     if (registry.results > 0) {
       settings.film.clear();
       settings.view_socket.reset();
+      settings.kept_run.clear();
       settings.progress = false;
       if (!settings.output_folder.empty()) {
         settings.output_folder += "/world" + std::to_string(registry.results + 1);

@@ -2,9 +2,13 @@
 #include "host/end_of_program.h"
 
 #include <signal.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -17,9 +21,39 @@ namespace {
 std::array<std::atomic<EndOfRunTest>, 4> tests{};
 std::atomic<std::terminate_handler> previous{nullptr};
 
-volatile sig_atomic_t interrupt_came = 0;
+constexpr std::int64_t kOneRequest_ns = 500'000'000;
 
-extern "C" void on_interrupt(int /*signal*/) { interrupt_came = 1; }
+// What the handler of signals uses.
+constinit std::atomic<int> first_interrupt{0};
+constinit std::atomic<std::int64_t> first_time_ns{0};
+constinit std::atomic<std::atomic<std::uint32_t>*> place_to_note{nullptr};
+
+/// The machine's clock, also where that of the C library shows simulated time.
+std::int64_t machine_time_ns() noexcept {
+  timespec time{};
+  syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &time);
+  return static_cast<std::int64_t>(time.tv_sec) * 1'000'000'000 + time.tv_nsec;
+}
+
+extern "C" void on_interrupt(int signal, siginfo_t* info, void* /*context*/) {
+  const int error = errno;
+  int none = 0;
+  if (first_interrupt.compare_exchange_strong(none, signal)) {
+    first_time_ns = machine_time_ns();
+    if (std::atomic<std::uint32_t>* const place = place_to_note) {
+      *place = static_cast<std::uint32_t>(signal);
+    }
+  } else {
+    const bool passed_on = info->si_code == SI_QUEUE && info->si_value.sival_int == kPassedOn;
+    const bool hung_up_again = signal == SIGHUP && first_interrupt == SIGHUP;
+    const bool copy = machine_time_ns() - first_time_ns < kOneRequest_ns;
+    if (!passed_on && !hung_up_again && !copy) {
+      ::signal(signal, SIG_DFL);
+      raise(signal);  // comes when this handler has returned
+    }
+  }
+  errno = error;
+}
 
 bool says_run_is_over(const std::exception_ptr& error) {
   if (!error) return false;
@@ -58,18 +92,20 @@ void end_program_quietly_if_uncaught() noexcept {
   previous = std::set_terminate(on_terminate);
 }
 
-void note_interrupts() noexcept {
-  for (const int signal : {SIGINT, SIGTERM}) {
+void note_interrupts(std::atomic<std::uint32_t>* noted) noexcept {
+  place_to_note = noted;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction present = {};
-    if (sigaction(signal, nullptr, &present) != 0 || present.sa_handler != SIG_DFL) continue;
+    if (sigaction(signal, nullptr, &present) != 0) continue;
+    if ((present.sa_flags & SA_SIGINFO) != 0 || present.sa_handler != SIG_DFL) continue;
     struct sigaction action = {};
-    action.sa_handler = on_interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+    action.sa_sigaction = on_interrupt;
+    action.sa_flags = SA_SIGINFO | SA_RESTART;
     sigaction(signal, &action, nullptr);
   }
 }
 
-bool interrupted() noexcept { return interrupt_came != 0; }
+int interrupted() noexcept { return first_interrupt; }
 
 void add_end_of_run_test(EndOfRunTest test) noexcept {
   for (auto& slot : tests) {

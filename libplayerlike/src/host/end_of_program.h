@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <exception>
 
 namespace playerlike {
@@ -13,11 +15,19 @@ namespace playerlike {
 /// process with status 0 instead of aborting it. Other uncaught exceptions abort as before.
 void end_program_quietly_if_uncaught() noexcept;
 
-/// From now on the first SIGINT or SIGTERM only sets a flag, so that the run can be ended in good
-/// order; a second one ends the process. Signals that the program handles itself are left to it.
-void note_interrupts() noexcept;
-/// Whether such a signal has come.
-[[nodiscard]] bool interrupted() noexcept;
+/// What comes with a signal that `playpen run` passes on, as its value: the program may have got
+/// the same signal from somebody else.
+inline constexpr int kPassedOn = 0x706c6179;
+
+/// From now on the first SIGINT, SIGTERM or SIGHUP only sets a flag, so that the run can be ended
+/// in good order. A second one ends the process, if it comes more than half a second after the
+/// first, was not passed on by `playpen run` (which sees to the end itself), and is no further
+/// SIGHUP after a first one. Signals that the program handles itself, or ignores, are left to it.
+/// @param noted  gets the first signal's number as well; must live as long as the process. May be
+///               null.
+void note_interrupts(std::atomic<std::uint32_t>* noted) noexcept;
+/// The first of these signals that has come; 0: none.
+[[nodiscard]] int interrupted() noexcept;
 
 /// Adds a test of whether an exception says that the run is over (SessionError kFinished is
 /// known). The layer above registers the exception type that it turns that into.

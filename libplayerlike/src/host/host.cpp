@@ -17,6 +17,7 @@
 #include "host/busy_alarm.h"
 #include "host/core.h"
 #include "host/end_of_program.h"
+#include "host/file_limit_errors.h"
 #include "host/object_properties.h"
 #include "host/outputs.h"
 #include "session/in_process_event_client.h"
@@ -48,6 +49,8 @@ constexpr double kLooksInAStep = 2'000'000.0;
 // Virtual time: how often it is looked whether a thread is blocked, and when it is.
 constexpr std::chrono::milliseconds kLookForBlocked(20);
 constexpr std::chrono::milliseconds kBlocked(100);
+// How often the files of the results follow the run, at most.
+constexpr std::chrono::seconds kKeepingPeriod(1);
 
 double seconds(WallClock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -111,7 +114,8 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
   recorder_ = std::make_unique<Recorder>(settings_, simulation_);
   mode_chosen_ = simulation_.world().simulation.time_mode_given;
   time_factor_ = simulation_.world().simulation.time_factor;
-  if (settings_.quiet_end) note_interrupts();
+  kept_ = KeptWriter::open(settings_.kept_run);
+  if (settings_.quiet_end) note_interrupts(kept_ ? &kept_->noted() : nullptr);
 }
 
 Host::Core::~Core() {
@@ -501,7 +505,11 @@ void Host::Core::advance() {
   distribute();
   if (simulation_.finished()) last_step_ = WallClock::now();
   if (settings_.progress && simulation_.steps() % 64 == 0) show_progress(false);
-  if (simulation_.finished() || (settings_.quiet_end && interrupted())) end_run();
+  if (simulation_.finished() || (settings_.quiet_end && interrupted() != 0)) {
+    end_run();
+  } else {
+    keep_results(now);
+  }
   release_waiters();
 }
 
@@ -1049,12 +1057,18 @@ void Host::Core::start_busy_alarm(const Lock& /*held*/) {
 
 void Host::Core::note_program_ends(int status) {
   const Lock lock = lock_soon();
+  program_status_ = status;
   if (watches_program_) dismiss_busy_alarm();
   if (nobody_reads_told_ || busy_alarm_rang() || paced_ || ended_ || !wants_time_) return;
   // A program that gives up because of an error knows why.
   if (simulation_.now_ns() > 0 || status != 0) return;
   warn("nothing was simulated: the program has ended without calling Read(). " +
        cure_for_standing_time());
+}
+
+void Host::Core::note_end_request(int signal) {
+  const Lock lock = lock_soon();
+  if (end_request_ == 0) end_request_ = signal;
 }
 
 // --- The canvas
@@ -1281,7 +1295,7 @@ void Host::Core::wait_while_paused(Lock& lock) {
   while (paused_ && !stop_pacing_ && !over()) {
     changed_.wait_for(lock, std::chrono::milliseconds(50));
     // Without a step nobody else would see the signal.
-    if (settings_.quiet_end && interrupted() && !ended_) {
+    if (settings_.quiet_end && interrupted() != 0 && !ended_) {
       end_run();
       release_waiters();
     }
@@ -1323,29 +1337,68 @@ void Host::Core::finish() noexcept {
 
 void Host::Core::end_run() {
   ended_ = true;
+  set_phase(KeptRun::Phase::kEnded);
   // Threads that take no part in the lockstep may have drawn since the last step.
   for (const auto& client : clients_) carry_out_drawings(*client);
   if (settings_.progress) show_progress(true);
-  try {
-    write_results();
-  } catch (const std::exception& e) {
-    warn(std::string("results of the run are missing: ") + e.what());
-  }
+  write_results();
+  set_phase(KeptRun::Phase::kDone);
   if (settings_.quiet_end) end_program_quietly_if_uncaught();
 }
 
+// What matters most comes first, and what fails keeps back nothing else.
 void Host::Core::write_results() {
-  // A film that failed is no reason to keep back the rest.
-  try {
-    recorder_->close();
-  } catch (const std::exception& e) {
-    warn(std::string("the recording is not complete: ") + e.what());
+  const FileLimitErrors limit_errors;
+  const auto attempt = [this](const char* problem, const auto& write) {
+    try {
+      write();
+    } catch (const std::exception& e) {
+      warn(std::string(problem) + e.what());
+    }
+  };
+  constexpr const char* kMissing = "results of the run are missing: ";
+  const std::string& folder = settings_.output_folder;
+  attempt(kMissing, [&] { recorder_->close_trajectory(); });
+  if (!folder.empty()) {
+    attempt(kMissing, [&] { write_report(folder, simulation_, time_locked(), reason_of_end()); });
   }
+  set_phase(KeptRun::Phase::kReported);
   for (auto& [port, log] : logs_) {
     if (const auto problem = log.close()) warn(*problem);
   }
+  if (!folder.empty()) {
+    attempt(kMissing,
+            [&] { write_pictures(folder, simulation_.layers(), recorder_->scene(simulation_)); });
+  }
+  attempt("the recording is not complete: ", [&] { recorder_->close_film(); });
+}
+
+void Host::Core::keep_results(WallClock::time_point now) {
   if (settings_.output_folder.empty()) return;
-  write_outputs(settings_.output_folder, simulation_, recorder_->scene(simulation_), time_locked());
+  if (!last_kept_) last_kept_ = now;
+  if (now - *last_kept_ < kKeepingPeriod) return;
+  last_kept_ = now;
+  try {
+    const FileLimitErrors limit_errors;
+    recorder_->flush_trajectory();
+    write_report(settings_.output_folder, simulation_, time_locked(), RunEnd{});
+  } catch (const std::exception& e) {
+    if (!std::exchange(keeping_told_, true)) {
+      warn(std::string("results of the run cannot be written at present: ") + e.what());
+    }
+  }
+}
+
+RunEnd Host::Core::reason_of_end() const {
+  if (simulation_.finished()) return {.by = RunEnd::By::kDuration};
+  const int request = end_request_ != 0 ? end_request_ : settings_.quiet_end ? interrupted() : 0;
+  if (request != 0) return {.by = RunEnd::By::kRequest, .signal = request};
+  if (window_closed_) return {.by = RunEnd::By::kWindow};
+  return {.by = RunEnd::By::kProgram, .status = program_status_};
+}
+
+void Host::Core::set_phase(KeptRun::Phase phase) noexcept {
+  if (kept_) kept_->set_phase(phase);
 }
 
 void Host::Core::show_progress(bool last) {
@@ -1556,7 +1609,13 @@ void Host::Core::on_saved(const std::string& file, const std::string& problem) {
   tell(problem.empty() ? "saved " + std::filesystem::path(file).filename().string() : problem);
 }
 
-void Host::Core::on_closed() { finish(); }
+void Host::Core::on_closed() {
+  {
+    const Lock lock = lock_soon();
+    window_closed_ = true;
+  }
+  finish();
+}
 
 void Host::Core::on_lost(const std::string& reason) {
   const Lock lock = lock_soon();
@@ -1617,6 +1676,7 @@ bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(
 void Host::check_silence() { core_->check_silence(); }
 void Host::watch_program() { core_->watch_program(); }
 void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends(status); }
+void Host::note_end_request(int signal) { core_->note_end_request(signal); }
 void Host::thinker_ended(ThinkerId thinker) noexcept { InsideCore(*core_)->thinker_ended(thinker); }
 AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm)); }
 bool Host::cancel_alarm(AlarmId alarm) { return core_->cancel_alarm(alarm); }

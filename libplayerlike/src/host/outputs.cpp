@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -19,6 +19,7 @@
 #include "host/picture_sizes.h"
 #include "playerlike/host/results.h"
 #include "sim/canvas/layers.h"
+#include "sim/core/replace_file.h"
 #include "sim/io/map_file.h"
 #include "sim/render/render.h"
 
@@ -202,8 +203,9 @@ void remove_snapshots(const std::string& folder) {
 }
 
 void remove_results(const std::string& folder) {
-  constexpr std::array<std::string_view, 4> kFiles = {"report.json", "scene.png", "canvas.png",
-                                                      "trajectory.csv"};
+  constexpr std::array<std::string_view, 7> kFiles = {
+      "report.json", "report.part.json", "scene.png",     "scene.part.png",
+      "canvas.png",  "canvas.part.png",  "trajectory.csv"};
   for (const std::string_view name : kFiles) {
     std::error_code error;
     const fs::path file = fs::path(folder) / name;
@@ -222,41 +224,74 @@ void remove_results(const std::string& folder) {
   });
 }
 
-namespace {
-
-void write_pictures(const fs::path& out, const sim::Simulation& simulation,
-                    const sim::SceneSnapshot& scene) {
-  const bool mini_map = scene.view_mode == sim::ViewMode::kMiniMap;
-  sim::render::SceneRenderer renderer({.size_px = kSceneSize_px});
-  sim::render::write_png(
-      renderer.draw(scene, mini_map ? sim::ViewMode::kMiniMap : sim::ViewMode::kGround),
-      (out / "scene.png").string());
-  sim::render::write_png(sim::render::draw_canvas(scene.canvas_description, scene.canvas,
-                                                  cell_scale(scene.canvas_description)),
-                         (out / "canvas.png").string());
-  write_layers(out, simulation.layers());
+nlohmann::ordered_json to_json(const RunEnd& end) {
+  const char* by = nullptr;
+  switch (end.by) {
+    case RunEnd::By::kNothing:
+      return nullptr;
+    case RunEnd::By::kDuration:
+      by = "duration";
+      break;
+    case RunEnd::By::kProgram:
+      by = "program";
+      break;
+    case RunEnd::By::kRequest:
+      by = "request";
+      break;
+    case RunEnd::By::kWindow:
+      by = "window";
+      break;
+    case RunEnd::By::kSignal:
+      by = "signal";
+      break;
+  }
+  nlohmann::ordered_json ended = {{"by", by}};
+  if (end.status) ended["status"] = *end.status;
+  if (end.signal) {
+    const char* const name = sigabbrev_np(*end.signal);
+    ended["signal"] = name != nullptr ? std::string("SIG") + name : std::to_string(*end.signal);
+  }
+  return ended;
 }
 
-}  // namespace
-
-void write_outputs(const std::string& folder, const sim::Simulation& simulation,
-                   const sim::SceneSnapshot& scene, const TimeStatistics& time) {
-  const fs::path out(folder);
-  // Pictures that fail are no reason to keep back the report, which is written last: whoever waits
-  // for it finds all there is.
-  std::exception_ptr failure;
-  try {
-    write_pictures(out, simulation, scene);
-  } catch (const std::exception&) {
-    failure = std::current_exception();
-  }
-  const std::string file = (out / "report.json").string();
-  std::ofstream stream(file, std::ios::trunc);
+void write_report(const std::string& folder, const sim::Simulation& simulation,
+                  const TimeStatistics& time, const RunEnd& end) {
+  nlohmann::ordered_json whole = report(simulation, time);
+  whole["ended"] = to_json(end);
+  const std::string file = (fs::path(folder) / "report.json").string();
   // What robots said may be any bytes.
-  stream << report(simulation, time).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-         << '\n';
-  stream.close();
-  if (!stream) throw std::runtime_error("cannot write " + file);
+  const std::string text =
+      whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  if (const int error = sim::replace_file(file, text)) {
+    throw std::runtime_error("cannot write " + file + ": " + std::strerror(error));
+  }
+}
+
+void write_pictures(const std::string& folder, const sim::LayerStack& layers,
+                    const sim::SceneSnapshot& scene) {
+  const fs::path out(folder);
+  // One that fails is no reason to keep back the others.
+  std::exception_ptr failure;
+  const auto attempt = [&failure](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception&) {
+      if (!failure) failure = std::current_exception();
+    }
+  };
+  attempt([&] {
+    const bool mini_map = scene.view_mode == sim::ViewMode::kMiniMap;
+    sim::render::SceneRenderer renderer({.size_px = kSceneSize_px});
+    sim::render::write_png(
+        renderer.draw(scene, mini_map ? sim::ViewMode::kMiniMap : sim::ViewMode::kGround),
+        (out / "scene.png").string());
+  });
+  attempt([&] {
+    sim::render::write_png(sim::render::draw_canvas(scene.canvas_description, scene.canvas,
+                                                    cell_scale(scene.canvas_description)),
+                           (out / "canvas.png").string());
+  });
+  attempt([&] { write_layers(out, layers); });
   if (failure) std::rethrow_exception(failure);
 }
 

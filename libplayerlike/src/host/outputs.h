@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,16 +24,39 @@ inline constexpr const char* kSnapshotFolder = "snapshots";
 /// @throws std::runtime_error naming the file that can't be removed and the reason.
 void remove_snapshots(const std::string& folder);
 
-/// Writes report.json, scene.png, canvas.png and, for each layer, layers/NAME.png (and NAME.pgm
-/// with NAME.yaml for grey ones, see sim::io::write_map) into `folder`.
+/// How a run came to its end, as its report tells.
+struct RunEnd {
+  enum class By {
+    kNothing,   ///< it goes on; a report says so that was written meanwhile
+    kDuration,  ///< its time was over
+    kProgram,   ///< the program ended, or had enough
+    kRequest,   ///< a signal asked for it
+    kWindow,    ///< its window was closed
+    kSignal,    ///< a signal ended the program: it crashed, or was killed
+  };
+  By by = By::kNothing;
+  std::optional<int> status = {};  ///< exit status of the program, where that ended the run
+  std::optional<int> signal = {};  ///< number of the signal of kRequest and kSignal
+};
+
+/// The report's "ended": null, or an object with "by" and, where they are known, "status" and
+/// "signal" (its name, such as "SIGINT").
+[[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
+
+/// Writes report.json into `folder`; see sim::replace_file().
+/// @throws std::runtime_error naming the file if it could not be written.
+void write_report(const std::string& folder, const sim::Simulation& simulation,
+                  const TimeStatistics& time, const RunEnd& end);
+
+/// Writes scene.png, canvas.png and, for each layer, layers/NAME.png (and NAME.pgm with NAME.yaml
+/// for grey ones, see sim::io::write_map) into `folder`.
 ///
 /// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
 /// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
 /// layers of one name get their clients' ports behind it, and a number if that is not enough.
-/// The report is written last, also where pictures could not be written.
-/// @throws std::runtime_error naming the file that could not be written.
-void write_outputs(const std::string& folder, const sim::Simulation& simulation,
-                   const sim::SceneSnapshot& scene, const TimeStatistics& time);
+/// @throws std::runtime_error naming the first file that could not be written; the others are.
+void write_pictures(const std::string& folder, const sim::LayerStack& layers,
+                    const sim::SceneSnapshot& scene);
 
 inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 /// Whether a name is that of a file in a folder, and no way out of it: 1 to kMaxFileName bytes

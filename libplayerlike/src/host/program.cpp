@@ -1,10 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/program.h"
 
-#include <fcntl.h>
-#include <spawn.h>
+#include <poll.h>
+#include <sys/signalfd.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include <system_error>
 #include <utility>
 
+#include "host/supervisor.h"
 #include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 
@@ -48,30 +48,19 @@ std::string absolute_path(const std::string& path) {
   return fs::absolute(path).lexically_normal().string();
 }
 
-/// "NAME=value" of this process's environment with the changes made.
-std::vector<std::string> changed_environment(const EnvironmentChanges& changes) {
-  std::vector<std::string> result;
-  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
-    const std::string_view text(*entry);
-    if (!changes.contains(std::string(text.substr(0, text.find('='))))) result.emplace_back(text);
-  }
-  for (const auto& [name, value] : changes) {
-    if (value) result.push_back(name + "=" + *value);
-  }
-  return result;
-}
+using Clock = std::chrono::steady_clock;
 
-/// Pointers to the texts, ended by a null pointer, as exec wants them.
-std::vector<char*> pointers(std::vector<std::string>& texts) {
-  std::vector<char*> result;
-  result.reserve(texts.size() + 1);
-  for (std::string& text : texts) result.push_back(text.data());
-  result.push_back(nullptr);
-  return result;
-}
+// Copies of one request to end, sent to this process and to its group (as timeout does), come
+// within this time.
+constexpr std::chrono::milliseconds kOneRequest(500);
+// A program that was asked to end, and whose simulated run has not ended by then, is killed; what
+// is to be written afterwards takes the rest of the two seconds that are promised.
+constexpr std::chrono::milliseconds kTimeToEnd(1500);
+constexpr std::chrono::milliseconds kLook(20);
 
 /// Holds back, in this thread, the signals that matter while a program runs, so that they can be
-/// waited for one by one instead of interrupting anything.
+/// taken one by one instead of interrupting anything. Those that this process ignores, as under
+/// nohup, stay ignored.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -80,16 +69,24 @@ class HeldSignals {
     by_default.sa_handler = SIG_DFL;
     sigaction(SIGCHLD, &by_default, &old_child_action_);
     sigemptyset(&held_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGCHLD}) sigaddset(&held_, signal);
-    pthread_sigmask(SIG_BLOCK, &held_, &old_mask_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+      struct sigaction present {};
+      if (sigaction(signal, nullptr, &present) == 0 && present.sa_handler != SIG_IGN) {
+        sigaddset(&held_, signal);
+      }
+    }
+    sigset_t blocked = held_;
+    sigaddset(&blocked, SIGCHLD);
+    pthread_sigmask(SIG_BLOCK, &blocked, &old_mask_);
+    descriptor_ = signalfd(-1, &held_, SFD_NONBLOCK | SFD_CLOEXEC);
   }
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
   ~HeldSignals() {
     // What came too late for the program is dropped: this process ends by itself in a moment.
-    const timespec no_time{};
-    while (sigtimedwait(&held_, nullptr, &no_time) > 0) {
+    while (take()) {
     }
+    close(descriptor_);
     sigaction(SIGCHLD, &old_child_action_, nullptr);
     pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
   }
@@ -97,150 +94,75 @@ class HeldSignals {
   /// The mask as it was, for the program to start with.
   [[nodiscard]] const sigset_t& old_mask() const noexcept { return old_mask_; }
 
-  /// Waits a while for one of the signals.
-  /// @return its number if another process sent it and it is to be passed on, else 0.
-  [[nodiscard]] int wait_to_forward() const {
-    // A bounded wait: SIGCHLD may have gone to another thread of this process, if it has any.
-    siginfo_t info{};
-    const int signal = wait(std::chrono::milliseconds(200), &info);
-    const bool from_a_process = info.si_code == SI_USER || info.si_code == SI_QUEUE;
-    return signal > 0 && signal != SIGCHLD && from_a_process ? signal : 0;
+  struct Signal {
+    int number = 0;
+    bool from_system = false;  ///< the terminal's: the program has got it, too
+  };
+  /// The next signal that has come.
+  [[nodiscard]] std::optional<Signal> take() const {
+    signalfd_siginfo info{};
+    if (read(descriptor_, &info, sizeof info) != sizeof info) return std::nullopt;
+    const bool from_process = info.ssi_code == SI_USER || info.ssi_code == SI_QUEUE;
+    return Signal{static_cast<int>(info.ssi_signo), !from_process};
   }
 
-  /// Waits for one of the signals, whoever sent it, no longer than told.
-  /// @return its number, or -1 if none came.
-  [[nodiscard]] int wait(std::chrono::nanoseconds at_most, siginfo_t* info = nullptr) const {
-    constexpr long long kNanoseconds = 1'000'000'000;
-    const long long count = std::max<long long>(at_most.count(), 0);
-    const timespec time{static_cast<time_t>(count / kNanoseconds),
-                        static_cast<long>(count % kNanoseconds)};
-    return sigtimedwait(&held_, info, &time);
+  /// Waits until a signal has come or one of the descriptors is readable, no longer than told.
+  void wait(const std::vector<int>& descriptors, Clock::duration at_most) const {
+    std::vector<pollfd> polls = {{descriptor_, POLLIN, 0}};
+    for (const int descriptor : descriptors) polls.push_back({descriptor, POLLIN, 0});
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(at_most).count();
+    static_cast<void>(
+        poll(polls.data(), polls.size(), static_cast<int>(std::clamp<long long>(left, 0, 60'000))));
   }
 
  private:
+  int descriptor_ = -1;
   sigset_t held_{};
   sigset_t old_mask_{};
   struct sigaction old_child_action_ {};
 };
 
-/// What a program is started with besides its command and environment.
-class SpawnSettings {
+/// Tells one request to end from the next.
+class EndRequests {
  public:
-  /// @param mask  the signal mask of the program.
-  explicit SpawnSettings(const sigset_t& mask) {
-    posix_spawnattr_init(&attributes_);
-    posix_spawn_file_actions_init(&files_);
-    posix_spawnattr_setsigmask(&attributes_, &mask);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&files_);
-    posix_spawnattr_destroy(&attributes_);
-  }
+  enum class Meaning { kFirst, kCopy, kAgain };
 
-  /// A process group of its own, no input, and this descriptor for what it prints.
-  void set_apart(int output) {
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
-    posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&files_, output, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&files_, output, STDERR_FILENO);
-  }
-
-  [[nodiscard]] pid_t start(std::vector<std::string> command,
-                            const EnvironmentChanges& changes) const {
-    std::vector<std::string> environment = changed_environment(changes);
-    pid_t child = 0;
-    const int error = posix_spawn(&child, command.front().c_str(), &files_, &attributes_,
-                                  pointers(command).data(), pointers(environment).data());
-    if (error != 0) {
-      throw ProgramError("the program " + in_quotes(command.front()) +
-                         " can't be started: " + std::strerror(error));
+  Meaning note(int signal) {
+    const Clock::time_point now = Clock::now();
+    if (!first_) {
+      first_ = signal;
+      time_ = now;
+      return Meaning::kFirst;
     }
-    return child;
+    // A terminal that is closed may hang up twice: its shell does, too.
+    const bool copy = signal == *first_ && (signal == SIGHUP || now - time_ < kOneRequest);
+    return copy ? Meaning::kCopy : Meaning::kAgain;
+  }
+  [[nodiscard]] std::optional<int> first() const noexcept { return first_; }
+  [[nodiscard]] Clock::duration age() const {
+    return first_ ? Clock::now() - time_ : Clock::duration::zero();
   }
 
  private:
-  posix_spawnattr_t attributes_{};
-  posix_spawn_file_actions_t files_{};
+  std::optional<int> first_;
+  Clock::time_point time_;
 };
 
-ProgramEnd program_end(int wait_state) {
-  ProgramEnd end;
-  if (WIFSIGNALED(wait_state)) {
-    end.signal = WTERMSIG(wait_state);
-  } else {
-    end.status = WEXITSTATUS(wait_state);
-  }
-  return end;
-}
-
-/// Waits for a child that has ended or must. Interruptions do not matter here.
-int reap(pid_t child) {
-  int state = 0;
-  while (waitpid(child, &state, 0) < 0 && errno == EINTR) {
-  }
-  return state;
-}
-
-using Clock = std::chrono::steady_clock;
-
-/// A program that runs in a group of its own. Killed, with all its group, if it is let go.
+/// A program that runs in a group of its own. Killed, with all that it has started, if it is let
+/// go.
 class GroupedProgram {
  public:
-  GroupedProgram(const ProgramJob& job, std::size_t index, const sigset_t& mask) : index_(index) {
-    // Closed in the program by exec; dup2 clears that on the copies.
-    const int output =
-        open(job.output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (output < 0) {
-      throw ProgramError("the file " + in_quotes(job.output_file) +
-                         " can't be made: " + std::strerror(errno));
-    }
-    try {
-      SpawnSettings settings(mask);
-      settings.set_apart(output);
-      child_ = settings.start(job.command, job.environment);
-    } catch (...) {
-      close(output);
-      throw;
-    }
-    close(output);
-  }
-  GroupedProgram(GroupedProgram&& other) noexcept
-      : index_(other.index_),
-        child_(std::exchange(other.child_, 0)),
-        start_(other.start_),
-        kind_(other.kind_),
-        kill_time_(other.kill_time_) {}
-  GroupedProgram& operator=(GroupedProgram&& other) noexcept {
-    std::swap(index_, other.index_);
-    std::swap(child_, other.child_);
-    std::swap(start_, other.start_);
-    std::swap(kind_, other.kind_);
-    std::swap(kill_time_, other.kill_time_);
-    return *this;
-  }
-  ~GroupedProgram() {
-    if (child_ == 0) return;
-    kill(-child_, SIGKILL);
-    reap(child_);
-  }
+  GroupedProgram(const ProgramJob& job, std::size_t index, const sigset_t& mask)
+      : index_(index), program_(start_of(job, mask)) {}
 
   [[nodiscard]] std::size_t index() const noexcept { return index_; }
+  [[nodiscard]] int descriptor() const noexcept { return program_.descriptor(); }
 
   /// How it ended; nullopt while it runs.
   [[nodiscard]] std::optional<JobEnd> poll() {
-    siginfo_t info{};
-    if (waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
-        info.si_pid == 0) {
-      return std::nullopt;
-    }
-    // Before its number is given back, so that the group can be nobody else's.
-    kill(-child_, SIGKILL);
-    const ProgramEnd program = program_end(reap(std::exchange(child_, 0)));
-    return JobEnd{kind_, program, std::chrono::duration<double>(Clock::now() - start_).count()};
+    const std::optional<ProgramEnd> end = program_.poll();
+    if (!end) return std::nullopt;
+    return JobEnd{kind_, *end, std::chrono::duration<double>(Clock::now() - start_).count()};
   }
 
   /// Asks it to end, for this reason, and sees to it that it does after the grace.
@@ -248,8 +170,7 @@ class GroupedProgram {
     if (kill_time_) return;
     kind_ = reason;
     kill_time_ = Clock::now() + grace;
-    kill(-child_, SIGTERM);
-    kill(-child_, SIGCONT);  // one that was stopped could not end
+    program_.send_signal(SIGTERM);
   }
 
   /// Does what is due by now.
@@ -258,19 +179,30 @@ class GroupedProgram {
   Clock::time_point look_after(Clock::duration timeout, Clock::duration grace) {
     const Clock::time_point now = Clock::now();
     if (now - start_ >= timeout) ask_to_end(JobEnd::Kind::kTimedOut, grace);
-    if (kill_time_ && now >= *kill_time_) kill(-child_, SIGKILL);
-    if (kill_time_) return std::max(*kill_time_, now + std::chrono::milliseconds(10));
+    if (kill_time_ && now >= *kill_time_ && !std::exchange(killed_, true)) program_.kill_all();
+    if (kill_time_) return killed_ ? Clock::time_point::max() : *kill_time_;
     return start_ + timeout;
   }
 
   void end_grace() { kill_time_ = Clock::now(); }
 
  private:
+  static SupervisedStart start_of(const ProgramJob& job, const sigset_t& mask) {
+    SupervisedStart start;
+    start.command = job.command;
+    start.environment = job.environment;
+    start.mask = mask;
+    start.output_file = job.output_file;
+    start.output_limit = job.output_limit;
+    return start;
+  }
+
   std::size_t index_;
-  pid_t child_ = 0;
+  SupervisedProgram program_;
   Clock::time_point start_ = Clock::now();
   JobEnd::Kind kind_ = JobEnd::Kind::kEnded;
   std::optional<Clock::time_point> kill_time_;  ///< set once it was asked to end
+  bool killed_ = false;
 };
 
 }  // namespace
@@ -336,24 +268,54 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_PROGRESS"] = settings.progress ? std::optional<std::string>("1") : std::nullopt;
   changes["PLAYPEN_VIRTUAL_TIME"] =
       settings.virtual_time ? std::optional<std::string>("1") : std::nullopt;
+  changes["PLAYPEN_STATE"] = path_or_nothing(settings.kept_run);
   changes["PLAYPEN_RUN"] = settings.quiet_end ? std::optional<std::string>("1") : std::nullopt;
   return changes;
 }
 
 ProgramEnd run_program(const std::vector<std::string>& command,
-                       const EnvironmentChanges& environment) {
+                       const EnvironmentChanges& environment, const RunWatch& watch) {
   const HeldSignals signals;
-  const pid_t child = SpawnSettings(signals.old_mask()).start(command, environment);
-  int state = 0;
+  SupervisedStart start;
+  start.command = command;
+  start.environment = environment;
+  start.mask = signals.old_mask();
+  start.on_orphaned = watch.on_orphaned;
+  if (watch.kept != nullptr) start.kept_descriptors.push_back(watch.kept->descriptor());
+  SupervisedProgram program(start);
+  EndRequests requests;
+  bool killed = false;
   for (;;) {
-    const pid_t ended = waitpid(child, &state, WNOHANG);
-    if (ended == child) break;
-    if (ended < 0 && errno != EINTR) {
-      throw std::system_error(errno, std::generic_category(), "waiting for " + command.front());
+    if (const std::optional<ProgramEnd> end = program.poll()) {
+      ProgramEnd result = *end;
+      result.request = requests.first();
+      result.forced = killed;
+      return result;
     }
-    if (const int signal = signals.wait_to_forward(); signal != 0) kill(child, signal);
+    if (program.take_stopped() && watch.tell) {
+      watch.tell("the program has stopped itself (SIGSTOP): kill -CONT " +
+                 std::to_string(program.program()) + " lets it go on, Ctrl-C ends the run");
+    }
+    // Whether the simulated run is to end by the signal, and not by a handler of the program's own.
+    const bool noted = watch.kept != nullptr && watch.kept->interrupt_noted();
+    while (const std::optional<HeldSignals::Signal> signal = signals.take()) {
+      const EndRequests::Meaning meaning = requests.note(signal->number);
+      if (meaning == EndRequests::Meaning::kCopy) continue;
+      if (meaning == EndRequests::Meaning::kAgain && noted) {
+        program.kill_all();
+        killed = true;
+      } else {
+        program.send_signal(signal->from_system ? SIGCONT : signal->number);
+      }
+    }
+    const bool run_goes_on = noted && watch.kept->phase() == KeptRun::Phase::kRunning;
+    if (requests.first() && run_goes_on && requests.age() > kTimeToEnd &&
+        !std::exchange(killed, true)) {
+      program.kill_all();
+    }
+    const bool waits = requests.first() && !killed && watch.kept != nullptr;
+    signals.wait({program.descriptor()}, waits ? Clock::duration(kLook) : std::chrono::minutes(1));
   }
-  return program_end(state);
 }
 
 std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobLimits& limits,
@@ -372,24 +334,26 @@ std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobL
   std::vector<JobEnd> ends(jobs.size());
   std::vector<GroupedProgram> running;
   std::size_t next = 0;
-  bool told_to_end = false;
-  while (!running.empty() || (next < jobs.size() && !told_to_end)) {
-    while (!told_to_end && next < jobs.size() && running.size() < at_once) {
+  EndRequests requests;
+  while (!running.empty() || (next < jobs.size() && !requests.first())) {
+    while (!requests.first() && next < jobs.size() && running.size() < at_once) {
       running.emplace_back(jobs[next], next, signals.old_mask());
       if (on_start) on_start(next);
       ++next;
     }
-    // Bounded for the same reason as in wait_to_forward().
-    Clock::time_point wake = Clock::now() + std::chrono::milliseconds(200);
+    Clock::time_point wake = Clock::now() + std::chrono::minutes(1);
+    std::vector<int> descriptors;
     for (GroupedProgram& program : running) {
       wake = std::min(wake, program.look_after(timeout, grace));
+      descriptors.push_back(program.descriptor());
     }
-    if (const int signal = signals.wait(wake - Clock::now()); signal > 0 && signal != SIGCHLD) {
+    signals.wait(descriptors, wake - Clock::now());
+    while (const std::optional<HeldSignals::Signal> signal = signals.take()) {
+      const EndRequests::Meaning meaning = requests.note(signal->number);
       for (GroupedProgram& program : running) {
         program.ask_to_end(JobEnd::Kind::kInterrupted, grace);
-        if (told_to_end) program.end_grace();
+        if (meaning == EndRequests::Meaning::kAgain) program.end_grace();
       }
-      told_to_end = true;
     }
     for (auto program = running.begin(); program != running.end();) {
       const std::optional<JobEnd> end = program->poll();

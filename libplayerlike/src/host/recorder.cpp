@@ -46,6 +46,7 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
   }
   trails_.resize(static_cast<std::size_t>(simulation.robot_count()));
   observe(simulation);
+  flush_trajectory();
 }
 
 std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
@@ -121,12 +122,20 @@ sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
   return snapshot;
 }
 
-void Recorder::close() {
-  // The thread is gone afterwards whatever happens, and a second close() does nothing.
-  const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
-  if (trajectory_.is_open()) trajectory_.close();
-  if (pictures) pictures->finish();
+void Recorder::flush_trajectory() {
+  if (trajectory_.is_open()) trajectory_.flush();
+}
+
+void Recorder::close_trajectory() {
+  if (!trajectory_.is_open()) return;
+  trajectory_.close();
   if (trajectory_.fail()) throw std::runtime_error("cannot write " + trajectory_file_);
+}
+
+void Recorder::close_film() {
+  // The thread is gone afterwards whatever happens, and a second call does nothing.
+  const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
+  if (pictures) pictures->finish();
 }
 
 }  // namespace playerlike

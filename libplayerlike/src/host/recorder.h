@@ -30,9 +30,14 @@ class Recorder {
   /// The scene now, with trails.
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
-  /// Completes the files. observe() must not be called afterwards.
+  /// Writes what trajectory.csv is to hold by now into it.
+  void flush_trajectory();
+  /// Completes trajectory.csv. observe() must not be called afterwards.
+  /// @throws std::runtime_error if it could not be written.
+  void close_trajectory();
+  /// Completes the film and the pictures in snapshots/. observe() must not be called afterwards.
   /// @throws std::runtime_error if something could not be written.
-  void close();
+  void close_film();
 
  private:
   struct Trail {

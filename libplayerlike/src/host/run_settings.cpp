@@ -122,6 +122,7 @@ RunSettings RunSettings::from_environment() {
     }
   }
   settings.output_folder = environment("PLAYPEN_OUT");
+  settings.kept_run = environment("PLAYPEN_STATE");
   settings.film = environment("PLAYPEN_RECORD");
   if (!settings.film.empty() && !sim::render::FilmWriter::is_film_name(settings.film)) {
     wrong("PLAYPEN_RECORD", kFilmExpected);

@@ -4,11 +4,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -18,6 +16,7 @@
 #include "io/map_io.h"
 #include "sim/core/assert.h"
 #include "sim/core/error.h"
+#include "sim/core/replace_file.h"
 
 namespace sim::io {
 namespace {
@@ -51,13 +50,8 @@ std::uint8_t scale_shade(double p) {
 }
 
 void write_file(const std::string& path, const std::string& bytes) {
-  errno = 0;
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) {
-    throw std::runtime_error(
-        path + ": cannot write the map: " + (errno != 0 ? std::strerror(errno) : "unknown reason"));
+  if (const int error = replace_file(path, bytes)) {
+    throw std::runtime_error(path + ": cannot write the map: " + std::strerror(error));
   }
 }
 

@@ -1,4 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -9,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <istream>
@@ -20,6 +23,7 @@
 #include <vector>
 
 #include "render/modules/module_file.h"
+#include "sim/core/replace_file.h"
 #include "sim/render/render.h"
 
 namespace sim::render {
@@ -165,25 +169,39 @@ class Video final : public FilmWriter::Impl {
       : Impl(name),
         functions_(film_functions(name)),
         frames_per_second_(frames_per_second),
-        kind_(kind) {
+        kind_(kind),
+        part_(name) {
     // OpenCV only says that it failed. Opening the file here tells why, and before a run, not
     // after.
+    struct stat info {};
+    // A pipe or a device cannot be replaced by what was written beside it.
+    if (lstat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) part_ = part_name(path);
     errno = 0;
-    if (!std::ofstream(path, std::ios::binary | std::ios::trunc)) {
+    if (!std::ofstream(part_, std::ios::binary | std::ios::trunc)) {
       refuse_film(path, errno != 0 ? std::strerror(errno) : "unknown reason");
     }
   }
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
   ~Video() override {
-    close();
-    if (frame_count == 0) std::remove(path.c_str());  // no film: leave no empty file
+    try {
+      finish();
+    } catch (const std::exception&) {
+      // Whoever wants to know calls finish().
+    }
+    if (frame_count == 0) std::remove(part_.c_str());  // no film: leave no empty file
   }
 
   void finish() override {
     close();
-    if (frame_count > 0 && !is_whole(path))
+    if (std::exchange(finished_, true) || frame_count == 0) return;
+    if (!is_whole(part_)) {
+      // Nothing can play it, and others may need the room.
+      if (part_ != path) std::remove(part_.c_str());
       refuse_film(path, "it is not whole (is the disk full?)");
+    }
+    if (part_ == path) return;
+    if (const int error = adopt_part(path)) refuse_film(path, std::strerror(error));
   }
 
  private:
@@ -194,7 +212,7 @@ class Video final : public FilmWriter::Impl {
       refuse_film(path,
                   "a frame of " + size_text(frame.width, frame.height) + " pixels is too small");
     }
-    encoder_ = functions_.open(path.c_str(), kind_ == FilmKind::kAvi, frames_per_second_, width,
+    encoder_ = functions_.open(part_.c_str(), kind_ == FilmKind::kAvi, frames_per_second_, width,
                                height, problem_.data(), problem_.size());
     if (encoder_ == nullptr) refuse_film(path, problem_.data());
   }
@@ -215,6 +233,8 @@ class Video final : public FilmWriter::Impl {
   const modules::FilmFunctions& functions_;
   double frames_per_second_;
   FilmKind kind_;
+  std::string part_;  // where it is written; takes its name when it is whole
+  bool finished_ = false;
   modules::FilmEncoder* encoder_ = nullptr;  // opened with the first frame, which tells the size
   std::array<char, 1024> problem_{};
 };

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <cerrno>
 #include <cstddef>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "canvas/png_codec.h"
 #include "render/modules/module_file.h"
+#include "sim/core/replace_file.h"
 #include "sim/render/render.h"
 
 namespace sim::render {
@@ -28,14 +28,8 @@ void write_png(const Image& image, const std::string& path, PngEffort effort) {
   const std::vector<std::uint8_t> bytes =
       encode_png(image.width, image.height, image.rgb.data(), effort == PngEffort::kQuick ? 1 : 6);
   if (bytes.empty()) refuse_picture(path, "the PNG encoder failed");
-  errno = 0;
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  if (file) {
-    file.write(reinterpret_cast<const char*>(bytes.data()),
-               static_cast<std::streamsize>(bytes.size()));
-    file.close();
-  }
-  if (!file) refuse_picture(path, errno != 0 ? std::strerror(errno) : "unknown reason");
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (const int error = replace_file(path, text)) refuse_picture(path, std::strerror(error));
 }
 
 }  // namespace sim::render

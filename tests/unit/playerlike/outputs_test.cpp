@@ -31,7 +31,10 @@ class Outputs : public testing::Test {
     style.name = name;
     return simulation_.layers().add(kind, style, owner);
   }
-  void write() const { write_outputs(folder_.path(), simulation_, simulation_.snapshot(), {}); }
+  void write() const {
+    write_report(folder_.path(), simulation_, {}, {});
+    write_pictures(folder_.path(), simulation_.layers(), simulation_.snapshot());
+  }
   [[nodiscard]] std::vector<std::string> layer_files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder_ / "layers")) {

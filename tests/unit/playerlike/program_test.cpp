@@ -38,7 +38,8 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt),
           Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
           Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
-          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt)));
+          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
+          Pair("PLAYPEN_STATE", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {

@@ -75,7 +75,7 @@ TEST(Recorder, FilmHasAFrameForEveryPeriodAndOneForTheStart) {
       simulation.step();
       recorder.observe(simulation);
     }
-    recorder.close();
+    recorder.close_film();
     EXPECT_EQ(files_in(folder / "film").size(), c.frames)
         << c.duration_s << " s, " << c.fps << " fps, speed " << c.speed;
   }
@@ -99,7 +99,7 @@ TEST(Recorder, FrameShowsTheSceneOfItsTime) {
       expected = read_bytes(folder / "expected.png");
     }
   }
-  recorder.close();
+  recorder.close_film();
   EXPECT_TRUE(read_bytes(folder / "film/frame_000003.png") == expected);
   EXPECT_FALSE(read_bytes(folder / "film/frame_000002.png") == expected);
 }
@@ -117,7 +117,7 @@ TEST(Recorder, SnapshotsAreNamedByTheirTimesAndThoseOfEarlierRunsGo) {
     simulation.step();
     recorder.observe(simulation);
   }
-  recorder.close();
+  recorder.close_film();
   EXPECT_THAT(files_in(folder / "snapshots"),
               ElementsAre("mine.png", "scene_000000.000s.png", "scene_000000.100s.png",
                           "scene_000000.200s.png"));
@@ -136,7 +136,7 @@ TEST(Recorder, SnapshotsShowTheViewModeOfTheirTime) {
   recorder.observe(simulation);
   const sim::render::Image image =
       sim::render::draw_view(recorder.scene(simulation), {.size_px = 1200});
-  recorder.close();
+  recorder.close_film();
   sim::render::write_png(image, folder / "expected.png");
   EXPECT_TRUE(read_bytes(folder / "snapshots/scene_000000.010s.png") ==
               read_bytes(folder / "expected.png"));
@@ -148,7 +148,7 @@ TEST(Recorder, WithoutAPeriodThereAreNoSnapshots) {
   settings.output_folder = folder.path();
   sim::Simulation simulation(small_world());
   Recorder recorder(settings, simulation);
-  recorder.close();
+  recorder.close_film();
   EXPECT_THAT(files_in(folder.path()), ElementsAre("trajectory.csv"));
 }
 
@@ -164,9 +164,9 @@ TEST(Recorder, AFailureIsToldAtTheEndAndDoesNotStopTheRun) {
     simulation.step();
     recorder.observe(simulation);
   }
-  EXPECT_THAT([&] { recorder.close(); },
+  EXPECT_THAT([&] { recorder.close_film(); },
               ThrowsMessage<std::runtime_error>(HasSubstr("film/frame_0")));
-  recorder.close();  // nothing is left to tell
+  recorder.close_film();  // nothing is left to tell
 }
 
 TEST(Recorder, AFilmThatCannotBeMadeIsAnErrorAtOnce) {

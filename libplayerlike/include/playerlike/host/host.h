@@ -60,6 +60,8 @@ class Host : public std::enable_shared_from_this<Host> {
   /// That program ends with this exit status: it is told, as a warning, if it has let no simulated
   /// time pass. Not if the status is not 0, as it then knows of an error.
   void note_program_ends(int status);
+  /// A signal has asked for the end of the run, for the report; finish() is to follow.
+  void note_end_request(int signal);
 
   /// A thinker takes no more part, see EventClient.
   void thinker_ended(ThinkerId thinker) noexcept;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "playerlike/host/kept_run.h"
 #include "playerlike/host/run_settings.h"
 
 /// Running a client program as a process of its own, as `playpen run` does. What the program's
@@ -26,8 +28,11 @@ using EnvironmentChanges = std::map<std::string, std::optional<std::string>>;
 
 /// How a program ended: by itself with a status, or by a signal.
 struct ProgramEnd {
-  int status = 0;             ///< exit status, 0..255; 0 if a signal ended it
-  std::optional<int> signal;  ///< number of the signal that ended it
+  int status = 0;                   ///< exit status, 0..255; 0 if a signal ended it
+  std::optional<int> signal;        ///< number of the signal that ended it
+  std::optional<int> request = {};  ///< run_program(): the first signal by which this process was
+                                    ///< asked to end the run
+  bool forced = false;              ///< run_program(): it was killed because of that
 
   /// Whether it ended by itself with status 0.
   [[nodiscard]] bool success() const noexcept { return status == 0 && !signal; }
@@ -51,23 +56,44 @@ struct ProgramEnd {
 [[nodiscard]] EnvironmentChanges run_environment(const std::string& world_file,
                                                  const RunSettings& settings);
 
+/// What run_program() knows of the simulated run in its program, and whom it tells.
+struct RunWatch {
+  const KeptRun* kept = nullptr;                      ///< what the program's host keeps up to date
+  std::function<void(const std::string&)> tell = {};  ///< takes a sentence for the user
+  /// Called, in another process, if this one is killed: the program, and all that it has started,
+  /// has been ended then.
+  std::function<void(const ProgramEnd&)> on_orphaned = {};
+};
+
 /// Runs a program to its end, with this process's terminal and standard streams.
 ///
 /// While it runs, SIGINT, SIGTERM, SIGHUP and SIGQUIT that another process sends to this one are
-/// passed on to it; those that the terminal sends reach it anyway and are left alone here.
+/// passed on to it; those that the terminal sends reach it anyway. Signals that this process
+/// ignores stay ignored. The first signal asks the program to end. If a host in the program has
+/// noted it (KeptRun::interrupt_noted()), the program is killed on the second signal, or if the
+/// simulated run has not ended after 1.5 s of wall time. Copies of the first signal within half a
+/// second (`timeout` sends two), and every further SIGHUP after a first one, do not count. A
+/// program that handles the signal itself is not killed.
+///
+/// What the program leaves running gets SIGTERM when the program ends, and SIGKILL a second later.
+/// If this process is killed, so are the program and all that it has started.
 ///
 /// @param command  path (see find_program()) and arguments; not empty.
 /// @throws ProgramError if the program can't be started.
 /// @note Changes the calling thread's signal mask while the program runs, and the process's
-///       disposition of SIGCHLD: for a command's main thread, one program at a time.
+///       disposition of SIGCHLD; makes the process a reaper of orphans (PR_SET_CHILD_SUBREAPER).
+///       For a command's main thread, one program at a time, and a process without other threads.
 [[nodiscard]] ProgramEnd run_program(const std::vector<std::string>& command,
-                                     const EnvironmentChanges& environment);
+                                     const EnvironmentChanges& environment,
+                                     const RunWatch& watch = {});
 
 /// A program to be run beside others by run_programs().
 struct ProgramJob {
   std::vector<std::string> command;  ///< path (see find_program()) and arguments; not empty
   EnvironmentChanges environment;
   std::string output_file;  ///< gets its standard output and standard error, overwritten
+  std::uint64_t output_limit = 10'000'000;  ///< bytes of that; what is over is dropped, and told in
+                                            ///< the file's last line
 };
 
 /// What became of a ProgramJob.
@@ -94,9 +120,11 @@ struct JobLimits {
 ///
 /// Each runs in a process group of its own with an empty standard input. One that takes too long
 /// gets SIGTERM, on which an embedded simulation writes its results, and SIGKILL after the grace;
-/// signals go to the whole group. What a program leaves running in its group is killed when it
-/// ends. On SIGINT, SIGTERM, SIGHUP or SIGQUIT to this process all are ended in the same way and no
-/// more are started; a second one of these signals ends the grace.
+/// signals go to the whole group. What a program leaves running, in its group or not, gets SIGTERM
+/// when it ends, and SIGKILL a second later. On SIGINT, SIGTERM, SIGHUP or SIGQUIT to this process
+/// all are ended in the same way and no more are started; a second one of these signals ends the
+/// grace (see run_program() for what counts as one). If this process is killed, so are the
+/// programs.
 ///
 /// @param on_start  called as a job has started, if set.
 /// @param on_end    called as a job has ended, in the order in which they end, if set. Not called

@@ -30,6 +30,9 @@ struct RunSettings {
   bool progress = false;       ///< a progress line on stderr, if that is a terminal
   bool virtual_time = false;   ///< sleeps of the program move lockstep time (docs/virtual_time.md)
   bool quiet_end = false;      ///< an uncaught end-of-run error ends the program with status 0
+  /// File of a KeptRun, into which the host writes what the process that started the program needs
+  /// when the program has died; "": none.
+  std::string kept_run;
   /// Wall time after which a thinking client stops counting, and processor time after which a
   /// program that has let no simulated time pass is told so [s].
   double silence_limit_s = 5.0;

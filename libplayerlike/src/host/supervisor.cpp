@@ -1,0 +1,550 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/supervisor.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/signalfd.h>
+#include <sys/socket.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "host/end_of_program.h"
+
+namespace playerlike {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// From the polite signal to those that a program has left behind to the one that cannot be refused.
+constexpr std::chrono::milliseconds kLeftoversGrace(1000);
+// The same for all, when the process that wanted the program is gone.
+constexpr std::chrono::milliseconds kOrphansGrace(2000);
+// How long to try to get rid of processes that the system does not end.
+constexpr std::chrono::seconds kPatience(10);
+
+/// What the supervisor tells.
+struct News {
+  enum Kind { kStarted, kFailed, kStopped, kEnded };
+  int kind = kStarted;
+  int value = 0;  ///< the program's number, an errno, or a wait state
+};
+
+/// What the supervisor is told.
+struct Order {
+  enum Kind { kSignal, kKill };
+  int kind = kSignal;
+  int value = 0;
+};
+
+std::string in_quotes(const std::string& text) { return "'" + text + "'"; }
+
+ProgramEnd program_end(int wait_state) {
+  ProgramEnd end;
+  if (WIFSIGNALED(wait_state)) {
+    end.signal = WTERMSIG(wait_state);
+  } else {
+    end.status = WEXITSTATUS(wait_state);
+  }
+  return end;
+}
+
+/// "NAME=value" of this process's environment with the changes made.
+std::vector<std::string> changed_environment(const EnvironmentChanges& changes) {
+  std::vector<std::string> result;
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    if (!changes.contains(std::string(text.substr(0, text.find('='))))) result.emplace_back(text);
+  }
+  for (const auto& [name, value] : changes) {
+    if (value) result.push_back(name + "=" + *value);
+  }
+  return result;
+}
+
+/// Pointers to the texts, ended by a null pointer, as exec wants them.
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  result.reserve(texts.size() + 1);
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+/// The living processes, each with its parent.
+std::map<pid_t, pid_t> parents_of_processes() {
+  std::map<pid_t, pid_t> parents;
+  DIR* const folder = opendir("/proc");
+  if (folder == nullptr) return parents;
+  while (const dirent* entry = readdir(folder)) {
+    const auto number = static_cast<pid_t>(std::strtol(entry->d_name, nullptr, 10));
+    if (number <= 0) continue;
+    std::ifstream file("/proc/" + std::to_string(number) + "/stat");
+    const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    // "NUMBER (NAME) STATE PARENT ..."; the name may hold anything.
+    const std::size_t name_end = text.rfind(')');
+    if (name_end == std::string::npos || text.size() < name_end + 5) continue;
+    if (text[name_end + 2] == 'Z') continue;
+    const long parent = std::strtol(text.c_str() + name_end + 4, nullptr, 10);
+    parents[number] = static_cast<pid_t>(parent);
+  }
+  closedir(folder);
+  return parents;
+}
+
+/// The living processes below this one, but for some of its children and what is below them.
+std::vector<pid_t> descendants(const std::set<pid_t>& spared) {
+  const std::map<pid_t, pid_t> parents = parents_of_processes();
+  std::vector<pid_t> found = {getpid()};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const auto& [process, parent] : parents) {
+      if (parent == found[i] && !spared.contains(process)) found.push_back(process);
+    }
+  }
+  found.erase(found.begin());
+  return found;
+}
+
+/// Ends all processes below this one, but for some children: politely, and after the grace by
+/// force. @pre SIGCHLD is blocked.
+void end_descendants(const std::set<pid_t>& spared, Clock::duration grace) {
+  const Clock::time_point begin = Clock::now();
+  bool told = grace <= Clock::duration::zero();
+  while (Clock::now() - begin < grace + kPatience) {
+    const std::vector<pid_t> processes = descendants(spared);
+    for (const pid_t process : processes) {
+      int state = 0;
+      if (waitpid(process, &state, WNOHANG) == process) continue;
+      if (Clock::now() - begin >= grace) {
+        kill(process, SIGKILL);
+      } else if (!told) {
+        kill(process, SIGTERM);
+        kill(process, SIGCONT);
+      }
+    }
+    told = true;
+    if (processes.empty()) break;
+    sigset_t children;
+    sigemptyset(&children);
+    sigaddset(&children, SIGCHLD);
+    const timespec moment{0, 10'000'000};
+    sigtimedwait(&children, nullptr, &moment);
+  }
+  if (!spared.empty()) return;  // they are waited for by those who know them
+  while (waitpid(-1, nullptr, WNOHANG) > 0) {
+  }
+}
+
+void close_all_but(std::vector<int> kept) {
+  std::sort(kept.begin(), kept.end());
+  unsigned next = 3;
+  for (const int descriptor : kept) {
+    if (descriptor < static_cast<int>(next)) continue;
+    const auto number = static_cast<unsigned>(descriptor);
+    if (number > next) syscall(SYS_close_range, next, number - 1, 0);
+    next = number + 1;
+  }
+  syscall(SYS_close_range, next, ~0U, 0);
+}
+
+/// Copies what comes out of a pipe into a file, up to a limit.
+class LimitedLog {
+ public:
+  LimitedLog(int from, int file, std::uint64_t limit) : from_(from), file_(file), limit_(limit) {
+    if (from_ >= 0) fcntl(from_, F_SETFL, O_NONBLOCK);
+  }
+
+  [[nodiscard]] int descriptor() const noexcept { return from_; }
+
+  /// Takes what is there.
+  void copy() {
+    std::array<char, 1 << 16> bytes{};
+    while (from_ >= 0) {
+      const ssize_t count = read(from_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0 && errno == EAGAIN) return;
+      if (count <= 0) {
+        close(from_);
+        from_ = -1;
+        return;
+      }
+      const auto size = static_cast<std::uint64_t>(count);
+      const std::uint64_t fitting = std::min(size, limit_ - std::min(limit_, taken_));
+      put({bytes.data(), static_cast<std::size_t>(fitting)});
+      taken_ += size;
+      if (taken_ % (1 << 22) < size) return;  // lets others have a word
+    }
+  }
+
+  /// Takes the rest, and says what was dropped.
+  void finish() {
+    for (int i = 0; i < 1000 && from_ >= 0; ++i) {
+      const std::uint64_t before = taken_;
+      copy();
+      if (taken_ == before) break;
+    }
+    if (taken_ <= limit_ || file_ < 0) return;
+    put("\n[playpen: the program has printed more than " + std::to_string(limit_) +
+        " bytes; the last " + std::to_string(taken_ - limit_) + " are left out]\n");
+  }
+
+ private:
+  void put(std::string_view text) const {
+    while (!text.empty()) {
+      const ssize_t written = write(file_, text.data(), text.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) return;  // a full disk is no reason to hold up the program
+      text.remove_prefix(static_cast<std::size_t>(written));
+    }
+  }
+
+  int from_;
+  int file_;
+  std::uint64_t limit_;
+  std::uint64_t taken_ = 0;
+};
+
+/// The supervisor's side.
+class Supervisor {
+ public:
+  Supervisor(const SupervisedStart& start, int channel, int output_file)
+      : start_(start), channel_(channel), output_file_(output_file) {}
+
+  void run() {
+    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, nullptr);
+    // Its writes to a file that has reached a limit are to fail, and not to end it.
+    old_limit_action_ = signal(SIGXFSZ, SIG_IGN);
+    sigset_t children;
+    sigemptyset(&children);
+    sigaddset(&children, SIGCHLD);
+    children_ = signalfd(-1, &children, SFD_NONBLOCK | SFD_CLOEXEC);
+    if (!start_program()) return;
+    setpgid(0, 0);  // not before: the program is to be in the group that this process was in
+    std::vector<int> kept = {channel_, children_, output_file_, pipe_};
+    kept.insert(kept.end(), start_.kept_descriptors.begin(), start_.kept_descriptors.end());
+    close_all_but(std::move(kept));
+    LimitedLog log(pipe_, output_file_, start_.output_limit);
+    while (!end_) wait(log);
+    const bool orphaned = channel_ < 0;
+    // Those that the program has left behind are this process's children by now, if there are any.
+    if (waitpid(-1, nullptr, WNOHANG) >= 0) {
+      end_descendants({}, killed_ || orphaned ? Clock::duration::zero() : kLeftoversGrace);
+    }
+    log.finish();
+    if (orphaned) {
+      if (start_.on_orphaned) start_.on_orphaned(*end_);
+      return;
+    }
+    send(News::kEnded, end_state_);
+  }
+
+ private:
+  void send(int kind, int value) const {
+    const News news{kind, value};
+    static_cast<void>(::send(channel_, &news, sizeof news, MSG_NOSIGNAL));
+  }
+
+  bool start_program() {
+    std::vector<std::string> command = start_.command;
+    std::vector<std::string> environment = changed_environment(start_.environment);
+    const std::vector<char*> arguments = pointers(command);
+    const std::vector<char*> variables = pointers(environment);
+    std::array<int, 2> output{-1, -1};
+    std::array<int, 2> failure{-1, -1};
+    if (pipe2(failure.data(), O_CLOEXEC) != 0 ||
+        (start_.output_file && pipe2(output.data(), O_CLOEXEC) != 0)) {
+      send(News::kFailed, errno);
+      return false;
+    }
+    const pid_t supervisor = getpid();
+    program_ = fork();
+    if (program_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
+      if (getppid() != supervisor) _exit(127);
+      if (start_.output_file) {
+        setpgid(0, 0);
+        const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+        dup2(nothing, STDIN_FILENO);
+        dup2(output[1], STDOUT_FILENO);
+        dup2(output[1], STDERR_FILENO);
+      }
+      signal(SIGXFSZ, old_limit_action_);
+      sigprocmask(SIG_SETMASK, &start_.mask, nullptr);
+      execve(arguments.front(), arguments.data(), variables.data());
+      const int error = errno;
+      static_cast<void>(!write(failure[1], &error, sizeof error));
+      _exit(127);
+    }
+    const int fork_error = errno;
+    close(failure[1]);
+    if (output[1] >= 0) close(output[1]);
+    pipe_ = output[0];
+    int error = 0;
+    if (program_ < 0) {
+      error = fork_error;
+    } else if (read(failure[0], &error, sizeof error) != sizeof error) {
+      error = 0;
+    }
+    close(failure[0]);
+    if (error == 0) {
+      send(News::kStarted, program_);
+      return true;
+    }
+    if (program_ > 0) waitpid(program_, nullptr, 0);
+    send(News::kFailed, error);
+    return false;
+  }
+
+  /// Waits for something to do, and does it.
+  void wait(LimitedLog& log) {
+    std::array<pollfd, 3> polls{
+        {{children_, POLLIN, 0}, {channel_, POLLIN, 0}, {log.descriptor(), POLLIN, 0}}};
+    int timeout_ms = -1;
+    if (kill_time_) {
+      const auto left =
+          std::chrono::ceil<std::chrono::milliseconds>(*kill_time_ - Clock::now()).count();
+      timeout_ms = static_cast<int>(std::max<long long>(left, 0));
+    }
+    static_cast<void>(::poll(polls.data(), polls.size(), timeout_ms));
+    if (polls[2].revents != 0) log.copy();
+    if (polls[1].revents != 0) take_order();
+    if (kill_time_ && Clock::now() >= *kill_time_) {
+      kill_time_.reset();
+      kill_all();
+    }
+    signalfd_siginfo info{};
+    while (read(children_, &info, sizeof info) == sizeof info) {
+    }
+    reap();
+  }
+
+  void reap() {
+    for (;;) {
+      int state = 0;
+      const pid_t child = waitpid(-1, &state, WNOHANG | WUNTRACED);
+      if (child <= 0) return;
+      if (child != program_) continue;
+      if (WIFSTOPPED(state)) {
+        if (WSTOPSIG(state) == SIGSTOP) send(News::kStopped, 0);
+        continue;
+      }
+      // Before its number is given to others.
+      end_state_ = state;
+      end_ = program_end(state);
+      return;
+    }
+  }
+
+  void take_order() {
+    Order order;
+    const ssize_t size = recv(channel_, &order, sizeof order, MSG_DONTWAIT);
+    if (size == static_cast<ssize_t>(sizeof order)) {
+      if (order.kind == Order::kKill) return kill_all();
+      pass_on(order.value);
+      return;
+    }
+    if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
+    // Whoever wanted the program is gone.
+    close(channel_);
+    channel_ = -1;
+    for (const pid_t process : descendants({})) {
+      kill(process, SIGTERM);
+      kill(process, SIGCONT);
+    }
+    kill_time_ = Clock::now() + kOrphansGrace;
+  }
+
+  void pass_on(int signal) const {
+    if (start_.output_file) {
+      kill(-program_, signal);
+      kill(-program_, SIGCONT);
+      return;
+    }
+    sigval mark{};
+    mark.sival_int = kPassedOn;
+    if (signal != SIGCONT && sigqueue(program_, signal, mark) != 0) kill(program_, signal);
+    kill(program_, SIGCONT);
+  }
+
+  void kill_all() {
+    killed_ = true;
+    if (start_.output_file) kill(-program_, SIGKILL);
+    kill(program_, SIGKILL);
+    for (const pid_t process : descendants({})) kill(process, SIGKILL);
+  }
+
+  const SupervisedStart& start_;
+  int channel_;
+  int output_file_;
+  void (*old_limit_action_)(int) = SIG_DFL;
+  int children_ = -1;
+  int pipe_ = -1;
+  pid_t program_ = 0;
+  bool killed_ = false;
+  std::optional<Clock::time_point> kill_time_;
+  std::optional<ProgramEnd> end_;
+  int end_state_ = 0;
+};
+
+/// The children of this process.
+std::set<pid_t> children() {
+  std::set<pid_t> found;
+  const std::string self = std::to_string(getpid());
+  if (std::ifstream file("/proc/self/task/" + self + "/children"); file) {
+    for (pid_t child = 0; file >> child;) found.insert(child);
+    return found;
+  }
+  for (const auto& [process, parent] : parents_of_processes()) {
+    if (parent == getpid()) found.insert(process);
+  }
+  return found;
+}
+
+/// The supervisors that this process has. For one thread.
+std::set<pid_t>& supervisors() {
+  static std::set<pid_t> all;
+  return all;
+}
+
+}  // namespace
+
+SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
+  int output = -1;
+  if (start.output_file) {
+    output = open(start.output_file->c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (output < 0) {
+      throw ProgramError("the file " + in_quotes(*start.output_file) +
+                         " can't be made: " + std::strerror(errno));
+    }
+  }
+  const auto refuse = [&](int error) {
+    throw ProgramError("the program " + in_quotes(start.command.front()) +
+                       " can't be started: " + std::strerror(error));
+  };
+  std::array<int, 2> ends{};
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+    const int error = errno;
+    if (output >= 0) close(output);
+    refuse(error);
+  }
+  others_ = children();
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  supervisor_ = fork();
+  if (supervisor_ == 0) {
+    // No destructors: what they would end is the other process's.
+    try {
+      Supervisor supervisor(start, ends[1], output);
+      close(ends[0]);
+      supervisor.run();
+    } catch (...) {
+      _exit(1);
+    }
+    _exit(0);
+  }
+  const int fork_error = errno;
+  close(ends[1]);
+  if (output >= 0) close(output);
+  channel_ = ends[0];
+  if (supervisor_ < 0) {
+    close(channel_);
+    refuse(fork_error);
+  }
+  News news{News::kFailed, ECHILD};
+  ssize_t size = 0;
+  do {
+    size = recv(channel_, &news, sizeof news, 0);
+  } while (size < 0 && errno == EINTR);
+  if (size == static_cast<ssize_t>(sizeof news) && news.kind == News::kStarted) {
+    program_ = news.value;
+    supervisors().insert(supervisor_);
+    return;
+  }
+  close(channel_);
+  reap_supervisor();
+  refuse(size == static_cast<ssize_t>(sizeof news) ? news.value : ECHILD);
+}
+
+SupervisedProgram::SupervisedProgram(SupervisedProgram&& other) noexcept
+    : supervisor_(std::exchange(other.supervisor_, 0)),
+      program_(other.program_),
+      channel_(std::exchange(other.channel_, -1)),
+      stopped_(other.stopped_),
+      others_(std::move(other.others_)) {}
+
+SupervisedProgram& SupervisedProgram::operator=(SupervisedProgram&& other) noexcept {
+  std::swap(supervisor_, other.supervisor_);
+  std::swap(program_, other.program_);
+  std::swap(channel_, other.channel_);
+  std::swap(stopped_, other.stopped_);
+  std::swap(others_, other.others_);
+  return *this;
+}
+
+SupervisedProgram::~SupervisedProgram() {
+  if (channel_ < 0) return;
+  kill_all();
+  while (!poll()) {
+    pollfd news{channel_, POLLIN, 0};
+    static_cast<void>(::poll(&news, 1, -1));
+  }
+}
+
+void SupervisedProgram::send(int kind, int value) {
+  const Order order{kind, value};
+  static_cast<void>(::send(channel_, &order, sizeof order, MSG_NOSIGNAL));
+}
+
+void SupervisedProgram::send_signal(int signal) { send(Order::kSignal, signal); }
+void SupervisedProgram::kill_all() { send(Order::kKill, 0); }
+
+void SupervisedProgram::reap_supervisor() {
+  while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  supervisors().erase(std::exchange(supervisor_, 0));
+}
+
+bool SupervisedProgram::take_stopped() noexcept { return std::exchange(stopped_, false); }
+
+std::optional<ProgramEnd> SupervisedProgram::poll() {
+  for (;;) {
+    News news;
+    const ssize_t size = recv(channel_, &news, sizeof news, MSG_DONTWAIT);
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0 && errno == EAGAIN) return std::nullopt;
+    if (size == static_cast<ssize_t>(sizeof news)) {
+      if (news.kind == News::kStopped) stopped_ = true;
+      if (news.kind != News::kEnded) continue;
+      close(std::exchange(channel_, -1));
+      reap_supervisor();
+      return program_end(news.value);
+    }
+    // The supervisor was killed: what it would have ended has come to this process.
+    close(std::exchange(channel_, -1));
+    reap_supervisor();
+    std::set<pid_t> spared = supervisors();
+    spared.insert(others_.begin(), others_.end());
+    end_descendants(spared, Clock::duration::zero());
+    ProgramEnd end;
+    end.signal = SIGKILL;
+    return end;
+  }
+}
+
+}  // namespace playerlike
