@@ -150,6 +150,15 @@ class Host::Core : private ViewedRun {
     carry_out_drawings(client);
     return action(simulation_.layers(), layer_book_);
   }
+  // In canvas_work.cpp: what may take long on a large canvas, in pieces, between which others use
+  // the simulation.
+  /// See EventClient::draw_some().
+  bool draw_some(Client& client, DrawWork& work, std::size_t cells);
+  /// All cells of a layer.
+  std::vector<sim::CellValue> cells(Client& client, sim::LayerId layer);
+  /// One layer's picture, or that of all, and size and place of the canvas then.
+  std::vector<std::uint8_t> picture(Client& client, std::optional<sim::LayerId> layer,
+                                    sim::CanvasDescription& canvas);
   void resize_canvas(Client& client, int width, int height);
   void save_image(Client& client, const std::string& name, int scale,
                   std::optional<sim::LayerId> layer);
@@ -250,6 +259,11 @@ class Host::Core : private ViewedRun {
   void advance();
   void apply_inputs(Client& client);
   void carry_out_drawings(Client& client);
+  /// Keeps those drawings that are on the shared canvas or on one of the client's layers.
+  void keep_own_drawings(const Client& client, std::vector<sim::DrawOperation>& operations) const;
+  template <typename Copy>
+  sim::CanvasDescription copy_in_pieces(Client& client, const Copy& copy);
+  void let_others_in() const;
   void distribute();
   void distribute(const sim::Reading& reading, Client::Subscription& subscription, Client& client);
   [[nodiscard]] RunLog* log_of(int port);

@@ -524,20 +524,19 @@ void Host::Core::apply_inputs(Client& client) {
 }
 
 // Drawings on layers that are not the client's are left out; one look for each run of drawings on
-// the same layer sees to that.
+// the same layer sees to that. Most often all are its own, and are drawn from where they are.
 void Host::Core::carry_out_drawings(Client& client) {
   client.drawings.drain([&](std::span<const sim::DrawOperation> operations) {
-    while (!operations.empty()) {
-      const sim::LayerId layer = operations.front().layer;
-      const auto end =
-          std::find_if(operations.begin(), operations.end(),
-                       [layer](const sim::DrawOperation& o) { return o.layer != layer; });
-      const auto count = static_cast<std::size_t>(end - operations.begin());
-      if (layer_book_.may_use(client.number, layer)) {
-        simulation_.layers().draw(operations.first(count));
-      }
-      operations = operations.subspan(count);
-    }
+    std::optional<sim::LayerId> layer;
+    const bool all_own = std::all_of(operations.begin(), operations.end(), [&](const auto& o) {
+      if (layer == o.layer) return true;
+      layer = o.layer;
+      return layer_book_.may_use(client.number, o.layer);
+    });
+    if (all_own) return simulation_.layers().draw(operations);
+    std::vector<sim::DrawOperation> own(operations.begin(), operations.end());
+    keep_own_drawings(client, own);
+    simulation_.layers().draw(own);
   });
 }
 
@@ -1082,15 +1081,6 @@ void Host::Core::flush_drawings(Client& client) {
   client.drawings.reserve();
 }
 
-void Host::Core::resize_canvas(Client& client, int width, int height) {
-  const Lock lock = lock_soon();
-  require_open(client);
-  // What others have drawn was meant for the cells as they were numbered then.
-  for (const auto& c : clients_) carry_out_drawings(*c);
-  layer_book_.resize(simulation_.layers(), width, height);
-  canvas_generation_.fetch_add(1, std::memory_order_acq_rel);
-}
-
 CanvasInfo Host::Core::canvas_info() const {
   const Lock lock = lock_soon();
   const sim::CanvasDescription canvas = simulation_.layers().description();
@@ -1102,12 +1092,7 @@ void Host::Core::save_image(Client& client, const std::string& name, int scale,
                             std::optional<sim::LayerId> layer) {
   const std::string file = picture_file(settings_.output_folder, name, scale);
   sim::CanvasDescription canvas;
-  std::vector<std::uint8_t> rgba;
-  with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-    if (layer) book.require(client.number, *layer);
-    canvas = layers.description();
-    rgba = layer ? layers.picture(*layer) : layers.composed();
-  });
+  const std::vector<std::uint8_t> rgba = picture(client, layer, canvas);
   write_picture(canvas, rgba, scale, file);
 }
 
@@ -1141,8 +1126,11 @@ void Host::Core::set_view_mode(Client& client, sim::ViewMode mode) {
 }
 
 sim::OccupancyMap Host::Core::world_map(double cell_size_m) const {
-  const Lock lock = lock_soon();
-  const sim::ArenaDescription& arena = simulation_.world().arena;
+  // A map of many cells takes a while: it is made of a copy, without the mutex.
+  const sim::ArenaDescription arena = [&] {
+    const Lock lock = lock_soon();
+    return simulation_.world().arena;
+  }();
   return sim::true_map(arena, map_grid(arena, cell_size_m));
 }
 

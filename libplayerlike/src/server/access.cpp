@@ -46,6 +46,11 @@ bool Rights::command_all() const {
   return connect && std::all_of(command.begin(), command.end(), [](bool may) { return may; });
 }
 
+bool Rights::change_canvas() const {
+  return connect && (command.empty() ||
+                     std::any_of(command.begin(), command.end(), [](bool may) { return may; }));
+}
+
 Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots)
     : server_token_(settings.server_token),
       robot_tokens_(robots.size()),

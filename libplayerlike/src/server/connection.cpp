@@ -77,7 +77,8 @@ void Connection::hand_over(std::unique_ptr<Handler> handler) {
 
 bool Connection::paused() const {
   const ServerLimits& limits = owner_.limits();
-  return in_flight_ >= limits.requests_in_flight || queued_bytes_ > limits.queued_bytes / 2;
+  return busy_ || in_flight_ >= limits.requests_in_flight ||
+         queued_bytes_ > limits.queued_bytes / 2;
 }
 
 void Connection::read() {
@@ -178,6 +179,13 @@ void Connection::set_in_flight(std::size_t requests) {
   const bool was_paused = paused();
   if (requests < in_flight_ && owner_.limits().idle_s > 0.0) last_request_ = Clock::now();
   in_flight_ = requests;
+  if (was_paused && !paused() && !processing_ && !reading_) process_soon();
+}
+
+void Connection::set_busy(bool busy) {
+  const bool was_paused = paused();
+  if (busy_ && !busy && owner_.limits().idle_s > 0.0) last_request_ = Clock::now();
+  busy_ = busy;
   if (was_paused && !paused() && !processing_ && !reading_) process_soon();
 }
 

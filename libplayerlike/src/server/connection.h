@@ -70,6 +70,8 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   [[nodiscard]] bool open() const noexcept { return state_ == State::kOpen; }
   /// Destroys the handler. Not to be called while it may be inside of a call.
   void drop_handler();
+  /// Bytes that wait to be written.
+  [[nodiscard]] std::size_t queued_bytes() const noexcept { return queued_bytes_; }
   /// How it went, for the log.
   [[nodiscard]] std::string summary() const;
 
@@ -77,6 +79,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   bool send_record(std::shared_ptr<const std::string> bytes) override;
   void close(std::string farewell) override;
   void set_in_flight(std::size_t requests) override;
+  void set_busy(bool busy) override;
   void set_encoding(protocol::Encoding encoding) override { splitter_.set_encoding(encoding); }
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description_ = text; }
@@ -127,6 +130,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   bool peer_left_ = false;    ///< it sends no more
   bool write_ended_ = false;  ///< it has been told that no more follows
   std::size_t in_flight_ = 0;
+  bool busy_ = false;  ///< see Peer::set_busy()
 
   protocol::MessageSplitter splitter_;
   std::size_t room_;                  ///< bytes of the next read

@@ -47,10 +47,20 @@ json arguments_of(std::string_view text) {
   return list;
 }
 
+std::string line_of(const std::string& id, std::string_view status, const json& result) {
+  std::string line = id + ' ' + std::string(status);
+  if (!result.is_null()) line += ' ' + result.dump(-1, ' ', false, json::error_handler_t::replace);
+  return line + '\n';
+}
+
 }  // namespace
 
 MorseConnection::MorseConnection(Peer& peer, Hub& hub)
-    : peer_(peer), hub_(hub), state_(MorseState::of(hub)), rights_(hub.access().rights({})) {}
+    : peer_(peer),
+      hub_(hub),
+      state_(MorseState::of(hub)),
+      self_(std::make_shared<MorseConnection*>(this)),
+      rights_(hub.access().rights({})) {}
 
 MorseConnection::~MorseConnection() { state_->forget(*this); }
 
@@ -61,9 +71,7 @@ void MorseConnection::present(std::string token) {
 }
 
 void MorseConnection::answer(const std::string& id, std::string_view status, const json& result) {
-  std::string line = id + ' ' + std::string(status);
-  if (!result.is_null()) line += ' ' + result.dump(-1, ' ', false, json::error_handler_t::replace);
-  peer_.send(line + '\n');
+  peer_.send(line_of(id, status, result));
 }
 
 std::string MorseConnection::farewell(const protocol::ProtocolError& error) {
@@ -94,13 +102,20 @@ void MorseConnection::on_message(std::string_view line) {
 
 void MorseConnection::carry_out(const std::string& id, std::string_view component,
                                 std::string_view service, std::string_view arguments) {
-  try {
+  guarded(id, [&] {
     const json list = arguments_of(arguments);
     if (component == "playpen") return playpen(id, service, list);
     static_cast<void>(state_->session());  // from now on a client is there, whom time may wait for
     if (auto result = call_service(*state_, *this, id, component, service, list)) {
       answer(id, "SUCCESS", *result);
     }
+  });
+}
+
+template <typename Action>
+void MorseConnection::guarded(const std::string& id, Action action) {
+  try {
+    action();
   } catch (const MorseRefusal& refusal) {
     answer(id, "FAILED", refusal.what());
   } catch (const SessionError& error) {
@@ -108,6 +123,34 @@ void MorseConnection::carry_out(const std::string& id, std::string_view componen
   } catch (const protocol::ProtocolError& error) {
     answer(id, "FAILED", error.id() + ": " + error.what());
   }
+}
+
+void MorseConnection::work(const std::string& id, const MorseService& service, const json& list) {
+  peer_.set_busy(true);
+  // Of the connection, which may be gone by then, the workshop needs nothing.
+  const auto line = std::make_shared<std::string>();
+  const auto piece = [client = state_->client(), &service, list, id, line] {
+    const MorseArguments arguments(service, list);
+    *line = line_of(id, "SUCCESS", service.work({*client, arguments}));
+    return false;
+  };
+  const auto done = [weak = std::weak_ptr<MorseConnection*>(self_), id,
+                     line](const std::exception_ptr& error) {
+    const auto self = weak.lock();
+    if (!self) return;
+    MorseConnection& from = **self;
+    try {
+      from.guarded(id, [&] {
+        if (error) std::rethrow_exception(error);
+        from.peer_.send(std::move(*line));
+      });
+    } catch (const std::exception& e) {
+      from.hub_.log(sim::LogLevel::kError, from.peer_.name() + ": " + e.what());
+      from.answer(id, "FAILED", std::string("server/internal: ") + e.what());
+    }
+    from.peer_.set_busy(false);
+  };
+  hub_.work({piece, done});
 }
 
 // What is Playpen's own among the requests.

@@ -418,6 +418,19 @@ sim::CellValue colour_from(const MorseArguments& arguments, std::size_t first) {
                                         channel(arguments, first + 3, 255)});
 }
 
+// Cells that get_image_data lists.
+constexpr std::size_t kMostListedCells = std::size_t{1} << 22U;
+
+std::size_t canvas_cells(const Session& session) {
+  const CanvasInfo canvas = session.canvas_info();
+  return static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
+}
+
+template <json (*kPen)(const PenCall&)>
+json here(MorseCall& call) {
+  return kPen({*call.state.client(), call.arguments});
+}
+
 json draw(MorseCall& call, std::span<const sim::DrawOperation> operations) {
   call.state.with([&](sim::Simulation& simulation) {
     simulation.layers().draw(operations);
@@ -445,10 +458,12 @@ json set_line(MorseCall& call) {
   return draw(call, {&line, 1});
 }
 
-json clear(MorseCall& call) {
-  sim::DrawOperation fill;
-  fill.kind = sim::DrawOperation::Kind::kFill;
-  return draw(call, {&fill, 1});
+json clear(const PenCall& call) {
+  DrawWork fill;
+  fill.operations.emplace_back().kind = sim::DrawOperation::Kind::kFill;
+  while (!call.client.draw_some(fill, kPieceCells)) {
+  }
+  return nullptr;
 }
 
 json get_pixel(MorseCall& call) {
@@ -460,10 +475,15 @@ json get_pixel(MorseCall& call) {
   return json::array({c.r, c.g, c.b, c.a});
 }
 
-json get_image_data(MorseCall& call) {
+json get_image_data(const PenCall& call) {
   const int channels = call.arguments.integer(0, 3, 4, 3);
+  if (canvas_cells(call.client.session()) > kMostListedCells) {
+    throw MorseRefusal("the canvas has more than " + std::to_string(kMostListedCells) +
+                       " cells, too many for a list of numbers: get_pixel has single cells, "
+                       "save_image_copy the picture, and so has Playpen's own protocol");
+  }
   json::array_t data;
-  const auto cells = call.state.session().cells(sim::kBaseLayer);
+  const auto cells = call.client.session().cells(sim::kBaseLayer);
   data.reserve(cells.size() * static_cast<std::size_t>(channels));
   for (const sim::CellValue& cell : cells) {
     const sim::Colour c = cell.colour();
@@ -533,21 +553,21 @@ json update_image_data(MorseCall& call) {
   return draw(call, pixels);
 }
 
-json size_of_canvas(MorseCall& call) {
-  const CanvasInfo canvas = call.state.session().canvas_info();
+json size_of_canvas(const PenCall& call) {
+  const CanvasInfo canvas = call.client.session().canvas_info();
   return json::array({canvas.width, canvas.height});
 }
 
-json resize_canvas(MorseCall& call) {
-  call.state.session().resize_canvas(call.arguments.integer(0, 1, 8192),
-                                     call.arguments.integer(1, 1, 8192));
+json resize_canvas(const PenCall& call) {
+  call.client.session().resize_canvas(call.arguments.integer(0, 1, 8192),
+                                      call.arguments.integer(1, 1, 8192));
   return size_of_canvas(call);
 }
 
 json get_cell_size(MorseCall& call) { return call.state.session().canvas_info().cell_size_m; }
 
-json save_image_copy(MorseCall& call) {
-  call.state.session().save_image(call.arguments.text(0));
+json save_image_copy(const PenCall& call) {
+  call.client.session().save_image(call.arguments.text(0));
   return nullptr;
 }
 
@@ -567,14 +587,17 @@ constexpr std::array kPen{
     MorseService{"get_pixel", "x, y", 2, 2, Right::kConnect, false, get_pixel},
     MorseService{"set_line", "x0, y0, x1, y1, r, g, b, a=255", 7, 8, Right::kRobot, false,
                  set_line},
-    MorseService{"get_image_data", "channels=3", 0, 1, Right::kConnect, false, get_image_data},
+    MorseService{"get_image_data", "channels=3", 0, 1, Right::kConnect, false, here<get_image_data>,
+                 get_image_data},
     MorseService{"set_image_data", "data", 1, 1, Right::kRobot, false, set_image_data},
     MorseService{"update_image_data", "pixels", 1, 1, Right::kRobot, false, update_image_data},
-    MorseService{"clear", "", 0, 0, Right::kRobot, false, clear},
-    MorseService{"get_canvas_size", "", 0, 0, Right::kConnect, false, size_of_canvas},
-    MorseService{"resize_canvas", "width, height", 2, 2, Right::kRobot, false, resize_canvas},
+    MorseService{"clear", "", 0, 0, Right::kRobot, false, here<clear>, clear},
+    MorseService{"get_canvas_size", "", 0, 0, Right::kConnect, false, here<size_of_canvas>},
+    MorseService{"resize_canvas", "width, height", 2, 2, Right::kRobot, false, here<resize_canvas>,
+                 resize_canvas},
     MorseService{"get_cell_size", "", 0, 0, Right::kConnect, false, get_cell_size},
-    MorseService{"save_image_copy", "name", 1, 1, Right::kRobot, false, save_image_copy},
+    MorseService{"save_image_copy", "name", 1, 1, Right::kRobot, false, here<save_image_copy>,
+                 save_image_copy},
     MorseService{"get_view_mode", "", 0, 0, Right::kConnect, false, get_view_mode},
     MorseService{"set_view_mode", "mode", 1, 1, Right::kRobot, false, set_view_mode},
 };
@@ -768,6 +791,11 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
   MorseCall call{state, from, id, found, MorseArguments(chosen, list)};
   if (chosen.right == Right::kAll) require_command_all(call);
   if (chosen.right == Right::kRobot) require_command(call, found->robot);
+  const bool resizes = chosen.work == static_cast<json (*)(const PenCall&)>(resize_canvas);
+  if (chosen.work != nullptr && (resizes || canvas_cells(state.session()) > kLightCells)) {
+    from.work(id, chosen, list);
+    return std::nullopt;
+  }
   json result = chosen.run(call);
   if (chosen.later) return std::nullopt;
   return result;

@@ -50,6 +50,12 @@ struct MorseCall {
   MorseArguments arguments;
 };
 
+/// A request about the canvas, whichever thread carries it out.
+struct PenCall {
+  EventClient& client;
+  const MorseArguments& arguments;
+};
+
 /// A row of the table of services.
 struct MorseService {
   /// Whose right a client needs.
@@ -65,6 +71,8 @@ struct MorseService {
   Right right;
   bool later;  ///< answered later: `run` has seen to that, its result does not count
   nlohmann::json (*run)(MorseCall& call);
+  /// What `run` does, if it may take long: for the server's workshop, on a large canvas.
+  nlohmann::json (*work)(const PenCall& call) = nullptr;
 };
 
 /// The services of `simulation` or `time`, or of a kind of component, in the order of

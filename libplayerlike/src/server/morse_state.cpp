@@ -41,9 +41,9 @@ const MorseComponent* MorseState::find(std::string_view name) const noexcept {
   return it != components_.end() ? &*it : nullptr;
 }
 
-Session& MorseState::session() {
+const std::shared_ptr<EventClient>& MorseState::client() {
   if (client_ == nullptr) client_ = host().connect_events(kMorsePort, {});
-  return client_->session();
+  return client_;
 }
 
 void MorseState::command(DeviceId device, const sim::Command& command) {

@@ -20,6 +20,7 @@ namespace playerlike::server {
 
 class MorseConnection;
 class MorseStreams;
+struct MorseService;
 
 /// A request that cannot be carried out: what MORSE's client is told after FAILED.
 class MorseRefusal : public std::runtime_error {
@@ -67,7 +68,8 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   [[nodiscard]] const MorseComponent* find(std::string_view name) const noexcept;
   [[nodiscard]] MorseStreams& streams() noexcept { return *streams_; }
   /// All robots', for what concerns the canvas. Takes no part in the lockstep.
-  [[nodiscard]] Session& session();
+  [[nodiscard]] Session& session() { return client()->session(); }
+  [[nodiscard]] const std::shared_ptr<EventClient>& client();
 
   /// Does something with the simulation, and gives back what that gives.
   template <typename Action>
@@ -138,7 +140,7 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   Hub& hub_;
   std::shared_ptr<Postbox> postbox_;
   std::vector<MorseComponent> components_;
-  std::unique_ptr<EventClient> client_;  ///< made when it is first needed
+  std::shared_ptr<EventClient> client_;  ///< made when it is first needed
   std::map<Number, Pending> pending_;
   Number last_number_ = 0;
   std::set<std::string> verbose_;
@@ -160,17 +162,25 @@ class MorseConnection final : public Handler {
   /// Adds a token, which may give more rights.
   void present(std::string token);
 
+  /// Has the server's workshop carry out a request about the canvas, and answers it then. Nothing
+  /// more is read from the connection before. @param list  its arguments.
+  void work(const std::string& id, const MorseService& service, const nlohmann::json& list);
+
   /// Sends an answer. @param result  null: none.
   void answer(const std::string& id, std::string_view status, const nlohmann::json& result);
 
  private:
   void carry_out(const std::string& id, std::string_view component, std::string_view service,
                  std::string_view arguments);
+  /// Does something for a request; what that throws is answered.
+  template <typename Action>
+  void guarded(const std::string& id, Action action);
   void playpen(const std::string& id, std::string_view service, const nlohmann::json& arguments);
 
   Peer& peer_;
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
+  std::shared_ptr<MorseConnection*> self_;  ///< outlived by what the workshop does for it
   std::vector<std::string> tokens_;
   Rights rights_;
 };

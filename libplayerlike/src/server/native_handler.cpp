@@ -20,10 +20,10 @@ using protocol::ProtocolError;
 
 // Whole numbers up to here are whole numbers in every language's doubles.
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53U;
-constexpr int kMaxSide = 1 << 14;  // of a rectangle; canvases have no more than 8192
-constexpr int kMaxCell = 1 << 30;
-// Cells of a map: more would take the server's thread, or the simulation's lock, for too long.
-constexpr double kMaxMapCells = 1 << 22;
+// Cells that drawings of all sessions may write in a step, besides what the workshop draws.
+constexpr std::size_t kStepCells = std::size_t{1} << 20U;
+// Answers of more bytes need room among all that waits to be sent.
+constexpr std::size_t kSmallAnswer = std::size_t{1} << 20U;
 constexpr double kMaxTimeout_s = 1e9;
 constexpr std::size_t kMaxReason = 200;
 
@@ -43,28 +43,12 @@ std::int64_t integer_or(const json& object, const char* key, std::int64_t otherw
   return object.contains(key) ? protocol::require_integer(object, key, least, most) : otherwise;
 }
 
-sim::LayerId require_layer(const json& request) {
-  return static_cast<sim::LayerId>(protocol::require_integer(request, "layer", 0, kMaxCell));
-}
-
 double require_timeout(const json& request) {
   const double timeout_s = protocol::require_number(request, "timeout");
   if (!(timeout_s >= 0.0 && timeout_s <= kMaxTimeout_s)) {
     protocol::refuse_value("timeout", "seconds in 0..1e9", request["timeout"]);
   }
   return timeout_s;
-}
-
-sim::CellRect require_rect(const json& request, const char* key = "rect") {
-  const json& rect = protocol::require(request, key);
-  if (!rect.is_array() || rect.size() != 4) {
-    protocol::refuse_value(key, "[column, row, width, height]", rect);
-  }
-  const auto number = [&](std::size_t i, std::int64_t least, std::int64_t most) {
-    return static_cast<int>(protocol::require_integer({{key, rect[i]}}, key, least, most));
-  };
-  return {number(0, -kMaxCell, kMaxCell), number(1, -kMaxCell, kMaxCell), number(2, 0, kMaxSide),
-          number(3, 0, kMaxSide)};
 }
 
 }  // namespace
@@ -76,8 +60,8 @@ struct NativeHandler::Request {
   using Carry = json (NativeHandler::*)(const json&);
   std::string_view name;
   std::initializer_list<std::string_view> keys;  ///< all that are known
-  Carry carry;                                   ///< none: `read`
-  bool for_watchers = false;                     ///< needs no session
+  Carry carry;                ///< none: `read`, `draw`, or those of native_work.h
+  bool for_watchers = false;  ///< needs no session
 };
 
 const NativeHandler::Request* NativeHandler::find_request(std::string_view name) {
@@ -85,10 +69,10 @@ const NativeHandler::Request* NativeHandler::find_request(std::string_view name)
   static const Request kRequests[] = {
       {"read", {"id", "do", "wait", "timeout", "thread", "commands", "drawings"}, nullptr},
       {"command", {"id", "do", "device", "command"}, &H::command},
-      {"draw", {"id", "do", "drawings"}, &H::draw},
+      {"draw", {"id", "do", "drawings"}, nullptr},
       {"set_cells", {"id", "do", "layer", "rect", "cells"}, &H::set_cells},
       {"cell", {"id", "do", "layer", "column", "row"}, &H::cell},
-      {"cells", {"id", "do", "layer"}, &H::cells},
+      {"cells", {"id", "do", "layer"}, nullptr},
       {"subscribe", {"id", "do", "device"}, &H::subscribe},
       {"unsubscribe", {"id", "do", "device"}, &H::unsubscribe},
       {"replace", {"id", "do", "device", "replace"}, &H::replace},
@@ -96,13 +80,13 @@ const NativeHandler::Request* NativeHandler::find_request(std::string_view name)
       {"remove_layer", {"id", "do", "layer"}, &H::remove_layer},
       {"set_layer_style", {"id", "do", "layer", "style"}, &H::set_layer_style},
       {"layers", {"id", "do"}, &H::layers},
-      {"canvas_image", {"id", "do"}, &H::canvas_image},
-      {"resize_canvas", {"id", "do", "width", "height"}, &H::resize_canvas},
-      {"save_image", {"id", "do", "name", "scale", "layer"}, &H::save_image},
-      {"save_map", {"id", "do", "layer", "name", "mode"}, &H::save_map},
+      {"canvas_image", {"id", "do"}, nullptr},
+      {"resize_canvas", {"id", "do", "width", "height"}, nullptr},
+      {"save_image", {"id", "do", "name", "scale", "layer"}, nullptr},
+      {"save_map", {"id", "do", "layer", "name", "mode"}, nullptr},
       {"view_mode", {"id", "do"}, &H::view_mode},
       {"set_view_mode", {"id", "do", "mode"}, &H::set_view_mode},
-      {"world_map", {"id", "do", "cell_size", "tile"}, &H::world_map},
+      {"world_map", {"id", "do", "cell_size", "tile"}, nullptr},
       {"object_pose", {"id", "do", "name"}, &H::object_pose},
       {"place_object", {"id", "do", "name", "pose"}, &H::place_object},
       {"object_property", {"id", "do", "name", "property"}, &H::object_property},
@@ -139,7 +123,11 @@ NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
 
 NativeHandler::~NativeHandler() {
   state_->watching.forget(peer_);
-  if (client_) state_->leaders.erase(terms_.key);
+  if (client_) {
+    state_->leaders.erase(terms_.key);
+    // The workshop may still have it.
+    client_->session().close();
+  }
   if (waiting_ && waiting_->timer != 0) hub_.cancel(waiting_->timer);
 }
 
@@ -162,20 +150,24 @@ void NativeHandler::on_message(std::string_view bytes) {
   answer_waiting();
   json id;
   std::string name;
-  const auto refuse = [&](std::string_view error, const char* message) {
-    fail(id, name, error, message);
-  };
-  try {
+  guarded(id, name, [&] {
     const json message = protocol::decode(bytes, terms_.encoding);
     if (message.contains("id")) id = protocol::require_integer(message, "id", 0, kMaxInteger);
     carry_out(message, id, name);
+  });
+}
+
+template <typename Action>
+void NativeHandler::guarded(const json& id, const std::string& name, Action action) {
+  try {
+    action();
   } catch (const ProtocolError& error) {
-    refuse(error.id(), error.what());
+    fail(id, name, error.id(), error.what());
   } catch (const SessionError& error) {
-    refuse(protocol::error_id(error.code()), error.what());
+    fail(id, name, protocol::error_id(error.code()), error.what());
   } catch (const std::exception& error) {
     hub_.log(sim::LogLevel::kError, peer_.name() + ": " + error.what());
-    refuse("server/internal", error.what());
+    fail(id, name, "server/internal", error.what());
   }
 }
 
@@ -190,9 +182,122 @@ void NativeHandler::carry_out(const json& message, const json& id, std::string& 
     throw ProtocolError("access/denied", "this connection only watches, as its hello said");
   }
   protocol::refuse_unknown_keys(message, request->keys, "this request");
-  if (request->carry == nullptr) return read(message, id);
-  answer(id, (this->*request->carry)(message));
-  if (ending_) peer_.close("");
+  if (request->carry != nullptr) {
+    answer(id, (this->*request->carry)(message));
+    if (ending_) peer_.close("");
+    return;
+  }
+  if (name == "read") return read(message, id);
+  if (name == "draw") {
+    auto drawings =
+        protocol::decode_drawings(protocol::require(message, "drawings"), terms_.encoding);
+    require_drawing(drawings);
+    if (draw_here(drawings)) return answer(id, json::object());
+    return draw_elsewhere(std::move(drawings), id, name,
+                          [this, id] { answer(id, json::object()); });
+  }
+  if (name == "resize_canvas") require_canvas_rights();
+  answer_elsewhere(message, id, name, find_native_work(name));
+}
+
+// --- Work
+
+void NativeHandler::work(const json& id, const std::string& name, std::function<bool()> piece,
+                         std::function<void()> then) {
+  peer_.set_busy(true);
+  const auto done = [weak = std::weak_ptr<NativeHandler*>(self_), id, name,
+                     then = std::move(then)](const std::exception_ptr& error) {
+    const auto self = weak.lock();
+    if (!self) return;
+    NativeHandler& handler = **self;
+    handler.guarded(id, name, [&] {
+      if (error) std::rethrow_exception(error);
+      then();
+    });
+    handler.peer_.set_busy(false);
+  };
+  hub_.work({std::move(piece), done});
+}
+
+void NativeHandler::answer_elsewhere(const json& request, const json& id, const std::string& name,
+                                     NativeWork make) {
+  const NativeSubject subject{session(), hub_.host(), terms_.encoding};
+  if (native_work_cells(subject, request, name) <= kLightCells) {
+    return answer(id, make(subject, request));
+  }
+  const std::size_t bytes = native_answer_bytes(subject, name);
+  std::shared_ptr<void> room = bytes > kSmallAnswer ? hub_.claim_room(bytes) : nullptr;
+  struct Made {
+    std::string bytes;
+    std::uint64_t canvas_generation;
+  };
+  const auto made = std::make_shared<Made>();
+  made->canvas_generation = canvas_generation_;
+  // Of the handler, which may be gone by then, the workshop needs nothing.
+  const auto piece = [client = client_, &host = hub_.host(), encoding = terms_.encoding, request,
+                      id, make, made] {
+    Session& session = client->session();
+    json answer = make({session, host, encoding}, request);
+    if (id.is_null()) return false;
+    answer["id"] = id;
+    // In this order: what changes in between is told of twice.
+    const std::uint64_t generation = session.canvas_generation();
+    if (generation != made->canvas_generation) {
+      answer["canvas"] = protocol::encode_canvas(session.canvas_info());
+      made->canvas_generation = generation;
+    }
+    made->bytes = protocol::encode(answer, encoding);
+    return false;
+  };
+  work(id, name, piece, [this, made, room = std::move(room)] {
+    if (made->bytes.empty()) return;
+    canvas_generation_ = std::max(canvas_generation_, made->canvas_generation);
+    peer_.send(std::move(made->bytes));
+  });
+}
+
+void NativeHandler::require_canvas_rights() const {
+  if (terms_.rights.change_canvas()) return;
+  throw ProtocolError(
+      "access/denied",
+      "only who may command a robot may draw on the canvas that all share, erase or "
+      "resize it: present the token of a robot in hello, or draw on a layer of "
+      "your own");
+}
+
+void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings) const {
+  if (terms_.rights.change_canvas()) return;
+  if (std::any_of(drawings.begin(), drawings.end(),
+                  [](const auto& drawing) { return drawing.layer == sim::kBaseLayer; })) {
+    require_canvas_rights();
+  }
+}
+
+// What is little waits for the next step, or for the next look at the canvas, as drawings of
+// programs do. So that it stays little for all sessions together, each has its share.
+bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
+  if (drawings.empty()) return true;
+  const CanvasInfo canvas = session().canvas_info();
+  sim::drop_covered(drawings);
+  std::size_t cells = 0;
+  for (const sim::DrawOperation& drawing : drawings) {
+    cells += sim::cells_written(drawing, canvas.width, canvas.height);
+  }
+  const std::size_t share = kStepCells / std::max<std::size_t>(state_->leaders.size(), 1);
+  if (light_cells_ + cells > std::min(share, 4 * kLightCells)) return false;
+  light_cells_ += cells;
+  session().draw(drawings);
+  return true;
+}
+
+void NativeHandler::draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
+                                   const std::string& name, std::function<void()> then) {
+  light_cells_ = 0;
+  const auto drawing = std::make_shared<DrawWork>();
+  drawing->operations = std::move(drawings);
+  work(
+      id, name, [client = client_, drawing] { return !client->draw_some(*drawing, kPieceCells); },
+      std::move(then));
 }
 
 void NativeHandler::answer(const json& id, json answer) {
@@ -283,12 +388,21 @@ void NativeHandler::read(const json& request, const json& id) {
   if (request.contains("drawings")) {
     drawings = protocol::decode_drawings(request["drawings"], terms_.encoding);
   }
-  session().draw(drawings);
-  for (const auto& [device, command] : commands) session().send(device, command);
-
-  if (wait == Wait::kJoin) client_->join(thinker(request));
-  if (wait == Wait::kJoin || wait == Wait::kNone) return answer(id, round(wait, Outcome::kData));
-  begin_to_wait(request, id, wait);
+  require_drawing(drawings);
+  const auto go_on = [this, id, wait](const auto& list, const json& what) {
+    for (const auto& [device, command] : list) session().send(device, command);
+    if (wait == Wait::kJoin) client_->join(thinker(what));
+    if (wait == Wait::kJoin || wait == Wait::kNone) return answer(id, round(wait, Outcome::kData));
+    begin_to_wait(what, id, wait);
+  };
+  if (draw_here(drawings)) return go_on(commands, request);
+  json rest = json::object();
+  for (const char* key : {"thread", "timeout"}) {
+    if (request.contains(key)) rest[key] = request[key];
+  }
+  draw_elsewhere(
+      std::move(drawings), id, "read",
+      [go_on, commands = std::move(commands), rest = std::move(rest)] { go_on(commands, rest); });
 }
 
 NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
@@ -359,6 +473,7 @@ void NativeHandler::on_peek_timeout() {
 
 // What a `read` is answered when its wait has come out so; one that was cancelled was by time.
 json NativeHandler::round(Wait wait, Outcome outcome) {
+  if (outcome != Outcome::kIdle && wait != Wait::kNone) light_cells_ = 0;  // a step has drawn them
   if (wait == Wait::kData && outcome == Outcome::kFinished) {
     throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
   }
@@ -423,14 +538,9 @@ json NativeHandler::replace(const json& request) {
 
 // --- The canvas
 
-json NativeHandler::draw(const json& request) {
-  const json& drawings = protocol::require(request, "drawings");
-  session().draw(protocol::decode_drawings(drawings, terms_.encoding));
-  return json::object();
-}
-
 json NativeHandler::set_cells(const json& request) {
   const json& cells = protocol::require(request, "cells");
+  if (require_layer(request) == sim::kBaseLayer) require_canvas_rights();
   session().draw_cells(require_layer(request), require_rect(request),
                        protocol::decode_cells(cells, terms_.encoding));
   return json::object();
@@ -443,11 +553,6 @@ json NativeHandler::cell(const json& request) {
       session().cell(require_layer(request), static_cast<int>(column), static_cast<int>(row));
   return {
       {"cell", value ? protocol::encode_cells(std::span(&*value, 1), terms_.encoding) : json()}};
-}
-
-json NativeHandler::cells(const json& request) {
-  const std::vector<sim::CellValue> cells = session().cells(require_layer(request));
-  return {{"cells", protocol::encode_cells(cells, terms_.encoding)}};
 }
 
 json NativeHandler::create_layer(const json& request) {
@@ -471,39 +576,6 @@ json NativeHandler::layers(const json& /*request*/) {
   return {{"layers", protocol::encode_layers(session().layers())}};
 }
 
-json NativeHandler::canvas_image(const json& /*request*/) {
-  json answer = {{"image", protocol::bytes(session().canvas_image(), terms_.encoding)}};
-  answer["canvas"] = tell_canvas();
-  return answer;
-}
-
-json NativeHandler::resize_canvas(const json& request) {
-  const auto side = [&](const char* key) {
-    return static_cast<int>(protocol::require_integer(request, key, -kMaxCell, kMaxCell));
-  };
-  session().resize_canvas(side("width"), side("height"));
-  return {{"canvas", tell_canvas()}};
-}
-
-json NativeHandler::save_image(const json& request) {
-  const auto scale = integer_or(request, "scale", 1, -kMaxCell, kMaxCell);
-  std::optional<sim::LayerId> layer;
-  if (request.contains("layer")) layer = require_layer(request);
-  session().save_image(protocol::require_text(request, "name"), static_cast<int>(scale), layer);
-  return json::object();
-}
-
-json NativeHandler::save_map(const json& request) {
-  sim::io::MapMode mode = sim::io::MapMode::kTrinary;
-  if (request.contains("mode")) {
-    const auto named = sim::io::parse_map_mode(protocol::require_text(request, "mode"));
-    if (!named) protocol::refuse_value("mode", "trinary or scale", request["mode"]);
-    mode = *named;
-  }
-  session().save_map(require_layer(request), protocol::require_text(request, "name"), mode);
-  return json::object();
-}
-
 json NativeHandler::view_mode(const json& /*request*/) {
   return {{"mode", sim::to_string(session().view_mode())}};
 }
@@ -513,54 +585,6 @@ json NativeHandler::set_view_mode(const json& request) {
   if (!mode) protocol::refuse_value("mode", "ground, mini-map or full-screen", request["mode"]);
   session().set_view_mode(*mode);
   return json::object();
-}
-
-json NativeHandler::world_map(const json& request) {
-  const double cell_size_m = protocol::require_number(request, "cell_size");
-  if (request.contains("tile")) {
-    const sim::CellRect tile = require_rect(request, "tile");
-    if (static_cast<double>(tile.width) * tile.height > kMaxMapCells) {
-      protocol::refuse_value("tile", "at most 4194304 cells", request["tile"]);
-    }
-    return map_tile(cell_size_m, tile);
-  }
-  sim::Vec2 arena_m;
-  hub_.host().with_simulation(
-      [&](sim::Simulation& simulation) { arena_m = simulation.world().arena.size; });
-  if (cell_size_m > 0.0 && (arena_m / cell_size_m).prod() > kMaxMapCells) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "a server makes maps of up to 4194304 cells: a cell of this arena must be " +
-                           std::to_string(std::sqrt(arena_m.prod() / kMaxMapCells)) +
-                           " m long at least, unless the map is asked for in tiles");
-  }
-  return {{"map", protocol::encode_map(session().world_map(cell_size_m), terms_.encoding)}};
-}
-
-json NativeHandler::map_tile(double cell_size_m, const sim::CellRect& tile) {
-  sim::OccupancyMap map;
-  sim::CanvasDescription grid;
-  hub_.host().with_simulation([&](sim::Simulation& simulation) {
-    const sim::ArenaDescription& arena = simulation.world().arena;
-    grid = map_grid(arena, cell_size_m);
-    const int right = std::clamp(tile.column + tile.width, 0, grid.width);
-    const int bottom = std::clamp(tile.row + tile.height, 0, grid.height);
-    const int left = std::clamp(tile.column, 0, right);
-    const int top = std::clamp(tile.row, 0, bottom);
-    sim::CanvasDescription part = grid;
-    part.width = right - left;
-    part.height = bottom - top;
-    part.origin += cell_size_m * sim::Vec2(left, grid.height - bottom);
-    if (part.width > 0 && part.height > 0) map = sim::true_map(arena, part);
-  });
-  if (map.cells.empty()) {
-    throw SessionError(SessionError::Code::kBadArgument,
-                       "the map has no such tile: it has " + std::to_string(grid.width) + " x " +
-                           std::to_string(grid.height) + " cells");
-  }
-  return {{"map", protocol::encode_map(map, terms_.encoding)},
-          {"width", grid.width},
-          {"height", grid.height},
-          {"origin", protocol::encode_pose({grid.origin.x(), grid.origin.y(), 0.0})}};
 }
 
 // --- Objects by name, and the log

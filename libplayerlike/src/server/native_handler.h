@@ -5,12 +5,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "playerlike/host/event_client.h"
 #include "server/native_state.h"
+#include "server/native_work.h"
 #include "server/peer.h"
 
 namespace playerlike::server {
@@ -58,6 +60,27 @@ class NativeHandler final : public Handler {
   };
 
   void carry_out(const json& message, const json& id, std::string& name);
+  /// Does something for a request; what that throws is answered.
+  template <typename Action>
+  void guarded(const json& id, const std::string& name, Action action);
+  /// Has the workshop do something for a request, then calls then(), unless that has failed: then
+  /// the request does. Nothing more is read from the connection before.
+  void work(const json& id, const std::string& name, std::function<bool()> piece,
+            std::function<void()> then);
+  /// Has a request answered that may take long: see native_work.h.
+  void answer_elsewhere(const json& request, const json& id, const std::string& name,
+                        NativeWork made_by);
+  /// Takes drawings that are little work, to be carried out as those of programs are.
+  /// @return false if they are more: then they are for draw_elsewhere(). Those that are covered by
+  ///         others are taken out.
+  [[nodiscard]] bool draw_here(std::vector<sim::DrawOperation>& drawings);
+  /// Has the workshop carry drawings out, and calls then() afterwards.
+  void draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
+                      const std::string& name, std::function<void()> then);
+  /// @throws ProtocolError access/denied if drawings are on the shared canvas, and not allowed
+  /// there.
+  void require_drawing(std::span<const sim::DrawOperation> drawings) const;
+  void require_canvas_rights() const;
   void answer(const json& id, json answer);
   void fail(const json& id, const std::string& name, std::string_view error, const char* message);
 
@@ -78,28 +101,20 @@ class NativeHandler final : public Handler {
   /// @param robot  index; -1: all robots. @throws ProtocolError access/denied.
   void require_rights(int robot) const;
   [[nodiscard]] int robot_named(const std::string& name) const;
-  json map_tile(double cell_size_m, const sim::CellRect& tile);
 
   // One for each request of docs/protocol.md.
   json subscribe(const json& request);
   json unsubscribe(const json& request);
   json replace(const json& request);
   json command(const json& request);
-  json draw(const json& request);
   json set_cells(const json& request);
   json cell(const json& request);
-  json cells(const json& request);
   json create_layer(const json& request);
   json remove_layer(const json& request);
   json set_layer_style(const json& request);
   json layers(const json& request);
-  json canvas_image(const json& request);
-  json resize_canvas(const json& request);
-  json save_image(const json& request);
-  json save_map(const json& request);
   json view_mode(const json& request);
   json set_view_mode(const json& request);
-  json world_map(const json& request);
   json object_pose(const json& request);
   json place_object(const json& request);
   json object_property(const json& request);
@@ -119,10 +134,11 @@ class NativeHandler final : public Handler {
   std::shared_ptr<NativeState> state_;
   Terms terms_;
   std::shared_ptr<NativeHandler*> self_;  ///< outlived by what was posted for this one
-  std::unique_ptr<EventClient> client_;   ///< none: only watches
+  std::shared_ptr<EventClient> client_;   ///< none: only watches; shared with what is worked on
   std::optional<Waiting> waiting_;
   bool ending_ = false;                  ///< has said bye
   std::uint64_t canvas_generation_ = 0;  ///< of which the client knows
+  std::size_t light_cells_ = 0;  ///< written by drawings that may not have been carried out yet
 };
 
 }  // namespace playerlike::server

@@ -12,6 +12,7 @@
 #include "playerlike/host/host.h"
 #include "playerlike/server/server_settings.h"
 #include "protocol/framing.h"
+#include "server/workshop.h"
 #include "sim/core/log.h"
 
 namespace playerlike::server {
@@ -23,6 +24,9 @@ struct Rights {
   std::vector<bool> command;  ///< one a robot, by index: command it
   /// Whether it may do what concerns all robots (reset, pause, quit): it may command each.
   [[nodiscard]] bool command_all() const;
+  /// Whether it may change the canvas that all robots share (draw on it, erase, resize): it may
+  /// command a robot, or the world has none.
+  [[nodiscard]] bool change_canvas() const;
 };
 
 /// Who may do what. Compares tokens in constant time.
@@ -66,6 +70,8 @@ class Peer {
   /// Requests that are being answered; kept by the handler, limited by the connection: while it
   /// has too many, nothing is read from it.
   virtual void set_in_flight(std::size_t requests) = 0;
+  /// While true, nothing is read from the connection: its handler is at work for it elsewhere.
+  virtual void set_busy(bool busy) = 0;
   /// What the bytes that follow are encoded in; at first kJson (lines).
   virtual void set_encoding(protocol::Encoding encoding) = 0;
   /// "127.0.0.1:51234", for the log.
@@ -122,6 +128,14 @@ class Hub {
   /// The same, after a time. @return names it for cancel().
   virtual std::uint64_t after(std::chrono::microseconds delay, std::function<void()> task) = 0;
   virtual void cancel(std::uint64_t timer) = 0;
+
+  /// Has long work done by another thread, in pieces, in turn with that of others; `job.done` is
+  /// called by the server's thread. Neither happens any more once the server ends.
+  virtual void work(Job job) = 0;
+  /// Claims room for an answer that is made elsewhere, until what is returned is destroyed.
+  /// @throws ProtocolError server/busy if with it more bytes than
+  /// ServerLimits::all_queued_bytes would wait to be read by clients.
+  [[nodiscard]] virtual std::shared_ptr<void> claim_room(std::size_t bytes) = 0;
 
   /// To be called when a client has begun to wait, or left: lockstep time may go on now. What is
   /// over then has been notified, and what was posted meanwhile been done, when this returns; so

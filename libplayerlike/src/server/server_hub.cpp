@@ -233,6 +233,8 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   void post(std::function<void()> task) override;
   std::uint64_t after(std::chrono::microseconds delay, std::function<void()> task) override;
   void cancel(std::uint64_t timer) override { timers_.erase(timer); }
+  void work(Job job) override;
+  [[nodiscard]] std::shared_ptr<void> claim_room(std::size_t bytes) override;
   void pump() override;
   int listen(int first, MakeHandler make) override;
   void hand_over(Peer& peer, std::unique_ptr<Handler> handler) override {
@@ -276,6 +278,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that close
   std::size_t refused_ = 0;  ///< of those, that were never let in
   std::atomic<std::size_t> open_connections_{0};
+  std::atomic<std::size_t> claimed_bytes_{0};  ///< see claim_room()
   std::atomic<bool> quit_{false};
   Clock::time_point accept_warned_{};
   Clock::time_point full_warned_{};
@@ -298,6 +301,8 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   };
   std::map<std::string, Process> processes_;
   std::uint64_t process_uses_ = 0;
+
+  Workshop workshop_;
 
   bool stopping_ = false;
   Clock::time_point stop_deadline_{};
@@ -434,7 +439,8 @@ void ServerHub::Body::serve() {
       log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
     }
   }
-  // All handlers are gone. Alarms of what they shared must not reach a hub that goes.
+  // All handlers are gone. Work and alarms of what they shared must not reach a hub that goes.
+  workshop_.close();
   morse_state.reset();
   native_state.reset();
 }
@@ -516,6 +522,26 @@ std::uint64_t ServerHub::Body::after(std::chrono::microseconds delay, std::funct
     run(task);
   });
   return id;
+}
+
+void ServerHub::Body::work(Job job) {
+  job.done = [this, done = std::move(job.done)](const std::exception_ptr& error) {
+    post([done, error] { done(error); });
+  };
+  workshop_.add(std::move(job));
+}
+
+std::shared_ptr<void> ServerHub::Body::claim_room(std::size_t bytes) {
+  std::size_t waiting = claimed_bytes_;
+  for (const auto& connection : connections_) waiting += connection->queued_bytes();
+  if (waiting > 0 && waiting + bytes > limits().all_queued_bytes) {
+    throw protocol::ProtocolError(
+        "server/busy", "an answer of " + std::to_string(bytes) + " bytes is too large for now: " +
+                           std::to_string(waiting) + " wait to be read by clients, and at most " +
+                           std::to_string(limits().all_queued_bytes) + " may; ask again later");
+  }
+  claimed_bytes_ += bytes;
+  return {nullptr, [this, bytes](void*) { claimed_bytes_ -= bytes; }};
 }
 
 ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thread) {

@@ -25,6 +25,9 @@ class InProcessEventClient final : public EventClient {
     return core_.begin_sleep(*client_, thinker, seconds);
   }
   void join(ThinkerId thinker) override { core_.join(*client_, thinker); }
+  bool draw_some(DrawWork& work, std::size_t cells) override {
+    return core_.draw_some(*client_, work, cells);
+  }
   Outcome outcome() const override { return core_.outcome_of(*client_); }
   void cancel() override { core_.cancel_wait(*client_); }
 

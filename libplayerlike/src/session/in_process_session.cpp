@@ -122,10 +122,7 @@ std::optional<sim::CellValue> InProcessSession::cell(sim::LayerId layer, int col
 }
 
 std::vector<sim::CellValue> InProcessSession::cells(sim::LayerId layer) {
-  return core()->with_layers(*client_, [&](sim::LayerStack& layers, const LayerBook& book) {
-    book.require(client_->number, layer);
-    return layers.cells(layer);
-  });
+  return core()->cells(*client_, layer);
 }
 
 sim::LayerId InProcessSession::create_layer(sim::LayerKind kind, sim::LayerStyle style) {
@@ -153,8 +150,8 @@ std::vector<sim::LayerInfo> InProcessSession::layers() {
 }
 
 std::vector<std::uint8_t> InProcessSession::canvas_image() {
-  return core()->with_layers(
-      *client_, [](sim::LayerStack& layers, const LayerBook&) { return layers.composed(); });
+  sim::CanvasDescription canvas;
+  return core()->picture(*client_, std::nullopt, canvas);
 }
 
 void InProcessSession::resize_canvas(int width, int height) {

@@ -121,7 +121,7 @@ void LayerBook::set_style(sim::LayerStack& stack, int client, sim::LayerId layer
   stack.set_style(layer, std::move(style));
 }
 
-void LayerBook::resize(sim::LayerStack& stack, int width, int height) {
+void LayerBook::require_size(const sim::LayerStack& stack, int width, int height) const {
   if (width < 1 || height < 1 || width > sim::kMaxCanvasSide || height > sim::kMaxCanvasSide) {
     refuse(SessionError::Code::kBadArgument,
            "the grid-map's sides are 1 to " + std::to_string(sim::kMaxCanvasSide) + " cells, but " +
@@ -134,7 +134,12 @@ void LayerBook::resize(sim::LayerStack& stack, int width, int height) {
                std::to_string(entries_.size() + 1) + " layers: they may have " +
                std::to_string(kMaxLayerCells) + " cells together");
   }
-  stack.resize(width, height);
+}
+
+std::vector<std::vector<std::uint8_t>> LayerBook::resize(
+    sim::LayerStack& stack, int width, int height, std::vector<std::vector<std::uint8_t>> zeros) {
+  require_size(stack, width, height);
+  return stack.resize(width, height, std::move(zeros));
 }
 
 std::vector<sim::LayerInfo> LayerBook::list(const sim::LayerStack& stack, int client) const {

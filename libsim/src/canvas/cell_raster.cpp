@@ -39,13 +39,30 @@ void CellRaster::blend_line(int column0, int row0, int column1, int row1, Colour
   }
 }
 
-void CellRaster::fill(CellValue value) noexcept {
-  fill_cells(data_.data(), data_.size() / sizeof value, value);
-  if (value == blank_) {
-    // Tiles that were blank before are as they were.
-    for (std::uint8_t& tile : tiles_) tile = tile == 0 ? 0 : kChanged;
-  } else {
-    std::fill(tiles_.begin(), tiles_.end(), std::uint8_t{kChanged | kUsed});
+void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
+  SIM_ASSERT(begin >= 0 && begin <= end && end <= height_);
+  if (begin == end) return;
+  const auto offset = static_cast<std::size_t>(begin) * byte_offset(width_);
+  const auto count = static_cast<std::size_t>(end - begin) * static_cast<std::size_t>(width_);
+  fill_cells(data_.data() + offset, count, value);
+  // A tile whose last rows follow with a later call keeps its mark until then.
+  const auto marks = [&](int row) {
+    return tiles_.begin() +
+           static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(tile_stride_);
+  };
+  const auto first = marks(begin >> kTileShift);
+  const auto last = marks(tiles_across(end));
+  if (value != blank_) {
+    std::fill(first, last, std::uint8_t{kChanged | kUsed});
+    return;
+  }
+  for (int row = begin >> kTileShift; row < tiles_across(end); ++row) {
+    const int bottom = std::min((row + 1) << kTileShift, height_);
+    const bool whole = (row << kTileShift) >= begin && bottom <= end;
+    for (auto tile = marks(row); tile != marks(row + 1); ++tile) {
+      // Tiles that were blank before are as they were.
+      if (*tile != 0) *tile = whole ? kChanged : kChanged | kUsed;
+    }
   }
 }
 
@@ -82,26 +99,36 @@ void CellRaster::set_cells(const CellRect& rect, std::span<const CellValue> valu
   }
 }
 
-void CellRaster::resize(int width, int height) {
+std::vector<std::uint8_t> CellRaster::resize(int width, int height,
+                                             std::vector<std::uint8_t> zeros) {
   SIM_ASSERT(width >= 1 && height >= 1);
-  CellRaster resized(width, height, blank_);
+  const std::size_t size = byte_offset(width) * static_cast<std::size_t>(height);
+  if (zeros.size() != size) zeros.assign(size, 0);
+  if (blank_ != CellValue{}) fill_cells(zeros.data(), size / sizeof blank_, blank_);
   const int columns = std::min(width, width_);
   const int rows = std::min(height, height_);
-  for (int i = 1; i <= rows; ++i) {
-    const std::size_t row = static_cast<std::size_t>(height - i);
-    std::memcpy(resized.data_.data() + row * byte_offset(width), row_bytes(height_ - i),
-                byte_offset(columns));
-  }
-  for (int row = 0; row < height; ++row) {
-    for (int column = 0; column < width; ++column) {
-      if (resized.at(column, row) != blank_) {
-        resized.tiles_[static_cast<std::size_t>(row >> kTileShift) * resized.tile_stride_ +
-                       static_cast<std::size_t>(column >> kTileShift)] = kUsed;
-      }
+  const bool used = std::any_of(tiles_.begin(), tiles_.end(),
+                                [](std::uint8_t tile) { return (tile & kUsed) != 0; });
+  const auto stride = static_cast<std::size_t>(tiles_across(width));
+  std::vector<std::uint8_t> tiles(stride * static_cast<std::size_t>(tiles_across(height)),
+                                  kChanged);
+  for (int i = 1; i <= rows && used; ++i) {
+    const int row = height - i;
+    std::uint8_t* const to = zeros.data() + static_cast<std::size_t>(row) * byte_offset(width);
+    std::memcpy(to, row_bytes(height_ - i), byte_offset(columns));
+    std::uint8_t* const marks = tiles.data() + static_cast<std::size_t>(row >> kTileShift) * stride;
+    for (int column = 0; column < columns; ++column) {
+      CellValue value;
+      std::memcpy(&value, to + byte_offset(column), sizeof value);
+      if (value != blank_) marks[column >> kTileShift] = kChanged | kUsed;
     }
   }
-  for (std::uint8_t& tile : resized.tiles_) tile |= kChanged;
-  *this = std::move(resized);
+  data_.swap(zeros);
+  tiles_.swap(tiles);
+  width_ = width;
+  height_ = height;
+  tile_stride_ = stride;
+  return zeros;
 }
 
 void CellRaster::mark_seen() noexcept {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include "sim/core/assert.h"
@@ -226,7 +228,8 @@ struct LayerStack::Impl {
     }
   }
 
-  void compose() {
+  /// Composes dirty tiles until about so many cells are done. @return whether none is left.
+  bool compose(std::size_t cells_at_most) {
     for (Layer& layer : layers) {
       if (!layer.style.visible) continue;
       const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
@@ -235,17 +238,23 @@ struct LayerStack::Impl {
       }
       layer.cells->mark_seen();
     }
-    if (!any_bit(dirty, 1)) return;
-    ++version;
+    if (!any_bit(dirty, 1)) return true;
+    const std::uint64_t end =
+        recomposed_cells + std::min<std::uint64_t>(cells_at_most, 1ULL << 62U);
     const int columns = cells(base).tile_columns();
     const int rows = cells(base).tile_rows();
     std::size_t tile = 0;
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns; ++column, ++tile) {
-        if (dirty[tile] != 0) compose_tile(column, row);
+        if (dirty[tile] == 0) continue;
+        if (recomposed_cells >= end) return false;
+        compose_tile(column, row);
         dirty[tile] = 0;
       }
     }
+    // Counted when all is done: what comes in pieces is one change of the picture.
+    ++version;
+    return true;
   }
 
   /// Whether compose() would find something to do.
@@ -264,6 +273,41 @@ struct LayerStack::Impl {
   std::uint64_t version = 0;          // how often compose() has found something to do
   std::uint64_t recomposed_cells = 0;
 };
+
+void drop_covered(std::vector<DrawOperation>& operations) {
+  std::unordered_set<LayerId> filled;  // layers that a fill further on covers
+  std::size_t kept = operations.size();
+  for (std::size_t i = operations.size(); i-- > 0;) {
+    const DrawOperation& operation = operations[i];
+    if (filled.contains(operation.layer)) continue;
+    if (operation.kind == DrawOperation::Kind::kFill) filled.insert(operation.layer);
+    operations[--kept] = operation;
+  }
+  operations.erase(operations.begin(), operations.begin() + static_cast<std::ptrdiff_t>(kept));
+}
+
+std::size_t cells_written(const DrawOperation& operation, int width, int height) noexcept {
+  using std::int64_t;
+  switch (operation.kind) {
+    case DrawOperation::Kind::kPixel:
+      return 1;
+    case DrawOperation::Kind::kLine: {
+      // A line has as many cells as the longer side of its box; what lies outside is not visited.
+      const auto inside = [](int from, int to, int side) {
+        const int64_t low = std::max<int64_t>(std::min(from, to), 0);
+        const int64_t high = std::min<int64_t>(std::max(from, to), int64_t{side} - 1);
+        return std::max<int64_t>(high - low + 1, 0);
+      };
+      const int64_t columns = inside(operation.x0, operation.x1, width);
+      const int64_t rows = inside(operation.y0, operation.y1, height);
+      if (columns == 0 || rows == 0) return 1;
+      return static_cast<std::size_t>(std::max(columns, rows));
+    }
+    case DrawOperation::Kind::kFill:
+      break;
+  }
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
 
 LayerStack::LayerStack(const CanvasDescription& description)
     : impl_(std::make_unique<Impl>(description)) {}
@@ -319,19 +363,39 @@ std::vector<LayerInfo> LayerStack::layers() const {
 }
 
 void LayerStack::draw(std::span<const DrawOperation> operations) {
+  const auto is_fill = [](const DrawOperation& o) { return o.kind == DrawOperation::Kind::kFill; };
+  DrawProgress progress;
+  const auto all = std::numeric_limits<std::size_t>::max();
+  if (std::none_of(operations.begin(), operations.end(), is_fill)) {
+    draw_some(operations, progress, all);
+    return;
+  }
+  std::vector<DrawOperation> kept(operations.begin(), operations.end());
+  drop_covered(kept);
+  draw_some(kept, progress, all);
+}
+
+std::size_t LayerStack::draw_some(std::span<const DrawOperation> operations, DrawProgress& progress,
+                                  std::size_t cells_at_most) {
   LayerId id = kBaseLayer;
   Layer* layer = impl_->find(id);
-  for (const DrawOperation& operation : operations) {
+  std::size_t written = 0;
+  for (; progress.operation < operations.size() && written < cells_at_most; ++progress.operation) {
+    const DrawOperation& operation = operations[progress.operation];
     if (operation.layer != id) {
       id = operation.layer;
       layer = impl_->find(id);
     }
-    if (layer == nullptr) continue;
+    if (layer == nullptr) {
+      ++written;  // so that a list of such drawings comes to an end of its turn, too
+      continue;
+    }
     CellRaster& cells = *layer->cells;
     const bool blends = layer->kind == LayerKind::kColour;
     const CellValue value = operation.value;
     switch (operation.kind) {
       case DrawOperation::Kind::kPixel:
+        ++written;
         if (blends) {
           cells.blend(operation.x0, operation.y0, value.colour());
         } else {
@@ -339,17 +403,32 @@ void LayerStack::draw(std::span<const DrawOperation> operations) {
         }
         break;
       case DrawOperation::Kind::kLine:
+        written += cells_written(operation, width(), height());
         if (blends) {
           cells.blend_line(operation.x0, operation.y0, operation.x1, operation.y1, value.colour());
         } else {
           cells.put_line(operation.x0, operation.y0, operation.x1, operation.y1, value);
         }
         break;
-      case DrawOperation::Kind::kFill:
-        cells.fill(value);
+      case DrawOperation::Kind::kFill: {
+        const auto row_cells = static_cast<std::size_t>(width());
+        // The canvas may have been resized between two calls.
+        const int begin = std::min(progress.row, height());
+        const auto left = static_cast<std::size_t>(height() - begin);
+        constexpr std::size_t kTile = CellRaster::kTileSide;
+        const std::size_t wanted = (cells_at_most - written) / row_cells;
+        const std::size_t rows =  // whole tiles, so that none is marked twice
+            std::min(left, std::max<std::size_t>(wanted / kTile, 1) * kTile);
+        cells.fill_rows(begin, begin + static_cast<int>(rows), value);
+        written += std::max<std::size_t>(rows * row_cells, 1);
+        progress.row = begin + static_cast<int>(rows);
+        if (progress.row < height()) return written;
+        progress.row = 0;
         break;
+      }
     }
   }
+  return written;
 }
 
 void LayerStack::set_cells(LayerId layer, const CellRect& rect, std::span<const CellValue> values) {
@@ -369,21 +448,37 @@ std::vector<CellValue> LayerStack::cells(LayerId layer) const {
   return values;
 }
 
-void LayerStack::resize(int width, int height) {
+std::vector<std::vector<std::uint8_t>> LayerStack::resize(
+    int width, int height, std::vector<std::vector<std::uint8_t>> zeros) {
   SIM_ASSERT(width >= 1 && width <= kMaxCanvasSide && height >= 1 && height <= kMaxCanvasSide);
-  if (width == this->width() && height == this->height()) return;
-  for (Layer& layer : impl_->layers) layer.cells->resize(width, height);
+  if (width == this->width() && height == this->height()) return zeros;
+  const auto take = [&]() -> std::vector<std::uint8_t> {
+    if (zeros.empty()) return {};
+    std::vector<std::uint8_t> bytes = std::move(zeros.back());
+    zeros.pop_back();
+    return bytes;
+  };
+  std::vector<std::vector<std::uint8_t>> old;
+  old.reserve(impl_->layers.size() + 1 + zeros.size());
+  for (Layer& layer : impl_->layers) old.push_back(layer.cells->resize(width, height, take()));
   impl_->description.width = width;
   impl_->description.height = height;
   const CellRaster& base = Impl::cells(impl_->base);
   impl_->dirty.assign(base.tiles().size(), 1);
-  impl_->picture.assign(base.data().size(), 0);
+  std::vector<std::uint8_t> picture = take();
+  if (picture.size() != base.data().size()) picture.assign(base.data().size(), 0);
+  impl_->picture.swap(picture);
+  old.push_back(std::move(picture));
+  std::move(zeros.begin(), zeros.end(), std::back_inserter(old));
+  return old;
 }
 
 const std::vector<std::uint8_t>& LayerStack::composed() {
-  impl_->compose();
+  impl_->compose(std::numeric_limits<std::size_t>::max());
   return impl_->picture;
 }
+
+bool LayerStack::compose_some(std::size_t cells) { return impl_->compose(cells); }
 
 std::vector<std::uint8_t> LayerStack::picture(LayerId layer) const {
   const Layer& found = impl_->get(layer);
@@ -391,6 +486,25 @@ std::vector<std::uint8_t> LayerStack::picture(LayerId layer) const {
   std::vector<std::uint8_t> bytes(from.size(), 0);
   Impl::draw_row(found.ink, from.data(), from.size() / sizeof(CellValue), bytes.data());
   return bytes;
+}
+
+void LayerStack::picture_rows(LayerId layer, int row, std::span<std::uint8_t> to) const {
+  const Layer& found = impl_->get(layer);
+  SIM_ASSERT(row >= 0 && row < height());
+  const auto offset =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(width()) * sizeof(CellValue);
+  SIM_ASSERT(offset + to.size() <= found.cells->data().size());
+  std::fill(to.begin(), to.end(), std::uint8_t{0});
+  Impl::draw_row(found.ink, found.cells->row_bytes(row), to.size() / sizeof(CellValue), to.data());
+}
+
+void LayerStack::copy_rows(LayerId layer, int row, std::span<CellValue> to) const {
+  const Layer& found = impl_->get(layer);
+  SIM_ASSERT(row >= 0 && row < height());
+  const auto offset =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(width()) * sizeof(CellValue);
+  SIM_ASSERT(offset + to.size_bytes() <= found.cells->data().size());
+  std::memcpy(to.data(), found.cells->row_bytes(row), to.size_bytes());
 }
 
 std::uint64_t LayerStack::version() const noexcept {

@@ -839,6 +839,34 @@ TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {
 
 // --- The clock synchronisation
 
+// One message of 400 kB held up everybody for minutes, and the end of the server too.
+TEST_F(MorseProtocol, ManyFillsOfALargeCanvasHoldUpNobody) {
+  MorseClient other = start();
+  RawClient painter("127.0.0.1", server->port());
+  painter.send("1 playpen hello [{\"version\": 1, \"port\": 6665}]\n");
+  ASSERT_THAT(painter.line(), StartsWith("1 SUCCESS"));
+  painter.send("{\"id\": 1, \"do\": \"resize_canvas\", \"width\": 4096, \"height\": 4096}\n");
+  ASSERT_THAT(painter.line(), HasSubstr("4096"));
+  std::string fills = "{\"id\": 2, \"do\": \"draw\", \"drawings\": [";
+  for (int i = 0; i < 20'000; ++i) fills += "[\"fill\", 0, " + std::to_string(i % 255) + "],";
+  painter.send(fills + "[\"fill\", 0, 255]]}\n");
+  EXPECT_EQ(other.ask("simulation list_robots").status, "SUCCESS");
+  EXPECT_THAT(painter.line(), HasSubstr("\"id\":2"));
+  // Lines cannot be left out: this is work for minutes. It is dropped when the server ends.
+  std::string lines = "{\"do\": \"draw\", \"drawings\": [";
+  for (int i = 0; i < 20'000; ++i) lines += "[\"line\", 0, 0, 0, 4095, 4095, 1],";
+  lines += "[\"pixel\", 0, 0, 0, 1]]}\n";
+  std::thread writer([&] {
+    while (painter.send_if_open(lines)) {
+    }
+  });
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(other.ask("simulation list_robots").status, "SUCCESS");
+  }
+  server->stop();
+  writer.join();
+}
+
 TEST_F(MorseProtocol, SynchronisedClockMakesAStepAMessage) {
   settings.sync_port = 0;
   MorseClient client = start();

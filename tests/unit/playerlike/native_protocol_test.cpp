@@ -50,6 +50,7 @@ class FakePeer final : public Peer {
     closed = true;
   }
   void set_in_flight(std::size_t requests) override { in_flight = requests; }
+  void set_busy(bool now) override { busy = now; }
   void set_encoding(Encoding encoding) override {
     // What was sent so far was encoded as before.
     while (const auto message = splitter_.next()) earlier_.emplace_back(*message);
@@ -72,6 +73,7 @@ class FakePeer final : public Peer {
   bool full = false;  ///< records are lost
   bool closed = false;
   std::size_t in_flight = 0;
+  bool busy = false;
   std::string description;
   std::vector<std::shared_ptr<const std::string>> records;
 
@@ -100,6 +102,34 @@ class FakeHub final : public Hub {
     return last_timer_;
   }
   void cancel(std::uint64_t timer) override { timers.erase(timer); }
+  void work(Job job) override {
+    jobs_.push_back(std::move(job));
+    while (!work_waits && do_piece()) {
+    }
+  }
+  std::shared_ptr<void> claim_room(std::size_t bytes) override {
+    claimed += bytes;
+    return {nullptr, [this, bytes](void*) { claimed -= bytes; }};
+  }
+  /// What a workshop does in a turn. @return whether there was something to do.
+  bool do_piece() {
+    if (jobs_.empty()) return false;
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    bool more = false;
+    std::exception_ptr error;
+    try {
+      more = job.piece();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    if (more) {
+      jobs_.push_back(std::move(job));
+    } else {
+      job.done(error);
+    }
+    return true;
+  }
   void pump() override {
     while (host_->advance(std::chrono::milliseconds(100))) {
     }
@@ -131,8 +161,11 @@ class FakeHub final : public Hub {
 
   std::map<Peer*, std::unique_ptr<Handler>> handlers;
   std::map<std::uint64_t, std::function<void()>> timers;
+  bool work_waits = false;  ///< for do_piece()
+  std::size_t claimed = 0;
 
  private:
+  std::deque<Job> jobs_;
   std::shared_ptr<Host> host_;
   ServerSettings settings_;
   Access access_;
@@ -354,6 +387,32 @@ TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
 
   Client holder(hub, Encoding::kJson, {{"tokens", {"server-token", "robot-token"}}});
   EXPECT_EQ(holder.error("command", r2), "");
+}
+
+// The rule of both protocols, see also MorseProtocol.RobotTokenIsWantedForItsCommands.
+TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
+  AccessSettings access;
+  access.server_token = "server-token";
+  access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
+  FakeHub hub(test::patient_host(two_robots()), access);
+  Client guest(hub, Encoding::kJson, {{"tokens", {"server-token"}}});
+  const json red = guest.drawing(1, 1, kRed);
+  EXPECT_EQ(guest.error("draw", {{"drawings", red}}), "access/denied");
+  EXPECT_EQ(guest.error("read", {{"wait", "none"}, {"drawings", red}}), "access/denied");
+  EXPECT_EQ(guest.error("resize_canvas", {{"width", 10}, {"height", 10}}), "access/denied");
+  const json cells = {{"layer", 0}, {"rect", {0, 0, 1, 1}}, {"cells", "AAAAAA=="}};
+  EXPECT_EQ(guest.error("set_cells", cells), "access/denied");
+  EXPECT_EQ(guest.colour_at(1, 1), sim::Colour(0, 0, 0, 0));
+  // Its own layers are its own.
+  const json made = guest.ask("create_layer", {{"kind", "colour"}, {"style", {{"name", "mine"}}}});
+  const int layer = made["layer"].get<int>();
+  EXPECT_EQ(guest.error("draw", {{"drawings", guest.drawing(1, 1, kRed, layer)}}), "");
+  EXPECT_EQ(guest.colour_at(1, 1, layer), kRed);
+
+  Client driver(hub, Encoding::kJson, {{"tokens", {"r2-token"}}});
+  EXPECT_EQ(driver.error("draw", {{"drawings", red}}), "");
+  EXPECT_EQ(driver.error("set_cells", cells), "");
+  EXPECT_EQ(driver.error("resize_canvas", {{"width", 10}, {"height", 10}}), "");
 }
 
 TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {
@@ -1041,6 +1100,126 @@ TEST_P(NativeWatch, WatchersTakeNoPartInTheSimulation) {
   tick();
   EXPECT_EQ(viewer.hear()["t"], kSecond_ns / 10);
   EXPECT_EQ(host->time().sim_time_ns, kSecond_ns / 10);
+}
+
+// --- Work that takes long
+
+/// Lines across a canvas of 2048 x 1024 cells, 2048 cells each.
+json long_lines(int count, sim::Colour colour, Encoding encoding) {
+  std::vector<sim::DrawOperation> lines(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    lines[i].kind = sim::DrawOperation::Kind::kLine;
+    lines[i].x1 = 2047;
+    lines[i].y0 = lines[i].y1 = static_cast<int>(i % 1024);
+    lines[i].value = sim::CellValue::of(colour);
+  }
+  return protocol::encode_drawings(lines, encoding);
+}
+
+json fills(int count, Encoding encoding) {
+  std::vector<sim::DrawOperation> fills(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < fills.size(); ++i) {
+    fills[i].kind = sim::DrawOperation::Kind::kFill;
+    fills[i].value = sim::CellValue::of(sim::Colour{static_cast<std::uint8_t>(i), 0, 0, 255});
+  }
+  return protocol::encode_drawings(fills, encoding);
+}
+
+/// A large canvas, and a workshop that the test runs.
+class NativeWork : public NativeProtocol {
+ protected:
+  void SetUp() override {
+    NativeProtocol::SetUp();
+    client->ask("resize_canvas", {{"width", 2048}, {"height", 1024}});
+    hub.work_waits = true;
+  }
+  int do_all() {
+    int pieces = 0;
+    while (hub.do_piece()) ++pieces;
+    return pieces;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Encodings, NativeWork, testing::Values(Encoding::kJson, Encoding::kCbor),
+                         encoding_name);
+
+// A piece is 2^20 cells: 512 of these lines, and some more to end the last one.
+TEST_P(NativeWork, OthersAreAnsweredBetweenThePiecesOfMuchDrawing) {
+  Client other(hub, GetParam());
+  client->say({{"id", 99}, {"do", "draw"}, {"drawings", long_lines(1500, kRed, GetParam())}});
+  EXPECT_TRUE(client->peer.busy) << "nothing more is read from it";
+  for (int piece = 0; piece < 3; ++piece) {
+    EXPECT_EQ(client->hear(), json()) << "after " << piece << " pieces";
+    EXPECT_EQ(other.ask("time")["time"]["t"], 0);
+    // 512 more lines are there after each piece, and no more.
+    EXPECT_EQ(other.colour_at(7, 512 * piece % 1024), piece == 2 ? kRed : sim::Colour(0, 0, 0, 0));
+    ASSERT_TRUE(hub.do_piece());
+    EXPECT_EQ(other.colour_at(7, 512 * piece % 1024), kRed);
+  }
+  EXPECT_EQ(client->hear()["id"], 99);
+  EXPECT_FALSE(client->peer.busy);
+  EXPECT_FALSE(hub.do_piece());
+}
+
+TEST_P(NativeWork, SessionsThatDrawMuchTakeTurns) {
+  Client other(hub, GetParam());
+  client->say({{"id", 1}, {"do", "draw"}, {"drawings", long_lines(1000, kRed, GetParam())}});
+  other.say({{"id", 2}, {"do", "draw"}, {"drawings", long_lines(1000, kBlue, GetParam())}});
+  ASSERT_TRUE(hub.do_piece());
+  ASSERT_TRUE(hub.do_piece());
+  Client third(hub, GetParam());
+  EXPECT_EQ(third.colour_at(0, 0), kBlue) << "the second one has had its turn";
+  EXPECT_EQ(third.colour_at(0, 900), sim::Colour(0, 0, 0, 0)) << "neither is done";
+  EXPECT_EQ(do_all(), 2);
+  EXPECT_EQ(client->hear()["id"], 1);
+  EXPECT_EQ(other.hear()["id"], 2);
+}
+
+TEST_P(NativeWork, FillsThatCoverEachOtherArePaintedOnce) {
+  client->say({{"id", 1}, {"do", "draw"}, {"drawings", fills(5000, GetParam())}});
+  // One fill of 2^21 cells. Each of 5000 takes two pieces.
+  EXPECT_EQ(do_all(), 2);
+  EXPECT_EQ(client->hear()["id"], 1);
+  hub.work_waits = false;
+  EXPECT_EQ(client->colour_at(0, 0), sim::Colour(4999 % 256, 0, 0, 255));
+}
+
+TEST_P(NativeWork, AReadBeginsWhenItsDrawingsAreThere) {
+  client->say({{"id", 1},
+               {"do", "read"},
+               {"wait", "sleep"},
+               {"timeout", 0.1},
+               {"drawings", long_lines(600, kRed, GetParam())}});
+  hub.pump();
+  EXPECT_EQ(host->time().sim_time_ns, 0) << "its wait has not begun";
+  EXPECT_EQ(do_all(), 2);
+  hub.run();
+  const json answer = client->hear();
+  EXPECT_EQ(answer["id"], 1) << answer;
+  EXPECT_EQ(answer["t"], kSecond_ns / 10);
+}
+
+TEST_P(NativeWork, LargeAnswersAreMadeElsewhereAndClaimTheirRoom) {
+  client->say({{"id", 1}, {"do", "canvas_image"}});
+  EXPECT_EQ(client->hear(), json());
+  EXPECT_GE(hub.claimed, std::size_t{4} << 21U);
+  EXPECT_EQ(do_all(), 1);
+  const json answer = client->hear();
+  EXPECT_EQ(answer["id"], 1);
+  EXPECT_THAT(client->bytes(answer, "image"), SizeIs(std::size_t{4} << 21U));
+  EXPECT_EQ(hub.claimed, 0U);
+  client->say({{"id", 2}, {"do", "cells"}, {"layer", 77}});
+  EXPECT_EQ(do_all(), 1);
+  EXPECT_EQ(client->hear()["error"], "session/bad-argument");
+  EXPECT_FALSE(client->peer.busy);
+}
+
+TEST_P(NativeWork, WhoLeavesEndsItsWork) {
+  client->say({{"do", "draw"}, {"drawings", long_lines(1500, kRed, GetParam())}});
+  ASSERT_TRUE(hub.do_piece());
+  Client other(hub, GetParam());
+  client->leave();
+  EXPECT_EQ(do_all(), 1) << "told that its session is closed";
+  EXPECT_EQ(other.colour_at(0, 600), sim::Colour(0, 0, 0, 0));
 }
 
 }  // namespace

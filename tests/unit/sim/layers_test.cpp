@@ -643,4 +643,134 @@ TEST(LayerStackCost, AHiddenLayerAppearsWithAllThatWasDrawnMeanwhile) {
 }
 
 }  // namespace
+/// Drawings of all kinds on the base layer and another one, some of them outside.
+std::vector<DrawOperation> many_drawings(LayerId other, std::size_t count) {
+  std::vector<DrawOperation> drawings(count);
+  std::uint32_t state = 12345;
+  const auto next = [&](std::uint32_t below) {
+    state = state * 1664525U + 1013904223U;
+    return (state >> 8U) % below;
+  };
+  for (DrawOperation& drawing : drawings) {
+    const std::uint32_t kind = next(20);
+    drawing.kind = kind == 0  ? DrawOperation::Kind::kFill
+                   : kind < 8 ? DrawOperation::Kind::kLine
+                              : DrawOperation::Kind::kPixel;
+    drawing.layer = next(2) == 0 ? kBaseLayer : other;
+    for (int* place : {&drawing.x0, &drawing.y0, &drawing.x1, &drawing.y1}) {
+      *place = static_cast<int>(next(150)) - 25;
+    }
+    drawing.value = CellValue::of(Colour{static_cast<std::uint8_t>(next(256)), 7, 9,
+                                         static_cast<std::uint8_t>(next(2) == 0 ? 255 : 128)});
+  }
+  return drawings;
+}
+
+TEST(Drawings, InPiecesOrWithoutThoseThatAreCoveredGiveTheSameCells) {
+  constexpr int kSide = 100;
+  const auto make = [](LayerId& other) {
+    LayerStack stack(CanvasDescription{kSide, kSide, 0.01, Vec2(0, 0)});
+    other = stack.add(LayerKind::kColour, {.name = "other"}, 1);
+    return stack;
+  };
+  LayerId other = 0;
+  LayerStack one_by_one = make(other);
+  LayerStack at_once = make(other);
+  LayerStack in_pieces = make(other);
+  const std::vector<DrawOperation> drawings = many_drawings(other, 3000);
+  for (const DrawOperation& drawing : drawings) one_by_one.draw({&drawing, 1});
+  at_once.draw(drawings);
+  DrawProgress progress;
+  int pieces = 0;
+  constexpr std::size_t kBudget = 500;
+  while (progress.operation < drawings.size()) {
+    // A line of 100 cells or 16 rows more at most.
+    EXPECT_LE(in_pieces.draw_some(drawings, progress, kBudget), kBudget + 16 * kSide);
+    ++pieces;
+  }
+  EXPECT_GT(pieces, 1000) << "some 150 fills of 10 000 cells";
+  for (const LayerId layer : {kBaseLayer, other}) {
+    EXPECT_EQ(at_once.cells(layer), one_by_one.cells(layer));
+    EXPECT_EQ(in_pieces.cells(layer), one_by_one.cells(layer));
+  }
+  EXPECT_EQ(at_once.composed(), one_by_one.composed());
+  EXPECT_EQ(in_pieces.composed(), one_by_one.composed());
+}
+
+TEST(Drawings, OnlyTheLastFillOfALayerAndWhatFollowsItIsKept) {
+  using Kind = DrawOperation::Kind;
+  const auto on = [](Kind kind, LayerId layer, int column = 0) {
+    return DrawOperation{kind, layer, column, 0, 0, 0, {}};
+  };
+  std::vector<DrawOperation> drawings = {
+      on(Kind::kPixel, 0),    on(Kind::kFill, 0), on(Kind::kPixel, 1, 5), on(Kind::kFill, 0),
+      on(Kind::kPixel, 0, 7), on(Kind::kFill, 1), on(Kind::kFill, 2)};
+  drop_covered(drawings);
+  ASSERT_EQ(drawings.size(), 4U);
+  EXPECT_EQ(drawings[0].kind, Kind::kFill);
+  EXPECT_EQ(drawings[1].x0, 7);
+  EXPECT_EQ(drawings[2].layer, 1);
+  EXPECT_EQ(drawings[3].layer, 2);
+}
+
+TEST(Drawings, CostWhatTheyWriteInside) {
+  using Kind = DrawOperation::Kind;
+  const auto cost = [](Kind kind, int x0, int y0, int x1, int y1) {
+    return cells_written({kind, 0, x0, y0, x1, y1, {}}, 100, 50);
+  };
+  EXPECT_EQ(cost(Kind::kPixel, -5, 0, 0, 0), 1U);
+  EXPECT_EQ(cost(Kind::kFill, 0, 0, 0, 0), 5000U);
+  EXPECT_EQ(cost(Kind::kLine, 0, 0, 9, 3), 10U);
+  EXPECT_EQ(cost(Kind::kLine, 9, 30, 0, 0), 31U);
+  EXPECT_EQ(cost(Kind::kLine, -2147483647, 0, 2147483647, 9), 100U);
+  EXPECT_EQ(cost(Kind::kLine, 200, 0, 300, 40), 1U) << "all outside";
+}
+
+TEST(LayerStack, IsComposedInPiecesToTheSamePicture) {
+  LayerId other = 0;
+  LayerStack stack(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
+  other = stack.add(LayerKind::kColour, {.name = "other", .transparency = 0.5}, 1);
+  LayerStack whole(CanvasDescription{200, 100, 0.01, Vec2(0, 0)});
+  ASSERT_EQ(whole.add(LayerKind::kColour, {.name = "other", .transparency = 0.5}, 1), other);
+  const auto drawings = many_drawings(other, 200);
+  stack.draw(drawings);
+  whole.draw(drawings);
+  const std::uint64_t version = stack.version();
+  int pieces = 1;
+  while (!stack.compose_some(1000)) {
+    EXPECT_EQ(stack.version(), version) << "the picture is what it will be";
+    ++pieces;
+  }
+  EXPECT_GE(pieces, 10) << "of 20 000 cells";
+  EXPECT_EQ(stack.version(), version);
+  EXPECT_EQ(stack.composed(), whole.composed());
+  EXPECT_EQ(stack.recomposed_cells(), whole.recomposed_cells());
+}
+
+TEST(LayerStack, TakesAndGivesBackMemoryWhenItIsResized) {
+  LayerStack stack(CanvasDescription{40, 30, 0.01, Vec2(0, 0)});
+  const LayerId grey = stack.add(LayerKind::kGrey, {.name = "grey"}, 1);
+  LayerStack plain(CanvasDescription{40, 30, 0.01, Vec2(0, 0)});
+  ASSERT_EQ(plain.add(LayerKind::kGrey, {.name = "grey"}, 1), grey);
+  const auto drawings = many_drawings(grey, 100);
+  stack.draw(drawings);
+  plain.draw(drawings);
+  std::vector<std::vector<std::uint8_t>> memory(4, std::vector<std::uint8_t>(4 * 50 * 20));
+  memory = stack.resize(50, 20, std::move(memory));
+  plain.resize(50, 20);
+  EXPECT_EQ(memory.size(), 4U) << "two layers, the picture, and one that was not needed";
+  EXPECT_EQ(memory.front().size(), 4U * 40 * 30);
+  EXPECT_EQ(stack.cells(kBaseLayer), plain.cells(kBaseLayer));
+  EXPECT_EQ(stack.cells(grey), plain.cells(grey));
+  EXPECT_EQ(stack.composed(), plain.composed());
+  std::vector<CellValue> rows(100);
+  stack.copy_rows(grey, 3, rows);
+  const auto all = stack.cells(grey);
+  EXPECT_TRUE(std::equal(rows.begin(), rows.end(), all.begin() + 150));
+  std::vector<std::uint8_t> picture(400);
+  stack.picture_rows(grey, 3, picture);
+  const auto whole = stack.picture(grey);
+  EXPECT_TRUE(std::equal(picture.begin(), picture.end(), whole.begin() + 600));
+}
+
 }  // namespace sim

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
@@ -26,6 +27,14 @@ using ThinkerId = std::uint64_t;
 [[nodiscard]] bool is_thinker() noexcept;
 /// Gives the calling thread one that was made for it, before it uses its own.
 void set_this_thinker(ThinkerId thinker) noexcept;
+
+/// Drawings that are carried out piece by piece, see EventClient::draw_some().
+struct DrawWork {
+  std::vector<sim::DrawOperation> operations;
+  sim::DrawProgress progress;
+  std::size_t written = 0;  ///< cells, so far
+  bool begun = false;
+};
 
 /// A client of a host without a thread of its own, for event loops: waiting is begun, and its end
 /// is told. See Host::connect_events(). All members may be called from any thread, but by one at a
@@ -61,6 +70,13 @@ class EventClient {
   virtual Outcome begin_sleep(ThinkerId thinker, double seconds) = 0;
   /// As Session::join().
   virtual void join(ThinkerId thinker) = 0;
+
+  /// Carries on with drawings as Session::draw() does, until about so many cells have been written
+  /// (a row of tiles or a line more at most); the simulation is locked for that long only. What the
+  /// session has drawn before comes first. Drawings that a later fill of the same layer covers are
+  /// left out.
+  /// @return whether all is done. @throws SessionError kDisconnected once the session is closed.
+  virtual bool draw_some(DrawWork& work, std::size_t cells) = 0;
 
   /// How the last wait stands.
   [[nodiscard]] virtual Outcome outcome() const = 0;

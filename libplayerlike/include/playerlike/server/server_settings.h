@@ -17,6 +17,8 @@ struct ServerLimits {
   std::size_t requests_in_flight = 256;               ///< of one connection, not answered yet
   std::size_t connections = 256;                      ///< of all ports together
   std::size_t queued_bytes = std::size_t{8} << 20U;   ///< that wait to be sent to one client
+  /// That wait to be sent to all clients together, those of large answers in the making among them.
+  std::size_t all_queued_bytes = std::size_t{1} << 30U;
   double first_request_s = 10.0;    ///< wall time from the connection to its first whole request
   double partial_request_s = 10.0;  ///< wall time from a request's first byte to its last
   double idle_s = 0.0;              ///< wall time without a whole request; 0: no limit

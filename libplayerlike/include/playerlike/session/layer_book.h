@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,11 @@ class LayerBook {
   /// @throws SessionError as Session::set_layer_style().
   void set_style(sim::LayerStack& stack, int client, sim::LayerId layer, sim::LayerStyle style);
   /// @throws SessionError as Session::resize_canvas().
-  void resize(sim::LayerStack& stack, int width, int height);
+  void require_size(const sim::LayerStack& stack, int width, int height) const;
+  /// @param zeros  see sim::LayerStack::resize(). @return memory that is no longer used.
+  /// @throws SessionError as Session::resize_canvas().
+  std::vector<std::vector<std::uint8_t>> resize(sim::LayerStack& stack, int width, int height,
+                                                std::vector<std::vector<std::uint8_t>> zeros = {});
 
   /// The base layer and the client's own, lowest first.
   [[nodiscard]] std::vector<sim::LayerInfo> list(const sim::LayerStack& stack, int client) const;

@@ -114,15 +114,22 @@ class CellRaster {
   /// blend() along a line, see Canvas::draw_line.
   void blend_line(int column0, int row0, int column1, int row1, Colour colour) noexcept;
   /// Gives every cell that value.
-  void fill(CellValue value) noexcept;
+  void fill(CellValue value) noexcept { fill_rows(0, height_, value); }
+  /// Gives every cell of the rows from `begin` to before `end` that value.
+  /// @pre 0 <= begin <= end <= height()
+  void fill_rows(int begin, int end, CellValue value) noexcept;
   /// Gives each cell of a rectangle its value from a row-major list; what lies outside is left
   /// out. Tiles whose cells all have their value already are not marked.
   /// @pre values.size() == rect.width * rect.height, sides >= 0.
   void set_cells(const CellRect& rect, std::span<const CellValue> values) noexcept;
   /// Changes the number of columns and rows; the bottom left cell stays what it is, cells are cut
   /// off or added (blank) at the top and the right. Marks every tile as changed.
+  /// @param zeros  4 * width * height bytes, all 0, to use as the new store, so that no memory has
+  /// to
+  ///               be prepared in this call; of any other size: they are not used.
+  /// @return the old store.
   /// @pre sides >= 1.
-  void resize(int width, int height);
+  std::vector<std::uint8_t> resize(int width, int height, std::vector<std::uint8_t> zeros = {});
 
   [[nodiscard]] int tile_columns() const noexcept { return tiles_across(width_); }
   [[nodiscard]] int tile_rows() const noexcept { return tiles_across(height_); }

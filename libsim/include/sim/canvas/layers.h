@@ -66,6 +66,20 @@ struct DrawOperation {
   CellValue value;
 };
 
+/// How far a list of drawings has been carried out, see LayerStack::draw_some().
+struct DrawProgress {
+  std::size_t operation = 0;  ///< drawings that are done
+  int row = 0;                ///< rows of the next one that are done, if it is a fill
+};
+
+/// Takes those drawings out of a list that a later fill of the same layer covers: the cells are the
+/// same without them.
+void drop_covered(std::vector<DrawOperation>& operations);
+
+/// The most cells that a drawing writes on a canvas of that size, at least 1.
+[[nodiscard]] std::size_t cells_written(const DrawOperation& operation, int width,
+                                        int height) noexcept;
+
 /// The grid-maps of a simulation: the base canvas and the layers that clients put over or under it,
 /// all of one size and place.
 ///
@@ -102,8 +116,16 @@ class LayerStack {
   /// All layers in the order in which they are drawn: lowest first.
   [[nodiscard]] std::vector<LayerInfo> layers() const;
 
-  /// Carries drawings out, in order; those on layers that are gone do nothing.
+  /// Carries drawings out, in order; those on layers that are gone do nothing, and those that a
+  /// later fill of the same layer covers are left out.
   void draw(std::span<const DrawOperation> operations);
+  /// Carries on with drawings, in order, until a number of cells has been written (cells_written();
+  /// a line is not divided, a fill is divided between rows) or all are done.
+  /// @param progress  where to go on; moved. Done when it is at the end of the list.
+  /// @param cells     >= 1.
+  /// @return cells written.
+  std::size_t draw_some(std::span<const DrawOperation> operations, DrawProgress& progress,
+                        std::size_t cells);
   /// Gives each cell of a rectangle its value from a row-major list, without blending; the part
   /// outside is left out. Nothing happens if the layer is gone.
   /// @pre values.size() == rect.width * rect.height, sides >= 0.
@@ -112,18 +134,31 @@ class LayerStack {
   [[nodiscard]] std::optional<CellValue> cell(LayerId layer, int column, int row) const;
   /// All cells of a layer, row-major from the top. @pre contains(layer)
   [[nodiscard]] std::vector<CellValue> cells(LayerId layer) const;
+  /// Copies whole rows of a layer's cells: as many as there is room for.
+  /// @pre contains(layer), 0 <= row, `to` has room for whole rows and for none beyond the last one.
+  void copy_rows(LayerId layer, int row, std::span<CellValue> to) const;
 
   /// Changes the number of columns and rows of all layers. What is drawn stays where it is in the
   /// world: the bottom left corner stays, cells are added or cut off at the top and the right.
   /// @pre sides in 1..kMaxCanvasSide
-  void resize(int width, int height);
+  void resize(int width, int height) { static_cast<void>(resize(width, height, {})); }
+  /// The same with memory that was prepared before: for each layer and the picture of all, as far
+  /// as they reach, 4 * width * height bytes that are 0.
+  /// @return memory that is no longer used; to free much of it takes a while.
+  std::vector<std::vector<std::uint8_t>> resize(int width, int height,
+                                                std::vector<std::vector<std::uint8_t>> zeros);
 
   /// All visible layers over one another, as RGBA bytes, row-major from the top; where nothing is
   /// drawn transparent black. Recomposes what has changed since the last call.
   [[nodiscard]] const std::vector<std::uint8_t>& composed();
+  /// Does a part of what composed() would do, about so many cells of it.
+  /// @return whether there is nothing left of it.
+  bool compose_some(std::size_t cells);
   /// One layer alone as RGBA bytes, with its own transparency and transparent colour, also if it is
   /// hidden. @pre contains(layer)
   [[nodiscard]] std::vector<std::uint8_t> picture(LayerId layer) const;
+  /// Whole rows of that: as many as there is room for. @pre as copy_rows(), four bytes a cell.
+  void picture_rows(LayerId layer, int row, std::span<std::uint8_t> to) const;
   /// Count of the picture that composed() gives now: as long as it stays the same, so does the
   /// picture. Who asks for it before or after composed(), with nothing drawn in between, is told
   /// the same. Drawings on hidden layers and cells set to what they are leave it alone.

@@ -1,0 +1,162 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What may take long on a large canvas. It is done in pieces: the mutex is released after each, so
+// that steps and other clients wait for a piece at most.
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "host/core.h"
+
+namespace playerlike {
+namespace {
+
+// Cells that are copied or composed while others wait: a millisecond or two. Nearly all canvases
+// are smaller, so what is copied of them is of one moment.
+constexpr std::size_t kPiece = std::size_t{1} << 20U;
+
+std::size_t cells_of(const sim::CanvasDescription& canvas) {
+  return static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
+}
+
+bool same_size(const sim::CanvasDescription& a, const sim::CanvasDescription& b) {
+  return a.width == b.width && a.height == b.height;
+}
+
+}  // namespace
+
+// A thread that takes the mutex again at once would keep it from those who sleep in wait for it.
+void Host::Core::let_others_in() const {
+  std::this_thread::sleep_for(std::chrono::microseconds(50));
+  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+}
+
+void Host::Core::keep_own_drawings(const Client& client,
+                                   std::vector<sim::DrawOperation>& operations) const {
+  std::optional<sim::LayerId> layer;
+  bool own = false;
+  std::erase_if(operations, [&](const sim::DrawOperation& o) {
+    if (layer != o.layer) own = layer_book_.may_use(client.number, o.layer);
+    layer = o.layer;
+    return !own;
+  });
+}
+
+bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
+  {
+    const Lock lock = lock_soon();
+    require_open(client);
+    if (!std::exchange(work.begun, true)) {
+      carry_out_drawings(client);
+      keep_own_drawings(client, work.operations);
+      sim::drop_covered(work.operations);
+    }
+    work.written += simulation_.layers().draw_some(work.operations, work.progress, cells);
+  }
+  const bool done = work.progress.operation == work.operations.size();
+  if (!done) let_others_in();
+  return done;
+}
+
+/// Calls copy(layers, book, row, rows) under the mutex for all rows of the canvas, from the top,
+/// some at a time; from row 0 again if the canvas gets another size meanwhile. Before that, once a
+/// size and without the mutex, copy.make_room(canvas).
+template <typename Copy>
+sim::CanvasDescription Host::Core::copy_in_pieces(Client& client, const Copy& copy) {
+  sim::CanvasDescription canvas = with_layers(
+      client, [](const sim::LayerStack& layers, const LayerBook&) { return layers.description(); });
+  copy.make_room(canvas);
+  for (int row = 0; row < canvas.height;) {
+    const int most =
+        static_cast<int>(std::max<std::size_t>(kPiece / static_cast<std::size_t>(canvas.width), 1));
+    const int rows = std::min(most, canvas.height - row);
+    const auto now = with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
+      if (same_size(layers.description(), canvas)) copy.rows(layers, book, row, rows);
+      return layers.description();
+    });
+    if (same_size(now, canvas)) {
+      row += rows;
+    } else {
+      canvas = now;
+      row = 0;
+      copy.make_room(canvas);
+    }
+    if (row < canvas.height) let_others_in();
+  }
+  return canvas;
+}
+
+std::vector<sim::CellValue> Host::Core::cells(Client& client, sim::LayerId layer) {
+  struct Copy {
+    int client;
+    sim::LayerId layer;
+    std::vector<sim::CellValue>& cells;
+
+    void make_room(const sim::CanvasDescription& canvas) const { cells.resize(cells_of(canvas)); }
+    void rows(const sim::LayerStack& layers, const LayerBook& book, int row, int count) const {
+      book.require(client, layer);
+      const auto width = static_cast<std::size_t>(layers.width());
+      layers.copy_rows(layer, row,
+                       std::span(cells).subspan(static_cast<std::size_t>(row) * width,
+                                                static_cast<std::size_t>(count) * width));
+    }
+  };
+  std::vector<sim::CellValue> cells;
+  copy_in_pieces(client, Copy{client.number, layer, cells});
+  return cells;
+}
+
+std::vector<std::uint8_t> Host::Core::picture(Client& client, std::optional<sim::LayerId> layer,
+                                              sim::CanvasDescription& canvas) {
+  struct Copy {
+    int client;
+    std::optional<sim::LayerId> layer;
+    std::vector<std::uint8_t>& rgba;
+
+    void make_room(const sim::CanvasDescription& size) const { rgba.resize(4 * cells_of(size)); }
+    void rows(sim::LayerStack& layers, const LayerBook& book, int row, int count) const {
+      if (layer) book.require(client, *layer);
+      const std::size_t line = 4 * static_cast<std::size_t>(layers.width());
+      const auto to = std::span(rgba).subspan(static_cast<std::size_t>(row) * line,
+                                              static_cast<std::size_t>(count) * line);
+      if (layer) return layers.picture_rows(*layer, row, to);
+      const std::vector<std::uint8_t>& all = layers.composed();
+      std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(row) * line),
+                  to.size(), to.begin());
+    }
+  };
+  if (!layer) {
+    // Others may draw meanwhile: what is left after one time round is done with the copying.
+    std::size_t composed = 0;
+    bool more = true;
+    while (more) {
+      more = with_layers(client, [&](sim::LayerStack& layers, const LayerBook&) {
+        composed += kPiece;
+        return !layers.compose_some(kPiece) && composed < cells_of(layers.description()) + kPiece;
+      });
+      if (more) let_others_in();
+    }
+  }
+  std::vector<std::uint8_t> rgba;
+  canvas = copy_in_pieces(client, Copy{client.number, layer, rgba});
+  return rgba;
+}
+
+void Host::Core::resize_canvas(Client& client, int width, int height) {
+  // Memory is got and given back without the mutex.
+  std::vector<std::vector<std::uint8_t>> memory;
+  const auto size = with_layers(client, [&](const sim::LayerStack& layers, const LayerBook& book) {
+    book.require_size(layers, width, height);
+    const bool same = layers.width() == width && layers.height() == height;
+    return same ? std::size_t{0} : layers.layers().size() + 1;
+  });
+  const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  for (std::size_t i = 0; i < size; ++i) memory.emplace_back(4 * cells, std::uint8_t{0});
+  const Lock lock = lock_soon();
+  require_open(client);
+  // What others have drawn was meant for the cells as they were numbered then.
+  for (const auto& c : clients_) carry_out_drawings(*c);
+  memory = layer_book_.resize(simulation_.layers(), width, height, std::move(memory));
+  canvas_generation_.fetch_add(1, std::memory_order_acq_rel);
+}
+
+}  // namespace playerlike

@@ -1,0 +1,61 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "server/workshop.h"
+
+#include <pthread.h>
+
+#include <csignal>
+#include <utility>
+
+namespace playerlike::server {
+
+void Workshop::add(Job job) {
+  const std::lock_guard lock(mutex_);
+  if (closed_) return;
+  jobs_.push_back(std::move(job));
+  if (!thread_.joinable()) {
+    thread_ = std::thread([this] { work(); });
+  }
+  changed_.notify_one();
+}
+
+void Workshop::close() noexcept {
+  std::deque<Job> dropped;
+  {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    dropped.swap(jobs_);
+    changed_.notify_one();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+void Workshop::work() {
+  // Signals are for the program's own threads.
+  sigset_t all;
+  sigfillset(&all);
+  pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return closed_ || !jobs_.empty(); });
+    if (closed_) return;
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    bool more = false;
+    std::exception_ptr error;
+    try {
+      more = job.piece();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    if (!more) {
+      job.piece = nullptr;  // what it holds goes before anybody is told
+      job.done(error);
+      job.done = nullptr;
+    }
+    lock.lock();
+    if (more && !closed_) jobs_.push_back(std::move(job));
+  }
+}
+
+}  // namespace playerlike::server
