@@ -10,6 +10,7 @@
 
 #include "protocol/codec.h"
 #include "session/checks.h"
+#include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike::server {
@@ -530,7 +531,7 @@ json NativeHandler::world_map(const json& request) {
   if (cell_size_m > 0.0 && (arena_m / cell_size_m).prod() > kMaxMapCells) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a server makes maps of up to 4194304 cells: a cell of this arena must be " +
-                           std::to_string(std::sqrt(arena_m.prod() / kMaxMapCells)) +
+                           sim::rounded_text(std::sqrt(arena_m.prod() / kMaxMapCells), 6) +
                            " m long at least, unless the map is asked for in tiles");
   }
   return {{"map", protocol::encode_map(session().world_map(cell_size_m), terms_.encoding)}};
