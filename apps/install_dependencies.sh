@@ -15,7 +15,8 @@ or newer). Does nothing, and needs no rights, when all of it is there.
 Groups (default: build):
   build   compiler, CMake, make and pkg-config, and the libraries that Playpen links
   test    GoogleTest, Google Benchmark, ffprobe, which looks at films, a display without a
-          screen for the live window, Python, and, where they can be had, MORSE's client library
+          screen for the live window, Python, locales with a decimal comma, and, where they can
+          be had, MORSE's client library
           and Boost.Program_options
   lint    clang, its formatter and linter, shellcheck
   doc     Doxygen
@@ -35,7 +36,7 @@ build_packages=(
   libasio-dev nlohmann-json3-dev libspdlog-dev libcli11-dev libyaml-cpp-dev
 )
 test_packages=(
-  libgtest-dev libgmock-dev libbenchmark-dev ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
+  libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
   python3=python3)
 # Where the system has no such package (Ubuntu 24.04 lacks the first), the tests that want it are
 # skipped.

@@ -12,6 +12,7 @@
 #include "playerlike/messages/snd_settings.h"
 #include "shipped.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/robot_model.h"
 
@@ -35,8 +36,8 @@ std::string describe(const sim::WorldDescription& world) {
   if (!world.arena.walls.empty()) {
     text += ", " + counted(world.arena.walls.size(), "wall outline", "wall outlines");
   }
-  char size[64];
-  std::snprintf(size, sizeof size, ", %.2f m x %.2f m", world.arena.size.x(), world.arena.size.y());
+  const std::string size = ", " + sim::fixed_text(world.arena.size.x(), 2) + " m x " +
+                           sim::fixed_text(world.arena.size.y(), 2) + " m";
   return text + size;
 }
 
@@ -63,8 +64,8 @@ std::string describe(const sim::RobotModel& model) {
     least = least.cwiseMin(corner);
     most = most.cwiseMax(corner);
   }
-  char size[64];
-  std::snprintf(size, sizeof size, ", %.2f m x %.2f m", most.x() - least.x(), most.y() - least.y());
+  const std::string size = ", " + sim::fixed_text(most.x() - least.x(), 2) + " m x " +
+                           sim::fixed_text(most.y() - least.y(), 2) + " m";
   std::string devices;
   for (const sim::DeviceDescription& device : model.devices) {
     devices += (devices.empty() ? "" : ", ") + device.name;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -22,6 +23,13 @@
 #include "temporary_folder.h"
 
 namespace {
+
+/// A field of a table, whatever the locale.
+double number_of(const std::string& text) {
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -99,8 +107,8 @@ class FirstPrograms : public testing::Test {
         }
       }
       if (fields.at(1) != name) continue;
-      visited_.insert(square_of(std::stod(fields.at(2)), std::stod(fields.at(3)), side_m));
-      if (std::stod(fields.at(5)) > 0.05) last_move_s_ = std::stod(fields.at(0));
+      visited_.insert(square_of(number_of(fields.at(2)), number_of(fields.at(3)), side_m));
+      if (number_of(fields.at(5)) > 0.05) last_move_s_ = number_of(fields.at(0));
     }
   }
   void expect_touched_nothing() const {

@@ -11,6 +11,7 @@
 #include "devices/errors.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/colour.h"
+#include "sim/core/number_text.h"
 
 namespace CCMorse {
 
@@ -321,7 +322,8 @@ void Drawing::FillDisc(double aX, double aY, double aRadius, const ImageColour_t
   const std::string fun = Fun("SetDiscMetres");
   playerlike::require_finite(fun.c_str(), {{"x", aX}, {"y", aY}, {"the radius", aRadius}});
   if (aRadius < 0.0) {
-    throw PlayerError(fun, "the radius must not be negative, but is " + std::to_string(aRadius),
+    throw PlayerError(fun,
+                      "the radius must not be negative, but is " + sim::rounded_text(aRadius, 6),
                       PlayerError::kBadArgument);
   }
   RequireUsable("SetDiscMetres");

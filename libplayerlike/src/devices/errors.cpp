@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "host/end_of_program.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike {
 
@@ -70,9 +71,10 @@ void prepare_for_uncaught_errors() noexcept {
 void require_finite(const char* fun, std::initializer_list<NamedValue> values) {
   for (const NamedValue& v : values) {
     if (std::isfinite(v.value)) continue;
-    std::ostringstream text;
-    text << v.name << " must be a finite number, but is " << v.value;
-    throw PlayerError(fun, text.str(), PlayerError::kBadArgument);
+    throw PlayerError(
+        fun,
+        std::string(v.name) + " must be a finite number, but is " + sim::rounded_text(v.value, 6),
+        PlayerError::kBadArgument);
   }
 }
 

@@ -22,6 +22,7 @@
 #include "host/outputs.h"
 #include "session/in_process_event_client.h"
 #include "session/in_process_session.h"
+#include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 #include "virtual_time/virtual_time.h"
 
@@ -441,12 +442,12 @@ void Host::Core::note_silence() {
       });
       if (has_client) continue;  // and that is told
       warn("a thread of the program has neither read nor slept for " +
-           std::to_string(settings_.silence_limit_s) +
+           sim::rounded_text(settings_.silence_limit_s, 6) +
            " s of wall time; simulated time goes on without it until it does");
       continue;
     }
     warn("client " + std::to_string(c->number + 1) + " (port " + std::to_string(c->port) +
-         ") has not called Read() for " + std::to_string(settings_.silence_limit_s) +
+         ") has not called Read() for " + sim::rounded_text(settings_.silence_limit_s, 6) +
          " s of wall time; simulated time goes on without it until it does");
   }
 }
@@ -949,7 +950,7 @@ std::optional<std::string> Host::Core::set_time_factor(double factor) {
     return "time has no speed in lockstep: it goes on when all clients wait";
   }
   if (!(factor > 0.0 && std::isfinite(factor))) {
-    return "expected a factor greater than 0, found " + std::to_string(factor);
+    return "expected a factor greater than 0, found " + sim::rounded_text(factor, 6);
   }
   time_factor_ = factor;
   ++pace_changes_;
@@ -1045,10 +1046,9 @@ void Host::Core::watch_program() {
 
 void Host::Core::start_busy_alarm(const Lock& /*held*/) {
   if (!watches_program_ || paced_ || over() || simulation_.now_ns() > 0) return;
-  std::ostringstream limit;
-  limit << settings_.silence_limit_s;
   set_busy_alarm(settings_.silence_limit_s,
-                 "the program has been busy for " + limit.str() +
+                 "the program has been busy for " +
+                     sim::rounded_text(settings_.silence_limit_s, 6) +
                      " s of processor time, but no simulated time has passed: it has not called "
                      "Read(). " +
                      cure_for_standing_time());
@@ -1404,12 +1404,14 @@ void Host::Core::show_progress(bool last) {
     const int full = static_cast<int>(share * kCells);
     const double left_s =
         t.real_time_factor > 0.0 ? (*t.duration_s - sim_s) / t.real_time_factor : 0.0;
-    std::fprintf(stderr, "\r[%.*s%.*s] %7.1f / %.0f s simulated, %.0f x real time, %.0f s left ",
-                 full, "##############################", kCells - full,
-                 "..............................", sim_s, *t.duration_s, t.real_time_factor,
-                 std::ceil(std::max(0.0, left_s)));
+    std::fprintf(stderr, "\r[%.*s%.*s] %7s / %s s simulated, %s x real time, %s s left ", full,
+                 "##############################", kCells - full, "..............................",
+                 sim::fixed_text(sim_s, 1).c_str(), sim::fixed_text(*t.duration_s, 0).c_str(),
+                 sim::fixed_text(t.real_time_factor, 0).c_str(),
+                 sim::fixed_text(std::ceil(std::max(0.0, left_s)), 0).c_str());
   } else {
-    std::fprintf(stderr, "\r%9.1f s simulated, %.0f x real time ", sim_s, t.real_time_factor);
+    std::fprintf(stderr, "\r%9s s simulated, %s x real time ", sim::fixed_text(sim_s, 1).c_str(),
+                 sim::fixed_text(t.real_time_factor, 0).c_str());
   }
   if (last) std::fputc('\n', stderr);
   std::fflush(stderr);
@@ -1492,9 +1494,7 @@ ViewScene Host::Core::view_scene() {
                         static_cast<std::uint32_t>(colour.g) << 8U | colour.b;
     view.status = robots_[index].name + (hand_->active() ? " by hand    " : "    ");
   }
-  std::array<char, 64> time{};
-  std::snprintf(time.data(), time.size(), "t %.1f s    ", sim::to_seconds(simulation_.now_ns()));
-  view.status += time.data();
+  view.status += "t " + sim::fixed_text(sim::to_seconds(simulation_.now_ns()), 1) + " s    ";
   view.status += (paced_ ? factor_text(time_factor_) : "lockstep") + "    ";
   view.status += sim::to_string(simulation_.view_mode());
   if (paused_) view.status += "    paused";

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/outputs.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
@@ -60,9 +61,10 @@ std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
 }
 
 std::string Recorder::picture_file(sim::SimTime now_ns) const {
-  std::array<char, 48> name{};
-  std::snprintf(name.data(), name.size(), "scene_%010.3fs.png", sim::to_seconds(now_ns));
-  return (fs::path(snapshot_folder_) / name.data()).string();
+  constexpr std::size_t kDigits = 10;  // so that the order of names is that of times
+  const std::string time = sim::fixed_text(sim::to_seconds(now_ns), 3);
+  const std::string zeros(kDigits - std::min(kDigits, time.size()), '0');
+  return (fs::path(snapshot_folder_) / ("scene_" + zeros + time + "s.png")).string();
 }
 
 void Recorder::observe(const sim::Simulation& simulation) {
@@ -97,17 +99,17 @@ void Recorder::extend_trails(const sim::Simulation& simulation) {
 }
 
 void Recorder::write_rows(const sim::Simulation& simulation) {
+  const std::string time = sim::fixed_text(sim::to_seconds(simulation.now_ns()), 3);
   for (int i = 0; i < simulation.robot_count(); ++i) {
     const sim::BodyState& body = simulation.body(i);
-    std::array<char, 256> line{};
     // Robot names hold no comma (the world reader sees to it).
-    std::snprintf(line.data(), line.size(), ",%.6f,%.6f,%.6f,%.6f,%.6f,%d\n", body.X_WB.x_m,
-                  body.X_WB.y_m, body.X_WB.yaw_rad, body.twist.v_mps, body.twist.omega_radps,
-                  body.stalled ? 1 : 0);
-    std::array<char, 32> time{};
-    std::snprintf(time.data(), time.size(), "%.3f,", sim::to_seconds(simulation.now_ns()));
-    trajectory_ << time.data() << simulation.world().robots[static_cast<std::size_t>(i)].name
-                << line.data();
+    std::string line = time + ',' + simulation.world().robots[static_cast<std::size_t>(i)].name;
+    for (const double value : {body.X_WB.x_m, body.X_WB.y_m, body.X_WB.yaw_rad, body.twist.v_mps,
+                               body.twist.omega_radps}) {
+      line += ',' + sim::fixed_text(value, 6);
+    }
+    line += body.stalled ? ",1\n" : ",0\n";
+    trajectory_ << line;
   }
 }
 

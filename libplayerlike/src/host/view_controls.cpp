@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sim/core/number_text.h"
 #include "sim/devices/motion.h"
 
 namespace playerlike {
@@ -103,11 +104,7 @@ double next_time_factor(double factor, bool faster) noexcept {
                 : (next >= kLeastFactor ? next : factor);
 }
 
-std::string factor_text(double factor) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "x %.4g", factor);
-  return text.data();
-}
+std::string factor_text(double factor) { return "x " + sim::rounded_text(factor, 4); }
 
 HandDrive::HandDrive(const std::vector<RobotInfo>& robots) {
   for (const RobotInfo& robot : robots) {

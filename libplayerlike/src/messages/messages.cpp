@@ -5,9 +5,11 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <locale>
 #include <sstream>
 #include <variant>
 
+#include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
 
 namespace playerlike {
@@ -282,8 +284,8 @@ sim::CanvasDescription map_grid(const sim::ArenaDescription& arena, double cell_
   if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a map of this arena needs a cell size of at least " +
-                           std::to_string(arena.size.maxCoeff() / kMaxSide) + " m, but it is " +
-                           std::to_string(cell_size_m));
+                           sim::rounded_text(arena.size.maxCoeff() / kMaxSide, 6) +
+                           " m, but it is " + sim::rounded_text(cell_size_m, 6));
   }
   sim::CanvasDescription grid;
   grid.width = static_cast<int>(cells.x());
@@ -297,6 +299,7 @@ InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                 std::string_view interface, int index) {
   std::optional<InterfaceBinding> found;
   std::ostringstream known;
+  known.imbue(std::locale::classic());
   bool has_others = is_of_world(interface);  // of the interface, with another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,

@@ -11,6 +11,7 @@
 
 #include "playerlike/messages/messages.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
@@ -18,11 +19,7 @@ namespace {
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr int kMaxIndex = 65535;
 
-std::string number_text(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
+std::string number_text(double value) { return sim::rounded_text(value, 6); }
 
 // A setting's value as it stands in a world file, for one unit there.
 double unit_of(const SndSettingRow& row) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iomanip>
+#include <locale>
 #include <ostream>
 #include <sstream>
 
@@ -49,6 +50,7 @@ void CameraProxy::SaveFrame(const std::string aPrefix, uint32_t aWidth) {
   const scoped_lock_t lock(LockData(fun));
   constexpr uint32_t kMostDigits = 16;
   std::ostringstream file;
+  file.imbue(std::locale::classic());
   file << aPrefix << std::setfill('0') << std::setw(static_cast<int>(std::min(aWidth, kMostDigits)))
        << mFrame << ".ppm";
   if (!detail::write_ppm(file.str(), mPixels, mWidth, mHeight)) {

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/core/number_text.h"
+
 namespace playerlike::server {
 namespace {
 
@@ -29,22 +31,12 @@ Connection::Clock::duration wall(double seconds) {
       std::chrono::duration<double>(seconds));
 }
 
-std::string seconds_text(double seconds) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g s", seconds);
-  return text.data();
-}
+std::string seconds_text(double seconds) { return sim::rounded_text(seconds, 6) + " s"; }
 
 std::string bytes_text(std::uint64_t bytes) {
-  std::array<char, 32> text{};
-  if (bytes < 10'000) {
-    std::snprintf(text.data(), text.size(), "%d bytes", static_cast<int>(bytes));
-  } else if (bytes < 10'000'000) {
-    std::snprintf(text.data(), text.size(), "%.0f kB", static_cast<double>(bytes) / 1e3);
-  } else {
-    std::snprintf(text.data(), text.size(), "%.0f MB", static_cast<double>(bytes) / 1e6);
-  }
-  return text.data();
+  if (bytes < 10'000) return std::to_string(bytes) + " bytes";
+  if (bytes < 10'000'000) return sim::fixed_text(static_cast<double>(bytes) / 1e3, 0) + " kB";
+  return sim::fixed_text(static_cast<double>(bytes) / 1e6, 0) + " MB";
 }
 
 }  // namespace
@@ -375,13 +367,12 @@ void Connection::look_after(Clock::time_point now) {
 }
 
 std::string Connection::summary() const {
-  std::array<char, 32> time{};
-  std::snprintf(time.data(), time.size(), "%.1f s",
-                std::chrono::duration<double>(Clock::now() - opened_).count());
+  const std::string time =
+      sim::fixed_text(std::chrono::duration<double>(Clock::now() - opened_).count(), 1) + " s";
   constexpr std::size_t kLongest = 200;
   std::string text = name_ +
                      (description_.empty() ? "" : " (" + description_.substr(0, kLongest) + ')') +
-                     ": closed after " + time.data() + ": " + reason_.substr(0, kLongest) + "; " +
+                     ": closed after " + time + ": " + reason_.substr(0, kLongest) + "; " +
                      std::to_string(requests_) + (requests_ == 1 ? " request, " : " requests, ") +
                      bytes_text(bytes_in_) + " in, " + bytes_text(bytes_out_) + " out";
   if (records_lost_ > 0) text += ", " + std::to_string(records_lost_) + " records lost";

@@ -8,6 +8,7 @@
 
 #include "host/object_properties.h"
 #include "protocol/codec.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike::server {
@@ -109,7 +110,7 @@ json world_map(const NativeSubject& subject, const json& request) {
   if (cell_size_m > 0.0 && (arena_m / cell_size_m).prod() > kMaxMapCells) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "a server makes maps of up to 4194304 cells: a cell of this arena must be " +
-                           std::to_string(std::sqrt(arena_m.prod() / kMaxMapCells)) +
+                           sim::rounded_text(std::sqrt(arena_m.prod() / kMaxMapCells), 6) +
                            " m long at least, unless the map is asked for in tiles");
   }
   return {{"map", protocol::encode_map(subject.session.world_map(cell_size_m), subject.encoding)}};

@@ -17,6 +17,7 @@
 #include "session/farewell.h"
 #include "session/socket_line.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike {
@@ -696,9 +697,9 @@ void SocketSession::set_view_mode(sim::ViewMode mode) {
 
 sim::OccupancyMap SocketSession::world_map(double cell_size_m) {
   if (!(cell_size_m > 0.0 && std::isfinite(cell_size_m))) {
-    throw SessionError(
-        SessionError::Code::kBadArgument,
-        "the cell size of a map is a positive number [m], but is " + std::to_string(cell_size_m));
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "the cell size of a map is a positive number [m], but is " +
+                           sim::rounded_text(cell_size_m, 6));
   }
   const auto tile = [&](int column, int row) {
     return request({{"do", "world_map"},

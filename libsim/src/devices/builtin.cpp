@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/core/degrees.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
@@ -126,8 +127,8 @@ BatteryParams parse_battery(io::Reader& settings, BatteryParams p) {
   p.empty_voltage_v = settings.number("empty_voltage", p.empty_voltage_v, kVoltage_v);
   if (p.empty_voltage_v > p.full_voltage_v) {
     settings.issue("device/battery-voltage", "an empty_voltage of at most full_voltage",
-                   std::to_string(p.empty_voltage_v) + " V empty, " +
-                       std::to_string(p.full_voltage_v) + " V full");
+                   rounded_text(p.empty_voltage_v, 6) + " V empty, " +
+                       rounded_text(p.full_voltage_v, 6) + " V full");
   }
   return p;
 }
@@ -143,8 +144,8 @@ BumperSegment parse_segment(io::Reader& reader) {
   if (segment.radius_m > 0.0 &&
       segment.length_m > 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
     reader.issue("device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
-                 std::to_string(segment.length_m) + " m long with a radius of " +
-                     std::to_string(segment.radius_m) + " m");
+                 rounded_text(segment.length_m, 6) + " m long with a radius of " +
+                     rounded_text(segment.radius_m, 6) + " m");
   }
   reader.finish();
   return segment;
@@ -359,7 +360,7 @@ LaserParams parse_laser(io::Reader& settings, LaserParams p) {
   if (field_of_view > 2.0 * std::numbers::pi + 1e-9) {
     settings.issue("device/laser-field-of-view",
                    "beams that span at most 360 degrees together, (beams - 1) * resolution_deg",
-                   std::to_string(field_of_view / kDegrees) + " degrees");
+                   rounded_text(field_of_view / kDegrees, 6) + " degrees");
   }
   return p;
 }
@@ -444,8 +445,8 @@ PtzParams parse_ptz(io::Reader& settings, PtzParams p) {
   if (p.view_min_rad > p.view_max_rad) {
     settings.issue("device/ptz-field-of-view",
                    "a field_of_view_min_deg of at most field_of_view_max_deg",
-                   std::to_string(p.view_min_rad / kDegrees) + " and " +
-                       std::to_string(p.view_max_rad / kDegrees) + " degrees");
+                   rounded_text(p.view_min_rad / kDegrees, 6) + " and " +
+                       rounded_text(p.view_max_rad / kDegrees, 6) + " degrees");
     p.view_min_rad = p.view_max_rad;
   }
   return p;

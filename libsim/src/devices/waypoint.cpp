@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/core/number_text.h"
+
 namespace sim {
 
 std::string_view to_string(WaypointStatus status) noexcept {
@@ -45,11 +47,11 @@ std::optional<std::string> Waypoint::carry_out(const Command& command, RobotCont
     if (!go->goal_m.allFinite()) return "a goal must be a point of finite coordinates";
     if (!(go->tolerance_m > 0.0) || !std::isfinite(go->tolerance_m)) {
       return "the tolerance of a goal must be a number of metres greater than 0, not " +
-             std::to_string(go->tolerance_m);
+             rounded_text(go->tolerance_m, 6);
     }
     if (!(go->speed_mps > 0.0) || !std::isfinite(go->speed_mps)) {
       return "the speed to a goal must be a number of m/s greater than 0, not " +
-             std::to_string(go->speed_mps);
+             rounded_text(go->speed_mps, 6);
     }
     if (!robot.take_motors(*this)) return "the robot has no motors to drive to a goal with";
     goal_ = *go;

@@ -179,6 +179,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     v.kind = Value::Kind::kNumber;
     v.real = value;
     v.text = as_written;
+    // The parser puts the point of the program's locale, e.g. a comma, in place of JSON's.
+    for (char& c : v.text) {
+      if (std::string_view("0123456789+-eE").find(c) == std::string_view::npos) c = '.';
+    }
     return put(std::move(v), true) != nullptr;
   }
 

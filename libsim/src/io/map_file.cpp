@@ -4,11 +4,15 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "canvas/image_file.h"
@@ -117,6 +121,31 @@ class DescriptionReader {
     return in_quotes(node.Scalar());
   }
 
+  /// Reads a number as YAML writes it, whatever the program's locale.
+  static bool parse_number(std::string_view text, double& value) {
+    double sign = 1.0;
+    if (!text.empty() && (text.front() == '+' || text.front() == '-')) {
+      if (text.front() == '-') sign = -1.0;
+      text.remove_prefix(1);
+    }
+    if (text == ".inf" || text == ".Inf" || text == ".INF") {
+      value = sign * std::numeric_limits<double>::infinity();
+      return true;
+    }
+    if (text == ".nan" || text == ".NaN" || text == ".NAN") {
+      value = std::numeric_limits<double>::quiet_NaN();
+      return true;
+    }
+    // No sign any more, and none of the words that from_chars() knows.
+    if (text.empty() || (text.front() != '.' && (text.front() < '0' || text.front() > '9'))) {
+      return false;
+    }
+    const char* const end = text.data() + text.size();
+    const auto [parsed, error] = std::from_chars(text.data(), end, value);
+    value *= sign;
+    return error == std::errc() && parsed == end;
+  }
+
   /// A key that must be there; if it is not, that is noted.
   std::optional<YAML::Node> required(const YAML::Node& root, const char* key) {
     YAML::Node node = root[key];
@@ -132,7 +161,7 @@ class DescriptionReader {
                                const char* expected, double least, double most,
                                bool above_least = false) {
     double value = 0.0;
-    if (!node.IsScalar() || !YAML::convert<double>::decode(node, value)) {
+    if (!node.IsScalar() || !parse_number(node.Scalar(), value)) {
       add("map/wrong-type", node.Mark(), pointer, expected, described(node));
       return std::nullopt;
     }

@@ -19,6 +19,7 @@
 #include "playerlike/server/server.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
+#include "sim/core/number_text.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -76,7 +77,7 @@ class MorseClient {
     EXPECT_EQ(answer.status, "FAILED") << request << ": " << answer.result;
     return answer.result.is_string() ? answer.result.get<std::string>() : answer.result.dump();
   }
-  void sleep(double seconds) { get("time sleep [" + std::to_string(seconds) + "]"); }
+  void sleep(double seconds) { get("time sleep [" + sim::shortest_text(seconds) + "]"); }
   /// What a sensor's get_local_data tells; an empty object before its first reading.
   json data(const std::string& component) {
     const Answer answer = ask(component + " get_local_data");

@@ -5,12 +5,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <clocale>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "comma_locale.h"
+#include "host/recorder.h"
+#include "playerlike/host/program.h"
+#include "playerlike/host/report_summary.h"
 #include "playerlike/host/results.h"
+#include "playerlike/host/run_settings.h"
 #include "sim/canvas/layers.h"
+#include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/io/map_file.h"
 #include "sim/render/render.h"
 #include "temporary_folder.h"
@@ -129,6 +138,97 @@ TEST_F(Outputs, RemovingResultsLeavesOtherFiles) {
   EXPECT_THAT(left, ElementsAre("layers/notes.txt", "notes.txt"));
   EXPECT_FALSE(fs::exists(folder_ / "snapshots"));
   remove_results(folder_ / "none");  // nothing to do
+}
+
+/// Everything that a run writes, and what errors and summaries say, by name: of a run whose world
+/// and whose readings are full of fractions and of large numbers.
+std::map<std::string, std::string> all_texts_of_a_run() {
+  const TemporaryFolder folder;
+  std::map<std::string, std::string> texts;
+  const std::string world = folder.write("world.json", R"({
+      "name": "fractions", "arena": {"size": [1.25, 1.5]},
+      "canvas": {"size": [20, 30], "cell_size": 0.05, "origin": [-0.125, 0.0625]},
+      "simulation": {"seed": 1234567, "step": 0.0125},
+      "robots": [{"name": "r1", "pose": {"x": 0.525, "y": 0.75, "yaw_deg": 22.5},
+                  "devices": {"laser": {"noise": 0.0125, "range_max": 234.5}},
+                  "drivers": [{"type": "snd", "max_speed": 0.25, "robot_radius": 1.25e-1}]}]})");
+  // The world's file is gone after this, so its name must not count.
+  sim::WorldDescription description = sim::load_world(world);
+  for (const auto& [key, value] : description.robots.at(0).drivers.at(0).settings) {
+    texts["setting " + key] = value;
+  }
+  sim::Simulation simulation(description);
+  simulation.layers().add(sim::LayerKind::kGrey, {.name = "occupancy"}, 6665);
+  RunSettings settings;
+  settings.output_folder = folder / "out";
+  fs::create_directories(folder / "out");
+  settings.snapshot_period_s = 0.1;
+  settings.duration_s = 1234.5;
+  settings.silence_limit_s = 0.25;
+  {
+    Recorder recorder(settings, simulation);
+    const auto motion = simulation.find_device(0, "motion");
+    EXPECT_FALSE(simulation.apply({0, *motion}, sim::TwistCommand{{0.0625, 0.5}}));
+    for (int step = 0; step < 20; ++step) {
+      simulation.step();
+      recorder.observe(simulation);
+    }
+    recorder.close();
+    TimeStatistics time;
+    time.wall_time_s = 12.345;
+    time.real_time_factor = 1234.5;
+    write_outputs(settings.output_folder, simulation, recorder.scene(simulation), time);
+  }
+  for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {
+    if (!entry.is_regular_file()) continue;
+    texts[fs::relative(entry.path(), settings.output_folder)] = read_bytes(entry.path());
+  }
+  texts["summary"] = summarize_report(folder / "out/report.json");
+  for (const auto& [name, value] : run_environment("", settings)) {
+    if (value && name != "PLAYPEN_OUT") texts[name] = *value;
+  }
+  const sim::OccupancyMap map = sim::io::read_map(folder / "out/layers/occupancy.yaml");
+  texts["map"] = sim::shortest_text(map.cell_size_m) + ' ' + sim::shortest_text(map.origin.x());
+  for (const char* bad :
+       {R"({"robots": [{"pose": {"x": 1.75, "y": 123456.5}}]})",
+        R"({"simulation": {"step": 0.75}})",
+        R"({"robots": [{"devices": {"battery": {"empty_voltage": 12.75, "full_voltage": 9.5}}}]})",
+        R"({"arena": {"size": [1.5, 1.5]}, "robots": [{"pose": {"x": 1.45, "y": 0.5}}]})",
+        R"({"robots": [{"pose": {"x": "1.75", "y": 0.5}}]})"}) {
+    try {
+      static_cast<void>(sim::load_world_text(bad));
+    } catch (const sim::ConfigError& error) {
+      texts[bad] = error.what();
+    }
+  }
+  return texts;
+}
+
+TEST(OutputsInALocale, WithADecimalCommaAreTheSameBytesAsWithout) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  std::setlocale(LC_ALL, "C");
+  const std::map<std::string, std::string> expected = all_texts_of_a_run();
+  std::map<std::string, std::string> found;
+  {
+    const test_support::CommaLocale locale;
+    if (locale.is_whole()) {
+      ASSERT_EQ(std::to_string(0.5), "0,500000") << "the locale has no comma";
+    }
+    found = all_texts_of_a_run();
+  }
+  std::setlocale(LC_ALL, before.c_str());
+  EXPECT_THAT(expected.at("trajectory.csv"), testing::HasSubstr("\n0.000,r1,0.525000,0.750000,"));
+  EXPECT_TRUE(expected.contains("snapshots/scene_000000.100s.png"));
+  EXPECT_TRUE(expected.contains("layers/occupancy.yaml"));
+  EXPECT_TRUE(expected.contains("report.json"));
+  EXPECT_EQ(expected.at("setting robot_radius"), "1.25e-1");
+  EXPECT_EQ(expected.at("map"), "0.05 -0.125");
+  for (const auto& [name, text] : expected) {
+    ASSERT_TRUE(found.contains(name)) << name;
+    EXPECT_TRUE(found.at(name) == text) << name << ":\n"
+                                        << (name.ends_with(".png") ? "" : found.at(name));
+  }
+  EXPECT_EQ(found.size(), expected.size());
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "playerlike/host/embedded.h"
 #include "playerlike/host/host.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/localization.h"
 #include "temporary_folder.h"
 
@@ -40,7 +41,8 @@ class ViewedHostTest : public testing::Test {
  protected:
   static sim::WorldDescription world(const std::string& canvas = "{}", double factor = 1.0) {
     return sim::load_world_text(R"({"name": "two", "arena": {"size": [20, 4]}, "canvas": )" +
-                                canvas + R"(, "simulation": {"time": )" + std::to_string(factor) +
+                                canvas + R"(, "simulation": {"time": )" +
+                                sim::shortest_text(factor) +
                                 R"(}, "robots": [{"name": "r1", "pose": {"x": 5, "y": 1}},
                          {"name": "r2", "pose": {"x": 5, "y": 3}}]})");
   }

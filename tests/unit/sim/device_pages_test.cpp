@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
@@ -155,6 +157,13 @@ TEST_P(DevicePage, TellsTheDefaultsOfTheReader) {
   }
 }
 
+/// A number of a page, whatever the locale.
+double number_of(const std::string& text) {
+  double value = 0.0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
 TEST_P(DevicePage, TellsTheRangesOfTheReader) {
   const std::regex kRange(R"(([\[(])([-0-9.]+), ([-0-9.]+)([\])]))");
   for (const Setting& setting : settings()) {
@@ -167,9 +176,9 @@ TEST_P(DevicePage, TellsTheRangesOfTheReader) {
     const std::string high = range[3];
     EXPECT_EQ(out_of_range(type(), setting.key, low), range[1] == "(") << setting.key;
     EXPECT_EQ(out_of_range(type(), setting.key, high), range[4] == ")") << setting.key;
-    EXPECT_TRUE(out_of_range(type(), setting.key, std::to_string(std::stod(low) - 1.0)))
+    EXPECT_TRUE(out_of_range(type(), setting.key, shortest_text(number_of(low) - 1.0)))
         << setting.key;
-    EXPECT_TRUE(out_of_range(type(), setting.key, std::to_string(std::stod(high) + 1.0)))
+    EXPECT_TRUE(out_of_range(type(), setting.key, shortest_text(number_of(high) + 1.0)))
         << setting.key;
   }
 }

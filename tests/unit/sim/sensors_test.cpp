@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/contact_sensors.h"
@@ -32,8 +33,8 @@ constexpr double kDegrees = std::numbers::pi / 180.0;
 /// A robot as a world file has it.
 std::string robot(const std::string& name, double x, double y, double yaw_deg,
                   const std::string& devices = "{}") {
-  return R"({"name": ")" + name + R"(", "pose": {"x": )" + std::to_string(x) + R"(, "y": )" +
-         std::to_string(y) + R"(, "yaw_deg": )" + std::to_string(yaw_deg) + R"(}, "devices": )" +
+  return R"({"name": ")" + name + R"(", "pose": {"x": )" + fixed_text(x, 6) + R"(, "y": )" +
+         fixed_text(y, 6) + R"(, "yaw_deg": )" + fixed_text(yaw_deg, 6) + R"(}, "devices": )" +
          devices + "}";
 }
 
@@ -406,7 +407,7 @@ TEST(Bumper, FeelsAFlatWallWithItsFlatFront) {
 TEST(Bumper, TellsTheSideThatACornerTouches) {
   // A block whose corner (2.5, 2.02) meets the front, 2 cm left of its middle.
   const std::string tip = R"("obstacles": [{"name": "tip", "center": [)" +
-                          std::to_string(2.5 + 0.2 * std::sqrt(0.5)) +
+                          fixed_text(2.5 + 0.2 * std::sqrt(0.5), 6) +
                           R"(, 2.02], "size": [0.2, 0.2], "yaw_deg": 45}])";
   const std::string two = R"({"bumper": {"segments": [
       {"x": 0.087, "y": 0.03, "length": 0.06}, {"x": 0.087, "y": -0.03, "length": 0.06}]}})";
@@ -599,9 +600,9 @@ TEST(Sonar, ReadsTheLeastRangeWithinItsCone) {
 
 TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
   // A box on its tip: the corner that looks at the robot is at (3, 2.2), 11.3 degrees to the left.
-  const std::string side = std::to_string(0.4 / std::sqrt(2.0));
+  const std::string side = fixed_text(0.4 / std::sqrt(2.0), 6);
   const auto tip = [&](double y) {
-    return R"("obstacles": [{"name": "tip", "center": [3.2, )" + std::to_string(y) +
+    return R"("obstacles": [{"name": "tip", "center": [3.2, )" + fixed_text(y, 6) +
            R"(], "yaw_deg": 45, "size": [)" + side + ", " + side + "]}]";
   };
   Simulation in_cone(room(robot("r1", 2, 2, 0, kSonar), tip(2.2)));
@@ -748,7 +749,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "/initial_charge", "from 0 to 100 percent"},
         BadSettings{"battery", R"({"idle_power": -1})", "world/out-of-range", "/idle_power", "W"},
         BadSettings{"battery", R"({"empty_voltage": 13})", "device/battery-voltage", "",
-                    "13.000000 V empty, 12.600000 V full"},
+                    "13 V empty, 12.6 V full"},
         BadSettings{"bumper", R"({"reach": 0})", "world/out-of-range", "/reach", "m"},
         BadSettings{"bumper", R"({"segments": {}})", "world/wrong-type", "/segments", "a list"},
         BadSettings{"bumper", R"({"segments": [{}, {"length": 0}]})", "world/out-of-range",

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/fiducial.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
@@ -32,7 +33,7 @@ WorldDescription room(const std::string& robots, const std::string& obstacles = 
 
 /// A robot with one device of a type, at (2, 4).
 std::string bearer(const std::string& type, const std::string& settings, double yaw_deg = 0.0) {
-  return R"({"name": "r1", "pose": {"x": 2, "y": 4, "yaw_deg": )" + std::to_string(yaw_deg) +
+  return R"({"name": "r1", "pose": {"x": 2, "y": 4, "yaw_deg": )" + fixed_text(yaw_deg, 6) +
          R"(}, "devices": {")" + type + "\": " + settings + "}}";
 }
 
@@ -78,7 +79,7 @@ std::vector<int> ids(const Simulation& simulation) {
 }
 
 std::string block(double x, double y, const std::string& more) {
-  return R"({"center": [)" + std::to_string(x) + ", " + std::to_string(y) +
+  return R"({"center": [)" + fixed_text(x, 6) + ", " + fixed_text(y, 6) +
          R"(], "size": [0.4, 0.4], )" + more + "}";
 }
 
@@ -398,7 +399,7 @@ TEST(Wifi, AddressesFollowFromNamesAndPlaces) {
 
 TEST(Wifi, HearsCardsAndAccessPointsInReach) {
   const auto card = [](const char* name, double x, const char* devices) {
-    return std::string(R"({"name": ")") + name + R"(", "pose": {"x": )" + std::to_string(x) +
+    return std::string(R"({"name": ")") + name + R"(", "pose": {"x": )" + fixed_text(x, 6) +
            R"(, "y": 4}, "devices": )" + devices + "}";
   };
   Simulation simulation(room(card("r1", 2, R"({"wifi": {"least": -60, "access_points": [

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/blobfinder.h"
 #include "sim/devices/camera.h"
 #include "sim/devices/ptz.h"
@@ -39,8 +40,8 @@ WorldDescription room(const std::string& devices, const std::string& obstacles =
 
 /// A box with its middle at (x, y).
 std::string box(double x, double y, double side, const std::string& more) {
-  return R"({"center": [)" + std::to_string(x) + ", " + std::to_string(y) + R"(], "size": [)" +
-         std::to_string(side) + ", " + std::to_string(side) + "]" + more + "}";
+  return R"({"center": [)" + fixed_text(x, 6) + ", " + fixed_text(y, 6) + R"(], "size": [)" +
+         fixed_text(side, 6) + ", " + fixed_text(side, 6) + "]" + more + "}";
 }
 
 template <typename DeviceType>
@@ -423,10 +424,10 @@ TEST(Camera, LightsSidesByTheirNormalAndLidsFully) {
   // The lens at 0.3 m over a box of 0.1 m that is turned by 90 degrees: faces along x again, from
   // 36.93 down to 40.39; the lid from 35.77 on, so row 36, with the brightness of its front.
   const auto pixel = [](double yaw_deg, int row) {
-    Simulation simulation(room(
-        R"({"camera": {"height": 0.3}})",
-        box(4.2, 4, 0.4,
-            R"(, "height": 0.1, "colour": "#c8c8c8", "yaw_deg": )" + std::to_string(yaw_deg))));
+    Simulation simulation(
+        room(R"({"camera": {"height": 0.3}})",
+             box(4.2, 4, 0.4,
+                 R"(, "height": 0.1, "colour": "#c8c8c8", "yaw_deg": )" + fixed_text(yaw_deg, 6))));
     run(simulation, 10);
     return Pixels{device<Camera>(simulation, "camera").reading()}.at(40, row).r;
   };

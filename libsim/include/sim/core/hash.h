@@ -35,7 +35,7 @@ class StateHash {
       add(word);
     }
     std::uint64_t tail = 0;
-    std::memcpy(&tail, bytes, size);
+    if (size > 0) std::memcpy(&tail, bytes, size);  // of nothing there may be no address
     add(tail);
   }
 

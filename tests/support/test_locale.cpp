@@ -1,0 +1,18 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Linked into every test program: its functions of C follow the user's locale, as those of programs
+// with Qt or GTK do. tests/run.sh chooses one with a decimal comma.
+#include <clocale>
+#include <cstdlib>
+#include <iostream>
+
+namespace {
+
+[[maybe_unused]] const bool kIsSet = [] {
+  if (std::setlocale(LC_ALL, "") != nullptr) return true;
+  const char* const wanted = std::getenv("LC_NUMERIC");
+  std::cerr << "WARNING: the locale " << (wanted == nullptr ? "of the environment" : wanted)
+            << " is not installed, so these tests run with a decimal point\n";
+  return false;
+}();
+
+}  // namespace
