@@ -3,12 +3,12 @@
 // pass, others only look as if they did.
 #include <libplayerc++/playerc++.h>
 #include <libplayerc/playerc.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cstddef>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <map>
@@ -25,8 +25,14 @@ struct Robot {
 };
 
 void compute(double cpu_s) {
-  const std::clock_t end = std::clock() + static_cast<std::clock_t>(cpu_s * CLOCKS_PER_SEC);
-  while (std::clock() < end) {
+  const auto used_s = [] {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+  };
+  const double end_s = used_s() + cpu_s;
+  while (used_s() < end_s) {
   }
 }
 
@@ -202,8 +208,7 @@ int read_in_a_thread() {
     compute(0.2);
     robot.client.Read();
   });
-  while (!started) {
-  }
+  while (!started) std::this_thread::yield();
   while (!robot.position.IsFresh()) robot.position.SetSpeed(0.2, 0.0);
   reader.join();
   return 0;

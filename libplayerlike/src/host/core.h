@@ -1,8 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pthread.h>
-
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -29,6 +27,7 @@
 #include "playerlike/session/draw_queue.h"
 #include "playerlike/session/layer_book.h"
 #include "sim/world/occupancy_map.h"
+#include "virtual_time/turns.h"
 #include "virtual_time/virtual_time.h"
 
 namespace playerlike {
@@ -47,9 +46,7 @@ struct Client {
 
   int number = 0;  ///< in order of connection; fixes the order of commands
   int port = 0;
-  bool follower = false;  ///< see Session::open_follower()
-  /// Made by the host for a thread that sleeps in virtual time: no session is behind it.
-  bool helper = false;
+  bool follower = false;                    ///< see Session::open_follower()
   ThinkerId creator = 0;                    ///< who connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
@@ -65,20 +62,13 @@ struct Client {
   bool wants_data = false;  ///< data ends the wait
   std::optional<sim::SimTime> wake_ns;  ///< the wait ends then, if set
 
-  // In virtual time, see docs/virtual_time.md.
-  pid_t owner_thread = 0;              ///< the owner's number for the system
-  bool starts_background = false;      ///< its owner has called StartThread()
-  const void* away_for = nullptr;      ///< silent until that has happened, see begin_away()
-  std::uint64_t blocked_switches = 0;  ///< when its owner was first seen asleep, thinking, and ...
-  std::optional<WallClock::time_point> blocked_since;  ///< ... since when it has been
-
   /// Of an EventClient: told when its wait is over. Empty: a thread waits in a call.
   std::function<void()> notify;
   std::atomic<bool> closed{false};
   std::atomic<WallClock::rep> last_seen{0};
 
   /// Whether it is a client of this process's program: neither a driver's nor a server's.
-  [[nodiscard]] bool is_programs() const noexcept { return !follower && !helper && !notify; }
+  [[nodiscard]] bool is_programs() const noexcept { return !follower && !notify; }
 
   std::mutex input_mutex;  ///< guards the commands and idle; taken after Core's mutex
   std::vector<std::pair<DeviceId, sim::Command>> commands;
@@ -90,8 +80,10 @@ struct Client {
 ///
 /// One mutex guards simulation and clients. Commands go through each client's own input mutex and
 /// drawings through its own queue, so that senders do not wait for a step.
-class Host::Core : private ViewedRun {
+class Host::Core : private ViewedRun, private TurnClock {
  public:
+  using Lock = std::unique_lock<std::mutex>;
+
   Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log);
   ~Core() override;
 
@@ -105,8 +97,7 @@ class Host::Core : private ViewedRun {
   std::shared_ptr<Client> add_client(int port, bool follower = false,
                                      std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
-  /// @param thread  its pthread_t, if it lived in virtual time.
-  void thinker_ended(ThinkerId thinker, const void* thread = nullptr) noexcept;
+  void thinker_ended(ThinkerId thinker) noexcept;
 
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
@@ -176,22 +167,18 @@ class Host::Core : private ViewedRun {
   void join(Client& client, ThinkerId thinker);
 
   /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
+  /// @param interrupted  set to whether a signal ended that.
   /// @return how far the moment lies ahead then; nullopt if the thread is to sleep for real.
-  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns);
-  /// Virtual time: the calling thread waits for something that another thread will do, and holds up
-  /// nobody until end_away() or call_back().
-  /// @param what  a thread's pthread_t, or where the thing lies.
-  /// @return whether so: then end_away() is to be called.
-  bool begin_away(const void* what);
-  void end_away();
-  /// Who is away for that thinks again from now on: all, or the first.
-  /// @param patient  waits for the mutex as long as it takes; else some 20 ms: whoever is away then
-  ///                 comes back by end_away() only.
-  void call_back(const void* what, bool all, bool patient);
-  /// Virtual time: the program starts a thread. Time stands until that has waited for something.
-  void add_thread(ThinkerId thinker);
-  /// The calling thread is one of these, and has begun.
-  void note_thread_begun();
+  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted);
+  /// Virtual time: a wait with a deadline was over. After the run's end it is for ever, so that is
+  /// slowed down, and ended, as sleeps are.
+  /// @param left_ns  how far the deadline lies ahead of simulated time.
+  void note_timed_wait(Lock& lock, sim::SimTime left_ns);
+  /// Virtual time: from now on the threads of the program wait for this simulation's time, ...
+  /// @param before_ns  what the clocks tell at its beginning, since the program's start.
+  void begin_turns(sim::SimTime before_ns);
+  /// ... and no longer.
+  void end_turns(sim::SimTime before_ns);
   /// Simulated time and the time of a step, without a lock.
   [[nodiscard]] sim::SimTime now_ns() const noexcept {
     return now_ns_.load(std::memory_order_acquire);
@@ -213,8 +200,6 @@ class Host::Core : private ViewedRun {
   }
 
  private:
-  using Lock = std::unique_lock<std::mutex>;
-
   /// A lock for calls that must not starve behind a thread that steps without pause.
   [[nodiscard]] Lock lock_soon() const;
   void adopt(Client& client, ThinkerId thinker);
@@ -225,15 +210,21 @@ class Host::Core : private ViewedRun {
   /// Waits until the client has data (if wants_data), simulated time wake_ns has come (if set) or
   /// the run is over.
   void wait_until(Lock& lock, Client& client, bool wants_data, std::optional<sim::SimTime> wake_ns);
-  /// The same in virtual time, where threads take turns.
+  /// The same in virtual time, where threads take turns. Returns as well when they no longer do.
   void wait_for_turn(Lock& lock, Client& client);
-  void call_back_locked(const void* what, bool all);
-  /// Whether a thread thinks for whom time stands.
-  [[nodiscard]] bool somebody_thinks() const;
-  /// Lets the first of those go on whose wait is over, if nobody thinks. @return whether one did.
-  bool give_turn();
-  [[nodiscard]] std::shared_ptr<Client> helper_of(ThinkerId thinker);
-  void note_blocked_threads();
+  [[nodiscard]] bool in_turns() const noexcept {
+    return turns_ && !paced_ && Turns::instance().active();
+  }
+  /// Makes ready those threads whose wait is over, in their order.
+  void make_ready();
+  // As the clock of those who take turns.
+  bool step(Lock& lock) override;
+  [[nodiscard]] bool has_come(sim::SimTime wake_ns) const override;
+  void look_at_start() override;
+  [[nodiscard]] WallClock::time_point last_seen(const TurnThread& thread) const override;
+  [[nodiscard]] WallClock::duration silence_limit() const override;
+  void on_silent(const TurnThread& thread) override;
+  bool on_blocked(const TurnThread& thread) override;
   void sleep_after_end(Lock& lock, ThinkerId thinker);
   void start_pacing(const std::string& warning);
   /// Whether what the client waits for is there.
@@ -248,9 +239,11 @@ class Host::Core : private ViewedRun {
   void wait_for_others(Lock& lock, const Client& client);
   [[nodiscard]] WallClock::time_point silence_deadline() const;
   void note_silence();
+  void warn_of_silence(const Client& client) const;
   /// With the client's input mutex held. @return whether warn_if_nobody_reads() is to be called.
   [[nodiscard]] bool note_command(Client& client);
   void warn_if_nobody_reads(Client& client);
+  [[nodiscard]] bool others_take_turns(ThinkerId thinker) const;
   [[nodiscard]] std::string cure_for_standing_time() const;
   void start_busy_alarm(const Lock& held);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
@@ -317,7 +310,9 @@ class Host::Core : private ViewedRun {
   std::optional<int> program_status_;
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
-  mutable std::mutex mutex_;
+  const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
+  mutable std::mutex own_mutex_;
+  std::mutex& mutex_;                     ///< its own, or that of those who take turns
   mutable std::atomic<int> knocking_{0};  ///< threads in lock_soon()
   std::condition_variable changed_;
   std::vector<std::shared_ptr<Client>> clients_;  ///< followers first, each kind in order of number
@@ -329,7 +324,6 @@ class Host::Core : private ViewedRun {
   std::optional<std::uint64_t> step_credit_;  ///< steps that may still be made, if limited
   bool ended_ = false;
   int reads_after_end_ = 0;
-  const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
   const sim::SimTime step_ns_;
   std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
   std::atomic<bool> wants_time_{false};  ///< the program has subscribed to something or commanded
@@ -338,7 +332,6 @@ class Host::Core : private ViewedRun {
   bool end_told_ = false;  ///< a session has thrown because the run is over
   bool ended_by_program_ = false;
   int sleeps_after_end_ = 0;
-  std::vector<const void*> ended_threads_;  ///< pthread_t of those that lived in virtual time
   std::optional<WallClock::time_point> first_step_;
   std::optional<WallClock::time_point> last_step_;
   WallClock::time_point last_progress_;

@@ -47,9 +47,6 @@ constexpr double kCommandsInAStep = 10'000.0;
 constexpr double kCommandsAfterSleeps = 20.0;  // a robot; the same for the least of the two above
 constexpr double kLooksWithoutData = 1000.0;
 constexpr double kLooksInAStep = 2'000'000.0;
-// Virtual time: how often it is looked whether a thread is blocked, and when it is.
-constexpr std::chrono::milliseconds kLookForBlocked(20);
-constexpr std::chrono::milliseconds kBlocked(100);
 // How often the files of the results follow the run, at most.
 constexpr std::chrono::seconds kKeepingPeriod(1);
 
@@ -108,6 +105,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       robots_(describe_robots(simulation_)),
       turns_(settings_.virtual_time &&
              simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
+      mutex_(turns_ ? Turns::instance().mutex() : own_mutex_),
       step_ns_(simulation_.world().simulation.step_ns) {
   if (!settings_.output_folder.empty()) {
     std::filesystem::create_directories(settings_.output_folder);
@@ -154,7 +152,7 @@ std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
   client->empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
   touch(*client);
   const auto place = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
-    if (c->helper || (follower && !c->follower)) return true;
+    if (follower && !c->follower) return true;
     // In virtual time threads may begin at the same moment: the order is that in which they were
     // started, not that in which they come here.
     return turns_ && c->follower == follower && c->creator > client->creator;
@@ -172,23 +170,20 @@ void Host::Core::remove_client(Client& client) noexcept {
   client.drawings.close();
   layer_book_.leave(client.number);
   client.subscriptions.clear();
+  if (turns_) Turns::instance().let_go(client);
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
   changed_.notify_all();
 }
 
-void Host::Core::thinker_ended(ThinkerId thinker, const void* thread) noexcept {
+void Host::Core::thinker_ended(ThinkerId thinker) noexcept {
+  if (turns_ && thinker == this_thinker() && virtual_time::process_ends()) return;
   const Lock lock = lock_soon();
-  std::erase_if(clients_, [&](const auto& c) { return c->helper && c->owner == thinker; });
-  if (turns_ && thread != nullptr) {
-    ended_threads_.push_back(thread);
-    // Who waits for its end goes on thinking now, not only when the system has buried it.
-    call_back_locked(thread, /*all=*/true);
-  }
   for (const auto& client : clients_) {
     if (client->owner != thinker) continue;
     client->owner = 0;
     client->joined = false;
   }
+  if (turns_) Turns::instance().remove(thinker);
   changed_.notify_all();
 }
 
@@ -204,17 +199,10 @@ void Host::Core::require_open(const Client& client) {
 
 void Host::Core::adopt(Client& client, ThinkerId thinker) {
   require_open(client);
-  touch(client);
+  if (!turns_) touch(client);  // else it is known when the thread's turn began
   client.owner = thinker;
   client.joined = true;
   client.silent = false;
-  if (turns_) {
-    client.owner_thread = this_thread();
-    client.away_for = nullptr;
-    client.blocked_since.reset();
-    // The number of a thread that has ended is given to others.
-    std::erase(ended_threads_, reinterpret_cast<const void*>(pthread_self()));
-  }
 }
 
 void Host::Core::subscribe(Client& client, DeviceId device) {
@@ -276,9 +264,8 @@ std::uint32_t Host::Core::overflow(const Client& client) const {
 bool Host::Core::over() const { return ended_ || simulation_.finished(); }
 
 int Host::Core::joined_programs() const {
-  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const auto& c) {
-    return c->joined && !c->follower && !c->helper;
-  }));
+  return static_cast<int>(std::count_if(clients_.begin(), clients_.end(),
+                                        [](const auto& c) { return c->joined && !c->follower; }));
 }
 
 // Whether somebody is there for whom time may go on.
@@ -323,11 +310,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   adopt(client, this_thinker());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
-  if (turns_ && !paced_) {
-    // The thread takes part even if another one reads this client later.
-    if (!client.helper && !client.follower) adopt(*helper_of(this_thinker()), this_thinker());
-    return wait_for_turn(lock, client);
-  }
+  if (in_turns()) wait_for_turn(lock, client);
   while (!wait_is_over(client)) {
     require_open(client);
     // Said once: threads that all only tell each other that they wait would never sleep.
@@ -345,62 +328,8 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.waiting = false;
 }
 
-// One thread at a time: what programs do between two steps, with what their threads share, then
-// does not depend on which of them the system lets run first.
-void Host::Core::wait_for_turn(Lock& lock, Client& client) {
-  if (wait_is_over(client)) return;
-  client.waiting = true;
-  bool told = false;  // threads that only tell each other that they wait would never sleep
-  while (client.waiting) {
-    if (client.closed) {
-      client.waiting = false;
-      changed_.notify_all();
-      require_open(client);
-    }
-    if (over()) break;
-    if (paced_) {
-      if (wait_is_over(client)) break;
-      changed_.wait(lock);
-    } else if (give_turn()) {
-      if (client.waiting) changed_.notify_all();
-    } else if (may_advance()) {
-      advance();
-    } else {
-      if (!std::exchange(told, true)) changed_.notify_all();
-      wait_for_others(lock, client);
-    }
-  }
-  client.waiting = false;
-}
-
-bool Host::Core::somebody_thinks() const {
-  return std::any_of(clients_.begin(), clients_.end(), [this](const auto& c) {
-    return c->joined && !c->silent && !c->waiting && !thinker_waits(c->owner);
-  });
-}
-
-// Those who wait for data before those who sleep: a program that sleeps while another of its
-// threads reads finds the data of that moment.
-bool Host::Core::give_turn() {
-  if (somebody_thinks()) return false;
-  for (const auto& client : clients_) {
-    if (!client->waiting || !wait_is_over(*client)) continue;
-    client->waiting = false;
-    touch(*client);
-    return true;
-  }
-  return false;
-}
-
 // Waits for a change, and no longer than until a client has been silent for too long.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
-  if (turns_) {
-    if (changed_.wait_for(lock, kLookForBlocked) == std::cv_status::timeout) {
-      note_blocked_threads();
-      if (!client.follower) note_silence();
-    }
-    return;
-  }
   // A follower does not mind how long programs take.
   if (client.follower) return changed_.wait(lock);
   if (changed_.wait_until(lock, silence_deadline()) == std::cv_status::timeout) note_silence();
@@ -436,54 +365,14 @@ void Host::Core::note_silence() {
     const WallClock::time_point seen{WallClock::duration(c->last_seen.load())};
     if (now - seen < limit) continue;
     c->silent = true;
-    if (c->helper) {
-      const bool has_client = std::any_of(clients_.begin(), clients_.end(), [&](const auto& other) {
-        return !other->helper && other->joined && other->owner == c->owner;
-      });
-      if (has_client) continue;  // and that is told
-      warn("a thread of the program has neither read nor slept for " +
-           sim::rounded_text(settings_.silence_limit_s, 6) +
-           " s of wall time; simulated time goes on without it until it does");
-      continue;
-    }
-    warn("client " + std::to_string(c->number + 1) + " (port " + std::to_string(c->port) +
-         ") has not called Read() for " + sim::rounded_text(settings_.silence_limit_s, 6) +
-         " s of wall time; simulated time goes on without it until it does");
+    warn_of_silence(*c);
   }
 }
 
-// A thread that the system has put to sleep for something else than simulated time, another thread
-// or a key, holds up nobody meanwhile. One that computes, or waits for a processor, does; and as
-// long as there is one, it may be whom the others wait for, so none counts as blocked.
-void Host::Core::note_blocked_threads() {
-  if (paced_ || over()) return;
-  const auto now = WallClock::now();
-  std::vector<Client*> blocked;
-  bool others_think = false;
-  for (const auto& c : clients_) {
-    if (!c->joined || c->silent || c->waiting || thinker_waits(c->owner)) continue;
-    // A thread without a number is only just being started.
-    const auto switches = c->owner_thread == 0 ? std::nullopt : sleeps_since(c->owner_thread);
-    if (!switches || !c->blocked_since || *switches != c->blocked_switches) {
-      c->blocked_since = switches ? std::optional(now) : std::nullopt;
-      c->blocked_switches = switches.value_or(0);
-      others_think = true;
-    } else if (now - *c->blocked_since < kBlocked) {
-      others_think = true;
-    } else {
-      blocked.push_back(c.get());
-    }
-  }
-  if (others_think) return;
-  for (Client* c : blocked) {
-    if (c->starts_background && !mode_chosen_) {
-      return start_pacing(
-          "the program reads in the background (StartThread) while its own thread waits for "
-          "something else than simulated time, the keyboard maybe: simulated time now follows the "
-          "wall clock (--time lockstep decides otherwise)");
-    }
-    c->silent = true;
-  }
+void Host::Core::warn_of_silence(const Client& client) const {
+  warn("client " + std::to_string(client.number + 1) + " (port " + std::to_string(client.port) +
+       ") has not called Read() for " + sim::rounded_text(settings_.silence_limit_s, 6) +
+       " s of wall time; simulated time goes on without it until it does");
 }
 
 void Host::Core::advance() {
@@ -592,11 +481,7 @@ RunLog* Host::Core::log_of(int port) {
 
 // A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
 void Host::Core::release_waiters() {
-  if (turns_ && !paced_) {
-    // Each in its turn, but for the end, which is for all.
-    if (over()) changed_.notify_all();
-    return;
-  }
+  if (in_turns()) return make_ready();
   bool released = false;
   for (const auto& client : clients_) {
     if (!client->waiting || !wait_is_over(*client)) continue;
@@ -703,24 +588,107 @@ void Host::Core::sleep(Client& client, double duration_s) {
 // --- Virtual time
 // ---------------------------------------------------------------------------------
 
-std::shared_ptr<Client> Host::Core::helper_of(ThinkerId thinker) {
-  const auto found = std::find_if(clients_.begin(), clients_.end(),
-                                  [&](const auto& c) { return c->helper && c->owner == thinker; });
-  if (found != clients_.end()) return *found;
-  auto helper = std::make_shared<Client>();
-  helper->number = -1;
-  helper->helper = true;
-  helper->owner = thinker;
-  clients_.push_back(helper);
-  return helper;
+void Host::Core::begin_turns(sim::SimTime before_ns) {
+  const Lock lock = lock_soon();
+  Turns::instance().set_clock(this, before_ns, 0);
 }
 
-std::optional<sim::SimTime> Host::Core::pass_time(sim::SimTime target_ns) {
+void Host::Core::end_turns(sim::SimTime before_ns) {
+  const Lock lock = lock_soon();
+  Turns::instance().set_clock(nullptr, 0, before_ns);
+}
+
+// One thread at a time: what programs do between two steps, with what their threads share, then
+// does not depend on which of them the system lets run first.
+void Host::Core::wait_for_turn(Lock& lock, Client& client) {
+  Turns& turns = Turns::instance();
+  TurnThread& self = turns.self();
+  while (in_turns()) {
+    require_open(client);
+    const bool over = wait_is_over(client);
+    if (over && self.state != TurnThread::State::kAside) return;
+    self.client = &client;
+    self.wake_ns = over ? 0 : client.wake_ns;
+    static_cast<void>(turns.wait(lock, self));
+  }
+}
+
+bool Host::Core::step(Lock& lock) {
+  if (over() || step_credit_ == 0U || !gate_open() ||
+      !Turns::instance().somebody_waits_for_time()) {
+    return false;
+  }
+  advance();
+  if (knocking_.load(std::memory_order_relaxed) > 0) {
+    lock.unlock();
+    std::this_thread::yield();
+    lock.lock();
+  }
+  return true;
+}
+
+// Those who wait for data before those who sleep: a program that sleeps while another of its
+// threads reads finds the data of that moment.
+void Host::Core::make_ready() {
+  using State = TurnThread::State;
+  Turns& turns = Turns::instance();
+  for (const auto& client : clients_) {
+    for (const auto& thread : turns.threads()) {
+      if (thread->state != State::kWaits || thread->client != client.get()) continue;
+      if (wait_is_over(*client)) turns.make_ready(*thread, TurnThread::Wake::kThere);
+    }
+  }
+  for (const auto& thread : turns.threads()) {
+    if (thread->state != State::kWaits || thread->client != nullptr || !thread->wake_ns) continue;
+    if (has_come(*thread->wake_ns)) turns.make_ready(*thread, TurnThread::Wake::kTime);
+  }
+}
+
+bool Host::Core::has_come(sim::SimTime wake_ns) const {
+  return over() || simulation_.now_ns() >= wake_ns;
+}
+
+void Host::Core::look_at_start() {
+  if (!gate_open()) note_silence();
+}
+
+WallClock::time_point Host::Core::last_seen(const TurnThread& thread) const {
+  auto seen = thread.seen;
+  for (const auto& client : clients_) {
+    if (client->owner != thread.thinker) continue;
+    seen = std::max(seen, WallClock::time_point(WallClock::duration(client->last_seen.load())));
+  }
+  return seen;
+}
+
+WallClock::duration Host::Core::silence_limit() const {
+  return gate_opened_ ? wall(settings_.silence_limit_s) : WallClock::duration::max();
+}
+
+void Host::Core::on_silent(const TurnThread& thread) {
+  for (const auto& client : clients_) {
+    if (client->owner == thread.thinker) return warn_of_silence(*client);
+  }
+  warn("a thread of the program has neither read nor slept for " +
+       sim::rounded_text(settings_.silence_limit_s, 6) +
+       " s of wall time; simulated time goes on without it until it does");
+}
+
+bool Host::Core::on_blocked(const TurnThread& thread) {
+  if (paced_ || over() || !thread.starts_background || mode_chosen_) return false;
+  start_pacing(
+      "the program reads in the background (StartThread) while its own thread waits for "
+      "something else than simulated time, the keyboard maybe: simulated time now follows the "
+      "wall clock (--time lockstep decides otherwise)");
+  return true;
+}
+
+std::optional<sim::SimTime> Host::Core::pass_time(sim::SimTime target_ns, bool& interrupted) {
+  interrupted = false;
   const ThinkerId thinker = this_thinker();
   while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
   Lock lock(mutex_);
-  if (!turns_ || paced_ || ended_by_program_) return std::nullopt;
-  const std::shared_ptr<Client> helper = helper_of(thinker);
+  if (!in_turns() || ended_by_program_) return std::nullopt;
   // A program that never reads takes part with the clients it has made.
   for (const auto& client : clients_) {
     if (client->creator == thinker && client->owner == 0 && !client->follower) {
@@ -728,24 +696,32 @@ std::optional<sim::SimTime> Host::Core::pass_time(sim::SimTime target_ns) {
     }
   }
   const sim::SimTime wake_ns = target_ns - target_ns % step_ns_;
-  if (over()) {
-    adopt(*helper, thinker);
-  } else {
-    wait_until(lock, *helper, /*wants_data=*/false, wake_ns);
-  }
+  Turns& turns = Turns::instance();
+  TurnThread& self = turns.self();
+  self.wake_ns = wake_ns;
+  interrupted = turns.wait(lock, self, /*interruptible=*/true) == TurnThread::Wake::kInterrupted;
   const sim::SimTime left_ns = target_ns - simulation_.now_ns();
-  if (over() && simulation_.now_ns() < wake_ns) {
+  if (interrupted) return left_ns;
+  if (!over()) return in_turns() ? std::optional(left_ns) : std::nullopt;
+  if (simulation_.now_ns() < wake_ns) {
     if (ended_by_program_) return std::nullopt;
     sleep_after_end(lock, thinker);
   }
   return left_ns;
 }
 
+void Host::Core::note_timed_wait(Lock& lock, sim::SimTime left_ns) {
+  if (!over() || left_ns < step_ns_ || ended_by_program_) return;
+  sleep_after_end(lock, this_thinker());
+}
+
 // Nobody can throw out of a sleep. A program that only sleeps ends here; one that reads as well, or
 // has threads that do, is told by that, and is left some time to end by itself.
 void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
-  const bool others = std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
-    return c->joined && !c->silent && c->owner != thinker;
+  const auto& threads = Turns::instance().threads();
+  const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
+    if (thread->thinker == thinker || thread->state == TurnThread::State::kAside) return false;
+    return thread->state != TurnThread::State::kWaits || thread->waits_for_time();
   });
   if (settings_.quiet_end && (!(end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
     if (settings_.progress && log_)
@@ -755,72 +731,6 @@ void Host::Core::sleep_after_end(Lock& lock, ThinkerId thinker) {
   }
   lock.unlock();
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-bool Host::Core::begin_away(const void* what) {
-  const Lock lock = lock_soon();
-  if (!turns_ || paced_ || over()) return false;
-  // A thread that is about to end keeps nobody waiting for long.
-  if (std::erase(ended_threads_, what) > 0) return false;
-  bool away = false;
-  for (const auto& client : clients_) {
-    if (client->owner != this_thinker() || !client->joined) continue;
-    client->away_for = what;
-    client->silent = true;
-    away = true;
-  }
-  if (away) changed_.notify_all();
-  return away;
-}
-
-void Host::Core::end_away() {
-  const Lock lock = lock_soon();
-  for (const auto& client : clients_) {
-    if (client->owner != this_thinker()) continue;
-    client->away_for = nullptr;
-    client->silent = false;
-    client->blocked_since.reset();
-    touch(*client);
-  }
-}
-
-void Host::Core::call_back(const void* what, bool all, bool patient) {
-  Lock lock(mutex_, std::defer_lock);
-  if (patient) {
-    lock = lock_soon();
-  } else {
-    constexpr int kTries = 200;
-    for (int i = 0; !lock.try_lock(); ++i) {
-      if (i == kTries) return;
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
-    }
-  }
-  call_back_locked(what, all);
-}
-
-void Host::Core::call_back_locked(const void* what, bool all) {
-  ThinkerId only = 0;
-  for (const auto& client : clients_) {
-    if (client->away_for != what || (only != 0 && client->owner != only)) continue;
-    if (!all) only = client->owner;
-    client->away_for = nullptr;
-    client->silent = false;
-    client->blocked_since.reset();
-    touch(*client);
-  }
-}
-
-void Host::Core::add_thread(ThinkerId thinker) {
-  const Lock lock = lock_soon();
-  if (!turns_ || paced_) return;
-  const std::shared_ptr<Client> helper = helper_of(thinker);
-  helper->joined = true;
-  touch(*helper);
-}
-
-void Host::Core::note_thread_begun() {
-  const Lock lock = lock_soon();
-  if (turns_) helper_of(this_thinker())->owner_thread = this_thread();
 }
 
 // --- Event clients
@@ -890,7 +800,7 @@ void Host::Core::cancel_wait(Client& client) {
 
 bool Host::Core::advance_for(std::chrono::microseconds slice) {
   Lock lock = lock_soon();
-  if (!may_advance()) return false;
+  if (in_turns() || !may_advance()) return false;
   const auto end = WallClock::now() + slice;
   do {
     advance();
@@ -1015,10 +925,15 @@ void Host::Core::note_looks(Client& client, int count, bool has_data) {
 void Host::Core::warn_if_nobody_reads(Client& client) {
   const Lock lock = lock_soon();
   const ThinkerId self = this_thinker();
-  const bool others_may_read = std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
-    if (!c->joined || c->silent || c->follower || c->owner == self) return false;
-    return !c->waiting || !gate_open();
-  });
+  if (in_turns() && others_take_turns(self)) {
+    const std::lock_guard input(client.input_mutex);
+    return client.idle.postpone();
+  }
+  const bool others_may_read =
+      !in_turns() && std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
+        if (!c->joined || c->silent || c->follower || c->owner == self) return false;
+        return !c->waiting || !gate_open();
+      });
   {
     const std::lock_guard input(client.input_mutex);
     if (nobody_reads_told_ || paced_ || over() || others_may_read) return client.idle.postpone();
@@ -1030,6 +945,16 @@ void Host::Core::warn_if_nobody_reads(Client& client) {
       "the program goes on commanding robots or looking at their data, but simulated time stands "
       "still: it does not call Read(). " +
       cure_for_standing_time());
+}
+
+bool Host::Core::others_take_turns(ThinkerId thinker) const {
+  const auto& threads = Turns::instance().threads();
+  return std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
+    using State = TurnThread::State;
+    if (thread->thinker == thinker) return false;
+    return thread->state == State::kReady || thread->state == State::kBeside ||
+           (thread->state == State::kWaits && thread->waits_for_time());
+  });
 }
 
 std::string Host::Core::cure_for_standing_time() const {
@@ -1186,6 +1111,7 @@ LogStatus Host::Core::control_log(const Client& client, const LogControl& change
 void Host::Core::join(Client& client, ThinkerId thinker) {
   const Lock lock = lock_soon();
   adopt(client, thinker);
+  if (in_turns()) static_cast<void>(Turns::instance().self());
   changed_.notify_all();  // the start gate may have waited for it
 }
 
@@ -1194,11 +1120,9 @@ void Host::Core::join(Client& client, ThinkerId thinker) {
 
 void Host::Core::prefer_real_time(const std::string& reason) {
   const Lock lock = lock_soon();
-  if (turns_ && !paced_) {
+  if (in_turns()) {
     // The caller's sleeps are part of the lockstep, from now on.
-    const std::shared_ptr<Client> helper = helper_of(this_thinker());
-    adopt(*helper, this_thinker());
-    helper->starts_background = true;
+    Turns::instance().self().starts_background = true;
     virtual_time::note_background();
     return;
   }
@@ -1212,7 +1136,7 @@ void Host::Core::prefer_real_time(const std::string& reason) {
 void Host::Core::start_pacing(const std::string& warning) {
   paced_ = true;
   if (watches_program_) dismiss_busy_alarm();
-  if (turns_) virtual_time::give_up();
+  if (turns_) virtual_time::give_up_locked();
   warn(warning);
   pacer_ = std::thread([this] { pace(); });
   changed_.notify_all();
@@ -1315,6 +1239,7 @@ void Host::Core::finish() noexcept {
       for (const auto& client : clients_) apply_inputs(*client);
       end_run();
       release_waiters();
+      if (in_turns()) Turns::instance().kick();
     }
     stop_pacing_ = true;
     changed_.notify_all();

@@ -1,8 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pthread.h>
-
 /// What the preloaded library (preload.cpp) and Playpen in the same process say to each other. A C
 /// interface between binaries that may have been built apart: what changes gets another version.
 /// See docs/virtual_time.md.
@@ -13,9 +11,14 @@ extern "C" {
 /// called from.
 struct PlaypenVirtualTimeHooks {
   int version;  ///< PLAYPEN_VIRTUAL_TIME_VERSION
+  /// How many threads wait for a mutex virtually, or are about to take one they have waited for;
+  /// and how many wait for other objects. Atomic.
+  const int* mutex_waits;
+  const int* object_waits;
   /// Lets simulated time pass for the calling thread [ns], > 0.
-  /// @return 1 if it did; 0: the thread is to wait for real.
-  int (*sleep)(long long duration_ns, const void* caller);
+  /// @param left_ns  set to what is left of it, if a signal ended the sleep.
+  /// @return 1 if it did; 2 if a signal ended it; 0: the thread is to wait for real.
+  int (*sleep)(long long duration_ns, const void* caller, long long* left_ns);
   /// Tells the time since the program's start [ns].
   /// @param ask  1 if the program asked for it, so that somebody who does nothing but ask gets on.
   /// @return 1 if it did; 0: the real clock is to be asked.
@@ -23,17 +26,52 @@ struct PlaypenVirtualTimeHooks {
   /// The calling thread is about to start another one.
   /// @return a number for it, > 0; 0 if it does not matter.
   unsigned long long (*begin_thread)(const void* caller, const void* start, const void* argument);
-  /// That thread has begun; called by it.
-  void (*thread_begun)(unsigned long long number);
+  /// It has started it.
+  void (*thread_started)(unsigned long long number, const void* handle);
   /// It could not be started.
   void (*thread_failed)(unsigned long long number);
-  /// The calling thread is about to wait, without a deadline, for something of another one: its end
-  /// (`what` is its pthread_t), or a condition variable or semaphore there.
-  /// @return 1 if end_wait() is to be called after that.
-  int (*begin_wait)(const void* what);
-  void (*end_wait)();
-  /// The calling thread is about to wake one who waits for that, or all.
-  void (*signalled)(const void* what, int all);
+  /// The calling thread is that one. Returns when it is its turn.
+  void (*thread_begun)(unsigned long long number);
+  /// The calling thread is about to wait for something of another one, an object that is known by
+  /// where it lies (a thread by its pthread_t). From now on wake() finds it.
+  /// @param kind         a PlaypenWaitKind.
+  /// @param deadline_ns  since the program's start; < 0: none.
+  /// @param is_there     nullptr, or tells whether it need not wait (any longer); of the object and
+  ///                     the value. Asked with locks held: must not wait.
+  /// @return 1: finish_wait() must be called; 2: it is there; 0: the thread is to wait for real.
+  int (*begin_wait)(const void* object, int kind, long long deadline_ns,
+                    int (*is_there)(const void*, unsigned), unsigned value);
+  /// Waits. @return a PlaypenWaitEnd.
+  int (*finish_wait)();
+  /// The calling thread has done what others wait for. @return how many it has woken.
+  int (*wake)(const void* object, int most);
+  /// Whether the calling thread is to wait virtually for a mutex that it cannot take at once: that
+  /// with this system's number holds it and waits for its turn.
+  int (*waits_for_turn)(int owner);
+  /// Whether somebody has waited for this mutex and is about to take it.
+  int (*mutex_is_wanted)(const void* mutex);
+  /// Whether a thread with this pthread_t takes turns and has not ended.
+  int (*thread_lives)(const void* handle);
+  /// Somebody cancels that thread: what it waits for ends.
+  void (*cancelled)(const void* handle);
+  /// The calling thread lets others go on.
+  void (*yield)();
+  /// The calling thread is about to end (pthread_exit), or the process (exit).
+  void (*leaving)(int process);
+  /// Whether code is the program's own, in a thread that takes turns; and only the latter.
+  int (*is_programs)(const void* caller);
+  int (*takes_turns)();
+  /// The calling thread waits for real for something that cannot be simulated. Says so once.
+  void (*waits_for_real)(const char* what, const char* why);
+};
+
+enum PlaypenWaitKind { PLAYPEN_WAIT_OBJECT = 0, PLAYPEN_WAIT_MUTEX = 1, PLAYPEN_WAIT_THREAD = 2 };
+
+enum PlaypenWaitEnd {
+  PLAYPEN_WAIT_THERE = 0,
+  PLAYPEN_WAIT_TIME = 1,         ///< the deadline has come
+  PLAYPEN_WAIT_INTERRUPTED = 2,  ///< somebody cancels the thread
+  PLAYPEN_WAIT_RELEASED = 3,     ///< time is not virtual any more: the thread is to wait for real
 };
 
 /// Offered by the preloaded library: gives it the hooks, which are to live for ever.
@@ -42,7 +80,7 @@ using PlaypenVirtualTimeRegister = int (*)(const PlaypenVirtualTimeHooks* hooks)
 
 }  // extern "C"
 
-#define PLAYPEN_VIRTUAL_TIME_VERSION 1
+#define PLAYPEN_VIRTUAL_TIME_VERSION 2
 #define PLAYPEN_VIRTUAL_TIME_REGISTER "playpen_virtual_time_register"
 
 namespace playerlike {

@@ -10,18 +10,23 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <climits>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/core.h"
 #include "playerlike/host/host.h"
+#include "playerlike/host/log.h"
 #include "session/in_process_session.h"
 #include "virtual_time/hooks.h"
+#include "virtual_time/turns.h"
 
 namespace playerlike::virtual_time {
 namespace {
@@ -29,10 +34,14 @@ namespace {
 // A thread is told the same moment so often; whoever asks on without reading or sleeping in between
 // waits for time to pass.
 constexpr int kFreeAsks = 4;
+// Whoever lets others go on so often, when there is nobody, waits for time to pass.
+constexpr int kFreeYields = 100;
 // The same for looks at data that a background thread changes. Programs look at all beams of a
 // scan, more than once maybe, so it takes many until it is clear that they wait.
 constexpr long long kFreeLooks = 1'000'000;
 constexpr long long kLooksAStep = 10'000;
+// Whoever looks so often may wait for what another thread does, which is to have its turn.
+constexpr long long kLooksATurn = 1'000;
 // And for calls of a program that nobody reads for: nothing will ever change for it but the end of
 // the run. It may well compute for long between two reads, so this takes more of them.
 constexpr long long kFreeLooksAlone = 3'000'000;
@@ -54,10 +63,13 @@ struct ThreadState {
   bool takes_part = false;
   bool programs = false;        ///< started by the program's own code
   signed char main = -1;        ///< whether it is the main thread; < 0: not looked up yet
+  signed char leaving = 0;      ///< < 0: it is about to end itself; > 0: the process
   int asks = 0;                 ///< since it last waited
   long long looks = 0;          ///< since it last waited
+  int yields = 0;               ///< when nobody else could go on
   sim::SimTime ahead_ns = 0;    ///< what it has slept beyond whole steps, ...
   sim::SimTime ahead_from = 0;  ///< ... when simulated time was this
+  long long deadline_ns = -1;   ///< of the wait that it has begun, since the program's start
 };
 constinit thread_local ThreadState state;
 
@@ -71,8 +83,6 @@ constinit std::atomic<long long> offset_ns{0};
 /// When it was given up: what the clocks showed then, and the real one.
 constinit std::atomic<long long> last_ns{0};
 constinit std::atomic<long long> last_real_ns{0};
-/// Threads that wait for others, without a deadline.
-constinit std::atomic<int> away_threads{0};
 /// Where the program's own code lies, without its libraries.
 constinit std::uintptr_t program_begin = 0;
 constinit std::uintptr_t program_end = 0;
@@ -126,12 +136,7 @@ std::vector<std::shared_ptr<Host>>& kept_hosts() {
   static auto* const hosts = new std::vector<std::shared_ptr<Host>>;
   return *hosts;
 }
-/// Threads that the program has started before there was a simulation, and that have not ended.
-std::vector<ThinkerId>& early_threads() {
-  static auto* const threads = new std::vector<ThinkerId>;
-  return *threads;
-}
-constinit std::mutex lists_mutex;  // over both
+constinit std::mutex lists_mutex;  // over that
 
 long long elapsed(const ThreadState& thread) {
   if (given_up.load(std::memory_order_acquire)) {
@@ -145,9 +150,11 @@ long long elapsed(const ThreadState& thread) {
   return before_ns + now_ns + (ahead ? thread.ahead_ns : 0);
 }
 
+enum class Passed { kNo, kYes, kInterrupted };
+
 /// Lets simulated time pass for the calling thread.
-/// @return whether that was done.
-bool pass(ThreadState& thread, Host& host, long long duration_ns) {
+/// @param left_ns  set to what is left if a signal ends that.
+Passed pass(ThreadState& thread, Host& host, long long duration_ns, long long* left_ns = nullptr) {
   const Inside inside;
   try {
     thread.takes_part = true;
@@ -155,23 +162,51 @@ bool pass(ThreadState& thread, Host& host, long long duration_ns) {
     auto& core = VirtualTimeAccess::core(host);
     const sim::SimTime from_ns = core.now_ns();
     const sim::SimTime start_ns = from_ns + (thread.ahead_from == from_ns ? thread.ahead_ns : 0);
-    const std::optional<sim::SimTime> left_ns = core.pass_time(start_ns + duration_ns);
-    if (!left_ns) return false;
+    bool interrupted = false;
+    const auto ahead_ns = core.pass_time(start_ns + duration_ns, interrupted);
+    if (!ahead_ns) return Passed::kNo;
+    if (interrupted) {
+      if (left_ns != nullptr) *left_ns = std::max<sim::SimTime>(*ahead_ns, 0);
+      return Passed::kInterrupted;
+    }
     thread.ahead_from = core.now_ns();
-    thread.ahead_ns = *left_ns;
-    return true;
+    thread.ahead_ns = *ahead_ns;
+    return Passed::kYes;
   } catch (const std::exception&) {
-    return false;  // there is no memory, or no simulation any more
+    return Passed::kNo;  // there is no memory, or no simulation any more
+  }
+}
+
+/// A sleep before there is a simulation, while other threads take turns.
+/// @return as a hook.
+int sleep_before(long long duration_ns, long long* left_ns) {
+  TurnThread* const self = Turns::known_self();
+  if (self == nullptr) return 0;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  Turns::Lock lock(turns.mutex());
+  if (!turns.active() || turns.threads().size() < 2 || attached.load() != nullptr) return 0;
+  const long long end_ns = offset_ns.load() + duration_ns;
+  self->wake_ns = end_ns;
+  switch (turns.wait(lock, *self, /*interruptible=*/true)) {
+    case TurnThread::Wake::kNone:
+      return 0;
+    case TurnThread::Wake::kInterrupted:
+      *left_ns = std::max(0LL, end_ns - elapsed(state));
+      return 2;
+    default:
+      return 1;
   }
 }
 
 // --- The hooks
 
-int on_sleep(long long duration_ns, const void* caller) {
+int on_sleep(long long duration_ns, const void* caller, long long* left_ns) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended || given_up.load(std::memory_order_acquire)) return 0;
   Host* const host = attached.load(std::memory_order_acquire);
   if (host == nullptr) {
+    if (const int slept = sleep_before(duration_ns, left_ns); slept != 0) return slept;
     // There is nothing yet that could go on instead. But the clock is not to stand still.
     if (is_main(thread)) offset_ns.fetch_add(duration_ns);
     return 0;
@@ -181,7 +216,14 @@ int on_sleep(long long duration_ns, const void* caller) {
   }
   thread.asks = 0;
   thread.looks = 0;
-  return pass(thread, *host, duration_ns) ? 1 : 0;
+  switch (pass(thread, *host, duration_ns, left_ns)) {
+    case Passed::kNo:
+      return 0;
+    case Passed::kYes:
+      return 1;
+    default:
+      return 2;
+  }
 }
 
 int on_now(long long* elapsed_ns, int ask, const void* caller) {
@@ -205,6 +247,13 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
   return 1;
 }
 
+/// The lock over those who take turns. A thread that is none of them does not wait for it.
+Turns::Lock lock_turns() {
+  Turns& turns = Turns::instance();
+  if (is_thinker()) return Turns::Lock(turns.mutex());
+  return Turns::Lock(turns.mutex(), std::try_to_lock);
+}
+
 unsigned long long on_begin_thread(const void* caller, const void* start, const void* argument) {
   const ThreadState& thread = state;
   if (thread.ended || given_up.load(std::memory_order_acquire)) return 0;
@@ -217,20 +266,33 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
       return 0;
     }
     const ThinkerId thinker = new_thinker();
-    const std::lock_guard lock(lists_mutex);
-    if (Host* const host = attached.load()) {
-      // The one that starts it, too, or it would be chance how far the new one gets meanwhile.
-      remember_thread();
-      VirtualTimeAccess::core(*host).add_thread(this_thinker());
-      VirtualTimeAccess::core(*host).note_thread_begun();
-      VirtualTimeAccess::core(*host).add_thread(thinker);
-    } else {
-      early_threads().push_back(thinker);
-    }
+    remember_thread();
+    Turns& turns = Turns::instance();
+    const Turns::Lock lock(turns.mutex());
+    if (!turns.active()) return 0;
+    // The one that starts it, too, or it would be chance how far the new one gets meanwhile.
+    static_cast<void>(turns.self());
+    turns.add(thinker);
     return thinker;
   } catch (const std::exception&) {
     return 0;
   }
+}
+
+void on_thread_started(unsigned long long number, const void* handle) {
+  if (number == kLibraryThread) return;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  turns.note_handle(number, handle);
+}
+
+void on_thread_failed(unsigned long long number) {
+  if (number == kLibraryThread) return;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  turns.remove(number);
 }
 
 void on_thread_begun(unsigned long long number) {
@@ -244,58 +306,201 @@ void on_thread_begun(unsigned long long number) {
   const Inside inside;
   set_this_thinker(number);
   remember_thread();
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (host != nullptr) VirtualTimeAccess::core(*host).note_thread_begun();
+  Turns& turns = Turns::instance();
+  Turns::Lock lock(turns.mutex());
+  turns.enter(lock, number);
 }
 
-void on_thread_failed(unsigned long long number) {
-  if (number == kLibraryThread) return;
+int on_begin_wait(const void* object, int kind, long long deadline_ns,
+                  int (*is_there)(const void*, unsigned), unsigned value) {
+  ThreadState& thread = state;
+  if (thread.inside > 0 || thread.ended) return 0;
+  TurnThread* const self = Turns::known_self();
+  if (self == nullptr) return 0;  // a library's thread holds up nobody
   const Inside inside;
-  const std::lock_guard lock(lists_mutex);
-  std::erase(early_threads(), number);
-  if (Host* const host = attached.load()) VirtualTimeAccess::core(*host).thinker_ended(number);
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  if (!turns.active()) return 0;
+  const bool takes_mutex = kind == PLAYPEN_WAIT_MUTEX;
+  if (takes_mutex && self->state == TurnThread::State::kAside) return 0;
+  if (is_there != nullptr && is_there(object, value) != 0) return 2;
+  if (kind == PLAYPEN_WAIT_THREAD && !turns.lives(object)) return 2;
+  turns.begin_wait(*self, object, takes_mutex);
+  self->is_there = is_there;
+  self->value = value;
+  thread.deadline_ns = -1;
+  if (deadline_ns >= 0) {
+    // At least a little, so that a loop of waits for no time at all ends.
+    thread.deadline_ns = std::max(deadline_ns, elapsed(thread) + 1'000);
+    self->wake_ns = thread.deadline_ns;
+    if (Host* const host = attached.load()) {
+      const sim::SimTime wake_ns = thread.deadline_ns - offset_ns.load();
+      self->wake_ns = wake_ns - wake_ns % VirtualTimeAccess::core(*host).step_ns();
+    }
+  }
+  return 1;
 }
 
-int on_begin_wait(const void* what) {
-  const ThreadState& thread = state;
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (thread.inside > 0 || thread.ended || host == nullptr) return 0;
-  // A library's thread holds up nobody. It must not wait for the simulation here either: with what
-  // it has locked it could hold up the thread that draws, for which the simulation may be waiting.
-  if (!is_thinker()) return 0;
+int on_finish_wait() {
+  ThreadState& thread = state;
   const Inside inside;
-  away_threads.fetch_add(1);  // before anybody may look
-  if (VirtualTimeAccess::core(*host).begin_away(what)) return 1;
-  away_threads.fetch_sub(1);
+  Turns& turns = Turns::instance();
+  Turns::Lock lock(turns.mutex());
+  TurnThread& self = turns.self();
+  const bool timed = thread.deadline_ns >= 0;
+  switch (turns.wait(lock, self)) {
+    case TurnThread::Wake::kThere:
+      thread.asks = 0;
+      thread.looks = 0;
+      return PLAYPEN_WAIT_THERE;
+    case TurnThread::Wake::kInterrupted:
+      return PLAYPEN_WAIT_INTERRUPTED;
+    case TurnThread::Wake::kNone:
+      return PLAYPEN_WAIT_RELEASED;
+    case TurnThread::Wake::kTime:
+      break;
+  }
+  thread.asks = 0;
+  thread.looks = 0;
+  Host* const host = attached.load();
+  if (timed && host != nullptr) {
+    auto& core = VirtualTimeAccess::core(*host);
+    thread.takes_part = true;
+    thread.ahead_from = core.now_ns();
+    thread.ahead_ns =
+        std::max<sim::SimTime>(0, thread.deadline_ns - offset_ns.load() - thread.ahead_from);
+    core.note_timed_wait(lock, thread.ahead_ns);
+  }
+  return PLAYPEN_WAIT_TIME;
+}
+
+int on_wake(const void* object, int most) {
+  if (state.inside > 0) return 0;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  // A library's thread must not wait for the simulation here: with what it has locked it could hold
+  // up the thread that draws, for which the simulation may be waiting.
+  const Turns::Lock lock = lock_turns();
+  if (lock.owns_lock()) return turns.wake(object, most);
+  turns.wake_later(object);
   return 0;
 }
 
-void on_end_wait() {
-  away_threads.fetch_sub(1);
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (host == nullptr) return;
+int on_waits_for_turn(int owner) {
+  if (state.inside > 0 || Turns::known_self() == nullptr) return 0;
   const Inside inside;
-  VirtualTimeAccess::core(*host).end_away();
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  return turns.active() && turns.is_parked(owner) ? 1 : 0;
 }
 
-void on_signalled(const void* what, int all) {
-  if (away_threads.load() <= 0 || state.inside > 0) return;
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (host == nullptr) return;
+int on_mutex_is_wanted(const void* mutex) {
+  const TurnThread* const self = Turns::known_self();
+  if (state.inside > 0 || self == nullptr) return 0;
   const Inside inside;
-  // For the same reason a library's thread does not wait here for long.
-  VirtualTimeAccess::core(*host).call_back(what, all != 0, is_thinker());
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  return turns.active() && self->state == TurnThread::State::kThinks && turns.is_wanted(mutex) ? 1
+                                                                                               : 0;
 }
 
-constexpr PlaypenVirtualTimeHooks kHooks = {PLAYPEN_VIRTUAL_TIME_VERSION,
-                                            on_sleep,
-                                            on_now,
-                                            on_begin_thread,
-                                            on_thread_begun,
-                                            on_thread_failed,
-                                            on_begin_wait,
-                                            on_end_wait,
-                                            on_signalled};
+int on_thread_lives(const void* handle) {
+  if (state.inside > 0 || Turns::known_self() == nullptr) return 0;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  return turns.active() && turns.lives(handle) ? 1 : 0;
+}
+
+void on_cancelled(const void* handle) {
+  if (state.inside > 0) return;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  turns.interrupt(handle);
+}
+
+/// Lets those threads go on that are ready. @return whether there was one.
+bool let_others_go_on() {
+  TurnThread* const self = Turns::known_self();
+  if (self == nullptr || !Turns::instance().active()) return false;
+  const Inside inside;
+  Turns& turns = Turns::instance();
+  Turns::Lock lock(turns.mutex());
+  return turns.yield(lock, *self);
+}
+
+void on_yield() {
+  ThreadState& thread = state;
+  if (thread.inside > 0 || thread.ended || Turns::known_self() == nullptr) return;
+  if (let_others_go_on()) thread.yields = 0;
+  // Nobody is left who could go on: it waits for what simulated time brings.
+  if (++thread.yields < kFreeYields || given_up.load(std::memory_order_acquire)) return;
+  thread.yields = 0;
+  Host* const host = attached.load(std::memory_order_acquire);
+  if (host != nullptr) pass(thread, *host, VirtualTimeAccess::core(*host).step_ns());
+}
+
+void on_leaving(int process) { state.leaving = process != 0 ? 1 : -1; }
+
+int on_takes_turns() {
+  const ThreadState& thread = state;
+  return thread.inside == 0 && !thread.ended && Turns::known_self() != nullptr &&
+                 Turns::instance().active()
+             ? 1
+             : 0;
+}
+
+int on_is_programs(const void* caller) {
+  if (on_takes_turns() == 0) return 0;
+  const Inside inside;
+  return is_programs_code(caller) ? 1 : 0;
+}
+
+void on_waits_for_real(const char* what, const char* why) {
+  ThreadState& thread = state;
+  if (thread.inside > 0 || thread.ended || given_up || Turns::known_self() == nullptr) return;
+  const Inside inside;
+  try {
+    const std::string text = std::string(what) + " waits in real time: " + why;
+    if (Turns::instance().note_unrepeatable(text)) {
+      log_to_stderr()(sim::LogLevel::kWarning, text);
+    }
+  } catch (const std::exception&) {
+    // There is no memory left to say it.
+  }
+}
+
+const int* counter(const std::atomic<int>& value) {
+  static_assert(sizeof(std::atomic<int>) == sizeof(int));
+  return reinterpret_cast<const int*>(&value);
+}
+
+const PlaypenVirtualTimeHooks* hooks() {
+  static const auto* const table =
+      new PlaypenVirtualTimeHooks{PLAYPEN_VIRTUAL_TIME_VERSION,
+                                  counter(Turns::instance().mutex_waits()),
+                                  counter(Turns::instance().object_waits()),
+                                  on_sleep,
+                                  on_now,
+                                  on_begin_thread,
+                                  on_thread_started,
+                                  on_thread_failed,
+                                  on_thread_begun,
+                                  on_begin_wait,
+                                  on_finish_wait,
+                                  on_wake,
+                                  on_waits_for_turn,
+                                  on_mutex_is_wanted,
+                                  on_thread_lives,
+                                  on_cancelled,
+                                  on_yield,
+                                  on_leaving,
+                                  on_is_programs,
+                                  on_takes_turns,
+                                  on_waits_for_real};
+  return table;
+}
 
 int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
   program_begin = UINTPTR_MAX;
@@ -315,7 +520,12 @@ __attribute__((constructor(101))) void register_hooks() {
   if (found == nullptr) return;
   static_cast<void>(this_thinker());  // the main thread is the first
   dl_iterate_phdr(note_program, nullptr);
-  registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(&kHooks) != 0;
+  const Inside inside;
+  registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(hooks()) != 0;
+  if (!registered) return;
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  turns.begin();
 }
 
 }  // namespace
@@ -335,9 +545,7 @@ void attach(const std::shared_ptr<Host>& host) {
   const std::lock_guard lock(lists_mutex);
   if (attached.load() != nullptr || !active()) return;
   kept_hosts().push_back(host);
-  for (const ThinkerId thinker : early_threads())
-    VirtualTimeAccess::core(*host).add_thread(thinker);
-  early_threads().clear();
+  VirtualTimeAccess::core(*host).begin_turns(offset_ns.load());
   attached.store(host.get(), std::memory_order_release);
 }
 
@@ -346,15 +554,26 @@ void detach(const Host& host) noexcept {
   if (attached.load() != &host) return;
   offset_ns.fetch_add(VirtualTimeAccess::core(host).now_ns());
   attached.store(nullptr, std::memory_order_release);
+  VirtualTimeAccess::core(host).end_turns(offset_ns.load());
 }
 
+long long time_before_ns() noexcept { return offset_ns.load(); }
+void set_time_before_ns(long long now_ns) noexcept { offset_ns.store(now_ns); }
+
 // Called with a simulation locked, so without the lock over the lists.
-void give_up() noexcept {
+void give_up_locked() noexcept {
   static constinit std::atomic<bool> begun{false};
   if (begun.exchange(true)) return;
   last_ns = elapsed(state);
   last_real_ns = real_ns();
   given_up.store(true, std::memory_order_release);
+  Turns::instance().release();
+}
+
+void give_up() noexcept {
+  const Inside inside;
+  const Turns::Lock lock(Turns::instance().mutex());
+  give_up_locked();
 }
 
 void note_wait() noexcept {
@@ -368,6 +587,7 @@ void note_look() noexcept {
   ++thread.looks;
   const bool alone = !background.load(std::memory_order_relaxed);
   const long long free_looks = alone ? kFreeLooksAlone : kFreeLooks;
+  if (thread.looks % kLooksATurn == 0 && thread.inside == 0) let_others_go_on();
   if (thread.looks < free_looks) return;
   thread.looks = free_looks - (alone ? kLooksAStepAlone : kLooksAStep);
   Host* const host = attached.load(std::memory_order_acquire);
@@ -378,15 +598,19 @@ void note_look() noexcept {
 
 void note_background() noexcept { background = true; }
 
+bool process_ends() noexcept {
+  ThreadState& thread = state;
+  return thread.leaving > 0 || (thread.leaving == 0 && is_main(thread));
+}
+
 void note_thread_ends() noexcept {
+  // At the end of the process nobody else is to go on: how far would be chance.
+  if (process_ends()) return;
   state.ended = true;
   const Inside inside;
-  const std::lock_guard lock(lists_mutex);
-  std::erase(early_threads(), this_thinker());
-  if (Host* const host = attached.load()) {
-    VirtualTimeAccess::core(*host).thinker_ended(this_thinker(),
-                                                 reinterpret_cast<const void*>(pthread_self()));
-  }
+  Turns& turns = Turns::instance();
+  const Turns::Lock lock(turns.mutex());
+  turns.remove(this_thinker());
 }
 
 bool wait_until(const void* simulation, const std::function<bool()>& condition) {
@@ -397,7 +621,7 @@ bool wait_until(const void* simulation, const std::function<bool()>& condition) 
   }
   const sim::SimTime step_ns = VirtualTimeAccess::core(*host).step_ns();
   while (!condition()) {
-    if (given_up || !pass(thread, *host, step_ns)) return false;
+    if (given_up || pass(thread, *host, step_ns) == Passed::kNo) return false;
   }
   return true;
 }

@@ -58,7 +58,14 @@ void attach(const std::shared_ptr<Host>& host);
 /// The clocks stay where they are until another simulation is attached.
 void detach(const Host& host) noexcept;
 /// From now on sleeps are real, and the clocks go on with the wall clock from where they are.
+/// With the simulation locked, or Turns if there is none.
+void give_up_locked() noexcept;
+/// The same, with nothing locked.
 void give_up() noexcept;
+
+/// Without a simulation: the time since the program's start, and how that goes on [ns].
+[[nodiscard]] long long time_before_ns() noexcept;
+void set_time_before_ns(long long now_ns) noexcept;
 
 /// The calling thread waits for simulated time, and so takes part in the lockstep from now on.
 void note_wait() noexcept;
@@ -69,8 +76,11 @@ void note_wait() noexcept;
 void note_look() noexcept;
 /// From now on there are threads that read in the background, see note_look().
 void note_background() noexcept;
-/// The calling thread ends: nothing is virtual for it any more.
+/// The calling thread's variables are destroyed. It ends, and nothing is virtual for it any more,
+/// unless it is the whole process that ends.
 void note_thread_ends() noexcept;
+/// Whether that is because the process ends.
+[[nodiscard]] bool process_ends() noexcept;
 
 /// Lets simulated time pass, step by step, until something is so; as if the calling thread slept.
 /// @param simulation  whose time it is, see Session::simulation().

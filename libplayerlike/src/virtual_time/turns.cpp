@@ -1,0 +1,507 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "virtual_time/turns.h"
+
+#include <linux/futex.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <climits>
+#include <ctime>
+#include <utility>
+
+#include "host/idle_calls.h"
+#include "virtual_time/virtual_time.h"
+
+namespace playerlike {
+namespace {
+
+using WallClock = std::chrono::steady_clock;
+
+// How often it is looked whether a thread is blocked, and when it is.
+constexpr std::chrono::milliseconds kLook(20);
+constexpr std::chrono::milliseconds kBlocked(100);
+// Before there is a simulation, which knows the limit of the run.
+constexpr std::chrono::seconds kSilence(5);
+
+constinit thread_local TurnThread* own = nullptr;
+
+enum class Rung { kYes, kTimeOut, kSignal };
+
+// The kernel does not restart a wait with a limit after a signal, whatever the handler asks for.
+Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
+                   std::chrono::nanoseconds limit) {
+  const auto whole = std::chrono::duration_cast<std::chrono::seconds>(limit);
+  const timespec time = {whole.count(), static_cast<long>((limit - whole).count())};
+  if (syscall(SYS_futex, &bell, FUTEX_WAIT_PRIVATE, heard, &time, nullptr, 0) == 0) {
+    return Rung::kYes;
+  }
+  if (errno == EINTR) return Rung::kSignal;
+  return errno == ETIMEDOUT ? Rung::kTimeOut : Rung::kYes;
+}
+
+/// Finds signals that come while a thread lets time pass itself. They are held back meanwhile.
+class SignalWatch {
+ public:
+  SignalWatch() = default;
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+  ~SignalWatch() { let_through(); }
+
+  /// To be called after each step. @return whether it is time for handle().
+  [[nodiscard]] bool is_due() {
+    if (++steps_ % kSteps != 0) return false;
+    if (!holds_) {
+      sigset_t all;
+      sigfillset(&all);
+      // Faults are the thread's own, and Ctrl-C ends runs.
+      for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
+        sigdelset(&all, signal);
+      }
+      holds_ = pthread_sigmask(SIG_BLOCK, &all, &before_) == 0;
+    }
+    sigset_t pending;
+    if (sigpending(&pending) != 0) return false;
+    has_handler_ = false;
+    bool any = false;
+    for (int signal = 1; signal < NSIG; ++signal) {
+      if (sigismember(&pending, signal) != 1 || sigismember(&before_, signal) == 1) continue;
+      any = true;
+      struct sigaction action {};
+      if (sigaction(signal, nullptr, &action) != 0) continue;
+      const bool plain = (action.sa_flags & SA_SIGINFO) == 0 &&
+                         (action.sa_handler == SIG_IGN || action.sa_handler == SIG_DFL);
+      has_handler_ = has_handler_ || !plain;
+    }
+    return any;
+  }
+  /// Without locks: lets the handlers run. @return whether there were any.
+  [[nodiscard]] bool handle() {
+    let_through();
+    return has_handler_;
+  }
+  void let_through() {
+    if (holds_) pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    holds_ = false;
+  }
+
+ private:
+  static constexpr int kSteps = 64;
+  int steps_ = 0;
+  bool holds_ = false;
+  bool has_handler_ = false;
+  sigset_t before_{};
+};
+
+}  // namespace
+
+Turns& Turns::instance() {
+  static auto* const turns = new Turns;
+  return *turns;
+}
+
+// --- The threads
+// ----------------------------------------------------------------------------------
+
+void Turns::ring(TurnThread& thread) {
+  thread.bell.fetch_add(1);
+  if (&thread == own) return;
+  syscall(SYS_futex, &thread.bell, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
+}
+
+void Turns::move(TurnThread& thread, State state) {
+  if (current_ == &thread) current_ = nullptr;
+  if (thread.state == State::kReady) --ready_;
+  if (thread.state == State::kBeside) --beside_;
+  thread.state = state;
+  if (state == State::kReady) ++ready_;
+  if (state == State::kBeside) ++beside_;
+  if (state == State::kThinks) current_ = &thread;
+  if (state == State::kThinks || state == State::kBeside) {
+    thread.seen = WallClock::now();
+    thread.blocked_since.reset();
+  }
+}
+
+TurnThread* Turns::find(ThinkerId thinker) const {
+  const auto found = std::find_if(threads_.begin(), threads_.end(),
+                                  [&](const auto& t) { return t->thinker == thinker; });
+  return found == threads_.end() ? nullptr : found->get();
+}
+
+TurnThread& Turns::insert(ThinkerId thinker, State state) {
+  threads_.push_back(std::make_unique<TurnThread>(thinker));
+  TurnThread& thread = *threads_.back();
+  thread.state = State::kAside;
+  thread.place = ++last_place_;
+  move(thread, state);
+  return thread;
+}
+
+TurnThread* Turns::known_self() noexcept { return own; }
+
+TurnThread& Turns::self() {
+  if (own == nullptr) {
+    own = &insert(this_thinker(), State::kBeside);
+    own->number = this_thread();
+    own->handle = reinterpret_cast<const void*>(pthread_self());
+  }
+  return *own;
+}
+
+void Turns::begin() {
+  active_.store(true, std::memory_order_release);
+  move(self(), State::kThinks);
+}
+
+void Turns::release() {
+  active_.store(false, std::memory_order_release);
+  for (const auto& thread : threads_) ring(*thread);
+}
+
+void Turns::set_clock(TurnClock* clock, sim::SimTime before_ns, sim::SimTime now_ns) {
+  clock_ = clock;
+  for (const auto& thread : threads_) {
+    if (thread->wake_ns) *thread->wake_ns += now_ns - before_ns;
+  }
+  kick();
+}
+
+void Turns::add(ThinkerId thinker) { insert(thinker, State::kReady); }
+
+void Turns::note_handle(ThinkerId thinker, const void* handle) {
+  if (TurnThread* const thread = find(thinker)) thread->handle = handle;
+}
+
+void Turns::enter(Lock& lock, ThinkerId thinker) {
+  own = find(thinker);
+  if (own == nullptr) return;
+  own->number = this_thread();
+  own->handle = reinterpret_cast<const void*>(pthread_self());
+  own->blocked_since.reset();
+  park(lock, *own, /*interruptible=*/false);
+}
+
+void Turns::remove(ThinkerId thinker) {
+  TurnThread* const thread = find(thinker);
+  if (thread == nullptr) return;
+  end_wait(*thread);
+  move(*thread, State::kAside);
+  const void* const handle = thread->handle;
+  if (own == thread) own = nullptr;
+  std::erase_if(threads_, [&](const auto& t) { return t.get() == thread; });
+  if (handle != nullptr) wake(handle, INT_MAX);
+  kick();
+}
+
+bool Turns::lives(const void* handle) const {
+  return std::any_of(threads_.begin(), threads_.end(),
+                     [&](const auto& t) { return t->handle == handle; });
+}
+
+bool Turns::is_parked(pid_t number) const {
+  return number != 0 && std::any_of(threads_.begin(), threads_.end(), [&](const auto& t) {
+           return t->number == number && (t->state == State::kReady || t->state == State::kWaits);
+         });
+}
+
+bool Turns::is_wanted(const void* mutex) const {
+  return std::any_of(threads_.begin(), threads_.end(), [&](const auto& t) {
+    return t->takes_mutex && t->object == mutex && t->state == State::kReady;
+  });
+}
+
+// --- Waiting
+// ----------------------------------------------------------------------------------
+
+void Turns::begin_wait(TurnThread& self, const void* object, bool takes_mutex) {
+  end_wait(self);
+  self.object = object;
+  self.takes_mutex = takes_mutex;
+  self.counted = true;
+  self.wake = Wake::kNone;
+  self.place = ++last_place_;
+  (takes_mutex ? mutex_waits_ : object_waits_).fetch_add(1);
+}
+
+void Turns::end_wait(TurnThread& thread) {
+  if (thread.counted) (thread.takes_mutex ? mutex_waits_ : object_waits_).fetch_sub(1);
+  thread.counted = false;
+  thread.takes_mutex = false;
+  thread.object = nullptr;
+  thread.is_there = nullptr;
+  thread.client = nullptr;
+  thread.wake_ns.reset();
+}
+
+Turns::Wake Turns::wait(Lock& lock, TurnThread& self, bool interruptible) {
+  if (active()) {
+    const bool come = self.wake_ns && has_come(*self.wake_ns);
+    move(self, State::kWaits);
+    if (self.wake != Wake::kNone || come) {
+      make_ready(self, self.wake != Wake::kNone ? self.wake : Wake::kTime);
+    }
+    park(lock, self, interruptible);
+  }
+  const Wake wake = std::exchange(self.wake, Wake::kNone);
+  end_wait(self);
+  return active() ? wake : Wake::kNone;
+}
+
+bool Turns::yield(Lock& lock, TurnThread& self) {
+  if (!active() || ready_ == 0 || self.state != State::kThinks) return false;
+  move(self, State::kReady);
+  self.place = ++last_place_;
+  park(lock, self, /*interruptible=*/false);
+  return true;
+}
+
+void Turns::make_ready(TurnThread& thread, Wake wake) {
+  thread.wake = wake;
+  if (!thread.takes_mutex) thread.object = nullptr;
+  if (thread.state != State::kWaits) return;  // it is about to wait, and will find it there
+  move(thread, State::kReady);
+  thread.place = ++last_place_;
+}
+
+int Turns::wake(const void* object, int most) {
+  int woken = 0;
+  while (woken < most) {
+    TurnThread* first = nullptr;
+    for (const auto& thread : threads_) {
+      if (thread->object != object || !thread->counted) continue;
+      // Who is about to take a mutex is told so once.
+      if (thread->takes_mutex && thread->wake != Wake::kNone) return woken;
+      if (first == nullptr || thread->place < first->place) first = thread.get();
+    }
+    if (first == nullptr) break;
+    make_ready(*first, Wake::kThere);
+    ++woken;
+  }
+  if (woken > 0) kick();
+  return woken;
+}
+
+void Turns::wake_later(const void* object) {
+  bool kept = false;
+  for (auto& place : later_) {
+    const void* none = nullptr;
+    kept = place.load() == object || place.compare_exchange_strong(none, object);
+    if (kept) break;
+  }
+  if (!kept) all_later_ = true;
+  any_later_ = true;
+}
+
+void Turns::wake_those_of_later() {
+  any_later_ = false;
+  const bool all = all_later_.exchange(false);
+  for (auto& place : later_) {
+    if (const void* const object = place.exchange(nullptr)) wake(object, INT_MAX);
+  }
+  if (!all) return;
+  for (const auto& thread : threads_) {
+    if (thread->counted) make_ready(*thread, Wake::kThere);
+  }
+}
+
+void Turns::interrupt(const void* handle) {
+  for (const auto& thread : threads_) {
+    if (thread->handle != handle) continue;
+    if (thread->state == State::kWaits || thread->counted) {
+      make_ready(*thread, Wake::kInterrupted);
+    }
+  }
+  kick();
+}
+
+void Turns::let_go(const Client& client) {
+  for (const auto& thread : threads_) {
+    if (thread->client != &client) continue;
+    thread->wake = Wake::kNone;
+    if (thread->state == State::kWaits || thread->state == State::kReady) {
+      move(*thread, State::kBeside);
+      ring(*thread);
+    }
+  }
+}
+
+// --- Turns
+// ------------------------------------------------------------------------------------
+
+TurnThread* Turns::first_ready() const {
+  TurnThread* first = nullptr;
+  if (ready_ == 0) return nullptr;
+  for (const auto& thread : threads_) {
+    if (thread->state != State::kReady) continue;
+    if (first == nullptr || thread->place < first->place) first = thread.get();
+  }
+  return first;
+}
+
+void Turns::kick() {
+  if (current_ != nullptr) return;
+  if (TurnThread* const next = first_ready()) {
+    move(*next, State::kThinks);
+    return ring(*next);
+  }
+  if (beside_ > 0) return;
+  for (const auto& thread : threads_) {
+    if (thread->state == State::kWaits && thread->waits_for_time()) return ring(*thread);
+  }
+}
+
+void Turns::park(Lock& lock, TurnThread& self, bool interruptible) {
+  SignalWatch signals;
+  const auto parked = [&] {
+    return active() && (self.state == State::kReady || self.state == State::kWaits);
+  };
+  while (parked()) {
+    if (any_later_.load(std::memory_order_relaxed)) wake_those_of_later();
+    if (current_ == nullptr) {
+      if (TurnThread* const next = first_ready()) {
+        move(*next, State::kThinks);
+        if (next == &self) break;
+        ring(*next);
+      } else if (beside_ == 0) {
+        if (ask_waiting()) continue;
+        if (clock_ != nullptr ? clock_->step(lock) : wait_really(lock, self)) {
+          if (!interruptible || self.state != State::kWaits || !signals.is_due()) continue;
+          lock.unlock();
+          const bool handled = signals.handle();
+          lock.lock();
+          if (handled) note_signal(self);
+          continue;
+        }
+      }
+    }
+    const unsigned heard = self.bell.load();
+    if (!parked()) break;
+    lock.unlock();
+    signals.let_through();
+    const Rung rung = wait_for_bell(self.bell, heard, kLook);
+    lock.lock();
+    if (rung == Rung::kSignal && interruptible) note_signal(self);
+    if (rung == Rung::kTimeOut && parked()) look();
+  }
+}
+
+void Turns::note_signal(TurnThread& self) {
+  if (self.state != State::kWaits) return;
+  make_ready(self, Wake::kInterrupted);
+  note_unrepeatable("a signal ended a sleep");
+}
+
+bool Turns::has_come(sim::SimTime wake_ns) const {
+  return clock_ != nullptr ? clock_->has_come(wake_ns) : virtual_time::time_before_ns() >= wake_ns;
+}
+
+// What somebody else wakes is found so, too: another process, a handler of a signal.
+bool Turns::ask_waiting() {
+  if (object_waits_.load() == 0) return false;
+  bool any = false;
+  for (const auto& thread : threads_) {
+    if (thread->state != State::kWaits || thread->is_there == nullptr) continue;
+    if (thread->is_there(thread->object, thread->value) == 0) continue;
+    make_ready(*thread, Wake::kThere);
+    any = true;
+  }
+  return any;
+}
+
+bool Turns::wait_really(Lock& lock, TurnThread& self) {
+  const auto first = [this] {
+    TurnThread* earliest = nullptr;
+    for (const auto& thread : threads_) {
+      if (thread->state != State::kWaits || !thread->wake_ns) continue;
+      if (earliest == nullptr || *thread->wake_ns < *earliest->wake_ns) earliest = thread.get();
+    }
+    return earliest;
+  };
+  if (first() != &self) {
+    if (TurnThread* const earliest = first()) ring(*earliest);
+    return false;
+  }
+  const sim::SimTime wake_ns = *self.wake_ns;
+  const unsigned heard = self.bell.load();
+  lock.unlock();
+  const Rung rung = wait_for_bell(
+      self.bell, heard, std::chrono::nanoseconds(wake_ns - virtual_time::time_before_ns()));
+  lock.lock();
+  if (rung == Rung::kSignal) return note_signal(self), true;
+  if (rung != Rung::kTimeOut || clock_ != nullptr || first() != &self) return true;
+  virtual_time::set_time_before_ns(wake_ns);
+  for (const auto& thread : threads_) {
+    if (thread->state == State::kWaits && thread->wake_ns && *thread->wake_ns <= wake_ns) {
+      make_ready(*thread, Wake::kTime);
+    }
+  }
+  return true;
+}
+
+bool Turns::somebody_waits_for_time() const {
+  return std::any_of(threads_.begin(), threads_.end(), [](const auto& t) {
+    return t->state == State::kWaits && t->waits_for_time();
+  });
+}
+
+// --- The rules of the wall clock
+// ---------------------------------------------------------------------------------
+
+// A thread that the system has put to sleep for something else than simulated time, a file or a
+// key, holds up nobody meanwhile. One that computes, or waits for a processor, does.
+void Turns::look() {
+  if (clock_ != nullptr) clock_->look_at_start();
+  if (ready_ == 0 && !somebody_waits_for_time()) return;  // it holds up nobody
+  const auto now = WallClock::now();
+  std::vector<TurnThread*> blocked;
+  std::vector<TurnThread*> thinking;
+  for (const auto& t : threads_) {
+    if (t->state != State::kThinks && t->state != State::kBeside) continue;
+    if (t->number == 0) continue;  // only just being started
+    thinking.push_back(t.get());
+    const auto switches = sleeps_since(t->number);
+    if (!switches || !t->blocked_since || *switches != t->blocked_switches) {
+      t->blocked_since = switches ? std::optional(now) : std::nullopt;
+      t->blocked_switches = switches.value_or(0);
+    } else if (now - *t->blocked_since >= kBlocked) {
+      blocked.push_back(t.get());
+    }
+  }
+  // One that thinks may be whom the blocked ones wait for.
+  if (blocked.size() == thinking.size()) {
+    for (TurnThread* const t : blocked) {
+      if (clock_ != nullptr && clock_->on_blocked(*t)) return;
+      move(*t, State::kAside);
+      note_unrepeatable(
+          "a thread of the program waited for 100 ms of wall time for something that is not "
+          "simulated: a file, a key, a pipe or a socket");
+    }
+    return;
+  }
+  const auto limit = clock_ != nullptr ? clock_->silence_limit() : WallClock::duration(kSilence);
+  for (TurnThread* const t : thinking) {
+    const auto seen = clock_ != nullptr ? clock_->last_seen(*t) : t->seen;
+    if (now - seen < limit) continue;
+    move(*t, State::kAside);
+    note_unrepeatable("a thread of the program neither read nor slept for the silence limit");
+    if (clock_ != nullptr) clock_->on_silent(*t);
+  }
+}
+
+bool Turns::note_unrepeatable(const std::string& why) {
+  const std::lock_guard lock(reasons_mutex_);
+  if (std::find(reasons_.begin(), reasons_.end(), why) != reasons_.end()) return false;
+  reasons_.push_back(why);
+  return true;
+}
+
+std::vector<std::string> Turns::unrepeatable() const {
+  const std::lock_guard lock(reasons_mutex_);
+  return reasons_;
+}
+
+}  // namespace playerlike

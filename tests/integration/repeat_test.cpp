@@ -1,0 +1,173 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The same program gives the same result, each time, however busy the machine is: every program of
+// thread_programs many times over, beside four busy processes a core.
+// PLAYPEN_REPEATS in the environment says how often; .ci/run nightly does.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test_support::playpen;
+using test_support::Process;
+using test_support::ProcessOptions;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::HasSubstr;
+
+const char* const kPreloaded = PRELOADED_LIBRARY;
+constexpr const char* kDuration_s = "30";
+
+int repeats() {
+  const char* text = std::getenv("PLAYPEN_REPEATS");
+  return text == nullptr ? 10 : std::max(2, std::atoi(text));
+}
+
+std::vector<std::string> program_names() {
+  std::istringstream lines(test_support::run_process({THREAD_PROGRAMS}).out);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);) names.push_back(line);
+  return names;
+}
+
+/// Four busy processes a core. They end with this, and with the test.
+class Load {
+ public:
+  Load() {
+    const unsigned count = 4 * std::max(1U, std::thread::hardware_concurrency());
+    for (unsigned i = 0; i < count; ++i) {
+      processes_.push_back(std::make_unique<Process>(
+          std::vector<std::string>{"sh", "-c", "echo on; while :; do :; done"}));
+    }
+    for (const auto& process : processes_) EXPECT_TRUE(process->read_until("on\n"));
+  }
+
+ private:
+  std::vector<std::unique_ptr<Process>> processes_;
+};
+
+class Repeats : public testing::Test {
+ protected:
+  /// As `playpen run` starts a program, but without results and what they cost.
+  [[nodiscard]] ProcessOptions environment() const {
+    ProcessOptions options;
+    options.environment = {{"LD_PRELOAD", kPreloaded},
+                           {"PLAYPEN_VIRTUAL_TIME", "1"},
+                           {"PLAYPEN_RUN", "1"},
+                           {"PLAYPEN_WORLD", world_},
+                           {"PLAYPEN_DURATION", kDuration_s}};
+    return options;
+  }
+  [[nodiscard]] std::vector<std::string> whole_run(const std::string& name) const {
+    return {PLAYPEN_COMMAND, "run", world_, "--quiet",       "--duration", kDuration_s,
+            "--out",         out_,  "--",   THREAD_PROGRAMS, name};
+  }
+  /// What a run leaves: the report, without what tells of the wall clock, and the trajectory.
+  [[nodiscard]] std::string results() const {
+    json report = json::parse(read_bytes(fs::path(out_) / "report.json"));
+    report.at("run").erase("wall_time");
+    report.at("run").erase("real_time_factor");
+    return report.dump() + read_bytes(fs::path(out_) / "trajectory.csv");
+  }
+
+  TemporaryFolder folder_;
+  std::string world_ =
+      folder_.write("two.json", json{{"name", "two"},
+                                     {"arena", {{"size", {2.0, 2.0}}}},
+                                     {"robots",
+                                      {{{"name", "r1"},
+                                        {"pose", {{"x", 0.5}, {"y", 1.0}, {"yaw_deg", 0.0}}},
+                                        {"devices", {{"laser", {{"noise", 0.01}}}}}},
+                                       {{"name", "r2"},
+                                        {"pose", {{"x", 1.5}, {"y", 1.0}, {"yaw_deg", 180.0}}},
+                                        {"devices", {{"laser", {{"noise", 0.01}}}}}}}}}
+                                    .dump());
+  std::string out_ = folder_ / "out";
+};
+
+TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
+  const std::vector<std::string> names = program_names();
+  ASSERT_GE(names.size(), 20U);
+  int runs = 0;
+  int different = 0;
+  const Load load;
+  for (const std::string& name : names) {
+    std::optional<std::string> printed;
+    std::optional<std::string> left;
+    const auto compare = [&](const ProcessResult& result) {
+      ++runs;
+      EXPECT_EQ(result.status, 0) << name << ": " << result.err;
+      if (!printed) printed = result.out;
+      different += result.out == *printed ? 0 : 1;
+      EXPECT_EQ(result.out, *printed) << name;
+    };
+    // One of five with its results; of the others two at a time.
+    for (int i = 0; i < repeats(); ++i) {
+      if (i % 5 == 0) {
+        compare(Process(whole_run(name)).finish());
+        const std::string results_now = results();
+        if (!left) left = results_now;
+        different += results_now == *left ? 0 : 1;
+        EXPECT_EQ(results_now, *left) << name;
+        continue;
+      }
+      Process other({THREAD_PROGRAMS, name}, environment());
+      if (++i < repeats() && i % 5 != 0) {
+        Process beside({THREAD_PROGRAMS, name}, environment());
+        compare(beside.finish());
+      } else {
+        --i;
+      }
+      compare(other.finish());
+    }
+  }
+  std::cout << names.size() << " programs, " << runs << " runs, " << different
+            << " different results\n";
+  EXPECT_EQ(different, 0);
+}
+
+// Clocks of the system tell how long the machine is up. Nothing may depend on that.
+TEST_F(Repeats, SoDoTheyOnAMachineThatWasJustStarted) {
+  std::ifstream file("/proc/uptime");
+  double uptime_s = 0.0;
+  ASSERT_TRUE(file >> uptime_s);
+  const std::string offset = std::to_string(5 - static_cast<long long>(uptime_s));
+  std::vector<std::string> command = {"unshare", "--user",     "--map-root-user",
+                                      "--time",  "--fork",     "--monotonic",
+                                      offset,    "--boottime", offset};
+  std::vector<std::string> probe = command;
+  probe.insert(probe.end(), {"true"});
+  if (const ProcessResult result = test_support::run_process(probe); result.status != 0) {
+    GTEST_SKIP() << "no time namespaces here: " << result.err;
+  }
+  command.push_back(THREAD_PROGRAMS);
+  for (const std::string& name : program_names()) {
+    const ProcessResult usual = Process({THREAD_PROGRAMS, name}, environment()).finish();
+    command.push_back(name);
+    const ProcessResult early = Process(command, environment()).finish();
+    command.pop_back();
+    EXPECT_EQ(early.status, 0) << name << ": " << early.err;
+    EXPECT_EQ(early.out, usual.out) << name;
+  }
+}
+
+}  // namespace
