@@ -8,6 +8,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"IMR_LOG_LEVEL", "The least level of the lines that imr-h's log shows: debug, info, ...",
        false},
       {"NO_COLOR", "If it is set, the command prints no colours.", false},
+      {"PLAYPEN_CLIENTS", "How many clients must have joined before simulated time begins.", true},
       {"PLAYPEN_DURATION", "Simulated seconds after which a run ends.", true},
       {"PLAYPEN_ENCODING", "How a program talks to a server: cbor or json.", false},
       {"PLAYPEN_LIBRARIES",

@@ -97,6 +97,13 @@ void add_run(CommandLine& line) {
       "Exit status: 0 fine, 1 the program failed, 2 bad input.");
   add_world(line, command, request->world);
   add_run_settings(line, command, request->settings, "the world's, else lockstep");
+  add_parsed(command, "--clients", "Hold time until so many clients have joined [the world's]", "N",
+             playerlike::kClientsExpected, [request](const std::string& text) {
+               int clients = 0;
+               const bool good = playerlike::parse_clients(text, clients);
+               if (good) request->settings.clients = clients;
+               return good;
+             });
   command.add_flag("--view", request->view,
                    "Watch and steer in a window, in real time unless --time gives a factor");
   command.add_flag("--real-sleep", request->real_sleep,

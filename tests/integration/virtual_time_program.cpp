@@ -5,6 +5,8 @@
 #include <poll.h>
 #include <pthread.h>
 #include <semaphore.h>
+#include <signal.h>
+#include <sys/epoll.h>
 #include <sys/select.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
@@ -12,10 +14,12 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -121,10 +125,50 @@ void sleep_in_all_ways() {
          const timespec time = later(CLOCK_REALTIME);
          sem_timedwait(&semaphore, &time);
        }},
+      {"select of a key",
+       [] {
+         fd_set keys;
+         FD_ZERO(&keys);
+         FD_SET(STDIN_FILENO, &keys);
+         timeval timeout = {0, 500000};
+         if (select(1, &keys, nullptr, nullptr, &timeout) != 0) std::printf("a key\n");
+         if (FD_ISSET(STDIN_FILENO, &keys) || timeout.tv_usec != 0) std::printf("not empty\n");
+       }},
+      {"poll of a key",
+       [] {
+         pollfd key = {STDIN_FILENO, POLLIN, 0};
+         if (poll(&key, 1, 500) != 0 || key.revents != 0) std::printf("a key\n");
+       }},
+      {"ppoll of a key",
+       [&] {
+         pollfd key = {STDIN_FILENO, POLLIN, 0};
+         if (ppoll(&key, 1, &half, nullptr) != 0) std::printf("a key\n");
+       }},
+      {"epoll of nothing",
+       [] {
+         epoll_event event;
+         const int none = epoll_create1(0);
+         if (epoll_wait(none, &event, 1, 500) != 0) std::printf("an event\n");
+         close(none);
+       }},
+      {"waiting for a signal",
+       [&] {
+         sigset_t set;
+         sigemptyset(&set);
+         sigaddset(&set, SIGUSR2);
+         if (sigtimedwait(&set, nullptr, &half) >= 0) std::printf("a signal\n");
+       }},
+      {"nanosleep by syscall", [&] { syscall(SYS_nanosleep, &half, nullptr); }},
       {"small ones",
        [] {
          for (int i = 0; i < 100000; ++i) usleep(1);
          for (int i = 0; i < 100; ++i) usleep(1500);
+       }},
+      {"clock",
+       [] {
+         const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 2;
+         while (std::clock() < end) {
+         }
        }},
   };
   for (const auto& way : ways) {
@@ -428,6 +472,52 @@ void begin_before_the_client() {
   std::printf("%.2f\n", clock_s());
 }
 
+// Whoever reads the first line sends it a signal.
+void be_woken() {
+  PlayerClient robot("localhost", 6665);
+  struct sigaction action = {};
+  action.sa_handler = [](int) {};
+  action.sa_flags = SA_RESTART;  // which does not hold for sleeps
+  sigaction(SIGUSR1, &action, nullptr);
+  std::printf("%d\n", static_cast<int>(getpid()));
+  std::fflush(stdout);
+  const unsigned left_s = sleep(100000000);
+  std::printf("alone %d\n", left_s > 0 && left_s <= 100000000);
+  // Another thread's, while this one waits for its turn.
+  const pthread_t sleeper = pthread_self();
+  const auto wake = [&] {
+    usleep(500000);
+    pthread_kill(sleeper, SIGUSR1);
+  };
+  std::thread first(wake);
+  timespec rest = {};
+  const timespec day = {86400, 0};
+  const int result = nanosleep(&day, &rest);
+  std::printf("%d %d %.1f\n", result, errno == EINTR,
+              static_cast<double>(rest.tv_sec) + 1e-9 * static_cast<double>(rest.tv_nsec));
+  first.join();
+}
+
+void set_an_alarm() {
+  PlayerClient robot("localhost", 6665);
+  alarm(1000);
+  alarm(1000);
+  robot.Read();
+}
+
+void compute_for_long() {
+  PlayerClient robot("localhost", 6665);
+  robot.Read();
+  std::thread other([] {
+    PlayerClient second("localhost", 6665);
+    second.Read();
+  });
+  const long end = real_time() + 2;
+  while (real_time() < end) {
+  }
+  other.join();
+}
+
 // A child without a client lives in real time.
 void have_a_child() {
   PlayerClient robot("localhost", 6665);
@@ -467,6 +557,9 @@ int main(int argc, char** argv) {
       {"steer_when_told", steer_when_told},
       {"begin_before_the_client", begin_before_the_client},
       {"have_a_child", have_a_child},
+      {"be_woken", be_woken},
+      {"set_an_alarm", set_an_alarm},
+      {"compute_for_long", compute_for_long},
   };
   const auto program = programs.find(argc > 1 ? argv[1] : "");
   if (program == programs.end()) return 9;

@@ -2,6 +2,7 @@
 // Programs that sleep, look at the clock and have threads, under `playpen run`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -29,6 +30,7 @@ using test_support::read_bytes;
 using test_support::room_world;
 using test_support::TemporaryFolder;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -62,6 +64,12 @@ class VirtualTime : public testing::Test {
   [[nodiscard]] json robot() const { return report().at("robots").at(0); }
   [[nodiscard]] double sim_time() const { return report().at("run").at("sim_time").get<double>(); }
 
+  [[nodiscard]] std::vector<std::string> whys() const {
+    const json run = report().at("run");
+    EXPECT_EQ(run.at("repeatable"), !run.contains("repeatable_why"));
+    return run.value("repeatable_why", std::vector<std::string>());
+  }
+
   TemporaryFolder folder_;
   std::string world_ = folder_.write("room.json", room_world(0.01));
   std::string out_ = folder_ / "out";
@@ -84,9 +92,11 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
     const char* expected = second ? ": 1.00 1.00" : ": 0.50 0.50";
     // 100000 * 1 us and 100 * 1.5 ms.
     if (line.starts_with("small ones")) expected = ": 0.25 0.25";
+    // Whoever looks at the clock gets on in whole steps.
+    if (line.starts_with("clock:")) expected = ": 0.51 0.51";
     EXPECT_THAT(line, EndsWith(expected));
   }
-  EXPECT_EQ(ways, 17);
+  EXPECT_EQ(ways, 24);
 }
 
 TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
@@ -250,6 +260,68 @@ TEST_F(VirtualTime, TimeStandsForAThreadThatWasSignalled) {
 
 TEST_F(VirtualTime, WaitsWithADeadlineEndWhenTheyAreSignalled) {
   EXPECT_EQ(printed("wait_for_each_other"), "came 1\nanswered 1\n1\n");
+}
+
+TEST_F(VirtualTime, ASignalEndsASleep) {
+  Process process({PLAYPEN_COMMAND, "run", world_, "--quiet", "--out", out_, "--", SLEEPING_PROGRAM,
+                   "be_woken"});
+  ASSERT_TRUE(process.read_until("\n"));
+  kill(std::atoi(process.output().c_str()), SIGUSR1);
+  const ProcessResult result = process.finish();
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, EndsWith("\nalone 1\n-1 1 86399.5\n"));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("a signal ended a sleep")));
+}
+
+TEST_F(VirtualTime, ARunThatTheWallClockHadASayInIsNotRepeatable) {
+  ASSERT_EQ(run("read_and_sleep", {"--duration", "2"}).status, 0);
+  EXPECT_EQ(report().at("run").at("repeatable"), true);
+  EXPECT_FALSE(report().at("run").contains("repeatable_why"));
+
+  const ProcessResult blocked = run("steer_by_hand", {"--time", "lockstep"});
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("100 ms of wall time")));
+  EXPECT_THAT(blocked.out, HasSubstr("another run may differ:\n  a thread of the program"));
+  static_cast<void>(run("steer_by_hand"));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("followed the wall clock")));
+  static_cast<void>(run("drive_by_sleeping", {"--time", "100"}));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("followed the wall clock")));
+  static_cast<void>(run("have_threads_with_clients", {"--real-sleep", "--duration", "1"}));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("several threads")));
+}
+
+TEST_F(VirtualTime, WhoComputesForTooLongHoldsUpNobodyAndTheReportSaysSo) {
+  ProcessOptions options;
+  options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.2"}};
+  const ProcessResult result =
+      playpen({"run", world_, "--out", out_, "--", SLEEPING_PROGRAM, "compute_for_long"}, options);
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("client 1 (port 6665) has not called Read() for 0.2"));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("the silence limit")));
+}
+
+TEST_F(VirtualTime, WhatCannotBeSimulatedIsToldOnce) {
+  const ProcessResult result = run("set_an_alarm", {"--quiet"});
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, HasSubstr("alarm() counts real time"));
+  EXPECT_EQ(result.err.find("alarm()"), result.err.rfind("alarm()"));
+  EXPECT_THAT(whys(), ElementsAre(HasSubstr("alarm() counts real time")));
+}
+
+TEST_F(VirtualTime, TimeMayWaitForMoreClients) {
+  // Two clients in two threads, each of which waits for a second one.
+  ASSERT_EQ(run("have_threads_with_clients", {"--clients", "2"}).status, 0);
+  EXPECT_EQ(report().at("run").at("repeatable"), true);
+  ProcessOptions options;
+  options.environment = {{"PLAYPEN_SILENCE_LIMIT", "0.2"}};
+  Process waiting({PLAYPEN_COMMAND, "run", world_, "--out", out_, "--clients", "3", "--",
+                   SLEEPING_PROGRAM, "have_threads_with_clients"},
+                  options);
+  EXPECT_TRUE(waiting.read_error_until("the start gate waits for 3 clients; 2 have joined"));
+  for (const char* bad : {"0", "1001", "two"}) {
+    const ProcessResult result = run("drive_by_sleeping", {std::string("--clients=") + bad});
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("--clients"), HasSubstr("from 1 to 1000"))) << bad;
+  }
 }
 
 TEST_F(VirtualTime, ChildrenAndOtherProgramsAreLeftAlone) {

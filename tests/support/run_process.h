@@ -103,6 +103,14 @@ class Process {
     return true;
   }
 
+  /// The same of its standard error.
+  [[nodiscard]] bool read_error_until(std::string_view text) {
+    while (result_.err.find(text) == std::string::npos) {
+      if (!pump()) return false;
+    }
+    return true;
+  }
+
   /// What it has written to its standard output so far.
   [[nodiscard]] const std::string& output() const { return result_.out; }
 

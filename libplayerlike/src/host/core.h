@@ -269,6 +269,8 @@ class Host::Core : private ViewedRun, private TurnClock {
   void keep_results(WallClock::time_point now);
   [[nodiscard]] RunEnd reason_of_end() const;
   void set_phase(KeptRun::Phase phase) noexcept;
+  /// Why another run may differ.
+  [[nodiscard]] std::vector<std::string> unrepeatable() const;
   void show_progress(bool last);
   void pace();
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
@@ -337,6 +339,10 @@ class Host::Core : private ViewedRun, private TurnClock {
   WallClock::time_point last_progress_;
   bool progress_shown_ = false;
   bool mode_chosen_ = false;
+  bool silence_noted_ = false;   ///< the others have gone on without a client
+  bool driven_by_hand_ = false;  ///< at the window
+  ThinkerId first_owner_ = 0;    ///< who waited first, and ...
+  bool several_owners_ = false;  ///< ... whether another one has
 
   std::thread pacer_;
   bool paced_ = false;  ///< the pacer steps, not the clients

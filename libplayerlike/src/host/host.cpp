@@ -203,6 +203,9 @@ void Host::Core::adopt(Client& client, ThinkerId thinker) {
   client.owner = thinker;
   client.joined = true;
   client.silent = false;
+  if (client.follower) return;
+  if (first_owner_ == 0) first_owner_ = thinker;
+  several_owners_ = several_owners_ || thinker != first_owner_;
 }
 
 void Host::Core::subscribe(Client& client, DeviceId device) {
@@ -365,6 +368,7 @@ void Host::Core::note_silence() {
     const WallClock::time_point seen{WallClock::duration(c->last_seen.load())};
     if (now - seen < limit) continue;
     c->silent = true;
+    silence_noted_ = true;
     warn_of_silence(*c);
   }
 }
@@ -1314,6 +1318,23 @@ void Host::Core::set_phase(KeptRun::Phase phase) noexcept {
   if (kept_) kept_->set_phase(phase);
 }
 
+std::vector<std::string> Host::Core::unrepeatable() const {
+  std::vector<std::string> why;
+  if (turns_) why = Turns::instance().unrepeatable();
+  if (paced_) why.emplace_back("simulated time followed the wall clock");
+  if (silence_noted_) {
+    why.emplace_back("simulated time went on without a client that did not read for " +
+                     std::to_string(settings_.silence_limit_s) + " s of wall time");
+  }
+  if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
+  if (!paced_ && several_owners_ && (!turns_ || !Turns::instance().active())) {
+    why.emplace_back(
+        "the program has several threads or there were several programs, and time was "
+        "not virtual: what they do side by side is chance");
+  }
+  return why;
+}
+
 void Host::Core::show_progress(bool last) {
   const auto now = WallClock::now();
   if (!last && now - last_progress_ < std::chrono::milliseconds(100)) return;
@@ -1351,6 +1372,7 @@ TimeStatistics Host::Core::time_locked() const {
   if (s.duration_ns) t.duration_s = sim::to_seconds(*s.duration_ns);
   t.mode = paced_ ? sim::TimeMode::kPaced : sim::TimeMode::kLockstep;
   t.finished = ended_ || simulation_.finished();
+  t.unrepeatable = unrepeatable();
   if (first_step_) {
     t.wall_time_s = seconds((ended_ ? *last_step_ : WallClock::now()) - *first_step_);
     if (t.wall_time_s > 0.0) t.real_time_factor = sim::to_seconds(t.sim_time_ns) / t.wall_time_s;
@@ -1439,6 +1461,7 @@ std::string Host::Core::on_key(std::uint32_t keysym, bool pressed, bool control)
   const Lock lock = lock_soon();
   if (*action <= ViewAction::kRight) {
     hand_->hold(*action, pressed);
+    driven_by_hand_ = true;
     if (pressed && paused_) tell("paused: the robot moves when time does (Space)");
     return "";
   }

@@ -148,16 +148,19 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
                     {"robot", simulation.world().robots[static_cast<std::size_t>(u.robot)].name},
                     {"text", u.text}});
   }
-  return {{"run",
-           {{"world", simulation.world().name},
-            {"seed", simulation.world().simulation.seed},
-            {"steps", simulation.steps()},
-            {"sim_time", sim::to_seconds(simulation.now_ns())},
-            {"wall_time", time.wall_time_s},
-            {"real_time_factor", time.real_time_factor},
-            {"state_hash", hex(simulation.state_hash())}}},
-          {"robots", robots},
-          {"said", said}};
+  nlohmann::ordered_json whole = {{"run",
+                                   {{"world", simulation.world().name},
+                                    {"seed", simulation.world().simulation.seed},
+                                    {"steps", simulation.steps()},
+                                    {"sim_time", sim::to_seconds(simulation.now_ns())},
+                                    {"wall_time", time.wall_time_s},
+                                    {"real_time_factor", time.real_time_factor},
+                                    {"state_hash", hex(simulation.state_hash())}}},
+                                  {"robots", robots},
+                                  {"said", said}};
+  whole["run"]["repeatable"] = time.unrepeatable.empty();
+  if (!time.unrepeatable.empty()) whole["run"]["repeatable_why"] = time.unrepeatable;
+  return whole;
 }
 
 // The path, without ending, of files that a client wants saved in the output folder: a "picture" or

@@ -258,6 +258,8 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_VIEW_MODE"] =
       settings.view_mode ? std::optional(std::string(sim::to_string(*settings.view_mode)))
                          : std::nullopt;
+  changes["PLAYPEN_CLIENTS"] =
+      settings.clients ? std::optional(std::to_string(*settings.clients)) : std::nullopt;
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =

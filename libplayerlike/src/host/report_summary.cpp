@@ -41,6 +41,12 @@ std::string summarize(const nlohmann::json& report) {
       << " s simulated in " << std::setprecision(3) << run.at("wall_time").get<double>()
       << " s: " << std::setprecision(1) << run.at("real_time_factor").get<double>()
       << " times real time (seed " << run.at("seed").get<std::uint64_t>() << ")\n";
+  if (!run.value("repeatable", true)) {
+    out << "another run may differ:\n";
+    for (const nlohmann::json& why : run.at("repeatable_why")) {
+      out << "  " << why.get<std::string>() << '\n';
+    }
+  }
 
   std::size_t name_width = std::string("robot").size();
   for (const nlohmann::json& robot : robots) {

@@ -62,6 +62,13 @@ bool parse_time_mode(const std::string& text, sim::TimeMode& mode, double& facto
   return true;
 }
 
+bool parse_clients(const std::string& text, int& clients) {
+  int read = 0;
+  if (!parse_whole(text, read) || read < 1 || read > 1000) return false;
+  clients = read;
+  return true;
+}
+
 bool parse_film_fps(const std::string& text, double& frames_per_second) {
   return parse_within(text, 1.0, 240.0, frames_per_second);
 }
@@ -150,6 +157,14 @@ RunSettings RunSettings::from_environment() {
     settings.view_mode = sim::parse_view_mode(text);
     if (!settings.view_mode) wrong("PLAYPEN_VIEW_MODE", kViewModeExpected);
   }
+  if (const std::string text = text_of("PLAYPEN_CLIENTS"); !text.empty()) {
+    int clients = 0;
+    if (parse_clients(text, clients)) {
+      settings.clients = clients;
+    } else {
+      wrong("PLAYPEN_CLIENTS", kClientsExpected);
+    }
+  }
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
@@ -165,6 +180,7 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
     world.simulation.time_mode_given = true;
     world.simulation.time_factor = time_factor;
   }
+  if (clients) world.simulation.start_gate_clients = *clients;
   if (view_mode) {
     if (world.canvas.view_mode_locked && *view_mode != world.canvas.view_mode) {
       sim::ConfigIssue issue{"run/view_mode_locked",

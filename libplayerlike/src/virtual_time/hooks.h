@@ -54,6 +54,8 @@ struct PlaypenVirtualTimeHooks {
   int (*thread_lives)(const void* handle);
   /// Somebody cancels that thread: what it waits for ends.
   void (*cancelled)(const void* handle);
+  /// Somebody sends a signal to that thread that it will handle: its sleep ends.
+  void (*signalled)(const void* handle);
   /// The calling thread lets others go on.
   void (*yield)();
   /// The calling thread is about to end (pthread_exit), or the process (exit).
@@ -61,8 +63,8 @@ struct PlaypenVirtualTimeHooks {
   /// Whether code is the program's own, in a thread that takes turns; and only the latter.
   int (*is_programs)(const void* caller);
   int (*takes_turns)();
-  /// The calling thread waits for real for something that cannot be simulated. Says so once.
-  void (*waits_for_real)(const char* what, const char* why);
+  /// The program uses real time, which cannot be simulated. Says so once.
+  void (*waits_for_real)(const char* what);
 };
 
 enum PlaypenWaitKind { PLAYPEN_WAIT_OBJECT = 0, PLAYPEN_WAIT_MUTEX = 1, PLAYPEN_WAIT_THREAD = 2 };

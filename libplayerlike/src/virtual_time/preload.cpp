@@ -26,9 +26,11 @@
 #include <string.h>
 #include <sys/epoll.h>
 #include <sys/select.h>
+#include <sys/sem.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
+#include <sys/timerfd.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -124,6 +126,7 @@ NEXT(sem_post);
 NEXT(sched_yield);
 NEXT(pthread_exit);
 NEXT(pthread_cancel);
+NEXT(pthread_kill);
 NEXT(pthread_mutex_lock);
 NEXT(pthread_mutex_trylock);
 NEXT(pthread_mutex_unlock);
@@ -145,6 +148,12 @@ NEXT(sigtimedwait);
 NEXT(epoll_wait);
 NEXT(epoll_pwait);
 NEXT(clock);
+NEXT(alarm);
+NEXT(ualarm);
+NEXT(timer_settime);
+NEXT(timerfd_settime);
+NEXT(semtimedop);
+constinit Next<int(int, const itimerval*, itimerval*)> next_setitimer("setitimer");
 NEXT(exit);
 NEXT(syscall);
 NEXT_CONDITION(pthread_cond_wait);
@@ -856,6 +865,60 @@ EXPORTED clock_t clock() noexcept {
   return static_cast<clock_t>(elapsed_ns / (kSecond_ns / CLOCKS_PER_SEC));
 }
 
+// --- What cannot be simulated
+
+namespace {
+
+void tell_of_real_time(const char* what, const void* caller) {
+  if (!is_programs(caller)) return;
+  const int error = errno;
+  playpen()->waits_for_real(what);
+  errno = error;
+}
+
+}  // namespace
+
+EXPORTED unsigned alarm(unsigned seconds) noexcept {
+  if (seconds != 0) tell_of_real_time("alarm()", CALLER);
+  return next_alarm(seconds);
+}
+
+EXPORTED useconds_t ualarm(useconds_t value, useconds_t interval) noexcept {
+  if (value != 0) tell_of_real_time("ualarm()", CALLER);
+  return next_ualarm(value, interval);
+}
+
+// Its first parameter has another type in C.
+EXPORTED int setitimer(int which, const itimerval* __restrict value,
+                       itimerval* __restrict old) noexcept {
+  if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_usec != 0)) {
+    tell_of_real_time("setitimer()", CALLER);
+  }
+  return next_setitimer(which, value, old);
+}
+
+EXPORTED int timer_settime(timer_t timer, int flags, const itimerspec* __restrict value,
+                           itimerspec* __restrict old) noexcept {
+  if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0)) {
+    tell_of_real_time("timer_settime()", CALLER);
+  }
+  return next_timer_settime(timer, flags, value, old);
+}
+
+EXPORTED int timerfd_settime(int timer, int flags, const itimerspec* value,
+                             itimerspec* old) noexcept {
+  if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0)) {
+    tell_of_real_time("timerfd_settime()", CALLER);
+  }
+  return next_timerfd_settime(timer, flags, value, old);
+}
+
+EXPORTED int semtimedop(int semaphores, sembuf* operations, size_t count,
+                        const timespec* timeout) noexcept {
+  if (timeout != nullptr) tell_of_real_time("semtimedop()", CALLER);
+  return next_semtimedop(semaphores, operations, count, timeout);
+}
+
 // --- Waiting for other threads
 
 EXPORTED int sched_yield() noexcept {
@@ -1142,6 +1205,21 @@ EXPORTED int pthread_cancel(pthread_t thread) {
   const int result = next_pthread_cancel(thread);
   if (const auto* const table = playpen()) table->cancelled(reinterpret_cast<const void*>(thread));
   return result;
+}
+
+EXPORTED int pthread_kill(pthread_t thread, int signal) noexcept {
+  const auto* const table = playpen();
+  if (table != nullptr && signal > 0) {
+    struct sigaction action {};
+    const int error = errno;
+    const bool handled = sigaction(signal, nullptr, &action) == 0 &&
+                         ((action.sa_flags & SA_SIGINFO) != 0 ||
+                          (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN));
+    // Told first, so that it is not chance which of both the other one finds.
+    if (handled) table->signalled(reinterpret_cast<const void*>(thread));
+    errno = error;
+  }
+  return next_pthread_kill(thread, signal);
 }
 
 EXPORTED __attribute__((noreturn)) void pthread_exit(void* result) {

@@ -57,8 +57,9 @@ class SignalWatch {
     if (!holds_) {
       sigset_t all;
       sigfillset(&all);
-      // Faults are the thread's own, and Ctrl-C ends runs.
-      for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
+      // Faults are the thread's own; and whoever sleeps for real uses no processor time.
+      for (const int signal :
+           {SIGPROF, SIGVTALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
         sigdelset(&all, signal);
       }
       holds_ = pthread_sigmask(SIG_BLOCK, &all, &before_) == 0;
@@ -182,7 +183,7 @@ void Turns::enter(Lock& lock, ThinkerId thinker) {
   own->number = this_thread();
   own->handle = reinterpret_cast<const void*>(pthread_self());
   own->blocked_since.reset();
-  park(lock, *own, /*interruptible=*/false);
+  park(lock, *own);
 }
 
 void Turns::remove(ThinkerId thinker) {
@@ -235,6 +236,7 @@ void Turns::end_wait(TurnThread& thread) {
   thread.is_there = nullptr;
   thread.client = nullptr;
   thread.wake_ns.reset();
+  thread.interruptible = false;
 }
 
 Turns::Wake Turns::wait(Lock& lock, TurnThread& self, bool interruptible) {
@@ -244,7 +246,8 @@ Turns::Wake Turns::wait(Lock& lock, TurnThread& self, bool interruptible) {
     if (self.wake != Wake::kNone || come) {
       make_ready(self, self.wake != Wake::kNone ? self.wake : Wake::kTime);
     }
-    park(lock, self, interruptible);
+    self.interruptible = interruptible;
+    park(lock, self);
   }
   const Wake wake = std::exchange(self.wake, Wake::kNone);
   end_wait(self);
@@ -255,7 +258,7 @@ bool Turns::yield(Lock& lock, TurnThread& self) {
   if (!active() || ready_ == 0 || self.state != State::kThinks) return false;
   move(self, State::kReady);
   self.place = ++last_place_;
-  park(lock, self, /*interruptible=*/false);
+  park(lock, self);
   return true;
 }
 
@@ -308,9 +311,9 @@ void Turns::wake_those_of_later() {
   }
 }
 
-void Turns::interrupt(const void* handle) {
+void Turns::interrupt(const void* handle, bool by_signal) {
   for (const auto& thread : threads_) {
-    if (thread->handle != handle) continue;
+    if (thread->handle != handle || (by_signal && !thread->interruptible)) continue;
     if (thread->state == State::kWaits || thread->counted) {
       make_ready(*thread, Wake::kInterrupted);
     }
@@ -354,7 +357,7 @@ void Turns::kick() {
   }
 }
 
-void Turns::park(Lock& lock, TurnThread& self, bool interruptible) {
+void Turns::park(Lock& lock, TurnThread& self) {
   SignalWatch signals;
   const auto parked = [&] {
     return active() && (self.state == State::kReady || self.state == State::kWaits);
@@ -369,7 +372,7 @@ void Turns::park(Lock& lock, TurnThread& self, bool interruptible) {
       } else if (beside_ == 0) {
         if (ask_waiting()) continue;
         if (clock_ != nullptr ? clock_->step(lock) : wait_really(lock, self)) {
-          if (!interruptible || self.state != State::kWaits || !signals.is_due()) continue;
+          if (!self.interruptible || self.state != State::kWaits || !signals.is_due()) continue;
           lock.unlock();
           const bool handled = signals.handle();
           lock.lock();
@@ -384,7 +387,7 @@ void Turns::park(Lock& lock, TurnThread& self, bool interruptible) {
     signals.let_through();
     const Rung rung = wait_for_bell(self.bell, heard, kLook);
     lock.lock();
-    if (rung == Rung::kSignal && interruptible) note_signal(self);
+    if (rung == Rung::kSignal && self.interruptible) note_signal(self);
     if (rung == Rung::kTimeOut && parked()) look();
   }
 }

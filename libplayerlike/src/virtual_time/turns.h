@@ -49,8 +49,9 @@ struct TurnThread {
   const Client* client = nullptr;                    ///< this client's data, or ...
   /// ... this moment: simulated time, or without a simulation time since the program's start.
   std::optional<sim::SimTime> wake_ns;
-  bool takes_mutex = false;  ///< the object is a mutex, which it takes when it is its turn
-  bool counted = false;      ///< among those who wait for an object
+  bool takes_mutex = false;    ///< the object is a mutex, which it takes when it is its turn
+  bool counted = false;        ///< among those who wait for an object
+  bool interruptible = false;  ///< signals end it
   Wake wake = Wake::kNone;
 
   // For the rules of the wall clock.
@@ -154,8 +155,8 @@ class Turns {
   int wake(const void* object, int most);
   /// The same for all of them, soon; for threads that must not wait for the lock. Without it.
   void wake_later(const void* object);
-  /// Ends a thread's wait, wherever it stands in it.
-  void interrupt(const void* handle);
+  /// Ends a thread's wait, wherever it stands in it; or only one that signals end.
+  void interrupt(const void* handle, bool by_signal);
   /// What a thread waits for is there: it goes on in its turn.
   void make_ready(TurnThread& thread, Wake wake);
   /// The thread that waits for this client's data goes on at once, beside the others.
@@ -178,7 +179,7 @@ class Turns {
   Turns() = default;
 
   /// Waits until it is the thread's turn, or all are released.
-  void park(Lock& lock, TurnThread& self, bool interruptible);
+  void park(Lock& lock, TurnThread& self);
   TurnThread& insert(ThinkerId thinker, State state);
   [[nodiscard]] TurnThread* find(ThinkerId thinker) const;
   void move(TurnThread& thread, State state);

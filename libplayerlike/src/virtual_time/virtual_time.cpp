@@ -412,13 +412,16 @@ int on_thread_lives(const void* handle) {
   return turns.active() && turns.lives(handle) ? 1 : 0;
 }
 
-void on_cancelled(const void* handle) {
+void interrupt(const void* handle, bool by_signal) {
   if (state.inside > 0) return;
   const Inside inside;
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
-  turns.interrupt(handle);
+  turns.interrupt(handle, by_signal);
 }
+
+void on_cancelled(const void* handle) { interrupt(handle, /*by_signal=*/false); }
+void on_signalled(const void* handle) { interrupt(handle, /*by_signal=*/true); }
 
 /// Lets those threads go on that are ready. @return whether there was one.
 bool let_others_go_on() {
@@ -457,14 +460,17 @@ int on_is_programs(const void* caller) {
   return is_programs_code(caller) ? 1 : 0;
 }
 
-void on_waits_for_real(const char* what, const char* why) {
+void on_waits_for_real(const char* what) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended || given_up || Turns::known_self() == nullptr) return;
   const Inside inside;
   try {
-    const std::string text = std::string(what) + " waits in real time: " + why;
+    const std::string text = std::string(what) +
+                             " counts real time, which passes far slower than the program's "
+                             "simulated time";
     if (Turns::instance().note_unrepeatable(text)) {
-      log_to_stderr()(sim::LogLevel::kWarning, text);
+      log_to_stderr()(sim::LogLevel::kWarning,
+                      text + " (docs/virtual_time.md; --real-sleep makes all of it real)");
     }
   } catch (const std::exception&) {
     // There is no memory left to say it.
@@ -494,6 +500,7 @@ const PlaypenVirtualTimeHooks* hooks() {
                                   on_mutex_is_wanted,
                                   on_thread_lives,
                                   on_cancelled,
+                                  on_signalled,
                                   on_yield,
                                   on_leaving,
                                   on_is_programs,

@@ -38,8 +38,8 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt),
           Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
           Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
-          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
-          Pair("PLAYPEN_STATE", std::nullopt)));
+          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_CLIENTS", std::nullopt),
+          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
@@ -94,6 +94,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   settings.progress = true;
   settings.quiet_end = true;
   settings.virtual_time = true;
+  settings.clients = 12;
   const ScopedEnvironment environment(run_environment("/world.json", settings));
   const RunSettings read = RunSettings::from_environment();
   EXPECT_EQ(read.seed, settings.seed);
@@ -109,6 +110,10 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(read.progress, settings.progress);
   EXPECT_EQ(read.quiet_end, settings.quiet_end);
   EXPECT_EQ(read.virtual_time, settings.virtual_time);
+  EXPECT_EQ(read.clients, settings.clients);
+  sim::WorldDescription world;
+  read.apply_to(world);
+  EXPECT_EQ(world.simulation.start_gate_clients, 12);
 }
 
 TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
@@ -119,10 +124,13 @@ TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
 }
 
 TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
-  const EnvironmentChanges bad = {
-      {"PLAYPEN_RECORD", "film.gif"},      {"PLAYPEN_RECORD_FPS", "0"},
-      {"PLAYPEN_RECORD_SPEED", "1001"},    {"PLAYPEN_SNAPSHOT_EVERY", "0"},
-      {"PLAYPEN_VIEW_MODE", "fullscreen"}, {"PLAYPEN_OUT", "out"}};
+  const EnvironmentChanges bad = {{"PLAYPEN_RECORD", "film.gif"},
+                                  {"PLAYPEN_RECORD_FPS", "0"},
+                                  {"PLAYPEN_RECORD_SPEED", "1001"},
+                                  {"PLAYPEN_SNAPSHOT_EVERY", "0"},
+                                  {"PLAYPEN_VIEW_MODE", "fullscreen"},
+                                  {"PLAYPEN_CLIENTS", "1001"},
+                                  {"PLAYPEN_OUT", "out"}};
   const ScopedEnvironment environment(bad);
   try {
     static_cast<void>(RunSettings::from_environment());

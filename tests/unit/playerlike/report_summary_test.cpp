@@ -32,6 +32,15 @@ TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
             "  long_name      0.00          12                0.000         3.46\n");
 }
 
+TEST(ReportSummary, SaysWhyAnotherRunMayDiffer) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("report.json", R"({
+    "run": {"sim_time": 1.0, "wall_time": 1.0, "real_time_factor": 1.0, "seed": 7,
+            "repeatable": false, "repeatable_why": ["because", "and so"]},
+    "robots": []})");
+  EXPECT_THAT(summarize_report(file), HasSubstr("another run may differ:\n  because\n  and so\n"));
+}
+
 TEST(ReportSummary, NamesAFileThatIsMissingOrNoReport) {
   const TemporaryFolder folder;
   EXPECT_THAT([&] { static_cast<void>(summarize_report(folder / "none.json")); },

@@ -22,7 +22,8 @@ struct RunSettings {
   double film_speed = 1.0;                  ///< simulated seconds a second of the film, 0.01..1000
   std::optional<double> snapshot_period_s;  ///< simulated time between pictures in the output
                                             ///< folder's snapshots/, 0.001..1e9
-  std::optional<sim::ViewMode> view_mode;   ///< at the start, instead of the world's
+  std::optional<int> clients;  ///< of the start gate, 1..1000: time waits until as many have joined
+  std::optional<sim::ViewMode> view_mode;  ///< at the start, instead of the world's
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
   bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
@@ -39,13 +40,13 @@ struct RunSettings {
 
   /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a
   /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
-  /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen), PLAYPEN_VIEW
-  /// (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN,
-  /// PLAYPEN_VIRTUAL_TIME, PLAYPEN_SILENCE_LIMIT.
+  /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen),
+  /// PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
+  /// PLAYPEN_SILENCE_LIMIT.
   /// @throws sim::ConfigError naming the variable, what it should be and what it is.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Puts seed, duration, time mode and view mode into the world.
+  /// Puts seed, duration, time mode, clients and view mode into the world.
   /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode.
   void apply_to(sim::WorldDescription& world) const;
 };
@@ -53,6 +54,9 @@ struct RunSettings {
 /// Reads "lockstep", "real" or a factor > 0 (e.g. "10") into mode and factor.
 /// @return whether the text is one of these.
 [[nodiscard]] bool parse_time_mode(const std::string& text, sim::TimeMode& mode, double& factor);
+
+/// Reads a number of clients, 1..1000. @return whether the text is such a number.
+[[nodiscard]] bool parse_clients(const std::string& text, int& clients);
 
 /// Reads frames a second of a film, 1..240. @return whether the text is such a number.
 [[nodiscard]] bool parse_film_fps(const std::string& text, double& frames_per_second);
@@ -62,6 +66,8 @@ struct RunSettings {
 /// Reads simulated seconds between pictures, 0.001..1e9. @return whether the text is such a number.
 [[nodiscard]] bool parse_snapshot_period(const std::string& text, double& period_s);
 
+/// What parse_clients() takes, in words for messages.
+inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
 /// What parse_film_fps() takes, in words for messages.
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// What parse_film_speed() takes, in words for messages.

@@ -74,6 +74,9 @@ struct TimeStatistics {
   std::optional<double> duration_s;  ///< of the run, if it has an end
   sim::TimeMode mode = sim::TimeMode::kLockstep;
   bool finished = false;
+  /// Why another run of the same may differ: what rules of the wall clock had a say in. Known where
+  /// the simulation is.
+  std::vector<std::string> unrepeatable;
 };
 
 /// Where a robot or an obstacle is.
