@@ -43,9 +43,11 @@ void CellRaster::fill(CellValue value) noexcept {
   fill_cells(data_.data(), data_.size() / sizeof value, value);
   if (value == blank_) {
     // Tiles that were blank before are as they were.
-    for (std::uint8_t& tile : tiles_) tile = tile == 0 ? 0 : kChanged;
+    for (std::uint8_t& tile : tiles_) {
+      if ((tile & (kChanged | kUsed)) != 0) tile = kChanged | kUnkept;
+    }
   } else {
-    std::fill(tiles_.begin(), tiles_.end(), std::uint8_t{kChanged | kUsed});
+    std::fill(tiles_.begin(), tiles_.end(), kWritten);
   }
 }
 
@@ -74,7 +76,7 @@ void CellRaster::set_cells(const CellRect& rect, std::span<const CellValue> valu
       const std::size_t size = byte_offset(end - column);
       if (std::memcmp(to + byte_offset(column), from, size) != 0) {
         std::memcpy(to + byte_offset(column), from, size);
-        tiles[tile] = kChanged | kUsed;
+        tiles[tile] = kWritten;
       }
       from += end - column;
       column = end;
@@ -100,12 +102,16 @@ void CellRaster::resize(int width, int height) {
       }
     }
   }
-  for (std::uint8_t& tile : resized.tiles_) tile |= kChanged;
+  for (std::uint8_t& tile : resized.tiles_) tile |= kChanged | kUnkept;
   *this = std::move(resized);
 }
 
 void CellRaster::mark_seen() noexcept {
   for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kChanged);
+}
+
+void CellRaster::mark_kept() noexcept {
+  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kUnkept);
 }
 
 }  // namespace sim
