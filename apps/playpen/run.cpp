@@ -1,9 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <string>
 
 #include "commands.h"
+#include "playerlike/host/kept_results.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "run_outputs.h"
@@ -32,6 +36,43 @@ bool only_says_that_the_run_is_over(const playerlike::ProgramEnd& end,
   }
   constexpr double kRounding_s = 1e-6;
   return duration_s && simulated_time(settings) > *duration_s - kRounding_s;
+}
+
+bool is_crash(int signal) {
+  for (const int crash : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS}) {
+    if (signal == crash) return true;
+  }
+  return false;
+}
+
+// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  constexpr const char* kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
+// What to do about a program that a signal has ended.
+void tell_more(const RunRequest& request, const std::string& world,
+               const playerlike::ProgramEnd& end, bool completed) {
+  if (end.forced) {
+    std::cerr << "playpen: it had been asked to end, and did not end its run\n";
+  }
+  if (completed) std::cerr << "playpen: the results are those until then\n";
+  if (!end.signal || !is_crash(*end.signal)) return;
+  std::string command;
+  for (const std::string& word : request.command) command += ' ' + shell_word(word);
+  std::cerr << "playpen: to see where it happened: playpen run --real-sleep " << shell_word(world)
+            << " -- gdb -ex run --args" << command << '\n';
 }
 
 }  // namespace
@@ -70,6 +111,15 @@ int run(RunRequest request) {
   playerlike::RunWatch watch;
   watch.kept = &kept;
   watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
+  bool completed = false;
+  watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
+    try {
+      completed = playerlike::complete_results(kept, world, settings.output_folder, settings.film,
+                                               program_end);
+    } catch (const std::exception& e) {
+      std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
+    }
+  };
   const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment, watch);
 
   viewer.reset();  // it has nothing to show any more
@@ -88,6 +138,12 @@ int run(RunRequest request) {
   }
   if (!end.success()) {
     std::cerr << "playpen: " << program << ' ' << end.text() << '\n';
+    tell_more(request, request.world, end, completed);
+    return kProgramFailed;
+  }
+  if (completed) {
+    std::cerr << "playpen: " << program
+              << " left in the middle of the run (by _exit?); the results are those until then\n";
     return kProgramFailed;
   }
   if (!reported &&

@@ -107,15 +107,78 @@ TEST_F(PlaypenEnds, NothingThatTheProgramHasStartedOutlivesTheRun) {
 
 TEST_F(PlaypenEnds, KillingTheCommandEndsTheProgramAndWhatItHasStarted) {
   for (const char* what : {"drive", "compute"}) {
-    SCOPED_TRACE(what);
-    Process process(command({"--time", "20"}, {what}));
-    ASSERT_TRUE(process.read_until("ready"));
-    process.send_signal(SIGKILL);
-    const ProcessResult end = process.finish();
-    EXPECT_FALSE(end.timed_out) << "something goes on";
-    EXPECT_EQ(end.signal, SIGKILL);
+    for (const bool group : {false, true}) {
+      SCOPED_TRACE(std::string(what) + (group ? ", the group" : ""));
+      fs::remove_all(out_);
+      Process process(command({"--time", "20"}, {what}));
+      ASSERT_TRUE(process.read_until("ready"));
+      group ? process.send_signal_to_group(SIGKILL) : process.send_signal(SIGKILL);
+      const ProcessResult end = process.finish();
+      EXPECT_FALSE(end.timed_out) << "something goes on";
+      EXPECT_EQ(end.signal, SIGKILL);
+      expect_all_results();
+      EXPECT_FALSE(report().at("ended").is_null());
+    }
   }
-  EXPECT_TRUE(has("trajectory.csv"));
+}
+
+TEST_F(PlaypenEnds, AProgramThatNeverLooksIsEndedAllTheSame) {
+  for (const char* whom : {"command", "group", "program"}) {
+    SCOPED_TRACE(whom);
+    fs::remove_all(out_);
+    Process process(command({}, {"compute"}));
+    ASSERT_TRUE(process.read_until("\n"));
+    if (whom == std::string("command")) process.send_signal(SIGINT);
+    if (whom == std::string("group")) process.send_signal_to_group(SIGINT);
+    if (whom == std::string("program")) kill(std::stoi(process.output().substr(6)), SIGINT);
+    const ProcessResult end = process.finish();
+    EXPECT_FALSE(end.timed_out);
+    EXPECT_EQ(end.status, 1);
+    EXPECT_THAT(end.err, HasSubstr("had been asked to end"));
+    expect_all_results();
+    EXPECT_EQ(report().at("run").at("steps"), 510);
+    EXPECT_EQ(report().at("ended"), json({{"by", "request"}, {"signal", "SIGINT"}}));
+  }
+}
+
+TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
+  // What a run leaves that ends in good order at the same moment.
+  const std::string crashed = out_;
+  out_ = folder_ / "whole";
+  ASSERT_EQ(test_support::run_process(command({"--duration", "5.1"}, {"drive", "99"})).status, 0);
+  const std::string whole = out_;
+  const json whole_report = report();
+  out_ = crashed;
+  struct Case {
+    const char* what;
+    json ended;
+    const char* told;
+  };
+  const std::vector<Case> cases = {
+      {"segv", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "gdb -ex run --args"},
+      {"null", {{"by", "signal"}, {"signal", "SIGSEGV"}}, "playpen run --real-sleep"},
+      {"abort", {{"by", "signal"}, {"signal", "SIGABRT"}}, "was ended by signal 6"},
+      {"throw", {{"by", "signal"}, {"signal", "SIGABRT"}}, "thrown by the program"},
+      {"kill", {{"by", "signal"}, {"signal", "SIGKILL"}}, "was ended by signal 9"},
+      {"leave", {{"by", "program"}, {"status", 3}}, "ended with status 3"}};
+  for (const Case& c : cases) {
+    SCOPED_TRACE(c.what);
+    fs::remove_all(out_);
+    const ProcessResult end = test_support::run_process(command({}, {c.what}));
+    EXPECT_EQ(end.status, 1);
+    EXPECT_THAT(end.err, HasSubstr(c.told));
+#ifdef __SANITIZE_ADDRESS__
+    // The sanitizer catches the signal, and ends the program with a status of its own.
+    if (c.what == std::string("segv") || c.what == std::string("null")) continue;
+#endif
+    EXPECT_EQ(report().at("ended"), c.ended);
+    EXPECT_EQ(report().at("robots"), whole_report.at("robots"));
+    EXPECT_EQ(report().at("run").at("steps"), 510);
+    for (const char* name : {"trajectory.csv", "scene.png", "canvas.png", "layers/canvas.png",
+                             "layers/graphics2d.png"}) {
+      EXPECT_TRUE(read_bytes(result(name)) == read_bytes(fs::path(whole) / name)) << name;
+    }
+  }
 }
 
 TEST_F(PlaypenEnds, AProgramThatKillsWhoeverStartedItEndsToo) {
@@ -124,6 +187,7 @@ TEST_F(PlaypenEnds, AProgramThatKillsWhoeverStartedItEndsToo) {
   EXPECT_FALSE(end.timed_out) << "something goes on";
   EXPECT_EQ(end.status, 1);
   EXPECT_THAT(end.err, HasSubstr("was ended by signal 9"));
+  expect_all_results();
 }
 
 TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "host/idle_calls.h"
-#include "host/kept_layout.h"
+#include "host/kept_writer.h"
 #include "host/outputs.h"
 #include "host/recorder.h"
 #include "host/run_log.h"
@@ -265,8 +265,10 @@ class Host::Core : private ViewedRun, private TurnClock {
   void ring_alarms();
   void end_run();
   void write_results();
-  /// Lets the files of the results follow the run, at most once a second of wall time.
+  /// Lets what is left when the program dies follow the run.
   void keep_results(WallClock::time_point now);
+  /// The report's file, at most once a second of wall time.
+  void keep_report(WallClock::time_point now);
   [[nodiscard]] RunEnd reason_of_end() const;
   void set_phase(KeptRun::Phase phase) noexcept;
   /// Why another run may differ.
@@ -305,7 +307,8 @@ class Host::Core : private ViewedRun, private TurnClock {
   std::atomic<std::uint64_t> canvas_generation_{0};
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<KeptWriter> kept_;                ///< none unless the settings name one
-  std::optional<WallClock::time_point> last_kept_;  ///< when the files were last written
+  WallClock::time_point last_looks_{};              ///< when kept_ last got what rarely changes
+  std::optional<WallClock::time_point> last_kept_;  ///< when the report was last written
   bool keeping_told_ = false;                       ///< that they cannot be written
   int end_request_ = 0;                             ///< the signal that asked for the end
   bool window_closed_ = false;

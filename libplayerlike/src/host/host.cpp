@@ -49,6 +49,8 @@ constexpr double kLooksWithoutData = 1000.0;
 constexpr double kLooksInAStep = 2'000'000.0;
 // How often the files of the results follow the run, at most.
 constexpr std::chrono::seconds kKeepingPeriod(1);
+// The same for what `playpen run` is left beside the state of each step.
+constexpr std::chrono::milliseconds kLooksPeriod(50);
 
 double seconds(WallClock::duration d) { return std::chrono::duration<double>(d).count(); }
 
@@ -114,6 +116,10 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
   mode_chosen_ = simulation_.world().simulation.time_mode_given;
   time_factor_ = simulation_.world().simulation.time_factor;
   kept_ = KeptWriter::open(settings_.kept_run);
+  if (kept_ && !settings_.output_folder.empty()) {
+    kept_->keep_looks(report_text(simulation_, {}, RunEnd{}), simulation_);
+    kept_->keep_step({}, *recorder_, simulation_);
+  }
   if (settings_.quiet_end) note_interrupts(kept_ ? &kept_->noted() : nullptr);
 }
 
@@ -1277,7 +1283,13 @@ void Host::Core::write_results() {
   const std::string& folder = settings_.output_folder;
   attempt(kMissing, [&] { recorder_->close_trajectory(); });
   if (!folder.empty()) {
-    attempt(kMissing, [&] { write_report(folder, simulation_, time_locked(), reason_of_end()); });
+    const TimeStatistics time = time_locked();
+    const std::string report = report_text(simulation_, time, reason_of_end());
+    if (kept_) {
+      kept_->keep_step(time, *recorder_, simulation_);
+      kept_->keep_looks(report, simulation_);
+    }
+    attempt(kMissing, [&] { write_report(folder, report); });
   }
   set_phase(KeptRun::Phase::kReported);
   for (auto& [port, log] : logs_) {
@@ -1292,13 +1304,24 @@ void Host::Core::write_results() {
 
 void Host::Core::keep_results(WallClock::time_point now) {
   if (settings_.output_folder.empty()) return;
+  if (kept_) {
+    const TimeStatistics time = time_locked();
+    kept_->keep_step(time, *recorder_, simulation_);
+    if (now - last_looks_ >= kLooksPeriod) {
+      last_looks_ = now;
+      kept_->keep_looks(report_text(simulation_, time, RunEnd{}), simulation_);
+    }
+  }
+  keep_report(now);
+}
+
+void Host::Core::keep_report(WallClock::time_point now) {
   if (!last_kept_) last_kept_ = now;
   if (now - *last_kept_ < kKeepingPeriod) return;
   last_kept_ = now;
   try {
     const FileLimitErrors limit_errors;
-    recorder_->flush_trajectory();
-    write_report(settings_.output_folder, simulation_, time_locked(), RunEnd{});
+    write_report(settings_.output_folder, report_text(simulation_, time_locked(), RunEnd{}));
   } catch (const std::exception& e) {
     if (!std::exchange(keeping_told_, true)) {
       warn(std::string("results of the run cannot be written at present: ") + e.what());

@@ -1,9 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/kept_run.h"
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -12,6 +10,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "host/file_limit_errors.h"
 #include "host/kept_layout.h"
 
 namespace playerlike {
@@ -26,7 +25,10 @@ KeptHeader* map_header(int descriptor) {
 }  // namespace
 
 KeptRun::KeptRun() : descriptor_(memfd_create("playpen-run", MFD_CLOEXEC)) {
-  if (descriptor_ >= 0 && ftruncate(descriptor_, kKeptHeaderSize) == 0) {
+  // Where files may not be so long (ulimit -f), only the beginning can be kept.
+  const FileLimitErrors limit_errors;
+  if (descriptor_ >= 0 && (ftruncate(descriptor_, static_cast<off_t>(kKeptSize)) == 0 ||
+                           ftruncate(descriptor_, kKeptHeaderSize) == 0)) {
     header_ = map_header(descriptor_);
   }
   if (header_ == nullptr) {
@@ -53,41 +55,9 @@ KeptRun::Phase KeptRun::phase() const noexcept {
                                                            : Phase::kNone;
 }
 
-bool KeptRun::interrupt_noted() const noexcept { return header_->noted != 0; }
-
-std::unique_ptr<KeptWriter> KeptWriter::open(const std::string& file) {
-  if (file.empty()) return nullptr;
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
-  if (descriptor < 0) return nullptr;
-  struct stat info {};
-  KeptHeader* header = nullptr;
-  if (fstat(descriptor, &info) == 0 && S_ISREG(info.st_mode) &&
-      info.st_size >= static_cast<off_t>(kKeptHeaderSize)) {
-    header = map_header(descriptor);
-  }
-  if (header == nullptr || header->magic != kKeptMagic) {
-    close(descriptor);
-    return nullptr;
-  }
-  // Programs may start others that simulate, too: the run is that of one of them at a time.
-  std::int32_t owner = header->process;
-  const bool done = header->phase == static_cast<std::uint32_t>(KeptRun::Phase::kDone);
-  const bool is_free = owner == 0 || done || (kill(owner, 0) != 0 && errno == ESRCH);
-  if (!is_free || !header->process.compare_exchange_strong(owner, getpid())) {
-    munmap(header, kKeptHeaderSize);
-    close(descriptor);
-    return nullptr;
-  }
-  header->noted = 0;
-  header->phase = static_cast<std::uint32_t>(KeptRun::Phase::kRunning);
-  return std::unique_ptr<KeptWriter>(new KeptWriter(descriptor, header));
-}
-
-// The header stays: a signal's handler may write to it at any time.
-KeptWriter::~KeptWriter() { close(descriptor_); }
-
-void KeptWriter::set_phase(KeptRun::Phase phase) noexcept {
-  header_->phase = static_cast<std::uint32_t>(phase);
+int KeptRun::interrupt_noted() const noexcept {
+  const std::uint32_t signal = header_->noted;
+  return signal < NSIG ? static_cast<int>(signal) : 0;
 }
 
 }  // namespace playerlike

@@ -257,14 +257,16 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
   return ended;
 }
 
-void write_report(const std::string& folder, const sim::Simulation& simulation,
-                  const TimeStatistics& time, const RunEnd& end) {
+std::string report_text(const sim::Simulation& simulation, const TimeStatistics& time,
+                        const RunEnd& end) {
   nlohmann::ordered_json whole = report(simulation, time);
   whole["ended"] = to_json(end);
-  const std::string file = (fs::path(folder) / "report.json").string();
   // What robots said may be any bytes.
-  const std::string text =
-      whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+void write_report(const std::string& folder, const std::string& text) {
+  const std::string file = (fs::path(folder) / "report.json").string();
   if (const int error = sim::replace_file(file, text)) {
     throw std::runtime_error("cannot write " + file + ": " + std::strerror(error));
   }

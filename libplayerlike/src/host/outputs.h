@@ -43,10 +43,12 @@ struct RunEnd {
 /// "signal" (its name, such as "SIGINT").
 [[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
 
+/// The text of report.json.
+[[nodiscard]] std::string report_text(const sim::Simulation& simulation, const TimeStatistics& time,
+                                      const RunEnd& end);
 /// Writes report.json into `folder`; see sim::replace_file().
 /// @throws std::runtime_error naming the file if it could not be written.
-void write_report(const std::string& folder, const sim::Simulation& simulation,
-                  const TimeStatistics& time, const RunEnd& end);
+void write_report(const std::string& folder, const std::string& text);
 
 /// Writes scene.png, canvas.png and, for each layer, layers/NAME.png (and NAME.pgm with NAME.yaml
 /// for grey ones, see sim::io::write_map) into `folder`.

@@ -57,6 +57,7 @@ constexpr std::chrono::milliseconds kOneRequest(500);
 // is to be written afterwards takes the rest of the two seconds that are promised.
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
 constexpr std::chrono::milliseconds kLook(20);
+constexpr std::chrono::milliseconds kSeldomLook(200);
 
 /// Holds back, in this thread, the signals that matter while a program runs, so that they can be
 /// taken one by one instead of interrupting anything. Those that this process ignores, as under
@@ -162,6 +163,7 @@ class GroupedProgram {
   [[nodiscard]] std::optional<JobEnd> poll() {
     const std::optional<ProgramEnd> end = program_.poll();
     if (!end) return std::nullopt;
+    program_.release();
     return JobEnd{kind_, *end, std::chrono::duration<double>(Clock::now() - start_).count()};
   }
 
@@ -282,7 +284,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
   start.command = command;
   start.environment = environment;
   start.mask = signals.old_mask();
-  start.on_orphaned = watch.on_orphaned;
+  start.on_orphaned = watch.on_end;
   if (watch.kept != nullptr) start.kept_descriptors.push_back(watch.kept->descriptor());
   SupervisedProgram program(start);
   EndRequests requests;
@@ -292,6 +294,8 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       ProgramEnd result = *end;
       result.request = requests.first();
       result.forced = killed;
+      if (watch.on_end) watch.on_end(result);
+      program.release();
       return result;
     }
     if (program.take_stopped() && watch.tell) {
@@ -299,24 +303,27 @@ ProgramEnd run_program(const std::vector<std::string>& command,
                  std::to_string(program.program()) + " lets it go on, Ctrl-C ends the run");
     }
     // Whether the simulated run is to end by the signal, and not by a handler of the program's own.
-    const bool noted = watch.kept != nullptr && watch.kept->interrupt_noted();
+    const int noted = watch.kept != nullptr ? watch.kept->interrupt_noted() : 0;
     while (const std::optional<HeldSignals::Signal> signal = signals.take()) {
       const EndRequests::Meaning meaning = requests.note(signal->number);
       if (meaning == EndRequests::Meaning::kCopy) continue;
-      if (meaning == EndRequests::Meaning::kAgain && noted) {
+      if (meaning == EndRequests::Meaning::kAgain && noted != 0) {
         program.kill_all();
         killed = true;
       } else {
         program.send_signal(signal->from_system ? SIGCONT : signal->number);
       }
     }
-    const bool run_goes_on = noted && watch.kept->phase() == KeptRun::Phase::kRunning;
+    const bool run_goes_on = noted != 0 && watch.kept->phase() == KeptRun::Phase::kRunning;
+    // Somebody may have sent it to the program alone.
+    if (noted != 0 && !requests.first()) static_cast<void>(requests.note(noted));
     if (requests.first() && run_goes_on && requests.age() > kTimeToEnd &&
         !std::exchange(killed, true)) {
       program.kill_all();
     }
-    const bool waits = requests.first() && !killed && watch.kept != nullptr;
-    signals.wait({program.descriptor()}, waits ? Clock::duration(kLook) : std::chrono::minutes(1));
+    signals.wait({program.descriptor()}, requests.first() && !killed
+                                             ? Clock::duration(kLook)
+                                             : Clock::duration(kSeldomLook));
   }
 }
 

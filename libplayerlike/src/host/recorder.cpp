@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "host/kept_layout.h"
 #include "host/outputs.h"
 #include "sim/core/number_text.h"
 
@@ -17,8 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr sim::SimTime kRowPeriod_ns = sim::kNanosecondsPerSecond / 10;
-// A trail that reaches this many points is thinned to every other one.
-constexpr std::size_t kMaxTrailPoints = 8192;
 
 }  // namespace
 
@@ -47,7 +46,6 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
   }
   trails_.resize(static_cast<std::size_t>(simulation.robot_count()));
   observe(simulation);
-  flush_trajectory();
 }
 
 std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
@@ -74,6 +72,7 @@ void Recorder::observe(const sim::Simulation& simulation) {
   if (trajectory_.is_open() && now_ns >= next_row_ns_) {
     next_row_ns_ += kRowPeriod_ns;
     write_rows(simulation);
+    flush_trajectory();  // a program may die at any time
   }
   if (!pictures_) return;
   // A step longer than a frame's time fills more than one frame.
@@ -91,7 +90,7 @@ void Recorder::extend_trails(const sim::Simulation& simulation) {
     const sim::Vec2 p = simulation.body(static_cast<int>(i)).X_WB.position();
     if (!trail.points.empty() && (p - trail.points.back()).norm() < trail.spacing_m) continue;
     trail.points.push_back(p);
-    if (trail.points.size() < kMaxTrailPoints) continue;
+    if (trail.points.size() < kMostTrailPoints) continue;
     for (std::size_t k = 0; 2 * k < trail.points.size(); ++k) trail.points[k] = trail.points[2 * k];
     trail.points.resize((trail.points.size() + 1) / 2);
     trail.spacing_m *= 2.0;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <memory>
@@ -27,11 +28,13 @@ class Recorder {
 
   void observe(const sim::Simulation& simulation);
 
+  /// Where a robot has been; see kMostTrailPoints.
+  [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
+    return trails_[robot].points;
+  }
   /// The scene now, with trails.
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
-  /// Writes what trajectory.csv is to hold by now into it.
-  void flush_trajectory();
   /// Completes trajectory.csv. observe() must not be called afterwards.
   /// @throws std::runtime_error if it could not be written.
   void close_trajectory();
@@ -46,6 +49,7 @@ class Recorder {
   };
   void extend_trails(const sim::Simulation& simulation);
   void write_rows(const sim::Simulation& simulation);
+  void flush_trajectory();
 
   /// What recurs at times k * period, k = 0, 1, ...
   class Clock {

@@ -46,12 +46,12 @@ struct News {
 
 /// What the supervisor is told.
 struct Order {
-  enum Kind { kSignal, kKill };
+  enum Kind { kSignal, kKill, kRelease };
   int kind = kSignal;
   int value = 0;
 };
 
-std::string in_quotes(const std::string& text) { return "'" + text + "'"; }
+std::string between_quotes(const std::string& text) { return "'" + text + "'"; }
 
 ProgramEnd program_end(int wait_state) {
   ProgramEnd end;
@@ -248,17 +248,28 @@ class Supervisor {
       end_descendants({}, killed_ || orphaned ? Clock::duration::zero() : kLeftoversGrace);
     }
     log.finish();
-    if (orphaned) {
-      if (start_.on_orphaned) start_.on_orphaned(*end_);
-      return;
+    if (!orphaned) {
+      send(News::kEnded, end_state_);
+      if (is_released()) return;
     }
-    send(News::kEnded, end_state_);
+    if (start_.on_orphaned) start_.on_orphaned(*end_);
   }
 
  private:
   void send(int kind, int value) const {
     const News news{kind, value};
     static_cast<void>(::send(channel_, &news, sizeof news, MSG_NOSIGNAL));
+  }
+
+  /// Waits for what comes of the end. @return whether the other process has taken it.
+  [[nodiscard]] bool is_released() const {
+    for (;;) {
+      Order order;
+      const ssize_t size = recv(channel_, &order, sizeof order, 0);
+      if (size < 0 && errno == EINTR) continue;
+      if (size != static_cast<ssize_t>(sizeof order)) return false;
+      if (order.kind == Order::kRelease) return true;
+    }
   }
 
   bool start_program() {
@@ -430,12 +441,12 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
   if (start.output_file) {
     output = open(start.output_file->c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (output < 0) {
-      throw ProgramError("the file " + in_quotes(*start.output_file) +
+      throw ProgramError("the file " + between_quotes(*start.output_file) +
                          " can't be made: " + std::strerror(errno));
     }
   }
   const auto refuse = [&](int error) {
-    throw ProgramError("the program " + in_quotes(start.command.front()) +
+    throw ProgramError("the program " + between_quotes(start.command.front()) +
                        " can't be started: " + std::strerror(error));
   };
   std::array<int, 2> ends{};
@@ -486,6 +497,7 @@ SupervisedProgram::SupervisedProgram(SupervisedProgram&& other) noexcept
       program_(other.program_),
       channel_(std::exchange(other.channel_, -1)),
       stopped_(other.stopped_),
+      end_(other.end_),
       others_(std::move(other.others_)) {}
 
 SupervisedProgram& SupervisedProgram::operator=(SupervisedProgram&& other) noexcept {
@@ -493,17 +505,26 @@ SupervisedProgram& SupervisedProgram::operator=(SupervisedProgram&& other) noexc
   std::swap(program_, other.program_);
   std::swap(channel_, other.channel_);
   std::swap(stopped_, other.stopped_);
+  std::swap(end_, other.end_);
   std::swap(others_, other.others_);
   return *this;
 }
 
 SupervisedProgram::~SupervisedProgram() {
   if (channel_ < 0) return;
-  kill_all();
+  if (!end_) kill_all();
   while (!poll()) {
     pollfd news{channel_, POLLIN, 0};
     static_cast<void>(::poll(&news, 1, -1));
   }
+  release();
+}
+
+void SupervisedProgram::release() {
+  if (channel_ < 0) return;
+  send(Order::kRelease, 0);
+  close(std::exchange(channel_, -1));
+  reap_supervisor();
 }
 
 void SupervisedProgram::send(int kind, int value) {
@@ -523,7 +544,7 @@ void SupervisedProgram::reap_supervisor() {
 bool SupervisedProgram::take_stopped() noexcept { return std::exchange(stopped_, false); }
 
 std::optional<ProgramEnd> SupervisedProgram::poll() {
-  for (;;) {
+  while (!end_) {
     News news;
     const ssize_t size = recv(channel_, &news, sizeof news, MSG_DONTWAIT);
     if (size < 0 && errno == EINTR) continue;
@@ -531,9 +552,8 @@ std::optional<ProgramEnd> SupervisedProgram::poll() {
     if (size == static_cast<ssize_t>(sizeof news)) {
       if (news.kind == News::kStopped) stopped_ = true;
       if (news.kind != News::kEnded) continue;
-      close(std::exchange(channel_, -1));
-      reap_supervisor();
-      return program_end(news.value);
+      end_ = program_end(news.value);
+      continue;
     }
     // The supervisor was killed: what it would have ended has come to this process.
     close(std::exchange(channel_, -1));
@@ -541,10 +561,9 @@ std::optional<ProgramEnd> SupervisedProgram::poll() {
     std::set<pid_t> spared = supervisors();
     spared.insert(others_.begin(), others_.end());
     end_descendants(spared, Clock::duration::zero());
-    ProgramEnd end;
-    end.signal = SIGKILL;
-    return end;
+    end_.emplace().signal = SIGKILL;
   }
+  return end_;
 }
 
 }  // namespace playerlike

@@ -55,6 +55,9 @@ class SupervisedProgram {
   void kill_all();
   /// Takes news. @return how the program has ended; nullopt while it runs.
   [[nodiscard]] std::optional<ProgramEnd> poll();
+  /// After the program's end: this process has done what it had to do, so that the supervisor need
+  /// not take its place if it is killed.
+  void release();
   /// Whether the program has stopped itself by SIGSTOP since the last call.
   [[nodiscard]] bool take_stopped() noexcept;
   /// The program's number.
@@ -68,6 +71,7 @@ class SupervisedProgram {
   pid_t program_ = 0;
   int channel_ = -1;
   bool stopped_ = false;
+  std::optional<ProgramEnd> end_;
   std::set<pid_t> others_;  ///< children of this process that were there before
 };
 

@@ -53,7 +53,7 @@ void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
   const auto first = marks(begin >> kTileShift);
   const auto last = marks(tiles_across(end));
   if (value != blank_) {
-    std::fill(first, last, std::uint8_t{kChanged | kUsed});
+    std::fill(first, last, kWritten);
     return;
   }
   for (int row = begin >> kTileShift; row < tiles_across(end); ++row) {
@@ -61,7 +61,7 @@ void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
     const bool whole = (row << kTileShift) >= begin && bottom <= end;
     for (auto tile = marks(row); tile != marks(row + 1); ++tile) {
       // Tiles that were blank before are as they were.
-      if (*tile != 0) *tile = whole ? kChanged : kChanged | kUsed;
+      if ((*tile & (kChanged | kUsed)) != 0) *tile = whole ? kChanged | kUnkept : kWritten;
     }
   }
 }
@@ -91,7 +91,7 @@ void CellRaster::set_cells(const CellRect& rect, std::span<const CellValue> valu
       const std::size_t size = byte_offset(end - column);
       if (std::memcmp(to + byte_offset(column), from, size) != 0) {
         std::memcpy(to + byte_offset(column), from, size);
-        tiles[tile] = kChanged | kUsed;
+        tiles[tile] = kWritten;
       }
       from += end - column;
       column = end;
@@ -111,7 +111,7 @@ std::vector<std::uint8_t> CellRaster::resize(int width, int height,
                                 [](std::uint8_t tile) { return (tile & kUsed) != 0; });
   const auto stride = static_cast<std::size_t>(tiles_across(width));
   std::vector<std::uint8_t> tiles(stride * static_cast<std::size_t>(tiles_across(height)),
-                                  kChanged);
+                                  kChanged | kUnkept);
   for (int i = 1; i <= rows && used; ++i) {
     const int row = height - i;
     std::uint8_t* const to = zeros.data() + static_cast<std::size_t>(row) * byte_offset(width);
@@ -120,7 +120,7 @@ std::vector<std::uint8_t> CellRaster::resize(int width, int height,
     for (int column = 0; column < columns; ++column) {
       CellValue value;
       std::memcpy(&value, to + byte_offset(column), sizeof value);
-      if (value != blank_) marks[column >> kTileShift] = kChanged | kUsed;
+      if (value != blank_) marks[column >> kTileShift] = kWritten;
     }
   }
   data_.swap(zeros);
@@ -133,6 +133,10 @@ std::vector<std::uint8_t> CellRaster::resize(int width, int height,
 
 void CellRaster::mark_seen() noexcept {
   for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kChanged);
+}
+
+void CellRaster::mark_kept() noexcept {
+  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kUnkept);
 }
 
 }  // namespace sim

@@ -144,7 +144,7 @@ struct LayerStack::Impl {
     const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
     const bool everywhere = layer.blank_shows();
     for (std::size_t i = 0; i < dirty.size(); ++i) {
-      if (everywhere || tiles[i] != 0) dirty[i] = 1;
+      if (everywhere || (tiles[i] & (CellRaster::kChanged | CellRaster::kUsed)) != 0) dirty[i] = 1;
     }
   }
 
@@ -157,6 +157,7 @@ struct LayerStack::Impl {
   }
 
   void set_style(LayerId id, LayerStyle style) {
+    ++revision;
     const std::vector<LayerId> order_before = visible_order();
     Layer& layer = get(id);
     Layer before{layer.id,  layer.kind, layer.owner, std::move(layer.style),
@@ -272,6 +273,7 @@ struct LayerStack::Impl {
   std::vector<std::uint8_t> picture;  // RGBA; true where no tile is dirty
   std::uint64_t version = 0;          // how often compose() has found something to do
   std::uint64_t recomposed_cells = 0;
+  std::uint64_t revision = 0;
 };
 
 void drop_covered(std::vector<DrawOperation>& operations) {
@@ -326,6 +328,7 @@ const Canvas& LayerStack::base() const noexcept { return impl_->base; }
 LayerId LayerStack::add(LayerKind kind, LayerStyle style, int owner) {
   SIM_ASSERT(impl_->next_id < std::numeric_limits<LayerId>::max());
   const LayerId id = impl_->next_id++;
+  ++impl_->revision;
   auto own = std::make_unique<CellRaster>(width(), height(), blank_of(kind));
   CellRaster* const cells = own.get();
   const Ink ink(kind, style);
@@ -340,6 +343,7 @@ LayerId LayerStack::add(LayerKind kind, LayerStyle style, int owner) {
 bool LayerStack::remove(LayerId layer) {
   Layer* const found = impl_->find(layer);
   if (found == nullptr || layer == kBaseLayer) return false;
+  ++impl_->revision;
   if (found->style.visible) impl_->mark(*found);
   impl_->layers.erase(impl_->layers.begin() + (found - impl_->layers.data()));
   return true;
@@ -452,6 +456,7 @@ std::vector<std::vector<std::uint8_t>> LayerStack::resize(
     int width, int height, std::vector<std::vector<std::uint8_t>> zeros) {
   SIM_ASSERT(width >= 1 && width <= kMaxCanvasSide && height >= 1 && height <= kMaxCanvasSide);
   if (width == this->width() && height == this->height()) return zeros;
+  ++impl_->revision;
   const auto take = [&]() -> std::vector<std::uint8_t> {
     if (zeros.empty()) return {};
     std::vector<std::uint8_t> bytes = std::move(zeros.back());
@@ -509,6 +514,37 @@ void LayerStack::copy_rows(LayerId layer, int row, std::span<CellValue> to) cons
 
 std::uint64_t LayerStack::version() const noexcept {
   return impl_->version + (impl_->is_dirty() ? 1 : 0);
+}
+
+std::uint64_t LayerStack::revision() const noexcept { return impl_->revision; }
+
+std::span<const std::uint8_t> LayerStack::bytes(LayerId layer) const {
+  return impl_->get(layer).cells->data();
+}
+
+void LayerStack::take_written(const std::function<void(LayerId, const CellRect&)>& visit) {
+  for (const Layer& layer : impl_->layers) {
+    const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
+    if (!any_bit(tiles, CellRaster::kUnkept)) continue;
+    const int columns = layer.cells->tile_columns();
+    const auto is_written = [&](int row, int column) {
+      return (tiles[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(column)] &
+              CellRaster::kUnkept) != 0;
+    };
+    for (int row = 0; row < layer.cells->tile_rows(); ++row) {
+      for (int column = 0; column < columns; ++column) {
+        if (!is_written(row, column)) continue;
+        const int first = column;
+        while (column < columns && is_written(row, column)) ++column;
+        const int left = first << CellRaster::kTileShift;
+        const int top = row << CellRaster::kTileShift;
+        visit(layer.id, {left, top, std::min(column << CellRaster::kTileShift, width()) - left,
+                         std::min(top + CellRaster::kTileSide, height()) - top});
+      }
+    }
+    layer.cells->mark_kept();
+  }
 }
 
 std::uint64_t LayerStack::recomposed_cells() const noexcept { return impl_->recomposed_cells; }

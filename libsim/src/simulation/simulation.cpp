@@ -881,6 +881,41 @@ void add_readings(const Device& device, RobotSnapshot& shot) {
 
 }  // namespace
 
+RobotSnapshot Simulation::robot_snapshot(int number) const {
+  const auto i = static_cast<std::size_t>(number);
+  const RobotParts& robot = impl_->robots[i];
+  const BodyState& body = impl_->physics->body(number);
+  RobotSnapshot shot;
+  shot.name = impl_->world.robots[i].name;
+  shot.colour = impl_->world.robots[i].colour;
+  shot.X_WB = body.X_WB;
+  shot.footprint = robot.model->footprint;
+  shot.stalled = body.stalled;
+  for (const auto& device : robot.devices) {
+    if (const auto* speech = dynamic_cast<const Speech*>(device.get())) {
+      if (!speech->text().empty()) shot.says = speech->text();
+    } else if (const auto* light = dynamic_cast<const Blinkenlight*>(device.get())) {
+      shot.lights.push_back(
+          {light->params().p_BL, light->colour(), light->lit(impl_->now_ns) && light->active()});
+    }
+  }
+  for (const auto& device : robot.devices) {
+    const auto* laser = dynamic_cast<const Laser*>(device.get());
+    if (laser == nullptr || laser->reading().sequence == 0) continue;
+    const LaserReading& scan = laser->reading();
+    const Pose X_WL = scan.X_WB * laser->params().X_BL;
+    shot.scan_origin = X_WL.position();
+    for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+      const double angle = scan.angle_min_rad + scan.resolution_rad * static_cast<double>(beam);
+      shot.scan_points.push_back(X_WL * Vec2(scan.ranges_m[beam] * std::cos(angle),
+                                             scan.ranges_m[beam] * std::sin(angle)));
+    }
+    break;
+  }
+  for (const auto& device : robot.devices) add_readings(*device, shot);
+  return shot;
+}
+
 SceneSnapshot Simulation::snapshot() const {
   SceneSnapshot scene;
   scene.world_name = impl_->world.name;
@@ -890,39 +925,7 @@ SceneSnapshot Simulation::snapshot() const {
   scene.layers = impl_->layers.layers();
   scene.view_mode = impl_->view_mode;
   scene.time_s = to_seconds(impl_->now_ns);
-  for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
-    const RobotParts& robot = impl_->robots[i];
-    const BodyState& body = impl_->physics->body(static_cast<int>(i));
-    RobotSnapshot shot;
-    shot.name = impl_->world.robots[i].name;
-    shot.colour = impl_->world.robots[i].colour;
-    shot.X_WB = body.X_WB;
-    shot.footprint = robot.model->footprint;
-    shot.stalled = body.stalled;
-    for (const auto& device : robot.devices) {
-      if (const auto* speech = dynamic_cast<const Speech*>(device.get())) {
-        if (!speech->text().empty()) shot.says = speech->text();
-      } else if (const auto* light = dynamic_cast<const Blinkenlight*>(device.get())) {
-        shot.lights.push_back(
-            {light->params().p_BL, light->colour(), light->lit(impl_->now_ns) && light->active()});
-      }
-    }
-    for (const auto& device : robot.devices) {
-      const auto* laser = dynamic_cast<const Laser*>(device.get());
-      if (laser == nullptr || laser->reading().sequence == 0) continue;
-      const LaserReading& scan = laser->reading();
-      const Pose X_WL = scan.X_WB * laser->params().X_BL;
-      shot.scan_origin = X_WL.position();
-      for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
-        const double angle = scan.angle_min_rad + scan.resolution_rad * static_cast<double>(beam);
-        shot.scan_points.push_back(X_WL * Vec2(scan.ranges_m[beam] * std::cos(angle),
-                                               scan.ranges_m[beam] * std::sin(angle)));
-      }
-      break;
-    }
-    for (const auto& device : robot.devices) add_readings(*device, shot);
-    scene.robots.push_back(std::move(shot));
-  }
+  for (int i = 0; i < robot_count(); ++i) scene.robots.push_back(robot_snapshot(i));
   return scene;
 }
 

@@ -41,7 +41,7 @@ class Outputs : public testing::Test {
     return simulation_.layers().add(kind, style, owner);
   }
   void write() const {
-    write_report(folder_.path(), simulation_, {}, {});
+    write_report(folder_.path(), report_text(simulation_, {}, {}));
     write_pictures(folder_.path(), simulation_.layers(), simulation_.snapshot());
   }
   [[nodiscard]] std::vector<std::string> layer_files() const {

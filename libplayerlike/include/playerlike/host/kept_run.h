@@ -35,8 +35,8 @@ class KeptRun {
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
   [[nodiscard]] Phase phase() const noexcept;
-  /// Whether the host has noted a signal that asks for the end of its run.
-  [[nodiscard]] bool interrupt_noted() const noexcept;
+  /// The first signal that the host has noted as one that asks for the end of its run; 0: none.
+  [[nodiscard]] int interrupt_noted() const noexcept;
 
  private:
   int descriptor_ = -1;

@@ -60,9 +60,9 @@ struct ProgramEnd {
 struct RunWatch {
   const KeptRun* kept = nullptr;                      ///< what the program's host keeps up to date
   std::function<void(const std::string&)> tell = {};  ///< takes a sentence for the user
-  /// Called, in another process, if this one is killed: the program, and all that it has started,
-  /// has been ended then.
-  std::function<void(const ProgramEnd&)> on_orphaned = {};
+  /// Called once the program and all that it has started are gone, while signals are still held: in
+  /// this process or, if this one was killed, in another one that then ends.
+  std::function<void(const ProgramEnd&)> on_end = {};
 };
 
 /// Runs a program to its end, with this process's terminal and standard streams.

@@ -72,6 +72,7 @@ class CellRaster {
   /// Bits of a tile's mark.
   static constexpr std::uint8_t kChanged = 1;  ///< written to since mark_seen()
   static constexpr std::uint8_t kUsed = 2;     ///< may hold cells that are not blank
+  static constexpr std::uint8_t kUnkept = 4;   ///< written to since mark_kept()
 
   /// @param blank  what all cells hold at first, and what resize() adds.
   /// @pre sides >= 1.
@@ -133,10 +134,13 @@ class CellRaster {
 
   [[nodiscard]] int tile_columns() const noexcept { return tiles_across(width_); }
   [[nodiscard]] int tile_rows() const noexcept { return tiles_across(height_); }
-  /// kChanged and kUsed of each tile, row-major from the top; tile_columns() x tile_rows().
+  /// kChanged, kUsed and kUnkept of each tile, row-major from the top; tile_columns() x
+  /// tile_rows().
   [[nodiscard]] const std::vector<std::uint8_t>& tiles() const noexcept { return tiles_; }
   /// Takes kChanged off all tiles.
   void mark_seen() noexcept;
+  /// Takes kUnkept off all tiles.
+  void mark_kept() noexcept;
 
   /// How many tiles cover so many cells.
   [[nodiscard]] static int tiles_across(int cells) noexcept {
@@ -144,6 +148,8 @@ class CellRaster {
   }
 
  private:
+  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnkept;
+
   [[nodiscard]] static std::size_t byte_offset(int cells) noexcept {
     return static_cast<std::size_t>(cells) * sizeof(CellValue);
   }
@@ -152,7 +158,7 @@ class CellRaster {
     const auto r = static_cast<std::size_t>(row);
     std::memcpy(data_.data() + (r * static_cast<std::size_t>(width_) + c) * sizeof value, &value,
                 sizeof value);
-    tiles_[(r >> kTileShift) * tile_stride_ + (c >> kTileShift)] = kChanged | kUsed;
+    tiles_[(r >> kTileShift) * tile_stride_ + (c >> kTileShift)] = kWritten;
   }
 
   int width_;

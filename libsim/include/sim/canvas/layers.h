@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -163,6 +164,14 @@ class LayerStack {
   /// picture. Who asks for it before or after composed(), with nothing drawn in between, is told
   /// the same. Drawings on hidden layers and cells set to what they are leave it alone.
   [[nodiscard]] std::uint64_t version() const noexcept;
+  /// Count of the changes to what layers there are, how they are drawn and how large they are.
+  [[nodiscard]] std::uint64_t revision() const noexcept;
+  /// A layer's cells as bytes, row-major from the top, four a cell, until the stack is changed.
+  /// @pre contains(layer)
+  [[nodiscard]] std::span<const std::uint8_t> bytes(LayerId layer) const;
+  /// For who keeps a copy of all cells: calls visit(layer, rect) for rectangles that cover all
+  /// cells written to since the last call, or since the layer was made.
+  void take_written(const std::function<void(LayerId, const CellRect&)>& visit);
   /// Cells that composed() has worked out so far, all calls together: what composition has cost.
   [[nodiscard]] std::uint64_t recomposed_cells() const noexcept;
 

@@ -176,6 +176,8 @@ class Simulation {
 
   /// The scene as it is now. Trails are kept by the caller (Simulation remembers no past).
   [[nodiscard]] SceneSnapshot snapshot() const;
+  /// A robot's part of it. @param robot  its index in the world; it must exist.
+  [[nodiscard]] RobotSnapshot robot_snapshot(int robot) const;
 
  private:
   struct Impl;
