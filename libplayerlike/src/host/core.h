@@ -263,7 +263,9 @@ class Host::Core : private ViewedRun {
   void let_others_in() const;
   void distribute();
   void distribute(const sim::Reading& reading, Client::Subscription& subscription, Client& client);
-  [[nodiscard]] RunLog* log_of(int port);
+  /// @return null if the client has none for that device.
+  [[nodiscard]] static Client::Subscription* find_subscription(Client& client, DeviceId device);
+  void forget_subscriber(const Client& client, DeviceId device) noexcept;
   void require_unlocked() const;
   void release_waiters();
   void ring_alarms();
@@ -302,6 +304,7 @@ class Host::Core : private ViewedRun {
   LayerBook layer_book_;
   std::atomic<std::uint64_t> canvas_generation_{0};
   std::unique_ptr<Recorder> recorder_;
+  std::map<std::pair<int, int>, std::vector<Client*>> subscribers_;  ///< by robot and device
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   mutable std::mutex mutex_;
