@@ -259,7 +259,9 @@ class Host::Core : private ViewedRun, private TurnClock {
   void let_others_in() const;
   void distribute();
   void distribute(const sim::Reading& reading, Client::Subscription& subscription, Client& client);
-  [[nodiscard]] RunLog* log_of(int port);
+  /// @return null if the client has none for that device.
+  [[nodiscard]] static Client::Subscription* find_subscription(Client& client, DeviceId device);
+  void forget_subscriber(const Client& client, DeviceId device) noexcept;
   void require_unlocked() const;
   void release_waiters();
   void ring_alarms();
@@ -313,6 +315,7 @@ class Host::Core : private ViewedRun, private TurnClock {
   int end_request_ = 0;                             ///< the signal that asked for the end
   bool window_closed_ = false;
   std::optional<int> program_status_;
+  std::map<std::pair<int, int>, std::vector<Client*>> subscribers_;  ///< by robot and device
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order

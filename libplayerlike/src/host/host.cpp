@@ -58,6 +58,10 @@ WallClock::duration wall(double seconds) {
   return std::chrono::duration_cast<WallClock::duration>(std::chrono::duration<double>(seconds));
 }
 
+bool subscribed_before(const Client::Subscription& s, DeviceId id) {
+  return std::pair(s.device.robot, s.device.device) < std::pair(id.robot, id.device);
+}
+
 void require_duration(double sleep_s) {
   if (sleep_s >= 0.0 && sleep_s <= 1e9) return;
   throw SessionError(SessionError::Code::kBadArgument,
@@ -175,6 +179,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   if (!ended_) apply_inputs(client);
   client.drawings.close();
   layer_book_.leave(client.number);
+  for (const Client::Subscription& s : client.subscriptions) forget_subscriber(client, s.device);
   client.subscriptions.clear();
   if (turns_) Turns::instance().let_go(client);
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
@@ -217,15 +222,13 @@ void Host::Core::adopt(Client& client, ThinkerId thinker) {
 void Host::Core::subscribe(Client& client, DeviceId device) {
   const Lock lock = lock_soon();
   require_open(client);
-  const auto less = [](const Client::Subscription& s, DeviceId id) {
-    return std::pair(s.device.robot, s.device.device) < std::pair(id.robot, id.device);
-  };
-  auto it =
-      std::lower_bound(client.subscriptions.begin(), client.subscriptions.end(), device, less);
+  auto it = std::lower_bound(client.subscriptions.begin(), client.subscriptions.end(), device,
+                             subscribed_before);
   if (it == client.subscriptions.end() || !(it->device == device)) {
     it = client.subscriptions.emplace(it);
     it->device = device;
     it->replace = client.replace_by_default;
+    subscribers_[{device.robot, device.device}].push_back(&client);
   }
   ++it->count;
   if (client.is_programs() && !wants_time_.exchange(true)) start_busy_alarm(lock);
@@ -238,6 +241,7 @@ void Host::Core::unsubscribe(Client& client, DeviceId device) {
       std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.device == device; });
   if (it == all.end() || --it->count > 0) return;
   all.erase(it);
+  forget_subscriber(client, device);
   client.has_data = std::any_of(all.begin(), all.end(),
                                 [](const auto& s) { return s.fresh || !s.queue.empty(); });
   client.empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
@@ -440,35 +444,57 @@ void Host::Core::carry_out_drawings(Client& client) {
   });
 }
 
+// Each new reading is given to those who have subscribed to its device, and to nobody else is it
+// offered: many clients that want something else cost nothing.
 void Host::Core::distribute() {
   for (const auto& client : clients_) {
-    if (client->subscriptions.empty()) {
-      if (simulation_.now_ns() >= client->empty_round_ns) client->has_data = true;
-      continue;
+    if (client->subscriptions.empty() && simulation_.now_ns() >= client->empty_round_ns) {
+      client->has_data = true;
     }
-    const RunLog* log = log_of(client->port);
-    const bool replay = log != nullptr && log->replaying();
-    for (Client::Subscription& s : client->subscriptions) {
-      if (replay) {
-        for (const RunLog::Entry* entry : log->due()) {
-          if (entry->device == s.device) distribute(*entry->reading, s, *client);
-        }
-        continue;
-      }
-      for (const DeviceId& updated : simulation_.updated()) {
-        if (!(updated == s.device)) continue;
-        if (s.replace) {
-          client->has_data = true;
-          s.fresh = true;
-          s.queue.clear();
-          continue;
-        }
-        const auto& sensor =
-            dynamic_cast<const sim::Sensor&>(simulation_.device(s.device.robot, s.device.device));
-        distribute(sensor.reading(), s, *client);
+  }
+  std::vector<int> replayed;  // ports whose readings come from a file
+  for (auto& [port, log] : logs_) {
+    if (!log.replaying()) continue;
+    replayed.push_back(port);
+    for (const RunLog::Entry* entry : log.due()) {
+      const auto found = subscribers_.find({entry->device.robot, entry->device.device});
+      if (found == subscribers_.end()) continue;
+      for (Client* client : found->second) {
+        if (client->port != port) continue;
+        distribute(*entry->reading, *find_subscription(*client, entry->device), *client);
       }
     }
   }
+  for (const DeviceId& updated : simulation_.updated()) {
+    const auto found = subscribers_.find({updated.robot, updated.device});
+    if (found == subscribers_.end()) continue;
+    for (Client* client : found->second) {
+      if (std::find(replayed.begin(), replayed.end(), client->port) != replayed.end()) continue;
+      Client::Subscription& s = *find_subscription(*client, updated);
+      if (s.replace) {
+        client->has_data = true;
+        s.fresh = true;
+        s.queue.clear();
+        continue;
+      }
+      const auto& sensor =
+          dynamic_cast<const sim::Sensor&>(simulation_.device(updated.robot, updated.device));
+      distribute(sensor.reading(), s, *client);
+    }
+  }
+}
+
+Client::Subscription* Host::Core::find_subscription(Client& client, DeviceId device) {
+  const auto it = std::lower_bound(client.subscriptions.begin(), client.subscriptions.end(), device,
+                                   subscribed_before);
+  return it != client.subscriptions.end() && it->device == device ? &*it : nullptr;
+}
+
+void Host::Core::forget_subscriber(const Client& client, DeviceId device) noexcept {
+  const auto found = subscribers_.find({device.robot, device.device});
+  if (found == subscribers_.end()) return;
+  std::erase(found->second, &client);
+  if (found->second.empty()) subscribers_.erase(found);
 }
 
 void Host::Core::distribute(const sim::Reading& reading, Client::Subscription& subscription,
@@ -482,11 +508,6 @@ void Host::Core::distribute(const sim::Reading& reading, Client::Subscription& s
     ++client.overflow;
   }
   subscription.queue.push_back(reading.clone());
-}
-
-RunLog* Host::Core::log_of(int port) {
-  const auto it = logs_.find(port);
-  return it == logs_.end() ? nullptr : &it->second;
 }
 
 // A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
@@ -1111,11 +1132,22 @@ void Host::Core::set_object_property(const Client& client, const std::string& na
 }
 
 LogStatus Host::Core::control_log(const Client& client, const LogControl& changes) {
-  const Lock lock = lock_soon();
-  require_open(client);
-  RunLog& log =
-      logs_.try_emplace(client.port, settings_.output_folder, client.port, robots_).first->second;
-  return log.control(changes, simulation_);
+  // A file to be replayed is read without the mutex: that may take seconds.
+  std::optional<RunLog::Loaded> loaded;
+  for (;;) {
+    std::optional<std::string> file;
+    {
+      const Lock lock = lock_soon();
+      require_open(client);
+      RunLog& log = logs_.try_emplace(client.port, settings_.output_folder, client.port, robots_)
+                        .first->second;
+      file = log.file_to_read(changes);
+      if (!file || (loaded && loaded->path == *file)) {
+        return log.control(changes, simulation_, loaded ? &*loaded : nullptr);
+      }
+    }
+    loaded = RunLog::read_file(*file, client.port, robots_);
+  }
 }
 
 void Host::Core::join(Client& client, ThinkerId thinker) {

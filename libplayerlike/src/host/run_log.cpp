@@ -23,6 +23,11 @@ constexpr int kVersion = 1;
 constexpr std::size_t kMostWritten = std::size_t{1} << 30U;  // bytes
 constexpr std::size_t kMostRead = std::size_t{1} << 28U;
 
+std::string with_ending(std::string file) {
+  if (!file.ends_with(kEnding)) file += kEnding;
+  return file;
+}
+
 [[noreturn]] void refuse(SessionError::Code code, const std::string& message) {
   throw SessionError(code, message);
 }
@@ -34,9 +39,24 @@ RunLog::RunLog(std::string folder, int port, const std::vector<RobotInfo>& robot
   status_.file = "log_" + std::to_string(port) + std::string(kEnding);
 }
 
-std::string RunLog::path() const { return (fs::path(folder_) / status_.file).string(); }
+std::string RunLog::path_of(const std::string& file) const {
+  return (fs::path(folder_) / file).string();
+}
 
-LogStatus RunLog::control(const LogControl& changes, const sim::Simulation& simulation) {
+std::string RunLog::path() const { return path_of(status_.file); }
+
+std::optional<std::string> RunLog::file_to_read(const LogControl& changes) const {
+  // What is running takes no other file; what is wrong otherwise is told by control().
+  if (status_.running || !changes.running.value_or(false) || folder_.empty()) return std::nullopt;
+  if (!changes.replay.value_or(status_.replay)) return std::nullopt;
+  if (changes.file && !is_plain_file_name(*changes.file)) return std::nullopt;
+  const bool other = changes.file || changes.replay.value_or(status_.replay) != status_.replay;
+  if (!other && !entries_.empty()) return std::nullopt;
+  return path_of(changes.file ? with_ending(*changes.file) : status_.file);
+}
+
+LogStatus RunLog::control(const LogControl& changes, const sim::Simulation& simulation,
+                          Loaded* loaded) {
   using Code = SessionError::Code;
   if (changes.file) {
     if (!is_plain_file_name(*changes.file)) {
@@ -45,8 +65,7 @@ LogStatus RunLog::control(const LogControl& changes, const sim::Simulation& simu
                  std::to_string(kMaxFileName) + " characters, without folders and no dot in front");
     }
     if (status_.running) refuse(Code::kBadArgument, "stop the log before it gets another file");
-    status_.file = *changes.file;
-    if (!status_.file.ends_with(kEnding)) status_.file += kEnding;
+    status_.file = with_ending(*changes.file);
     entries_.clear();
   }
   if (changes.replay && *changes.replay != status_.replay) {
@@ -64,14 +83,14 @@ LogStatus RunLog::control(const LogControl& changes, const sim::Simulation& simu
     played_ns_ = 0;
   }
   if (changes.running && *changes.running != status_.running) {
-    if (*changes.running) start(simulation);
+    if (*changes.running) start(simulation, loaded);
     status_.running = *changes.running;
     if (out_.is_open()) out_.flush();
   }
   return status_;
 }
 
-void RunLog::start(const sim::Simulation& simulation) {
+void RunLog::start(const sim::Simulation& simulation, Loaded* loaded) {
   using Code = SessionError::Code;
   if (folder_.empty()) {
     refuse(Code::kNotAvailable,
@@ -82,7 +101,19 @@ void RunLog::start(const sim::Simulation& simulation) {
     refuse(Code::kNotAvailable, path() + " is a link, which may lead out of the output folder");
   }
   if (status_.replay) {
-    if (entries_.empty()) load();
+    if (entries_.empty()) {
+      // Only if it was changed between the two calls.
+      Loaded now;
+      if (loaded == nullptr || loaded->path != path()) {
+        now = read_file(path(), port_, *robots_);
+        loaded = &now;
+      }
+      if (loaded->problem) throw *loaded->problem;
+      entries_ = std::move(loaded->entries);
+      begin_ns_ = loaded->begin_ns;
+      next_ = 0;
+      played_ns_ = 0;
+    }
     if (next_ == entries_.size()) {  // once more from the beginning
       next_ = 0;
       played_ns_ = 0;
@@ -104,57 +135,76 @@ void RunLog::start(const sim::Simulation& simulation) {
   }
 }
 
-// Reads the whole file: what is wrong with it is told before it begins.
-void RunLog::load() {
-  using Code = SessionError::Code;
-  std::string text;
-  if (const auto problem = sim::read_whole_file(path(), {.most_bytes = kMostRead}, text)) {
-    refuse(Code::kNotAvailable, problem->fault == sim::FileFault::kTooLarge
-                                    ? path() + " is too long: logs are read up to 256 MiB"
-                                    : "cannot read " + path() + ": " + problem->found);
-  }
-  std::istringstream in(std::move(text));
-  std::string line;
-  entries_.clear();
-  next_ = 0;
-  played_ns_ = 0;
-  for (int number = 1; std::getline(in, line); ++number) {
-    try {
-      read_line(line, number);
-    } catch (const protocol::ProtocolError& e) {
-      entries_.clear();
-      refuse(Code::kBadArgument,
-             path() + ":" + std::to_string(number) + " is no line of a log: " + e.what());
-    }
-  }
-  if (entries_.empty()) {
-    refuse(Code::kBadArgument,
-           path() + " has no reading of a device that the robots of this port have");
-  }
-  std::stable_sort(entries_.begin(), entries_.end(),
-                   [](const Entry& a, const Entry& b) { return a.offset_ns < b.offset_ns; });
-}
+namespace {
 
-void RunLog::read_line(const std::string& line, int number) {
+// Takes a line of a file; its number counts from 1.
+void read_line(const std::string& line, int number, int port, const std::vector<RobotInfo>& robots,
+               RunLog::Loaded& loaded) {
   json message = protocol::decode(line, Encoding::kJson);
   if (number == 1) {
     static_cast<void>(protocol::require_integer(message, "playpen_log", kVersion, kVersion));
-    begin_ns_ = protocol::require_integer(message, "t", 0, sim::from_seconds(1e9));
+    loaded.begin_ns = protocol::require_integer(message, "t", 0, sim::from_seconds(1e9));
     return;
   }
   const std::string robot_name = protocol::require_text(message, "robot");
   const std::string device_name = protocol::require_text(message, "device");
   const std::string type = protocol::require_text(message, "type");
-  for (const RobotInfo& robot : *robots_) {
-    if (robot.name != robot_name || (port_ != kMorsePort && robot.port != port_)) continue;
+  for (const RobotInfo& robot : robots) {
+    if (robot.name != robot_name || (port != kMorsePort && robot.port != port)) continue;
     for (const DeviceInfo& device : robot.devices) {
       if (device.name != device_name || device.type != type) continue;
       message["device"] = protocol::encode_device_id(device.id);
       protocol::DecodedReading decoded = protocol::decode_reading(message, Encoding::kJson);
-      const sim::SimTime offset_ns = decoded.reading->time_ns - begin_ns_;
-      entries_.push_back({offset_ns, device.id, std::move(decoded.reading)});
+      const sim::SimTime offset_ns = decoded.reading->time_ns - loaded.begin_ns;
+      loaded.entries.push_back({offset_ns, device.id, std::move(decoded.reading)});
     }
   }
+}
+
+// Reads the whole file: what is wrong with it is told before it begins.
+void read_all(int port, const std::vector<RobotInfo>& robots, RunLog::Loaded& loaded) {
+  using Code = SessionError::Code;
+  const std::string& path = loaded.path;
+  std::error_code error;
+  if (fs::is_symlink(path, error)) return;  // start() says so
+  std::string text;
+  if (const auto problem = sim::read_whole_file(path, {.most_bytes = kMostRead}, text)) {
+    refuse(Code::kNotAvailable, problem->fault == sim::FileFault::kTooLarge
+                                    ? path + " is too long: logs are read up to 256 MiB"
+                                    : "cannot read " + path + ": " + problem->found);
+  }
+  std::istringstream in(std::move(text));
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    try {
+      read_line(line, number, port, robots, loaded);
+    } catch (const protocol::ProtocolError& e) {
+      refuse(Code::kBadArgument,
+             path + ":" + std::to_string(number) + " is no line of a log: " + e.what());
+    }
+  }
+  if (loaded.entries.empty()) {
+    refuse(Code::kBadArgument,
+           path + " has no reading of a device that the robots of this port have");
+  }
+  std::stable_sort(
+      loaded.entries.begin(), loaded.entries.end(),
+      [](const RunLog::Entry& a, const RunLog::Entry& b) { return a.offset_ns < b.offset_ns; });
+}
+
+}  // namespace
+
+RunLog::Loaded RunLog::read_file(const std::string& path, int port,
+                                 const std::vector<RobotInfo>& robots) {
+  Loaded loaded;
+  loaded.path = path;
+  try {
+    read_all(port, robots, loaded);
+  } catch (const SessionError& e) {
+    loaded.problem = e;
+    loaded.entries.clear();
+  }
+  return loaded;
 }
 
 std::optional<std::string> RunLog::observe(const sim::Simulation& simulation) {

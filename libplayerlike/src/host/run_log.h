@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "playerlike/messages/messages.h"
+#include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike {
@@ -28,10 +29,24 @@ class RunLog {
   /// @param robots  all of the world; must live as long as this.
   RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots);
 
+  /// A file of readings as it was read, or why it could not be.
+  struct Loaded {
+    std::string path;
+    sim::SimTime begin_ns = 0;   ///< of the log, in its own time
+    std::vector<Entry> entries;  ///< oldest first
+    std::optional<SessionError> problem;
+  };
+
+  /// The file that has to be read before control() can make these changes; nullopt if none.
+  [[nodiscard]] std::optional<std::string> file_to_read(const LogControl& changes) const;
+  /// Reads a file of readings of the port's robots, which may take seconds: not under a lock.
+  [[nodiscard]] static Loaded read_file(const std::string& path, int port,
+                                        const std::vector<RobotInfo>& robots);
   /// Makes changes, in the order that LogControl lists them in, and tells what is then.
+  /// @param loaded  the file that file_to_read() has named; may be null if none.
   /// @throws SessionError as Session::control_log(); what came before the change in question is
   /// done.
-  LogStatus control(const LogControl& changes, const sim::Simulation& simulation);
+  LogStatus control(const LogControl& changes, const sim::Simulation& simulation, Loaded* loaded);
 
   /// Called after each step: writes the step's readings, or finds those that are due.
   /// @return what has gone wrong, once; the log is then stopped.
@@ -47,9 +62,8 @@ class RunLog {
 
  private:
   [[nodiscard]] std::string path() const;
-  void start(const sim::Simulation& simulation);
-  void load();
-  void read_line(const std::string& line, int number);
+  [[nodiscard]] std::string path_of(const std::string& file) const;
+  void start(const sim::Simulation& simulation, Loaded* loaded);
   void write(const sim::Simulation& simulation);
   void find_due(sim::SimTime now_ns);
 

@@ -219,6 +219,35 @@ using std::chrono::milliseconds;
 
 namespace {
 
+// A list that is being read in this thread. A callback may destroy it, and its clients.
+class Reading {
+ public:
+  explicit Reading(playerc_mclient_t& group) : group_(&group), outer_(innermost) {
+    innermost = this;
+  }
+  ~Reading() { innermost = outer_; }
+  Reading(const Reading&) = delete;
+  Reading& operator=(const Reading&) = delete;
+
+  /// Whether the list is there, and the client in it.
+  [[nodiscard]] bool has(const Client* client) const {
+    if (group_ == nullptr) return false;
+    auto** const end = group_->client + group_->client_count;
+    return std::find(group_->client, end, static_cast<const playerc_client_t*>(client)) != end;
+  }
+  static void note_destroyed(const playerc_mclient_t* group) {
+    for (Reading* reading = innermost; reading != nullptr; reading = reading->outer_) {
+      if (reading->group_ == group) reading->group_ = nullptr;
+    }
+  }
+
+ private:
+  static thread_local Reading* innermost;
+  playerc_mclient_t* group_;
+  Reading* outer_;
+};
+thread_local Reading* Reading::innermost = nullptr;
+
 playerc_mclient_t& require(playerc_mclient_t* mclient) {
   if (mclient == nullptr) refuse("the list of clients is a null pointer");
   return *mclient;
@@ -233,6 +262,7 @@ playerc_mclient_t* playerc_mclient_create(void) {
 void playerc_mclient_destroy(playerc_mclient_t* mclient) {
   if (mclient == nullptr) return;
   for (int i = 0; i < mclient->client_count; ++i) Client::of(mclient->client[i]).leave(*mclient);
+  Reading::note_destroyed(mclient);
   delete mclient;
 }
 
@@ -257,17 +287,17 @@ int playerc_mclient_peek(playerc_mclient_t* mclient, int timeout) {
 int playerc_mclient_read(playerc_mclient_t* mclient, int timeout) {
   return guarded(__func__, [&] {
     playerc_mclient_t& group = require(mclient);
+    const Reading reading(group);
     int count = 0;
     for (Client* client : playerlike::clib::wait_for_any(group, timeout)) {
-      // A callback of one may have destroyed the next.
-      auto** const end = group.client + group.client_count;
-      if (std::find(group.client, end, static_cast<playerc_client_t*>(client)) == end) continue;
+      // A callback of one may have destroyed the next, or itself, or the list.
+      if (!reading.has(client)) continue;
       if (client->look()) {
         client->deliver();
       } else {
         client->read_round();  // says why there is nothing more
       }
-      group.time = std::max(group.time, client->datatime);
+      if (reading.has(client)) group.time = std::max(group.time, client->datatime);
       ++count;
     }
     return count;

@@ -1,4 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -49,7 +50,8 @@ double AioProxy::GetVoltage(uint32_t aIndex) const {
 void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
   const char* fun = "AioProxy::SetVoltage";
   const scoped_lock_t lock(LockData(fun));
-  const double count = mLink->property("outputs", sim::AioParams::kMaxLines);
+  const double count = std::clamp<double>(mLink->property("outputs", sim::AioParams::kMaxLines),
+                                          0.0, sim::AioParams::kMaxLines);
   if (!(aIndex < count && std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
     throw PlayerError(fun,
                       "output " + std::to_string(aIndex) + " cannot have " +

@@ -28,7 +28,7 @@ struct ScannerSettings {
 inline ScannerSettings scanner_settings(const std::map<std::string, double>& settings) {
   const auto property = [&](const char* name) { return setting_of(settings, name); };
   ScannerSettings scanner;
-  scanner.count = static_cast<std::size_t>(property("beams"));
+  scanner.count = count_of(settings, "beams");
   scanner.native_rad = property("resolution");
   // The simulated laser is symmetric about forward.
   if (scanner.count > 0) {
@@ -67,8 +67,9 @@ inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, dou
                           std::to_string(least_rad + last * native_rad) + " rad",
                       PlayerError::kBadArgument);
   }
-  const auto stride = static_cast<std::size_t>(
-      std::clamp(std::round(resolution_rad / native_rad), 1.0, last + 1.0));
+  // A server may say that neighbouring beams are no angle apart: then all are shown.
+  const double ratio = std::round(resolution_rad / native_rad);
+  const auto stride = static_cast<std::size_t>(ratio >= 1.0 ? std::min(ratio, last + 1.0) : 1.0);
   return {static_cast<std::size_t>(begin), stride,
           static_cast<std::size_t>(end - begin) / stride + 1};
 }

@@ -1,4 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <ostream>
 
 #include "libplayerc++/blobfinderproxy.h"
@@ -18,8 +19,12 @@ void BlobfinderProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "BlobfinderProxy::BlobfinderProxy";
   Attach(PLAYER_BLOBFINDER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  mWidth = static_cast<uint32_t>(mLink->property("image_width", 0.0));
-  mHeight = static_cast<uint32_t>(mLink->property("image_height", 0.0));
+  const auto pixels = [this](const char* name) {
+    constexpr double kMost = 1 << 20U;  // servers may say what they like
+    return static_cast<uint32_t>(std::clamp(mLink->property(name, 0.0), 0.0, kMost));
+  };
+  mWidth = pixels("image_width");
+  mHeight = pixels("image_height");
 }
 
 void BlobfinderProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }

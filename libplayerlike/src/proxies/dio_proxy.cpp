@@ -1,4 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <ostream>
 #include <string>
 
@@ -47,7 +48,8 @@ bool DioProxy::GetInput(uint32_t aIndex) const {
 void DioProxy::SetOutput(uint32_t aCount, uint32_t aDigout) {
   const char* fun = "DioProxy::SetOutput";
   const scoped_lock_t lock(LockData(fun));
-  const double count = mLink->property("outputs", sim::DioParams::kMaxLines);
+  const double count = std::clamp<double>(mLink->property("outputs", sim::DioParams::kMaxLines),
+                                          0.0, sim::DioParams::kMaxLines);
   if (!(aCount <= count)) {
     throw PlayerError(fun,
                       std::to_string(aCount) + " outputs are to be set, but there are " +

@@ -1,4 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <ostream>
 #include <string>
 
@@ -65,7 +66,7 @@ void GripperProxy::Subscribe(uint32_t aIndex) {
   mGeom.outer_size = {opening + 2.0 * mLink->property("thickness", 0.0), length, height};
   mGeom.inner_size = {opening, length, height};
   mGeom.num_beams = 2;
-  mGeom.capacity = static_cast<uint8_t>(mLink->property("capacity", 0.0));
+  mGeom.capacity = static_cast<uint8_t>(std::clamp(mLink->property("capacity", 0.0), 0.0, 255.0));
 }
 
 void GripperProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }

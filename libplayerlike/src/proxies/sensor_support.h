@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -41,11 +42,28 @@ inline double setting_of(const std::map<std::string, double>& settings, const st
   return it == settings.end() ? 0.0 : it->second;
 }
 
+/// One of a device's settings that counts something; 0 if it has none of that name.
+/// @throws PlayerError kNotAvailable if it is no whole number up to kMostElements: servers may say
+///         what they like.
+inline constexpr std::size_t kMostElements = std::size_t{1} << 20U;
+inline std::size_t count_of(const std::map<std::string, double>& settings,
+                            const std::string& name) {
+  const double count = setting_of(settings, name);
+  if (count >= 0.0 && count <= static_cast<double>(kMostElements) && count == std::floor(count)) {
+    return static_cast<std::size_t>(count);
+  }
+  throw PlayerError("",
+                    "the server says that a device has " + std::to_string(count) + " of its \"" +
+                        name + "\"; expected a whole number from 0 to " +
+                        std::to_string(kMostElements),
+                    PlayerError::kNotAvailable);
+}
+
 /// Poses on the body of the elements of a device that has the properties count, mount_x_0,
 /// mount_y_0, mount_yaw_0, ... and height.
 inline std::vector<player_pose3d_t> element_poses(const std::map<std::string, double>& settings) {
   const auto setting = [&](const std::string& name) { return setting_of(settings, name); };
-  std::vector<player_pose3d_t> poses(static_cast<std::size_t>(setting("count")));
+  std::vector<player_pose3d_t> poses(count_of(settings, "count"));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string number = std::to_string(i);
     poses[i] = {

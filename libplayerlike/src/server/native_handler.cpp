@@ -91,7 +91,7 @@ const NativeHandler::Request* NativeHandler::find_request(std::string_view name)
       {"place_object", {"id", "do", "name", "pose"}, &H::place_object},
       {"object_property", {"id", "do", "name", "property"}, &H::object_property},
       {"set_object_property", {"id", "do", "name", "property", "value"}, &H::set_object_property},
-      {"log", {"id", "do", "file", "replay", "rewind", "running"}, &H::log},
+      {"log", {"id", "do", "file", "replay", "rewind", "running"}, nullptr},
       {"time", {"id", "do"}, &H::time, true},
       {"prefer_real_time", {"id", "do", "reason"}, &H::prefer_real_time},
       {"thread_ended", {"id", "do", "thread"}, &H::thread_ended},
@@ -197,6 +197,7 @@ void NativeHandler::carry_out(const json& message, const json& id, std::string& 
                           [this, id] { answer(id, json::object()); });
   }
   if (name == "resize_canvas") require_canvas_rights();
+  if (name == "log") require_log_rights(message);
   answer_elsewhere(message, id, name, find_native_work(name));
 }
 
@@ -637,21 +638,18 @@ json NativeHandler::set_object_property(const json& request) {
   return json::object();
 }
 
-json NativeHandler::log(const json& request) {
-  LogControl changes;
-  if (request.contains("file")) changes.file = protocol::require_text(request, "file");
-  if (request.contains("replay")) changes.replay = protocol::require_bool(request, "replay");
-  if (request.contains("rewind")) changes.rewind = protocol::require_bool(request, "rewind");
-  if (request.contains("running")) changes.running = protocol::require_bool(request, "running");
-  if (changes.file || changes.replay || changes.rewind || changes.running) {
-    int robot = -1;
-    const auto& robots = hub_.host().robots();
-    for (std::size_t i = 0; i < robots.size(); ++i) {
-      if (robots[i].port == terms_.port) robot = static_cast<int>(i);
-    }
-    require_rights(robot);
+void NativeHandler::require_log_rights(const json& request) const {
+  constexpr std::array<const char*, 4> kChanges{"file", "replay", "rewind", "running"};
+  if (std::none_of(kChanges.begin(), kChanges.end(),
+                   [&](const char* key) { return request.contains(key); })) {
+    return;
   }
-  return {{"log", protocol::encode_log(session().control_log(changes))}};
+  int robot = -1;
+  const auto& robots = hub_.host().robots();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (robots[i].port == terms_.port) robot = static_cast<int>(i);
+  }
+  require_rights(robot);
 }
 
 // --- Time

@@ -81,6 +81,8 @@ class NativeHandler final : public Handler {
   /// there.
   void require_drawing(std::span<const sim::DrawOperation> drawings) const;
   void require_canvas_rights() const;
+  /// @throws ProtocolError access/denied if the request changes a log that is not the client's.
+  void require_log_rights(const json& request) const;
   void answer(const json& id, json answer);
   void fail(const json& id, const std::string& name, std::string_view error, const char* message);
 
@@ -119,7 +121,6 @@ class NativeHandler final : public Handler {
   json place_object(const json& request);
   json object_property(const json& request);
   json set_object_property(const json& request);
-  json log(const json& request);
   json time(const json& request);
   json prefer_real_time(const json& request);
   json thread_ended(const json& request);

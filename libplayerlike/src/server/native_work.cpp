@@ -8,6 +8,7 @@
 
 #include "host/object_properties.h"
 #include "protocol/codec.h"
+#include "server/workshop.h"
 #include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 
@@ -116,6 +117,15 @@ json world_map(const NativeSubject& subject, const json& request) {
   return {{"map", protocol::encode_map(subject.session.world_map(cell_size_m), subject.encoding)}};
 }
 
+json log(const NativeSubject& subject, const json& request) {
+  LogControl changes;
+  if (request.contains("file")) changes.file = protocol::require_text(request, "file");
+  if (request.contains("replay")) changes.replay = protocol::require_bool(request, "replay");
+  if (request.contains("rewind")) changes.rewind = protocol::require_bool(request, "rewind");
+  if (request.contains("running")) changes.running = protocol::require_bool(request, "running");
+  return {{"log", protocol::encode_log(subject.session.control_log(changes))}};
+}
+
 struct Row {
   std::string_view name;
   NativeWork work;
@@ -125,7 +135,8 @@ constexpr std::array kRows{Row{"cells", cells},
                            Row{"resize_canvas", resize_canvas},
                            Row{"save_image", save_image},
                            Row{"save_map", save_map},
-                           Row{"world_map", world_map}};
+                           Row{"world_map", world_map},
+                           Row{"log", log}};
 
 }  // namespace
 
@@ -163,6 +174,8 @@ std::size_t native_work_cells(const NativeSubject& subject, const json& request,
     }
     return static_cast<std::size_t>(std::clamp(cells, 0.0, kMaxMapCells));
   }
+  // A log that begins may have to be read first, and be long.
+  if (name == "log") return request.contains("running") ? kLightCells + 1 : 0;
   const auto cells_of = [](std::int64_t width, std::int64_t height) {
     return static_cast<std::size_t>(std::max<std::int64_t>(width, 0) *
                                     std::max<std::int64_t>(height, 0));

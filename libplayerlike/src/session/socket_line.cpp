@@ -125,8 +125,10 @@ void SocketLine::flush() {
   connection->tell(bytes);  // also if there is nothing to send: it says whether it is lost
 }
 
-json SocketLine::ask(json& request, Connection::Patience patience, bool waits) {
+json SocketLine::ask(json& request, Connection::Patience patience, bool waits,
+                     std::shared_ptr<Connection>* answered_by) {
   const std::shared_ptr<Connection> connection = this->connection();
+  if (answered_by != nullptr) *answered_by = connection;
   std::uint64_t id = 0;
   std::uint64_t said = 0;
   {
@@ -144,12 +146,16 @@ json SocketLine::ask(json& request, Connection::Patience patience, bool waits) {
 }
 
 json SocketLine::ask(json& request, Connection::Patience patience) {
-  return ask(request, patience, false);
+  return ask(request, patience, false, nullptr);
+}
+
+json SocketLine::ask(json& request, std::shared_ptr<Connection>& answered_by) {
+  return ask(request, Connection::Patience::kTimeout, false, &answered_by);
 }
 
 json SocketLine::wait(json& request) {
   if (!paced_) settle_others();
-  return ask(request, Connection::Patience::kLiving, true);
+  return ask(request, Connection::Patience::kLiving, true, nullptr);
 }
 
 void SocketLine::tell(const json& message) {

@@ -40,6 +40,8 @@ class SocketLine : public std::enable_shared_from_this<SocketLine> {
   /// Sends drawings and a request, and waits for the answer. @throws as Connection.
   nlohmann::json ask(nlohmann::json& request,
                      Connection::Patience patience = Connection::Patience::kTimeout);
+  /// The same; tells which connection has answered.
+  nlohmann::json ask(nlohmann::json& request, std::shared_ptr<Connection>& answered_by);
   /// A request by which a thread waits: what other sessions of the process have said to the
   /// simulation before has arrived when it is sent, so that a step finds it there.
   nlohmann::json wait(nlohmann::json& request);
@@ -61,7 +63,8 @@ class SocketLine : public std::enable_shared_from_this<SocketLine> {
   using Lock = std::unique_lock<std::mutex>;
   /// What waits in the draw queue as bytes, ready to be sent. `say_mutex_` is held.
   [[nodiscard]] std::string take_drawings(protocol::Encoding encoding, std::size_t limit);
-  nlohmann::json ask(nlohmann::json& request, Connection::Patience patience, bool waits);
+  nlohmann::json ask(nlohmann::json& request, Connection::Patience patience, bool waits,
+                     std::shared_ptr<Connection>* answered_by);
   void start_flusher();
   void flush_now_and_then();
 

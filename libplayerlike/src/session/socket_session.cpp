@@ -168,6 +168,7 @@ SocketSession::SocketSession(SocketSettings settings, std::optional<std::string>
     line_->set_paced(time.mode == sim::TimeMode::kPaced);
   });
   line_->simulation()->add(line_);
+  resumed_ = connection;
 }
 
 SocketSession::~SocketSession() { close(); }
@@ -218,13 +219,14 @@ bool SocketSession::pause(double seconds) const {
   return !closed_;
 }
 
-void SocketSession::resume(Connection& connection) const {
+void SocketSession::resume(const std::shared_ptr<Connection>& connection) const {
   const auto carry_out = [&](json& request) {
-    static_cast<void>(connection.answer(connection.ask(request)));
+    static_cast<void>(connection->answer(connection->ask(request)));
   };
   std::vector<json> requests;
   {
     const Lock lock(mutex_);
+    resumed_ = connection;
     if (!replace_by_default_) {
       requests.push_back({{"do", "replace"}, {"device", nullptr}, {"replace", false}});
     }
@@ -258,7 +260,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
           throw SessionError(SessionError::Code::kDisconnected,
                              "the server has robots now that this client does not know");
         }
-        resume(*connection);
+        resume(connection);
         line_->replace(connection, protocol::require_text(welcome, "simulation"));
         note(welcome);
       });
@@ -313,14 +315,33 @@ bool SocketSession::connected() const noexcept { return !closed_ && !line_->conn
 
 void SocketSession::subscribe(DeviceId device) {
   require_device(robots_, device);
-  request(device_request("subscribe", device));
-  const Lock lock(mutex_);
-  ++subscriptions_[key_of(device)];
+  request_for_good(device_request("subscribe", device), [&] { ++subscriptions_[key_of(device)]; });
+}
+
+template <typename Note>
+void SocketSession::request_for_good(const json& request, Note note_it) {
+  for (;;) {
+    std::shared_ptr<Connection> answered_by;
+    const json answer = with_connection([&] {
+      json copy = request;
+      return line_->ask(copy, answered_by);
+    });
+    note(answer);
+    throw_complaint();
+    const Lock lock(mutex_);
+    // Another thread may have made another connection since the answer, and told it of all but
+    // this.
+    if (resumed_ != answered_by) continue;
+    note_it();
+    return;
+  }
 }
 
 void SocketSession::unsubscribe(DeviceId device) {
+  std::shared_ptr<const Connection> subscribed;
   {
     const Lock lock(mutex_);
+    subscribed = resumed_;
     const auto it = subscriptions_.find(key_of(device));
     if (it != subscriptions_.end() && --it->second == 0) {
       subscriptions_.erase(it);
@@ -329,23 +350,44 @@ void SocketSession::unsubscribe(DeviceId device) {
       if (waited > 0 && readings_.empty()) round_ = false;
     }
   }
-  // Not worth another connection: that will not have the subscription.
-  require_open();
   json request = device_request("unsubscribe", device);
-  note(line_->ask(request));
+  for (;;) {
+    require_open();
+    const std::shared_ptr<Connection> connection = line_->connection();
+    std::shared_ptr<Connection> answered_by = connection;
+    std::optional<ConnectionLost> lost;
+    try {
+      note(line_->ask(request, answered_by));
+    } catch (const ConnectionLost& e) {
+      lost = e;
+    }
+    bool newest = false;
+    {
+      const Lock lock(mutex_);
+      newest = resumed_ == answered_by;
+    }
+    if (newest) {
+      // Not worth another connection: that will not have the subscription.
+      if (lost) throw *lost;
+      return;
+    }
+    // Another thread is making a connection, which was told of the subscription before.
+    { const Lock made(recover_mutex_); }
+    if (line_->connection() != subscribed) return;
+  }
 }
 
 void SocketSession::set_replace(std::optional<DeviceId> device, bool replace) {
   json message = {{"do", "replace"}, {"device", nullptr}, {"replace", replace}};
   if (device) message["device"] = protocol::encode_device_id(*device);
-  request(std::move(message));
-  const Lock lock(mutex_);
-  if (device) {
-    replace_[key_of(*device)] = replace;
-  } else {
-    replace_by_default_ = replace;
-    replace_.clear();
-  }
+  request_for_good(message, [&] {
+    if (device) {
+      replace_[key_of(*device)] = replace;
+    } else {
+      replace_by_default_ = replace;
+      replace_.clear();
+    }
+  });
 }
 
 std::uint32_t SocketSession::overflow_count() const { return overflow_; }
@@ -377,6 +419,7 @@ void SocketSession::accept(const json& answer, bool round) {
   understood([&] {
     std::vector<protocol::DecodedReading> readings;
     if (const auto list = answer.find("readings"); list != answer.end()) {
+      if (!list->is_array()) protocol::refuse_value("readings", "a list", *list);
       readings.reserve(list->size());
       const Encoding encoding = line_->connection()->encoding();
       for (const json& reading : *list) {

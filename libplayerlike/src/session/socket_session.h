@@ -114,7 +114,11 @@ class SocketSession final : public Session {
   bool recover(const std::shared_ptr<Connection>& lost) const;
   [[nodiscard]] std::shared_ptr<Connection> connect() const;
   /// Has on a new connection what the lost one had. @throws SessionError.
-  void resume(Connection& connection) const;
+  void resume(const std::shared_ptr<Connection>& connection) const;
+  /// Asks for something that every connection to come is to be asked for as well, and notes that it
+  /// is (note(), under `mutex_`), unless the connection was replaced meanwhile: then once more.
+  template <typename Note>
+  void request_for_good(const nlohmann::json& request, Note note_it);
   /// Waits between two attempts. @return whether the session is still open.
   bool pause(double seconds) const;
 
@@ -146,6 +150,8 @@ class SocketSession final : public Session {
   /// Over what follows; never held while waiting for the server.
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
+  /// The newest connection that was told of all that is noted in the next three.
+  mutable std::shared_ptr<const Connection> resumed_;
   std::map<std::pair<int, int>, int> subscriptions_;  ///< device -> count
   bool replace_by_default_ = true;
   std::map<std::pair<int, int>, bool> replace_;  ///< told since the last rule for all devices

@@ -403,6 +403,40 @@ TEST_F(Playerc, ReadsClientsOfSeveralWorldsTogether) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("the simulated run is over"));
 }
 
+// What a callback destroys must not be looked at afterwards; the sanitizers' build tells.
+TEST_F(Playerc, ACallbackMayDestroyItsClientAndTheList) {
+  struct Told {
+    playerc_mclient_t* group;
+    playerc_client_t* client;
+    playerc_position2d_t* base;
+    bool list_too;
+    int count = 0;
+  };
+  for (const bool list_too : {false, true}) {
+    playerc_mclient_t* const group = playerc_mclient_create();
+    playerc_client_t* const doomed = client(6665, group).release();
+    const auto other = client(6666, group);
+    playerc_position2d_t* const base = position(doomed).release();
+    const auto base2 = position(other.get());
+    Told told{group, doomed, base, list_too};
+    const auto destroy = [](void* data) {
+      auto& it = *static_cast<Told*>(data);
+      ++it.count;
+      playerc_position2d_destroy(it.base);
+      playerc_client_destroy(it.client);
+      if (it.list_too) playerc_mclient_destroy(it.group);
+    };
+    ASSERT_EQ(playerc_client_addcallback(doomed, &base->info, destroy, &told), 0);
+    while (told.count == 0) ASSERT_GT(playerc_mclient_read(group, 1000), 0) << playerc_error_str();
+    EXPECT_EQ(told.count, 1);
+    if (list_too) continue;
+    EXPECT_EQ(group->client_count, 1);
+    EXPECT_EQ(playerc_mclient_read(group, -1), 1);
+    EXPECT_NEAR(group->time, base2->info.datatime, 1e-9);
+    playerc_mclient_destroy(group);
+  }
+}
+
 TEST_F(Playerc, HoldsAtMost128ClientsInAList) {
   const Owned<playerc_mclient_t> group(playerc_mclient_create());
   std::vector<Owned<playerc_client_t>> clients;

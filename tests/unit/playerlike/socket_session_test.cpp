@@ -5,12 +5,20 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <future>
 #include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +28,7 @@
 #include "playerlike/host/embedded.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"
+#include "raw_client.h"
 #include "relay.h"
 #include "sim/core/error.h"
 #include "sim/devices/localization.h"
@@ -594,6 +603,236 @@ TEST(SocketSessions, SleepInAPacedSimulationLetsOthersReadMeanwhile) {
   stop = true;
   reader.join();
   EXPECT_GE(rounds, 2);
+}
+
+// --- Servers that say what no server should
+
+/// What a server answers to hello.
+nlohmann::json welcome_of(const Served& served) {
+  test_support::RawClient client("127.0.0.1", served.port());
+  client.send("1 playpen hello [{\"version\": 1, \"port\": 6665}]\n");
+  return nlohmann::json::parse(client.line().substr(std::string("1 SUCCESS ").size()));
+}
+
+/// A server that has said all of this before it is asked.
+std::string said(const nlohmann::json& welcome, const std::string& more = "") {
+  return "1 SUCCESS " + welcome.dump() + '\n' + more;
+}
+
+/// A server on loopback with a thread of its own: what it answers to each line is up to the test.
+class ScriptedServer {
+ public:
+  struct Reply {
+    std::string text;
+    bool then_close = false;
+  };
+  /// @param answer  called by the thread with the number of the connection, from 0, and a line.
+  explicit ScriptedServer(std::function<Reply(int, const std::string&)> answer)
+      : answer_(std::move(answer)), thread_([this] { run(); }) {}
+  ScriptedServer(const ScriptedServer&) = delete;
+  ScriptedServer& operator=(const ScriptedServer&) = delete;
+  ~ScriptedServer() {
+    stop_ = true;
+    thread_.join();
+  }
+  [[nodiscard]] int port() const noexcept { return listening_.port(); }
+
+ private:
+  struct Link {
+    int number;
+    int socket;
+    std::string input;
+  };
+
+  void run() {
+    std::vector<Link> links;
+    int count = 0;
+    while (!stop_) {
+      std::vector<pollfd> polled{{listening_.descriptor(), POLLIN, 0}};
+      for (const Link& link : links) polled.push_back({link.socket, POLLIN, 0});
+      if (poll(polled.data(), polled.size(), 5) <= 0) continue;
+      for (std::size_t i = links.size(); i-- > 0;) {
+        if (polled[i + 1].revents == 0 || serve(links[i])) continue;
+        close(links[i].socket);
+        links.erase(links.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+      if (polled[0].revents == 0) continue;
+      const int socket = accept(listening_.descriptor(), nullptr, nullptr);
+      if (socket >= 0) links.push_back({count++, socket, ""});
+    }
+    for (const Link& link : links) close(link.socket);
+  }
+
+  bool serve(Link& link) {
+    std::array<char, 65536> buffer;
+    const ssize_t count = recv(link.socket, buffer.data(), buffer.size(), 0);
+    if (count <= 0) return false;
+    link.input.append(buffer.data(), static_cast<std::size_t>(count));
+    for (std::size_t end = link.input.find('\n'); end != std::string::npos;
+         end = link.input.find('\n')) {
+      const Reply reply = answer_(link.number, link.input.substr(0, end));
+      link.input.erase(0, end + 1);
+      for (std::string_view rest = reply.text; !rest.empty();) {
+        const ssize_t sent = send(link.socket, rest.data(), rest.size(), MSG_NOSIGNAL);
+        if (sent <= 0) return false;
+        rest.remove_prefix(static_cast<std::size_t>(sent));
+      }
+      if (reply.then_close) return false;
+    }
+    return true;
+  }
+
+  std::function<Reply(int, const std::string&)> answer_;
+  ListeningSocket listening_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+/// A request; null for hello.
+nlohmann::json request_in(const std::string& line) {
+  return line.starts_with("{") ? nlohmann::json::parse(line) : nlohmann::json();
+}
+
+/// All values in a message, and those in them.
+void find_places(const nlohmann::json& value, const nlohmann::json::json_pointer& at,
+                 std::vector<nlohmann::json::json_pointer>& places) {
+  places.push_back(at);
+  // One robot, as the others are of the same kind, and all its devices.
+  const std::size_t most = !at.empty() && at.back() == "robots" ? 1 : 100;
+  for (std::size_t i = 0; value.is_array() && i < std::min(value.size(), most); ++i) {
+    find_places(value[i], at / i, places);
+  }
+  if (!value.is_object()) return;
+  for (const auto& [key, member] : value.items()) find_places(member, at / key, places);
+}
+
+TEST(LyingServers, AreToldByTheirEventsWithoutAForeignException) {
+  const Served served;
+  const nlohmann::json welcome = welcome_of(served);
+  for (const std::string event : {R"({"event":"bye","message":5})",
+                                  R"({"event":"bye"})",
+                                  R"({"event":5})",
+                                  R"({"event":{}})",
+                                  R"({"event":"error","error":5,"message":{}})",
+                                  R"({"event":"error","error":"x","message":5})",
+                                  R"({"event":"error"})",
+                                  R"([1,2])",
+                                  R"(5)",
+                                  R"({"id":"x"})",
+                                  R"({"id":-1})",
+                                  R"({"id":1,"error":"x","message":5})",
+                                  R"({"id":1,"error":"session/finished","message":[]})",
+                                  R"({"id":1})",
+                                  R"({"id":1,"readings":5})",
+                                  R"({"id":1,"readings":{"a":1}})",
+                                  R"({"id":1,"readings":[5]})",
+                                  R"({"id":1,"readings":[{"device":[0,0],"type":"laser"}]})",
+                                  R"({"id":1,"overflow":"x"})",
+                                  R"({"id":1,"overflow":-1})",
+                                  R"({"id":1,"canvas":5})",
+                                  R"({"id":1,"finished":1})",
+                                  R"({"id":1,"data":"x"})"}) {
+    const ScriptedServer server([&](int, const std::string& line) -> ScriptedServer::Reply {
+      const nlohmann::json request = request_in(line);
+      if (request.is_null()) return {said(welcome)};
+      return {request["do"] == "read" ? event + '\n' : "", /*then_close=*/true};
+    });
+    const auto session = connect(server.port());
+    try {
+      session->wait();
+      EXPECT_EQ(event, R"({"id":1})");
+    } catch (const SessionError&) {
+      // As it should be; any other exception fails the test.
+    }
+  }
+}
+
+TEST(LyingServers, AreToldByTheirWelcomeWithoutAForeignException) {
+  const Served served;
+  const nlohmann::json welcome = welcome_of(served);
+  std::vector<nlohmann::json::json_pointer> places;
+  find_places(welcome, nlohmann::json::json_pointer(), places);
+  ASSERT_GT(places.size(), 30U);
+  const std::vector<nlohmann::json> lies = {nullptr, -1, 1e300, "x", nlohmann::json::object()};
+  int refused = 0;
+  for (const auto& place : places) {
+    for (const nlohmann::json& lie : lies) {
+      nlohmann::json changed = welcome;
+      changed[place] = lie;
+      const ScriptedServer server([&](int, const std::string& line) -> ScriptedServer::Reply {
+        const nlohmann::json request = request_in(line);
+        if (request.is_null()) return {said(changed)};
+        return {nlohmann::json{{"id", request.value("id", 0)}}.dump() + '\n'};
+      });
+      try {
+        // Proxies read what the server says of the devices.
+        PlayerCc::PlayerClient client(connect(server.port()));
+        PlayerCc::LaserProxy laser(&client, 0);
+      } catch (const SessionError&) {
+        ++refused;
+      } catch (const PlayerCc::PlayerError&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+// A thread that has its answer may be slow to note it. This one has a hundred thousand lists to
+// throw away before, while the other thread, which reads the connection, finds it closed and makes
+// the next one.
+TEST(SocketSessions, ASubscriptionAnsweredWhileAnotherThreadReconnectsIsKept) {
+  const Served served;
+  const nlohmann::json welcome = welcome_of(served);
+  std::string chaff = ",\"chaff\":[[]";
+  for (int i = 0; i < 300'000; ++i) chaff += ",[]";
+  chaff += "]}\n";
+  std::mutex mutex;
+  std::vector<std::string> told;  // on the second connection
+  std::promise<void> reading;
+  std::promise<void> told_of_data;
+  bool data_due = false;
+  const ScriptedServer server(
+      [&](int connection, const std::string& line) -> ScriptedServer::Reply {
+        const nlohmann::json request = request_in(line);
+        if (request.is_null()) return {said(welcome)};
+        const std::string what = request["do"];
+        std::string id = "{\"id\":" + std::to_string(request.value("id", 0));
+        if (connection == 0 && what == "read") {
+          reading.set_value();
+          return {};
+        }
+        if (connection == 0 && what == "subscribe") return {id + chaff, /*then_close=*/true};
+        const std::lock_guard lock(mutex);
+        told.push_back(what);
+        if (what == "read" && !data_due) {
+          data_due = true;
+          told_of_data.set_value();
+        }
+        if (what == "read") return {id + ",\"readings\":[],\"data\":true}\n"};
+        return {id + "}\n"};
+      });
+  const auto session = connect(server.port());
+  session->set_retries(-1, 0.0);
+  std::thread reader([&] { session->wait(); });
+  reading.get_future().wait();
+  session->subscribe({0, 0});
+  reader.join();
+  told_of_data.get_future().wait();
+  const std::lock_guard lock(mutex);
+  EXPECT_THAT(told, testing::Contains("subscribe"));
+  EXPECT_EQ(std::count(told.begin(), told.end(), "subscribe"), 1);
+}
+
+TEST(SocketSessions, AnAnswerThatLiesThereIsReadHoweverLate) {
+  const Served served;
+  const nlohmann::json welcome = welcome_of(served);
+  const nlohmann::json answer = {{"id", 1}, {"time", welcome["time"]}};
+  // It came with the welcome, so it was there before it was asked for.
+  Relay relay(said(welcome, answer.dump() + '\n'));
+  const auto session = connect(relay.port());
+  session->set_request_timeout(0.0);
+  EXPECT_EQ(session->time().sim_time_ns, 0);
 }
 
 }  // namespace
