@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The same program gives the same result, each time, however busy the machine is: every program of
-// thread_programs many times over, beside four busy processes a core.
+// The same program gives the same result, each time, however busy the machine is: every program
+// with threads many times over, beside four busy processes a core.
 // PLAYPEN_REPEATS in the environment says how often; .ci/run nightly does.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,18 +35,25 @@ using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
 const char* const kPreloaded = PRELOADED_LIBRARY;
-constexpr const char* kDuration_s = "30";
+constexpr const char* kDuration_s = "6";
 
 int repeats() {
   const char* text = std::getenv("PLAYPEN_REPEATS");
   return text == nullptr ? 10 : std::max(2, std::atoi(text));
 }
 
-std::vector<std::string> program_names() {
+using Command = std::vector<std::string>;
+
+/// All programs with threads.
+std::vector<Command> programs() {
   std::istringstream lines(test_support::run_process({THREAD_PROGRAMS}).out);
-  std::vector<std::string> names;
-  for (std::string line; std::getline(lines, line);) names.push_back(line);
-  return names;
+  std::vector<Command> all;
+  for (std::string line; std::getline(lines, line);) all.push_back({THREAD_PROGRAMS, line});
+  for (const char* name : {"read_in_background", "read_in_own_thread", "have_threads_with_clients",
+                           "join_threads", "wait_for_each_other", "steer_when_told"}) {
+    all.push_back({SLEEPING_PROGRAM, name});
+  }
+  return all;
 }
 
 /// Four busy processes a core. They end with this, and with the test.
@@ -77,9 +84,11 @@ class Repeats : public testing::Test {
                            {"PLAYPEN_DURATION", kDuration_s}};
     return options;
   }
-  [[nodiscard]] std::vector<std::string> whole_run(const std::string& name) const {
-    return {PLAYPEN_COMMAND, "run", world_, "--quiet",       "--duration", kDuration_s,
-            "--out",         out_,  "--",   THREAD_PROGRAMS, name};
+  [[nodiscard]] Command whole_run(const Command& program) const {
+    Command command = {PLAYPEN_COMMAND, "run",   world_, "--quiet", "--duration",
+                       kDuration_s,     "--out", out_,   "--"};
+    command.insert(command.end(), program.begin(), program.end());
+    return command;
   }
   /// What a run leaves: the report, without what tells of the wall clock, and the trajectory.
   [[nodiscard]] std::string results() const {
@@ -105,12 +114,13 @@ class Repeats : public testing::Test {
 };
 
 TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
-  const std::vector<std::string> names = program_names();
-  ASSERT_GE(names.size(), 20U);
+  const std::vector<Command> all = programs();
+  ASSERT_GE(all.size(), 26U);
   int runs = 0;
   int different = 0;
   const Load load;
-  for (const std::string& name : names) {
+  for (const Command& program : all) {
+    const std::string& name = program.back();
     std::optional<std::string> printed;
     std::optional<std::string> left;
     const auto compare = [&](const ProcessResult& result) {
@@ -123,16 +133,17 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
     // One of five with its results; of the others two at a time.
     for (int i = 0; i < repeats(); ++i) {
       if (i % 5 == 0) {
-        compare(Process(whole_run(name)).finish());
+        compare(Process(whole_run(program)).finish());
         const std::string results_now = results();
+        EXPECT_THAT(results_now, HasSubstr(R"("repeatable":true)")) << name;
         if (!left) left = results_now;
         different += results_now == *left ? 0 : 1;
         EXPECT_EQ(results_now, *left) << name;
         continue;
       }
-      Process other({THREAD_PROGRAMS, name}, environment());
+      Process other(program, environment());
       if (++i < repeats() && i % 5 != 0) {
-        Process beside({THREAD_PROGRAMS, name}, environment());
+        Process beside(program, environment());
         compare(beside.finish());
       } else {
         --i;
@@ -140,7 +151,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
       compare(other.finish());
     }
   }
-  std::cout << names.size() << " programs, " << runs << " runs, " << different
+  std::cout << all.size() << " programs, " << runs << " runs, " << different
             << " different results\n";
   EXPECT_EQ(different, 0);
 }
@@ -159,12 +170,12 @@ TEST_F(Repeats, SoDoTheyOnAMachineThatWasJustStarted) {
   if (const ProcessResult result = test_support::run_process(probe); result.status != 0) {
     GTEST_SKIP() << "no time namespaces here: " << result.err;
   }
-  command.push_back(THREAD_PROGRAMS);
-  for (const std::string& name : program_names()) {
-    const ProcessResult usual = Process({THREAD_PROGRAMS, name}, environment()).finish();
-    command.push_back(name);
-    const ProcessResult early = Process(command, environment()).finish();
-    command.pop_back();
+  for (const Command& program : programs()) {
+    const std::string& name = program.back();
+    const ProcessResult usual = Process(program, environment()).finish();
+    Command in_namespace = command;
+    in_namespace.insert(in_namespace.end(), program.begin(), program.end());
+    const ProcessResult early = Process(in_namespace, environment()).finish();
     EXPECT_EQ(early.status, 0) << name << ": " << early.err;
     EXPECT_EQ(early.out, usual.out) << name;
   }
