@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cstring>
 #include <iostream>
 #include <stdexcept>
 #include <thread>
@@ -14,6 +14,7 @@
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "shipped.h"
+#include "sim/core/replace_file.h"
 #include "terminal.h"
 
 namespace playpen {
@@ -42,10 +43,10 @@ void write_file(const fs::path& file, const std::string& text) {
     std::error_code ignored;  // what is not there then shows below
     fs::create_directories(file.parent_path(), ignored);
   }
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (!out) throw std::runtime_error("the file '" + file.string() + "' can't be written");
+  if (const int error = sim::replace_file(file.string(), text)) {
+    throw std::runtime_error("the file '" + file.string() +
+                             "' can't be written: " + std::strerror(error));
+  }
 }
 
 }  // namespace
@@ -68,15 +69,22 @@ int grade_program(GradeRequest request) {
   settings.output_folder =
       request.output_folder.empty() ? "out/grade/" + settings.task.name : request.output_folder;
 
+  const fs::path file = request.json_file.empty() ? fs::path(settings.output_folder) / "grade.json"
+                                                  : fs::path(request.json_file);
   ProgressLine line;
+  std::size_t written = settings.task.worlds.size() * settings.task.seeds.size() + 1;
   grade::Grade result =
-      grade::grade(settings, [&line](const grade::Progress& progress) { line.show(progress); });
+      grade::grade(settings, [&](const grade::Progress& progress, const grade::Grade& known) {
+        line.show(progress);
+        if (std::exchange(written, progress.ended) == progress.ended) return;  // nothing new
+        grade::Grade present = known;
+        present.program = request.command;
+        write_file(file, grade::json_text(present));
+      });
   line.clear();
   result.program = request.command;  // as the user wrote it
   std::cout << grade::table(
       result, {.columns = terminal_columns(STDOUT_FILENO), .colour = shows_colour(STDOUT_FILENO)});
-  const fs::path file = request.json_file.empty() ? fs::path(settings.output_folder) / "grade.json"
-                                                  : fs::path(request.json_file);
   write_file(file, grade::json_text(result));
   std::cout << "details: " << file.string() << '\n';
   return result.passed() == result.runs.size() ? kOk : kProgramFailed;

@@ -79,6 +79,10 @@ int main(int argc, char** argv) {
   PlayerCc::Position2dProxy position(&robot, 0);
   PlayerCc::LaserProxy laser(&robot, 0);
   PlayerCc::Graphics2dProxy graphics(&robot, 0);
+  if (what == "start") {
+    ready();
+    for (;;) pause();
+  }
   std::vector<player_point_2d_t> trail;
   for (long i = 0;; ++i) {
     robot.Read();

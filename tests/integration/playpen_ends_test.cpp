@@ -1,12 +1,27 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // What is left of a run, however it ends, and that nothing of it goes on.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <array>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstddef>
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "playpen_process.h"
@@ -201,5 +216,204 @@ TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
   EXPECT_FALSE(fs::exists(result("scene.png")));
   EXPECT_FALSE(fs::exists(result("scene.part.png")));
 }
+
+// --- The table of ends: what is left of a run, by how it is ended and when. PLAYPEN_ENDS_TRIES=20
+// tries each end in each phase so often, and prints the table's rows; else each end is tried once.
+
+enum class Whom { kCommand, kProgram, kGroup, kDisk, kTerminal };
+enum class Phase { kStart, kRun, kPictures, kFilm };
+
+struct WayToEnd {
+  const char* name;
+  int signal;
+  Whom whom;
+};
+
+void PrintTo(const WayToEnd& way, std::ostream* out) { *out << way.name; }
+
+constexpr WayToEnd kWaysToEnd[] = {
+    {"SIGINT to the command", SIGINT, Whom::kCommand},
+    {"SIGINT to the program", SIGINT, Whom::kProgram},
+    {"SIGINT to the group (Ctrl-C)", SIGINT, Whom::kGroup},
+    {"SIGTERM to the command", SIGTERM, Whom::kCommand},
+    {"SIGTERM to the program", SIGTERM, Whom::kProgram},
+    {"SIGTERM to the group", SIGTERM, Whom::kGroup},
+    {"SIGHUP to the command", SIGHUP, Whom::kCommand},
+    {"SIGHUP to the program", SIGHUP, Whom::kProgram},
+    {"SIGHUP to the group", SIGHUP, Whom::kGroup},
+    {"SIGKILL to the command", SIGKILL, Whom::kCommand},
+    {"SIGKILL to the program", SIGKILL, Whom::kProgram},
+    {"SIGKILL to the group", SIGKILL, Whom::kGroup},
+    {"crash of the program (SIGSEGV)", SIGSEGV, Whom::kProgram},
+    {"no more room for files (ulimit -f)", 0, Whom::kDisk},
+    {"closed terminal", 0, Whom::kTerminal},
+};
+
+/// A program on a terminal of its own, as its session's leader.
+class OnTerminal {
+ public:
+  explicit OnTerminal(std::vector<std::string> command) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) throw std::runtime_error("pipe failed");
+    held_ = ends[0];
+    child_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
+    if (child_ == 0) {
+      close(ends[0]);
+      std::vector<char*> arguments;
+      for (std::string& word : command) arguments.push_back(word.data());
+      arguments.push_back(nullptr);
+      execv(arguments[0], arguments.data());
+      _exit(127);
+    }
+    close(ends[1]);
+  }
+  OnTerminal(const OnTerminal&) = delete;
+  OnTerminal& operator=(const OnTerminal&) = delete;
+  ~OnTerminal() {
+    kill(child_, SIGKILL);
+    hang_up();
+    while (waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+    close(held_);
+  }
+
+  [[nodiscard]] bool read_until(const std::string& text) {
+    std::array<char, 256> bytes{};
+    while (output_.find(text) == std::string::npos) {
+      const ssize_t count = read(terminal_, bytes.data(), bytes.size());
+      if (count <= 0) return false;
+      output_.append(bytes.data(), static_cast<std::size_t>(count));
+    }
+    return true;
+  }
+  void hang_up() {
+    if (terminal_ >= 0) close(std::exchange(terminal_, -1));
+  }
+  /// Waits until no process of it is left. @return whether that came.
+  [[nodiscard]] bool wait_until_all_are_gone() const {
+    pollfd gone{held_, POLLIN, 0};
+    const auto limit = std::chrono::milliseconds(test_support::patience()).count();
+    return poll(&gone, 1, static_cast<int>(limit)) == 1;
+  }
+
+ private:
+  pid_t child_ = -1;
+  int terminal_ = -1;
+  int held_ = -1;
+  std::string output_;
+};
+
+class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<WayToEnd> {
+ protected:
+  PlaypenEndsTable() {
+    // Pictures of it take a while.
+    json world = json::parse(room_world());
+    world["canvas"]["size"] = {1600, 1600};
+    large_world_ = folder_.write("large.json", world.dump());
+    room_world_ = world_;
+  }
+
+  /// Ends a run in a phase, and sees what is left.
+  /// @return whether nothing is lost.
+  bool attempt(const WayToEnd& way, Phase phase) {
+    fs::remove_all(out_);
+    const bool on_the_way = phase == Phase::kStart || phase == Phase::kRun;
+    world_ = phase == Phase::kPictures ? large_world_ : room_world_;
+    std::vector<std::string> options = {"--quiet"};
+    if (phase == Phase::kRun) options.insert(options.end(), {"--time", "20"});
+    if (!on_the_way) options.insert(options.end(), {"--duration", "5.2"});
+    film_ = folder_ / "film.mp4";
+    fs::remove(film_);
+    if (phase == Phase::kFilm)
+      options.insert(options.end(), {"--record", film_, "--record-speed", "4"});
+    const std::vector<std::string> call =
+        command(options, {phase == Phase::kStart ? "start" : "drive"});
+    bool gone = false;
+    if (way.whom == Whom::kTerminal) {
+      OnTerminal process(call);
+      if (!process.read_until("ready")) return false;
+      if (!on_the_way) wait_for(phase);
+      process.hang_up();
+      gone = process.wait_until_all_are_gone();
+    } else {
+      ProcessOptions process_options;
+      // Enough for the report, and for no picture.
+      if (way.whom == Whom::kDisk) process_options.file_limit = 8192;
+      Process process(call, process_options);
+      if (!process.read_until("\n")) return false;
+      if (!on_the_way) wait_for(phase);
+      const pid_t program = std::stoi(process.output().substr(std::string("ready ").size()));
+      switch (way.whom) {
+        case Whom::kCommand:
+          process.send_signal(way.signal);
+          break;
+        case Whom::kProgram:
+          kill(program, way.signal);
+          break;
+        case Whom::kGroup:
+          process.send_signal_to_group(way.signal);
+          break;
+        case Whom::kDisk:
+          if (on_the_way) process.send_signal(SIGTERM);
+          break;
+        case Whom::kTerminal:
+          break;
+      }
+      const ProcessResult end = process.finish();
+      gone = !end.timed_out;
+    }
+    bool reported = false;
+    if (has("report.json")) reported = !report().at("ended").is_null();
+    const bool pictures = has("scene.png") && has("canvas.png");
+    return gone && reported && has("trajectory.csv") && pictures == (way.whom != Whom::kDisk);
+  }
+
+  [[nodiscard]] bool has_film() const { return fs::exists(film_); }
+
+ private:
+  /// Waits until a run that ends by itself has come to a phase.
+  void wait_for(Phase phase) const {
+    const auto deadline = std::chrono::steady_clock::now() + test_support::patience();
+    const char* const before = phase == Phase::kPictures ? "report.json" : "canvas.png";
+    for (;;) {
+      if (std::chrono::steady_clock::now() > deadline) return;
+      if (has(before) && (phase == Phase::kFilm || !report().at("ended").is_null())) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  std::string room_world_;
+  std::string large_world_;
+  std::string film_;
+};
+
+TEST_P(PlaypenEndsTable, LeavesReportTrajectoryAndPictures) {
+  const WayToEnd& way = GetParam();
+  const char* const wanted = std::getenv("PLAYPEN_ENDS_TRIES");
+  const int tries = wanted == nullptr ? 0 : std::atoi(wanted);
+  constexpr Phase kPhases[] = {Phase::kStart, Phase::kRun, Phase::kPictures, Phase::kFilm};
+  if (tries <= 0) {
+    // Another phase for each, so that all have their turn.
+    const std::string name = way.name;
+    const Phase phase = kPhases[(name.size() + static_cast<std::size_t>(way.signal)) % 4];
+    EXPECT_TRUE(attempt(way, phase)) << "phase " << static_cast<int>(phase);
+    return;
+  }
+  std::string row = std::string("| ") + way.name;
+  for (const Phase phase : kPhases) {
+    int kept = 0;
+    int films = 0;
+    for (int i = 0; i < tries; ++i) {
+      if (attempt(way, phase)) ++kept;
+      if (has_film()) ++films;
+    }
+    EXPECT_EQ(kept, tries) << "phase " << static_cast<int>(phase);
+    row += " | " + std::to_string(kept) + " of " + std::to_string(tries);
+    if (phase == Phase::kFilm) row += " | " + std::to_string(films);
+  }
+  std::cout << row << " |" << std::endl;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlaypenEndsTable, testing::ValuesIn(kWaysToEnd));
 
 }  // namespace

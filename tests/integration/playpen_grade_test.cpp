@@ -209,6 +209,40 @@ TEST_F(PlaypenGrade, WritesTheJsonFileWhereToldTo) {
   EXPECT_FALSE(fs::exists(fs::path(out_) / "grade.json"));
 }
 
+TEST_F(PlaypenGrade, TheJsonFileIsWholeAfterEachRun) {
+  const std::string fifo = folder_ / "fifo";
+  ASSERT_EQ(std::system(("mkfifo " + fifo).c_str()), 0);
+  std::vector<std::string> command = arguments(
+      {"--seeds", "2", "--jobs", "1"},
+      {"sh", "-c", "test $PLAYPEN_SEED = 1 && exit 3; echo up > " + fifo + "; sleep 1000"});
+  command.insert(command.begin(), PLAYPEN_COMMAND);
+  Process process(command);
+  std::ifstream from_program(fifo);
+  std::string word;
+  from_program >> word;
+  EXPECT_EQ(word, "up");
+  const json present = result();
+  EXPECT_EQ(present.at("runs").at(0).at("end"), json({{"kind", "bad-status"}, {"status", 3}}));
+  EXPECT_EQ(present.at("runs").at(1).at("faults"), json({"not run yet"}));
+  process.send_signal(SIGKILL);
+  EXPECT_FALSE(process.finish().timed_out) << "something goes on";
+  EXPECT_EQ(result(), present);
+}
+
+TEST_F(PlaypenGrade, AProgramCannotReachResultsThatAreJudged) {
+  // It writes where its results will be, and into those of the first run.
+  const ProcessResult run = grade({"--seeds", "2", "--jobs", "1"},
+                                  {"sh", "-c",
+                                   "for d in room_seed1 room_seed2; do echo '{}' > " + out_ +
+                                       "/$d/report.json; done; "
+                                       "exec \"$0\"",
+                                   TEMPLATE_PROGRAM});
+  EXPECT_EQ(run.status, 0) << run.out;
+  for (const auto& entry : fs::directory_iterator(out_)) {
+    EXPECT_THAT(entry.path().filename().string(), Not(testing::StartsWith(".running")));
+  }
+}
+
 TEST_F(PlaypenGrade, InterruptedItEndsAllProgramsAndWritesWhatThereIs) {
   const std::string fifo = folder_ / "fifo";
   ASSERT_EQ(std::system(("mkfifo " + fifo).c_str()), 0);

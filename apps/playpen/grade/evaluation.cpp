@@ -115,6 +115,8 @@ Ending ending_of(const playerlike::JobEnd& end, const Measures& measures,
       return Ending::kInterrupted;
     case Kind::kTimedOut:
       return Ending::kTimedOut;
+    case Kind::kTooMuchOutput:
+      return Ending::kTooMuchOutput;
     case Kind::kEnded:
       break;
   }
@@ -138,6 +140,9 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
       return "the program " + end.program.text();
     case Ending::kTimedOut:
       return "timeout: still running after " + sim::shortest_text(task.timeout_s) + " s";
+    case Ending::kTooMuchOutput:
+      return "the program wrote more than " + std::to_string(kMostOutput / 1'000'000) +
+             " MB into its output folder";
     case Ending::kInterrupted:
       return "the grader was interrupted";
     case Ending::kNotRun:
@@ -237,6 +242,8 @@ std::string name_of(Ending ending) {
       return "signal";
     case Ending::kTimedOut:
       return "timeout";
+    case Ending::kTooMuchOutput:
+      return "too-much-output";
     case Ending::kInterrupted:
       return "interrupted";
     case Ending::kNotRun:

@@ -52,19 +52,23 @@ struct Measures {
   std::optional<double> sim_time_s;
 };
 
+/// What a program may write into its output folder: bytes of all files together.
+inline constexpr std::uint64_t kMostOutput = 250'000'000;
+
 /// How a run ended.
 enum class Ending {
-  kBySelf,       ///< with status 0, before the simulated time was over
-  kTimeOver,     ///< with status 0, as the simulated time was over
-  kBadStatus,    ///< by itself, with another status
-  kSignal,       ///< a signal ended it: it crashed, or was killed
-  kTimedOut,     ///< it took too long by the clock on the wall
-  kInterrupted,  ///< the grader was told to end
-  kNotRun,       ///< the grader was told to end before
+  kBySelf,         ///< with status 0, before the simulated time was over
+  kTimeOver,       ///< with status 0, as the simulated time was over
+  kBadStatus,      ///< by itself, with another status
+  kSignal,         ///< a signal ended it: it crashed, or was killed
+  kTimedOut,       ///< it took too long by the clock on the wall
+  kTooMuchOutput,  ///< it wrote too much into its output folder
+  kInterrupted,    ///< the grader was told to end
+  kNotRun,         ///< the grader was told to end before
 };
 
 /// A word for an ending, as the JSON file has it: "by-itself", "time-over", "bad-status", "signal",
-/// "timeout", "interrupted", "not-run".
+/// "timeout", "too-much-output", "interrupted", "not-run".
 [[nodiscard]] std::string name_of(Ending ending);
 
 /// A run and what it is worth.

@@ -1,7 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "grade/grade.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
@@ -52,7 +57,63 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& w
   job.environment = playerlike::run_environment(world.file, run);
   job.environment.insert(settings.virtual_time.begin(), settings.virtual_time.end());
   job.output_file = (folder / "program.log").string();
+  job.folder = folder.string();
+  job.folder_limit = kMostOutput;
   return job;
+}
+
+/// The folder in which programs run, beside those of the results: what a program leaves is moved
+/// out of it before it is judged.
+class WorkFolder {
+ public:
+  explicit WorkFolder(const fs::path& out) {
+    remove_those_of_others(out);
+    path_ = out / (kPrefix + std::to_string(getpid()));
+    prepare_folder(path_);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  [[nodiscard]] const fs::path& path() const noexcept { return path_; }
+
+ private:
+  static constexpr const char* kPrefix = ".running-";
+
+  /// Those that a grader has left that was killed.
+  static void remove_those_of_others(const fs::path& out) {
+    std::error_code ignored;
+    std::vector<fs::path> left;
+    for (const fs::directory_entry& entry : fs::directory_iterator(out, ignored)) {
+      const std::string name = entry.path().filename().string();
+      if (!name.starts_with(kPrefix)) continue;
+      const int process = std::atoi(name.c_str() + std::string(kPrefix).size());
+      if (process > 0 && kill(process, 0) != 0 && errno == ESRCH) left.push_back(entry.path());
+    }
+    for (const fs::path& folder : left) fs::remove_all(folder, ignored);
+  }
+
+  fs::path path_;
+};
+
+/// Moves what a run has left to where it belongs.
+void take_results(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  std::vector<fs::path> entries;
+  for (const fs::directory_entry& entry : fs::directory_iterator(from, error)) {
+    entries.push_back(entry.path());
+  }
+  for (const fs::path& entry : entries) {
+    const fs::path place = to / entry.filename();
+    fs::rename(entry, place, error);
+    if (!error) continue;
+    fs::remove_all(place, error);  // a folder that is there already
+    fs::rename(entry, place);
+  }
+  fs::remove_all(from, error);
 }
 
 }  // namespace
@@ -80,7 +141,7 @@ void choose_worlds(Task& task, const std::vector<std::string>& files) {
 }
 
 Grade grade(const GradeSettings& settings,
-            const std::function<void(const Progress&)>& on_progress) {
+            const std::function<void(const Progress&, const Grade&)>& on_progress) {
   const Task& task = settings.task;
   Grade result{task, settings.program, {}};
   std::vector<Reference> references;
@@ -90,14 +151,17 @@ Grade grade(const GradeSettings& settings,
   std::vector<playerlike::ProgramJob> jobs;
   std::vector<const Reference*> reference_of;
   const fs::path out(settings.output_folder);
+  const WorkFolder work(out);
   for (std::size_t i = 0; i < task.worlds.size(); ++i) {
     for (const std::uint64_t seed : task.seeds) {
       GradedRun run;
       run.world = references[i].world;
       run.seed = seed;
       run.folder = run.world + "_seed" + std::to_string(seed);
+      run.faults = {"not run yet"};
       prepare_folder(out / run.folder);
-      jobs.push_back(job_for(settings, task.worlds[i], seed, out / run.folder));
+      prepare_folder(work.path() / run.folder);
+      jobs.push_back(job_for(settings, task.worlds[i], seed, work.path() / run.folder));
       reference_of.push_back(&references[i]);
       result.runs.push_back(std::move(run));
     }
@@ -108,22 +172,28 @@ Grade grade(const GradeSettings& settings,
   limits.timeout_s = task.timeout_s;
   Progress progress{jobs.size(), 0, 0};
   const auto tell = [&] {
-    if (on_progress) on_progress(progress);
+    if (on_progress) on_progress(progress, result);
   };
+  tell();
   const std::vector<playerlike::JobEnd> ends = playerlike::run_programs(
       jobs, limits,
       [&](std::size_t /*index*/) {
         ++progress.running;
         tell();
       },
-      [&](std::size_t /*index*/, const playerlike::JobEnd& /*end*/) {
+      [&](std::size_t index, const playerlike::JobEnd& end) {
+        // All processes of the run are gone; those of other runs may still do what they like, so it
+        // is judged now.
+        GradedRun& run = result.runs[index];
+        take_results(work.path() / run.folder, out / run.folder);
+        evaluate(task, *reference_of[index], end, out / run.folder, run);
         --progress.running;
         ++progress.ended;
         tell();
       });
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    GradedRun& run = result.runs[i];
-    evaluate(task, *reference_of[i], ends[i], out / run.folder, run);
+    if (ends[i].kind != playerlike::JobEnd::Kind::kNotStarted) continue;
+    evaluate(task, *reference_of[i], ends[i], out / result.runs[i].folder, result.runs[i]);
   }
   return result;
 }

@@ -40,15 +40,19 @@ void choose_worlds(Task& task, const std::vector<std::string>& files);
 /// does is a result.
 ///
 /// A run has its own output folder, WORLD_seedN, with the usual files of a run and what the
-/// program printed in program.log; results of an earlier grading are taken out of it first.
+/// program printed in program.log; results of an earlier grading are taken out of it first. While
+/// it runs, its output folder lies in another one, .running-N; what is in it is moved, and judged,
+/// when all processes of the run are gone.
 ///
-/// @param on_progress  called whenever a run starts or ends, if set.
+/// @param on_progress  called at first, and whenever a run starts or ends, with what is known by
+///                     then, if set.
 /// @return all runs, also if this process was told to end meanwhile.
 /// @throws sim::ConfigError for a world that can't be used or does not go with the task,
 ///         playerlike::ProgramError if the program can't be started, std::exception if an output
 ///         folder can't be prepared.
 /// @note For a command's main thread, see playerlike::run_programs().
-[[nodiscard]] Grade grade(const GradeSettings& settings,
-                          const std::function<void(const Progress&)>& on_progress = {});
+[[nodiscard]] Grade grade(
+    const GradeSettings& settings,
+    const std::function<void(const Progress&, const Grade&)>& on_progress = {});
 
 }  // namespace playpen::grade

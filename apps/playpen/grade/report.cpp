@@ -61,6 +61,7 @@ std::string ending_text(const GradedRun& run) {
     case Ending::kSignal:
       return "signal " + std::to_string(run.signal.value_or(0));
     case Ending::kTimedOut:
+    case Ending::kTooMuchOutput:
     case Ending::kInterrupted:
       return name_of(run.ending);
     case Ending::kNotRun:

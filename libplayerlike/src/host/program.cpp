@@ -149,12 +149,32 @@ class EndRequests {
   Clock::time_point time_;
 };
 
+/// The bytes of all files in a folder; what is over the limit need not be counted.
+std::uint64_t size_of(const std::string& folder, std::uint64_t limit) {
+  std::uint64_t size = 0;
+  std::error_code error;
+  // What vanishes meanwhile is no error.
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    struct stat info {};
+    if (lstat(entry->path().c_str(), &info) != 0 || !S_ISREG(info.st_mode)) continue;
+    // What is on the disk: a file may have holes.
+    size += std::min(static_cast<std::uint64_t>(info.st_size),
+                     static_cast<std::uint64_t>(info.st_blocks) * 512);
+    if (size > limit) break;
+  }
+  return size;
+}
+
 /// A program that runs in a group of its own. Killed, with all that it has started, if it is let
 /// go.
 class GroupedProgram {
  public:
   GroupedProgram(const ProgramJob& job, std::size_t index, const sigset_t& mask)
-      : index_(index), program_(start_of(job, mask)) {}
+      : index_(index),
+        folder_(job.folder),
+        folder_limit_(job.folder_limit),
+        program_(start_of(job, mask)) {}
 
   [[nodiscard]] std::size_t index() const noexcept { return index_; }
   [[nodiscard]] int descriptor() const noexcept { return program_.descriptor(); }
@@ -181,9 +201,15 @@ class GroupedProgram {
   Clock::time_point look_after(Clock::duration timeout, Clock::duration grace) {
     const Clock::time_point now = Clock::now();
     if (now - start_ >= timeout) ask_to_end(JobEnd::Kind::kTimedOut, grace);
+    if (!folder_.empty() && !kill_time_ && now >= next_look_) {
+      next_look_ = now + kSeldomLook;
+      if (size_of(folder_, folder_limit_) > folder_limit_) {
+        ask_to_end(JobEnd::Kind::kTooMuchOutput, Clock::duration::zero());
+      }
+    }
     if (kill_time_ && now >= *kill_time_ && !std::exchange(killed_, true)) program_.kill_all();
     if (kill_time_) return killed_ ? Clock::time_point::max() : *kill_time_;
-    return start_ + timeout;
+    return folder_.empty() ? start_ + timeout : std::min(start_ + timeout, next_look_);
   }
 
   void end_grace() { kill_time_ = Clock::now(); }
@@ -200,6 +226,9 @@ class GroupedProgram {
   }
 
   std::size_t index_;
+  std::string folder_;
+  std::uint64_t folder_limit_;
+  Clock::time_point next_look_ = Clock::now() + kSeldomLook;
   SupervisedProgram program_;
   Clock::time_point start_ = Clock::now();
   JobEnd::Kind kind_ = JobEnd::Kind::kEnded;

@@ -482,14 +482,15 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
   do {
     size = recv(channel_, &news, sizeof news, 0);
   } while (size < 0 && errno == EINTR);
-  if (size == static_cast<ssize_t>(sizeof news) && news.kind == News::kStarted) {
-    program_ = news.value;
+  // Without a word it was killed, maybe by the program: poll() tells.
+  if (size != static_cast<ssize_t>(sizeof news) || news.kind == News::kStarted) {
+    if (size == static_cast<ssize_t>(sizeof news)) program_ = news.value;
     supervisors().insert(supervisor_);
     return;
   }
   close(channel_);
   reap_supervisor();
-  refuse(size == static_cast<ssize_t>(sizeof news) ? news.value : ECHILD);
+  refuse(news.value);
 }
 
 SupervisedProgram::SupervisedProgram(SupervisedProgram&& other) noexcept

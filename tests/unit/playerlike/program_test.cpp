@@ -347,6 +347,47 @@ TEST_F(RunPrograms, EndsAStoppedProgramToo) {
   EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTimedOut);
 }
 
+TEST_F(RunPrograms, KeepTheFirstBytesOfALongOutputAndSayWhatIsMissing) {
+  ProgramJob loud = job("head -c 300000 /dev/zero | tr '\\0' x; exit 3");
+  loud.output_limit = 1000;
+  const std::vector<JobEnd> ends = run_programs({loud}, {});
+  EXPECT_EQ(ends[0].program.status, 3) << "it is neither blocked nor ended";
+  const std::string kept = log(1);
+  EXPECT_EQ(kept.substr(0, 1000), std::string(1000, 'x'));
+  EXPECT_THAT(kept.substr(1000), HasSubstr("more than 1000 bytes; the last 299000 are left out"));
+}
+
+TEST_F(RunPrograms, EndAProgramWhoseFolderBecomesTooLarge) {
+  const std::string folder = folder_ / "out";
+  fs::create_directories(folder);
+  ProgramJob writer = job("head -c 200000 /dev/urandom > " + folder + "/big; sleep 1000");
+  writer.folder = folder;
+  writer.folder_limit = 100'000;
+  ProgramJob modest = job("head -c 50000 /dev/urandom > " + folder_ / "small");
+  modest.folder = folder_ / "none";
+  modest.folder_limit = 100'000;
+  const std::vector<JobEnd> ends = run_programs({writer, modest}, {});
+  EXPECT_EQ(ends[0].kind, JobEnd::Kind::kTooMuchOutput);
+  EXPECT_EQ(ends[1].kind, JobEnd::Kind::kEnded);
+}
+
+TEST_F(RunPrograms, EndWhatHasLeftTheGroup) {
+  HeldByPrograms held;
+  const std::vector<JobEnd> ends =
+      run_programs({job("(trap '' TERM; setsid sh -c 'sleep 1000 & sleep 1000') & exit 0")}, {});
+  EXPECT_TRUE(ends[0].program.success());
+  held.wait_until_all_are_gone();
+}
+
+TEST_F(RunPrograms, AKilledSupervisorTakesItsProgramAlongAndNoOther) {
+  HeldByPrograms held;
+  const std::vector<JobEnd> ends = run_programs(
+      {job("(setsid sleep 1000) & kill -KILL $PPID; sleep 1000"), job("sleep 1; exit 7")}, {2});
+  EXPECT_EQ(ends[0].program.signal, SIGKILL);
+  EXPECT_EQ(ends[1].program.status, 7);
+  held.wait_until_all_are_gone();
+}
+
 TEST_F(RunPrograms, LeaveNothingRunningInTheirGroups) {
   HeldByPrograms held;
   const std::vector<JobEnd> ends = run_programs({job("sleep 1000 & exit 0")}, {});

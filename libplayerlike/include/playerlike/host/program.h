@@ -91,7 +91,9 @@ struct RunWatch {
 struct ProgramJob {
   std::vector<std::string> command;  ///< path (see find_program()) and arguments; not empty
   EnvironmentChanges environment;
-  std::string output_file;  ///< gets its standard output and standard error, overwritten
+  std::string output_file;         ///< gets its standard output and standard error, overwritten
+  std::string folder = {};         ///< that must not become too large; "": none
+  std::uint64_t folder_limit = 0;  ///< bytes of all its files
   std::uint64_t output_limit = 10'000'000;  ///< bytes of that; what is over is dropped, and told in
                                             ///< the file's last line
 };
@@ -99,10 +101,11 @@ struct ProgramJob {
 /// What became of a ProgramJob.
 struct JobEnd {
   enum class Kind {
-    kEnded,        ///< by itself, or by a signal that others sent
-    kTimedOut,     ///< it was ended because it took too long
-    kInterrupted,  ///< it was ended because this process was told to end
-    kNotStarted,   ///< this process was told to end before its turn came
+    kEnded,          ///< by itself, or by a signal that others sent
+    kTimedOut,       ///< it was ended because it took too long
+    kInterrupted,    ///< it was ended because this process was told to end
+    kTooMuchOutput,  ///< it was ended because its folder had become too large
+    kNotStarted,     ///< this process was told to end before its turn came
   };
   Kind kind = Kind::kNotStarted;
   ProgramEnd program;        ///< how it ended in the end; of kNotStarted: nothing
@@ -124,7 +127,8 @@ struct JobLimits {
 /// when it ends, and SIGKILL a second later. On SIGINT, SIGTERM, SIGHUP or SIGQUIT to this process
 /// all are ended in the same way and no more are started; a second one of these signals ends the
 /// grace (see run_program() for what counts as one). If this process is killed, so are the
-/// programs.
+/// programs. A program whose folder has become too large is killed; that is looked at five times a
+/// second.
 ///
 /// @param on_start  called as a job has started, if set.
 /// @param on_end    called as a job has ended, in the order in which they end, if set. Not called
