@@ -1345,7 +1345,8 @@ void Host::Core::write_results() {
     if (const auto problem = log.close()) warn(*problem);
   }
   if (settings_.output_folder.empty()) return;
-  write_outputs(settings_.output_folder, simulation_, recorder_->scene(simulation_), time_locked());
+  write_outputs(settings_.output_folder, simulation_, recorder_->scene(simulation_), time_locked(),
+                settings_.grading);
 }
 
 void Host::Core::show_progress(bool last) {

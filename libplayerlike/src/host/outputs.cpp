@@ -240,7 +240,8 @@ void write_pictures(const fs::path& out, const sim::Simulation& simulation,
 }  // namespace
 
 void write_outputs(const std::string& folder, const sim::Simulation& simulation,
-                   const sim::SceneSnapshot& scene, const TimeStatistics& time) {
+                   const sim::SceneSnapshot& scene, const TimeStatistics& time,
+                   const Grading& grading) {
   const fs::path out(folder);
   // Pictures that fail are no reason to keep back the report, which is written last: whoever waits
   // for it finds all there is.
@@ -253,8 +254,9 @@ void write_outputs(const std::string& folder, const sim::Simulation& simulation,
   const std::string file = (out / "report.json").string();
   std::ofstream stream(file, std::ios::trunc);
   // What robots said may be any bytes.
-  stream << report(simulation, time).dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
-         << '\n';
+  stream << signed_report(
+      report(simulation, time).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n',
+      grading);
   stream.close();
   if (!stream) throw std::runtime_error("cannot write " + file);
   if (failure) std::rethrow_exception(failure);

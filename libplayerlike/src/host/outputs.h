@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "playerlike/host/grading.h"
 #include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
 #include "sim/io/map_file.h"
@@ -28,10 +29,11 @@ void remove_snapshots(const std::string& folder);
 /// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
 /// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
 /// layers of one name get their clients' ports behind it, and a number if that is not enough.
-/// The report is written last, also where pictures could not be written.
+/// The report is written last, also where pictures could not be written; it is signed for a grader.
 /// @throws std::runtime_error naming the file that could not be written.
 void write_outputs(const std::string& folder, const sim::Simulation& simulation,
-                   const sim::SceneSnapshot& scene, const TimeStatistics& time);
+                   const sim::SceneSnapshot& scene, const TimeStatistics& time,
+                   const Grading& grading = {});
 
 inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 /// Whether a name is that of a file in a folder, and no way out of it: 1 to kMaxFileName bytes

@@ -149,6 +149,7 @@ RunSettings RunSettings::from_environment() {
     settings.view_mode = sim::parse_view_mode(text);
     if (!settings.view_mode) wrong("PLAYPEN_VIEW_MODE", kViewModeExpected);
   }
+  settings.grading.nonce = environment("PLAYPEN_GRADE");
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");

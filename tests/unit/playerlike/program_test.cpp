@@ -33,12 +33,13 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
       run_environment("", RunSettings{}),
       UnorderedElementsAre(
           Pair("PLAYPEN_WORLD", std::nullopt), Pair("PLAYPEN_OUT", std::nullopt),
-          Pair("PLAYPEN_RECORD", std::nullopt), Pair("PLAYPEN_SEED", std::nullopt),
-          Pair("PLAYPEN_DURATION", std::nullopt), Pair("PLAYPEN_TIME", std::nullopt),
-          Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt),
-          Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
-          Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
-          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt)));
+          Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_RECORD", std::nullopt),
+          Pair("PLAYPEN_SEED", std::nullopt), Pair("PLAYPEN_DURATION", std::nullopt),
+          Pair("PLAYPEN_TIME", std::nullopt), Pair("PLAYPEN_PROGRESS", std::nullopt),
+          Pair("PLAYPEN_RUN", std::nullopt), Pair("PLAYPEN_RECORD_FPS", std::nullopt),
+          Pair("PLAYPEN_RECORD_SPEED", std::nullopt), Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt),
+          Pair("PLAYPEN_VIEW_MODE", std::nullopt), Pair("PLAYPEN_VIEW", std::nullopt),
+          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
