@@ -11,6 +11,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_CLIENTS", "How many clients must have joined before simulated time begins.", true},
       {"PLAYPEN_DURATION", "Simulated seconds after which a run ends.", true},
       {"PLAYPEN_ENCODING", "How a program talks to a server: cbor or json.", false},
+      {"PLAYPEN_GRADE", "The number by which a grader knows the report of a run.", true},
       {"PLAYPEN_LIBRARIES",
        "The folder of the modules that draw letters and encode films, where they do not lie beside "
        "Playpen's own libraries.",

@@ -232,6 +232,20 @@ TEST_F(Exploration, BeginsCloseToWallsWithoutTouchingThem) {
   }
 }
 
+// A cage that leaves the robot 15 mm on each side: no cell is far enough from its walls.
+TEST_F(Exploration, ARobotThatIsShutInHasNotExploredAnything) {
+  const std::string file = folder_.write("cage.json", R"({
+    "arena": {"size": [3, 3], "obstacles": [
+      {"center": [1.5, 1.612], "size": [0.3, 0.02]}, {"center": [1.5, 1.388], "size": [0.3, 0.02]},
+      {"center": [1.612, 1.5], "size": [0.02, 0.3]}, {"center": [1.388, 1.5], "size": [0.02, 0.3]}]},
+    "simulation": {"duration": 20}, "canvas": {"size": [172, 186]},
+    "robots": [{"pose": {"x": 1.5, "y": 1.5}}]
+  })");
+  const ProcessResult result = run(file, {}, {NEAREST_PROGRAM});
+  EXPECT_THAT(result.out, HasSubstr("Not finished: the map has no free cell near the robot"));
+  EXPECT_THAT(result.out, Not(HasSubstr("Explored")));
+}
+
 TEST_F(Exploration, ByOdometryNeedsNoLocalisationWhereTheWheelsTellTheTruth) {
   // Without noise the odometry is exact, so the map is as good; its place comes from the start.
   const std::string file = folder_.write("exact.json", R"({

@@ -118,7 +118,7 @@ TEST_F(PlaypenGrade, WhatProgramsDoIsAResult) {
   EXPECT_EQ(runs.at(2).at("end"), json({{"kind", "by-itself"}}));
   EXPECT_THAT(runs.at(2).at("faults").at(0).get<std::string>(), HasSubstr("never connected"));
   EXPECT_EQ(runs.at(3).at("passed"), true) << "it stands still and hits nothing";
-  EXPECT_THAT(runs.at(4).at("faults").at(0).get<std::string>(), HasSubstr("not as expected"));
+  EXPECT_THAT(runs.at(4).at("faults").at(0).get<std::string>(), HasSubstr("not signed"));
   EXPECT_THAT(run.out, AllOf(HasSubstr("room      1  FAIL  signal 11"),
                              HasSubstr("room      2  FAIL  status 3"),
                              HasSubstr("room      4  pass  time over"),
@@ -177,23 +177,73 @@ TEST_F(PlaypenGrade, TakesWorldsSeedsAndArgumentsFromTheTaskAndTheCommandLine) {
 TEST_F(PlaypenGrade, ReachingTheGoalIsMeasuredAgainstTheShortestWay) {
   folder_.write("try.task.json", R"({
     "worlds": [{"world": "room.json", "goal": {"x": 1.5, "y": 1, "tolerance": 0.05}}],
-    "seeds": 1, "thresholds": {"must_reach": true, "must_end": true, "max_path_ratio": 1.5}})");
-  // Instead of driving, it says where it has been: from (0.5, 1) to the place of its arguments.
-  const std::string script =
-      "echo '{\"run\": {\"sim_time\": 7}, \"robots\": [{\"name\": \"r1\", \"path_length\": '$2',"
-      "\"collisions\": 0, \"least_clearance\": 0.1, \"stalled_time\": 0,"
-      "\"final_pose\": {\"x\": '$1', \"y\": 1, \"yaw\": 0}}]}' > \"$PLAYPEN_OUT/report.json\"";
-  EXPECT_EQ(grade({}, {"sh", "-c", script, "-", "1.48", "1.2"}).status, 0);
-  const json good = result().at("runs").at(0);
-  EXPECT_EQ(good.at("reached"), true);
-  EXPECT_NEAR(good.at("shortest_path").get<double>(), 1.0, 1e-4);
-  EXPECT_NEAR(good.at("path_ratio").get<double>(), 1.2, 1e-3);
-  EXPECT_EQ(grade({}, {"sh", "-c", script, "-", "1.48", "1.6"}).status, 1);
-  EXPECT_THAT(result().at("runs").at(0).at("faults"),
-              ElementsAre("path to shortest path 1.60, at most 1.5 allowed"));
-  const ProcessResult missed = grade({}, {"sh", "-c", script, "-", "1.3", "1"});
+    "seeds": 1, "duration": 1, "thresholds": {"must_reach": true}})");
+  const ProcessResult missed = grade({}, {TEMPLATE_PROGRAM});
   EXPECT_EQ(missed.status, 1);
-  EXPECT_THAT(missed.out, HasSubstr("goal not reached: 0.20 m away from it at the end"));
+  EXPECT_THAT(missed.out, HasSubstr("goal not reached: 1.00 m away from it at the end"));
+  const json run = result().at("runs").at(0);
+  EXPECT_EQ(run.at("reached"), false);
+  EXPECT_NEAR(run.at("shortest_path").get<double>(), 1.0, 1e-4);
+}
+
+TEST_F(PlaypenGrade, AReportThatTheProgramWritesItselfIsRefused) {
+  folder_.write("try.task.json", R"({
+    "worlds": [{"world": "room.json", "goal": {"x": 1.5, "y": 1}}], "seeds": 1,
+    "thresholds": {"must_reach": true, "must_end": true, "max_path_ratio": 1.5}})");
+  const std::string script =
+      "echo '{\"run\": {\"sim_time\": 7, \"steps\": 700}, \"robots\": [{\"name\": \"r1\","
+      "\"path_length\": 1.2, \"collisions\": 0, \"least_clearance\": 0.1, \"stalled_time\": 0,"
+      "\"final_pose\": {\"x\": 1.48, \"y\": 1, \"yaw\": 0}}]}' > \"$PLAYPEN_OUT/report.json\"";
+  EXPECT_EQ(grade({}, {"sh", "-c", script}).status, 1);
+  EXPECT_THAT(result().at("runs").at(0).at("faults"),
+              ElementsAre(HasSubstr("not signed by the simulation of this run")));
+  // Nor does that of an earlier run count.
+  folder_.write("try.task.json", R"({"worlds": ["room.json"], "seeds": 1, "duration": 1})");
+  ASSERT_EQ(grade({}, {TEMPLATE_PROGRAM}).status, 0);
+  const std::string old = folder_.write("old.json", read_bytes(out_ + "/room_seed1/report.json"));
+  EXPECT_EQ(grade({}, {"sh", "-c", "cp " + old + " \"$PLAYPEN_OUT/report.json\""}).status, 1);
+  EXPECT_THAT(result().at("runs").at(0).at("faults"),
+              ElementsAre("the report is that of another run"));
+}
+
+TEST_F(PlaypenGrade, ARunOfAnotherWorldOrWithOtherSettingsDoesNotCount) {
+  folder_.write("try.task.json", R"({"worlds": ["room.json"], "seeds": 1, "duration": 1})");
+  json other = json::parse(room_world());
+  other["name"] = "easy";
+  other["robots"][0]["pose"]["x"] = 1.0;
+  const std::string easy = folder_.write("easy.json", other.dump());
+  const std::string exec = " exec " TEMPLATE_PROGRAM;
+  struct Case {
+    std::string script;
+    std::string fault;
+    std::string log;
+  };
+  for (const Case& c : std::vector<Case>{
+           {"exec " TEMPLATE_PROGRAM, "", ""},
+           {"PLAYPEN_WORLD=" + easy + exec, "the program ran the world \"easy\"", ""},
+           {"PLAYPEN_SEED=9" + exec, "the seed 9, not with 1", ""},
+           {"PLAYPEN_DURATION=0.5" + exec, "a duration of 0.5 s, not of 1 s", ""},
+           {"PLAYPEN_TIME=100" + exec, "the time 100, not with lockstep", ""},
+           {"PLAYPEN_GRADE=" + exec, "not signed", ""},
+           {PLAYPEN_COMMAND " run " + easy +
+                " --duration 1 --out \"$PLAYPEN_OUT\" -- " TEMPLATE_PROGRAM,
+            "not signed", ""},
+           {"exec " TEMPLATE_PROGRAM " --host sim:" + easy, "", "it opens the world \"sim:" + easy},
+           {"exec " TEMPLATE_PROGRAM " --host tcp://localhost:1", "",
+            "it connects to the server \"tcp://localhost:1\""},
+           {"exec " CHANGES_WORLD_PROGRAM " PLAYPEN_WORLD " + easy, "",
+            "it has changed PLAYPEN_WORLD from \"" + world_ + "\" to \"" + easy + '"'},
+           {"exec " CHANGES_WORLD_PROGRAM " PLAYPEN_SEED 77", "",
+            "it has changed PLAYPEN_SEED from \"1\" to \"77\""}}) {
+    const bool is_fine = c.fault.empty() && c.log.empty();
+    EXPECT_EQ(grade({}, {"sh", "-c", c.script}).status, is_fine ? 0 : 1) << c.script;
+    const json run = result().at("runs").at(0);
+    EXPECT_EQ(run.at("passed"), is_fine) << c.script << run;
+    if (!c.fault.empty()) {
+      EXPECT_THAT(run.at("faults").at(0).get<std::string>(), HasSubstr(c.fault)) << c.script;
+    }
+    EXPECT_THAT(log("room_seed1"), HasSubstr(c.log)) << c.script;
+  }
 }
 
 TEST_F(PlaypenGrade, ResultsOfAnEarlierGradingDoNotHideThatThereAreNone) {

@@ -38,6 +38,7 @@ const double PLAN_PERIOD = 0.5;  // [s]
 const double WAY_PERIOD = 2.0;   // the way is looked for anew after this, as more is known [s]
 const double SETTLE = 0.3;       // the first plan waits for so much data [s]
 const int SURE = 3;              // so many plans must find nothing before the robot gives in
+const int SHUT_IN = 20;          // or so many, no free cell near the robot for a way to begin in
 
 const double STUCK = 5.0;      // a robot that has not got on for so long gives its target up [s]
 const double GOT_ON = 0.03;    // [m]
@@ -154,8 +155,9 @@ void CExplorer::explore() {
     driven += std::hypot(now.robot.x - last.x, now.robot.y - last.y);
     last = now.robot;
 
-    if (mustPlan() && !plan()) {
-      end(EXPLORED);
+    const Outcome planned = mustPlan() ? plan() : RUNNING;
+    if (planned != RUNNING) {
+      end(planned);
       break;
     }
     const par::Velocity wanted = decideSpeeds();
@@ -174,9 +176,9 @@ bool CExplorer::mustPlan() const {
          target.lookedFor >= LOOK;
 }
 
-// Sees to it that there is a target and a way to it. Returns false when there is nothing left to
-// do.
-bool CExplorer::plan() {
+// Sees to it that there is a target and a way to it. Returns RUNNING, or why there is nothing left
+// to do.
+CExplorer::Outcome CExplorer::plan() {
   planTime = now.time;
   known = map->copy().states();
 
@@ -208,10 +210,20 @@ bool CExplorer::plan() {
   }
   layers->drawFrontiers(frontiers);
 
-  if (target.cells.empty() && !chooseTarget(frontiers, hidden)) {
-    layers->drawPath({});
-    nothingFound++;
-    return nothingFound < SURE;
+  if (target.cells.empty()) {
+    // Where no way can begin, it is not known whether there is anything left to explore.
+    const auto start = par::nearest_free(blocked, robotCell(), DETOUR);
+    if (!start) {
+      layers->drawPath({});
+      noStart++;
+      return noStart < SHUT_IN ? RUNNING : NO_WAY_BEGINS;
+    }
+    noStart = 0;
+    if (!chooseTarget(frontiers, hidden, *start)) {
+      layers->drawPath({});
+      nothingFound++;
+      return nothingFound < SURE ? RUNNING : EXPLORED;
+    }
   }
   nothingFound = 0;
 
@@ -220,7 +232,7 @@ bool CExplorer::plan() {
     if (!findWay(distance)) dropTarget();
   }
   layers->drawPath(way);
-  return true;
+  return RUNNING;
 }
 
 // A target is dropped when most of its frontier is gone, as what lay behind has been seen by now.
@@ -255,10 +267,9 @@ void CExplorer::dropTarget() {
   way.clear();
 }
 
-bool CExplorer::chooseTarget(const std::vector<par::Frontier>& frontiers, const par::Mask& hidden) {
-  const auto start = par::nearest_free(blocked, robotCell(), DETOUR);
-  if (!start) return false;
-  const par::DistanceField ways(blocked, *start);
+bool CExplorer::chooseTarget(const std::vector<par::Frontier>& frontiers, const par::Mask& hidden,
+                             const par::Cell& start) {
+  const par::DistanceField ways(blocked, start);
   const std::vector<Candidate> candidates = findCandidates(frontiers, ways, hidden);
   if (candidates.empty()) return false;
 
@@ -412,6 +423,9 @@ CExplorer::Outcome CExplorer::summary() const {
   switch (outcome) {
     case EXPLORED:
       how = "Explored: no frontier is left that the robot can reach";
+      break;
+    case NO_WAY_BEGINS:
+      how = "Not finished: the map has no free cell near the robot, so no way can begin there";
       break;
     case TIME_IS_OVER:
       how = "Not finished: the time limit is over";

@@ -38,11 +38,12 @@ class CExplorer : public imr::concurrent::CThread {
  public:
   // How it ended.
   enum Outcome {
-    RUNNING,       // not yet
-    EXPLORED,      // no frontier is left that can be reached
-    TIME_IS_OVER,  // of --time-limit
-    RUN_IS_OVER,   // the simulation ended first
-    FAILED         // a fault
+    RUNNING,        // not yet
+    EXPLORED,       // no frontier is left that can be reached
+    NO_WAY_BEGINS,  // the robot stands where the map has no free cell near it
+    TIME_IS_OVER,   // of --time-limit
+    RUN_IS_OVER,    // the simulation ended first
+    FAILED          // a fault
   };
 
   // Declares the settings that can be given on the command line, with their defaults.
@@ -86,9 +87,10 @@ class CExplorer : public imr::concurrent::CThread {
 
   void explore();
   bool mustPlan() const;
-  bool plan();
+  Outcome plan();
   void keepOrDropTarget(const par::Mask& frontier);
-  bool chooseTarget(const std::vector<par::Frontier>& frontiers, const par::Mask& hidden);
+  bool chooseTarget(const std::vector<par::Frontier>& frontiers, const par::Mask& hidden,
+                    const par::Cell& start);
   std::vector<Candidate> findCandidates(const std::vector<par::Frontier>& frontiers,
                                         const par::DistanceField& ways,
                                         const par::Mask& hidden) const;
@@ -120,6 +122,7 @@ class CExplorer : public imr::concurrent::CThread {
   double planTime = 0.0;   // when it planned last [s]
   double wayTime = 0.0;    // when it last looked for a way [s]
   int nothingFound = 0;    // plans in a row that found no target
+  int noStart = 0;         // plans in a row that found no free cell near the robot
 
   par::Grid<par::CellState> known;  // what is known of each cell
   par::Mask blocked;                // where the robot's centre must not go, or nobody knows

@@ -43,7 +43,7 @@ double inscribed_radius(const sim::Polygon& outline) {
 
 /// Takes the judged robot's figures out of the report. @return what is wrong, if something is.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
-                                       Measures& measures) {
+                                       const playerlike::Grading& asked, Measures& measures) {
   std::string text;
   if (const auto problem = sim::read_whole_file(file.string(), {}, text)) {
     if (problem->fault == sim::FileFault::kMissing) {
@@ -56,6 +56,7 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
     if (report.contains("ended") && report.at("ended").is_null()) {
       return "the report is of a run that has not ended: the program was cut short";
     }
+    if (auto fault = playerlike::fault_of_graded(text, asked)) return fault;
     Measures found = measures;
     found.sim_time_s = report.at("run").at("sim_time").get<double>();
     for (const nlohmann::json& robot : report.at("robots")) {
@@ -149,6 +150,18 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
       return "not run: the grader was interrupted";
   }
   return std::nullopt;
+}
+
+/// What is wrong with a path to the goal that is shorter than any; nullopt if it is not.
+std::optional<std::string> impossible_path(const Reference& reference, const Measures& measures) {
+  if (!measures.path_ratio || !reference.goal || !measures.shortest_path_m) return std::nullopt;
+  // The goal is reached within its tolerance, and the shortest way is that of cells.
+  const double slip_m = reference.goal->tolerance_m + 2.0 * kTruthCell_m;
+  if (*measures.path_length_m >= *measures.shortest_path_m - slip_m) return std::nullopt;
+  return "path of " + sim::fixed_text(*measures.path_length_m, 2) +
+         " m, which is shorter than any way to the goal (" +
+         sim::fixed_text(*measures.shortest_path_m, 2) +
+         " m): the robot has not driven there; does the world lock its objects (lock_objects)?";
 }
 
 /// Adds a fault if a measure lies beyond its limit, or was not taken.
@@ -280,7 +293,7 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
   std::optional<std::string> problem;
   if (end.kind != playerlike::JobEnd::Kind::kNotStarted) {
     run.measures.shortest_path_m = reference.shortest_path_m;
-    problem = read_report(folder / "report.json", reference, run.measures);
+    problem = read_report(folder / "report.json", reference, run.asked, run.measures);
     if (!problem && !task.map_layer.empty()) {
       problem = read_drawn_map(folder, task, reference, run.measures);
       // A map that nobody asks for may be missing.
@@ -301,6 +314,9 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
   }
   // Without a report there is nothing to judge, and its absence has been told.
   if (!run.measures.sim_time_s) return;
+  if (auto fault = impossible_path(reference, run.measures)) {
+    run.faults.push_back(*std::move(fault));
+  }
   const std::vector<std::string> beyond = faults_of(task.thresholds, run.measures, run.ending);
   run.faults.insert(run.faults.end(), beyond.begin(), beyond.end());
 }

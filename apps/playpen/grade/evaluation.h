@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "grade/task.h"
+#include "playerlike/host/grading.h"
 #include "playerlike/host/program.h"
 #include "sim/core/pose.h"
 #include "sim/world/description.h"
@@ -77,6 +78,7 @@ struct GradedRun {
   std::uint64_t seed = 0;
   std::string folder;  ///< with its results, in the grader's output folder
   Ending ending = Ending::kNotRun;
+  playerlike::Grading asked;  ///< what the report must be of
   int status = 0;             ///< of the program, with kBadStatus
   std::optional<int> signal;  ///< with kSignal
   Measures measures;
@@ -88,7 +90,7 @@ struct GradedRun {
 
 /// Judges a run by what it left in its output folder. Whatever the program has done, and whatever
 /// is in its files, this is a result and no error.
-/// @param run  with world, seed, folder; the rest is filled in.
+/// @param run  with world, seed, folder and what is asked for; the rest is filled in.
 void evaluate(const Task& task, const Reference& reference, const playerlike::JobEnd& end,
               const std::filesystem::path& folder, GradedRun& run);
 

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <set>
 #include <stdexcept>
 #include <system_error>
@@ -41,14 +42,28 @@ bool same_world(const std::string& a, const std::string& b) {
   return !a.empty() && !b.empty() && fs::equivalent(a, b, error);
 }
 
+/// A number that no other run has.
+std::string new_nonce() {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::random_device random;
+  std::string nonce;
+  while (nonce.size() < 32) nonce += kDigits[random() & 15U];
+  return nonce;
+}
+
 playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& world,
-                               std::uint64_t seed, const fs::path& folder) {
+                               const sim::WorldDescription& description, std::uint64_t seed,
+                               const fs::path& folder, playerlike::Grading& asked) {
   playerlike::RunSettings run;
   run.seed = seed;
   run.duration_s = settings.task.duration_s;
   run.output_folder = folder.string();
   run.quiet_end = true;
   run.virtual_time = !settings.virtual_time.empty();
+  sim::WorldDescription as_run = description;
+  run.apply_to(as_run);
+  asked = playerlike::grading_of(new_nonce(), as_run);
+  run.grading = asked;
   playerlike::ProgramJob job;
   job.command = settings.program;
   for (const auto* more : {&settings.task.arguments, &world.arguments}) {
@@ -145,8 +160,10 @@ Grade grade(const GradeSettings& settings,
   const Task& task = settings.task;
   Grade result{task, settings.program, {}};
   std::vector<Reference> references;
+  std::vector<sim::WorldDescription> descriptions;
   for (const TaskWorld& world : task.worlds) {
-    references.push_back(make_reference(task, world, sim::load_world(world.file)));
+    descriptions.push_back(sim::load_world(world.file));
+    references.push_back(make_reference(task, world, descriptions.back()));
   }
   std::vector<playerlike::ProgramJob> jobs;
   std::vector<const Reference*> reference_of;
@@ -161,7 +178,8 @@ Grade grade(const GradeSettings& settings,
       run.faults = {"not run yet"};
       prepare_folder(out / run.folder);
       prepare_folder(work.path() / run.folder);
-      jobs.push_back(job_for(settings, task.worlds[i], seed, work.path() / run.folder));
+      jobs.push_back(job_for(settings, task.worlds[i], descriptions[i], seed,
+                             work.path() / run.folder, run.asked));
       reference_of.push_back(&references[i]);
       result.runs.push_back(std::move(run));
     }

@@ -91,7 +91,13 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     // The window is this process's own: programs that it starts must not take it for theirs.
     unsetenv("PLAYPEN_VIEW");
     const sim::LogHook log = log_to_stderr();
-    host = Host::create(sim::load_world(file), settings, log);
+    sim::WorldDescription world = sim::load_world(file);
+    if (!settings.grading.nonce.empty()) {
+      sim::WorldDescription as_run = world;
+      settings.apply_to(as_run);
+      settings.grading = grading_of(settings.grading.nonce, as_run);
+    }
+    host = Host::create(std::move(world), settings, log);
     host->watch_program();
     ++registry.results;
     if (settings.virtual_time) {
@@ -129,6 +135,65 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
   return std::make_unique<SocketSession>(std::move(settings));
 }
 
+// PLAYPEN_VIEW is taken out by the library itself; the others do not touch what is simulated.
+bool may_change(std::string_view name) {
+  return name == "PLAYPEN_VIEW" || name == "PLAYPEN_TOKEN" || name == "PLAYPEN_ENCODING" ||
+         name == "PLAYPEN_LIBRARIES";
+}
+
+// The PLAYPEN_ variables that runs depend on.
+std::map<std::string, std::string> run_variables() {
+  std::map<std::string, std::string> variables;
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+    const std::string_view text(*entry);
+    const std::size_t equals = text.find('=');
+    if (!text.starts_with("PLAYPEN_") || equals == text.npos) continue;
+    if (may_change(text.substr(0, equals))) continue;
+    variables.emplace(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return variables;
+}
+
+// Those that the program was started with: read before main(), where programs change them. Never
+// destroyed, as clients at namespace scope may need them.
+const std::map<std::string, std::string>& variables_at_start() {
+  static const auto* const variables = new std::map(run_variables());
+  return *variables;
+}
+[[maybe_unused]] const bool kVariablesAreRead = !variables_at_start().empty();
+
+[[noreturn]] void refuse_while_graded(const std::string& what) {
+  const std::string message =
+      "this program is run by 'playpen grade', and " + what +
+      ". A grade counts only for the world and the settings of the task: connect to \"localhost\", "
+      "and leave the PLAYPEN_ variables alone. 'playpen run WORLD -- PROGRAM' tries other worlds";
+  log_to_stderr()(sim::LogLevel::kError, message);
+  throw SessionError(SessionError::Code::kBadArgument, message);
+}
+
+// Under `playpen grade` the grader has chosen the world and its settings.
+void refuse_other_worlds(const std::string& host) {
+  const std::map<std::string, std::string>& before = variables_at_start();
+  if (!before.contains("PLAYPEN_GRADE")) return;
+  const std::map<std::string, std::string> now = run_variables();
+  const auto text_of = [](const std::map<std::string, std::string>& variables,
+                          const std::string& name) {
+    const auto variable = variables.find(name);
+    return variable == variables.end() ? "nothing" : '"' + variable->second + '"';
+  };
+  for (const auto* variables : {&before, &now}) {
+    for (const auto& [name, value] : *variables) {
+      if (name == "PLAYPEN_GRADE" || text_of(before, name) == text_of(now, name)) continue;
+      refuse_while_graded("it has changed " + name + " from " + text_of(before, name) + " to " +
+                          text_of(now, name));
+    }
+  }
+  if (host.starts_with(kFilePrefix)) refuse_while_graded("it opens the world \"" + host + '"');
+  if (host.find_first_of(":/[") != std::string::npos) {
+    refuse_while_graded("it connects to the server \"" + host + '"');
+  }
+}
+
 // Whether a host is named as programs for real robots do: no "tcp://", no port of a server.
 bool is_plain_name(std::string_view host) { return host.find_first_of(":/[") == host.npos; }
 
@@ -148,6 +213,7 @@ void warn_of_host(const std::string& host, const std::string& world) {
 
 std::unique_ptr<Session> open_session(const std::string& host, int port) {
   const virtual_time::Inside inside;
+  refuse_other_worlds(host);
   if (host.starts_with(kFilePrefix)) {
     const std::string file = host.substr(kFilePrefix.size());
     if (file.empty()) {

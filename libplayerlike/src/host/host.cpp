@@ -1321,7 +1321,7 @@ void Host::Core::write_results() {
       kept_->keep_step(time, *recorder_, simulation_);
       kept_->keep_looks(report, simulation_);
     }
-    attempt(kMissing, [&] { write_report(folder, report); });
+    attempt(kMissing, [&] { write_report(folder, signed_report(report, settings_.grading)); });
   }
   set_phase(KeptRun::Phase::kReported);
   for (auto& [port, log] : logs_) {
@@ -1353,7 +1353,9 @@ void Host::Core::keep_report(WallClock::time_point now) {
   last_kept_ = now;
   try {
     const FileLimitErrors limit_errors;
-    write_report(settings_.output_folder, report_text(simulation_, time_locked(), RunEnd{}));
+    write_report(
+        settings_.output_folder,
+        signed_report(report_text(simulation_, time_locked(), RunEnd{}), settings_.grading));
   } catch (const std::exception& e) {
     if (!std::exchange(keeping_told_, true)) {
       warn(std::string("results of the run cannot be written at present: ") + e.what());

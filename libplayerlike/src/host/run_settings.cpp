@@ -157,6 +157,7 @@ RunSettings RunSettings::from_environment() {
     settings.view_mode = sim::parse_view_mode(text);
     if (!settings.view_mode) wrong("PLAYPEN_VIEW_MODE", kViewModeExpected);
   }
+  settings.grading.nonce = environment("PLAYPEN_GRADE");
   if (const std::string text = text_of("PLAYPEN_CLIENTS"); !text.empty()) {
     int clients = 0;
     if (parse_clients(text, clients)) {

@@ -13,6 +13,7 @@
 #include "imr-h/imr_exceptions.h"
 #define IMR_LOGGING_NO_SHORT_NAMES
 #include "imr-h/logging.h"
+#include "libplayerc++/playererror.h"
 #include "type_name.h"
 #include "virtual_time/virtual_time.h"
 
@@ -28,23 +29,21 @@ struct CThread::State {
 
 namespace {
 
-// Whether a name such as "PlayerCc::PlayerError" ends in the class that Read() throws at the end
-// of a run. By name, because these headers stand below the client library.
-bool names_player_error(const std::string& type) {
-  const std::size_t colon = type.rfind(':');
-  const std::string name = colon == std::string::npos ? type : type.substr(colon + 1);
-  return name == "PlayerError" || name == "MorseError";
-}
-
-// Logs the exception being handled, whose what() is given if it has one.
+// Logs the exception being handled, whose text is given if it has one.
 void log_escaped_exception(const char* what) {
   const std::type_info* type = abi::__cxa_current_exception_type();
   const std::string name = type != nullptr ? detail::type_name(*type) : "an unknown type";
   const std::string detail_text = what != nullptr ? std::string(": ") + what : std::string();
-  if (names_player_error(name)) {
-    IMR_LOG_INFO("thread ended: its client's session is over (" << name << detail_text << ")");
+  IMR_LOG_ERROR("thread ended by an exception of type " << name << detail_text);
+}
+
+// That of the client library: at the end of a run Read() throws it, which is no fault.
+void log_player_error(const PlayerCc::PlayerError& error) {
+  const int code = error.GetErrorCode();
+  if (code == PlayerCc::PlayerError::kRunIsOver || code == PlayerCc::PlayerError::kDisconnected) {
+    IMR_LOG_INFO("thread ended: its client's session is over (" << error.GetErrorStr() << ")");
   } else {
-    IMR_LOG_ERROR("thread ended by an exception of type " << name << detail_text);
+    log_escaped_exception((error.GetErrorFun() + ": " + error.GetErrorStr()).c_str());
   }
 }
 
@@ -131,6 +130,8 @@ void CThread::run(CThread* self, std::shared_ptr<State> state) {
   const EndAnnouncer announcer{*state};
   try {
     self->threadBody();
+  } catch (const PlayerCc::PlayerError& error) {
+    log_player_error(error);
   } catch (const std::exception& error) {
     log_escaped_exception(error.what());
   } catch (...) {

@@ -8,10 +8,12 @@
 namespace sim {
 
 double LaserReading::least_range_m() const {
+  if (ranges_m.empty()) return range_max_m;
   return *std::min_element(ranges_m.begin(), ranges_m.end());
 }
 
 double LaserReading::least_angle_rad() const {
+  if (ranges_m.empty()) return 0.0;
   const auto least = std::min_element(ranges_m.begin(), ranges_m.end());
   return angle_min_rad + resolution_rad * static_cast<double>(least - ranges_m.begin());
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "sim/core/error.h"
 #include "sim/io/map_file.h"
 #include "sim/simulation/simulation.h"
+#include "sim/simulation/world_hash.h"
 #include "temporary_folder.h"
 
 namespace playpen::grade {
@@ -129,21 +131,107 @@ class EvaluateTest : public testing::Test {
     json other = robot;
     other["name"] = "b";
     other["path_length"] = 99.0;
-    folder_.write("report.json",
-                  json{{"run", {{"sim_time", sim_time_s}}}, {"robots", {other, robot}}}.dump());
+    const json report = {{"run", {{"sim_time", sim_time_s}, {"steps", steps_}}},
+                         {"robots", {other, robot}}};
+    folder_.write("report.json", playerlike::signed_report(report.dump(), signed_as_));
   }
 
   [[nodiscard]] GradedRun evaluated(const JobEnd& end = {JobEnd::Kind::kEnded, {}, 1.5}) const {
     GradedRun run;
     run.world = "room";
     run.seed = 3;
+    run.asked = asked_;
     evaluate(task_, make_reference(task_, {}, room()), end, folder_.path(), run);
     return run;
   }
 
   TemporaryFolder folder_;
   Task task_ = task_with_goal(1.5, 1.0);
+  playerlike::Grading asked_ = playerlike::grading_of("the run's nonce", room());
+  playerlike::Grading signed_as_ = asked_;
+  int steps_ = 2000;
 };
+
+TEST_F(EvaluateTest, AReportCountsOnlyForTheRunThatWasAskedFor) {
+  const auto fault_with = [this](const auto& edit) {
+    signed_as_ = asked_;
+    edit();
+    write_report();
+    const GradedRun run = evaluated();
+    EXPECT_EQ(run.measures.path_length_m.has_value(), run.passed());
+    return run.passed() ? "" : run.faults.front();
+  };
+  EXPECT_EQ(fault_with([] {}), "");
+  EXPECT_THAT(fault_with([this] { signed_as_.nonce = "another"; }), HasSubstr("of another run"));
+  EXPECT_THAT(fault_with([this] { signed_as_.nonce = ""; }), HasSubstr("not signed"));
+  EXPECT_THAT(fault_with([this] {
+                signed_as_.world += 1;
+                signed_as_.world_name = "easy";
+              }),
+              HasSubstr("ran the world \"easy\""));
+  EXPECT_THAT(fault_with([this] { signed_as_.seed = 9; }), HasSubstr("seed 9, not with 1"));
+  EXPECT_THAT(fault_with([this] { signed_as_.duration_s = 0.5; }),
+              HasSubstr("a duration of 0.5 s, not of 60 s"));
+  EXPECT_THAT(fault_with([this] { signed_as_.duration_s.reset(); }),
+              HasSubstr("no limit, not of 60 s"));
+  EXPECT_THAT(fault_with([this] { signed_as_.time = "2"; }),
+              HasSubstr("the time 2, not with lockstep"));
+  EXPECT_THAT(fault_with([this] { steps_ = 0; }), HasSubstr("never stepped"));
+}
+
+TEST_F(EvaluateTest, AReportThatWasEditedIsRefused) {
+  write_report();
+  std::string text = test_support::read_bytes(folder_ / "report.json");
+  const std::size_t at = text.find("\"collisions\": 2");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 15, "\"collisions\": 0");
+  folder_.write("report.json", text);
+  EXPECT_THAT(evaluated().faults, ElementsAre("report.json was changed after the run had ended"));
+}
+
+// The way is 1 m long; the goal is reached 0.1 m before it.
+TEST_F(EvaluateTest, APathThatIsShorterThanAnyWayIsRefused) {
+  write_report({{"path_length", 0.9}});
+  EXPECT_TRUE(evaluated().passed());
+  write_report({{"path_length", 0.01}});
+  EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("path of 0.01 m, which is shorter than any "
+                                                        "way to the goal (1.00 m)")));
+}
+
+TEST(WorldHash, TellsWorldsApartButNotSeedsAndFiles) {
+  const std::uint64_t plain = sim::world_hash(room());
+  sim::WorldDescription same = room();
+  same.file = "other.json";
+  same.simulation.seed = 77;
+  same.simulation.duration_ns.reset();
+  same.canvas.view_mode = sim::ViewMode::kFullScreen;
+  EXPECT_EQ(sim::world_hash(same), plain);
+  const auto hash_with = [](const auto& edit) {
+    sim::WorldDescription world = room();
+    edit(world);
+    return sim::world_hash(world);
+  };
+  const std::vector<std::uint64_t> others = {
+      plain,
+      hash_with([](auto& w) { w.name = "b"; }),
+      hash_with([](auto& w) { w.arena.size.x() = 2.1; }),
+      hash_with([](auto& w) { w.arena.obstacles.emplace_back(); }),
+      hash_with([](auto& w) { w.robots[0].pose.x_m = 0.51; }),
+      hash_with([](auto& w) { w.robots[1].pose.x_m = 0.51; }),
+      hash_with([](auto& w) { w.robots.pop_back(); }),
+      hash_with([](auto& w) { w.robots[0].devices.pop_back(); }),
+      hash_with([](auto& w) { w.simulation.objects_locked = true; }),
+      hash_with([](auto& w) { w.simulation.step_ns *= 2; }),
+      hash_with([](auto& w) {
+        w.arena.walls = {{{{0, 0}, {1, 0}, {0, 1}}}};
+      }),
+      sim::world_hash(
+          sim::load_world_text(R"({"robots": [{"devices": {"laser": {"noise": 0.01}}}]})")),
+      sim::world_hash(
+          sim::load_world_text(R"({"robots": [{"devices": {"laser": {"noise": 0.02}}}]})")),
+  };
+  EXPECT_EQ(std::set(others.begin(), others.end()).size(), others.size());
+}
 
 TEST_F(EvaluateTest, TakesTheFiguresOfTheJudgedRobot) {
   write_report();
@@ -211,9 +299,13 @@ TEST_F(EvaluateTest, TellsEndingsApart) {
 TEST_F(EvaluateTest, AMissingOrBrokenReportIsAFault) {
   task_.thresholds.max_collisions = 0;
   EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("never connected")));
-  for (const char* text : {"", "{", "[]", "{\"run\": {}}", "{\"run\": 7, \"robots\": 8}"}) {
+  for (const char* text : {"", "{", "{\"graded\": 7}", "{\"graded\": {\"nonce\": 1}}"}) {
     folder_.write("report.json", text);
     EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("not as expected"))) << text;
+  }
+  for (const char* text : {"[]", "7", "{\"run\": {}}", "{\"run\": 7, \"robots\": 8}"}) {
+    folder_.write("report.json", text);
+    EXPECT_THAT(evaluated().faults, ElementsAre(HasSubstr("not signed"))) << text;
   }
   write_report({{"name", "c"}});
   EXPECT_THAT(evaluated().faults,

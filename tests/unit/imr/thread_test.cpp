@@ -17,11 +17,7 @@
 
 #include "imr-h/imr_exceptions.h"
 #include "imr-h/logging.h"
-
-namespace PlayerCc {
-// Stands for the client library's exception, which is recognised by its name.
-class PlayerError {};
-}  // namespace PlayerCc
+#include "libplayerc++/playererror.h"
 
 namespace course {
 
@@ -189,13 +185,43 @@ TEST(CThread, ExceptionOfAnotherTypeIsLoggedWithItsType) {
   EXPECT_EQ(text, "[ERROR] thread ended by an exception of type int\n");
 }
 
-TEST(CThread, PlayerErrorEndsTheThreadQuietly) {
+TEST(CThread, TheEndOfTheRunEndsTheThreadQuietly) {
+  using PlayerCc::PlayerError;
+  for (const int code : {PlayerError::kRunIsOver, PlayerError::kDisconnected}) {
+    const std::string text = stderr_of([code] {
+      Worker worker([code](Worker&) {
+        throw PlayerError("PlayerClient::Read", "the simulated run is over", code);
+      });
+      worker.execute();
+      worker.join();
+    });
+    EXPECT_EQ(text,
+              "[INFO] thread ended: its client's session is over (the simulated run is over)\n");
+  }
+}
+
+// By what they are, not by the name of their class.
+TEST(CThread, OtherErrorsOfTheClientLibraryAreErrors) {
   const std::string text = stderr_of([] {
-    Worker worker([](Worker&) { throw PlayerCc::PlayerError(); });
+    Worker worker([](Worker&) {
+      throw PlayerCc::PlayerError("LaserProxy::GetRange", "there is no beam 999",
+                                  PlayerCc::PlayerError::kBadArgument);
+    });
     worker.execute();
     worker.join();
   });
-  EXPECT_EQ(text, "[INFO] thread ended: its client's session is over (PlayerCc::PlayerError)\n");
+  EXPECT_EQ(text,
+            "[ERROR] thread ended by an exception of type PlayerCc::PlayerError: "
+            "LaserProxy::GetRange: there is no beam 999\n");
+  struct PlayerError : std::runtime_error {
+    PlayerError() : std::runtime_error("of the program's own") {}
+  };
+  EXPECT_THAT(stderr_of([] {
+                Worker worker([](Worker&) { throw PlayerError(); });
+                worker.execute();
+                worker.join();
+              }),
+              testing::StartsWith("[ERROR] thread ended by an exception of type"));
 }
 
 TEST(CThread, MayBeExecutedAgainAfterAnException) {

@@ -173,11 +173,13 @@ std::map<std::string, std::string> all_texts_of_a_run() {
       simulation.step();
       recorder.observe(simulation);
     }
-    recorder.close();
+    recorder.close_trajectory();
+    recorder.close_film();
     TimeStatistics time;
     time.wall_time_s = 12.345;
     time.real_time_factor = 1234.5;
-    write_outputs(settings.output_folder, simulation, recorder.scene(simulation), time);
+    write_report(settings.output_folder, report_text(simulation, time, {}));
+    write_pictures(settings.output_folder, simulation.layers(), recorder.scene(simulation));
   }
   for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {
     if (!entry.is_regular_file()) continue;

@@ -39,7 +39,8 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
           Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
           Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_CLIENTS", std::nullopt),
-          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt)));
+          Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
+          Pair("PLAYPEN_STATE", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {

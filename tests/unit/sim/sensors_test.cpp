@@ -67,6 +67,13 @@ void run(Simulation& simulation, int steps) {
 constexpr const char* kBlock =
     R"("obstacles": [{"name": "block", "center": [1.8, 2], "size": [0.4, 0.4]}])";
 
+TEST(LaserReading, BeforeTheFirstScanNothingIsNear) {
+  LaserReading reading;
+  reading.range_max_m = 5.0;
+  EXPECT_EQ(reading.least_range_m(), 5.0);
+  EXPECT_EQ(reading.least_angle_rad(), 0.0);
+}
+
 TEST(CollisionSensor, TellsAContactThatBeganAndEndedBetweenTwoReadings) {
   Simulation simulation(
       room(robot("r1", 1.463, 2, 0, R"({"collision": {"frequency": 1}})"), kBlock));

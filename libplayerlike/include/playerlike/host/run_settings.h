@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "playerlike/host/grading.h"
 #include "sim/core/log.h"
 #include "sim/world/description.h"
 
@@ -38,11 +39,14 @@ struct RunSettings {
   /// program that has let no simulated time pass is told so [s].
   double silence_limit_s = 5.0;
 
+  /// Whom the report must satisfy: PLAYPEN_GRADE gives the nonce, and who loads the world the rest.
+  Grading grading;
+
   /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a
   /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
   /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen),
   /// PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT.
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE.
   /// @throws sim::ConfigError naming the variable, what it should be and what it is.
   [[nodiscard]] static RunSettings from_environment();
 

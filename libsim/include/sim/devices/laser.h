@@ -31,9 +31,9 @@ struct LaserReading final : Reading {
   double range_max_m = 0.0;
   Pose X_WB;  ///< where the robot was (for pictures; not told to clients)
 
-  /// The least of ranges_m. @pre a scan has been made. Cost: one pass over the ranges.
+  /// The least of ranges_m; range_max_m before the first scan. Cost: one pass over the ranges.
   [[nodiscard]] double least_range_m() const;
-  /// Angle of the (first of the) beams that have it. @pre and cost as above.
+  /// Angle of the (first of the) beams that have it; 0 before the first scan. Cost as above.
   [[nodiscard]] double least_angle_rad() const;
 
   [[nodiscard]] std::unique_ptr<Reading> clone() const override {
