@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <regex>
@@ -113,6 +114,51 @@ TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
   for (const fs::path& page : all) {
     EXPECT_THAT(dead_links(page, read_bytes(page)), IsEmpty()) << page;
   }
+}
+
+/// The names of all tests, "Suite.Name".
+std::set<std::string> names_of_tests() {
+  static const std::regex kTest(R"(\bTEST(_F|_P)?\(\s*(\w+),\s*(\w+)\))");
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::string text = read_bytes(entry.path());
+    for (std::sregex_iterator it(text.begin(), text.end(), kTest), end; it != end; ++it) {
+      names.insert((*it)[2].str() + '.' + (*it)[3].str());
+    }
+  }
+  return names;
+}
+
+/// The tests that a page names in the last columns of its tables; '*' stands for anything.
+std::vector<std::string> tests_named_in(const std::string& page) {
+  static const std::regex kName("`([A-Z][A-Za-z0-9]*\\.[A-Za-z0-9*]+)`");
+  std::vector<std::string> names;
+  std::istringstream lines(page);
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with('|')) continue;
+    for (std::sregex_iterator it(line.begin(), line.end(), kName), end; it != end; ++it) {
+      names.push_back((*it)[1]);
+    }
+  }
+  return names;
+}
+
+bool is_test(const std::string& name, const std::set<std::string>& tests) {
+  std::string pattern;
+  for (const char c : name) pattern += c == '*' ? ".*" : c == '.' ? "\\." : std::string(1, c);
+  const std::regex expression(pattern);
+  return std::any_of(tests.begin(), tests.end(),
+                     [&](const std::string& test) { return std::regex_match(test, expression); });
+}
+
+TEST(Documentation, PromisesNameTestsThatExist) {
+  const std::set<std::string> tests = names_of_tests();
+  ASSERT_TRUE(is_test("Documentation.PromisesNameTestsThatExist", tests));
+  ASSERT_FALSE(is_test("Documentation.PromisesNameTests", tests));
+  const std::vector<std::string> named = tests_named_in(read_bytes(kRoot / "docs/trust.md"));
+  EXPECT_GT(named.size(), 20U);
+  for (const std::string& name : named) EXPECT_TRUE(is_test(name, tests)) << name;
 }
 
 // The checks themselves, so that one that lets all pass is noticed.
