@@ -63,6 +63,7 @@ void add_check(CommandLine& line);
 void add_render(CommandLine& line);
 void add_list(CommandLine& line);
 void add_new(CommandLine& line);
+void add_token(CommandLine& line);
 void add_doctor(CommandLine& line);
 void add_help(CommandLine& line);
 void add_completion(CommandLine& line);

@@ -48,7 +48,7 @@ TEST(PlaypenCommand, VersionIsTheProjects) {
 
 TEST(PlaypenCommand, EachCommandHasHelp) {
   for (const char* command :
-       {"run", "serve", "grade", "check", "render", "list", "new", "doctor"}) {
+       {"run", "serve", "grade", "check", "render", "list", "new", "token", "doctor"}) {
     const ProcessResult result = playpen({command, "--help"});
     EXPECT_EQ(result.status, 0) << command;
     EXPECT_THAT(result.out, HasSubstr(std::string("Usage: playpen ") + command)) << command;

@@ -92,4 +92,30 @@ Rights Access::rights(const std::vector<std::string>& tokens) const {
   return rights;
 }
 
+bool Access::has_wrong(const std::vector<std::string>& tokens) const {
+  bool has_tokens = !server_token_.empty();
+  for (const std::string& own : robot_tokens_) has_tokens = has_tokens || !own.empty();
+  if (!has_tokens) return false;
+  bool wrong = false;
+  for (const std::string& token : tokens) {
+    bool known = !server_token_.empty() && equal(server_token_, token);
+    for (const std::string& own : robot_tokens_) {
+      const bool same = !own.empty() && equal(own, token);
+      known = known || same;
+    }
+    wrong = wrong || !known;
+  }
+  return wrong;
+}
+
+std::chrono::milliseconds Hub::note_wrong_token(const Peer& peer) {
+  const TokenGuard::Cost cost = guard.note_wrong(peer.name(), TokenGuard::Clock::now());
+  if (cost.tell) {
+    log(sim::LogLevel::kWarning,
+        peer.name() + ": a wrong token, " + std::to_string(cost.count) +
+            (cost.count == 1 ? " from this address" : " from this address in the last minute"));
+  }
+  return cost.delay;
+}
+
 }  // namespace playerlike::server

@@ -13,7 +13,6 @@ using nlohmann::json;
 
 /// Of an id, as in MORSE.
 constexpr std::size_t kMaxId = 80;
-/// Tokens that a connection may present.
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
@@ -34,6 +33,19 @@ std::string_view without_blanks_behind(std::string_view text) {
 bool is_sound_id(std::string_view id) {
   return id.size() <= kMaxId &&
          std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
+}
+
+constexpr const char* kTooManyWrong =
+    "too many wrong tokens came from this address; try again in a minute";
+
+/// The tokens that a hello presents, as far as they are texts.
+std::vector<std::string> tokens_in(const json& hello) {
+  std::vector<std::string> tokens;
+  if (!hello.is_object() || !hello.contains("tokens") || !hello["tokens"].is_array()) return tokens;
+  for (const json& token : hello["tokens"]) {
+    if (token.is_string() && tokens.size() < kMaxTokens) tokens.push_back(token.get<std::string>());
+  }
+  return tokens;
 }
 
 /// The arguments of a request.
@@ -153,24 +165,51 @@ void MorseConnection::work(const std::string& id, const MorseService& service, c
   hub_.work({piece, done});
 }
 
+void MorseConnection::try_tokens(const std::string& id, const std::vector<std::string>& tokens,
+                                 std::function<void()> action) {
+  if (!tokens.empty() && hub_.guard.blocks(peer_.name(), TokenGuard::Clock::now())) {
+    return peer_.close(farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
+  }
+  if (!hub_.access().has_wrong(tokens)) return action();
+  ++wrong_tokens_;
+  // Nothing more is read from the connection before, and nobody else waits for it.
+  peer_.set_busy(true);
+  hub_.after(hub_.note_wrong_token(peer_),
+             [weak = std::weak_ptr<MorseConnection*>(self_), id, action = std::move(action)] {
+               const auto self = weak.lock();
+               if (!self) return;
+               MorseConnection& from = **self;
+               from.guarded(id, action);
+               if (from.wrong_tokens_ >= TokenGuard::kMostOfAConnection) {
+                 return from.peer_.close(
+                     from.farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
+               }
+               from.peer_.set_busy(false);
+             });
+}
+
 // What is Playpen's own among the requests.
 void MorseConnection::playpen(const std::string& id, std::string_view service,
                               const json& arguments) {
   if (service == "hello") {
     if (arguments.size() > 1) throw MorseRefusal("wrong # of parameters for hello: expected 1");
-    // May hand the connection over: nothing of this handler must be used after that.
-    return say_hello(peer_, hub_, id, arguments.empty() ? json::object() : arguments[0]);
+    const json argument = arguments.empty() ? json::object() : arguments[0];
+    return try_tokens(id, tokens_in(argument),
+                      [this, id, argument] { say_hello(peer_, hub_, id, argument); });
   }
   if (service == "token") {
     if (arguments.size() != 1) throw MorseRefusal("wrong # of parameters for token: expected 1");
     if (!arguments[0].is_string()) throw MorseRefusal("expected the token, a text");
-    const Rights before = rights_;
-    present(arguments[0].get<std::string>());
-    if (rights_.connect == before.connect && rights_.watch == before.watch &&
-        rights_.command == before.command) {
-      throw MorseRefusal("access/denied: this token gives no rights that are not there already");
-    }
-    return answer(id, "SUCCESS", nullptr);
+    const std::string token = arguments[0].get<std::string>();
+    return try_tokens(id, {token}, [this, id, token] {
+      const Rights before = rights_;
+      present(token);
+      if (rights_.connect == before.connect && rights_.watch == before.watch &&
+          rights_.command == before.command) {
+        throw MorseRefusal("access/denied: this token gives no rights that are not there already");
+      }
+      answer(id, "SUCCESS", nullptr);
+    });
   }
   throw MorseRefusal("there is no playpen " + std::string(service) + ", only hello and token");
 }

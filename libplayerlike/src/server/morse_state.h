@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -175,6 +176,10 @@ class MorseConnection final : public Handler {
   /// Does something for a request; what that throws is answered.
   template <typename Action>
   void guarded(const std::string& id, Action action);
+  /// Does what presents tokens: at once if all are known; later and later if not, and not at all
+  /// if too many were wrong.
+  void try_tokens(const std::string& id, const std::vector<std::string>& tokens,
+                  std::function<void()> action);
   void playpen(const std::string& id, std::string_view service, const nlohmann::json& arguments);
 
   Peer& peer_;
@@ -183,6 +188,7 @@ class MorseConnection final : public Handler {
   std::shared_ptr<MorseConnection*> self_;  ///< outlived by what the workshop does for it
   std::vector<std::string> tokens_;
   Rights rights_;
+  int wrong_tokens_ = 0;
 };
 
 }  // namespace playerlike::server

@@ -49,8 +49,19 @@ class StreamConnection : public Handler {
     const bool first = std::exchange(first_line_, false);
     if (!first) return false;
     const auto token = token_in(line);
-    if (token) rights_ = hub_.access().rights({*token});
-    return token.has_value();
+    if (!token) return false;
+    if (hub_.guard.blocks(peer_.name(), TokenGuard::Clock::now())) {
+      peer_.close("");
+    } else if (hub_.access().has_wrong({*token})) {
+      // A connection has one try: it is closed, after a while.
+      peer_.set_busy(true);
+      hub_.after(hub_.note_wrong_token(peer_), [this, weak = std::weak_ptr<bool>(alive_)] {
+        if (!weak.expired()) peer_.close("");
+      });
+    } else {
+      rights_ = hub_.access().rights({*token});
+    }
+    return true;
   }
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
   [[nodiscard]] MorseState& state() noexcept { return *state_; }
@@ -66,6 +77,7 @@ class StreamConnection : public Handler {
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
   Rights rights_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< outlived by timers
   bool first_line_ = true;
   bool complained_ = false;
 };
@@ -288,7 +300,12 @@ class SyncConnection final : public Handler {
   void on_message(std::string_view bytes) override {
     if (!allowed_) {
       const auto token = token_in(bytes);
-      if (token) allow(hub_.access().rights({*token}));
+      const bool blocked = hub_.guard.blocks(peer_.name(), TokenGuard::Clock::now());
+      if (token && !blocked && hub_.access().has_wrong({*token})) {
+        static_cast<void>(hub_.note_wrong_token(peer_));
+      } else if (token && !blocked) {
+        allow(hub_.access().rights({*token}));
+      }
       if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");
       return;
     }

@@ -1,7 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
-#include <random>
 #include <utility>
 
 #include "protocol/codec.h"
@@ -16,18 +14,6 @@ using protocol::json;
 using protocol::ProtocolError;
 
 constexpr std::size_t kMaxName = 64;
-
-/// 128 bits that nobody can guess, in hexadecimal.
-std::string unguessable() {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::random_device device;
-  std::string text;
-  for (int i = 0; i < 4; ++i) {
-    auto bits = static_cast<std::uint32_t>(device());
-    for (int digit = 0; digit < 8; ++digit, bits >>= 4U) text += kDigits[bits & 15U];
-  }
-  return text;
-}
 
 /// A text that may be logged.
 std::string name_or_empty(const json& argument, const char* key) {
@@ -110,7 +96,7 @@ NativeHandler::Terms terms_of(Hub& hub, const json& argument) {
       protocol::refuse_value("follow", "no such key beside watch", argument["follow"]);
     follow(terms, *hub.native_state, argument);
   }
-  terms.key = unguessable();
+  terms.key = make_token();
   terms.process = name_or_empty(argument, "process");
   // Not to be mistaken for another one, whatever that calls itself.
   if (terms.process.empty()) terms.process = "session " + terms.key;
@@ -143,7 +129,7 @@ json welcome(Hub& hub, NativeHandler& handler, const NativeHandler::Terms& terms
 void say_hello(Peer& peer, Hub& hub, const std::string& id, const json& argument) {
   if (!hub.native_state) {
     hub.native_state = std::make_shared<NativeState>(hub);
-    hub.native_state->simulation = unguessable();
+    hub.native_state->simulation = make_token();
   }
   const auto refuse = [&](std::string_view error, const char* message) {
     const json answer = {{"error", error}, {"message", message}};

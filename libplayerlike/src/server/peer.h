@@ -12,6 +12,7 @@
 #include "playerlike/host/host.h"
 #include "playerlike/server/server_settings.h"
 #include "protocol/framing.h"
+#include "server/token_guard.h"
 #include "server/workshop.h"
 #include "sim/core/log.h"
 
@@ -41,6 +42,8 @@ class Access {
   /// @param tokens  those presented; of a list that is much longer than there are robots, only the
   ///                first ones count.
   [[nodiscard]] Rights rights(const std::vector<std::string>& tokens) const;
+  /// Whether one of these tokens is none of the server's; never on a server without tokens.
+  [[nodiscard]] bool has_wrong(const std::vector<std::string>& tokens) const;
 
  private:
   std::string server_token_;               ///< "": none
@@ -150,6 +153,10 @@ class Hub {
   /// Replaces the handler of a connection (from inside its on_message(): after that returns).
   virtual void hand_over(Peer& peer, std::unique_ptr<Handler> handler) = 0;
 
+  /// Notes a wrong token of a connection, and tells the log of it now and then.
+  /// @return how long its answer is to be held back.
+  std::chrono::milliseconds note_wrong_token(const Peer& peer);
+
   /// A client has asked for the end of the server.
   virtual void quit() = 0;
 
@@ -157,6 +164,8 @@ class Hub {
   /// @param process  what the process calls itself in its hellos; @param thread  its number there.
   [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
 
+  /// Slows down those who guess tokens, on all ports.
+  TokenGuard guard;
   /// What the connections in MORSE's protocol share; made for the first one. To be dropped while
   /// post() can still be called.
   std::shared_ptr<MorseState> morse_state;

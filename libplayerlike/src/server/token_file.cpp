@@ -2,6 +2,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <random>
 
 #include "playerlike/server/server_settings.h"
 #include "sim/io/settings_file.h"
@@ -9,7 +11,7 @@
 namespace playerlike {
 namespace {
 
-constexpr const char* kTokenExpected = "8 to 256 English letters, digits or signs, without blanks";
+constexpr const char* kTokenExpected = "16 to 256 English letters, digits or signs, without blanks";
 
 /// The token of a key, "" if there is none or it is not sound.
 std::string read_token(sim::io::Reader& object, const std::string& key) {
@@ -25,9 +27,23 @@ std::string read_token(sim::io::Reader& object, const std::string& key) {
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c <= '~'; });
   if (token.size() >= kMinToken && token.size() <= kMaxToken && printable) return token;
   object.issue("access/token", kTokenExpected,
-               printable ? std::to_string(token.size()) + " characters" : "other characters", "",
-               key);
+               printable ? std::to_string(token.size()) + " characters" : "other characters",
+               "`playpen token` makes one", key);
   return "";
+}
+
+void warn_of_short_tokens(const AccessSettings& settings, const sim::LogHook& log) {
+  if (!log) return;
+  const auto look = [&](const std::string& whose, const std::string& token) {
+    if (token.empty() || token.size() >= kGoodToken) return;
+    log(sim::LogLevel::kWarning,
+        settings.file + ": the token of " + whose + " has " + std::to_string(token.size()) +
+            " characters; less than " + std::to_string(kGoodToken) +
+            " can be guessed, and the next release will refuse them. `playpen token` makes a good "
+            "one");
+  };
+  look("the server", settings.server_token);
+  for (const auto& [robot, token] : settings.robot_tokens) look("the robot " + robot, token);
 }
 
 void warn_if_shared(const std::string& file, const sim::LogHook& log) {
@@ -38,6 +54,17 @@ void warn_if_shared(const std::string& file, const sim::LogHook& log) {
 }
 
 }  // namespace
+
+std::string make_token() {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::random_device device;
+  std::string text;
+  for (int i = 0; i < 4; ++i) {
+    auto bits = static_cast<std::uint32_t>(device());
+    for (int digit = 0; digit < 8; ++digit, bits >>= 4U) text += kDigits[bits & 15U];
+  }
+  return text;
+}
 
 AccessSettings read_token_file(const std::string& file, const sim::LogHook& log) {
   AccessSettings settings;
@@ -55,6 +82,7 @@ AccessSettings read_token_file(const std::string& file, const sim::LogHook& log)
     root.finish();
   });
   warn_if_shared(file, log);
+  warn_of_short_tokens(settings, log);
   return settings;
 }
 

@@ -812,6 +812,31 @@ TEST_F(MorseProtocol, ServerTokenIsWantedForEverything) {
   EXPECT_EQ(silent.rest(), "");
 }
 
+// 24 000 a second went through one connection.
+TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
+  settings.access.server_token = "open sesame";
+  MorseClient guesser = start();
+  std::string guesses;
+  for (int i = 1; i <= 20; ++i) {
+    guesses += std::to_string(i) +
+               (i % 2 == 0 ? " playpen token [\"guess\"]\n"
+                           : " playpen hello [{\"version\": 1, \"tokens\": [\"x\"]}]\n");
+  }
+  RawClient stubborn("127.0.0.1", server->port());
+  stubborn.send(guesses);
+  // Others are not held up, and with the right token not even from this address.
+  guesser.get("playpen token [\"open sesame\"]");
+  EXPECT_EQ(guesser.get("time now"), 0.0);
+  for (int i = 1; i <= 5; ++i) {
+    EXPECT_THAT(stubborn.line(),
+                AllOf(StartsWith(std::to_string(i) + " FAILED"), HasSubstr("access/denied")));
+  }
+  EXPECT_THAT(stubborn.rest(), HasSubstr("access/slow-down")) << "and no answer to the sixth";
+  EXPECT_THAT(logged(),
+              AllOf(HasSubstr("a wrong token, 1 from this address"),
+                    HasSubstr("a wrong token, 4 from this address"), Not(HasSubstr("guess"))));
+}
+
 TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {
   settings.access.robot_tokens = {{"r1", "mine"}};
   MorseClient client = start();

@@ -838,9 +838,70 @@ TEST(TokenFile, AllThatIsWrongIsToldWithoutShowingTokens) {
             "file/missing");
 }
 
+TEST(TokenFile, WarnsOfShortTokensWithoutShowingThem) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "tokens.json",
+      R"({"server": "1234567890abcdef", "robots": {"r1": "abcd-efgh", "r2": "fifteen-letters"}})");
+  std::filesystem::permissions(file, std::filesystem::perms::owner_read);
+  Log log;
+  static_cast<void>(read_token_file(file, log.hook()));
+  EXPECT_THAT(log.lines(),
+              ElementsAre(AllOf(HasSubstr("the robot r1 has 9 characters"),
+                                HasSubstr("playpen token"), Not(HasSubstr("abcd-efgh"))),
+                          HasSubstr("the robot r2 has 15 characters")));
+}
+
+TEST(TokenFile, MadeTokensAreLongAndDiffer) {
+  std::set<std::string> tokens;
+  for (int i = 0; i < 100; ++i) tokens.insert(make_token());
+  EXPECT_THAT(tokens, SizeIs(100));
+  for (const std::string& token : tokens) {
+    EXPECT_THAT(token, SizeIs(32));
+    EXPECT_EQ(token.find_first_not_of("0123456789abcdef"), std::string::npos);
+  }
+}
+
+TEST(TokenGuards, SlowDownAndThenBlockAnAddressForAWhile) {
+  using std::chrono::milliseconds;
+  TokenGuard guard;
+  auto now = TokenGuard::Clock::now();
+  int told = 0;
+  milliseconds waited{0};
+  for (int i = 1; i <= TokenGuard::kMostOfAnAddress; ++i) {
+    EXPECT_FALSE(guard.blocks("10.0.0.7:" + std::to_string(i), now));
+    const TokenGuard::Cost cost = guard.note_wrong("10.0.0.7:" + std::to_string(i), now);
+    EXPECT_EQ(cost.count, i) << "whatever the connection";
+    EXPECT_EQ(cost.delay,
+              std::min(milliseconds(25) * (1 << std::min(i - 1, 10)), milliseconds(5000)));
+    waited += cost.delay;
+    told += cost.tell ? 1 : 0;
+    now += milliseconds(1);
+  }
+  EXPECT_EQ(told, 6) << "1, 2, 4, 8, 16, 32";
+  EXPECT_GT(waited, std::chrono::minutes(4)) << "for 60 guesses one after the other";
+  EXPECT_TRUE(guard.blocks("10.0.0.7:99", now));
+  EXPECT_FALSE(guard.blocks("10.0.0.8:99", now));
+  EXPECT_FALSE(guard.blocks("[10.0.0.7::1]:99", now));
+  now += TokenGuard::kMemory;
+  EXPECT_FALSE(guard.blocks("10.0.0.7:99", now));
+  EXPECT_EQ(guard.note_wrong("10.0.0.7:99", now).count, 1);
+}
+
+TEST(TokenGuards, RememberSoManyAddressesOnly) {
+  TokenGuard guard;
+  auto now = TokenGuard::Clock::now();
+  for (std::size_t i = 0; i <= TokenGuard::kMostAddresses; ++i) {
+    now += std::chrono::microseconds(1);
+    static_cast<void>(guard.note_wrong(std::to_string(i) + ":1", now));
+  }
+  EXPECT_EQ(guard.note_wrong("1:1", now).count, 2);
+  EXPECT_EQ(guard.note_wrong("0:1", now).count, 1) << "the oldest one has made room";
+}
+
 TEST(TokenFile, WarnsIfOthersMayReadIt) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("tokens.json", R"({"server": "12345678"})");
+  const std::string file = folder.write("tokens.json", R"({"server": "1234567890abcdef"})");
   Log log;
   std::filesystem::permissions(file, std::filesystem::perms::owner_read);
   static_cast<void>(read_token_file(file, log.hook()));

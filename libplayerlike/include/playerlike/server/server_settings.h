@@ -44,11 +44,16 @@ struct ServerSettings {
   ServerLimits limits;
 };
 
-inline constexpr std::size_t kMinToken = 8;    ///< bytes of a token at least
+inline constexpr std::size_t kMinToken = 8;    ///< bytes of a token at least, for one more release
+inline constexpr std::size_t kGoodToken = 16;  ///< bytes of a token at least, without a warning
 inline constexpr std::size_t kMaxToken = 256;  ///< bytes of a token at most
 
+/// A token that nobody can guess: 128 random bits of the system's in hexadecimal.
+[[nodiscard]] std::string make_token();
+
 /// Reads a token file (docs/remote.md). Tokens are not shown in messages.
-/// @param log  is warned if others may read the file.
+/// @param log  is warned if others may read the file, and of tokens with less than kGoodToken
+/// bytes.
 /// @throws sim::ConfigError with all that is wrong: access/token, or as for other settings files.
 [[nodiscard]] AccessSettings read_token_file(const std::string& file, const sim::LogHook& log = {});
 
