@@ -85,7 +85,7 @@ class FirstPrograms : public testing::Test {
     ProcessOptions patient;
     patient.timeout = std::chrono::seconds(900);
     const ProcessResult result =
-        playpen({"run", file_of(world), "--duration", std::to_string(kDuration_s), "--seed",
+        playpen({"run", file_of(world), "--duration", json(kDuration_s).dump(), "--seed",
                  std::to_string(seed), "--quiet", "--out", out_, "--", program},
                 patient);
     ASSERT_EQ(result.status, 0) << result.err;

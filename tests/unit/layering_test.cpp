@@ -289,6 +289,33 @@ TEST(Layering, AppsUsePublicHeadersOnly) {
   }
 }
 
+/// What of a text writes or reads numbers as the locale has it.
+std::vector<std::string> locale_dependent(const std::string& text) {
+  static const std::regex kCall(R"(\b(std::)?(sto[df]|stold|strto[df]|strtold|atof|sscanf)\s*\()");
+  static const std::regex kFormat(R"(printf\s*\([^;]*%[-+ #0-9.*]*[aefgAEFG])");
+  std::vector<std::string> found;
+  for (const std::regex* pattern : {&kCall, &kFormat}) {
+    for (std::sregex_iterator it(text.begin(), text.end(), *pattern), end; it != end; ++it) {
+      found.push_back(it->str());
+    }
+  }
+  return found;
+}
+
+// A student's program may set a locale with a decimal comma.
+TEST(Numbers, AreNotWrittenOrReadAsTheLocaleHasIt) {
+  for (const char* folder : {"libsim/src", "libplayerlike/src", "apps/playpen"}) {
+    for (const Source& source : sources_in(folder)) {
+      // What Player's functions print for people follows their locale, as Player's do.
+      if (source.path.starts_with("libplayerlike/src/playerc/")) continue;
+      EXPECT_THAT(locale_dependent(source.text), IsEmpty()) << source.path;
+    }
+  }
+  EXPECT_THAT(locale_dependent("x = std::stod(text); y = strtod(t, &e);"), testing::SizeIs(2));
+  EXPECT_THAT(locale_dependent("std::snprintf(a, n, \"%s: %6.2f\", b, c);"), testing::SizeIs(1));
+  EXPECT_THAT(locale_dependent("std::snprintf(a, n, \"%06d of %s\", b, c);"), IsEmpty());
+}
+
 // The rules themselves, so that a rule that lets all pass is noticed.
 TEST(LayeringRules, FindIncludesButNotThoseInComments) {
   EXPECT_THAT(includes_of("#include <a/b.h>\n// #include <c>\n/* #include <d>\n#include <e>\n*/\n"

@@ -5,6 +5,7 @@
 #include "devices/errors.h"
 #include "libCCMorse/MorseTeleport.h"
 #include "libCCMorse/MorseWaypoint.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/waypoint.h"
 
 namespace CCMorse {
@@ -20,9 +21,9 @@ namespace {
 
 void require_positive(const char* fun, const char* what, double value) {
   if (value > 0.0) return;
-  throw PlayerError(fun,
-                    std::string(what) + " must be greater than 0, not " + std::to_string(value),
-                    PlayerError::kBadArgument);
+  throw PlayerError(
+      fun, std::string(what) + " must be greater than 0, not " + sim::rounded_text(value, 6),
+      PlayerError::kBadArgument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "devices/client_core.h"
 #include "devices/errors.h"
 #include "libCCMorse/MorseLight.h"
+#include "sim/core/number_text.h"
 
 namespace CCMorse {
 
@@ -27,7 +28,8 @@ void MorseLight::SetBlinking(double aPeriod, double aDutyCycle) {
   if (!(aPeriod >= 0.0 && aPeriod <= 1e6 && aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
     throw PlayerError(fun,
                       "a light's period is in 0..1e6 s and its duty cycle in 0..1, but they are " +
-                          std::to_string(aPeriod) + " and " + std::to_string(aDutyCycle),
+                          sim::rounded_text(aPeriod, 6) + " and " +
+                          sim::rounded_text(aDutyCycle, 6),
                       PlayerError::kBadArgument);
   }
   const auto lock = Lock("SetBlinking");

@@ -7,6 +7,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/aioproxy.h"
 #include "proxies/link.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/aio.h"
 
 namespace PlayerCc {
@@ -55,7 +56,7 @@ void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
   if (!(aIndex < count && std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
     throw PlayerError(fun,
                       "output " + std::to_string(aIndex) + " cannot have " +
-                          std::to_string(aVoltage) + " V: there are " +
+                          sim::rounded_text(aVoltage, 6) + " V: there are " +
                           std::to_string(static_cast<int>(count)) +
                           " outputs, counted from 0, of at most 1e6 V to either side",
                       PlayerError::kBadArgument);

@@ -5,6 +5,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/blinkenlightproxy.h"
 #include "proxies/link.h"
+#include "sim/core/number_text.h"
 #include "sim/devices/blinkenlight.h"
 
 namespace PlayerCc {
@@ -68,7 +69,8 @@ void BlinkenLightProxy::SetPeriod(double aPeriod) {
   const char* fun = "BlinkenLightProxy::SetPeriod";
   const scoped_lock_t lock(LockData(fun));
   if (!(aPeriod >= 0.0 && aPeriod <= 1e6)) {
-    throw PlayerError(fun, "a light's period is in 0..1e6 s, but is " + std::to_string(aPeriod),
+    throw PlayerError(fun,
+                      "a light's period is in 0..1e6 s, but is " + sim::rounded_text(aPeriod, 6),
                       PlayerError::kBadArgument);
   }
   sim::LightCommand command;
@@ -80,7 +82,8 @@ void BlinkenLightProxy::SetDutyCycle(double aDutyCycle) {
   const char* fun = "BlinkenLightProxy::SetDutyCycle";
   const scoped_lock_t lock(LockData(fun));
   if (!(aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
-    throw PlayerError(fun, "a light's duty cycle is in 0..1, but is " + std::to_string(aDutyCycle),
+    throw PlayerError(fun,
+                      "a light's duty cycle is in 0..1, but is " + sim::rounded_text(aDutyCycle, 6),
                       PlayerError::kBadArgument);
   }
   sim::LightCommand command;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "protocol/codec.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
@@ -36,11 +37,7 @@ constexpr std::size_t kRoom = std::size_t{256} << 10U;
 constexpr std::uint64_t kNobody = 0;
 
 std::string seconds_text(Clock::duration duration) {
-  const double seconds = std::chrono::duration<double>(duration).count();
-  std::string text = std::to_string(seconds);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text + " s";
+  return sim::rounded_text(std::chrono::duration<double>(duration).count(), 6) + " s";
 }
 
 /// Waits until something can be read (or written). @return whether it can, before the deadline.

@@ -7,6 +7,7 @@
 
 #include "playerlike/session/session.h"
 #include "session/checks.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
@@ -24,7 +25,7 @@ std::size_t cells_of(int width, int height) {
 void require_transparency(const sim::LayerStyle& style) {
   if (style.transparency >= 0.0 && style.transparency <= 1.0) return;
   refuse(SessionError::Code::kBadArgument, "a layer's transparency is a number in 0..1, but is " +
-                                               std::to_string(style.transparency));
+                                               sim::rounded_text(style.transparency, 6));
 }
 
 }  // namespace

@@ -552,7 +552,7 @@ TEST_F(Config, FileThatCannotBeReadIsRefused) {
   const std::string missing = testing::TempDir() + "no_such_folder/robot.cfg";
   const std::string message = message_of([&] { config_.load_file(missing); });
   EXPECT_THAT(message, HasSubstr(missing));
-  EXPECT_THAT(message, HasSubstr("No such file"));
+  EXPECT_THAT(message, HasSubstr("no file of that name"));
   EXPECT_THAT(message_of([&] { config_.load_file(testing::TempDir()); }), HasSubstr("can't read"));
   EXPECT_THROW(config_.load_file(""), imr::exception);
 }

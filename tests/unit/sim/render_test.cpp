@@ -790,7 +790,7 @@ TEST(LoadGreyImage, SaysWhatIsWrong) {
   };
   EXPECT_THAT(error_of([&] { (void)load_grey_image(folder.file("none.png")); }),
               HasSubstr("none.png: cannot read the picture: no file of that name"));
-  EXPECT_THAT(error_of([&] { (void)load_grey_image(folder.file("")); }), HasSubstr("directory"));
+  EXPECT_THAT(error_of([&] { (void)load_grey_image(folder.file("")); }), HasSubstr("a folder"));
   EXPECT_THAT(error_with(""), HasSubstr("empty"));
   EXPECT_THAT(error_with("GIF89a"), HasSubstr("not a PNG or PGM picture"));
   EXPECT_THAT(error_with("P5 20000 2 255\n"), HasSubstr("20000 x 2 pixels, at most 16384"));
