@@ -259,6 +259,7 @@ class OnTerminal {
     child_ = forkpty(&terminal_, nullptr, nullptr, nullptr);
     if (child_ == 0) {
       close(ends[0]);
+      for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
       std::vector<char*> arguments;
       for (std::string& word : command) arguments.push_back(word.data());
       arguments.push_back(nullptr);

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/client_files.h"
 #include "host/idle_calls.h"
 #include "host/kept_writer.h"
 #include "host/outputs.h"
@@ -304,6 +305,7 @@ class Host::Core : private ViewedRun {
   int end_request_ = 0;                             ///< the signal that asked for the end
   bool window_closed_ = false;
   std::optional<int> program_status_;
+  ClientFiles client_files_;
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   mutable std::mutex mutex_;
