@@ -65,6 +65,8 @@ class Process {
       dup2(stdin_read, STDIN_FILENO);
       dup2(stdout_write, STDOUT_FILENO);
       dup2(stderr_write, STDERR_FILENO);
+      // Tests may be started in the background, where shells let SIGINT be ignored.
+      for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
       for (const int signal : options.ignored_signals) std::signal(signal, SIG_IGN);
       if (options.file_limit) {
         const rlimit limit{*options.file_limit, *options.file_limit};

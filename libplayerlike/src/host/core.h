@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/client_files.h"
 #include "host/idle_calls.h"
 #include "host/kept_writer.h"
 #include "host/outputs.h"
@@ -316,6 +317,7 @@ class Host::Core : private ViewedRun, private TurnClock {
   bool window_closed_ = false;
   std::optional<int> program_status_;
   std::map<std::pair<int, int>, std::vector<Client*>> subscribers_;  ///< by robot and device
+  ClientFiles client_files_;
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
   const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order

@@ -109,6 +109,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
                    std::move(world)),
                   log_),
       robots_(describe_robots(simulation_)),
+      client_files_(settings_.client_files_limit, settings_.all_files_limit),
       turns_(settings_.virtual_time &&
              simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
       mutex_(turns_ ? Turns::instance().mutex() : own_mutex_),
@@ -1047,14 +1048,17 @@ CanvasInfo Host::Core::canvas_info() const {
 void Host::Core::save_image(Client& client, const std::string& name, int scale,
                             std::optional<sim::LayerId> layer) {
   const std::string file = picture_file(settings_.output_folder, name, scale);
+  client_files_.require_room(client.number);
   sim::CanvasDescription canvas;
   const std::vector<std::uint8_t> rgba = picture(client, layer, canvas);
   write_picture(canvas, rgba, scale, file);
+  client_files_.note(client.number, file);
 }
 
 void Host::Core::save_map(Client& client, sim::LayerId layer, const std::string& name,
                           sim::io::MapMode mode) {
   const std::string stem = map_stem(settings_.output_folder, name);
+  client_files_.require_room(client.number);
   sim::OccupancyMap map;
   with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
     book.require(client.number, layer);
@@ -1066,6 +1070,7 @@ void Host::Core::save_map(Client& client, sim::LayerId layer, const std::string&
     map = occupancy_map(layers, layer);
   });
   write_map_files(map, stem, mode);
+  for (const char* ending : {".pgm", ".yaml"}) client_files_.note(client.number, stem + ending);
 }
 
 sim::ViewMode Host::Core::view_mode() const {
@@ -1139,7 +1144,9 @@ LogStatus Host::Core::control_log(const Client& client, const LogControl& change
     {
       const Lock lock = lock_soon();
       require_open(client);
-      RunLog& log = logs_.try_emplace(client.port, settings_.output_folder, client.port, robots_)
+      RunLog& log = logs_
+                        .try_emplace(client.port, settings_.output_folder, client.port, robots_,
+                                     client_files_)
                         .first->second;
       file = log.file_to_read(changes);
       if (!file || (loaded && loaded->path == *file)) {

@@ -2,6 +2,8 @@
 #include "host/picture_thread.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "host/picture_sizes.h"
@@ -20,8 +22,10 @@ std::size_t most_jobs(const sim::SceneSnapshot& scene) {
 
 }  // namespace
 
-PictureThread::PictureThread(std::unique_ptr<sim::render::FilmWriter> film)
-    : film_(std::move(film)),
+PictureThread::PictureThread(std::unique_ptr<sim::render::FilmWriter> film,
+                             std::uint64_t film_limit)
+    : film_limit_(film_limit),
+      film_(std::move(film)),
       film_renderer_({.size_px = kFilmSize_px}),
       picture_renderer_({.size_px = kSceneSize_px}),
       thread_([this] { work(); }) {}
@@ -42,6 +46,11 @@ void PictureThread::finish() {
   const std::unique_ptr<sim::render::FilmWriter> film = std::move(film_);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
   if (film) film->finish();
+  if (film_is_full_) {
+    throw std::runtime_error("the film ends where it has reached " + std::to_string(film_limit_) +
+                             " bytes; a lower rate (--record-fps) or a higher speed "
+                             "(--record-speed) makes it shorter");
+  }
 }
 
 void PictureThread::end_thread() {
@@ -81,9 +90,12 @@ void PictureThread::work() {
 }
 
 void PictureThread::draw(const Job& job) {
-  if (job.film_frames > 0) {
+  if (job.film_frames > 0 && !film_is_full_) {
     const sim::render::Image& frame = film_renderer_.draw(job.scene);
-    for (int i = 0; i < job.film_frames; ++i) film_->add(frame);
+    for (int i = 0; i < job.film_frames && !film_is_full_; ++i) {
+      film_->add(frame);
+      film_is_full_ = film_->size() >= film_limit_;
+    }
   }
   if (!job.picture.empty()) {
     sim::render::write_png(picture_renderer_.draw(job.scene), job.picture);

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <exception>
 #include <memory>
@@ -27,7 +28,8 @@ class PictureThread {
   };
 
   /// @param film  takes the frames; may be null if no job has any.
-  explicit PictureThread(std::unique_ptr<sim::render::FilmWriter> film);
+  /// @param film_limit  bytes at which the film ends; finish() tells.
+  PictureThread(std::unique_ptr<sim::render::FilmWriter> film, std::uint64_t film_limit);
   /// Does what is left.
   ~PictureThread();
   PictureThread(const PictureThread&) = delete;
@@ -44,6 +46,8 @@ class PictureThread {
   void draw(const Job& job);
   void end_thread();
 
+  const std::uint64_t film_limit_;
+  bool film_is_full_ = false;
   std::unique_ptr<sim::render::FilmWriter> film_;  // the rest is the thread's, too, until it ends
   sim::render::SceneRenderer film_renderer_;
   sim::render::SceneRenderer picture_renderer_;

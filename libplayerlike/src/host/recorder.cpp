@@ -42,7 +42,7 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
     snapshot_clock_ = Clock(*settings.snapshot_period_s);
   }
   if (film || !snapshot_folder_.empty()) {
-    pictures_ = std::make_unique<PictureThread>(std::move(film));
+    pictures_ = std::make_unique<PictureThread>(std::move(film), settings.film_limit);
   }
   trails_.resize(static_cast<std::size_t>(simulation.robot_count()));
   observe(simulation);

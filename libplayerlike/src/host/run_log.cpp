@@ -20,7 +20,6 @@ using protocol::json;
 
 constexpr std::string_view kEnding = ".jsonl";
 constexpr int kVersion = 1;
-constexpr std::size_t kMostWritten = std::size_t{1} << 30U;  // bytes
 constexpr std::size_t kMostRead = std::size_t{1} << 28U;
 
 std::string with_ending(std::string file) {
@@ -34,8 +33,9 @@ std::string with_ending(std::string file) {
 
 }  // namespace
 
-RunLog::RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots)
-    : folder_(std::move(folder)), port_(port), robots_(&robots) {
+RunLog::RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots,
+               ClientFiles& files)
+    : folder_(std::move(folder)), port_(port), robots_(&robots), files_(&files) {
   status_.file = "log_" + std::to_string(port) + std::string(kEnding);
 }
 
@@ -121,6 +121,7 @@ void RunLog::start(const sim::Simulation& simulation, Loaded* loaded) {
     return;
   }
   if (out_.is_open()) return;  // goes on where it stopped
+  files_->require_room(-port_);
   out_.clear();
   out_.open(path(), std::ios::trunc);
   const json head = {{"playpen_log", kVersion},
@@ -217,11 +218,13 @@ std::optional<std::string> RunLog::observe(const sim::Simulation& simulation) {
     return std::nullopt;
   }
   write(simulation);
-  if (out_ && written_ < kMostWritten) return std::nullopt;
+  files_->note(-port_, path(), written_);
+  if (out_ && files_->may_grow(written_)) return std::nullopt;
   const bool full = out_.good();
   status_.running = false;
   out_.close();
-  return full ? "the log " + path() + " has reached 1 GiB: it ends here"
+  return full ? "the log " + path() + " ends here: it has " + std::to_string(written_) +
+                    " bytes, and clients may not fill more of the output folder with files"
               : "the log " + path() + " cannot be written any more";
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/client_files.h"
 #include "playerlike/messages/messages.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
@@ -27,7 +28,8 @@ class RunLog {
 
   /// @param folder  of the run's results; "": there is none.
   /// @param robots  all of the world; must live as long as this.
-  RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots);
+  /// @param files   has a limit for what is written; must live as long as this.
+  RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots, ClientFiles& files);
 
   /// A file of readings as it was read, or why it could not be.
   struct Loaded {
@@ -70,6 +72,7 @@ class RunLog {
   std::string folder_;
   int port_;
   const std::vector<RobotInfo>* robots_;
+  ClientFiles* files_;
   LogStatus status_;
   std::ofstream out_;
   std::size_t written_ = 0;  ///< bytes

@@ -236,7 +236,6 @@ class Supervisor {
     sigaddset(&children, SIGCHLD);
     children_ = signalfd(-1, &children, SFD_NONBLOCK | SFD_CLOEXEC);
     if (!start_program()) return;
-    setpgid(0, 0);  // not before: the program is to be in the group that this process was in
     std::vector<int> kept = {channel_, children_, output_file_, pipe_};
     kept.insert(kept.end(), start_.kept_descriptors.begin(), start_.kept_descriptors.end());
     close_all_but(std::move(kept));
@@ -279,7 +278,8 @@ class Supervisor {
     const std::vector<char*> variables = pointers(environment);
     std::array<int, 2> output{-1, -1};
     std::array<int, 2> failure{-1, -1};
-    if (pipe2(failure.data(), O_CLOEXEC) != 0 ||
+    std::array<int, 2> go{-1, -1};
+    if (pipe2(failure.data(), O_CLOEXEC) != 0 || pipe2(go.data(), O_CLOEXEC) != 0 ||
         (start_.output_file && pipe2(output.data(), O_CLOEXEC) != 0)) {
       send(News::kFailed, errno);
       return false;
@@ -289,6 +289,10 @@ class Supervisor {
     if (program_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != supervisor) _exit(127);
+      // It must not end its group before the supervisor has left that.
+      close(go[1]);
+      char byte = 0;
+      static_cast<void>(!read(go[0], &byte, 1));
       if (start_.output_file) {
         setpgid(0, 0);
         const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
@@ -304,6 +308,9 @@ class Supervisor {
       _exit(127);
     }
     const int fork_error = errno;
+    setpgid(0, 0);  // not before: the program is to be in the group that this process was in
+    close(go[0]);
+    close(go[1]);
     close(failure[1]);
     if (output[1] >= 0) close(output[1]);
     pipe_ = output[0];

@@ -142,6 +142,8 @@ struct FilmWriter::Impl {
 
   /// Completes the film and sees whether it is whole.
   virtual void finish() {}
+  /// Bytes that it has on the disk by now.
+  [[nodiscard]] virtual std::uint64_t size() const = 0;
 
   std::string path;
   std::uint64_t frame_count = 0;
@@ -190,6 +192,12 @@ class Video final : public FilmWriter::Impl {
       // Whoever wants to know calls finish().
     }
     if (frame_count == 0) std::remove(part_.c_str());  // no film: leave no empty file
+  }
+
+  [[nodiscard]] std::uint64_t size() const override {
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(finished_ ? path : part_, error);
+    return error ? 0 : size;
   }
 
   void finish() override {
@@ -260,15 +268,22 @@ class Pictures final : public FilmWriter::Impl {
     if (made_ && frame_count == 0) fs::remove(path, ignored);
   }
 
+  [[nodiscard]] std::uint64_t size() const override { return size_; }
+
  private:
   void write(const Image& frame) override {
     const std::uint64_t number = frame_count + 1;
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "frame_%06" PRIu64 ".png", number);
     // Quick to pack: a film has thousands.
-    write_png(frame, (fs::path(path) / name.data()).string(), PngEffort::kQuick);
+    const fs::path file = fs::path(path) / name.data();
+    write_png(frame, file.string(), PngEffort::kQuick);
+    std::error_code error;
+    const std::uint64_t size = fs::file_size(file, error);
+    if (!error) size_ += size;
   }
 
+  std::uint64_t size_ = 0;
   bool made_ = false;
 };
 
@@ -293,6 +308,8 @@ FilmWriter::FilmWriter(FilmWriter&&) noexcept = default;
 FilmWriter& FilmWriter::operator=(FilmWriter&&) noexcept = default;
 
 void FilmWriter::add(const Image& frame) { impl_->add(frame); }
+
+std::uint64_t FilmWriter::size() const { return impl_->size(); }
 
 void FilmWriter::finish() { impl_->finish(); }
 

@@ -261,6 +261,29 @@ TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
   EXPECT_EQ(refusal([&] { nowhere->connect(6665)->save_image("map"); }), kNotAvailable);
 }
 
+TEST_P(HostCanvas, TheFilesOfClientsHaveALimit) {
+  const test_support::TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path().string();
+  settings.client_files_limit = 1;
+  settings.all_files_limit = 10'000;
+  const auto host = create(two_robots(), settings);
+  const auto one = host->connect(6665);
+  LogControl logging;
+  logging.running = true;
+  one->save_image("a");  // what is refused is what comes after
+  EXPECT_EQ(refusal([&] { one->save_image("b"); }), kNotAvailable);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.png"));
+  EXPECT_EQ(refusal([&] { one->control_log(logging); }), std::nullopt)
+      << "a log has a limit of its own";
+  const auto two = host->connect(6665);
+  EXPECT_EQ(refusal([&] { two->save_image("b", 64); }), std::nullopt);
+  ASSERT_GT(std::filesystem::file_size(folder.path() / "b.png"), 10'000U);
+  const auto three = host->connect(6666);
+  EXPECT_EQ(refusal([&] { three->save_image("c"); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] { three->control_log(logging); }), kNotAvailable);
+}
+
 TEST_P(HostCanvas, LayersAreSavedOneByOne) {
   const test_support::TemporaryFolder folder;
   RunSettings settings;

@@ -169,6 +169,22 @@ TEST(Recorder, AFailureIsToldAtTheEndAndDoesNotStopTheRun) {
   recorder.close_film();  // nothing is left to tell
 }
 
+TEST(Recorder, AFilmEndsAtItsLimitAndSaysSo) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.film = folder / "film";
+  settings.film_limit = 1;
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  for (int step = 0; step < 50; ++step) {
+    simulation.step();
+    recorder.observe(simulation);
+  }
+  EXPECT_THAT([&] { recorder.close_film(); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("has reached 1 bytes")));
+  EXPECT_EQ(files_in(folder / "film").size(), 1U);
+}
+
 TEST(Recorder, AFilmThatCannotBeMadeIsAnErrorAtOnce) {
   const TemporaryFolder folder;
   RunSettings settings;

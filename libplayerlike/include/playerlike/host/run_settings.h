@@ -32,6 +32,11 @@ struct RunSettings {
   bool progress = false;       ///< a progress line on stderr, if that is a terminal
   bool virtual_time = false;   ///< sleeps of the program move lockstep time (docs/virtual_time.md)
   bool quiet_end = false;      ///< an uncaught end-of-run error ends the program with status 0
+  /// Bytes of the output folder that the pictures, maps and logs of one client may fill, and those
+  /// of all; bytes of the film.
+  std::uint64_t client_files_limit = std::uint64_t{256} << 20U;
+  std::uint64_t all_files_limit = std::uint64_t{1} << 30U;
+  std::uint64_t film_limit = std::uint64_t{4} << 30U;
   /// File of a KeptRun, into which the host writes what the process that started the program needs
   /// when the program has died; "": none.
   std::string kept_run;

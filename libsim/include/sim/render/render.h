@@ -136,6 +136,8 @@ class FilmWriter {
   /// @throws std::runtime_error naming the file and the reason: another size, or no encoder.
   void add(const Image& frame);
 
+  /// Bytes that it has on the disk by now.
+  [[nodiscard]] std::uint64_t size() const;
   /// Completes the film. add() must not be called afterwards.
   /// @throws std::runtime_error naming the file if it is not whole, as when the disk was full.
   void finish();
