@@ -57,8 +57,9 @@ struct ServeRequest {
   std::string world;  ///< as the user wrote it, see find_world()
   playerlike::RunSettings settings;
   playerlike::ServerSettings server;
-  std::string token_file;      ///< "": no tokens
-  std::optional<int> clients;  ///< of the start gate, instead of the world's
+  std::string token_file;         ///< "": no tokens
+  std::optional<int> clients;     ///< of the start gate, instead of the world's
+  bool own_sensors_only = false;  ///< whatever the world's "privacy" says
   sim::LogLevel log_level = sim::LogLevel::kInfo;
   bool quiet = false;
   bool view = false;  ///< in a window, in real time unless the settings say otherwise

@@ -127,6 +127,7 @@ int serve(ServeRequest request) {
     settings.time_factor = 1.0;
   }
   settings.apply_to(world);
+  if (request.own_sensors_only) world.simulation.own_sensors_only = true;
   if (request.clients) {
     world.simulation.start_gate_clients = std::max(*request.clients, 1);
     settings.start_at_once = *request.clients == 0;

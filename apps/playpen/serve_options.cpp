@@ -102,6 +102,13 @@ void add_serve(CommandLine& line) {
                if (good) request->clients = clients;
                return good;
              });
+  CLI::Option* const privacy = add_parsed(
+      command, "--privacy", "own: clients read their own robots' sensors only [the world's]",
+      "WHAT", "own", [request](const std::string& text) {
+        request->own_sensors_only = text == "own";
+        return text == "own";
+      });
+  line.takes(privacy, {"own"});
   add_run_settings(line, command, request->settings, "the world's, else real");
   add_parsed(command, "--stream-port", "First port of MORSE's data streams; 0: any [60000]", "PORT",
              "a whole number from 0 to 65535",

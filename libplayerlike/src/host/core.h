@@ -47,7 +47,9 @@ struct Client {
 
   int number = 0;  ///< in order of connection; fixes the order of commands
   int port = 0;
-  bool follower = false;                    ///< see Session::open_follower()
+  bool follower = false;  ///< see Session::open_follower()
+  /// Of a server, which sees itself to what its clients may read.
+  bool served = false;
   ThinkerId creator = 0;                    ///< who connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
@@ -157,7 +159,7 @@ class Host::Core : private ViewedRun, private TurnClock {
   void save_map(Client& client, sim::LayerId layer, const std::string& name, sim::io::MapMode mode);
   sim::ViewMode view_mode() const;
   void set_view_mode(Client& client, sim::ViewMode mode);
-  sim::OccupancyMap world_map(double cell_size_m) const;
+  sim::OccupancyMap world_map(const Client& client, double cell_size_m) const;
   ObjectPose object_pose(const Client& client, const std::string& name) const;
   void place_object(const Client& client, const std::string& name, const sim::Pose& pose);
   PropertyValue object_property(const Client& client, const std::string& name,
@@ -194,6 +196,12 @@ class Host::Core : private ViewedRun, private TurnClock {
   std::uint64_t state_hash() const;
 
   [[nodiscard]] bool is_sensor(DeviceId device) const;
+  /// Throws SessionError kNotAvailable if the world keeps something private from this client.
+  /// @param robot  whose sensors are to be read; -1: what is nobody's, objects and the map.
+  void require_readable(const Client& client, int robot) const;
+  [[nodiscard]] bool own_sensors_only() const noexcept {
+    return simulation_.world().simulation.own_sensors_only;  // does not change
+  }
   const std::vector<RobotInfo>& robots() const noexcept { return robots_; }
   CanvasInfo canvas_info() const;
   std::uint64_t canvas_generation() const noexcept {

@@ -223,6 +223,7 @@ void Host::Core::adopt(Client& client, ThinkerId thinker) {
 void Host::Core::subscribe(Client& client, DeviceId device) {
   const Lock lock = lock_soon();
   require_open(client);
+  require_readable(client, device.robot);
   auto it = std::lower_bound(client.subscriptions.begin(), client.subscriptions.end(), device,
                              subscribed_before);
   if (it == client.subscriptions.end() || !(it->device == device)) {
@@ -1086,7 +1087,24 @@ void Host::Core::set_view_mode(Client& client, sim::ViewMode mode) {
   }
 }
 
-sim::OccupancyMap Host::Core::world_map(double cell_size_m) const {
+void Host::Core::require_readable(const Client& client, int robot) const {
+  if (!own_sensors_only() || client.served) return;
+  const bool own = robot >= 0 && (robots_.size() == 1 ||
+                                  robots_[static_cast<std::size_t>(robot)].port == client.port);
+  if (own) return;
+  throw SessionError(
+      SessionError::Code::kNotAvailable,
+      robot >= 0
+          ? "this world lets a program read the sensors of its own robot only (\"privacy\" in "
+            "its \"simulation\"): robot " +
+                robots_[static_cast<std::size_t>(robot)].name + " belongs to another port than " +
+                std::to_string(client.port)
+          : "this world keeps the poses and properties of its objects and its map private "
+            "(\"privacy\" in its \"simulation\"): programs know what their sensors tell");
+}
+
+sim::OccupancyMap Host::Core::world_map(const Client& client, double cell_size_m) const {
+  require_readable(client, -1);
   // A map of many cells takes a while: it is made of a copy, without the mutex.
   const sim::ArenaDescription arena = [&] {
     const Lock lock = lock_soon();
@@ -1108,6 +1126,7 @@ void Host::Core::require_unlocked() const {
 ObjectPose Host::Core::object_pose(const Client& client, const std::string& name) const {
   const Lock lock = lock_soon();
   require_open(client);
+  require_readable(client, -1);
   return {require_object(simulation_, name).pose, simulation_.now_ns()};
 }
 
@@ -1115,6 +1134,7 @@ void Host::Core::place_object(const Client& client, const std::string& name,
                               const sim::Pose& pose) {
   const Lock lock = lock_soon();
   require_open(client);
+  require_readable(client, -1);
   static_cast<void>(require_object(simulation_, name));
   require_unlocked();
   playerlike::place_object(simulation_, name, pose);
@@ -1124,6 +1144,7 @@ PropertyValue Host::Core::object_property(const Client& client, const std::strin
                                           const std::string& property) const {
   const Lock lock = lock_soon();
   require_open(client);
+  require_readable(client, -1);
   return playerlike::object_property(simulation_, name, property);
 }
 
@@ -1131,6 +1152,7 @@ void Host::Core::set_object_property(const Client& client, const std::string& na
                                      const std::string& property, const PropertyValue& value) {
   const Lock lock = lock_soon();
   require_open(client);
+  require_readable(client, -1);
   static_cast<void>(playerlike::object_property(simulation_, name, property));  // is it there?
   require_unlocked();
   playerlike::set_object_property(simulation_, name, property, value);
@@ -1668,8 +1690,9 @@ std::unique_ptr<Session> Host::connect(int port) {
 std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()> notify,
                                                   bool follower) {
   require_port(port);
-  return std::make_unique<InProcessEventClient>(
-      shared_from_this(), core_->add_client(port, follower, std::move(notify)));
+  auto client = core_->add_client(port, follower, std::move(notify));
+  client->served = true;
+  return std::make_unique<InProcessEventClient>(shared_from_this(), std::move(client));
 }
 
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
@@ -1689,6 +1712,7 @@ std::optional<std::string> Host::set_time_factor(double factor) {
   return core_->set_time_factor(factor);
 }
 const std::vector<RobotInfo>& Host::robots() const noexcept { return core_->robots(); }
+bool Host::own_sensors_only() const noexcept { return core_->own_sensors_only(); }
 
 void Host::finish() noexcept {
   InsideCore(*core_)->finish();

@@ -51,10 +51,12 @@ bool Rights::change_canvas() const {
                      std::any_of(command.begin(), command.end(), [](bool may) { return may; }));
 }
 
-Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots)
+Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots, bool own_only)
     : server_token_(settings.server_token),
       robot_tokens_(robots.size()),
-      open_watching_(settings.open_watching) {
+      open_watching_(settings.open_watching),
+      own_only_(own_only) {
+  for (const RobotInfo& robot : robots) ports_.push_back(robot.port);
   std::vector<std::string> names;
   names.reserve(robots.size());
   for (const RobotInfo& robot : robots) names.push_back(robot.name);
@@ -76,7 +78,7 @@ Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& rob
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
 }
 
-Rights Access::rights(const std::vector<std::string>& tokens) const {
+Rights Access::rights(const std::vector<std::string>& tokens, int port) const {
   // Bounds the work that a long list can ask for.
   const std::size_t count = std::min(tokens.size(), robot_tokens_.size() + 16);
   const bool may_connect = server_token_.empty() || presented(server_token_, tokens, count);
@@ -88,7 +90,14 @@ Rights Access::rights(const std::vector<std::string>& tokens) const {
     rights.command.push_back(may_command);
     rights.connect = rights.connect || may_command;
   }
-  rights.watch = rights.connect || open_watching_;
+  rights.truth = true;
+  for (std::size_t i = 0; i < robot_tokens_.size(); ++i) {
+    const bool has_token = !robot_tokens_[i].empty();
+    const bool own = has_token || ports_[i] == port || ports_.size() == 1;
+    rights.read.push_back(own_only_ ? rights.command[i] && own : rights.connect);
+    rights.truth = rights.truth && (!own_only_ || (has_token && rights.command[i]));
+  }
+  rights.watch = (rights.connect || open_watching_) && rights.truth;
   return rights;
 }
 

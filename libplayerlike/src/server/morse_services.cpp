@@ -50,6 +50,23 @@ void require_command(const MorseCall& call, int robot) {
                      call.state.host().robots().at(static_cast<std::size_t>(robot)).name);
 }
 
+// Private worlds: see sim::SimulationDescription::own_sensors_only.
+void require_own(const MorseCall& call) {
+  if (call.from.rights().read.at(static_cast<std::size_t>(call.component->robot))) return;
+  throw MorseRefusal(
+      "access/denied: this world lets a client read the sensors of its own robots only: present "
+      "the "
+      "token of the robot " +
+      call.state.host().robots().at(static_cast<std::size_t>(call.component->robot)).name);
+}
+
+void require_truth(const MorseCall& call) {
+  if (call.from.rights().truth) return;
+  throw MorseRefusal(
+      "access/denied: this world keeps the poses of its objects private: that takes the tokens of "
+      "all robots");
+}
+
 void require_command_all(const MorseCall& call) {
   if (call.from.rights().command_all()) return;
   throw MorseRefusal("access/denied: this connection has no tokens for all robots");
@@ -168,6 +185,7 @@ json restore_dynamics(MorseCall& call) {
 }
 
 json get_scene_objects(MorseCall& call) {
+  require_truth(call);
   return call.state.with([](const sim::Simulation& simulation) {
     json objects = json::object();
     for (const sim::SceneObject& object : simulation.scene_objects()) {
@@ -362,6 +380,7 @@ json stop_waypoint(MorseCall& call) { return status_after(call, sim::StopCommand
 json resume(MorseCall& call) { return status_after(call, sim::ResumeCommand{}); }
 
 json get_status(MorseCall& call) {
+  require_own(call);
   return call.state.with([&](const sim::Simulation& simulation) {
     return json(std::string(to_string(waypoint_in(simulation, device_of(call)).status())));
   });
@@ -605,6 +624,7 @@ constexpr std::array kPen{
 // --- sensors
 
 json get_local_data(MorseCall& call) {
+  require_own(call);
   if (!call.component->device) {
     return morse_properties_record(robot_of(call), call.state.host().time().sim_time_ns);
   }

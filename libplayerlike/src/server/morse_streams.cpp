@@ -213,6 +213,13 @@ class MorseStreams::Reader final : public StreamConnection {
  private:
   void listen_if_allowed() {
     if (listens_ || !(rights().connect || rights().watch)) return;
+    const auto robot = static_cast<std::size_t>(source_->component().robot);
+    if (!rights().read.at(robot) && !rights().watch) {
+      return complain(source_->component().name,
+                      "access/denied: this world lets a client read the sensors of its own robots "
+                      "only; the first line must be {\"playpen_token\": \"...\"} with a token for "
+                      "this robot");
+    }
     listens_ = true;
     source_->add(*this);
   }

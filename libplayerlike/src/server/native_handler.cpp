@@ -197,6 +197,7 @@ void NativeHandler::carry_out(const json& message, const json& id, std::string& 
                           [this, id] { answer(id, json::object()); });
   }
   if (name == "resize_canvas") require_canvas_rights();
+  if (name == "world_map") require_truth();
   if (name == "log") require_log_rights(message);
   answer_elsewhere(message, id, name, find_native_work(name));
 }
@@ -255,6 +256,14 @@ void NativeHandler::answer_elsewhere(const json& request, const json& id, const 
     canvas_generation_ = std::max(canvas_generation_, made->canvas_generation);
     peer_.send(std::move(made->bytes));
   });
+}
+
+void NativeHandler::require_truth() const {
+  if (terms_.rights.truth) return;
+  throw ProtocolError(
+      "access/denied",
+      "this world keeps the poses and properties of its objects and its map private "
+      "(\"privacy\" in its \"simulation\"): that takes the tokens of all robots");
 }
 
 void NativeHandler::require_canvas_rights() const {
@@ -518,7 +527,16 @@ json NativeHandler::command(const json& request) {
 }
 
 json NativeHandler::subscribe(const json& request) {
-  session().subscribe(protocol::require_device_id(request, "device"));
+  const DeviceId device = protocol::require_device_id(request, "device");
+  require_device(hub_.host().robots(), device);
+  const auto robot = static_cast<std::size_t>(device.robot);
+  if (!terms_.rights.read[robot]) {
+    throw ProtocolError("access/denied",
+                        "this world lets a client read the sensors of its own robots only "
+                        "(\"privacy\" in its \"simulation\"): for those of " +
+                            hub_.host().robots()[robot].name + " present that robot's token");
+  }
+  session().subscribe(device);
   return json::object();
 }
 
@@ -611,11 +629,13 @@ int NativeHandler::robot_named(const std::string& name) const {
 }
 
 json NativeHandler::object_pose(const json& request) {
+  require_truth();
   const ObjectPose object = session().object_pose(protocol::require_text(request, "name"));
   return {{"pose", protocol::encode_pose(object.pose)}, {"t", object.time_ns}};
 }
 
 json NativeHandler::place_object(const json& request) {
+  require_truth();
   const std::string name = protocol::require_text(request, "name");
   const sim::Pose pose = protocol::require_pose(request, "pose");
   require_rights(robot_named(name));
@@ -624,12 +644,14 @@ json NativeHandler::place_object(const json& request) {
 }
 
 json NativeHandler::object_property(const json& request) {
+  require_truth();
   return {{"value", protocol::encode_property(
                         session().object_property(protocol::require_text(request, "name"),
                                                   protocol::require_text(request, "property")))}};
 }
 
 json NativeHandler::set_object_property(const json& request) {
+  require_truth();
   const std::string name = protocol::require_text(request, "name");
   const std::string property = protocol::require_text(request, "property");
   const PropertyValue value = protocol::require_property(request, "value");
@@ -684,7 +706,12 @@ json NativeHandler::watch(const json& request) {
     protocol::refuse_value("rate", "events a second, 0.01..60, or 0", request["rate"]);
   }
   if (!terms_.rights.watch) {
-    throw ProtocolError("access/denied", "who watches must present a token in hello");
+    throw ProtocolError(
+        "access/denied",
+        terms_.rights.truth
+            ? "who watches must present a token in hello"
+            : "this world is private (\"privacy\" in its \"simulation\"): who watches "
+              "sees all robots, and must present the tokens of them all in hello");
   }
   state_->watching.forget(peer_);
   if (rate_hz > 0.0) state_->watching.watch(peer_, terms_.encoding, rate_hz, canvas);

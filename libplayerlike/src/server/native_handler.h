@@ -81,6 +81,8 @@ class NativeHandler final : public Handler {
   /// there.
   void require_drawing(std::span<const sim::DrawOperation> drawings) const;
   void require_canvas_rights() const;
+  /// @throws ProtocolError access/denied in a private world, see Rights::truth.
+  void require_truth() const;
   /// @throws ProtocolError access/denied if the request changes a log that is not the client's.
   void require_log_rights(const json& request) const;
   void answer(const json& id, json answer);

@@ -83,18 +83,20 @@ NativeHandler::Terms terms_of(Hub& hub, const json& argument) {
   require_version(argument);
   NativeHandler::Terms terms;
   terms.encoding = encoding_of(argument);
-  terms.rights = hub.access().rights(tokens_of(argument));
+  if (argument.contains("port")) {
+    terms.port = static_cast<int>(protocol::require_integer(argument, "port", 1, 65535));
+  }
+  const std::vector<std::string> tokens = tokens_of(argument);
+  terms.rights = hub.access().rights(tokens, terms.port);
   terms.session = !argument.contains("watch") || !protocol::require_bool(argument, "watch");
   if (terms.session ? !terms.rights.connect : !terms.rights.watch) {
     throw ProtocolError("access/denied", "this server wants a token that it knows");
-  }
-  if (argument.contains("port")) {
-    terms.port = static_cast<int>(protocol::require_integer(argument, "port", 1, 65535));
   }
   if (argument.contains("follow")) {
     if (!terms.session)
       protocol::refuse_value("follow", "no such key beside watch", argument["follow"]);
     follow(terms, *hub.native_state, argument);
+    terms.rights = hub.access().rights(tokens, terms.port);
   }
   terms.key = make_token();
   terms.process = name_or_empty(argument, "process");

@@ -23,6 +23,8 @@ struct Rights {
   bool connect = false;       ///< use services and read
   bool watch = false;         ///< watch
   std::vector<bool> command;  ///< one a robot, by index: command it
+  std::vector<bool> read;     ///< one a robot, by index: read its sensors
+  bool truth = false;         ///< read what is no sensor's: poses of objects, the map, the scene
   /// Whether it may do what concerns all robots (reset, pause, quit): it may command each.
   [[nodiscard]] bool command_all() const;
   /// Whether it may change the canvas that all robots share (draw on it, erase, resize): it may
@@ -38,17 +40,24 @@ struct Rights {
 class Access {
  public:
   /// @throws sim::ConfigError access/unknown-robot.
-  Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots);
+  /// @param own_only  see Host::own_sensors_only(): a robot's sensors are read by those who present
+  ///                  its token, or, if it has none, on its port; all else that is true by those
+  ///                  who present the tokens of all robots.
+  Access(const AccessSettings& settings, const std::vector<RobotInfo>& robots,
+         bool own_only = false);
   /// @param tokens  those presented; of a list that is much longer than there are robots, only the
   ///                first ones count.
-  [[nodiscard]] Rights rights(const std::vector<std::string>& tokens) const;
+  /// @param port    of the session; 0: none.
+  [[nodiscard]] Rights rights(const std::vector<std::string>& tokens, int port = 0) const;
   /// Whether one of these tokens is none of the server's; never on a server without tokens.
   [[nodiscard]] bool has_wrong(const std::vector<std::string>& tokens) const;
 
  private:
   std::string server_token_;               ///< "": none
   std::vector<std::string> robot_tokens_;  ///< by index; "": none
+  std::vector<int> ports_;                 ///< by index
   bool open_watching_ = false;
+  bool own_only_ = false;
 };
 
 /// The most tokens that one connection may present.

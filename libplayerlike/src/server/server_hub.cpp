@@ -192,13 +192,14 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
       : host_(std::move(host)),
         settings_(std::move(settings)),
         log_(std::move(log)),
-        access_(settings_.access, host_->robots()),
+        access_(settings_.access, host_->robots(), host_->own_sensors_only()),
         addresses_(sound_addresses(io_, settings_)) {
     Listener services_port;
     services_port.services = true;
     services_port.make = std::move(services);
     open_or_throw(io_, addresses_, settings_, settings_.port, "port", services_port);
     port_ = add(std::move(services_port));
+    warn_if_not_private();
     if (settings_.sync_port) {
       Listener clock;
       clock.make = make_sync_handler;
@@ -252,6 +253,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   }
   void ended(Connection& connection) override;
 
+  void warn_if_not_private();
   void serve();
   int add(Listener listener);
   void accept(Listener& listener, tcp::acceptor& acceptor);
@@ -309,6 +311,18 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   std::atomic<std::thread::id> own_thread_{};
   std::thread thread_;
 };
+
+void ServerHub::Body::warn_if_not_private() {
+  if (!host_->own_sensors_only()) return;
+  for (const RobotInfo& robot : host_->robots()) {
+    if (settings_.access.robot_tokens.contains(robot.name)) continue;
+    log(sim::LogLevel::kWarning,
+        "the world is private (\"privacy\"), but robot " + robot.name +
+            " has no token: anybody who connects to its port reads its sensors. `playpen token "
+            "WORLD` makes a file with tokens for all robots");
+    return;
+  }
+}
 
 // --- Ports
 

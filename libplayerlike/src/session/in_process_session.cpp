@@ -179,7 +179,7 @@ sim::ViewMode InProcessSession::view_mode() const { return core()->view_mode(); 
 void InProcessSession::set_view_mode(sim::ViewMode mode) { core()->set_view_mode(*client_, mode); }
 
 sim::OccupancyMap InProcessSession::world_map(double cell_size_m) {
-  return core()->world_map(cell_size_m);
+  return core()->world_map(*client_, cell_size_m);
 }
 
 ObjectPose InProcessSession::object_pose(const std::string& name) {

@@ -312,6 +312,7 @@ class WorldReader {
     simulation.start_gate_clients =
         static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
     simulation.objects_locked = reader->boolean("lock_objects", simulation.objects_locked);
+    simulation.own_sensors_only = reader->choice("privacy", "none", {"none", "own"}) == "own";
     if (const std::optional<Reader> time = reader->child("time")) {
       simulation.time_mode_given = true;
       if (time->is_string()) {

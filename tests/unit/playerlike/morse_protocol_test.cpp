@@ -100,8 +100,10 @@ class MorseProtocol : public testing::Test {
   }
 
   MorseClient start(RunSettings run = {}) {
-    host = test::patient_host(sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/remote.json"),
-                              std::move(run));
+    sim::WorldDescription world =
+        sim::load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/remote.json");
+    world.simulation.own_sensors_only = own_sensors_only;
+    host = test::patient_host(std::move(world), std::move(run));
     server = std::make_unique<Server>(host, settings, [this](sim::LogLevel, std::string_view text) {
       const std::lock_guard lock(mutex_);
       log_ += std::string(text) + '\n';
@@ -132,6 +134,7 @@ class MorseProtocol : public testing::Test {
   ServerSettings settings;
   std::shared_ptr<Host> host;
   std::unique_ptr<Server> server;
+  bool own_sensors_only = false;
 
  private:
   std::mutex mutex_;
@@ -861,6 +864,29 @@ TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {
   EXPECT_THAT(client.refusal("playpen token [\"mine\"]"), HasSubstr("access/denied"));
   client.get("r1.motion stop");
   client.get("simulation reset_objects");
+}
+
+TEST_F(MorseProtocol, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
+  own_sensors_only = true;
+  settings.access.robot_tokens = {{"r1", "first"}, {"r2", "second"}};
+  MorseClient client = start();
+  client.get("playpen token [\"first\"]");
+  client.sleep(0.2);
+  client.get("r1.pose get_local_data");
+  EXPECT_THAT(client.refusal("r2.pose get_local_data"),
+              AllOf(HasSubstr("access/denied"), HasSubstr("r2")));
+  EXPECT_THAT(client.refusal("simulation get_scene_objects"), HasSubstr("access/denied"));
+  RawClient reader = stream(client, "r2.pose");
+  reader.send("{\"playpen_token\": \"first\"}\n");
+  RawClient owner = stream(client, "r2.pose");
+  owner.send("{\"playpen_token\": \"second\"}\n");
+  client.sleep(0.3);
+  EXPECT_THAT(owner.line(), HasSubstr("timestamp"));
+  client.get("playpen token [\"second\"]");
+  client.get("r2.pose get_local_data");
+  client.get("simulation get_scene_objects");
+  server->stop();
+  EXPECT_EQ(reader.rest(), "");
 }
 
 // --- The clock synchronisation

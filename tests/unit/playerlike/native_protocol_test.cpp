@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using protocol::Encoding;
 using protocol::json;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -87,7 +88,7 @@ class FakePeer final : public Peer {
 class FakeHub final : public Hub {
  public:
   explicit FakeHub(std::shared_ptr<Host> host, AccessSettings access = {})
-      : host_(std::move(host)), access_(access, host_->robots()) {}
+      : host_(std::move(host)), access_(access, host_->robots(), host_->own_sensors_only()) {}
 
   Host& host() noexcept override { return *host_; }
   const ServerSettings& settings() const noexcept override { return settings_; }
@@ -413,6 +414,80 @@ TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
   EXPECT_EQ(driver.error("draw", {{"drawings", red}}), "");
   EXPECT_EQ(driver.error("set_cells", cells), "");
   EXPECT_EQ(driver.error("resize_canvas", {{"width", 10}, {"height", 10}}), "");
+}
+
+TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
+  AccessSettings access;
+  access.server_token = "server-token";
+  access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
+  access.open_watching = true;
+  FakeHub hub(test::patient_host(two_robots(R"("time": "lockstep", "privacy": "own")")), access);
+  Client player(hub, Encoding::kJson, {{"tokens", {"r1-token"}}, {"port", 6666}});
+  for (const char* type : {"pose", "laser", "odometry"}) {
+    EXPECT_EQ(player.error("subscribe", {{"device", player.device("r1", type)}}), "") << type;
+    EXPECT_EQ(player.error("subscribe", {{"device", player.device("r2", type)}}), "access/denied");
+  }
+  const std::vector<std::pair<std::string, json>> truths = {
+      {"object_pose", {{"name", "r1"}}},
+      {"place_object", {{"name", "r1"}, {"pose", {{"x", 1}, {"y", 0.3}, {"yaw", 0}}}}},
+      {"object_property", {{"name", "r2"}, {"property", "size"}}},
+      {"set_object_property", {{"name", "r1"}, {"property", "color"}, {"value", {255, 0, 0}}}},
+      {"world_map", {{"cell_size", 0.1}}},
+      {"watch", {{"rate", 10}}}};
+  for (const auto& [name, request] : truths) {
+    EXPECT_EQ(player.error(name, request), "access/denied") << name;
+  }
+  EXPECT_EQ(player.read("sleep", {{"timeout", 0.1}}).value("error", ""), "");
+
+  Client guest(hub, Encoding::kJson, {{"tokens", {"server-token"}}, {"port", 6665}});
+  EXPECT_EQ(guest.error("subscribe", {{"device", guest.device("r1", "pose")}}), "access/denied");
+  Client stranger(hub);
+  EXPECT_EQ(stranger.say_hello({{"version", 1}, {"watch", true}})["error"], "access/denied");
+
+  Client referee(hub, Encoding::kJson, {{"tokens", {"r1-token", "r2-token"}}});
+  EXPECT_EQ(referee.error("subscribe", {{"device", referee.device("r2", "pose")}}), "");
+  for (const auto& [name, request] : truths) {
+    EXPECT_NE(referee.error(name, request), "access/denied") << name;
+  }
+}
+
+TEST(NativeAccess, InAPrivateWorldWithoutTokensARobotIsThatOfItsPort) {
+  FakeHub hub(test::patient_host(two_robots(R"("time": "lockstep", "privacy": "own")")));
+  Client client(hub, Encoding::kJson, {{"port", 6666}});
+  EXPECT_EQ(client.error("subscribe", {{"device", client.device("r2", "pose")}}), "");
+  EXPECT_EQ(client.error("subscribe", {{"device", client.device("r1", "pose")}}), "access/denied");
+  EXPECT_EQ(client.error("object_pose", {{"name", "r2"}}), "access/denied");
+}
+
+TEST(PrivateWorlds, LetAProgramOfThisProcessReadItsOwnRobotOnly) {
+  const auto host = test::patient_host(two_robots(R"("time": "lockstep", "privacy": "own")"));
+  EXPECT_TRUE(host->own_sensors_only());
+  const auto error_of = [](const auto& action) -> std::string {
+    try {
+      action();
+    } catch (const SessionError& e) {
+      EXPECT_EQ(e.code(), SessionError::Code::kNotAvailable);
+      return e.what();
+    }
+    return "";
+  };
+  const auto session = host->connect(6666);
+  const auto all = host->connect(kMorsePort);
+  for (const RobotInfo& robot : host->robots()) {
+    const DeviceId device = find_interface(host->robots(), robot.port, "position2d", 0).reading;
+    const std::string error = error_of([&] { session->subscribe(device); });
+    if (robot.port == 6666) {
+      EXPECT_EQ(error, "");
+    } else {
+      EXPECT_THAT(error, AllOf(HasSubstr("privacy"), HasSubstr("r1"), HasSubstr("6666")));
+    }
+    EXPECT_THAT(error_of([&] { all->subscribe(device); }), HasSubstr("privacy"));
+  }
+  EXPECT_THAT(error_of([&] { session->object_pose("r2"); }), HasSubstr("privacy"));
+  EXPECT_THAT(error_of([&] { session->object_property("r2", "size"); }), HasSubstr("privacy"));
+  EXPECT_THAT(error_of([&] { session->place_object("r2", {}); }), HasSubstr("privacy"));
+  EXPECT_THAT(error_of([&] { session->world_map(0.1); }), HasSubstr("privacy"));
+  EXPECT_FALSE(test::patient_host(two_robots())->own_sensors_only());
 }
 
 TEST(NativeAccess, WatchersMayNeedNoTokenAndMayNothingElse) {

@@ -128,6 +128,8 @@ const BadWorld kBadWorlds[] = {
      "\"pioneer4dx\" (did you mean"},
     {"unknown_obstacle", "world/unknown-obstacle", "/arena/extended/0", 1, "d1, d2",
      "\"d33\" (did you mean \"d3\"?)"},
+    {"unknown_privacy", "world/unknown-value", "/simulation/privacy", 1, "\"none\" or \"own\"",
+     "\"owm\" (did you mean \"own\"?)"},
     {"unknown_value", "world/unknown-value", "/arena/preset", 1, "\"syrotek\"", "\"syrotec\""},
     {"unknown_view_mode", "world/unknown-value", "/canvas/view_mode", 1,
      "\"ground\", \"mini-map\" or \"full-screen\"", "\"minimap\" (did you mean \"mini-map\"?)"},

@@ -86,6 +86,9 @@ class Host : public std::enable_shared_from_this<Host> {
 
   /// The world's robots and devices, as sessions have them; constant.
   [[nodiscard]] const std::vector<RobotInfo>& robots() const noexcept;
+  /// Whether clients read their own robots' sensors only, see sim::SimulationDescription; a server
+  /// sees to that for its own. Thread-safe.
+  [[nodiscard]] bool own_sensors_only() const noexcept;
   /// @}
 
   /// Ends the run: stops the clock, writes report and pictures (once). Sessions then report

@@ -109,6 +109,8 @@ struct SimulationDescription {
   int start_gate_clients = 1;    ///< the clock waits until so many clients have joined, >= 1
   bool objects_locked = false;   ///< clients may look at robots and obstacles by name, but not move
                                  ///< or change them
+  bool own_sensors_only = false;  ///< for contests: clients read their own robots' sensors only,
+                                  ///< and neither objects by name nor the map
 };
 
 /// A sensor or actuator of a robot.
