@@ -2,6 +2,7 @@
 // Client programs with threads, one for each name on the command line, on a world with two robots.
 // Each prints what its threads see and when, so that no two runs may differ by a byte.
 #include <fcntl.h>
+#include <imr-h/thread.h>
 #include <libplayerc++/playerc++.h>
 #include <linux/futex.h>
 #include <mqueue.h>
@@ -124,7 +125,85 @@ void have_a_thread_from_before_main() {
   early.thread.join();
 }
 
+// Sleeps and waits of several threads before there is a simulation, and on into it.
+void begin_before_the_clients() {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool ready = false;
+  std::vector<std::thread> threads;
+  for (const uint32_t port : {6665U, 6666U}) {
+    threads.emplace_back([&, port] {
+      usleep(port == 6665 ? 30000 : 20000);
+      {
+        std::unique_lock<std::mutex> lock(mutex);
+        const bool came = changed.wait_for(lock, 25ms, [&] { return ready; });
+        std::printf("%u came %d at %.4f\n", port, came ? 1 : 0, now_s());
+        ready = true;
+        changed.notify_all();
+      }
+      drive(port, 0.2, 10);
+    });
+  }
+  usleep(10000);
+  for (std::thread& thread : threads) thread.join();
+  std::printf("%.4f\n", now_s());
+}
+
+// The one that comes first initialises, and takes its time.
+void initialise_once() {
+  PlayerClient robot("localhost", 6665);
+  static std::once_flag once;
+  const auto shared = [](char name) -> const std::string& {
+    static const std::string value = [&] {
+      usleep(30000);
+      return std::string("made by ") + name;
+    }();
+    return value;
+  };
+  std::mutex mutex;
+  std::string seen;
+  const auto work = [&](char name) {
+    const std::string& value = shared(name);
+    const std::lock_guard<std::mutex> lock(mutex);
+    seen += name + (": " + value) + '\n';
+  };
+  std::thread first(work, 'a');
+  std::thread second(work, 'b');
+  work('m');
+  first.join();
+  second.join();
+  std::printf("%s%.4f\n", seen.c_str(), now_s());
+}
+
+class Worker : public imr::concurrent::CThread {
+ public:
+  Worker(uint32_t port, std::atomic<int>& left) : port_(port), left_(left) {}
+  ~Worker() override { join(); }
+
+ protected:
+  void threadBody() override {
+    drive(port_, 0.2, 10);
+    --left_;
+  }
+
+ private:
+  uint32_t port_;
+  std::atomic<int>& left_;
+};
+
 // --- Threads that wait for each other
+
+void have_threads_of_imr() {
+  std::atomic<int> left{2};
+  Worker first(6665, left);
+  Worker second(6666, left);
+  first.execute();
+  second.execute();
+  while (left > 0) usleep(25000);
+  second.join();
+  first.join();
+  std::printf("%.4f\n", now_s());
+}
 
 void consume_with_a_limit() {
   PlayerClient robot("localhost", 6665);
@@ -515,6 +594,9 @@ int main(int argc, char** argv) {
       PROGRAM(have_clients_in_detached_threads),
       PROGRAM(have_a_slow_second_client),
       PROGRAM(have_a_thread_from_before_main),
+      PROGRAM(begin_before_the_clients),
+      PROGRAM(initialise_once),
+      PROGRAM(have_threads_of_imr),
       PROGRAM(consume_with_a_limit),
       PROGRAM(hold_a_mutex_while_sleeping),
       PROGRAM(have_a_pool),

@@ -636,12 +636,13 @@ void Host::Core::end_turns(sim::SimTime before_ns) {
 void Host::Core::wait_for_turn(Lock& lock, Client& client) {
   Turns& turns = Turns::instance();
   TurnThread& self = turns.self();
-  while (in_turns()) {
+  // After the end nobody waits for anything, but each is to have its turn.
+  for (bool waited = false; in_turns(); waited = true) {
     require_open(client);
-    const bool over = wait_is_over(client);
-    if (over && self.state != TurnThread::State::kAside) return;
+    const bool is_over = wait_is_over(client);
+    if (is_over && self.state != TurnThread::State::kAside && (waited || !over())) return;
     self.client = &client;
-    self.wake_ns = over ? 0 : client.wake_ns;
+    self.wake_ns = is_over ? 0 : client.wake_ns;
     static_cast<void>(turns.wait(lock, self));
   }
 }

@@ -24,6 +24,8 @@ using WallClock = std::chrono::steady_clock;
 // How often it is looked whether a thread is blocked, and when it is.
 constexpr std::chrono::milliseconds kLook(20);
 constexpr std::chrono::milliseconds kBlocked(100);
+// It has been seen so at least as often: who looks may not have run for long itself.
+constexpr int kBlockedLooks = 4;
 // Before there is a simulation, which knows the limit of the run.
 constexpr std::chrono::seconds kSilence(5);
 
@@ -42,6 +44,14 @@ Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
   if (errno == EINTR) return Rung::kSignal;
   return errno == ETIMEDOUT ? Rung::kTimeOut : Rung::kYes;
 }
+
+/// A thread that thinks, as it was when it was looked at.
+struct Seen {
+  ThinkerId thinker;
+  pid_t number;
+  WallClock::time_point since;
+  std::optional<std::uint64_t> switches;
+};
 
 /// Finds signals that come while a thread lets time pass itself. They are held back meanwhile.
 class SignalWatch {
@@ -388,7 +398,7 @@ void Turns::park(Lock& lock, TurnThread& self) {
     const Rung rung = wait_for_bell(self.bell, heard, kLook);
     lock.lock();
     if (rung == Rung::kSignal && self.interruptible) note_signal(self);
-    if (rung == Rung::kTimeOut && parked()) look();
+    if (rung == Rung::kTimeOut && parked()) look(lock);
   }
 }
 
@@ -456,26 +466,44 @@ bool Turns::somebody_waits_for_time() const {
 
 // A thread that the system has put to sleep for something else than simulated time, a file or a
 // key, holds up nobody meanwhile. One that computes, or waits for a processor, does.
-void Turns::look() {
+void Turns::look(Lock& lock) {
   if (clock_ != nullptr) clock_->look_at_start();
   if (ready_ == 0 && !somebody_waits_for_time()) return;  // it holds up nobody
-  const auto now = WallClock::now();
-  std::vector<TurnThread*> blocked;
-  std::vector<TurnThread*> thinking;
+  // The system is asked without the lock, for which they may be waiting themselves.
+  std::vector<Seen> seen_threads;
   for (const auto& t : threads_) {
     if (t->state != State::kThinks && t->state != State::kBeside) continue;
     if (t->number == 0) continue;  // only just being started
-    thinking.push_back(t.get());
-    const auto switches = sleeps_since(t->number);
-    if (!switches || !t->blocked_since || *switches != t->blocked_switches) {
-      t->blocked_since = switches ? std::optional(now) : std::nullopt;
-      t->blocked_switches = switches.value_or(0);
-    } else if (now - *t->blocked_since >= kBlocked) {
-      blocked.push_back(t.get());
+    seen_threads.push_back({t->thinker, t->number, t->seen, std::nullopt});
+  }
+  lock.unlock();
+  for (Seen& seen : seen_threads) seen.switches = sleeps_since(seen.number);
+  lock.lock();
+  if (!active()) return;
+  const auto now = WallClock::now();
+  std::vector<TurnThread*> blocked;
+  std::vector<TurnThread*> thinking;
+  for (const Seen& seen : seen_threads) {
+    TurnThread* const t = find(seen.thinker);
+    if (t == nullptr || t->seen != seen.since) return;  // it has waited meanwhile
+    if (t->state != State::kThinks && t->state != State::kBeside) return;
+    thinking.push_back(t);
+    if (!seen.switches || !t->blocked_since || *seen.switches != t->blocked_switches) {
+      t->blocked_since = seen.switches ? std::optional(now) : std::nullopt;
+      t->blocked_switches = seen.switches.value_or(0);
+      t->blocked_looks = 0;
+    } else if (now - t->blocked_last >= kLook) {
+      ++t->blocked_looks;
+      if (t->blocked_looks >= kBlockedLooks && now - *t->blocked_since >= kBlocked) {
+        blocked.push_back(t);
+      }
+    } else {
+      continue;  // another one has just looked
     }
+    t->blocked_last = now;
   }
   // One that thinks may be whom the blocked ones wait for.
-  if (blocked.size() == thinking.size()) {
+  if (!blocked.empty() && blocked.size() == thinking.size()) {
     for (TurnThread* const t : blocked) {
       if (clock_ != nullptr && clock_->on_blocked(*t)) return;
       move(*t, State::kAside);

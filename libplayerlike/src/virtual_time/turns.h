@@ -58,6 +58,8 @@ struct TurnThread {
   std::chrono::steady_clock::time_point seen{};  ///< when it last began to think
   std::uint64_t blocked_switches = 0;  ///< when it was first seen asleep, thinking, and ...
   std::optional<std::chrono::steady_clock::time_point> blocked_since;  ///< ... since when it is
+  std::chrono::steady_clock::time_point blocked_last{};                ///< when it last was
+  int blocked_looks = 0;                                               ///< how often since then
 
   std::atomic<unsigned> bell{0};  ///< counts what it is to look at; a futex
 
@@ -195,7 +197,7 @@ class Turns {
   bool wait_really(Lock& lock, TurnThread& self);
   void wake_those_of_later();
   /// Looks for threads that are blocked, or think for too long.
-  void look();
+  void look(Lock& lock);
 
   std::mutex mutex_;
   std::atomic<bool> active_{false};

@@ -216,6 +216,7 @@ int on_sleep(long long duration_ns, const void* caller, long long* left_ns) {
   }
   thread.asks = 0;
   thread.looks = 0;
+  thread.yields = 0;
   switch (pass(thread, *host, duration_ns, left_ns)) {
     case Passed::kNo:
       return 0;
@@ -328,6 +329,7 @@ int on_begin_wait(const void* object, int kind, long long deadline_ns,
   turns.begin_wait(*self, object, takes_mutex);
   self->is_there = is_there;
   self->value = value;
+  thread.yields = 0;
   thread.deadline_ns = -1;
   if (deadline_ns >= 0) {
     // At least a little, so that a loop of waits for no time at all ends.
@@ -587,6 +589,7 @@ void note_wait() noexcept {
   state.takes_part = true;
   state.asks = 0;
   state.looks = 0;
+  state.yields = 0;
 }
 
 void note_look() noexcept {
