@@ -13,8 +13,9 @@ inline constexpr double kLeastLength_m = 0.001;
 /// The longest side of a floor, and of a box on it [m].
 inline constexpr double kGreatestLength_m = 10'000.0;
 
-/// The mass of a robot [kg].
+/// The least mass of a robot [kg].
 inline constexpr double kLeastMass_kg = 0.001;
+/// The greatest mass of a robot [kg].
 inline constexpr double kGreatestMass_kg = 10'000.0;
 
 /// How far from the origin of W, along x or y, a floor and all that stands on it may reach [m].
