@@ -26,6 +26,7 @@
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
