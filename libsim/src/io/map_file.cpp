@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -57,6 +58,19 @@ void write_file(const std::string& path, const std::string& bytes) {
   if (const int error = replace_file(path, bytes)) {
     throw std::runtime_error(path + ": cannot write the map: " + std::strerror(error));
   }
+}
+
+/// A text as a value in YAML. Written without yaml-cpp, whose own objects may be gone when a
+/// program ends and the run's results are written.
+std::string yaml_text(const std::string& text) {
+  const bool plain = !text.empty() && text.front() != '-' && text.front() != '.' &&
+                     std::all_of(text.begin(), text.end(), [](char c) {
+                       return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
+                              (c >= 'a' && c <= 'z') || c == '_' || c == '-' || c == '.';
+                     });
+  // What stands in quotes is the same in JSON and YAML.
+  using nlohmann::json;
+  return plain ? text : json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 /// How map_server makes occupancy of shades.
@@ -301,21 +315,14 @@ void write_map(const OccupancyMap& map, const std::string& stem, MapMode mode) {
   const std::string image = stem + ".pgm";
   write_file(image, pgm);
 
-  YAML::Emitter yaml;
-  yaml << YAML::BeginMap;
-  yaml << YAML::Key << "image" << YAML::Value << fs::path(image).filename().string();
-  yaml << YAML::Key << "mode" << YAML::Value << std::string(to_string(mode));
-  yaml << YAML::Key << "resolution" << YAML::Value << number_text(map.cell_size_m);
-  yaml << YAML::Key << "origin" << YAML::Value << YAML::Flow << YAML::BeginSeq
-       << number_text(map.origin.x()) << number_text(map.origin.y()) << "0" << YAML::EndSeq;
-  yaml << YAML::Key << "negate" << YAML::Value << 0;
-  yaml << YAML::Key << "occupied_thresh" << YAML::Value
-       << number_text(scale ? kScaleOccupied : kOccupiedThreshold);
-  yaml << YAML::Key << "free_thresh" << YAML::Value
-       << number_text(scale ? kScaleFree : kFreeThreshold);
-  yaml << YAML::EndMap << YAML::Newline;
-  SIM_ASSERT(yaml.good());
-  write_file(stem + ".yaml", yaml.c_str());
+  std::string yaml = "image: " + yaml_text(fs::path(image).filename().string());
+  yaml += "\nmode: " + std::string(to_string(mode));
+  yaml += "\nresolution: " + number_text(map.cell_size_m);
+  yaml += "\norigin: [" + number_text(map.origin.x()) + ", " + number_text(map.origin.y()) + ", 0]";
+  yaml += "\nnegate: 0";
+  yaml += "\noccupied_thresh: " + number_text(scale ? kScaleOccupied : kOccupiedThreshold);
+  yaml += "\nfree_thresh: " + number_text(scale ? kScaleFree : kFreeThreshold) + '\n';
+  write_file(stem + ".yaml", yaml);
 }
 
 OccupancyMap read_map(const std::string& yaml_file) {

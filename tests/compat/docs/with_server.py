@@ -15,6 +15,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 
 # Whatever takes longer hangs.
 TIMEOUT_S = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
@@ -37,8 +38,10 @@ def converse(port, script):
 
 
 def main(playpen, world, file, *arguments):
+    # Of its own: two servers that write into one folder at the same time take each other's results.
+    results = tempfile.TemporaryDirectory()
     server = subprocess.Popen(
-        [playpen, "serve", world, "--port", "0", "--time", "lockstep"],
+        [playpen, "serve", world, "--port", "0", "--time", "lockstep", "--out", results.name],
         stdout=subprocess.PIPE, text=True)
     try:
         line = server.stdout.readline()
@@ -58,6 +61,7 @@ def main(playpen, world, file, *arguments):
     finally:
         server.kill()
         server.wait()
+        results.cleanup()
 
 
 if __name__ == "__main__":
