@@ -5,6 +5,8 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -12,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "playpen_process.h"
@@ -266,7 +269,18 @@ TEST_F(VirtualTime, ASignalEndsASleep) {
   Process process({PLAYPEN_COMMAND, "run", world_, "--quiet", "--out", out_, "--", SLEEPING_PROGRAM,
                    "be_woken"});
   ASSERT_TRUE(process.read_until("\n"));
-  kill(std::atoi(process.output().c_str()), SIGUSR1);
+  const pid_t program = std::atoi(process.output().c_str());
+  std::atomic<bool> woken{false};
+  // Again and again: the first may come before the sleep has begun.
+  std::thread wake([&] {
+    while (!woken) {
+      kill(program, SIGUSR1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  EXPECT_TRUE(process.read_until("alone"));
+  woken = true;
+  wake.join();
   const ProcessResult result = process.finish();
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, EndsWith("\nalone 1\n-1 1 86399.5\n"));
