@@ -15,8 +15,7 @@ inline constexpr double kGreatestLength_m = 10'000.0;
 
 /// The least mass of a robot [kg].
 inline constexpr double kLeastMass_kg = 0.001;
-/// The greatest mass of a robot [kg].
-inline constexpr double kGreatestMass_kg = 10'000.0;
+inline constexpr double kGreatestMass_kg = 10'000.0;  ///< the greatest [kg]
 
 /// How far from the origin of W, along x or y, a floor and all that stands on it may reach [m].
 inline constexpr double kFarthest_m = 10'000.0;
