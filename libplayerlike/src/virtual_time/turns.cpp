@@ -19,7 +19,7 @@
 namespace playerlike {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 // How often it is looked whether a thread is blocked, and when it is.
 constexpr std::chrono::milliseconds kLook(20);
@@ -49,7 +49,7 @@ Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
 struct Seen {
   ThinkerId thinker;
   pid_t number;
-  WallClock::time_point since;
+  SteadyClock::time_point since;
   std::optional<std::uint64_t> switches;
 };
 
@@ -132,7 +132,7 @@ void Turns::move(TurnThread& thread, State state) {
   if (state == State::kBeside) ++beside_;
   if (state == State::kThinks) current_ = &thread;
   if (state == State::kThinks || state == State::kBeside) {
-    thread.seen = WallClock::now();
+    thread.seen = SteadyClock::now();
     thread.blocked_since.reset();
   }
 }
@@ -480,7 +480,7 @@ void Turns::look(Lock& lock) {
   for (Seen& seen : seen_threads) seen.switches = sleeps_since(seen.number);
   lock.lock();
   if (!active()) return;
-  const auto now = WallClock::now();
+  const auto now = SteadyClock::now();
   std::vector<TurnThread*> blocked;
   std::vector<TurnThread*> thinking;
   for (const Seen& seen : seen_threads) {
@@ -513,7 +513,7 @@ void Turns::look(Lock& lock) {
     }
     return;
   }
-  const auto limit = clock_ != nullptr ? clock_->silence_limit() : WallClock::duration(kSilence);
+  const auto limit = clock_ != nullptr ? clock_->silence_limit() : SteadyClock::duration(kSilence);
   for (TurnThread* const t : thinking) {
     const auto seen = clock_ != nullptr ? clock_->last_seen(*t) : t->seen;
     if (now - seen < limit) continue;
