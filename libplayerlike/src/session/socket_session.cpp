@@ -559,7 +559,7 @@ void SocketSession::sleep_by_the_wall_clock(double seconds) {
 
 TimeStatistics SocketSession::time() const {
   const json answer = request({{"do", "time"}});
-  const TimeStatistics time =
+  TimeStatistics time =
       understood([&] { return protocol::decode_time(protocol::require(answer, "time")); });
   const bool paced = time.mode == sim::TimeMode::kPaced;
   if (paced != line_->paced()) line_->set_paced(paced);

@@ -67,13 +67,13 @@ struct PlaypenVirtualTimeHooks {
   void (*waits_for_real)(const char* what);
 };
 
-enum PlaypenWaitKind { PLAYPEN_WAIT_OBJECT = 0, PLAYPEN_WAIT_MUTEX = 1, PLAYPEN_WAIT_THREAD = 2 };
+enum PlaypenWaitKind { kPlaypenWaitObject = 0, kPlaypenWaitMutex = 1, kPlaypenWaitThread = 2 };
 
 enum PlaypenWaitEnd {
-  PLAYPEN_WAIT_THERE = 0,
-  PLAYPEN_WAIT_TIME = 1,         ///< the deadline has come
-  PLAYPEN_WAIT_INTERRUPTED = 2,  ///< somebody cancels the thread
-  PLAYPEN_WAIT_RELEASED = 3,     ///< time is not virtual any more: the thread is to wait for real
+  kPlaypenWaitThere = 0,
+  kPlaypenWaitTime = 1,         ///< the deadline has come
+  kPlaypenWaitInterrupted = 2,  ///< somebody cancels the thread
+  kPlaypenWaitReleased = 3,     ///< time is not virtual any more: the thread is to wait for real
 };
 
 /// Offered by the preloaded library: gives it the hooks, which are to live for ever.

@@ -314,7 +314,7 @@ int wait_virtually(const void* object, int kind, const Deadline& deadline, IsThe
   const NotCancelled whole;
   const int begun = table->begin_wait(object, kind, deadline.elapsed_ns, is_there, value);
   if (begun == 0) return -1;
-  if (begun == 2) return PLAYPEN_WAIT_THERE;
+  if (begun == 2) return kPlaypenWaitThere;
   before();
   const int end = table->finish_wait();
   errno = error;
@@ -376,10 +376,10 @@ int lock_mutex(const PlaypenVirtualTimeHooks* table, pthread_mutex_t* mutex,
     const int error = errno;
     if (!wanted && table->waits_for_turn(mutex->__data.__owner) == 0) return real();
     const int end =
-        wait_virtually(mutex, PLAYPEN_WAIT_MUTEX, deadline, wanted ? nullptr : is_free, 0);
+        wait_virtually(mutex, kPlaypenWaitMutex, deadline, wanted ? nullptr : is_free, 0);
     errno = error;
     if (end < 0) return real();
-    if (end == PLAYPEN_WAIT_TIME) return ETIMEDOUT;
+    if (end == kPlaypenWaitTime) return ETIMEDOUT;
     wanted = false;
   }
 }
@@ -410,7 +410,7 @@ template <typename Real>
 int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, const Deadline& deadline,
                        Real real) {
   if (is_shared(condition)) return real();
-  const int end = wait_virtually(condition, PLAYPEN_WAIT_OBJECT, deadline, nullptr, 0,
+  const int end = wait_virtually(condition, kPlaypenWaitObject, deadline, nullptr, 0,
                                  [mutex] { unlock_mutex(mutex); });
   if (end < 0) return real();
   {
@@ -418,7 +418,7 @@ int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, const 
     lock_mutex(mutex);
   }
   pthread_testcancel();  // with the mutex, as those who tidy up expect
-  return end == PLAYPEN_WAIT_TIME ? ETIMEDOUT : 0;
+  return end == kPlaypenWaitTime ? ETIMEDOUT : 0;
 }
 
 int is_posted(const void* semaphore, unsigned /*value*/) {
@@ -432,10 +432,10 @@ int wait_for_semaphore(sem_t* semaphore, const Deadline& deadline, Real real) {
   for (;;) {
     if (sem_trywait(semaphore) == 0) return 0;
     if (errno != EAGAIN) return -1;
-    const int end = wait_virtually(semaphore, PLAYPEN_WAIT_OBJECT, deadline, is_posted, 0);
+    const int end = wait_virtually(semaphore, kPlaypenWaitObject, deadline, is_posted, 0);
     if (end < 0) return real();
     pthread_testcancel();
-    if (end != PLAYPEN_WAIT_TIME) continue;
+    if (end != kPlaypenWaitTime) continue;
     errno = ETIMEDOUT;
     return -1;
   }
@@ -447,9 +447,9 @@ template <typename Attempt, typename Real>
 int wait_by_trying(const void* object, const Deadline& deadline, Attempt attempt, Real real) {
   for (;;) {
     if (const int result = attempt(); result != EBUSY) return result;
-    const int end = wait_virtually(object, PLAYPEN_WAIT_OBJECT, deadline, nullptr, 0);
+    const int end = wait_virtually(object, kPlaypenWaitObject, deadline, nullptr, 0);
     if (end < 0) return real();
-    if (end == PLAYPEN_WAIT_TIME) return ETIMEDOUT;
+    if (end == kPlaypenWaitTime) return ETIMEDOUT;
   }
 }
 
@@ -1096,7 +1096,7 @@ EXPORTED int pthread_barrier_wait(pthread_barrier_t* which) noexcept {
     return PTHREAD_BARRIER_SERIAL_THREAD;
   }
   while (barrier->round.load() == round) {
-    if (wait_virtually(barrier, PLAYPEN_WAIT_OBJECT, Deadline(), has_another_round, round) >= 0) {
+    if (wait_virtually(barrier, kPlaypenWaitObject, Deadline(), has_another_round, round) >= 0) {
       continue;
     }
     const int error = errno;
@@ -1164,10 +1164,10 @@ int wait_for_end(pthread_t thread, const Deadline& deadline) {
   const auto* const handle = reinterpret_cast<const void*>(thread);
   const auto* const table = playpen();
   while (table != nullptr && table->thread_lives(handle) != 0) {
-    const int end = wait_virtually(handle, PLAYPEN_WAIT_THREAD, deadline, nullptr, 0);
+    const int end = wait_virtually(handle, kPlaypenWaitThread, deadline, nullptr, 0);
     if (end < 0) break;
     pthread_testcancel();
-    if (end == PLAYPEN_WAIT_TIME) return ETIMEDOUT;
+    if (end == kPlaypenWaitTime) return ETIMEDOUT;
   }
   return 0;
 }
@@ -1264,10 +1264,10 @@ bool wait_for_futex(unsigned* word, int operation, unsigned value, const timespe
     result = -1;
     return true;
   }
-  const int end = wait_virtually(word, PLAYPEN_WAIT_OBJECT, deadline, word_differs, value);
+  const int end = wait_virtually(word, kPlaypenWaitObject, deadline, word_differs, value);
   if (end < 0) return false;
-  result = end == PLAYPEN_WAIT_TIME ? -1 : 0;
-  if (end == PLAYPEN_WAIT_TIME) errno = ETIMEDOUT;
+  result = end == kPlaypenWaitTime ? -1 : 0;
+  if (end == kPlaypenWaitTime) errno = ETIMEDOUT;
   return true;
 }
 

@@ -322,10 +322,10 @@ int on_begin_wait(const void* object, int kind, long long deadline_ns,
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
   if (!turns.active()) return 0;
-  const bool takes_mutex = kind == PLAYPEN_WAIT_MUTEX;
+  const bool takes_mutex = kind == kPlaypenWaitMutex;
   if (takes_mutex && self->state == TurnThread::State::kAside) return 0;
   if (is_there != nullptr && is_there(object, value) != 0) return 2;
-  if (kind == PLAYPEN_WAIT_THREAD && !turns.lives(object)) return 2;
+  if (kind == kPlaypenWaitThread && !turns.lives(object)) return 2;
   turns.begin_wait(*self, object, takes_mutex);
   self->is_there = is_there;
   self->value = value;
@@ -354,11 +354,11 @@ int on_finish_wait() {
     case TurnThread::Wake::kThere:
       thread.asks = 0;
       thread.looks = 0;
-      return PLAYPEN_WAIT_THERE;
+      return kPlaypenWaitThere;
     case TurnThread::Wake::kInterrupted:
-      return PLAYPEN_WAIT_INTERRUPTED;
+      return kPlaypenWaitInterrupted;
     case TurnThread::Wake::kNone:
-      return PLAYPEN_WAIT_RELEASED;
+      return kPlaypenWaitReleased;
     case TurnThread::Wake::kTime:
       break;
   }
@@ -373,7 +373,7 @@ int on_finish_wait() {
         std::max<sim::SimTime>(0, thread.deadline_ns - offset_ns.load() - thread.ahead_from);
     core.note_timed_wait(lock, thread.ahead_ns);
   }
-  return PLAYPEN_WAIT_TIME;
+  return kPlaypenWaitTime;
 }
 
 int on_wake(const void* object, int most) {
