@@ -430,10 +430,10 @@ Pose Reader::pose(std::string_view key, const Pose& fallback) {
 
 Pose Reader::as_pose(const Pose& fallback) {
   if (!expect_object()) return fallback;
-  constexpr NumberRange position{-kFarthest_m, kFarthest_m, false, "m"};
+  constexpr NumberRange kPosition{-kFarthest_m, kFarthest_m, false, "m"};
   Pose pose;
-  pose.x_m = number("x", fallback.x_m, position);
-  pose.y_m = number("y", fallback.y_m, position);
+  pose.x_m = number("x", fallback.x_m, kPosition);
+  pose.y_m = number("y", fallback.y_m, kPosition);
   pose.yaw_rad = normalize_angle(angle_deg("yaw_deg", fallback.yaw_rad));
   finish();
   return pose;
