@@ -26,7 +26,6 @@ using Clock = std::chrono::steady_clock;
 // How long clients may take to leave when the run is over.
 constexpr auto kLeavingTime = std::chrono::seconds(5);
 constexpr long kLook_ns = 50'000'000;
-constexpr auto kOneRequest = std::chrono::milliseconds(500);
 
 /// Holds SIGINT, SIGTERM and SIGHUP back in all threads that are started afterwards, so that they
 /// can be waited for. Those that this process ignores, as under nohup, stay ignored.
@@ -66,7 +65,7 @@ class HeldSignals {
       while (!over_) {
         const int signal = wait();
         if (signal == 0) continue;
-        if (signal == first && (signal == SIGHUP || Clock::now() - begin < kOneRequest)) continue;
+        if (playerlike::is_same_request(first, signal, Clock::now() - begin)) continue;
         std::signal(signal, SIG_DFL);
         pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
         raise(signal);

@@ -60,15 +60,12 @@ class KeptMemory {
     return reinterpret_cast<const T*>(bytes_ + place);
   }
 
-  [[nodiscard]] json text(std::uint64_t text) const {
+  /// @return null unless JSON lies there.
+  template <typename Json>
+  [[nodiscard]] Json text(std::uint64_t text) const {
     const char* const bytes = at<char>(place_of_text(text), size_of_text(text));
     if (text == 0 || bytes == nullptr) return nullptr;
-    return json::parse(bytes, bytes + size_of_text(text), nullptr, /*allow_exceptions=*/false);
-  }
-  [[nodiscard]] ordered_json ordered_text(std::uint64_t text) const {
-    const char* const bytes = at<char>(place_of_text(text), size_of_text(text));
-    if (text == 0 || bytes == nullptr) return nullptr;
-    return ordered_json::parse(bytes, bytes + size_of_text(text), nullptr, false);
+    return Json::parse(bytes, bytes + size_of_text(text), nullptr, /*allow_exceptions=*/false);
   }
 
  private:
@@ -158,7 +155,6 @@ Enum choice(const json& value, Enum last) {
 sim::LayerStack layers_of(const json& scene, const sim::CanvasDescription& canvas,
                           const KeptMemory& memory) {
   sim::CanvasDescription place = canvas;
-  // The bottom left corner stays where it is.
   place.width = scene.at("width").get<int>();
   place.height = scene.at("height").get<int>();
   if (place.width < 1 || place.width > sim::kMaxCanvasSide || place.height < 1 ||
@@ -248,7 +244,7 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
 /// Draws what was kept. @throws std::exception for what cannot be.
 void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const LastStep& last,
                        const sim::WorldDescription& world, const std::string& folder) {
-  const json kept = memory.text(header.scene);
+  const json kept = memory.text<json>(header.scene);
   sim::Simulation simulation(world, {});
   sim::SceneSnapshot scene = simulation.snapshot();
   if (scene.robots.size() != last.robots.size()) {
@@ -297,7 +293,7 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
   const std::optional<LastStep> last =
       header == nullptr ? std::nullopt : last_step(memory, *header);
   if (!last) throw std::runtime_error("the program has left nothing of its run");
-  const ordered_json report = memory.ordered_text(header->report);
+  const ordered_json report = memory.text<ordered_json>(header->report);
   std::string problem;
   const auto attempt = [&problem](const char* what, const auto& action) {
     try {

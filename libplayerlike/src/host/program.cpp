@@ -50,9 +50,6 @@ std::string absolute_path(const std::string& path) {
 
 using Clock = std::chrono::steady_clock;
 
-// Copies of one request to end, sent to this process and to its group (as timeout does), come
-// within this time.
-constexpr std::chrono::milliseconds kOneRequest(500);
 // A program that was asked to end, and whose simulated run has not ended by then, is killed; what
 // is to be written afterwards takes the rest of the two seconds that are promised.
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
@@ -135,9 +132,7 @@ class EndRequests {
       time_ = now;
       return Meaning::kFirst;
     }
-    // A terminal that is closed may hang up twice: its shell does, too.
-    const bool copy = signal == *first_ && (signal == SIGHUP || now - time_ < kOneRequest);
-    return copy ? Meaning::kCopy : Meaning::kAgain;
+    return is_same_request(*first_, signal, now - time_) ? Meaning::kCopy : Meaning::kAgain;
   }
   [[nodiscard]] std::optional<int> first() const noexcept { return first_; }
   [[nodiscard]] Clock::duration age() const {
@@ -265,6 +260,12 @@ std::string find_program(const std::string& name) {
     message += "; for the one in this folder write ./" + name;
   }
   throw ProgramError(message);
+}
+
+bool is_same_request(int first, int signal, std::chrono::nanoseconds age) noexcept {
+  constexpr std::chrono::milliseconds kOneRequest(500);
+  // A terminal that is closed may hang up twice: its shell does, too.
+  return signal == first && (signal == SIGHUP || age < kOneRequest);
 }
 
 EnvironmentChanges run_environment(const std::string& world_file, const RunSettings& settings) {

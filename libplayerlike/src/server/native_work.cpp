@@ -72,21 +72,18 @@ json save_map(const NativeSubject& subject, const json& request) {
 }
 
 json map_tile(const NativeSubject& subject, double cell_size_m, const sim::CellRect& tile) {
-  sim::OccupancyMap map;
-  sim::CanvasDescription grid;
   const sim::ArenaDescription arena = arena_of(subject.host);
-  grid = map_grid(arena, cell_size_m);
-  {
-    const int right = std::clamp(tile.column + tile.width, 0, grid.width);
-    const int bottom = std::clamp(tile.row + tile.height, 0, grid.height);
-    const int left = std::clamp(tile.column, 0, right);
-    const int top = std::clamp(tile.row, 0, bottom);
-    sim::CanvasDescription part = grid;
-    part.width = right - left;
-    part.height = bottom - top;
-    part.origin += cell_size_m * sim::Vec2(left, grid.height - bottom);
-    if (part.width > 0 && part.height > 0) map = sim::true_map(arena, part);
-  }
+  const sim::CanvasDescription grid = map_grid(arena, cell_size_m);
+  const int right = std::clamp(tile.column + tile.width, 0, grid.width);
+  const int bottom = std::clamp(tile.row + tile.height, 0, grid.height);
+  const int left = std::clamp(tile.column, 0, right);
+  const int top = std::clamp(tile.row, 0, bottom);
+  sim::CanvasDescription part = grid;
+  part.width = right - left;
+  part.height = bottom - top;
+  part.origin += cell_size_m * sim::Vec2(left, grid.height - bottom);
+  sim::OccupancyMap map;
+  if (part.width > 0 && part.height > 0) map = sim::true_map(arena, part);
   if (map.cells.empty()) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "the map has no such tile: it has " + std::to_string(grid.width) + " x " +

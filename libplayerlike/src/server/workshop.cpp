@@ -8,6 +8,18 @@
 
 namespace playerlike::server {
 
+bool Job::work() {
+  std::exception_ptr error;
+  try {
+    if (piece()) return true;
+  } catch (...) {
+    error = std::current_exception();
+  }
+  piece = nullptr;  // what it holds goes before anybody is told
+  std::exchange(done, nullptr)(error);
+  return false;
+}
+
 void Workshop::add(Job job) {
   const std::lock_guard lock(mutex_);
   if (closed_) return;
@@ -41,18 +53,7 @@ void Workshop::work() {
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    bool more = false;
-    std::exception_ptr error;
-    try {
-      more = job.piece();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    if (!more) {
-      job.piece = nullptr;  // what it holds goes before anybody is told
-      job.done(error);
-      job.done = nullptr;
-    }
+    const bool more = job.work();
     lock.lock();
     if (more && !closed_) jobs_.push_back(std::move(job));
   }

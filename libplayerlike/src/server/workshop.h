@@ -25,6 +25,9 @@ struct Job {
   /// Called once after the last piece, with what that has thrown. Not called if the workshop is
   /// closed before.
   std::function<void(std::exception_ptr)> done;
+
+  /// Does a piece, and after the last one calls `done`. @return whether more is left.
+  bool work();
 };
 
 /// Does what would keep a server's thread for too long: draws on large canvases, makes large

@@ -117,18 +117,7 @@ class FakeHub final : public Hub {
     if (jobs_.empty()) return false;
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
-    bool more = false;
-    std::exception_ptr error;
-    try {
-      more = job.piece();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    if (more) {
-      jobs_.push_back(std::move(job));
-    } else {
-      job.done(error);
-    }
+    if (job.work()) jobs_.push_back(std::move(job));
     return true;
   }
   void pump() override {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -46,6 +47,13 @@ struct ProgramEnd {
 /// @return a path that names an executable file.
 /// @throws ProgramError saying what is wrong: no such file, a folder, not executable.
 [[nodiscard]] std::string find_program(const std::string& name);
+
+/// Whether a signal that asks for the end belongs to the request that an earlier one has made, and
+/// is no second request: a copy of it within half a second, as `timeout` sends them to a process
+/// and to its group, or a further SIGHUP after a first one.
+/// @param first  the earlier signal.
+/// @param age    how long ago it came.
+[[nodiscard]] bool is_same_request(int first, int signal, std::chrono::nanoseconds age) noexcept;
 
 /// The environment by which a program's embedded simulation learns of its run; the inverse of
 /// RunSettings::from_environment(). Settings that are left out are removed from the environment, so
