@@ -80,7 +80,7 @@ class ClientCore final : private ReadingSink {
     constexpr int kAtOnce = 1024;
     if (++looks_ < kAtOnce) return;
     looks_ = 0;
-    session_->note_looks(kAtOnce, has_data);
+    session_->request(NoteLooksRequest{kAtOnce, has_data});
   }
 
   /// Where a robot's localisation last said that it is, for devices that report it too; under

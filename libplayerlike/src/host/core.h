@@ -102,10 +102,11 @@ class Host::Core : private ViewedRun, private TurnClock {
   void remove_client(Client& client) noexcept;
   void thinker_ended(ThinkerId thinker) noexcept;
 
+  /// What a client asks for; in requests.cpp.
+  Answer answer(Client& client, const Request& request);
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
   void set_replace(Client& client, std::optional<DeviceId> device, bool replace);
-  std::uint32_t overflow(const Client& client) const;
 
   void wait(Client& client);
   int take(Client& client, ReadingSink& sink);
@@ -129,12 +130,11 @@ class Host::Core : private ViewedRun, private TurnClock {
   std::optional<std::string> set_time_factor(double factor);
 
   void send(Client& client, DeviceId device, const sim::Command& command);
-  /// See Session::note_looks().
+  /// See NoteLooksRequest.
   void note_looks(Client& client, int count, bool has_data);
   void watch_program();
   void note_program_ends(int status);
   void note_end_request(int signal);
-  void flush_drawings(Client& client);
   /// Does something with the layers, after what the client has drawn so far: calls
   /// action(layers, book) under the mutex.
   template <typename Action>
@@ -154,19 +154,6 @@ class Host::Core : private ViewedRun, private TurnClock {
   std::vector<std::uint8_t> picture(Client& client, std::optional<sim::LayerId> layer,
                                     sim::CanvasDescription& canvas);
   void resize_canvas(Client& client, int width, int height);
-  void save_image(Client& client, const std::string& name, int scale,
-                  std::optional<sim::LayerId> layer);
-  void save_map(Client& client, sim::LayerId layer, const std::string& name, sim::io::MapMode mode);
-  sim::ViewMode view_mode() const;
-  void set_view_mode(Client& client, sim::ViewMode mode);
-  sim::OccupancyMap world_map(const Client& client, double cell_size_m) const;
-  ObjectPose object_pose(const Client& client, const std::string& name) const;
-  void place_object(const Client& client, const std::string& name, const sim::Pose& pose);
-  PropertyValue object_property(const Client& client, const std::string& name,
-                                const std::string& property) const;
-  void set_object_property(const Client& client, const std::string& name,
-                           const std::string& property, const PropertyValue& value);
-  LogStatus control_log(const Client& client, const LogControl& changes);
   void join(Client& client, ThinkerId thinker);
 
   /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
@@ -203,12 +190,13 @@ class Host::Core : private ViewedRun, private TurnClock {
     return simulation_.world().simulation.own_sensors_only;  // does not change
   }
   const std::vector<RobotInfo>& robots() const noexcept { return robots_; }
-  CanvasInfo canvas_info() const;
   std::uint64_t canvas_generation() const noexcept {
     return canvas_generation_.load(std::memory_order_acquire);
   }
 
  private:
+  struct RequestHandler;
+
   /// A lock for calls that must not starve behind a thread that steps without pause.
   [[nodiscard]] Lock lock_soon() const;
   void adopt(Client& client, ThinkerId thinker);
@@ -271,7 +259,6 @@ class Host::Core : private ViewedRun, private TurnClock {
   /// @return null if the client has none for that device.
   [[nodiscard]] static Client::Subscription* find_subscription(Client& client, DeviceId device);
   void forget_subscriber(const Client& client, DeviceId device) noexcept;
-  void require_unlocked() const;
   void release_waiters();
   void ring_alarms();
   void end_run();

@@ -58,7 +58,7 @@ class ViewedHostTest : public testing::Test {
                         });
     session = host->connect(6665);
     position = find_interface(session->robots(), session->port(), "position2d", 0);
-    session->subscribe(position.reading);
+    session->request(SubscribeRequest{position.reading});
     viewer.hello();
   }
   void TearDown() override {

@@ -105,7 +105,7 @@ class Host : public std::enable_shared_from_this<Host> {
 
  private:
   friend class InProcessSession;
-  friend class InProcessEventClient;
+  friend class EventClient;
   friend class InsideCore;
   friend struct VirtualTimeAccess;
   class Core;
