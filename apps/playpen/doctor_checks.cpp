@@ -22,7 +22,7 @@
 
 #include "environment.h"
 #include "own_folders.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "project.h"
@@ -234,7 +234,7 @@ int probe_run() {
   constexpr int kPort = 6665;
   const std::unique_ptr<playerlike::Session> session = playerlike::open_session("localhost", kPort);
   for (const playerlike::DeviceInfo& device : session->robots().front().devices) {
-    if (device.type == "laser") session->subscribe(device.id);
+    if (device.type == "laser") session->request(playerlike::SubscribeRequest{device.id});
   }
   Readings readings;
   for (int round = 0; round < kProbeRounds; ++round) {

@@ -51,18 +51,8 @@ struct FakeWorld {
   std::atomic<std::uint64_t> resizes{0};
   sim::ViewMode view_mode = sim::ViewMode::kGround;
   bool view_mode_locked = false;
-  struct SavedImage {
-    std::string name;
-    int scale;
-    std::optional<sim::LayerId> layer;
-  };
-  struct SavedMap {
-    sim::LayerId layer;
-    std::string name;
-    sim::io::MapMode mode;
-  };
-  std::vector<SavedImage> saved;
-  std::vector<SavedMap> saved_maps;
+  std::vector<playerlike::SaveImageRequest> saved;
+  std::vector<playerlike::SaveMapRequest> saved_maps;
   int joins = 0;
   sim::SimTime slept_ns = 0;
   playerlike::TimeStatistics time;
@@ -162,23 +152,6 @@ class FakeSession final : public playerlike::Session {
     return !world_->closed;
   }
 
-  void subscribe(playerlike::DeviceId device) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    ++world_->subscriptions[device.device];
-  }
-  void unsubscribe(playerlike::DeviceId device) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    --world_->subscriptions[device.device];
-  }
-  void set_replace(std::optional<playerlike::DeviceId> device, bool replace) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    world_->replace[device ? device->device : -1] = replace;
-  }
-  std::uint32_t overflow_count() const override { return 3; }
-
   void wait() override {
     std::unique_lock lock(world_->mutex);
     world_->changed.wait(lock, [this] {
@@ -222,128 +195,15 @@ class FakeSession final : public playerlike::Session {
     world_->sent.emplace_back(device, command);
   }
 
-  void join() override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    ++world_->joins;
+  playerlike::Answer answer(const playerlike::Request& request) override {
+    return playerlike::answer_by(*this, request);
   }
   std::unique_ptr<playerlike::Session> open_follower() override {
     return std::make_unique<FakeSession>(world_);
   }
   const void* simulation() const noexcept override { return world_.get(); }
   playerlike::DrawQueue& draw_queue() noexcept override { return queue_; }
-  void flush_drawings() override {
-    with_layers([this](sim::LayerStack&, playerlike::LayerBook&) { ++world_->flushes; });
-    const std::lock_guard lock(world_->mutex);
-    queue_.reserve();
-  }
-  void draw_cells(sim::LayerId layer, const sim::CellRect& rect,
-                  std::span<const sim::CellValue> values) override {
-    playerlike::require_cells(rect, values.size());
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, layer);
-      ++world_->cell_calls;
-      layers.set_cells(layer, rect, values);
-    });
-  }
-  std::optional<sim::CellValue> cell(sim::LayerId layer, int column, int row) override {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, layer);
-      return layers.cell(layer, column, row);
-    });
-  }
-  std::vector<sim::CellValue> cells(sim::LayerId layer) override {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, layer);
-      return layers.cells(layer);
-    });
-  }
-  sim::LayerId create_layer(sim::LayerKind kind, sim::LayerStyle style) override {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      return book.create(layers, number_, world_->port, kind, std::move(style));
-    });
-  }
-  void remove_layer(sim::LayerId layer) override {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.remove(layers, number_, layer);
-    });
-  }
-  void set_layer_style(sim::LayerId layer, sim::LayerStyle style) override {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.set_style(layers, number_, layer, std::move(style));
-    });
-  }
-  std::vector<sim::LayerInfo> layers() override {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      return book.list(layers, number_);
-    });
-  }
-  std::vector<std::uint8_t> canvas_image() override {
-    return with_layers(
-        [](sim::LayerStack& layers, playerlike::LayerBook&) { return layers.composed(); });
-  }
-  void resize_canvas(int width, int height) override {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.resize(layers, width, height);
-      ++world_->resizes;
-    });
-  }
-  playerlike::CanvasInfo canvas_info() const override {
-    const std::lock_guard lock(world_->mutex);
-    const sim::CanvasDescription c = world_->layers.description();
-    return {c.width, c.height, c.cell_size_m, c.origin.x(), c.origin.y()};
-  }
   std::uint64_t canvas_generation() const noexcept override { return world_->resizes; }
-  void save_image(const std::string& name, int scale, std::optional<sim::LayerId> layer) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    world_->saved.push_back({name, scale, layer});
-  }
-  void save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    world_->saved_maps.push_back({layer, name, mode});
-  }
-  sim::ViewMode view_mode() const override {
-    const std::lock_guard lock(world_->mutex);
-    return world_->view_mode;
-  }
-  void set_view_mode(sim::ViewMode mode) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    if (world_->view_mode_locked && mode != world_->view_mode) {
-      throw playerlike::SessionError(playerlike::SessionError::Code::kNotAvailable,
-                                     "the view mode is locked");
-    }
-    world_->view_mode = mode;
-  }
-  /// Of a room of one square metre without anything in it.
-  sim::OccupancyMap world_map(double cell_size_m) override {
-    if (!(cell_size_m > 1e-3)) {
-      throw playerlike::SessionError(playerlike::SessionError::Code::kBadArgument,
-                                     "the cell size is no positive number");
-    }
-    sim::OccupancyMap map;
-    map.width = map.height = static_cast<int>(std::ceil(1.0 / cell_size_m - 1e-6));
-    map.cell_size_m = cell_size_m;
-    map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
-                     0.0F);
-    return map;
-  }
-
-  playerlike::TimeStatistics time() const override {
-    const std::lock_guard lock(world_->mutex);
-    return world_->time;
-  }
-  void sleep(double seconds) override {
-    const std::lock_guard lock(world_->mutex);
-    require_open();
-    world_->slept_ns += sim::from_seconds(seconds);
-  }
-  void prefer_real_time(const std::string& reason) override {
-    const std::lock_guard lock(world_->mutex);
-    world_->real_time_reasons.push_back(reason);
-  }
 
   void close() noexcept override {
     const std::lock_guard lock(world_->mutex);
@@ -354,7 +214,148 @@ class FakeSession final : public playerlike::Session {
     world_->changed.notify_all();
   }
 
+  // --- Requests
+
+  void operator()(const playerlike::SubscribeRequest& what) {
+    const auto lock = lock_open();
+    ++world_->subscriptions[what.device.device];
+  }
+  void operator()(const playerlike::UnsubscribeRequest& what) {
+    const auto lock = lock_open();
+    --world_->subscriptions[what.device.device];
+  }
+  void operator()(const playerlike::ReplaceRequest& what) {
+    const auto lock = lock_open();
+    world_->replace[what.device ? what.device->device : -1] = what.replace;
+  }
+  std::uint32_t operator()(const playerlike::OverflowRequest&) const { return 3; }
+  void operator()(const playerlike::JoinRequest&) {
+    const auto lock = lock_open();
+    ++world_->joins;
+  }
+  void operator()(const playerlike::SleepRequest& what) {
+    const auto lock = lock_open();
+    world_->slept_ns += sim::from_seconds(what.seconds);
+  }
+  playerlike::TimeStatistics operator()(const playerlike::TimeRequest&) const {
+    const std::lock_guard lock(world_->mutex);
+    return world_->time;
+  }
+  void operator()(const playerlike::PreferRealTimeRequest& what) {
+    const std::lock_guard lock(world_->mutex);
+    world_->real_time_reasons.push_back(what.reason);
+  }
+  void operator()(const playerlike::NoteLooksRequest&) {}
+  void operator()(const playerlike::AnswerTimeoutRequest&) {}
+  void operator()(const playerlike::RetriesRequest&) {}
+  void operator()(const playerlike::FlushDrawingsRequest&) {
+    with_layers([this](sim::LayerStack&, playerlike::LayerBook&) {
+      ++world_->flushes;
+      queue_.reserve();
+    });
+  }
+  void operator()(const playerlike::SetCellsRequest& what) {
+    playerlike::require_cells(what.rect, what.cells.size());
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.require(number_, what.layer);
+      ++world_->cell_calls;
+      layers.set_cells(what.layer, what.rect, what.cells);
+    });
+  }
+  std::optional<sim::CellValue> operator()(const playerlike::CellRequest& what) {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.require(number_, what.layer);
+      return layers.cell(what.layer, what.column, what.row);
+    });
+  }
+  std::vector<sim::CellValue> operator()(const playerlike::CellsRequest& what) {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.require(number_, what.layer);
+      return layers.cells(what.layer);
+    });
+  }
+  sim::LayerId operator()(const playerlike::CreateLayerRequest& what) {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      return book.create(layers, number_, world_->port, what.kind, what.style);
+    });
+  }
+  void operator()(const playerlike::RemoveLayerRequest& what) {
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.remove(layers, number_, what.layer);
+    });
+  }
+  void operator()(const playerlike::SetLayerStyleRequest& what) {
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.set_style(layers, number_, what.layer, what.style);
+    });
+  }
+  std::vector<sim::LayerInfo> operator()(const playerlike::LayersRequest&) {
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      return book.list(layers, number_);
+    });
+  }
+  playerlike::CanvasImage operator()(const playerlike::CanvasImageRequest&) {
+    return with_layers([](sim::LayerStack& layers, playerlike::LayerBook&) {
+      return playerlike::CanvasImage{layers.composed(), {}};
+    });
+  }
+  playerlike::CanvasInfo operator()(const playerlike::ResizeCanvasRequest& what) {
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
+      book.resize(layers, what.width, what.height);
+      ++world_->resizes;
+    });
+    return (*this)(playerlike::CanvasInfoRequest{});
+  }
+  playerlike::CanvasInfo operator()(const playerlike::CanvasInfoRequest&) const {
+    const std::lock_guard lock(world_->mutex);
+    const sim::CanvasDescription c = world_->layers.description();
+    return {c.width, c.height, c.cell_size_m, c.origin.x(), c.origin.y()};
+  }
+  void operator()(const playerlike::SaveImageRequest& what) {
+    const auto lock = lock_open();
+    world_->saved.push_back(what);
+  }
+  void operator()(const playerlike::SaveMapRequest& what) {
+    const auto lock = lock_open();
+    world_->saved_maps.push_back(what);
+  }
+  sim::ViewMode operator()(const playerlike::ViewModeRequest&) const {
+    const std::lock_guard lock(world_->mutex);
+    return world_->view_mode;
+  }
+  void operator()(const playerlike::SetViewModeRequest& what) {
+    const auto lock = lock_open();
+    if (world_->view_mode_locked && what.mode != world_->view_mode) {
+      throw playerlike::SessionError(playerlike::SessionError::Code::kNotAvailable,
+                                     "the view mode is locked");
+    }
+    world_->view_mode = what.mode;
+  }
+  /// Of a room of one square metre without anything in it.
+  playerlike::WorldMap operator()(const playerlike::WorldMapRequest& what) const {
+    if (!(what.cell_size_m > 1e-3)) {
+      throw playerlike::SessionError(playerlike::SessionError::Code::kBadArgument,
+                                     "the cell size is no positive number");
+    }
+    sim::OccupancyMap map;
+    map.width = map.height = static_cast<int>(std::ceil(1.0 / what.cell_size_m - 1e-6));
+    map.cell_size_m = what.cell_size_m;
+    map.cells.assign(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height),
+                     0.0F);
+    return {std::move(map)};
+  }
+  template <typename Other>
+  typename Other::Result operator()(const Other&) const {
+    throw playerlike::SessionError(playerlike::SessionError::Code::kNotAvailable,
+                                   "this kind of session has no such thing");
+  }
+
  private:
+  [[nodiscard]] std::unique_lock<std::mutex> lock_open() const {
+    std::unique_lock lock(world_->mutex);
+    require_open();
+    return lock;
+  }
   void require_open() const {
     if (world_->closed) {
       throw playerlike::SessionError(playerlike::SessionError::Code::kDisconnected,

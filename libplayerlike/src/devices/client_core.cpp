@@ -13,9 +13,9 @@ ClientCore::~ClientCore() { session_->close(); }
 void ClientCore::add(DeviceId device, ReadingListener& listener, std::optional<bool> replace) {
   require_usable();
   entries_.reserve(entries_.size() + 1);  // nothing may throw after the subscription
-  session_->subscribe(device);
+  session_->request(SubscribeRequest{device});
   entries_.push_back({device, &listener, false});
-  if (replace) session_->set_replace(device, *replace);
+  if (replace) session_->request(ReplaceRequest{device, *replace});
 }
 
 bool ClientCore::listens(const ReadingListener& listener) const noexcept {
@@ -32,7 +32,7 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
   entries_.erase(it);
   if (closed_) return;
   try {
-    session_->unsubscribe(device);
+    session_->request(UnsubscribeRequest{device});
   } catch (const std::exception&) {
     // The session has ended meanwhile, and with it all subscriptions.
   }
@@ -116,7 +116,7 @@ std::optional<sim::Pose> ClientCore::last_pose(int robot) const {
 sim::LayerId ClientCore::take_sheet() {
   constexpr int kPriority = 100;
   require_usable();
-  const std::vector<sim::LayerInfo> layers = session_->layers();
+  const std::vector<sim::LayerInfo> layers = session_->request(LayersRequest{});
   for (int number = 0;; ++number) {
     sim::LayerStyle style;
     style.name = number == 0 ? "graphics2d" : "graphics2d_" + std::to_string(number);
@@ -125,7 +125,8 @@ sim::LayerId ClientCore::take_sheet() {
       return l.style.name == style.name;
     });
     if (layer == layers.end()) {
-      const sim::LayerId made = session_->create_layer(sim::LayerKind::kColour, std::move(style));
+      const sim::LayerId made =
+          session_->request(CreateLayerRequest{sim::LayerKind::kColour, std::move(style)});
       sheets_[made] = true;
       return made;
     }

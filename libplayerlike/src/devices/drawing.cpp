@@ -117,7 +117,7 @@ Drawing::Drawing(std::shared_ptr<playerlike::ClientCore> aCore, const char* aNam
     mCore->require_usable();
     // The count first: if somebody resizes in between, the next look finds another one.
     mGeneration = mCore->session().canvas_generation();
-    const playerlike::CanvasInfo canvas = mCore->session().canvas_info();
+    const playerlike::CanvasInfo canvas = mCore->session().request(playerlike::CanvasInfoRequest{});
     mWidth = canvas.width;
     mHeight = canvas.height;
     mCellSize = canvas.cell_size_m;
@@ -141,12 +141,12 @@ void Drawing::RequireUsable(const char* aFunction) const {
 
 // Follows resizes.
 void Drawing::Refresh() const {
-  const playerlike::Session& session = mCore->session();
+  playerlike::Session& session = mCore->session();
   if (session.canvas_generation() == mGeneration.load(std::memory_order_acquire)) return;
   translated(mName, [&] {
     const std::lock_guard lock(mSizeMutex);
     const std::uint64_t generation = session.canvas_generation();
-    const playerlike::CanvasInfo canvas = session.canvas_info();
+    const playerlike::CanvasInfo canvas = session.request(playerlike::CanvasInfoRequest{});
     mWidth = canvas.width;
     mHeight = canvas.height;
     mGeneration.store(generation, std::memory_order_release);
@@ -218,7 +218,7 @@ void Drawing::Put(Write aWrite) {
 }
 
 void Drawing::MakeRoom() {
-  translated(mName, [&] { mCore->session().flush_drawings(); });
+  translated(mName, [&] { mCore->session().request(playerlike::FlushDrawingsRequest{}); });
 }
 
 void Drawing::PutPixel(int aX, int aY, std::uint32_t aValue) {
@@ -371,10 +371,10 @@ void Drawing::SetImage(const std::uint8_t* aImage, std::size_t aBytes) {
                           " was given",
                       PlayerError::kBadArgument);
   }
-  const auto values = std::make_unique_for_overwrite<sim::CellValue[]>(cells);
+  std::vector<sim::CellValue> values(cells);
   const std::size_t channels = aBytes / cells;
   if (mKind == COLOUR_CELLS && channels == 4) {
-    std::memcpy(values.get(), aImage, aBytes);
+    std::memcpy(values.data(), aImage, aBytes);
   } else if (mKind == COLOUR_CELLS) {
     for (std::size_t i = 0; i < cells; ++i) {
       const std::uint8_t* const c = aImage + 3 * i;
@@ -387,7 +387,8 @@ void Drawing::SetImage(const std::uint8_t* aImage, std::size_t aBytes) {
     }
   }
   translated(mName, [&] {
-    mCore->session().draw_cells(mLayer, {0, 0, width, height}, {values.get(), cells});
+    mCore->session().request(
+        playerlike::SetCellsRequest{mLayer, {0, 0, width, height}, std::move(values)});
   });
 }
 
@@ -398,7 +399,7 @@ void Drawing::UpdateImage(const std::vector<ImagePixel_t>& aPixels) {
 std::vector<std::uint8_t> Drawing::GetImage(int aChannels) const {
   RequireUsable("GetImage");
   const std::vector<sim::CellValue> cells =
-      translated(mName, [&] { return mCore->session().cells(mLayer); });
+      translated(mName, [&] { return mCore->session().request(playerlike::CellsRequest{mLayer}); });
   std::vector<std::uint8_t> image(4 * cells.size());
   if (mKind == COLOUR_CELLS) {
     std::memcpy(image.data(), cells.data(), image.size());
@@ -413,7 +414,9 @@ std::vector<std::uint8_t> Drawing::GetImage(int aChannels) const {
 
 std::uint32_t Drawing::CellAt(int aX, int aY, const char* aFunction) const {
   RequireUsable(aFunction);
-  const auto value = translated(mName, [&] { return mCore->session().cell(mLayer, aX, aY); });
+  const auto value = translated(mName, [&] {
+    return mCore->session().request(playerlike::CellRequest{mLayer, aX, aY});
+  });
   if (!value) {
     throw PlayerError(Fun(aFunction),
                       "there is no cell (" + std::to_string(aX) + ", " + std::to_string(aY) +
@@ -437,20 +440,26 @@ CanvasDrawing::~CanvasDrawing() = default;
 
 void CanvasDrawing::Resize(int aWidth, int aHeight) {
   RequireUsable("Resize");
-  translated(Fun("Resize").c_str(), [&] { Core()->session().resize_canvas(aWidth, aHeight); });
+  translated(Fun("Resize").c_str(), [&] {
+    Core()->session().request(playerlike::ResizeCanvasRequest{aWidth, aHeight});
+  });
 }
 
 void CanvasDrawing::SaveImage(const std::string& aName, int aScale) const {
   RequireUsable("SaveImage");
-  translated(Fun("SaveImage").c_str(), [&] { Core()->session().save_image(aName, aScale); });
+  translated(Fun("SaveImage").c_str(), [&] {
+    Core()->session().request(playerlike::SaveImageRequest{aName, aScale});
+  });
 }
 
 std::vector<std::uint8_t> CanvasDrawing::GetComposedImage(int aChannels) const {
   RequireUsable("GetComposedImage");
   const std::string fun = Fun("GetComposedImage");
-  return with_channels(fun.c_str(),
-                       translated(fun.c_str(), [&] { return Core()->session().canvas_image(); }),
-                       aChannels);
+  return with_channels(
+      fun.c_str(),
+      translated(fun.c_str(),
+                 [&] { return Core()->session().request(playerlike::CanvasImageRequest{}).rgba; }),
+      aChannels);
 }
 
 void CanvasDrawing::SetViewMode(ViewMode aMode) {
@@ -459,7 +468,8 @@ void CanvasDrawing::SetViewMode(ViewMode aMode) {
   for (const auto& [mode, sim_mode] : kModes) {
     if (mode != aMode) continue;
     const sim::ViewMode wanted = sim_mode;
-    translated(fun.c_str(), [&] { Core()->session().set_view_mode(wanted); });
+    translated(fun.c_str(),
+               [&] { Core()->session().request(playerlike::SetViewModeRequest{wanted}); });
     return;
   }
   throw PlayerError(fun, "there is no view mode " + std::to_string(static_cast<int>(aMode)),
@@ -468,8 +478,9 @@ void CanvasDrawing::SetViewMode(ViewMode aMode) {
 
 ViewMode CanvasDrawing::GetViewMode() const {
   RequireUsable("GetViewMode");
-  const sim::ViewMode found =
-      translated(Fun("GetViewMode").c_str(), [&] { return Core()->session().view_mode(); });
+  const sim::ViewMode found = translated(Fun("GetViewMode").c_str(), [&] {
+    return Core()->session().request(playerlike::ViewModeRequest{});
+  });
   for (const auto& [mode, sim_mode] : kModes) {
     if (sim_mode == found) return mode;
   }

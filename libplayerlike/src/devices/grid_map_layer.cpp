@@ -65,9 +65,9 @@ void require_numbers(const std::string& fun, const T* cells, std::size_t count) 
 
 // The cells of a layer from numbers: 1 each, or 3 or 4 if they are colours.
 template <typename T>
-std::unique_ptr<sim::CellValue[]> values_of(GridMapLayer::Kind kind, const T* numbers,
-                                            std::size_t cells, std::size_t channels) {
-  auto values = std::make_unique_for_overwrite<sim::CellValue[]>(cells);
+std::vector<sim::CellValue> values_of(GridMapLayer::Kind kind, const T* numbers, std::size_t cells,
+                                      std::size_t channels) {
+  std::vector<sim::CellValue> values(cells);
   for (std::size_t i = 0; i < cells; ++i) {
     const T* const cell = numbers + channels * i;
     switch (kind) {
@@ -134,7 +134,8 @@ GridMapLayer::~GridMapLayer() = default;
 GridMapLayer::Style GridMapLayer::GetStyle(const char* aFunction) const {
   RequireUsable(aFunction);
   const std::string fun = Fun(aFunction);
-  const auto layers = translated(fun.c_str(), [&] { return Core()->session().layers(); });
+  const auto layers = translated(
+      fun.c_str(), [&] { return Core()->session().request(playerlike::LayersRequest{}); });
   const auto it = std::find_if(layers.begin(), layers.end(),
                                [&](const sim::LayerInfo& l) { return l.id == LayerNumber(); });
   if (it == layers.end()) {  // another thread has removed it meanwhile
@@ -148,8 +149,9 @@ void GridMapLayer::ChangeStyle(const char* aFunction, Change aChange) {
   const std::lock_guard lock(mStyleMutex);
   Style style = GetStyle(aFunction);
   aChange(style.value);
-  translated(Fun(aFunction).c_str(),
-             [&] { Core()->session().set_layer_style(LayerNumber(), style.value); });
+  translated(Fun(aFunction).c_str(), [&] {
+    Core()->session().request(playerlike::SetLayerStyleRequest{LayerNumber(), style.value});
+  });
   mLastName = style.value.name;
 }
 
@@ -266,19 +268,22 @@ void GridMapLayer::PutAll(const T* aCells, std::size_t aCount) {
                       PlayerError::kBadArgument);
   }
   require_numbers(fun, aCells, aCount);
-  const auto values = values_of(GetKind(), aCells, cells, aCount / cells);
+  auto values = values_of(GetKind(), aCells, cells, aCount / cells);
   translated(fun.c_str(), [&] {
-    Core()->session().draw_cells(LayerNumber(), {0, 0, width, height}, {values.get(), cells});
+    Core()->session().request(
+        playerlike::SetCellsRequest{LayerNumber(), {0, 0, width, height}, std::move(values)});
   });
 }
 
 template <typename T>
 void GridMapLayer::TakeAll(std::vector<T>& aCells) const {
   RequireUsable("GetCells");
-  numbers_of(
-      GetKind(),
-      translated(Fun("GetCells").c_str(), [&] { return Core()->session().cells(LayerNumber()); }),
-      aCells);
+  numbers_of(GetKind(),
+             translated(Fun("GetCells").c_str(),
+                        [&] {
+                          return Core()->session().request(playerlike::CellsRequest{LayerNumber()});
+                        }),
+             aCells);
 }
 
 void GridMapLayer::PutCells(const std::uint8_t* aCells, std::size_t aCount) {
@@ -294,8 +299,9 @@ void GridMapLayer::TakeCells(std::vector<double>& aCells) const { TakeAll(aCells
 
 void GridMapLayer::SaveImage(const std::string& aName, int aScale) const {
   RequireUsable("SaveImage");
-  translated(Fun("SaveImage").c_str(),
-             [&] { Core()->session().save_image(aName, aScale, LayerNumber()); });
+  translated(Fun("SaveImage").c_str(), [&] {
+    Core()->session().request(playerlike::SaveImageRequest{aName, aScale, LayerNumber()});
+  });
 }
 
 void GridMapLayer::RequireGrey(const char* aFunction) const {
@@ -309,9 +315,9 @@ void GridMapLayer::RequireGrey(const char* aFunction) const {
 void GridMapLayer::SaveMap(const std::string& aName, MapMode aMode) const {
   RequireGrey("SaveMap");
   translated(Fun("SaveMap").c_str(), [&] {
-    Core()->session().save_map(
+    Core()->session().request(playerlike::SaveMapRequest{
         LayerNumber(), aName,
-        aMode == SCALE ? sim::io::MapMode::kScale : sim::io::MapMode::kTrinary);
+        aMode == SCALE ? sim::io::MapMode::kScale : sim::io::MapMode::kTrinary});
   });
 }
 
@@ -325,7 +331,7 @@ int GridMapLayer::LoadMap(const std::string& aFile) {
     throw PlayerError(fun, e.what(), PlayerError::kBadArgument);
   }
   // Which cells lie in the map, and where: one place for each column and row, -1 for none.
-  const playerlike::CanvasInfo canvas = Core()->session().canvas_info();
+  const playerlike::CanvasInfo canvas = Core()->session().request(playerlike::CanvasInfoRequest{});
   const auto places = [&](int cells, double origin, int places_there, double map_origin) {
     std::vector<int> there(static_cast<std::size_t>(cells), -1);
     for (int i = 0; i < cells; ++i) {
@@ -360,8 +366,10 @@ int GridMapLayer::LoadMap(const std::string& aFile) {
     }
   }
   const sim::CellRect rect{left, top, width, height};
-  translated(fun.c_str(), [&] { Core()->session().draw_cells(LayerNumber(), rect, values); });
-  return static_cast<int>(values.size());
+  translated(fun.c_str(), [&] {
+    Core()->session().request(playerlike::SetCellsRequest{LayerNumber(), rect, std::move(values)});
+  });
+  return width * height;
 }
 
 }  // namespace CCMorse

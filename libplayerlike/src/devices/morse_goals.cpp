@@ -55,7 +55,7 @@ void MorseWaypoint::HandleReading(const sim::Reading& aReading) {
 
 void MorseWaypoint::Ordered(const char* aStatus) {
   mStatus = aStatus;
-  mOrderTime = sim::to_seconds(Core()->session().time().sim_time_ns);
+  mOrderTime = sim::to_seconds(Core()->session().request(playerlike::TimeRequest{}).sim_time_ns);
   mDistance = std::hypot(mGoal.px - mPosition.px, mGoal.py - mPosition.py);
 }
 

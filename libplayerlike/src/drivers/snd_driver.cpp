@@ -100,7 +100,9 @@ SndDriver::Status SndDriver::WaitForGoal(double aTimeout) {
   const char* fun = "SndDriver::WaitForGoal";
   playerlike::require_finite(fun, {{"the timeout", aTimeout}});
   return translated(fun, [&] {
-    const auto now_s = [&] { return sim::to_seconds(mCore->session().time().sim_time_ns); };
+    const auto now_s = [&] {
+      return sim::to_seconds(mCore->session().request(playerlike::TimeRequest{}).sim_time_ns);
+    };
     const double start_s = now_s();
     Status status = GetStatus();
     while (status == MOVING && (aTimeout < 0.0 || now_s() - start_s < aTimeout)) {

@@ -65,7 +65,7 @@ Session& SndThread::session() const {
 
 void SndThread::run() {
   try {
-    session().join();
+    session().request(JoinRequest{});
     {
       const std::lock_guard lock(mutex_);
       started_ = true;
@@ -86,7 +86,7 @@ void SndThread::run() {
 }
 
 void SndThread::round() {
-  const sim::SimTime now_ns = session().time().sim_time_ns;
+  const sim::SimTime now_ns = session().request(TimeRequest{}).sim_time_ns;
   take_requests(now_ns);
   // Without a scan and a pose there is nothing to go by yet.
   if (navigation_.state() == SndState::kMoving && laser_.IsFresh() && position_.IsValid()) {
@@ -139,11 +139,13 @@ void SndThread::ask(std::variant<Goal, Cancel, SndSettings> what) {
   const std::lock_guard lock(mutex_);
   if (const auto* settings = std::get_if<SndSettings>(&what)) {
     settings_ = *settings;
-    requests_.push_back({session().time().sim_time_ns, last_number_, std::move(what)});
+    requests_.push_back(
+        {session().request(TimeRequest{}).sim_time_ns, last_number_, std::move(what)});
     return;
   }
   asked_for_ = std::holds_alternative<Goal>(what) ? SndState::kMoving : SndState::kIdle;
-  requests_.push_back({session().time().sim_time_ns, ++last_number_, std::move(what)});
+  requests_.push_back(
+      {session().request(TimeRequest{}).sim_time_ns, ++last_number_, std::move(what)});
 }
 
 void SndThread::go_to(const Goal& goal) { ask(goal); }
@@ -161,7 +163,7 @@ SndState SndThread::state() const {
   const std::lock_guard lock(mutex_);
   sim::SimTime now_ns = std::numeric_limits<sim::SimTime>::max();
   try {
-    now_ns = session().time().sim_time_ns;
+    now_ns = session().request(TimeRequest{}).sim_time_ns;
   } catch (const SessionError&) {
     // The connection is closed: no further round comes.
   }

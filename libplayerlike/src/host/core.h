@@ -102,10 +102,11 @@ class Host::Core : private ViewedRun, private TurnClock {
   void remove_client(Client& client) noexcept;
   void thinker_ended(ThinkerId thinker) noexcept;
 
+  /// What a client asks for; in requests.cpp.
+  Answer answer(Client& client, const Request& request);
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
   void set_replace(Client& client, std::optional<DeviceId> device, bool replace);
-  std::uint32_t overflow(const Client& client) const;
 
   void wait(Client& client);
   int take(Client& client, ReadingSink& sink);
@@ -129,12 +130,11 @@ class Host::Core : private ViewedRun, private TurnClock {
   std::optional<std::string> set_time_factor(double factor);
 
   void send(Client& client, DeviceId device, const sim::Command& command);
-  /// See Session::note_looks().
+  /// See NoteLooksRequest.
   void note_looks(Client& client, int count, bool has_data);
   void watch_program();
   void note_program_ends(int status);
   void note_end_request(int signal);
-  void flush_drawings(Client& client);
   /// Does something with the layers, after what the client has drawn so far: calls
   /// action(layers, book) under the mutex.
   template <typename Action>
@@ -154,39 +154,10 @@ class Host::Core : private ViewedRun, private TurnClock {
   std::vector<std::uint8_t> picture(Client& client, std::optional<sim::LayerId> layer,
                                     sim::CanvasDescription& canvas);
   void resize_canvas(Client& client, int width, int height);
-  void save_image(Client& client, const std::string& name, int scale,
-                  std::optional<sim::LayerId> layer);
-  void save_map(Client& client, sim::LayerId layer, const std::string& name, sim::io::MapMode mode);
-  sim::ViewMode view_mode() const;
-  void set_view_mode(Client& client, sim::ViewMode mode);
-  sim::OccupancyMap world_map(const Client& client, double cell_size_m) const;
-  ObjectPose object_pose(const Client& client, const std::string& name) const;
-  void place_object(const Client& client, const std::string& name, const sim::Pose& pose);
-  PropertyValue object_property(const Client& client, const std::string& name,
-                                const std::string& property) const;
-  void set_object_property(const Client& client, const std::string& name,
-                           const std::string& property, const PropertyValue& value);
-  LogStatus control_log(const Client& client, const LogControl& changes);
   void join(Client& client, ThinkerId thinker);
 
-  /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
-  /// @param interrupted  set to whether a signal ended that.
-  /// @return how far the moment lies ahead then; nullopt if the thread is to sleep for real.
-  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted);
-  /// Virtual time: a wait with a deadline was over. After the run's end it is for ever, so that is
-  /// slowed down, and ended, as sleeps are.
-  /// @param left_ns  how far the deadline lies ahead of simulated time.
-  void note_timed_wait(Lock& lock, sim::SimTime left_ns);
-  /// Virtual time: from now on the threads of the program wait for this simulation's time, ...
-  /// @param before_ns  what the clocks tell at its beginning, since the program's start.
-  void begin_turns(sim::SimTime before_ns);
-  /// ... and no longer.
-  void end_turns(sim::SimTime before_ns);
-  /// Simulated time and the time of a step, without a lock.
-  [[nodiscard]] sim::SimTime now_ns() const noexcept {
-    return now_ns_.load(std::memory_order_acquire);
-  }
-  [[nodiscard]] sim::SimTime step_ns() const noexcept { return step_ns_; }
+  /// As the clock of those who take turns.
+  [[nodiscard]] TurnClock& clock() noexcept { return *this; }
 
   void prefer_real_time(const std::string& reason);
   TimeStatistics time() const;
@@ -203,12 +174,13 @@ class Host::Core : private ViewedRun, private TurnClock {
     return simulation_.world().simulation.own_sensors_only;  // does not change
   }
   const std::vector<RobotInfo>& robots() const noexcept { return robots_; }
-  CanvasInfo canvas_info() const;
   std::uint64_t canvas_generation() const noexcept {
     return canvas_generation_.load(std::memory_order_acquire);
   }
 
  private:
+  struct RequestHandler;
+
   /// A lock for calls that must not starve behind a thread that steps without pause.
   [[nodiscard]] Lock lock_soon() const;
   void adopt(Client& client, ThinkerId thinker);
@@ -227,6 +199,14 @@ class Host::Core : private ViewedRun, private TurnClock {
   /// Makes ready those threads whose wait is over, in their order.
   void make_ready();
   // As the clock of those who take turns.
+  [[nodiscard]] sim::SimTime now_ns() const noexcept final {
+    return now_ns_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] sim::SimTime step_ns() const noexcept final { return step_ns_; }
+  void begin_turns(sim::SimTime before_ns) override;
+  void end_turns(sim::SimTime before_ns) override;
+  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted) override;
+  void note_timed_wait(Lock& lock, sim::SimTime left_ns) override;
   bool step(Lock& lock) override;
   [[nodiscard]] bool has_come(sim::SimTime wake_ns) const override;
   void look_at_start() override;
@@ -271,7 +251,6 @@ class Host::Core : private ViewedRun, private TurnClock {
   /// @return null if the client has none for that device.
   [[nodiscard]] static Client::Subscription* find_subscription(Client& client, DeviceId device);
   void forget_subscriber(const Client& client, DeviceId device) noexcept;
-  void require_unlocked() const;
   void release_waiters();
   void ring_alarms();
   void end_run();
@@ -384,11 +363,6 @@ class InsideCore {
  private:
   virtual_time::Inside inside_;
   Host::Core& core_;
-};
-
-/// A host's body, for virtual time.
-struct VirtualTimeAccess {
-  [[nodiscard]] static Host::Core& core(const Host& host) noexcept { return *host.core_; }
 };
 
 }  // namespace playerlike

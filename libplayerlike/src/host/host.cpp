@@ -16,12 +16,10 @@
 
 #include "host/busy_alarm.h"
 #include "host/core.h"
-#include "host/end_of_program.h"
 #include "host/file_limit_errors.h"
-#include "host/object_properties.h"
+#include "host/in_process_session.h"
 #include "host/outputs.h"
-#include "session/in_process_event_client.h"
-#include "session/in_process_session.h"
+#include "process/end_of_program.h"
 #include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 #include "virtual_time/virtual_time.h"
@@ -80,24 +78,6 @@ bool replaces_earlier_ones(const sim::Command& command) {
 }
 
 }  // namespace
-
-ThinkerId new_thinker() noexcept {
-  static std::atomic<ThinkerId> last{0};
-  return ++last;
-}
-
-namespace {
-constinit thread_local ThinkerId own_thinker = 0;
-}
-
-ThinkerId this_thinker() noexcept {
-  if (own_thinker == 0) own_thinker = new_thinker();
-  return own_thinker;
-}
-
-bool is_thinker() noexcept { return own_thinker != 0; }
-
-void set_this_thinker(ThinkerId thinker) noexcept { own_thinker = thinker; }
 
 // --- Construction
 // ---------------------------------------------------------------------------------
@@ -182,7 +162,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   layer_book_.leave(client.number);
   for (const Client::Subscription& s : client.subscriptions) forget_subscriber(client, s.device);
   client.subscriptions.clear();
-  if (turns_) Turns::instance().let_go(client);
+  if (turns_) Turns::instance().let_go(&client);
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
   changed_.notify_all();
 }
@@ -266,11 +246,6 @@ void Host::Core::set_replace(Client& client, std::optional<DeviceId> device, boo
       s.queue.push_back(sensor.reading().clone());
     }
   }
-}
-
-std::uint32_t Host::Core::overflow(const Client& client) const {
-  const Lock lock = lock_soon();
-  return client.overflow;
 }
 
 // --- Time
@@ -1029,65 +1004,6 @@ void Host::Core::note_end_request(int signal) {
   if (end_request_ == 0) end_request_ = signal;
 }
 
-// --- The canvas
-// -----------------------------------------------------------------------------------
-
-void Host::Core::flush_drawings(Client& client) {
-  const Lock lock = lock_soon();
-  require_open(client);
-  touch(client);
-  carry_out_drawings(client);
-  client.drawings.reserve();
-}
-
-CanvasInfo Host::Core::canvas_info() const {
-  const Lock lock = lock_soon();
-  const sim::CanvasDescription canvas = simulation_.layers().description();
-  return {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()};
-}
-
-// Files are written without the mutex: that may take a while.
-void Host::Core::save_image(Client& client, const std::string& name, int scale,
-                            std::optional<sim::LayerId> layer) {
-  const std::string file = picture_file(settings_.output_folder, name, scale);
-  client_files_.require_room(client.number);
-  sim::CanvasDescription canvas;
-  const std::vector<std::uint8_t> rgba = picture(client, layer, canvas);
-  write_picture(canvas, rgba, scale, file);
-  client_files_.note(client.number, file);
-}
-
-void Host::Core::save_map(Client& client, sim::LayerId layer, const std::string& name,
-                          sim::io::MapMode mode) {
-  const std::string stem = map_stem(settings_.output_folder, name);
-  client_files_.require_room(client.number);
-  sim::OccupancyMap map;
-  with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-    book.require(client.number, layer);
-    if (layers.kind(layer) != sim::LayerKind::kGrey) {
-      throw SessionError(SessionError::Code::kBadArgument,
-                         "only grey layers can be saved as maps, but \"" +
-                             layers.style(layer).name + "\" is of another kind");
-    }
-    map = occupancy_map(layers, layer);
-  });
-  write_map_files(map, stem, mode);
-  for (const char* ending : {".pgm", ".yaml"}) client_files_.note(client.number, stem + ending);
-}
-
-sim::ViewMode Host::Core::view_mode() const {
-  const Lock lock = lock_soon();
-  return simulation_.view_mode();
-}
-
-void Host::Core::set_view_mode(Client& client, sim::ViewMode mode) {
-  const Lock lock = lock_soon();
-  require_open(client);
-  if (const auto refusal = simulation_.set_view_mode(mode)) {
-    throw SessionError(SessionError::Code::kNotAvailable, *refusal);
-  }
-}
-
 void Host::Core::require_readable(const Client& client, int robot) const {
   if (!own_sensors_only() || client.served) return;
   const bool own = robot >= 0 && (robots_.size() == 1 ||
@@ -1102,82 +1018,6 @@ void Host::Core::require_readable(const Client& client, int robot) const {
                 std::to_string(client.port)
           : "this world keeps the poses and properties of its objects and its map private "
             "(\"privacy\" in its \"simulation\"): programs know what their sensors tell");
-}
-
-sim::OccupancyMap Host::Core::world_map(const Client& client, double cell_size_m) const {
-  require_readable(client, -1);
-  // A map of many cells takes a while: it is made of a copy, without the mutex.
-  const sim::ArenaDescription arena = [&] {
-    const Lock lock = lock_soon();
-    return simulation_.world().arena;
-  }();
-  return sim::true_map(arena, map_grid(arena, cell_size_m));
-}
-
-// --- Objects by name, and the log
-// ---------------------------------------------------------------------------------------
-
-void Host::Core::require_unlocked() const {
-  if (!simulation_.world().simulation.objects_locked) return;
-  throw SessionError(SessionError::Code::kNotAvailable,
-                     "this world keeps its robots and obstacles where and as they are "
-                     "(\"lock_objects\" in its \"simulation\"): they can only be looked at");
-}
-
-ObjectPose Host::Core::object_pose(const Client& client, const std::string& name) const {
-  const Lock lock = lock_soon();
-  require_open(client);
-  require_readable(client, -1);
-  return {require_object(simulation_, name).pose, simulation_.now_ns()};
-}
-
-void Host::Core::place_object(const Client& client, const std::string& name,
-                              const sim::Pose& pose) {
-  const Lock lock = lock_soon();
-  require_open(client);
-  require_readable(client, -1);
-  static_cast<void>(require_object(simulation_, name));
-  require_unlocked();
-  playerlike::place_object(simulation_, name, pose);
-}
-
-PropertyValue Host::Core::object_property(const Client& client, const std::string& name,
-                                          const std::string& property) const {
-  const Lock lock = lock_soon();
-  require_open(client);
-  require_readable(client, -1);
-  return playerlike::object_property(simulation_, name, property);
-}
-
-void Host::Core::set_object_property(const Client& client, const std::string& name,
-                                     const std::string& property, const PropertyValue& value) {
-  const Lock lock = lock_soon();
-  require_open(client);
-  require_readable(client, -1);
-  static_cast<void>(playerlike::object_property(simulation_, name, property));  // is it there?
-  require_unlocked();
-  playerlike::set_object_property(simulation_, name, property, value);
-}
-
-LogStatus Host::Core::control_log(const Client& client, const LogControl& changes) {
-  // A file to be replayed is read without the mutex: that may take seconds.
-  std::optional<RunLog::Loaded> loaded;
-  for (;;) {
-    std::optional<std::string> file;
-    {
-      const Lock lock = lock_soon();
-      require_open(client);
-      RunLog& log = logs_
-                        .try_emplace(client.port, settings_.output_folder, client.port, robots_,
-                                     client_files_)
-                        .first->second;
-      file = log.file_to_read(changes);
-      if (!file || (loaded && loaded->path == *file)) {
-        return log.control(changes, simulation_, loaded ? &*loaded : nullptr);
-      }
-    }
-    loaded = RunLog::read_file(*file, client.port, robots_);
-  }
 }
 
 void Host::Core::join(Client& client, ThinkerId thinker) {
@@ -1693,7 +1533,7 @@ std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()
   require_port(port);
   auto client = core_->add_client(port, follower, std::move(notify));
   client->served = true;
-  return std::make_unique<InProcessEventClient>(shared_from_this(), std::move(client));
+  return std::make_unique<EventClient>(shared_from_this(), std::move(client));
 }
 
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
@@ -1726,6 +1566,7 @@ TimeStatistics Host::time() const { return InsideCore(*core_)->time(); }
 sim::RobotStatistics Host::statistics(int robot) const {
   return InsideCore(*core_)->statistics(robot);
 }
+std::shared_ptr<TurnClock> Host::clock() { return {shared_from_this(), &core_->clock()}; }
 std::uint64_t Host::state_hash() const { return InsideCore(*core_)->state_hash(); }
 
 }  // namespace playerlike

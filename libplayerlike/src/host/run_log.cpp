@@ -45,7 +45,7 @@ std::string RunLog::path_of(const std::string& file) const {
 
 std::string RunLog::path() const { return path_of(status_.file); }
 
-std::optional<std::string> RunLog::file_to_read(const LogControl& changes) const {
+std::optional<std::string> RunLog::file_to_read(const LogRequest& changes) const {
   // What is running takes no other file; what is wrong otherwise is told by control().
   if (status_.running || !changes.running.value_or(false) || folder_.empty()) return std::nullopt;
   if (!changes.replay.value_or(status_.replay)) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<std::string> RunLog::file_to_read(const LogControl& changes) const
   return path_of(changes.file ? with_ending(*changes.file) : status_.file);
 }
 
-LogStatus RunLog::control(const LogControl& changes, const sim::Simulation& simulation,
+LogStatus RunLog::control(const LogRequest& changes, const sim::Simulation& simulation,
                           Loaded* loaded) {
   using Code = SessionError::Code;
   if (changes.file) {
@@ -77,7 +77,7 @@ LogStatus RunLog::control(const LogControl& changes, const sim::Simulation& simu
     status_.replay = *changes.replay;
     entries_.clear();
   }
-  if (changes.rewind) {
+  if (changes.rewind.value_or(false)) {
     if (!status_.replay) refuse(Code::kBadArgument, "only a log that is read can be rewound");
     next_ = 0;
     played_ns_ = 0;

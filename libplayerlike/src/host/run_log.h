@@ -10,6 +10,7 @@
 
 #include "host/client_files.h"
 #include "playerlike/messages/messages.h"
+#include "playerlike/messages/requests.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
@@ -40,15 +41,15 @@ class RunLog {
   };
 
   /// The file that has to be read before control() can make these changes; nullopt if none.
-  [[nodiscard]] std::optional<std::string> file_to_read(const LogControl& changes) const;
+  [[nodiscard]] std::optional<std::string> file_to_read(const LogRequest& changes) const;
   /// Reads a file of readings of the port's robots, which may take seconds: not under a lock.
   [[nodiscard]] static Loaded read_file(const std::string& path, int port,
                                         const std::vector<RobotInfo>& robots);
-  /// Makes changes, in the order that LogControl lists them in, and tells what is then.
+  /// Makes changes, in the order that LogRequest lists them in, and tells what is then.
   /// @param loaded  the file that file_to_read() has named; may be null if none.
-  /// @throws SessionError as Session::control_log(); what came before the change in question is
+  /// @throws SessionError as LogRequest; what came before the change in question is
   /// done.
-  LogStatus control(const LogControl& changes, const sim::Simulation& simulation, Loaded* loaded);
+  LogStatus control(const LogRequest& changes, const sim::Simulation& simulation, Loaded* loaded);
 
   /// Called after each step: writes the step's readings, or finds those that are due.
   /// @return what has gone wrong, once; the log is then stopped.

@@ -196,7 +196,9 @@ void ClientProxy::SetReplaceRule(bool aReplace, int aType, int aSubtype) {
   const char* fun = "ClientProxy::SetReplaceRule";
   const scoped_lock_t lock(LockData(fun));
   if (!mLink->attached || (aType != -1 && aType != PLAYER_MSGTYPE_DATA)) return;
-  translated(fun, [&] { mLink->core->session().set_replace(mLink->binding.reading, aReplace); });
+  translated(fun, [&] {
+    mLink->core->session().request(playerlike::ReplaceRequest{mLink->binding.reading, aReplace});
+  });
 }
 
 int ClientProxy::HasCapability(uint32_t aType, uint32_t aSubtype) {

@@ -9,7 +9,7 @@
 namespace PlayerCc {
 
 /// What is to change.
-struct LogProxy::Change : playerlike::LogControl {};
+struct LogProxy::Change : playerlike::LogRequest {};
 
 LogProxy::LogProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   LogProxy::Subscribe(aIndex);
@@ -32,10 +32,10 @@ void LogProxy::Control(const char* aFun, const Change& aChange) {
   const scoped_lock_t lock(LockData(aFun));
   playerlike::translated(aFun, [&] {
     playerlike::Session& session = mLink->core->session();
-    const playerlike::LogStatus now = session.control_log(aChange);
+    const playerlike::LogStatus now = session.request<playerlike::LogRequest>(aChange);
     mType = now.replay ? PLAYER_LOG_TYPE_READ : PLAYER_LOG_TYPE_WRITE;
     mState = now.running ? 1 : 0;
-    mLink->refresh(sim::to_seconds(session.time().sim_time_ns));
+    mLink->refresh(sim::to_seconds(session.request(playerlike::TimeRequest{}).sim_time_ns));
     mFresh = true;
   });
 }

@@ -45,7 +45,11 @@ void MapProxy::RequestMap() {
   const scoped_lock_t lock(LockData(fun));
   playerlike::translated(fun, [&] {
     playerlike::Session& session = mLink->core->session();
-    const sim::OccupancyMap map = session.world_map(session.canvas_info().cell_size_m);
+    const sim::OccupancyMap map =
+        session
+            .request(playerlike::WorldMapRequest{
+                session.request(playerlike::CanvasInfoRequest{}).cell_size_m})
+            .map;
     const auto width = static_cast<std::size_t>(map.width);
     mCells.resize(map.cells.size());
     // Ours begins with the top row, Player's with the bottom one.
@@ -60,7 +64,7 @@ void MapProxy::RequestMap() {
     mResolution = map.cell_size_m;
     mOriginX = map.origin.x();
     mOriginY = map.origin.y();
-    mLink->refresh(sim::to_seconds(session.time().sim_time_ns));
+    mLink->refresh(sim::to_seconds(session.request(playerlike::TimeRequest{}).sim_time_ns));
     mFresh = true;
   });
 }

@@ -16,7 +16,7 @@ MorseTime::MorseTime(const PlayerClient& aClient)
 MorseTimeStatistics MorseTime::Statistics() const {
   const playerlike::TimeStatistics t = translated("MorseTime::Statistics", [&] {
     if (mCore->closed()) mCore->require_usable();
-    return mCore->session().time();
+    return mCore->session().request(playerlike::TimeRequest{});
   });
   MorseTimeStatistics s;
   s.sim_time = sim::to_seconds(t.sim_time_ns);
@@ -38,10 +38,10 @@ std::string MorseTime::Mode() const { return Statistics().mode; }
 void MorseTime::Sleep(double aSeconds) {
   translated("MorseTime::Sleep", [&] {
     mCore->require_usable();
-    mCore->session().sleep(aSeconds);
+    mCore->session().request(playerlike::SleepRequest{aSeconds});
     // A session wakes sleepers at the end of the run, so a program that only sleeps learns of it
     // here.
-    if (mCore->session().time().finished) {
+    if (mCore->session().request(playerlike::TimeRequest{}).finished) {
       throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
     }
   });

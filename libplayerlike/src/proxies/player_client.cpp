@@ -11,7 +11,7 @@
 
 #include "devices/errors.h"
 #include "libplayerc++/playerclient.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "proxies/link.h"
 #include "virtual_time/virtual_time.h"
 
@@ -43,7 +43,7 @@ struct Reader {
 // reads has joined it as well may that go on, or it would be chance when the first round comes.
 void join_lockstep(ClientCore& core, Reader& reader) {
   try {
-    core.session().join();
+    core.session().request(playerlike::JoinRequest{});
   } catch (const SessionError&) {
     // The client is being destroyed: so the first look will find.
   }
@@ -168,7 +168,8 @@ void PlayerClient::StartThread() {
   }
   if (mImpl->thread.joinable()) mImpl->leaving.push_back(std::move(mImpl->thread));
   translated_all(fun, [&] {
-    mCore->session().prefer_real_time("a client reads in a thread of its own (StartThread)");
+    mCore->session().request(
+        playerlike::PreferRealTimeRequest{"a client reads in a thread of its own (StartThread)"});
     auto reader = std::make_shared<Reader>();
     const bool join = playerlike::virtual_time::active();
     const playerlike::virtual_time::Inside inside;  // the thread is not the program's
@@ -245,13 +246,14 @@ void PlayerClient::ReadIfWaiting() {
 }
 
 void PlayerClient::SetRequestTimeout(uint32_t seconds) {
-  mCore->session().set_request_timeout(std::max(seconds, 1U));
+  mCore->session().request(
+      playerlike::AnswerTimeoutRequest{static_cast<double>(std::max(seconds, 1U))});
 }
 
 void PlayerClient::SetRetryLimit(int limit) {
   const mutex_t::scoped_lock lock(mMutex);
   mImpl->retry_limit = limit;
-  mCore->session().set_retries(limit, std::max(mImpl->retry_time_s, 0.0));
+  mCore->session().request(playerlike::RetriesRequest{limit, std::max(mImpl->retry_time_s, 0.0)});
 }
 
 int PlayerClient::GetRetryLimit() {
@@ -263,7 +265,7 @@ void PlayerClient::SetRetryTime(double time) {
   playerlike::require_finite("PlayerClient::SetRetryTime", {{"the time between retries", time}});
   const mutex_t::scoped_lock lock(mMutex);
   mImpl->retry_time_s = time;
-  mCore->session().set_retries(mImpl->retry_limit, std::max(time, 0.0));
+  mCore->session().request(playerlike::RetriesRequest{mImpl->retry_limit, std::max(time, 0.0)});
 }
 
 double PlayerClient::GetRetryTime() {
@@ -289,7 +291,7 @@ void PlayerClient::SetReplaceRule(bool aReplace, int aType, int aSubtype, int aI
     playerlike::Session& session = mCore->session();
     if (aInterf == -1) {
       mCore->replace_rules().clear();
-      session.set_replace(std::nullopt, aReplace);
+      session.request(playerlike::ReplaceRequest{std::nullopt, aReplace});
       return;
     }
     const char* name = interface_name(aInterf);
@@ -302,7 +304,8 @@ void PlayerClient::SetReplaceRule(bool aReplace, int aType, int aSubtype, int aI
       if (address.interface != name) continue;
       const auto binding =
           playerlike::find_interface(mCore->robots(), session.port(), name, address.index);
-      if (!binding.is_world()) session.set_replace(binding.reading, aReplace);
+      if (!binding.is_world())
+        session.request(playerlike::ReplaceRequest{binding.reading, aReplace});
     }
   });
 }
@@ -343,7 +346,7 @@ std::string PlayerClient::LookupName(int aCode) const {
 
 uint32_t PlayerClient::GetOverflowCount() {
   return translated("PlayerClient::GetOverflowCount",
-                    [&] { return mCore->session().overflow_count(); });
+                    [&] { return mCore->session().request(playerlike::OverflowRequest{}); });
 }
 
 }  // namespace PlayerCc

@@ -89,7 +89,9 @@ void SimulationProxy::SetPose2d(char* identifier, double x, double y, double a) 
   const std::string name = text(fun, "the identifier", identifier);
   playerlike::require_finite(fun, {{"x", x}, {"y", y}, {"a", a}});
   const scoped_lock_t lock(LockData(fun));
-  Try(fun, [&] { mLink->core->session().place_object(name, {x, y, a}); });
+  Try(fun, [&] {
+    mLink->core->session().request(playerlike::PlaceObjectRequest{name, {x, y, a}});
+  });
 }
 
 void SimulationProxy::GetPose2d(char* identifier, double& x, double& y, double& a) {
@@ -97,7 +99,7 @@ void SimulationProxy::GetPose2d(char* identifier, double& x, double& y, double& 
   const std::string name = text(fun, "the identifier", identifier);
   const scoped_lock_t lock(LockData(fun));
   Try(fun, [&] {
-    const sim::Pose pose = mLink->core->session().object_pose(name).pose;
+    const sim::Pose pose = mLink->core->session().request(playerlike::ObjectPoseRequest{name}).pose;
     x = pose.x_m;
     y = pose.y_m;
     a = pose.yaw_rad;
@@ -111,7 +113,9 @@ void SimulationProxy::SetPose3d(char* identifier, double x, double y, double z, 
   playerlike::require_finite(
       fun, {{"x", x}, {"y", y}, {"z", z}, {"roll", roll}, {"pitch", pitch}, {"yaw", yaw}});
   const scoped_lock_t lock(LockData(fun));
-  Try(fun, [&] { mLink->core->session().place_object(name, {x, y, yaw}); });
+  Try(fun, [&] {
+    mLink->core->session().request(playerlike::PlaceObjectRequest{name, {x, y, yaw}});
+  });
 }
 
 void SimulationProxy::GetPose3d(char* identifier, double& x, double& y, double& z, double& roll,
@@ -120,7 +124,8 @@ void SimulationProxy::GetPose3d(char* identifier, double& x, double& y, double& 
   const std::string name = text(fun, "the identifier", identifier);
   const scoped_lock_t lock(LockData(fun));
   Try(fun, [&] {
-    const playerlike::ObjectPose object = mLink->core->session().object_pose(name);
+    const playerlike::ObjectPose object =
+        mLink->core->session().request(playerlike::ObjectPoseRequest{name});
     x = object.pose.x_m;
     y = object.pose.y_m;
     z = 0.0;
@@ -138,7 +143,8 @@ void SimulationProxy::GetProperty(char* identifier, char* name, void* value, siz
   require_value(fun, value);
   const scoped_lock_t lock(LockData(fun));
   Try(fun, [&] {
-    const auto now = mLink->core->session().object_property(object, property);
+    const auto now =
+        mLink->core->session().request(playerlike::ObjectPropertyRequest{object, property});
     playerlike::write_property(property, now, value, value_len);
   });
 }
@@ -151,9 +157,9 @@ void SimulationProxy::SetProperty(char* identifier, char* name, void* value, siz
   const scoped_lock_t lock(LockData(fun));
   Try(fun, [&] {
     playerlike::Session& session = mLink->core->session();
-    const auto now = session.object_property(object, property);
-    session.set_object_property(object, property,
-                                playerlike::read_property(property, now, value, value_len));
+    const auto now = session.request(playerlike::ObjectPropertyRequest{object, property});
+    session.request(playerlike::SetObjectPropertyRequest{
+        object, property, playerlike::read_property(property, now, value, value_len)});
   });
 }
 

@@ -117,8 +117,9 @@ GridMapLayer* WindowProxy::Find(const std::string& aName) {
   for (const auto& handle : mHandles) {
     if (!handle->Retired() && handle->GetName() == aName) return handle.get();
   }
-  const auto layers =
-      translated("WindowProxy::FindLayer", [&] { return Core()->session().layers(); });
+  const auto layers = translated("WindowProxy::FindLayer", [&] {
+    return Core()->session().request(playerlike::LayersRequest{});
+  });
   for (const sim::LayerInfo& layer : layers) {
     if (layer.style.name == aName) return &Handle(layer.id, kind_of(layer.kind));
   }
@@ -137,8 +138,10 @@ GridMapLayer& WindowProxy::CreateLayer(const std::string& aName, GridMapLayer::K
   sim::LayerStyle style;
   style.name = aName;
   style.priority = aPriority;
-  const sim::LayerId layer = translated(
-      fun, [&] { return Core()->session().create_layer(sim_kind_of(aKind), std::move(style)); });
+  const sim::LayerId layer = translated(fun, [&] {
+    return Core()->session().request(
+        playerlike::CreateLayerRequest{sim_kind_of(aKind), std::move(style)});
+  });
   return Handle(layer, aKind);
 }
 
@@ -159,14 +162,17 @@ void WindowProxy::RemoveLayer(const std::string& aName) {
   const std::lock_guard lock(mLayersMutex);
   GridMapLayer* const layer = Find(aName);
   if (layer == nullptr) throw no_such_layer(fun, aName, GetLayerNames());
-  translated(fun, [&] { Core()->session().remove_layer(layer->LayerNumber()); });
+  translated(fun, [&] {
+    Core()->session().request(playerlike::RemoveLayerRequest{layer->LayerNumber()});
+  });
   layer->Retire();
 }
 
 std::vector<std::string> WindowProxy::GetLayerNames() const {
   RequireUsable("GetLayerNames");
-  const auto layers =
-      translated("WindowProxy::GetLayerNames", [&] { return Core()->session().layers(); });
+  const auto layers = translated("WindowProxy::GetLayerNames", [&] {
+    return Core()->session().request(playerlike::LayersRequest{});
+  });
   std::vector<std::string> names;
   names.reserve(layers.size());
   for (const sim::LayerInfo& layer : layers) names.push_back(layer.style.name);

@@ -440,11 +440,6 @@ sim::CellValue colour_from(const MorseArguments& arguments, std::size_t first) {
 // Cells that get_image_data lists.
 constexpr std::size_t kMostListedCells = std::size_t{1} << 22U;
 
-std::size_t canvas_cells(const Session& session) {
-  const CanvasInfo canvas = session.canvas_info();
-  return static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
-}
-
 template <json (*kPen)(const PenCall&)>
 json here(MorseCall& call) {
   return kPen({*call.state.client(), call.arguments});
@@ -488,7 +483,7 @@ json clear(const PenCall& call) {
 json get_pixel(MorseCall& call) {
   const int column = call.arguments.integer(0, kLeastCell, kMostCell);
   const int row = call.arguments.integer(1, kLeastCell, kMostCell);
-  const auto cell = call.state.session().cell(sim::kBaseLayer, column, row);
+  const auto cell = call.state.session().request(CellRequest{sim::kBaseLayer, column, row});
   if (!cell) return nullptr;
   const sim::Colour c = cell->colour();
   return json::array({c.r, c.g, c.b, c.a});
@@ -502,7 +497,7 @@ json get_image_data(const PenCall& call) {
                        "save_image_copy the picture, and so has Playpen's own protocol");
   }
   json::array_t data;
-  const auto cells = call.client.session().cells(sim::kBaseLayer);
+  const auto cells = call.client.session().request(CellsRequest{sim::kBaseLayer});
   data.reserve(cells.size() * static_cast<std::size_t>(channels));
   for (const sim::CellValue& cell : cells) {
     const sim::Colour c = cell.colour();
@@ -523,7 +518,7 @@ std::uint8_t channel_in(const MorseArguments& arguments, const json& value) {
 json set_image_data(MorseCall& call) {
   const json& data = call.arguments.list(0);
   Session& session = call.state.session();
-  const CanvasInfo canvas = session.canvas_info();
+  const CanvasInfo canvas = session.request(CanvasInfoRequest{});
   const auto count =
       static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
   if (data.size() != 3 * count && data.size() != 4 * count) {
@@ -542,7 +537,8 @@ json set_image_data(MorseCall& call) {
     if (channels == 4) c.a = channel_in(call.arguments, data[channels * i + 3]);
     cells[i] = sim::CellValue::of(c);
   }
-  session.draw_cells(sim::kBaseLayer, {0, 0, canvas.width, canvas.height}, cells);
+  session.request(
+      SetCellsRequest{sim::kBaseLayer, {0, 0, canvas.width, canvas.height}, std::move(cells)});
   return nullptr;
 }
 
@@ -573,31 +569,33 @@ json update_image_data(MorseCall& call) {
 }
 
 json size_of_canvas(const PenCall& call) {
-  const CanvasInfo canvas = call.client.session().canvas_info();
+  const CanvasInfo canvas = call.client.session().request(CanvasInfoRequest{});
   return json::array({canvas.width, canvas.height});
 }
 
 json resize_canvas(const PenCall& call) {
-  call.client.session().resize_canvas(call.arguments.integer(0, 1, 8192),
-                                      call.arguments.integer(1, 1, 8192));
+  call.client.session().request(
+      ResizeCanvasRequest{call.arguments.integer(0, 1, 8192), call.arguments.integer(1, 1, 8192)});
   return size_of_canvas(call);
 }
 
-json get_cell_size(MorseCall& call) { return call.state.session().canvas_info().cell_size_m; }
+json get_cell_size(MorseCall& call) {
+  return call.state.session().request(CanvasInfoRequest{}).cell_size_m;
+}
 
 json save_image_copy(const PenCall& call) {
-  call.client.session().save_image(call.arguments.text(0));
+  call.client.session().request(SaveImageRequest{call.arguments.text(0)});
   return nullptr;
 }
 
 json get_view_mode(MorseCall& call) {
-  return std::string(sim::to_string(call.state.session().view_mode()));
+  return std::string(sim::to_string(call.state.session().request(ViewModeRequest{})));
 }
 
 json set_view_mode(MorseCall& call) {
   const auto chosen = sim::parse_view_mode(call.arguments.text(0));
   if (!chosen) call.arguments.refuse(0, "ground, mini-map or full-screen");
-  call.state.session().set_view_mode(*chosen);
+  call.state.session().request(SetViewModeRequest{*chosen});
   return nullptr;
 }
 

@@ -113,8 +113,8 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
     if (component_.device) {
       const DeviceId device = *component_.device;
       client_ = state_.host().connect_events(kMorsePort, {});
-      client_->session().set_replace(std::nullopt, false);
-      client_->session().subscribe(device);
+      client_->session().request(ReplaceRequest{std::nullopt, false});
+      client_->session().request(SubscribeRequest{device});
       sequence_ = state_.with([&](sim::Simulation& simulation) {
         level_ = odometry_level(simulation, device);
         return sensor(simulation, device).reading().sequence;

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "protocol/codec.h"
+#include "protocol/request_codec.h"
+#include "server/workshop.h"
 #include "session/checks.h"
-#include "sim/world/view_mode.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike::server {
 namespace {
@@ -55,53 +57,126 @@ double require_timeout(const json& request) {
 
 // --- Requests
 
-/// A request's name and keys, and what carries it out.
-struct NativeHandler::Request {
+/// A request that is none of a session's: its name and keys, and what carries it out.
+struct NativeHandler::OwnRequest {
   using Carry = json (NativeHandler::*)(const json&);
   std::string_view name;
   std::initializer_list<std::string_view> keys;  ///< all that are known
-  Carry carry;                ///< none: `read`, `draw`, or those of native_work.h
-  bool for_watchers = false;  ///< needs no session
+  Carry carry;                                   ///< none: `read` and `draw`
+  bool for_watchers = false;                     ///< needs no session
 };
 
-const NativeHandler::Request* NativeHandler::find_request(std::string_view name) {
+const NativeHandler::OwnRequest* NativeHandler::find_own_request(std::string_view name) {
   using H = NativeHandler;
-  static const Request kRequests[] = {
+  static const OwnRequest kRequests[] = {
       {"read", {"id", "do", "wait", "timeout", "thread", "commands", "drawings"}, nullptr},
       {"command", {"id", "do", "device", "command"}, &H::command},
       {"draw", {"id", "do", "drawings"}, nullptr},
-      {"set_cells", {"id", "do", "layer", "rect", "cells"}, &H::set_cells},
-      {"cell", {"id", "do", "layer", "column", "row"}, &H::cell},
-      {"cells", {"id", "do", "layer"}, nullptr},
-      {"subscribe", {"id", "do", "device"}, &H::subscribe},
-      {"unsubscribe", {"id", "do", "device"}, &H::unsubscribe},
-      {"replace", {"id", "do", "device", "replace"}, &H::replace},
-      {"create_layer", {"id", "do", "kind", "style"}, &H::create_layer},
-      {"remove_layer", {"id", "do", "layer"}, &H::remove_layer},
-      {"set_layer_style", {"id", "do", "layer", "style"}, &H::set_layer_style},
-      {"layers", {"id", "do"}, &H::layers},
-      {"canvas_image", {"id", "do"}, nullptr},
-      {"resize_canvas", {"id", "do", "width", "height"}, nullptr},
-      {"save_image", {"id", "do", "name", "scale", "layer"}, nullptr},
-      {"save_map", {"id", "do", "layer", "name", "mode"}, nullptr},
-      {"view_mode", {"id", "do"}, &H::view_mode},
-      {"set_view_mode", {"id", "do", "mode"}, &H::set_view_mode},
-      {"world_map", {"id", "do", "cell_size", "tile"}, nullptr},
-      {"object_pose", {"id", "do", "name"}, &H::object_pose},
-      {"place_object", {"id", "do", "name", "pose"}, &H::place_object},
-      {"object_property", {"id", "do", "name", "property"}, &H::object_property},
-      {"set_object_property", {"id", "do", "name", "property", "value"}, &H::set_object_property},
-      {"log", {"id", "do", "file", "replay", "rewind", "running"}, nullptr},
       {"time", {"id", "do"}, &H::time, true},
-      {"prefer_real_time", {"id", "do", "reason"}, &H::prefer_real_time},
       {"thread_ended", {"id", "do", "thread"}, &H::thread_ended},
       {"watch", {"id", "do", "rate", "canvas"}, &H::watch, true},
       {"bye", {"id", "do"}, &H::bye, true},
   };
-  const auto it = std::find_if(std::begin(kRequests), std::end(kRequests),
-                               [&](const Request& request) { return request.name == name; });
+  const auto* const it =
+      std::find_if(std::begin(kRequests), std::end(kRequests),
+                   [&](const OwnRequest& request) { return request.name == name; });
   return it == std::end(kRequests) ? nullptr : it;
 }
+
+// --- Rights
+
+void NativeHandler::require_rights(int robot) const {
+  if (robot < 0) {
+    if (terms_.rights.command_all()) return;
+    throw ProtocolError("access/denied",
+                        "this concerns all robots: only who may command each of them may do it");
+  }
+  const auto index = static_cast<std::size_t>(robot);
+  if (index < terms_.rights.command.size() && terms_.rights.command[index]) return;
+  throw ProtocolError("access/denied", "robot " + hub_.host().robots()[index].name +
+                                           " obeys only those whose hello has its token");
+}
+
+// Of an object's robot; -1 for anything else.
+int NativeHandler::robot_named(const std::string& name) const {
+  const auto& robots = hub_.host().robots();
+  const auto it = std::find_if(robots.begin(), robots.end(),
+                               [&](const RobotInfo& robot) { return robot.name == name; });
+  return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
+}
+
+/// Refuses what a client may not ask for, and what a server does not do for anybody.
+struct NativeHandler::Guard {
+  const NativeHandler& handler;
+
+  template <typename One>
+  void operator()(const One& what) const {
+    if constexpr (requires { One::kTellsTruth; }) require_truth();
+    if constexpr (requires { check(what); }) check(what);
+  }
+
+ private:
+  void require_truth() const {
+    if (handler.terms_.rights.truth) return;
+    throw ProtocolError(
+        "access/denied",
+        "this world keeps the poses and properties of its objects and its map private "
+        "(\"privacy\" in its \"simulation\"): that takes the tokens of all robots");
+  }
+  void check(const SubscribeRequest& what) const {
+    const std::vector<RobotInfo>& robots = handler.hub_.host().robots();
+    require_device(robots, what.device);
+    const auto robot = static_cast<std::size_t>(what.device.robot);
+    if (handler.terms_.rights.read[robot]) return;
+    throw ProtocolError("access/denied",
+                        "this world lets a client read the sensors of its own robots only "
+                        "(\"privacy\" in its \"simulation\"): for those of " +
+                            robots[robot].name + " present that robot's token");
+  }
+  void check(const ReplaceRequest& what) const {
+    if (what.device) require_device(handler.hub_.host().robots(), *what.device);
+  }
+  void check(const SetCellsRequest& what) const {
+    if (what.layer == sim::kBaseLayer) handler.require_canvas_rights();
+  }
+  void check(const ResizeCanvasRequest&) const { handler.require_canvas_rights(); }
+  void check(const PlaceObjectRequest& what) const {
+    handler.require_rights(handler.robot_named(what.name));
+  }
+  void check(const SetObjectPropertyRequest& what) const {
+    handler.require_rights(handler.robot_named(what.name));
+  }
+  void check(const WorldMapRequest& what) const {
+    if (what.tile) {
+      const sim::CellRect& tile = *what.tile;
+      if (static_cast<double>(tile.width) * tile.height <= kMaxMapCells) return;
+      protocol::refuse_value("tile", "at most 4194304 cells",
+                             {tile.column, tile.row, tile.width, tile.height});
+    }
+    const sim::Vec2 arena_m = native_arena_m(handler.hub_.host());
+    if (!(what.cell_size_m > 0.0) || (arena_m / what.cell_size_m).prod() <= kMaxMapCells) return;
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "a server makes maps of up to 4194304 cells: a cell of this arena must be " +
+                           sim::rounded_text(std::sqrt(arena_m.prod() / kMaxMapCells), 6) +
+                           " m long at least, unless the map is asked for in tiles");
+  }
+  void check(const LogRequest& what) const {
+    if (!what.file && !what.replay && !what.rewind && !what.running) return;
+    const std::vector<RobotInfo>& robots = handler.hub_.host().robots();
+    const auto robot = std::find_if(robots.rbegin(), robots.rend(), [&](const RobotInfo& r) {
+      return r.port == handler.terms_.port;
+    });
+    handler.require_rights(robot == robots.rend() ? -1
+                                                  : static_cast<int>(robots.rend() - robot) - 1);
+  }
+  // It is logged.
+  static void check(const PreferRealTimeRequest& what) {
+    if (what.reason.size() <= kMaxReason && is_printable(what.reason)) return;
+    protocol::refuse_value("reason", "at most 200 printable bytes", what.reason);
+  }
+};
+
+// --- Requests
 
 NativeHandler::NativeHandler(Peer& peer, Hub& hub, Terms terms)
     : peer_(peer),
@@ -141,7 +216,7 @@ json NativeHandler::tell_canvas() {
   }
   // In this order: what changes in between is told of twice.
   canvas_generation_ = session().canvas_generation();
-  return protocol::encode_canvas(session().canvas_info());
+  return protocol::encode_canvas(session().request(CanvasInfoRequest{}));
 }
 
 void NativeHandler::on_message(std::string_view bytes) {
@@ -173,33 +248,35 @@ void NativeHandler::guarded(const json& id, const std::string& name, Action acti
 
 void NativeHandler::carry_out(const json& message, const json& id, std::string& name) {
   name = protocol::require_text(message, "do");
-  const Request* request = find_request(name);
-  if (request == nullptr) {
+  const OwnRequest* own = find_own_request(name);
+  const auto type = own == nullptr ? protocol::find_request(name) : std::nullopt;
+  if (own == nullptr && !type) {
     throw ProtocolError("protocol/unknown-request",
                         "there is no request of this name; see docs/protocol.md");
   }
-  if (!client_ && !request->for_watchers) {
+  if (!client_ && (own == nullptr || !own->for_watchers)) {
     throw ProtocolError("access/denied", "this connection only watches, as its hello said");
   }
-  protocol::refuse_unknown_keys(message, request->keys, "this request");
-  if (request->carry != nullptr) {
-    answer(id, (this->*request->carry)(message));
+  if (type) {
+    Request request = protocol::decode_request(*type, message, terms_.encoding);
+    std::visit(Guard{*this}, request);
+    if (native_work_cells(request, session(), hub_.host()) > kLightCells) {
+      return answer_elsewhere(std::move(request), id, name);
+    }
+    return answer(id, protocol::encode_answer(request, session().answer(request), terms_.encoding));
+  }
+  protocol::refuse_unknown_keys(message, own->keys, "this request");
+  if (own->carry != nullptr) {
+    answer(id, (this->*own->carry)(message));
     if (ending_) peer_.close("");
     return;
   }
   if (name == "read") return read(message, id);
-  if (name == "draw") {
-    auto drawings =
-        protocol::decode_drawings(protocol::require(message, "drawings"), terms_.encoding);
-    require_drawing(drawings);
-    if (draw_here(drawings)) return answer(id, json::object());
-    return draw_elsewhere(std::move(drawings), id, name,
-                          [this, id] { answer(id, json::object()); });
-  }
-  if (name == "resize_canvas") require_canvas_rights();
-  if (name == "world_map") require_truth();
-  if (name == "log") require_log_rights(message);
-  answer_elsewhere(message, id, name, find_native_work(name));
+  auto drawings =
+      protocol::decode_drawings(protocol::require(message, "drawings"), terms_.encoding);
+  require_drawing(drawings);
+  if (draw_here(drawings)) return answer(id, json::object());
+  draw_elsewhere(std::move(drawings), id, name, [this, id] { answer(id, json::object()); });
 }
 
 // --- Work
@@ -221,13 +298,8 @@ void NativeHandler::work(const json& id, const std::string& name, std::function<
   hub_.work({std::move(piece), done});
 }
 
-void NativeHandler::answer_elsewhere(const json& request, const json& id, const std::string& name,
-                                     NativeWork make) {
-  const NativeSubject subject{session(), hub_.host(), terms_.encoding};
-  if (native_work_cells(subject, request, name) <= kLightCells) {
-    return answer(id, make(subject, request));
-  }
-  const std::size_t bytes = native_answer_bytes(subject, name);
+void NativeHandler::answer_elsewhere(Request request, const json& id, const std::string& name) {
+  const std::size_t bytes = native_answer_bytes(request, session(), terms_.encoding);
   std::shared_ptr<void> room = bytes > kSmallAnswer ? hub_.claim_room(bytes) : nullptr;
   struct Made {
     std::string bytes;
@@ -236,16 +308,16 @@ void NativeHandler::answer_elsewhere(const json& request, const json& id, const 
   const auto made = std::make_shared<Made>();
   made->canvas_generation = canvas_generation_;
   // Of the handler, which may be gone by then, the workshop needs nothing.
-  const auto piece = [client = client_, &host = hub_.host(), encoding = terms_.encoding, request,
-                      id, make, made] {
+  const auto piece = [client = client_, encoding = terms_.encoding, request = std::move(request),
+                      id, made] {
     Session& session = client->session();
-    json answer = make({session, host, encoding}, request);
+    json answer = protocol::encode_answer(request, session.answer(request), encoding);
     if (id.is_null()) return false;
     answer["id"] = id;
     // In this order: what changes in between is told of twice.
     const std::uint64_t generation = session.canvas_generation();
     if (generation != made->canvas_generation) {
-      answer["canvas"] = protocol::encode_canvas(session.canvas_info());
+      answer["canvas"] = protocol::encode_canvas(session.request(CanvasInfoRequest{}));
       made->canvas_generation = generation;
     }
     made->bytes = protocol::encode(answer, encoding);
@@ -256,14 +328,6 @@ void NativeHandler::answer_elsewhere(const json& request, const json& id, const 
     canvas_generation_ = std::max(canvas_generation_, made->canvas_generation);
     peer_.send(std::move(made->bytes));
   });
-}
-
-void NativeHandler::require_truth() const {
-  if (terms_.rights.truth) return;
-  throw ProtocolError(
-      "access/denied",
-      "this world keeps the poses and properties of its objects and its map private "
-      "(\"privacy\" in its \"simulation\"): that takes the tokens of all robots");
 }
 
 void NativeHandler::require_canvas_rights() const {
@@ -287,7 +351,7 @@ void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings
 // programs do. So that it stays little for all sessions together, each has its share.
 bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
   if (drawings.empty()) return true;
-  const CanvasInfo canvas = session().canvas_info();
+  const CanvasInfo canvas = session().request(CanvasInfoRequest{});
   sim::drop_covered(drawings);
   std::size_t cells = 0;
   for (const sim::DrawOperation& drawing : drawings) {
@@ -498,7 +562,7 @@ json NativeHandler::round(Wait wait, Outcome outcome) {
   answer["data"] = some || (wait != Wait::kNone && takes);
   answer["t"] = time.sim_time_ns;
   answer["finished"] = time.finished;
-  answer["overflow"] = session().overflow_count();
+  answer["overflow"] = session().request(OverflowRequest{});
   return answer;
 }
 
@@ -526,168 +590,10 @@ json NativeHandler::command(const json& request) {
   return json::object();
 }
 
-json NativeHandler::subscribe(const json& request) {
-  const DeviceId device = protocol::require_device_id(request, "device");
-  require_device(hub_.host().robots(), device);
-  const auto robot = static_cast<std::size_t>(device.robot);
-  if (!terms_.rights.read[robot]) {
-    throw ProtocolError("access/denied",
-                        "this world lets a client read the sensors of its own robots only "
-                        "(\"privacy\" in its \"simulation\"): for those of " +
-                            hub_.host().robots()[robot].name + " present that robot's token");
-  }
-  session().subscribe(device);
-  return json::object();
-}
-
-json NativeHandler::unsubscribe(const json& request) {
-  session().unsubscribe(protocol::require_device_id(request, "device"));
-  return json::object();
-}
-
-json NativeHandler::replace(const json& request) {
-  std::optional<DeviceId> device;
-  if (request.contains("device") && !request["device"].is_null()) {
-    device = protocol::require_device_id(request, "device");
-    require_device(hub_.host().robots(), *device);
-  }
-  session().set_replace(device, protocol::require_bool(request, "replace"));
-  return json::object();
-}
-
-// --- The canvas
-
-json NativeHandler::set_cells(const json& request) {
-  const json& cells = protocol::require(request, "cells");
-  if (require_layer(request) == sim::kBaseLayer) require_canvas_rights();
-  session().draw_cells(require_layer(request), require_rect(request),
-                       protocol::decode_cells(cells, terms_.encoding));
-  return json::object();
-}
-
-json NativeHandler::cell(const json& request) {
-  const auto column = protocol::require_integer(request, "column", -kMaxCell, kMaxCell);
-  const auto row = protocol::require_integer(request, "row", -kMaxCell, kMaxCell);
-  const std::optional<sim::CellValue> value =
-      session().cell(require_layer(request), static_cast<int>(column), static_cast<int>(row));
-  return {
-      {"cell", value ? protocol::encode_cells(std::span(&*value, 1), terms_.encoding) : json()}};
-}
-
-json NativeHandler::create_layer(const json& request) {
-  const sim::LayerKind kind = protocol::decode_layer_kind(protocol::require(request, "kind"));
-  const sim::LayerStyle style = protocol::decode_style(protocol::require(request, "style"));
-  return {{"layer", session().create_layer(kind, style)}};
-}
-
-json NativeHandler::remove_layer(const json& request) {
-  session().remove_layer(require_layer(request));
-  return json::object();
-}
-
-json NativeHandler::set_layer_style(const json& request) {
-  const sim::LayerStyle style = protocol::decode_style(protocol::require(request, "style"));
-  session().set_layer_style(require_layer(request), style);
-  return json::object();
-}
-
-json NativeHandler::layers(const json& /*request*/) {
-  return {{"layers", protocol::encode_layers(session().layers())}};
-}
-
-json NativeHandler::view_mode(const json& /*request*/) {
-  return {{"mode", sim::to_string(session().view_mode())}};
-}
-
-json NativeHandler::set_view_mode(const json& request) {
-  const auto mode = sim::parse_view_mode(protocol::require_text(request, "mode"));
-  if (!mode) protocol::refuse_value("mode", "ground, mini-map or full-screen", request["mode"]);
-  session().set_view_mode(*mode);
-  return json::object();
-}
-
-// --- Objects by name, and the log
-
-void NativeHandler::require_rights(int robot) const {
-  if (robot < 0) {
-    if (terms_.rights.command_all()) return;
-    throw ProtocolError("access/denied",
-                        "this concerns all robots: only who may command each of them may do it");
-  }
-  const auto index = static_cast<std::size_t>(robot);
-  if (index < terms_.rights.command.size() && terms_.rights.command[index]) return;
-  throw ProtocolError("access/denied", "robot " + hub_.host().robots()[index].name +
-                                           " obeys only those whose hello has its token");
-}
-
-// Of an object's robot; -1 for anything else.
-int NativeHandler::robot_named(const std::string& name) const {
-  const auto& robots = hub_.host().robots();
-  const auto it = std::find_if(robots.begin(), robots.end(),
-                               [&](const RobotInfo& robot) { return robot.name == name; });
-  return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
-}
-
-json NativeHandler::object_pose(const json& request) {
-  require_truth();
-  const ObjectPose object = session().object_pose(protocol::require_text(request, "name"));
-  return {{"pose", protocol::encode_pose(object.pose)}, {"t", object.time_ns}};
-}
-
-json NativeHandler::place_object(const json& request) {
-  require_truth();
-  const std::string name = protocol::require_text(request, "name");
-  const sim::Pose pose = protocol::require_pose(request, "pose");
-  require_rights(robot_named(name));
-  session().place_object(name, pose);
-  return json::object();
-}
-
-json NativeHandler::object_property(const json& request) {
-  require_truth();
-  return {{"value", protocol::encode_property(
-                        session().object_property(protocol::require_text(request, "name"),
-                                                  protocol::require_text(request, "property")))}};
-}
-
-json NativeHandler::set_object_property(const json& request) {
-  require_truth();
-  const std::string name = protocol::require_text(request, "name");
-  const std::string property = protocol::require_text(request, "property");
-  const PropertyValue value = protocol::require_property(request, "value");
-  require_rights(robot_named(name));
-  session().set_object_property(name, property, value);
-  return json::object();
-}
-
-void NativeHandler::require_log_rights(const json& request) const {
-  constexpr std::array<const char*, 4> kChanges{"file", "replay", "rewind", "running"};
-  if (std::none_of(kChanges.begin(), kChanges.end(),
-                   [&](const char* key) { return request.contains(key); })) {
-    return;
-  }
-  int robot = -1;
-  const auto& robots = hub_.host().robots();
-  for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (robots[i].port == terms_.port) robot = static_cast<int>(i);
-  }
-  require_rights(robot);
-}
-
 // --- Time
 
 json NativeHandler::time(const json& /*request*/) {
   return {{"time", protocol::encode_time(hub_.host().time())}};
-}
-
-json NativeHandler::prefer_real_time(const json& request) {
-  const std::string reason = protocol::require_text(request, "reason");
-  // It is logged.
-  if (reason.size() > kMaxReason || !is_printable(reason)) {
-    protocol::refuse_value("reason", "at most 200 printable bytes", request["reason"]);
-  }
-  session().prefer_real_time(reason);
-  return json::object();
 }
 
 json NativeHandler::thread_ended(const json& request) {

@@ -48,7 +48,8 @@ class NativeHandler final : public Handler {
  private:
   using json = nlohmann::json;  // NOLINT(readability-identifier-naming): as it is named there
   using Outcome = EventClient::Outcome;
-  struct Request;
+  struct OwnRequest;
+  struct Guard;
   class ReadingList;
 
   enum class Wait { kData, kPeek, kSleep, kJoin, kNone };
@@ -67,9 +68,8 @@ class NativeHandler final : public Handler {
   /// the request does. Nothing more is read from the connection before.
   void work(const json& id, const std::string& name, std::function<bool()> piece,
             std::function<void()> then);
-  /// Has a request answered that may take long: see native_work.h.
-  void answer_elsewhere(const json& request, const json& id, const std::string& name,
-                        NativeWork made_by);
+  /// Has a request answered that takes long: see native_work.h.
+  void answer_elsewhere(Request request, const json& id, const std::string& name);
   /// Takes drawings that are little work, to be carried out as those of programs are.
   /// @return false if they are more: then they are for draw_elsewhere(). Those that are covered by
   ///         others are taken out.
@@ -81,10 +81,6 @@ class NativeHandler final : public Handler {
   /// there.
   void require_drawing(std::span<const sim::DrawOperation> drawings) const;
   void require_canvas_rights() const;
-  /// @throws ProtocolError access/denied in a private world, see Rights::truth.
-  void require_truth() const;
-  /// @throws ProtocolError access/denied if the request changes a log that is not the client's.
-  void require_log_rights(const json& request) const;
   void answer(const json& id, json answer);
   void fail(const json& id, const std::string& name, std::string_view error, const char* message);
 
@@ -106,31 +102,15 @@ class NativeHandler final : public Handler {
   void require_rights(int robot) const;
   [[nodiscard]] int robot_named(const std::string& name) const;
 
-  // One for each request of docs/protocol.md.
-  json subscribe(const json& request);
-  json unsubscribe(const json& request);
-  json replace(const json& request);
+  // Requests that are about the connection or the client, not about the simulation.
   json command(const json& request);
-  json set_cells(const json& request);
-  json cell(const json& request);
-  json create_layer(const json& request);
-  json remove_layer(const json& request);
-  json set_layer_style(const json& request);
-  json layers(const json& request);
-  json view_mode(const json& request);
-  json set_view_mode(const json& request);
-  json object_pose(const json& request);
-  json place_object(const json& request);
-  json object_property(const json& request);
-  json set_object_property(const json& request);
   json time(const json& request);
-  json prefer_real_time(const json& request);
   json thread_ended(const json& request);
   json watch(const json& request);
   json bye(const json& request);
 
   /// All of them. @return nullptr for an unknown name.
-  [[nodiscard]] static const Request* find_request(std::string_view name);
+  [[nodiscard]] static const OwnRequest* find_own_request(std::string_view name);
 
   Peer& peer_;
   Hub& hub_;

@@ -8,6 +8,11 @@
 
 namespace playerlike::server {
 
+std::size_t canvas_cells(Session& session) {
+  const CanvasInfo canvas = session.request(CanvasInfoRequest{});
+  return static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height);
+}
+
 bool Job::work() {
   std::exception_ptr error;
   try {

@@ -9,6 +9,8 @@
 #include <mutex>
 #include <thread>
 
+#include "playerlike/session/session.h"
+
 namespace playerlike::server {
 
 /// Cells of canvases or maps that one request may write or make in the server's thread; what is
@@ -16,6 +18,9 @@ namespace playerlike::server {
 inline constexpr std::size_t kLightCells = std::size_t{1} << 16U;
 /// Cells that the workshop draws for a client before it is another one's turn.
 inline constexpr std::size_t kPieceCells = std::size_t{1} << 20U;
+
+/// Cells of a canvas.
+[[nodiscard]] std::size_t canvas_cells(Session& session);
 
 /// A job for a Workshop.
 struct Job {

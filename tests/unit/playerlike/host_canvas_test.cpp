@@ -54,14 +54,15 @@ void dot(Session& session, int column, int row, Colour colour, LayerId layer = s
 }
 
 Colour at(Session& session, int column, int row, LayerId layer = sim::kBaseLayer) {
-  const auto value = session.cell(layer, column, row);
+  const auto value = session.request(CellRequest{layer, column, row});
   EXPECT_TRUE(value.has_value());
   return value ? value->colour() : Colour{};
 }
 
 Colour composed_at(Session& session, int column, int row) {
-  const std::vector<std::uint8_t> rgba = session.canvas_image();
-  const std::size_t i = 4 * static_cast<std::size_t>(row * session.canvas_info().width + column);
+  const std::vector<std::uint8_t> rgba = session.request(CanvasImageRequest{}).rgba;
+  const std::size_t i =
+      4 * static_cast<std::size_t>(row * session.request(CanvasInfoRequest{}).width + column);
   return {rgba.at(i), rgba.at(i + 1), rgba.at(i + 2), rgba.at(i + 3)};
 }
 
@@ -123,18 +124,18 @@ TEST_P(HostCanvas, CellsAreSetInTheOrderOfTheDrawings) {
   const auto session = host->connect(6665);
   dot(*session, 0, 0, kRed);
   const std::vector<CellValue> blue(4, CellValue::of(kBlue));
-  session->draw_cells(sim::kBaseLayer, {0, 0, 2, 2}, blue);
+  session->request(SetCellsRequest{sim::kBaseLayer, {0, 0, 2, 2}, blue});
   dot(*session, 1, 1, kRed);
   EXPECT_EQ(at(*session, 0, 0), kBlue);
   EXPECT_EQ(at(*session, 1, 1), kRed);
-  session->draw_cells(sim::kBaseLayer, {-1, 49, 2, 2}, blue);  // clipped
+  session->request(SetCellsRequest{sim::kBaseLayer, {-1, 49, 2, 2}, blue});  // clipped
   EXPECT_EQ(at(*session, 0, 49), kBlue);
   EXPECT_EQ(refusal([&] {
-              session->draw_cells(sim::kBaseLayer, {0, 0, 3, 2}, blue);
+              session->request(SetCellsRequest{sim::kBaseLayer, {0, 0, 3, 2}, blue});
             }),
             kBadArgument);
   EXPECT_EQ(refusal([&] {
-              session->draw_cells(sim::kBaseLayer, {0, 0, -2, -2}, blue);
+              session->request(SetCellsRequest{sim::kBaseLayer, {0, 0, -2, -2}, blue});
             }),
             kBadArgument);
 }
@@ -143,31 +144,47 @@ TEST_P(HostCanvas, LayersBelongToTheirSession) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
-  const LayerId layer = first->create_layer(LayerKind::kColour, named("map"));
-  const LayerId other = second->create_layer(LayerKind::kGrey, named("map"));
+  const LayerId layer = first->request(CreateLayerRequest{LayerKind::kColour, named("map")});
+  const LayerId other = second->request(CreateLayerRequest{LayerKind::kGrey, named("map")});
   EXPECT_NE(layer, other);
-  EXPECT_EQ(first->layers().size(), 2U);
-  EXPECT_EQ(refusal([&] { second->remove_layer(layer); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { second->set_layer_style(layer, named("x")); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { static_cast<void>(second->cells(layer)); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { static_cast<void>(second->cell(layer, 0, 0)); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { second->draw_cells(layer, {}, {}); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { first->create_layer(LayerKind::kColour, named("map")); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { first->remove_layer(sim::kBaseLayer); }), kNotAvailable);
-  EXPECT_EQ(refusal([&] { first->set_layer_style(sim::kBaseLayer, named("x")); }), kNotAvailable);
+  EXPECT_EQ(first->request(LayersRequest{}).size(), 2U);
+  EXPECT_EQ(refusal([&] { second->request(RemoveLayerRequest{layer}); }), kBadArgument);
+  EXPECT_EQ(refusal([&] {
+              second->request(SetLayerStyleRequest{layer, named("x")});
+            }),
+            kBadArgument);
+  EXPECT_EQ(refusal([&] { static_cast<void>(second->request(CellsRequest{layer})); }),
+            kBadArgument);
+  EXPECT_EQ(refusal([&] {
+              static_cast<void>(second->request(CellRequest{layer, 0, 0}));
+            }),
+            kBadArgument);
+  EXPECT_EQ(refusal([&] { second->request(SetCellsRequest{layer, {}, {}}); }), kBadArgument);
+  EXPECT_EQ(refusal([&] {
+              first->request(CreateLayerRequest{LayerKind::kColour, named("map")});
+            }),
+            kBadArgument);
+  EXPECT_EQ(refusal([&] { first->request(RemoveLayerRequest{sim::kBaseLayer}); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] {
+              first->request(SetLayerStyleRequest{sim::kBaseLayer, named("x")});
+            }),
+            kNotAvailable);
   sim::LayerStyle odd = named("odd");
   odd.transparency = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal([&] { first->create_layer(LayerKind::kColour, odd); }), kBadArgument);
-  first->remove_layer(layer);
-  EXPECT_EQ(first->layers().size(), 1U);
+  EXPECT_EQ(refusal([&] {
+              first->request(CreateLayerRequest{LayerKind::kColour, odd});
+            }),
+            kBadArgument);
+  first->request(RemoveLayerRequest{layer});
+  EXPECT_EQ(first->request(LayersRequest{}).size(), 1U);
 }
 
 TEST_P(HostCanvas, DrawingsOnAnothersLayerAreLeftOut) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
-  const LayerId theirs = first->create_layer(LayerKind::kColour, named("map"));
-  const LayerId own = second->create_layer(LayerKind::kColour, named("map"));
+  const LayerId theirs = first->request(CreateLayerRequest{LayerKind::kColour, named("map")});
+  const LayerId own = second->request(CreateLayerRequest{LayerKind::kColour, named("map")});
   dot(*second, 1, 1, kRed, theirs);
   dot(*second, 1, 1, kRed, own);
   dot(*second, 2, 1, kRed, theirs);
@@ -185,9 +202,9 @@ TEST_P(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
     const auto one = host->connect(swapped ? 6666 : 6665);
     const auto two = host->connect(swapped ? 6665 : 6666);
     for (const auto& session : {one.get(), two.get()}) {
-      const LayerId layer = session->create_layer(LayerKind::kColour, named("map"));
+      const LayerId layer = session->request(CreateLayerRequest{LayerKind::kColour, named("map")});
       dot(*session, 3, 3, session->port() == 6665 ? kRed : kBlue, layer);
-      EXPECT_TRUE(session->cell(layer, 3, 3)) << "it was carried out";
+      EXPECT_TRUE(session->request(CellRequest{layer, 3, 3})) << "it was carried out";
     }
     EXPECT_EQ(composed_at(*one, 3, 3), kBlue) << swapped;
   }
@@ -198,15 +215,16 @@ TEST_P(HostCanvas, LayersOutliveTheirSessionUntilOneOfTheSamePortMakesThemAnew) 
   const auto watcher = host->connect(kMorsePort);
   {
     const auto session = host->connect(6665);
-    dot(*session, 3, 3, kRed, session->create_layer(LayerKind::kColour, named("map")));
+    dot(*session, 3, 3, kRed,
+        session->request(CreateLayerRequest{LayerKind::kColour, named("map")}));
   }
   EXPECT_EQ(composed_at(*watcher, 3, 3), kRed);
   const auto elsewhere = host->connect(6666);
-  elsewhere->create_layer(LayerKind::kColour, named("map"));
+  elsewhere->request(CreateLayerRequest{LayerKind::kColour, named("map")});
   EXPECT_EQ(composed_at(*watcher, 3, 3), kRed);
   const auto session = host->connect(6665);
-  EXPECT_EQ(session->layers().size(), 1U) << "it is nobody's";
-  session->create_layer(LayerKind::kBinary, named("map"));
+  EXPECT_EQ(session->request(LayersRequest{}).size(), 1U) << "it is nobody's";
+  session->request(CreateLayerRequest{LayerKind::kBinary, named("map")});
   EXPECT_EQ(composed_at(*watcher, 3, 3).a, 0);
 }
 
@@ -216,25 +234,26 @@ TEST_P(HostCanvas, ResizingIsSeenByAll) {
   const auto second = host->connect(6666);
   const std::uint64_t before = second->canvas_generation();
   dot(*second, 0, 49, kRed);  // queued while the canvas has 50 rows: bottom left
-  first->resize_canvas(120, 30);
-  static_cast<void>(second->time());  // a session hears of it with any answer
+  first->request(ResizeCanvasRequest{120, 30});
+  static_cast<void>(second->request(TimeRequest{}));  // a session hears of it with any answer
   EXPECT_NE(second->canvas_generation(), before);
-  EXPECT_EQ(second->canvas_info().width, 120);
-  EXPECT_EQ(second->canvas_info().height, 30);
+  EXPECT_EQ(second->request(CanvasInfoRequest{}).width, 120);
+  EXPECT_EQ(second->request(CanvasInfoRequest{}).height, 30);
   EXPECT_EQ(at(*second, 0, 29), kRed);
-  EXPECT_EQ(refusal([&] { first->resize_canvas(0, 30); }), kBadArgument);
-  EXPECT_EQ(first->canvas_info().width, 120);
+  EXPECT_EQ(refusal([&] { first->request(ResizeCanvasRequest{0, 30}); }), kBadArgument);
+  EXPECT_EQ(first->request(CanvasInfoRequest{}).width, 120);
 }
 
 TEST_P(HostCanvas, LockedViewModesStay) {
   const auto free = create(two_robots())->connect(6665);
-  free->set_view_mode(sim::ViewMode::kMiniMap);
-  EXPECT_EQ(free->view_mode(), sim::ViewMode::kMiniMap);
+  free->request(SetViewModeRequest{sim::ViewMode::kMiniMap});
+  EXPECT_EQ(free->request(ViewModeRequest{}), sim::ViewMode::kMiniMap);
   const auto host = create(two_robots(R"(, "view_mode": "full-screen", "lock_view_mode": true)"));
   const auto locked = host->connect(6665);
-  EXPECT_EQ(refusal([&] { locked->set_view_mode(sim::ViewMode::kGround); }), kNotAvailable);
-  locked->set_view_mode(sim::ViewMode::kFullScreen);
-  EXPECT_EQ(locked->view_mode(), sim::ViewMode::kFullScreen);
+  EXPECT_EQ(refusal([&] { locked->request(SetViewModeRequest{sim::ViewMode::kGround}); }),
+            kNotAvailable);
+  locked->request(SetViewModeRequest{sim::ViewMode::kFullScreen});
+  EXPECT_EQ(locked->request(ViewModeRequest{}), sim::ViewMode::kFullScreen);
 }
 
 TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
@@ -243,22 +262,23 @@ TEST_P(HostCanvas, PicturesStayInsideTheOutputFolder) {
   settings.output_folder = (folder.path() / "out").string();
   const auto host = create(two_robots(), settings);
   const auto session = host->connect(6665);
-  session->save_image("map");
-  session->save_image("large.png", 3);
+  session->request(SaveImageRequest{"map"});
+  session->request(SaveImageRequest{"large.png", 3});
   const std::filesystem::path out(settings.output_folder);
   EXPECT_TRUE(std::filesystem::exists(out / "map.png"));
   EXPECT_TRUE(std::filesystem::exists(out / "large.png"));
   for (const char* name : {"", "../map", "/tmp/map.png", "a/b.png", "..", ".", ".hidden.png",
                            "a\\b.png", "a\nb.png"}) {
-    EXPECT_EQ(refusal([&] { session->save_image(name); }), kBadArgument) << name;
+    EXPECT_EQ(refusal([&] { session->request(SaveImageRequest{name}); }), kBadArgument) << name;
   }
-  EXPECT_EQ(refusal([&] { session->save_image("map", 0); }), kBadArgument);
-  EXPECT_EQ(refusal([&] { session->save_image("map", 65); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { session->request(SaveImageRequest{"map", 0}); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { session->request(SaveImageRequest{"map", 65}); }), kBadArgument);
   std::filesystem::create_symlink(folder.path() / "elsewhere.png", out / "link.png");
-  EXPECT_EQ(refusal([&] { session->save_image("link"); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] { session->request(SaveImageRequest{"link"}); }), kNotAvailable);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "elsewhere.png"));
   const auto nowhere = create(two_robots());
-  EXPECT_EQ(refusal([&] { nowhere->connect(6665)->save_image("map"); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] { nowhere->connect(6665)->request(SaveImageRequest{"map"}); }),
+            kNotAvailable);
 }
 
 TEST_P(HostCanvas, TheFilesOfClientsHaveALimit) {
@@ -269,19 +289,19 @@ TEST_P(HostCanvas, TheFilesOfClientsHaveALimit) {
   settings.all_files_limit = 10'000;
   const auto host = create(two_robots(), settings);
   const auto one = host->connect(6665);
-  LogControl logging;
+  LogRequest logging;
   logging.running = true;
-  one->save_image("a");  // what is refused is what comes after
-  EXPECT_EQ(refusal([&] { one->save_image("b"); }), kNotAvailable);
+  one->request(SaveImageRequest{"a"});  // what is refused is what comes after
+  EXPECT_EQ(refusal([&] { one->request(SaveImageRequest{"b"}); }), kNotAvailable);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.png"));
-  EXPECT_EQ(refusal([&] { one->control_log(logging); }), std::nullopt)
+  EXPECT_EQ(refusal([&] { one->request(logging); }), std::nullopt)
       << "a log has a limit of its own";
   const auto two = host->connect(6665);
-  EXPECT_EQ(refusal([&] { two->save_image("b", 64); }), std::nullopt);
+  EXPECT_EQ(refusal([&] { two->request(SaveImageRequest{"b", 64}); }), std::nullopt);
   ASSERT_GT(std::filesystem::file_size(folder.path() / "b.png"), 10'000U);
   const auto three = host->connect(6666);
-  EXPECT_EQ(refusal([&] { three->save_image("c"); }), kNotAvailable);
-  EXPECT_EQ(refusal([&] { three->control_log(logging); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] { three->request(SaveImageRequest{"c"}); }), kNotAvailable);
+  EXPECT_EQ(refusal([&] { three->request(logging); }), kNotAvailable);
 }
 
 TEST_P(HostCanvas, LayersAreSavedOneByOne) {
@@ -290,15 +310,15 @@ TEST_P(HostCanvas, LayersAreSavedOneByOne) {
   settings.output_folder = folder.path().string();
   const auto host = create(two_robots(R"(, "origin": [0.5, 0.25])"), settings);
   const auto session = host->connect(6665);
-  const LayerId map = session->create_layer(LayerKind::kGrey, named("map"));
-  const LayerId dots = session->create_layer(LayerKind::kColour, named("dots"));
+  const LayerId map = session->request(CreateLayerRequest{LayerKind::kGrey, named("map")});
+  const LayerId dots = session->request(CreateLayerRequest{LayerKind::kColour, named("dots")});
   dot(*session, 3, 4, kRed, dots);
   dot(*session, 5, 6, kBlue);  // on the canvas
-  const std::array<CellValue, 3> occupancies = {CellValue::of(0.0F), CellValue::of(0.3F),
-                                                CellValue::of(1.0F)};
-  session->draw_cells(map, {0, 49, 3, 1}, occupancies);
+  const std::vector<CellValue> occupancies = {CellValue::of(0.0F), CellValue::of(0.3F),
+                                              CellValue::of(1.0F)};
+  session->request(SetCellsRequest{map, {0, 49, 3, 1}, occupancies});
 
-  session->save_image("dots", 1, dots);
+  session->request(SaveImageRequest{"dots", 1, dots});
   // Read as a map of map_server: red is dark enough to be occupied, white is free.
   std::ofstream(folder.path() / "dots.yaml")
       << "{image: dots.png, resolution: 0.02, origin: [0, 0, 0], negate: 0, "
@@ -309,8 +329,8 @@ TEST_P(HostCanvas, LayersAreSavedOneByOne) {
   EXPECT_EQ(picture.at(3, 4), 1.0F);
   EXPECT_EQ(picture.at(5, 6), 0.0F) << "the canvas's are not there";
 
-  session->save_map(map, "plan", sim::io::MapMode::kTrinary);
-  session->save_map(map, "shades.yaml", sim::io::MapMode::kScale);
+  session->request(SaveMapRequest{map, "plan", sim::io::MapMode::kTrinary});
+  session->request(SaveMapRequest{map, "shades.yaml", sim::io::MapMode::kScale});
   for (const char* file : {"plan.yaml", "plan.pgm", "shades.yaml", "shades.pgm"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
   }
@@ -328,28 +348,35 @@ TEST_P(HostCanvas, LayersAreSavedOneByOne) {
   EXPECT_NEAR(shades.at(1, 49), 0.3F, 1.0 / 500.0);
 
   const auto save_map = [&](LayerId layer, const char* name) {
-    return refusal([&] { session->save_map(layer, name, sim::io::MapMode::kTrinary); });
+    return refusal([&] {
+      session->request(SaveMapRequest{layer, name, sim::io::MapMode::kTrinary});
+    });
   };
   EXPECT_EQ(save_map(dots, "dots"), kBadArgument) << "no occupancies";
   EXPECT_EQ(save_map(99, "plan"), kBadArgument);
   EXPECT_EQ(save_map(map, "../plan"), kBadArgument);
   EXPECT_EQ(save_map(map, ""), kBadArgument);
-  EXPECT_EQ(refusal([&] { session->save_image("dots", 1, 99); }), kBadArgument);
+  EXPECT_EQ(refusal([&] { session->request(SaveImageRequest{"dots", 1, 99}); }), kBadArgument);
   const auto other = host->connect(6666);
-  EXPECT_EQ(refusal([&] { other->save_image("dots", 1, dots); }), kBadArgument)
+  EXPECT_EQ(refusal([&] {
+              other->request(SaveImageRequest{"dots", 1, dots});
+            }),
+            kBadArgument)
       << "somebody else's";
   std::filesystem::create_symlink(folder.path() / "elsewhere", folder.path() / "link.pgm");
   EXPECT_EQ(save_map(map, "link"), kNotAvailable);
   const auto nowhere = create(two_robots())->connect(6665);
-  const LayerId lost = nowhere->create_layer(LayerKind::kGrey, named("map"));
-  EXPECT_EQ(refusal([&] { nowhere->save_map(lost, "map", sim::io::MapMode::kTrinary); }),
+  const LayerId lost = nowhere->request(CreateLayerRequest{LayerKind::kGrey, named("map")});
+  EXPECT_EQ(refusal([&] {
+              nowhere->request(SaveMapRequest{lost, "map", sim::io::MapMode::kTrinary});
+            }),
             kNotAvailable);
 }
 
 TEST_P(HostCanvas, WorldMapShowsTheArena) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
-  const sim::OccupancyMap map = session->world_map(0.1);
+  const sim::OccupancyMap map = session->request(WorldMapRequest{0.1}).map;
   ASSERT_EQ(map.width, 20);
   ASSERT_EQ(map.height, 10);
   // The box spans x 1.4 .. 1.6, y 0.4 .. 0.6: columns 14 and 15, rows 4 and 5.
@@ -357,7 +384,8 @@ TEST_P(HostCanvas, WorldMapShowsTheArena) {
   EXPECT_EQ(map.at(15, 5), 1.0F);
   EXPECT_EQ(map.at(12, 4), 0.0F);
   for (const double cell_m : {0.0, -1.0, 1e-9, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_EQ(refusal([&] { static_cast<void>(session->world_map(cell_m)); }), kBadArgument);
+    EXPECT_EQ(refusal([&] { static_cast<void>(session->request(WorldMapRequest{cell_m}).map); }),
+              kBadArgument);
   }
 }
 
@@ -365,7 +393,7 @@ TEST_P(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
   const auto host = create(two_robots());
   const auto first = host->connect(6665);
   const auto second = host->connect(6666);
-  second->join();
+  second->request(JoinRequest{});
   std::atomic<bool> read{false};
   std::thread other([&] {
     first->wait();
@@ -388,9 +416,9 @@ TEST_P(HostCanvas, ClosedSessionsRefuseDrawings) {
   dot(*session, 1, 1, kRed);
   session->close();
   EXPECT_EQ(refusal([&] { dot(*session, 2, 2, kRed); }), SessionError::Code::kDisconnected);
-  EXPECT_EQ(refusal([&] { static_cast<void>(session->layers()); }),
+  EXPECT_EQ(refusal([&] { static_cast<void>(session->request(LayersRequest{})); }),
             SessionError::Code::kDisconnected);
-  EXPECT_EQ(session->canvas_info().width, 100);
+  EXPECT_EQ(session->request(CanvasInfoRequest{}).width, 100);
   EXPECT_EQ(at(*host->connect(6665), 1, 1), kRed) << "what was drawn before is there";
 }
 
@@ -399,7 +427,7 @@ TEST_P(HostCanvas, ClosedSessionsRefuseDrawings) {
 TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
-  const LayerId layer = session->create_layer(LayerKind::kColour, named("shared"));
+  const LayerId layer = session->request(CreateLayerRequest{LayerKind::kColour, named("shared")});
   constexpr int kRounds = 20000;
   std::vector<std::thread> threads;
   for (int t = 0; t < 3; ++t) {
@@ -409,13 +437,13 @@ TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
   }
   threads.emplace_back([&] {
     for (int i = 0; i < 50; ++i) {
-      const LayerId mine = session->create_layer(LayerKind::kGrey, named("mine"));
-      static_cast<void>(session->canvas_image());
-      session->resize_canvas(100, 50 + i % 2);
-      static_cast<void>(session->canvas_info());
-      session->remove_layer(mine);
+      const LayerId mine = session->request(CreateLayerRequest{LayerKind::kGrey, named("mine")});
+      static_cast<void>(session->request(CanvasImageRequest{}).rgba);
+      session->request(ResizeCanvasRequest{100, 50 + i % 2});
+      static_cast<void>(session->request(CanvasInfoRequest{}));
+      session->request(RemoveLayerRequest{mine});
     }
-    session->resize_canvas(100, 50);
+    session->request(ResizeCanvasRequest{100, 50});
   });
   for (int i = 0; i < 20; ++i) session->wait();
   for (std::thread& thread : threads) thread.join();

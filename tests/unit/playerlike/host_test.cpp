@@ -72,14 +72,14 @@ class HostTest : public testing::Test {
   }
   static InterfaceBinding subscribe_position(Session& session, int index = 0) {
     const InterfaceBinding binding = position2d(session, index);
-    session.subscribe(binding.reading);
+    session.request(SubscribeRequest{binding.reading});
     return binding;
   }
   static void drive(Session& session, const InterfaceBinding& binding, double v) {
     session.send(binding.motion.value(), sim::TwistCommand{{v, 0.0, 0.0}});
   }
   static std::optional<sim::Colour> colour_at(Session& session, int column, int row) {
-    const auto value = session.cell(sim::kBaseLayer, column, row);
+    const auto value = session.request(CellRequest{sim::kBaseLayer, column, row});
     return value ? std::optional(value->colour()) : std::nullopt;
   }
   // One Read() of a client.
@@ -122,8 +122,8 @@ TEST_P(HostOverTest, TimeStandsStillBetweenReads) {
   subscribe_position(*session);
   read(*session);
   std::this_thread::yield();
-  EXPECT_EQ(session->time().steps, 10U);
-  EXPECT_EQ(session->time().steps, 10U);
+  EXPECT_EQ(session->request(TimeRequest{}).steps, 10U);
+  EXPECT_EQ(session->request(TimeRequest{}).steps, 10U);
 }
 
 TEST_P(HostOverTest, CommandsTakeEffectWithTheNextStepAndHold) {
@@ -181,7 +181,7 @@ TEST_P(HostOverTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
   // One thread: reading the other client three times lets three rounds pass here.
   for (int i = 0; i < 3; ++i) read(*other);
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(300'000'000));
-  session->set_replace(mine.reading, false);
+  session->request(ReplaceRequest{mine.reading, false});
   for (int i = 0; i < 3; ++i) read(*other);
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(400'000'000, 500'000'000, 600'000'000));
 }
@@ -204,7 +204,7 @@ std::uint64_t two_threads_run(const std::shared_ptr<ReachableHost>& host) {
   const auto program = [&host](int port) {
     const auto session = host->connect(port);
     const auto binding = find_interface(session->robots(), port, "position2d", 0);
-    session->subscribe(binding.reading);
+    session->request(SubscribeRequest{binding.reading});
     try {
       for (int i = 0;; ++i) {
         Collector round;
@@ -296,7 +296,7 @@ TEST_P(HostOverTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
     session->send(*binding.motion, sim::MotorEnableCommand{true});
     drive(*session, binding, i % 2 == 0 ? 0.4 : -0.4);
   }
-  session->subscribe(binding.reading);
+  session->request(SubscribeRequest{binding.reading});
   EXPECT_NEAR(read(*session).x_m, 1.04, 1e-9);
 }
 
@@ -331,7 +331,7 @@ TEST_P(HostOverTest, CommandsFromAnotherThreadThanTheReaderAreLegal) {
   std::thread sender([&] {
     for (int i = 0; !stop; ++i) {
       drive(*session, binding, 0.001 * (i % 100));
-      if (i % 64 == 0) static_cast<void>(session->cell(sim::kBaseLayer, 3, 3));
+      if (i % 64 == 0) static_cast<void>(session->request(CellRequest{sim::kBaseLayer, 3, 3}));
       if (i % 16 == 0) {
         const sim::DrawOperation dot{
             .x0 = i % 100, .y0 = 5, .value = sim::CellValue::of(sim::Colour{255, 0, 0, 255})};
@@ -361,12 +361,13 @@ TEST_P(HostOverTest, EndOfTheRunIsToldAfterTheLastReadings) {
 TEST_P(HostOverTest, SleepLetsSimulatedTimePassAndKeepsTheReadings) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
-  session->sleep(0.25);
+  session->request(SleepRequest{0.25});
   EXPECT_EQ(host->time().steps, 25U);
   EXPECT_EQ(read(*session).times_ns.front(), 200'000'000);
   EXPECT_EQ(host->time().steps, 25U);
-  EXPECT_THROW(session->sleep(-1.0), SessionError);
-  EXPECT_THROW(session->sleep(std::numeric_limits<double>::quiet_NaN()), SessionError);
+  EXPECT_THROW(session->request(SleepRequest{-1.0}), SessionError);
+  EXPECT_THROW(session->request(SleepRequest{std::numeric_limits<double>::quiet_NaN()}),
+               SessionError);
 }
 
 TEST_P(HostOverTest, AClosedSessionThrowsAndWakesItsWaiter) {
@@ -639,8 +640,9 @@ TEST_F(HostTest, UnknownPortsAndDevicesAreRefusedNamingWhatThereIs) {
   } catch (const SessionError& e) {
     EXPECT_THAT(e.what(), HasSubstr("laser:0 (r1.laser)"));
   }
-  EXPECT_THROW(session->subscribe({7, 0}), SessionError);
-  EXPECT_THROW(session->subscribe(position2d(*session).motion.value()), SessionError);
+  EXPECT_THROW(session->request(SubscribeRequest{{7, 0}}), SessionError);
+  EXPECT_THROW(session->request(SubscribeRequest{position2d(*session).motion.value()}),
+               SessionError);
 }
 
 TEST_F(HostTest, OnPort4000TheIndexIsTheRobotsNumberUnlessTheWorldSaysOtherwise) {
@@ -675,7 +677,7 @@ TEST_F(HostTest, DrawingsAreSeenAtOnceByTheirClientAndInOrderOfClients) {
             (sim::Colour{0, 0, 255, 255}));  // the second client comes last
   dot(*first, {255, 0, 0, 255});
   EXPECT_EQ(colour_at(*first, 4, 5), (sim::Colour{255, 0, 0, 255}));
-  EXPECT_FALSE(first->cell(sim::kBaseLayer, -1, 0).has_value());
+  EXPECT_FALSE(first->request(CellRequest{sim::kBaseLayer, -1, 0}).has_value());
 }
 
 TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
@@ -701,18 +703,18 @@ TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
 TEST_P(HostOverTest, ABackgroundReaderMakesTimeFollowTheWallClock) {
   const auto session = start(two_robots())->connect(6665);
   subscribe_position(*session);
-  session->prefer_real_time("a test");
+  session->request(PreferRealTimeRequest{"a test"});
   read(*session);
-  EXPECT_EQ(session->time().mode, sim::TimeMode::kPaced);
+  EXPECT_EQ(session->request(TimeRequest{}).mode, sim::TimeMode::kPaced);
   EXPECT_THAT(logged(), HasSubstr("a test"));
 }
 
 TEST_P(HostOverTest, ATimeModeThatTheWorldChoseIsKept) {
   const auto session = start(two_robots(R"({"time": "lockstep"})"))->connect(6665);
   subscribe_position(*session);
-  session->prefer_real_time("a test");
+  session->request(PreferRealTimeRequest{"a test"});
   read(*session);
-  EXPECT_EQ(session->time().mode, sim::TimeMode::kLockstep);
+  EXPECT_EQ(session->request(TimeRequest{}).mode, sim::TimeMode::kLockstep);
   EXPECT_EQ(logged(), "");
 }
 

@@ -465,20 +465,26 @@ TEST(PrivateWorlds, LetAProgramOfThisProcessReadItsOwnRobotOnly) {
   const auto all = host->connect(kMorsePort);
   for (const RobotInfo& robot : host->robots()) {
     const DeviceId device = find_interface(host->robots(), robot.port, "position2d", 0).reading;
-    const std::string error = error_of([&] { session->subscribe(device); });
+    const std::string error = error_of([&] { session->request(SubscribeRequest{device}); });
     if (robot.port == 6666) {
       EXPECT_EQ(error, "");
     } else {
       EXPECT_THAT(error, AllOf(HasSubstr("privacy"), HasSubstr("r1"), HasSubstr("6666")));
     }
-    EXPECT_THAT(error_of([&] { all->subscribe(device); }), HasSubstr("privacy"));
+    EXPECT_THAT(error_of([&] { all->request(SubscribeRequest{device}); }), HasSubstr("privacy"));
   }
-  EXPECT_THAT(error_of([&] { static_cast<void>(session->object_pose("r2")); }),
+  EXPECT_THAT(error_of([&] { static_cast<void>(session->request(ObjectPoseRequest{"r2"})); }),
               HasSubstr("privacy"));
-  EXPECT_THAT(error_of([&] { static_cast<void>(session->object_property("r2", "size")); }),
+  EXPECT_THAT(error_of([&] {
+                static_cast<void>(session->request(ObjectPropertyRequest{"r2", "size"}));
+              }),
               HasSubstr("privacy"));
-  EXPECT_THAT(error_of([&] { session->place_object("r2", {}); }), HasSubstr("privacy"));
-  EXPECT_THAT(error_of([&] { static_cast<void>(session->world_map(0.1)); }), HasSubstr("privacy"));
+  EXPECT_THAT(error_of([&] {
+                session->request(PlaceObjectRequest{"r2", {}});
+              }),
+              HasSubstr("privacy"));
+  EXPECT_THAT(error_of([&] { static_cast<void>(session->request(WorldMapRequest{0.1}).map); }),
+              HasSubstr("privacy"));
   EXPECT_FALSE(test::patient_host(two_robots())->own_sensors_only());
 }
 

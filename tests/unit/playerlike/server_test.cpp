@@ -106,8 +106,8 @@ class WordHandler final : public Handler {
           if (!self.expired()) answer_wait();
         });
       });
-      client_->session().subscribe(
-          find_interface(client_->session().robots(), 6665, "position2d", 0).reading);
+      client_->session().request(SubscribeRequest{
+          find_interface(client_->session().robots(), 6665, "position2d", 0).reading});
       peer_.send("joined\n");
     } else if (word == "read") {
       const auto thinker = hub_.thinker("test", static_cast<std::uint64_t>(number));
@@ -138,8 +138,8 @@ class WordHandler final : public Handler {
     } sink;
     if (client_->outcome() == EventClient::Outcome::kFinished) return peer_.send("finished\n");
     const auto count = client_->session().take(sink);
-    peer_.send(std::to_string(client_->session().time().sim_time_ns / 1'000'000) + " ms, " +
-               std::to_string(count) + '\n');
+    peer_.send(std::to_string(client_->session().request(TimeRequest{}).sim_time_ns / 1'000'000) +
+               " ms, " + std::to_string(count) + '\n');
   }
 
   Peer& peer_;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // What only sessions across a network meet: servers that are not there, go away, fall silent or
 // come back. What holds for all sessions is in host_test, host_canvas_test and others.
-#include "session/socket_session.h"
+#include "remote/socket_session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@
 
 #include "libplayerc++/playerc++.h"
 #include "patient_host.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"
 #include "raw_client.h"
@@ -85,7 +85,7 @@ Collector read(Session& session) {
 
 DeviceId subscribe_position(Session& session) {
   const auto binding = find_interface(session.robots(), session.port(), "position2d", 0);
-  session.subscribe(binding.reading);
+  session.request(SubscribeRequest{binding.reading});
   return binding.motion.value();
 }
 
@@ -239,14 +239,14 @@ TEST(SocketSessions, TokensOpenServersAndRobots) {
   with_token.tokens = {"open-sesame"};
   SocketSession session(with_token);
   const auto second = find_interface(session.robots(), kMorsePort, "position2d", 1);
-  session.subscribe(second.reading);
+  session.request(SubscribeRequest{second.reading});
   // A command is not answered: what is wrong with it is told by the next call that is.
   session.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
   EXPECT_THAT(error_of([&] { read(session); }).what(), HasSubstr("r2"));
   EXPECT_EQ(read(session).x_m, 1.0);
   with_token.tokens.emplace_back("second-robot");
   SocketSession holder(with_token);
-  holder.subscribe(second.reading);
+  holder.request(SubscribeRequest{second.reading});
   holder.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
   EXPECT_GT(read(holder).x_m, 1.0);
 }
@@ -304,13 +304,18 @@ TEST(SocketSessions, AServerThatEndsDuringAWaitEndsIt) {
   EXPECT_EQ(error_of([&] { session->wait(); }).code(), kDisconnected);
   EXPECT_EQ(error_of([&] { static_cast<void>(session->peek(milliseconds(0))); }).code(),
             kDisconnected);
-  EXPECT_EQ(error_of([&] { static_cast<void>(session->time()); }).code(), kDisconnected);
-  EXPECT_EQ(error_of([&] { session->sleep(1.0); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->request(TimeRequest{})); }).code(),
+            kDisconnected);
+  EXPECT_EQ(error_of([&] { session->request(SleepRequest{1.0}); }).code(), kDisconnected);
   EXPECT_EQ(error_of([&] { session->send(motion, sim::MotorEnableCommand{true}); }).code(),
             kDisconnected);
-  EXPECT_EQ(error_of([&] { session->flush_drawings(); }).code(), kDisconnected);
-  EXPECT_EQ(error_of([&] { session->draw_cells(sim::kBaseLayer, {}, {}); }).code(), kDisconnected);
-  EXPECT_EQ(error_of([&] { static_cast<void>(session->layers()); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { session->request(FlushDrawingsRequest{}); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] {
+              session->request(SetCellsRequest{sim::kBaseLayer, {}, {}});
+            }).code(),
+            kDisconnected);
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->request(LayersRequest{})); }).code(),
+            kDisconnected);
 }
 
 TEST(SocketSessions, AConnectionCutInTheMiddleOfAMessageIsLost) {
@@ -331,16 +336,17 @@ TEST(SocketSessions, AServerThatFallsSilentIsGivenUpDuringAWait) {
   const auto session = connect(relay.port());
   subscribe_position(*session);
   read(*session);
-  session->set_request_timeout(0.1);
+  session->request(AnswerTimeoutRequest{0.1});
   relay.freeze();
   EXPECT_THAT(error_of([&] { session->wait(); }).what(), HasSubstr("has not answered for 0.1 s"));
-  EXPECT_EQ(error_of([&] { static_cast<void>(session->time()); }).code(), kDisconnected);
+  EXPECT_EQ(error_of([&] { static_cast<void>(session->request(TimeRequest{})); }).code(),
+            kDisconnected);
 }
 
 TEST(SocketSessions, AWaitMayTakeLongerThanARequestIfTheServerLives) {
   const Served served(R"({"clients": 2})");
   const auto session = connect(served.port());
-  session->set_request_timeout(4.0);
+  session->request(AnswerTimeoutRequest{4.0});
   subscribe_position(*session);
   std::thread late([&] {
     std::this_thread::sleep_for(milliseconds(8000));  // twice what a request may take
@@ -374,8 +380,8 @@ TEST(SocketSessions, ALostConnectionIsMadeAgainIfRetriesAreSet) {
   Relay relay(served->port());
   const auto session = connect(relay.port());
   const DeviceId motion = subscribe_position(*session);
-  session->set_replace(std::nullopt, false);
-  session->set_retries(-1, 0.01);
+  session->request(ReplaceRequest{std::nullopt, false});
+  session->request(RetriesRequest{-1, 0.01});
   for (int i = 0; i < 3; ++i) read(*session);
   relay.set_server(0);  // and refuses for a while
   served.reset();
@@ -389,7 +395,7 @@ TEST(SocketSessions, ALostConnectionIsMadeAgainIfRetriesAreSet) {
   repair.join();
   EXPECT_THAT(round.times_ns, testing::ElementsAre(100'000'000));
   EXPECT_TRUE(session->connected());
-  session->sleep(0.2);
+  session->request(SleepRequest{0.2});
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(200'000'000, 300'000'000));
   session->send(motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
   EXPECT_GT(read(*session).x_m, 1.0);
@@ -417,7 +423,7 @@ TEST(SocketSessions, RetriesComeToAnEnd) {
 TEST(SocketSessions, ClosingEndsRetries) {
   auto served = std::make_unique<Served>();
   const auto session = connect(served->port());
-  session->set_retries(-1, 3600.0);
+  session->request(RetriesRequest{-1, 3600.0});
   served.reset();
   std::thread closer([&] {
     while (session->connected()) std::this_thread::yield();
@@ -431,7 +437,7 @@ TEST(SocketSessions, AnotherWorldIsNotTakenForTheOldOne) {
   auto served = std::make_unique<Served>();
   Relay relay(served->port());
   const auto session = connect(relay.port());
-  session->set_retries(1, 0.01);
+  session->request(RetriesRequest{1, 0.01});
   served.reset();
   const auto other = test::patient_host(sim::load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"name": "x", "pose": {"x": 1, "y": 1}}]})"));
@@ -454,12 +460,12 @@ TEST(SocketSessions, SeveralThreadsShareOne) {
     threads.emplace_back([&, t] {
       sim::SimTime last_ns = 0;
       while (!stop) {
-        const TimeStatistics time = session->time();
+        const TimeStatistics time = session->request(TimeRequest{});
         EXPECT_GE(time.sim_time_ns, last_ns);
         last_ns = time.sim_time_ns;
         session->send(motion, sim::TwistCommand{{0.1 * t, 0.0, 0.0}});
-        EXPECT_TRUE(session->cell(sim::kBaseLayer, t, t).has_value());
-        EXPECT_FALSE(session->cell(sim::kBaseLayer, -1, t).has_value());
+        EXPECT_TRUE(session->request(CellRequest{sim::kBaseLayer, t, t}).has_value());
+        EXPECT_FALSE(session->request(CellRequest{sim::kBaseLayer, -1, t}).has_value());
       }
     });
   }
@@ -489,7 +495,7 @@ TEST(SocketSessions, AFollowerHoldsTheClockAndNeverLetsItGoOn) {
   std::atomic<int> rounds{0};
   std::promise<void> joined;
   std::thread thread([&] {
-    follower->join();
+    follower->request(JoinRequest{});
     joined.set_value();
     const SessionError end = error_of([&] {
       while (true) {
@@ -532,7 +538,7 @@ std::vector<std::uint8_t> picture_of(Session& session) {
   sim::LayerStyle style;
   style.name = "map";
   style.transparency = 0.25;
-  const sim::LayerId layer = session.create_layer(sim::LayerKind::kColour, style);
+  const sim::LayerId layer = session.request(CreateLayerRequest{sim::LayerKind::kColour, style});
   std::vector<sim::DrawOperation> operations;
   for (int i = 0; i < 20'000; ++i) {
     sim::DrawOperation operation;
@@ -553,8 +559,8 @@ std::vector<std::uint8_t> picture_of(Session& session) {
   for (int i = 0; i < 90 * 40; ++i) {
     cells.push_back(sim::CellValue::of(sim::Colour{9, static_cast<std::uint8_t>(i % 256), 7, 255}));
   }
-  session.draw_cells(layer, {20, 20, 90, 40}, cells);
-  return session.canvas_image();
+  session.request(SetCellsRequest{layer, {20, 20, 90, 40}, cells});
+  return session.request(CanvasImageRequest{}).rgba;
 }
 
 TEST(SocketSessions, DrawTheSameAsInProcess) {
@@ -580,7 +586,7 @@ TEST(SocketSessions, DrawingsInAPacedSimulationArriveWithoutAFurtherCall) {
   dot.value = sim::CellValue::of(sim::Colour{255, 0, 0, 255});
   session->draw({&dot, 1});
   const auto watcher = served.host->connect(6666);
-  while (watcher->cell(sim::kBaseLayer, 0, 0) != dot.value) {
+  while (watcher->request(CellRequest{sim::kBaseLayer, 0, 0}) != dot.value) {
     std::this_thread::sleep_for(milliseconds(1));
   }
 }
@@ -597,9 +603,9 @@ TEST(SocketSessions, SleepInAPacedSimulationLetsOthersReadMeanwhile) {
       ++rounds;
     }
   });
-  const double begin_s = sim::to_seconds(session->time().sim_time_ns);
-  session->sleep(2.0);
-  EXPECT_GE(sim::to_seconds(session->time().sim_time_ns), begin_s + 2.0);
+  const double begin_s = sim::to_seconds(session->request(TimeRequest{}).sim_time_ns);
+  session->request(SleepRequest{2.0});
+  EXPECT_GE(sim::to_seconds(session->request(TimeRequest{}).sim_time_ns), begin_s + 2.0);
   stop = true;
   reader.join();
   EXPECT_GE(rounds, 2);
@@ -813,10 +819,10 @@ TEST(SocketSessions, ASubscriptionAnsweredWhileAnotherThreadReconnectsIsKept) {
         return {id + "}\n"};
       });
   const auto session = connect(server.port());
-  session->set_retries(-1, 0.0);
+  session->request(RetriesRequest{-1, 0.0});
   std::thread reader([&] { session->wait(); });
   reading.get_future().wait();
-  session->subscribe({0, 0});
+  session->request(SubscribeRequest{{0, 0}});
   reader.join();
   told_of_data.get_future().wait();
   const std::lock_guard lock(mutex);
@@ -831,8 +837,8 @@ TEST(SocketSessions, AnAnswerThatLiesThereIsReadHoweverLate) {
   // It came with the welcome, so it was there before it was asked for.
   Relay relay(said(welcome, answer.dump() + '\n'));
   const auto session = connect(relay.port());
-  session->set_request_timeout(0.0);
-  EXPECT_EQ(session->time().sim_time_ns, 0);
+  session->request(AnswerTimeoutRequest{0.0});
+  EXPECT_EQ(session->request(TimeRequest{}).sim_time_ns, 0);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 #include "fake_viewer.h"
 #include "patience.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
@@ -58,7 +58,7 @@ class ViewedHostTest : public testing::Test {
                         });
     session = host->connect(6665);
     position = find_interface(session->robots(), session->port(), "position2d", 0);
-    session->subscribe(position.reading);
+    session->request(SubscribeRequest{position.reading});
     viewer.hello();
   }
   void TearDown() override {

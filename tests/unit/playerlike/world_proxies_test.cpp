@@ -349,8 +349,10 @@ TEST_P(WorldProxies, FetchMapsThatAreLargerThanATile) {
         "canvas": {"cell_size": 0.01}, "robots": [{"pose": {"x": 0, "y": 3}}]})")),
                                  GetParam());
   const auto session = host.connect(6665);
-  const sim::OccupancyMap map = session->world_map(0.01);  // 1290 x 1040 cells
-  const sim::OccupancyMap whole = host.host().connect(6665)->world_map(0.01);
+  const sim::OccupancyMap map =
+      session->request(playerlike::WorldMapRequest{0.01}).map;  // 1290 x 1040 cells
+  const sim::OccupancyMap whole =
+      host.host().connect(6665)->request(playerlike::WorldMapRequest{0.01}).map;
   EXPECT_EQ(map.width, 1290);
   EXPECT_EQ(map.height, 1040);
   EXPECT_EQ(map.origin, whole.origin);

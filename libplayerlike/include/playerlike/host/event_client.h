@@ -8,25 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include "playerlike/process/thinker.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike {
 
-/// Who thinks while a client does not wait: in lockstep a thinker waits as soon as one of its
-/// clients does, since a thread can only wait for one thing at a time. In this process each thread
-/// is one; a server makes one for each thread of each process that its clients tell it of. Never
-/// given twice; 0 is nobody.
-using ThinkerId = std::uint64_t;
-
-/// A number that no thinker of this process has had. Thread-safe.
-[[nodiscard]] ThinkerId new_thinker() noexcept;
-/// The calling thread's own.
-[[nodiscard]] ThinkerId this_thinker() noexcept;
-/// Whether it has one: whether it has asked for it, or was given one.
-[[nodiscard]] bool is_thinker() noexcept;
-/// Gives the calling thread one that was made for it, before it uses its own.
-void set_this_thinker(ThinkerId thinker) noexcept;
+class Host;
+struct Client;
 
 /// Drawings that are carried out piece by piece, see EventClient::draw_some().
 struct DrawWork {
@@ -39,7 +28,7 @@ struct DrawWork {
 /// A client of a host without a thread of its own, for event loops: waiting is begun, and its end
 /// is told. See Host::connect_events(). All members may be called from any thread, but by one at a
 /// time.
-class EventClient {
+class EventClient final {
  public:
   /// How a wait stands.
   enum class Outcome {
@@ -50,38 +39,44 @@ class EventClient {
     kFinished,  ///< the run is over, and nothing is left to take
   };
 
-  EventClient() = default;
+  EventClient(std::shared_ptr<Host> host, std::shared_ptr<Client> client);
   EventClient(const EventClient&) = delete;
   EventClient& operator=(const EventClient&) = delete;
   /// Closes the session.
-  virtual ~EventClient() = default;
+  ~EventClient();
 
-  /// All that does not wait. Its wait(), peek(), sleep() and join() must not be called.
-  [[nodiscard]] virtual Session& session() noexcept = 0;
+  /// All that does not wait. Its wait() and peek() must not be called, nor may it be asked to join
+  /// or sleep.
+  [[nodiscard]] Session& session() noexcept { return *session_; }
 
   /// As Session::wait(): over with kData or kFinished.
   /// @return the outcome, kWaiting if it is not over yet; so for the calls below.
-  virtual Outcome begin_wait(ThinkerId thinker) = 0;
+  Outcome begin_wait(ThinkerId thinker);
   /// As Session::peek(): over with kData, kTime or kFinished. In a paced simulation it does not end
   /// by time: who began it cancels it.
-  virtual Outcome begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout) = 0;
-  /// As Session::sleep(): over with kTime or kFinished.
+  Outcome begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout);
+  /// As SleepRequest: over with kTime or kFinished.
   /// @throws SessionError kBadArgument.
-  virtual Outcome begin_sleep(ThinkerId thinker, double seconds) = 0;
-  /// As Session::join().
-  virtual void join(ThinkerId thinker) = 0;
+  Outcome begin_sleep(ThinkerId thinker, double seconds);
+  /// As JoinRequest.
+  void join(ThinkerId thinker);
 
   /// Carries on with drawings as Session::draw() does, until about so many cells have been written
   /// (a row of tiles or a line more at most); the simulation is locked for that long only. What the
   /// session has drawn before comes first. Drawings that a later fill of the same layer covers are
   /// left out.
   /// @return whether all is done. @throws SessionError kDisconnected once the session is closed.
-  virtual bool draw_some(DrawWork& work, std::size_t cells) = 0;
+  bool draw_some(DrawWork& work, std::size_t cells);
 
   /// How the last wait stands.
-  [[nodiscard]] virtual Outcome outcome() const = 0;
+  [[nodiscard]] Outcome outcome() const;
   /// Ends a wait: outcome() is kIdle then. In lockstep the client thinks again.
-  virtual void cancel() = 0;
+  void cancel();
+
+ private:
+  std::shared_ptr<Host> host_;
+  std::shared_ptr<Client> client_;
+  std::unique_ptr<Session> session_;
 };
 
 /// Something that an event loop waits for besides its clients' readings.

@@ -79,12 +79,6 @@ struct TimeStatistics {
   std::vector<std::string> unrepeatable;
 };
 
-/// Where a robot or an obstacle is.
-struct ObjectPose {
-  sim::Pose pose;            ///< X_WB of a robot; the middle of anything else, in W
-  sim::SimTime time_ns = 0;  ///< now
-};
-
 /// A property of a robot or an obstacle: numbers (SI units and radians), or a text.
 using PropertyValue = std::variant<std::vector<double>, std::string>;
 
@@ -93,13 +87,6 @@ struct LogStatus {
   bool replay = false;  ///< readings come from the log, not from the devices; else they are written
   bool running = false;  ///< it does so now
   std::string file;      ///< in the run's output folder
-};
-/// What to change of it, in this order; what has no value stays.
-struct LogControl {
-  std::optional<std::string> file;  ///< a plain name; ".jsonl" is added unless it is there
-  std::optional<bool> replay;
-  bool rewind = false;  ///< a replay begins anew
-  std::optional<bool> running;
 };
 
 /// A call that could not be carried out. Player's layer turns it into PlayerCc::PlayerError.
@@ -142,7 +129,7 @@ void check_interfaces(const sim::WorldDescription& world);
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
 
 /// The cells of the map of an arena's whole floor.
-/// @throws SessionError kBadArgument as Session::world_map().
+/// @throws SessionError kBadArgument as WorldMapRequest.
 [[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
                                               double cell_size_m);
 

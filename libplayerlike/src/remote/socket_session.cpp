@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "session/socket_session.h"
+#include "remote/socket_session.h"
 
 #include <unistd.h>
 
@@ -10,15 +10,15 @@
 #include <random>
 #include <utility>
 
-#include "host/end_of_program.h"
-#include "playerlike/host/event_client.h"
+#include "playerlike/process/thinker.h"
 #include "playerlike/session/layer_book.h"
+#include "process/end_of_program.h"
+#include "process/thread_end.h"
+#include "protocol/request_codec.h"
+#include "remote/socket_line.h"
 #include "session/checks.h"
-#include "session/farewell.h"
-#include "session/socket_line.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
-#include "sim/world/view_mode.h"
 
 namespace playerlike {
 namespace {
@@ -44,13 +44,13 @@ Connection::Clock::duration wall(double seconds) {
 }
 
 // Nobody is to wait for a thread that has ended.
-thread_local Farewell<SocketLine> farewell_to_server([](SocketLine& line) {
+void say_goodbye(void* line) {
   try {
-    line.tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+    static_cast<SocketLine*>(line)->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
   } catch (const std::exception&) {
     // The server notices that it has lost the connection.
   }
-});
+}
 
 /// What no other process calls itself.
 std::string process_name() {
@@ -72,19 +72,19 @@ std::string program_name() {
   return name.substr(0, kMost);
 }
 
+[[noreturn]] void throw_misunderstood(const std::string& why) {
+  throw SessionError(SessionError::Code::kNotAvailable,
+                     "the server's answer cannot be understood: " + why);
+}
+
 /// Reads an answer: what it should hold and does not is the server's fault.
 template <typename Read>
 auto understood(Read read) -> decltype(read()) {
   try {
     return read();
   } catch (const protocol::ProtocolError& e) {
-    throw SessionError(SessionError::Code::kNotAvailable,
-                       std::string("the server's answer cannot be understood: ") + e.what());
+    throw_misunderstood(e.what());
   }
-}
-
-json device_request(const char* what, DeviceId device) {
-  return {{"do", what}, {"device", protocol::encode_device_id(device)}};
 }
 
 json read_request(const char* wait) {
@@ -220,27 +220,22 @@ bool SocketSession::pause(double seconds) const {
 }
 
 void SocketSession::resume(const std::shared_ptr<Connection>& connection) const {
-  const auto carry_out = [&](json& request) {
-    static_cast<void>(connection->answer(connection->ask(request)));
-  };
-  std::vector<json> requests;
+  std::vector<Request> requests;
   {
     const Lock lock(mutex_);
     resumed_ = connection;
-    if (!replace_by_default_) {
-      requests.push_back({{"do", "replace"}, {"device", nullptr}, {"replace", false}});
-    }
+    if (!replace_by_default_) requests.emplace_back(ReplaceRequest{std::nullopt, false});
     for (const auto& [key, count] : subscriptions_) {
-      for (int i = 0; i < count; ++i) {
-        requests.push_back(device_request("subscribe", device_of(key)));
-      }
+      for (int i = 0; i < count; ++i) requests.emplace_back(SubscribeRequest{device_of(key)});
     }
     for (const auto& [key, replace] : replace_) {
-      requests.push_back(device_request("replace", device_of(key)));
-      requests.back()["replace"] = replace;
+      requests.emplace_back(ReplaceRequest{device_of(key), replace});
     }
   }
-  for (json& request : requests) carry_out(request);
+  for (const Request& request : requests) {
+    json message = protocol::encode_request(request, connection->encoding());
+    static_cast<void>(connection->answer(connection->ask(message)));
+  }
 }
 
 bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
@@ -278,7 +273,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
 
 // --- Saying and asking
 
-json SocketSession::request(json request) const {
+json SocketSession::ask(json request) const {
   json answer = with_connection([&] { return line_->ask(request); });
   note(answer);
   throw_complaint();
@@ -286,7 +281,7 @@ json SocketSession::request(json request) const {
 }
 
 json SocketSession::read(json request) const {
-  farewell_to_server.remember(line_);
+  if (ThreadEnd* const end = ThreadEnd::mine()) end->say_goodbye(line_, say_goodbye);
   return with_connection([&] { return line_->wait(request); });
 }
 
@@ -313,18 +308,13 @@ int SocketSession::port() const noexcept { return settings_.port; }
 
 bool SocketSession::connected() const noexcept { return !closed_ && !line_->connection()->lost(); }
 
-void SocketSession::subscribe(DeviceId device) {
-  require_device(robots_, device);
-  request_for_good(device_request("subscribe", device), [&] { ++subscriptions_[key_of(device)]; });
-}
-
 template <typename Note>
-void SocketSession::request_for_good(const json& request, Note note_it) {
+void SocketSession::request_for_good(const Request& request, Note note_it) {
   for (;;) {
     std::shared_ptr<Connection> answered_by;
     const json answer = with_connection([&] {
-      json copy = request;
-      return line_->ask(copy, answered_by);
+      json message = protocol::encode_request(request, line_->connection()->encoding());
+      return line_->ask(message, answered_by);
     });
     note(answer);
     throw_complaint();
@@ -350,7 +340,8 @@ void SocketSession::unsubscribe(DeviceId device) {
       if (waited > 0 && readings_.empty()) round_ = false;
     }
   }
-  json request = device_request("unsubscribe", device);
+  json request =
+      protocol::encode_request(UnsubscribeRequest{device}, line_->connection()->encoding());
   for (;;) {
     require_open();
     const std::shared_ptr<Connection> connection = line_->connection();
@@ -376,21 +367,6 @@ void SocketSession::unsubscribe(DeviceId device) {
     if (line_->connection() != subscribed) return;
   }
 }
-
-void SocketSession::set_replace(std::optional<DeviceId> device, bool replace) {
-  json message = {{"do", "replace"}, {"device", nullptr}, {"replace", replace}};
-  if (device) message["device"] = protocol::encode_device_id(*device);
-  request_for_good(message, [&] {
-    if (device) {
-      replace_[key_of(*device)] = replace;
-    } else {
-      replace_by_default_ = replace;
-      replace_.clear();
-    }
-  });
-}
-
-std::uint32_t SocketSession::overflow_count() const { return overflow_; }
 
 // --- Time
 
@@ -472,7 +448,7 @@ int SocketSession::take(ReadingSink& sink) {
   if (!round_ && !reading_ && !over_) {
     {
       const ReadTurn turn(*this, lock);
-      accept(request(read_request("none")), /*round=*/false);
+      accept(ask(read_request("none")), /*round=*/false);
     }
     lock.lock();
   }
@@ -558,27 +534,10 @@ void SocketSession::sleep_by_the_wall_clock(double seconds) {
 }
 
 TimeStatistics SocketSession::time() const {
-  const json answer = request({{"do", "time"}});
-  TimeStatistics time =
-      understood([&] { return protocol::decode_time(protocol::require(answer, "time")); });
+  const auto time = std::get<TimeStatistics>(ask_for(TimeRequest{}));
   const bool paced = time.mode == sim::TimeMode::kPaced;
   if (paced != line_->paced()) line_->set_paced(paced);
   return time;
-}
-
-void SocketSession::prefer_real_time(const std::string& reason) {
-  request({{"do", "prefer_real_time"}, {"reason", reason}});
-  static_cast<void>(time());
-}
-
-void SocketSession::set_request_timeout(double seconds) {
-  request_timeout_s_ = seconds;
-  line_->connection()->set_request_timeout(wall(seconds));
-}
-
-void SocketSession::set_retries(int limit, double time_s) {
-  retry_time_s_ = time_s;
-  retry_limit_ = limit;
 }
 
 // --- Commands, and other sessions
@@ -587,9 +546,9 @@ void SocketSession::send(DeviceId device, const sim::Command& command) {
   require_open();
   require_device(robots_, device);
   require_finite(command);
-  json message = device_request("command", device);
-  message["command"] = protocol::encode_command(command);
-  tell(message);
+  tell({{"do", "command"},
+        {"device", protocol::encode_device_id(device)},
+        {"command", protocol::encode_command(command)}});
 }
 
 std::unique_ptr<Session> SocketSession::open_follower() {
@@ -607,13 +566,13 @@ const void* SocketSession::simulation() const noexcept { return line_->simulatio
 
 DrawQueue& SocketSession::draw_queue() noexcept { return line_->drawings(); }
 
-void SocketSession::flush_drawings() {
-  with_connection([&] { line_->flush(); });
+std::uint64_t SocketSession::canvas_generation() const noexcept {
+  return canvas_generation_.load(std::memory_order_acquire);
 }
 
-void SocketSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
-                               std::span<const sim::CellValue> values) {
-  require_cells(rect, values.size());
+void SocketSession::set_cells(const SetCellsRequest& what) const {
+  const sim::CellRect& rect = what.rect;
+  require_cells(rect, what.cells.size());
   const std::shared_ptr<Connection> connection = line_->connection();
   const Encoding encoding = connection->encoding();
   // Pieces that fit a message: rows if they do, else parts of rows.
@@ -625,13 +584,11 @@ void SocketSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
   const auto rows =
       static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1), kMaxMapSide,
                                  static_cast<std::size_t>(rect.height)}));
-  const auto set = [&](const sim::CellRect& part, std::span<const sim::CellValue> cells) {
-    request({{"do", "set_cells"},
-             {"layer", layer},
-             {"rect", {part.column, part.row, part.width, part.height}},
-             {"cells", protocol::encode_cells(cells, encoding)}});
-  };
-  if (columns == rect.width && rows == rect.height) return set(rect, values);
+  if (columns == rect.width && rows == rect.height) {
+    static_cast<void>(ask_for(what));
+    return;
+  }
+  const std::span<const sim::CellValue> values = what.cells;
   std::vector<sim::CellValue> cells;
   for (int row = 0; row < rect.height; row += rows) {
     for (int column = 0; column < rect.width; column += columns) {
@@ -645,182 +602,136 @@ void SocketSession::draw_cells(sim::LayerId layer, const sim::CellRect& rect,
             static_cast<std::size_t>(part.width));
         cells.insert(cells.end(), line.begin(), line.end());
       }
-      set(part, cells);
+      static_cast<void>(ask_for(SetCellsRequest{what.layer, part, cells}));
     }
   }
 }
 
-std::optional<sim::CellValue> SocketSession::cell(sim::LayerId layer, int column, int row) {
-  const json answer = request({{"do", "cell"}, {"layer", layer}, {"column", column}, {"row", row}});
-  return understood([&]() -> std::optional<sim::CellValue> {
-    const json& cell = protocol::require(answer, "cell");
-    if (cell.is_null()) return std::nullopt;
-    const auto values = protocol::decode_cells(cell, line_->connection()->encoding());
-    if (values.size() != 1) throw protocol::ProtocolError("protocol/bad-value", "cell: not one");
-    return values.front();
-  });
-}
-
-std::vector<sim::CellValue> SocketSession::cells(sim::LayerId layer) {
-  const json answer = request({{"do", "cells"}, {"layer", layer}});
-  return understood([&] {
-    return protocol::decode_cells(protocol::require(answer, "cells"),
-                                  line_->connection()->encoding());
-  });
-}
-
-sim::LayerId SocketSession::create_layer(sim::LayerKind kind, sim::LayerStyle style) {
-  require_style(style);
-  const json answer = request({{"do", "create_layer"},
-                               {"kind", protocol::encode_layer_kind(kind)},
-                               {"style", protocol::encode_style(style)}});
-  return understood([&] {
-    return static_cast<sim::LayerId>(
-        protocol::require_integer(answer, "layer", 0, std::numeric_limits<int>::max()));
-  });
-}
-
-void SocketSession::remove_layer(sim::LayerId layer) {
-  request({{"do", "remove_layer"}, {"layer", layer}});
-}
-
-void SocketSession::set_layer_style(sim::LayerId layer, sim::LayerStyle style) {
-  require_style(style);
-  request({{"do", "set_layer_style"}, {"layer", layer}, {"style", protocol::encode_style(style)}});
-}
-
-std::vector<sim::LayerInfo> SocketSession::layers() {
-  const json answer = request({{"do", "layers"}});
-  return understood([&] { return protocol::decode_layers(protocol::require(answer, "layers")); });
-}
-
-std::vector<std::uint8_t> SocketSession::canvas_image() {
-  const json answer = request({{"do", "canvas_image"}});
-  return understood(
-      [&] { return protocol::require_bytes(answer, "image", line_->connection()->encoding()); });
-}
-
-void SocketSession::resize_canvas(int width, int height) {
-  line_->settle_others();  // what they drew is meant for the size before
-  request({{"do", "resize_canvas"}, {"width", width}, {"height", height}});
-}
-
-CanvasInfo SocketSession::canvas_info() const {
-  const Lock lock(mutex_);
-  return canvas_;
-}
-
-std::uint64_t SocketSession::canvas_generation() const noexcept {
-  return canvas_generation_.load(std::memory_order_acquire);
-}
-
-void SocketSession::save_image(const std::string& name, int scale,
-                               std::optional<sim::LayerId> layer) {
-  json what = {{"do", "save_image"}, {"name", name}, {"scale", scale}};
-  if (layer) what["layer"] = *layer;
-  request(what);
-}
-
-void SocketSession::save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) {
-  request({{"do", "save_map"}, {"layer", layer}, {"name", name}, {"mode", to_string(mode)}});
-}
-
-sim::ViewMode SocketSession::view_mode() const {
-  const json answer = request({{"do", "view_mode"}});
-  return understood([&] {
-    const auto mode = sim::parse_view_mode(protocol::require_text(answer, "mode"));
-    if (!mode) throw protocol::ProtocolError("protocol/bad-value", "mode: no view mode");
-    return *mode;
-  });
-}
-
-void SocketSession::set_view_mode(sim::ViewMode mode) {
-  request({{"do", "set_view_mode"}, {"mode", sim::to_string(mode)}});
-}
-
-sim::OccupancyMap SocketSession::world_map(double cell_size_m) {
+WorldMap SocketSession::world_map(double cell_size_m) const {
   if (!(cell_size_m > 0.0 && std::isfinite(cell_size_m))) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "the cell size of a map is a positive number [m], but is " +
                            sim::rounded_text(cell_size_m, 6));
   }
-  const auto tile = [&](int column, int row) {
-    return request({{"do", "world_map"},
-                    {"cell_size", cell_size_m},
-                    {"tile", {column, row, kTileSide, kTileSide}}});
+  const auto fetch = [&](int column, int row) {
+    auto tile = std::get<WorldMap>(
+        ask_for(WorldMapRequest{cell_size_m, sim::CellRect{column, row, kTileSide, kTileSide}}));
+    if (tile.width && tile.height && tile.origin) return tile;
+    throw_misunderstood("map: not a tile");
   };
-  json answer = tile(0, 0);
-  return understood([&] {
-    const auto side = [&](const char* key) {
-      return static_cast<int>(protocol::require_integer(answer, key, 1, kMaxMapSide));
-    };
-    const Encoding encoding = line_->connection()->encoding();
-    sim::OccupancyMap part = protocol::decode_map(protocol::require(answer, "map"), encoding);
-    sim::OccupancyMap map;
-    map.width = side("width");
-    map.height = side("height");
-    map.cell_size_m = part.cell_size_m;
-    map.origin = protocol::require_pose(answer, "origin").position();
-    if (part.width == map.width && part.height == map.height) return part;
-    map.cells.resize(static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
-    for (int row = 0; row < map.height; row += kTileSide) {
-      for (int column = 0; column < map.width; column += kTileSide) {
-        if (row > 0 || column > 0) {
-          answer = tile(column, row);
-          part = protocol::decode_map(protocol::require(answer, "map"), encoding);
-        }
-        if (part.width != std::min(kTileSide, map.width - column) ||
-            part.height != std::min(kTileSide, map.height - row)) {
-          throw protocol::ProtocolError("protocol/bad-value", "map: not the tile asked for");
-        }
-        for (int y = 0; y < part.height; ++y) {
-          std::copy_n(
-              part.cells.begin() + static_cast<std::ptrdiff_t>(y) * part.width, part.width,
-              map.cells.begin() + static_cast<std::ptrdiff_t>(row + y) * map.width + column);
-        }
+  WorldMap tile = fetch(0, 0);
+  const int width = *tile.width;
+  const int height = *tile.height;
+  if (tile.map.width == width && tile.map.height == height)
+    return {std::move(tile.map), {}, {}, {}};
+  sim::OccupancyMap map;
+  map.width = width;
+  map.height = height;
+  map.cell_size_m = tile.map.cell_size_m;
+  map.origin = tile.origin->position();
+  map.cells.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int row = 0; row < height; row += kTileSide) {
+    for (int column = 0; column < width; column += kTileSide) {
+      if (row > 0 || column > 0) tile = fetch(column, row);
+      const sim::OccupancyMap& part = tile.map;
+      if (part.width != std::min(kTileSide, width - column) ||
+          part.height != std::min(kTileSide, height - row)) {
+        throw_misunderstood("map: not the tile asked for");
+      }
+      for (int y = 0; y < part.height; ++y) {
+        std::copy_n(part.cells.begin() + static_cast<std::ptrdiff_t>(y) * part.width, part.width,
+                    map.cells.begin() + static_cast<std::ptrdiff_t>(row + y) * width + column);
       }
     }
-    return map;
-  });
+  }
+  return {std::move(map), {}, {}, {}};
 }
 
-ObjectPose SocketSession::object_pose(const std::string& name) {
-  const json answer = request({{"do", "object_pose"}, {"name", name}});
-  return understood([&]() -> ObjectPose {
-    return {protocol::require_pose(answer, "pose"),
-            protocol::require_integer(answer, "t", 0, std::numeric_limits<std::int64_t>::max())};
-  });
-}
+// --- Requests
 
-void SocketSession::place_object(const std::string& name, const sim::Pose& pose) {
-  require_finite(sim::PlaceCommand{pose});  // JSON would not take it
-  request({{"do", "place_object"}, {"name", name}, {"pose", protocol::encode_pose(pose)}});
-}
+/// Those that are more than a message and its answer.
+struct SocketSession::RequestHandler {
+  SocketSession& session;
 
-PropertyValue SocketSession::object_property(const std::string& name, const std::string& property) {
-  const json answer = request({{"do", "object_property"}, {"name", name}, {"property", property}});
-  return understood([&] { return protocol::require_property(answer, "value"); });
-}
+  void operator()(const SubscribeRequest& what) const {
+    require_device(session.robots_, what.device);
+    session.request_for_good(what, [&] { ++session.subscriptions_[key_of(what.device)]; });
+  }
+  void operator()(const UnsubscribeRequest& what) const { session.unsubscribe(what.device); }
+  void operator()(const ReplaceRequest& what) const {
+    session.request_for_good(what, [&] {
+      if (what.device) {
+        session.replace_[key_of(*what.device)] = what.replace;
+      } else {
+        session.replace_by_default_ = what.replace;
+        session.replace_.clear();
+      }
+    });
+  }
+  std::uint32_t operator()(const OverflowRequest&) const { return session.overflow_; }
+  void operator()(const JoinRequest&) const { session.join(); }
+  void operator()(const SleepRequest& what) const { session.sleep(what.seconds); }
+  TimeStatistics operator()(const TimeRequest&) const { return session.time(); }
+  void operator()(const PreferRealTimeRequest& what) const {
+    static_cast<void>(session.ask_for(what));
+    static_cast<void>(session.time());
+  }
+  void operator()(const NoteLooksRequest&) const {}  // time may pass at the server
+  void operator()(const AnswerTimeoutRequest& what) const {
+    session.request_timeout_s_ = what.seconds;
+    session.line_->connection()->set_request_timeout(wall(what.seconds));
+  }
+  void operator()(const RetriesRequest& what) const {
+    session.retry_time_s_ = what.time_s;
+    session.retry_limit_ = what.limit;
+  }
+  void operator()(const FlushDrawingsRequest&) const {
+    session.with_connection([&] { session.line_->flush(); });
+  }
+  void operator()(const SetCellsRequest& what) const { session.set_cells(what); }
+  CanvasInfo operator()(const CanvasInfoRequest&) const {
+    const Lock lock(session.mutex_);
+    return session.canvas_;
+  }
+  CanvasInfo operator()(const ResizeCanvasRequest& what) const {
+    session.line_->settle_others();  // what they drew is meant for the size before
+    return std::get<CanvasInfo>(session.ask_for(what));
+  }
+  WorldMap operator()(const WorldMapRequest& what) const {
+    if (what.tile) return std::get<WorldMap>(session.ask_for(what));
+    return session.world_map(what.cell_size_m);
+  }
 
-void SocketSession::set_object_property(const std::string& name, const std::string& property,
-                                        const PropertyValue& value) {
-  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+  // JSON has only finite numbers.
+  static void check(const CreateLayerRequest& what) { require_style(what.style); }
+  static void check(const SetLayerStyleRequest& what) { require_style(what.style); }
+  static void check(const PlaceObjectRequest& what) {
+    require_finite(sim::PlaceCommand{what.pose});
+  }
+  static void check(const SetObjectPropertyRequest& what) {
+    const auto* numbers = std::get_if<std::vector<double>>(&what.value);
+    if (numbers == nullptr) return;
     for (const double number : *numbers) require_finite(sim::RotateCommand{number});
   }
-  request({{"do", "set_object_property"},
-           {"name", name},
-           {"property", property},
-           {"value", protocol::encode_property(value)}});
+
+  template <typename One>
+  typename One::Result operator()(const One& what) const {
+    if constexpr (requires { check(what); }) check(what);
+    Answer answer = session.ask_for(what);
+    if constexpr (!std::is_void_v<typename One::Result>) {
+      return std::get<typename One::Result>(std::move(answer));
+    }
+  }
+};
+
+Answer SocketSession::answer(const Request& request) {
+  return answer_by(RequestHandler{*this}, request);
 }
 
-LogStatus SocketSession::control_log(const LogControl& changes) {
-  json message = {{"do", "log"}};
-  if (changes.file) message["file"] = *changes.file;
-  if (changes.replay) message["replay"] = *changes.replay;
-  if (changes.rewind) message["rewind"] = true;
-  if (changes.running) message["running"] = *changes.running;
-  const json answer = request(std::move(message));
-  return understood([&] { return protocol::decode_log(protocol::require(answer, "log")); });
+Answer SocketSession::ask_for(const Request& request) const {
+  const Encoding encoding = line_->connection()->encoding();
+  const json answer = ask(protocol::encode_request(request, encoding));
+  return understood([&] { return protocol::decode_answer(request, answer, encoding); });
 }
 
 void SocketSession::close() noexcept {

@@ -16,7 +16,7 @@
 
 #include "playerlike/session/session.h"
 #include "protocol/codec.h"
-#include "session/connection.h"
+#include "remote/connection.h"
 
 namespace playerlike {
 
@@ -42,8 +42,8 @@ class SocketLine;
 ///
 /// Has no thread: who waits for an answer reads the socket, see Connection. Only a session that
 /// draws in a paced simulation gets one, which sends what waits in its draw queue.
-/// What answers tell of is remembered, so overflow_count(), canvas_info() and canvas_generation()
-/// are as of the last answer. A round that was waited for and not taken yet stays as it is.
+/// What answers tell of is remembered, so overflow, size and generation of the canvas are as of
+/// the last answer. A round that was waited for and not taken yet stays as it is.
 class SocketSession final : public Session {
  public:
   /// Connects. @throws SessionError as Connection::open().
@@ -54,53 +54,21 @@ class SocketSession final : public Session {
   int port() const noexcept override;
   bool connected() const noexcept override;
 
-  void subscribe(DeviceId device) override;
-  void unsubscribe(DeviceId device) override;
-  void set_replace(std::optional<DeviceId> device, bool replace) override;
-  std::uint32_t overflow_count() const override;
-
   void wait() override;
   int take(ReadingSink& sink) override;
   bool peek(std::chrono::milliseconds timeout) override;
   void send(DeviceId device, const sim::Command& command) override;
-  void join() override;
+  Answer answer(const Request& request) override;
+  DrawQueue& draw_queue() noexcept override;
+  std::uint64_t canvas_generation() const noexcept override;
   std::unique_ptr<Session> open_follower() override;
   const void* simulation() const noexcept override;
-  DrawQueue& draw_queue() noexcept override;
-  void flush_drawings() override;
-  void draw_cells(sim::LayerId layer, const sim::CellRect& rect,
-                  std::span<const sim::CellValue> values) override;
-  std::optional<sim::CellValue> cell(sim::LayerId layer, int column, int row) override;
-  std::vector<sim::CellValue> cells(sim::LayerId layer) override;
-  sim::LayerId create_layer(sim::LayerKind kind, sim::LayerStyle style) override;
-  void remove_layer(sim::LayerId layer) override;
-  void set_layer_style(sim::LayerId layer, sim::LayerStyle style) override;
-  std::vector<sim::LayerInfo> layers() override;
-  std::vector<std::uint8_t> canvas_image() override;
-  void resize_canvas(int width, int height) override;
-  CanvasInfo canvas_info() const override;
-  std::uint64_t canvas_generation() const noexcept override;
-  void save_image(const std::string& name, int scale, std::optional<sim::LayerId> layer) override;
-  void save_map(sim::LayerId layer, const std::string& name, sim::io::MapMode mode) override;
-  sim::ViewMode view_mode() const override;
-  void set_view_mode(sim::ViewMode mode) override;
-  sim::OccupancyMap world_map(double cell_size_m) override;
-  ObjectPose object_pose(const std::string& name) override;
-  void place_object(const std::string& name, const sim::Pose& pose) override;
-  PropertyValue object_property(const std::string& name, const std::string& property) override;
-  void set_object_property(const std::string& name, const std::string& property,
-                           const PropertyValue& value) override;
-  LogStatus control_log(const LogControl& changes) override;
-  TimeStatistics time() const override;
-  void sleep(double seconds) override;
-  void prefer_real_time(const std::string& reason) override;
-  void set_request_timeout(double seconds) override;
-  void set_retries(int limit, double time_s) override;
   void close() noexcept override;
 
  private:
   using Lock = std::unique_lock<std::mutex>;
   class ReadTurn;
+  struct RequestHandler;
 
   SocketSession(SocketSettings settings, std::optional<std::string> follow);
 
@@ -118,12 +86,14 @@ class SocketSession final : public Session {
   /// Asks for something that every connection to come is to be asked for as well, and notes that it
   /// is (note(), under `mutex_`), unless the connection was replaced meanwhile: then once more.
   template <typename Note>
-  void request_for_good(const nlohmann::json& request, Note note_it);
+  void request_for_good(const Request& request, Note note_it);
   /// Waits between two attempts. @return whether the session is still open.
   bool pause(double seconds) const;
 
   /// Sends drawings and a request; waits for the answer.
-  nlohmann::json request(nlohmann::json request) const;
+  nlohmann::json ask(nlohmann::json request) const;
+  /// Has the server answer a request.
+  [[nodiscard]] Answer ask_for(const Request& request) const;
   /// A `read` that may let time pass.
   nlohmann::json read(nlohmann::json request) const;
   void tell(const nlohmann::json& message) const;
@@ -134,7 +104,13 @@ class SocketSession final : public Session {
   void accept(const nlohmann::json& answer, bool round);
   /// Throws what the server has said against a message that is not answered.
   void throw_complaint() const;
+  void unsubscribe(DeviceId device);
+  void set_cells(const SetCellsRequest& what) const;
+  [[nodiscard]] WorldMap world_map(double cell_size_m) const;
+  void join();
+  void sleep(double seconds);
   void sleep_by_the_wall_clock(double seconds);
+  [[nodiscard]] TimeStatistics time() const;
   [[noreturn]] void throw_finished();
 
   const SocketSettings settings_;

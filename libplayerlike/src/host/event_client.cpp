@@ -1,0 +1,40 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "playerlike/host/event_client.h"
+
+#include <utility>
+
+#include "host/core.h"
+#include "host/in_process_session.h"
+
+namespace playerlike {
+
+EventClient::EventClient(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
+    : host_(std::move(host)),
+      client_(std::move(client)),
+      session_(std::make_unique<InProcessSession>(host_, client_)) {}
+
+EventClient::~EventClient() = default;
+
+EventClient::Outcome EventClient::begin_wait(ThinkerId thinker) {
+  return host_->core_->begin_wait(*client_, thinker);
+}
+
+EventClient::Outcome EventClient::begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout) {
+  return host_->core_->begin_peek(*client_, thinker, timeout);
+}
+
+EventClient::Outcome EventClient::begin_sleep(ThinkerId thinker, double seconds) {
+  return host_->core_->begin_sleep(*client_, thinker, seconds);
+}
+
+void EventClient::join(ThinkerId thinker) { host_->core_->join(*client_, thinker); }
+
+bool EventClient::draw_some(DrawWork& work, std::size_t cells) {
+  return host_->core_->draw_some(*client_, work, cells);
+}
+
+EventClient::Outcome EventClient::outcome() const { return host_->core_->outcome_of(*client_); }
+
+void EventClient::cancel() { host_->core_->cancel_wait(*client_); }
+
+}  // namespace playerlike

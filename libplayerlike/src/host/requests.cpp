@@ -1,0 +1,252 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What clients ask for: one function a request.
+#include "playerlike/messages/requests.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/core.h"
+#include "host/object_properties.h"
+#include "session/checks.h"
+
+namespace playerlike {
+namespace {
+
+CanvasInfo info_of(const sim::CanvasDescription& canvas) {
+  return {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()};
+}
+
+WorldMap map_of(const sim::ArenaDescription& arena, const WorldMapRequest& what) {
+  const sim::CanvasDescription grid = map_grid(arena, what.cell_size_m);
+  if (!what.tile) return {sim::true_map(arena, grid), {}, {}, {}};
+  const sim::CellRect& tile = *what.tile;
+  const int right = std::clamp(tile.column + tile.width, 0, grid.width);
+  const int bottom = std::clamp(tile.row + tile.height, 0, grid.height);
+  const int left = std::clamp(tile.column, 0, right);
+  const int top = std::clamp(tile.row, 0, bottom);
+  sim::CanvasDescription part = grid;
+  part.width = right - left;
+  part.height = bottom - top;
+  part.origin += what.cell_size_m * sim::Vec2(left, grid.height - bottom);
+  sim::OccupancyMap map;
+  if (part.width > 0 && part.height > 0) map = sim::true_map(arena, part);
+  if (map.cells.empty()) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "the map has no such tile: it has " + std::to_string(grid.width) + " x " +
+                           std::to_string(grid.height) + " cells");
+  }
+  return {std::move(map), grid.width, grid.height,
+          sim::Pose{grid.origin.x(), grid.origin.y(), 0.0}};
+}
+
+}  // namespace
+
+/// Answers requests of a client.
+struct Host::Core::RequestHandler {
+  Core& core;
+  Client& client;
+
+  // --- Readings and time
+
+  void operator()(const SubscribeRequest& what) const {
+    const DeviceInfo& info = require_device(core.robots_, what.device);
+    if (!core.is_sensor(what.device)) {
+      throw SessionError(SessionError::Code::kBadArgument,
+                         "device " + info.name + " is no sensor: it has no readings");
+    }
+    core.subscribe(client, what.device);
+  }
+  void operator()(const UnsubscribeRequest& what) const { core.unsubscribe(client, what.device); }
+  void operator()(const ReplaceRequest& what) const {
+    core.set_replace(client, what.device, what.replace);
+  }
+  std::uint32_t operator()(const OverflowRequest&) const {
+    const Lock lock = core.lock_soon();
+    return client.overflow;
+  }
+  void operator()(const JoinRequest&) const { core.join(client, this_thinker()); }
+  void operator()(const SleepRequest& what) const { core.sleep(client, what.seconds); }
+  TimeStatistics operator()(const TimeRequest&) const { return core.time(); }
+  void operator()(const PreferRealTimeRequest& what) const { core.prefer_real_time(what.reason); }
+  void operator()(const NoteLooksRequest& what) const {
+    core.note_looks(client, what.count, what.has_data);
+  }
+  // There is no connection that could be slow or lost.
+  void operator()(const AnswerTimeoutRequest&) const {}
+  void operator()(const RetriesRequest&) const {}
+
+  // --- The canvas
+
+  void operator()(const FlushDrawingsRequest&) const {
+    const Lock lock = core.lock_soon();
+    require_open(client);
+    core.touch(client);
+    core.carry_out_drawings(client);
+    client.drawings.reserve();
+  }
+  void operator()(const SetCellsRequest& what) const {
+    require_cells(what.rect, what.cells.size());
+    core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
+      book.require(client.number, what.layer);
+      layers.set_cells(what.layer, what.rect, what.cells);
+    });
+  }
+  std::optional<sim::CellValue> operator()(const CellRequest& what) const {
+    return core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
+      book.require(client.number, what.layer);
+      return layers.cell(what.layer, what.column, what.row);
+    });
+  }
+  std::vector<sim::CellValue> operator()(const CellsRequest& what) const {
+    return core.cells(client, what.layer);
+  }
+  sim::LayerId operator()(const CreateLayerRequest& what) const {
+    return core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
+      return book.create(layers, client.number, client.port, what.kind, what.style);
+    });
+  }
+  void operator()(const RemoveLayerRequest& what) const {
+    core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
+      book.remove(layers, client.number, what.layer);
+    });
+  }
+  void operator()(const SetLayerStyleRequest& what) const {
+    core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
+      book.set_style(layers, client.number, what.layer, what.style);
+    });
+  }
+  std::vector<sim::LayerInfo> operator()(const LayersRequest&) const {
+    return core.with_layers(client, [&](const sim::LayerStack& layers, const LayerBook& book) {
+      return book.list(layers, client.number);
+    });
+  }
+  CanvasImage operator()(const CanvasImageRequest&) const {
+    sim::CanvasDescription canvas;
+    std::vector<std::uint8_t> rgba = core.picture(client, std::nullopt, canvas);
+    return {std::move(rgba), info_of(canvas)};
+  }
+  CanvasInfo operator()(const CanvasInfoRequest&) const {
+    const Lock lock = core.lock_soon();
+    return info_of(core.simulation_.layers().description());
+  }
+  CanvasInfo operator()(const ResizeCanvasRequest& what) const {
+    core.resize_canvas(client, what.width, what.height);
+    return (*this)(CanvasInfoRequest{});
+  }
+
+  // Files are written without the mutex: that may take a while.
+  void operator()(const SaveImageRequest& what) const {
+    const std::string file = picture_file(core.settings_.output_folder, what.name, what.scale);
+    core.client_files_.require_room(client.number);
+    sim::CanvasDescription canvas;
+    const std::vector<std::uint8_t> rgba = core.picture(client, what.layer, canvas);
+    write_picture(canvas, rgba, what.scale, file);
+    core.client_files_.note(client.number, file);
+  }
+  void operator()(const SaveMapRequest& what) const {
+    const std::string stem = map_stem(core.settings_.output_folder, what.name);
+    core.client_files_.require_room(client.number);
+    sim::OccupancyMap map;
+    core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
+      book.require(client.number, what.layer);
+      if (layers.kind(what.layer) != sim::LayerKind::kGrey) {
+        throw SessionError(SessionError::Code::kBadArgument,
+                           "only grey layers can be saved as maps, but \"" +
+                               layers.style(what.layer).name + "\" is of another kind");
+      }
+      map = occupancy_map(layers, what.layer);
+    });
+    write_map_files(map, stem, what.mode);
+    for (const char* ending : {".pgm", ".yaml"}) {
+      core.client_files_.note(client.number, stem + ending);
+    }
+  }
+
+  sim::ViewMode operator()(const ViewModeRequest&) const {
+    const Lock lock = core.lock_soon();
+    return core.simulation_.view_mode();
+  }
+  void operator()(const SetViewModeRequest& what) const {
+    const Lock lock = core.lock_soon();
+    require_open(client);
+    if (const auto refusal = core.simulation_.set_view_mode(what.mode)) {
+      throw SessionError(SessionError::Code::kNotAvailable, *refusal);
+    }
+  }
+  WorldMap operator()(const WorldMapRequest& what) const {
+    core.require_readable(client, -1);
+    // A map of many cells takes a while: it is made of a copy, without the mutex.
+    const sim::ArenaDescription arena = [&] {
+      const Lock lock = core.lock_soon();
+      return core.simulation_.world().arena;
+    }();
+    return map_of(arena, what);
+  }
+
+  // --- Objects by name, and the log
+
+  ObjectPose operator()(const ObjectPoseRequest& what) const {
+    const Lock lock = lock_readable();
+    return {require_object(core.simulation_, what.name).pose, core.simulation_.now_ns()};
+  }
+  void operator()(const PlaceObjectRequest& what) const {
+    const Lock lock = lock_readable();
+    static_cast<void>(require_object(core.simulation_, what.name));
+    require_unlocked();
+    place_object(core.simulation_, what.name, what.pose);
+  }
+  PropertyValue operator()(const ObjectPropertyRequest& what) const {
+    const Lock lock = lock_readable();
+    return object_property(core.simulation_, what.name, what.property);
+  }
+  void operator()(const SetObjectPropertyRequest& what) const {
+    const Lock lock = lock_readable();
+    static_cast<void>(object_property(core.simulation_, what.name, what.property));  // is it there?
+    require_unlocked();
+    set_object_property(core.simulation_, what.name, what.property, what.value);
+  }
+  LogStatus operator()(const LogRequest& what) const {
+    // A file to be replayed is read without the mutex: that may take seconds.
+    std::optional<RunLog::Loaded> loaded;
+    for (;;) {
+      std::optional<std::string> file;
+      {
+        const Lock lock = core.lock_soon();
+        require_open(client);
+        RunLog& log = core.logs_
+                          .try_emplace(client.port, core.settings_.output_folder, client.port,
+                                       core.robots_, core.client_files_)
+                          .first->second;
+        file = log.file_to_read(what);
+        if (!file || (loaded && loaded->path == *file)) {
+          return log.control(what, core.simulation_, loaded ? &*loaded : nullptr);
+        }
+      }
+      loaded = RunLog::read_file(*file, client.port, core.robots_);
+    }
+  }
+
+ private:
+  /// The host's mutex, for what is kept from programs in a private world.
+  [[nodiscard]] Lock lock_readable() const {
+    Lock lock = core.lock_soon();
+    require_open(client);
+    core.require_readable(client, -1);
+    return lock;
+  }
+  void require_unlocked() const {
+    if (!core.simulation_.world().simulation.objects_locked) return;
+    throw SessionError(SessionError::Code::kNotAvailable,
+                       "this world keeps its robots and obstacles where and as they are "
+                       "(\"lock_objects\" in its \"simulation\"): they can only be looked at");
+  }
+};
+
+Answer Host::Core::answer(Client& client, const Request& request) {
+  return answer_by(RequestHandler{*this, client}, request);
+}
+
+}  // namespace playerlike
