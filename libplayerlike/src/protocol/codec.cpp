@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// All messages but readings and commands, which are in device_codec.cpp.
+// All messages but readings and commands, which are in field_codec.cpp.
 #include "protocol/codec.h"
 
 #include <algorithm>
@@ -467,7 +467,7 @@ std::string require_text(const json& object, const char* key) {
   return value.get<std::string>();
 }
 
-void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> known,
+void refuse_unknown_keys(const json& object, std::span<const std::string_view> known,
                          std::string_view what) {
   const auto* members = object.get_ptr<const json::object_t*>();
   if (members == nullptr) refuse_value(what, "an object", object);

@@ -39,8 +39,12 @@ using nlohmann::json;
 [[nodiscard]] std::string require_text(const json& object, const char* key);
 /// Refuses an object (or anything that is none) with keys that are not among those known.
 /// @param what  the object is, for the message: "a command twist".
-void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> known,
+void refuse_unknown_keys(const json& object, std::span<const std::string_view> known,
                          std::string_view what);
+inline void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> known,
+                                std::string_view what) {
+  refuse_unknown_keys(object, std::span(known.begin(), known.size()), what);
+}
 /// Throws ProtocolError protocol/bad-value for a value: "KEY: expected ..., found ...".
 [[noreturn]] void refuse_value(std::string_view key, std::string_view expected, const json& found);
 /// @}

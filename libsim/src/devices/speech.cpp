@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -34,6 +35,20 @@ void Speech::deactivated(RobotControl&) { text_.clear(); }
 void Speech::hash(StateHash& hash) const {
   hash.add(text_);
   hash.add(text_.empty() ? SimTime{0} : left_ns_);
+}
+
+constexpr Field kSpeechSettings[] = {
+    field<&SpeechParams::shown_s>("shown", "s",
+                                  "for so long a text stands over the robot in pictures")
+        .above(0.0, 1000.0),
+};
+SIM_FIELDS(SpeechParams, kSpeechSettings)
+
+DeviceKind speech_kind() {
+  return device_kind<SpeechParams, void>("speech",
+                                         [](const DeviceOrder& order, const SpeechParams& params) {
+                                           return std::make_unique<Speech>(order.name(), params);
+                                         });
 }
 
 }  // namespace sim

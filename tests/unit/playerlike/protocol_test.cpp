@@ -1114,7 +1114,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
                 arrives_if<sim::RangerReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WaypointReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WifiReading>(*sensor, GetParam()))
-        << "the readings of " << kind.name << " need a codec (device_codec.cpp) and a line here";
+        << "the readings of " << kind.name << " need a line here";
   }
   EXPECT_GE(sensors, 9);
 }
