@@ -5,6 +5,7 @@
 #include <limits>
 #include <locale>
 #include <sstream>
+#include <tuple>
 
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
@@ -16,42 +17,29 @@ namespace {
 struct InterfaceRow {
   std::string_view interface;
   std::string_view device_type;
+  int rank;
 };
-// clang-format off
-constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
-    {"aio", "aio"},
-    {"blinkenlight", "blinkenlight"},
-    {"blobfinder", "blobfinder"},
-    {"bumper", "bumper"},
-    {"camera", "camera"},
-    {"dio", "dio"},
-    {"fiducial", "fiducial"},
-    {"gps", "gps"},
-    {"graphics2d", "pen"},
-    {"gripper", "gripper"},
-    {"imu", "imu"},
-    {"ir", "infrared"},
-    {"laser", "laser"},
-    {"localize", "pose"},
-    {"opaque", "opaque"},
-    {"position2d", "pose"},
-    {"position2d", "odometry"},
-    {"power", "battery"},
-    {"ptz", "ptz"},
-    {"ranger", "laser"},
-    {"ranger", "sonar"},
-    {"ranger", "infrared"},
-    {"sonar", "sonar"},
-    {"speech", "speech"},
-    {"wifi", "wifi"},
-};
-// clang-format on
+
+const std::vector<InterfaceRow>& interface_table() {
+  static const auto* const table = [] {
+    auto* rows = new std::vector<InterfaceRow>();
+    for (const sim::DeviceKind& kind : sim::device_kinds()) {
+      for (const sim::CarriedInterface& interface : kind.interfaces) {
+        rows->push_back({interface.name, kind.name, interface.rank});
+      }
+    }
+    std::ranges::stable_sort(*rows, {},
+                      [](const InterfaceRow& row) { return std::tuple(row.interface, row.rank); });
+    return rows;
+  }();
+  return *table;
+}
 
 // The robot's devices that carry the interface: those that the robot names, then the others in the
 // table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
   std::vector<const DeviceInfo*> found;
-  for (const InterfaceRow& row : kInterfaces) {
+  for (const InterfaceRow& row : interface_table()) {
     if (row.interface != interface) continue;
     for (const DeviceInfo& device : robot.devices) {
       if (device.type == row.device_type) found.push_back(&device);
@@ -84,7 +72,7 @@ bool is_open(const std::vector<RobotInfo>& robots, int port) {
 
 std::vector<std::string_view> interface_names() {
   std::vector<std::string_view> names;
-  for (const InterfaceRow& row : kInterfaces) {
+  for (const InterfaceRow& row : interface_table()) {
     if (names.empty() || names.back() != row.interface) names.push_back(row.interface);
   }
   return names;
@@ -135,14 +123,14 @@ void require_finite(const sim::Command& command) {
 }
 
 bool carries(std::string_view device_type, std::string_view interface) {
-  return std::any_of(std::begin(kInterfaces), std::end(kInterfaces), [&](const InterfaceRow& row) {
+  return std::ranges::any_of(interface_table(), [&](const InterfaceRow& row) {
     return row.device_type == device_type && row.interface == interface;
   });
 }
 
 std::string example_world(std::string_view interface) {
   // Each kind of device has a world of its name; the tests see to it.
-  for (const InterfaceRow& row : kInterfaces) {
+  for (const InterfaceRow& row : interface_table()) {
     if (row.interface == interface) return "devices/" + std::string(row.device_type) + ".json";
   }
   return "";

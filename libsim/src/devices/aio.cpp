@@ -182,7 +182,7 @@ SIM_FIELDS(AioReading, kAioReading)
 
 DeviceKind aio_kind() {
   return device_kind<AioParams, AioReading>(
-      "aio", [](const DeviceOrder& order, const AioParams& params) {
+      "aio", {{"aio"}}, [](const DeviceOrder& order, const AioParams& params) {
         return std::make_unique<Aio>(order.name(), params, order.noise());
       });
 }

@@ -134,10 +134,11 @@ std::string_view to_string(BatteryStatus status) {
 }
 
 DeviceKind battery_kind() {
-  return device_kind<BatteryParams, BatteryReading>("battery", [](const DeviceOrder& order,
-                                                                  const BatteryParams& params) {
-    return std::make_unique<Battery>(order.name(), params, order.model.drive.wheel_separation_m);
-  });
+  return device_kind<BatteryParams, BatteryReading>(
+      "battery", {{"power"}}, [](const DeviceOrder& order, const BatteryParams& params) {
+        return std::make_unique<Battery>(order.name(), params,
+                                         order.model.drive.wheel_separation_m);
+      });
 }
 
 }  // namespace sim

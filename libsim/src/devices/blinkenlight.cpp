@@ -77,7 +77,8 @@ SIM_FIELDS(BlinkenlightReading, kBlinkenlightReading)
 
 DeviceKind blinkenlight_kind() {
   return device_kind<BlinkenlightParams, BlinkenlightReading>(
-      "blinkenlight", [](const DeviceOrder& order, const BlinkenlightParams& params) {
+      "blinkenlight", {{"blinkenlight"}},
+      [](const DeviceOrder& order, const BlinkenlightParams& params) {
         return std::make_unique<Blinkenlight>(order.name(), params);
       });
 }

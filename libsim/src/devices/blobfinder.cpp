@@ -219,7 +219,7 @@ SIM_FIELDS(BlobfinderReading, kBlobfinderReading)
 
 DeviceKind blobfinder_kind() {
   return device_kind<BlobfinderParams, BlobfinderReading>(
-      "blobfinder", [](const DeviceOrder& order, const BlobfinderParams& params) {
+      "blobfinder", {{"blobfinder"}}, [](const DeviceOrder& order, const BlobfinderParams& params) {
         return std::make_unique<Blobfinder>(order.name(), params, order.noise());
       });
 }

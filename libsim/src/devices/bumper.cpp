@@ -160,7 +160,7 @@ SIM_FIELDS(BumperReading, kBumperReading)
 
 DeviceKind bumper_kind() {
   DeviceKind row = device_kind<BumperParams, BumperReading>(
-      "bumper", [](const DeviceOrder& order, const BumperParams& params) {
+      "bumper", {{"bumper"}}, [](const DeviceOrder& order, const BumperParams& params) {
         return std::make_unique<Bumper>(order.name(), params, order.model.footprint);
       });
   return with_model<BumperParams>(std::move(row),

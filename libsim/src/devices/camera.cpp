@@ -155,7 +155,7 @@ SIM_FIELDS(CameraReading, kCameraReading, pixels_fault)
 
 DeviceKind camera_kind() {
   return device_kind<CameraParams, CameraReading>(
-      "camera", [](const DeviceOrder& order, const CameraParams& params) {
+      "camera", {{"camera"}}, [](const DeviceOrder& order, const CameraParams& params) {
         return std::make_unique<Camera>(order.name(), params);
       });
 }

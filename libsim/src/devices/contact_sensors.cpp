@@ -52,7 +52,7 @@ SIM_FIELDS(CollisionReading, kCollisionReading)
 
 DeviceKind collision_kind() {
   return device_kind<CollisionParams, CollisionReading>(
-      "collision", [](const DeviceOrder& order, const CollisionParams& params) {
+      "collision", {}, [](const DeviceOrder& order, const CollisionParams& params) {
         return std::make_unique<CollisionSensor>(order.name(), params);
       });
 }

@@ -38,11 +38,14 @@ template <typename Params>
 
 /// A row: fields_of<Params>() and fields_of<ReadingType>() describe settings and readings.
 /// @tparam ReadingType  void for a device that makes none.
+/// @param interfaces  that it carries; a name alone has rank 0.
 /// @param make  makes the device of a DeviceOrder and Params.
 template <typename Params, typename ReadingType, typename Make>
-[[nodiscard]] DeviceKind device_kind(const char* name, Make make) {
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces,
+                                     Make make) {
   DeviceKind row;
   row.name = name;
+  row.interfaces = std::move(interfaces);
   row.settings = &fields_of<Params>();
   row.parse = [](io::Reader& settings, const std::any& defaults) -> std::any {
     auto params = std::any_cast<const Params&>(defaults);

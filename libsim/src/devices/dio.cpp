@@ -151,7 +151,7 @@ constexpr Field kDioReading[] = {
 SIM_FIELDS(DioReading, kDioReading)
 
 DeviceKind dio_kind() {
-  return device_kind<DioParams, DioReading>("dio",
+  return device_kind<DioParams, DioReading>("dio", {{"dio"}},
                                             [](const DeviceOrder& order, const DioParams& params) {
                                               return std::make_unique<Dio>(order.name(), params);
                                             });

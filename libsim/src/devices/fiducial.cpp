@@ -106,7 +106,7 @@ SIM_FIELDS(FiducialReading, kFiducialReading)
 
 DeviceKind fiducial_kind() {
   return device_kind<FiducialParams, FiducialReading>(
-      "fiducial", [](const DeviceOrder& order, const FiducialParams& params) {
+      "fiducial", {{"fiducial"}}, [](const DeviceOrder& order, const FiducialParams& params) {
         return std::make_unique<FiducialFinder>(order.name(), params, order.noise());
       });
 }

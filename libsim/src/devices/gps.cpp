@@ -149,7 +149,7 @@ SIM_FIELDS(GpsReading, kGpsReading)
 
 DeviceKind gps_kind() {
   return device_kind<GpsParams, GpsReading>(
-      "gps", [](const DeviceOrder& order, const GpsParams& params) {
+      "gps", {{"gps"}}, [](const DeviceOrder& order, const GpsParams& params) {
         return std::make_unique<Gps>(order.name(), params, order.noise());
       });
 }

@@ -312,7 +312,7 @@ std::string_view to_string(GripperState state) noexcept {
 
 DeviceKind gripper_kind() {
   DeviceKind row = device_kind<GripperParams, GripperReading>(
-      "gripper", [](const DeviceOrder& order, const GripperParams& params) {
+      "gripper", {{"gripper"}}, [](const DeviceOrder& order, const GripperParams& params) {
         return std::make_unique<Gripper>(order.name(), params,
                                          params.X_BG.value_or(front_of(order.model)));
       });

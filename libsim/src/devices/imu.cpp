@@ -105,7 +105,7 @@ SIM_FIELDS(ImuReading, kImuReading)
 
 DeviceKind imu_kind() {
   return device_kind<ImuParams, ImuReading>(
-      "imu", [](const DeviceOrder& order, const ImuParams& params) {
+      "imu", {{"imu"}}, [](const DeviceOrder& order, const ImuParams& params) {
         return std::make_unique<Imu>(order.name(), params, order.robot.pose.yaw_rad, order.noise());
       });
 }

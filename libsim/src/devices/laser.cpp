@@ -94,7 +94,7 @@ SIM_FIELDS(LaserReading, kLaserReading)
 
 DeviceKind laser_kind() {
   return device_kind<LaserParams, LaserReading>(
-      "laser", [](const DeviceOrder& order, const LaserParams& params) {
+      "laser", {{"laser"}, {"ranger"}}, [](const DeviceOrder& order, const LaserParams& params) {
         return std::make_unique<Laser>(
             order.name(), params, !well_within(order.model.footprint, params.X_BL), order.noise());
       });

@@ -158,7 +158,7 @@ SIM_FIELDS(PoseReading, kPoseReading)
 
 DeviceKind odometry_kind() {
   return device_kind<OdometryParams, PoseReading>(
-      "odometry", [](const DeviceOrder& order, const OdometryParams& params) {
+      "odometry", {{"position2d", 1}}, [](const DeviceOrder& order, const OdometryParams& params) {
         const DriveDescription& drive = order.model.drive;
         return std::make_unique<Odometry>(order.name(), params, drive.wheel_separation_m,
                                           drive.kind == DriveKind::kOmnidirectional, order.noise());
@@ -167,7 +167,8 @@ DeviceKind odometry_kind() {
 
 DeviceKind pose_kind() {
   return device_kind<PoseParams, PoseReading>(
-      "pose", [](const DeviceOrder& order, const PoseParams& params) {
+      "pose", {{"localize"}, {"position2d"}},
+      [](const DeviceOrder& order, const PoseParams& params) {
         return std::make_unique<PoseSensor>(order.name(), params, order.robot.pose, order.noise());
       });
 }

@@ -369,7 +369,7 @@ SIM_FIELDS(MotionParams, kMotionSettings)
 
 DeviceKind motion_kind() {
   return device_kind<MotionParams, void>(
-      "motion", [](const DeviceOrder& order, const MotionParams& params) {
+      "motion", {}, [](const DeviceOrder& order, const MotionParams& params) {
         return std::make_unique<Motion>(order.name(), params, drive_of(order.model));
       });
 }

@@ -121,7 +121,7 @@ SIM_FIELDS(OpaqueReading, kOpaqueReading)
 
 DeviceKind opaque_kind() {
   return device_kind<OpaqueParams, OpaqueReading>(
-      "opaque", [](const DeviceOrder& order, const OpaqueParams& params) {
+      "opaque", {{"opaque"}}, [](const DeviceOrder& order, const OpaqueParams& params) {
         return std::make_unique<Opaque>(order.name(), params);
       });
 }

@@ -36,9 +36,10 @@ constexpr Field kPenSettings[] = {
 SIM_FIELDS(PenParams, kPenSettings)
 
 DeviceKind pen_kind() {
-  return device_kind<PenParams, void>("pen", [](const DeviceOrder& order, const PenParams& params) {
-    return std::make_unique<Pen>(order.name(), params);
-  });
+  return device_kind<PenParams, void>("pen", {{"graphics2d"}},
+                                      [](const DeviceOrder& order, const PenParams& params) {
+                                        return std::make_unique<Pen>(order.name(), params);
+                                      });
 }
 
 }  // namespace sim

@@ -67,7 +67,7 @@ SIM_FIELDS(ProximityReading, kProximityReading)
 
 DeviceKind proximity_kind() {
   return device_kind<ProximityParams, ProximityReading>(
-      "proximity", [](const DeviceOrder& order, const ProximityParams& params) {
+      "proximity", {}, [](const DeviceOrder& order, const ProximityParams& params) {
         return std::make_unique<Proximity>(order.name(), params);
       });
 }

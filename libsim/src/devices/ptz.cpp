@@ -119,7 +119,7 @@ constexpr Field kPtzReading[] = {
 SIM_FIELDS(PtzReading, kPtzReading)
 
 DeviceKind ptz_kind() {
-  return device_kind<PtzParams, PtzReading>("ptz",
+  return device_kind<PtzParams, PtzReading>("ptz", {{"ptz"}},
                                             [](const DeviceOrder& order, const PtzParams& params) {
                                               return std::make_unique<Ptz>(order.name(), params);
                                             });

@@ -183,9 +183,12 @@ constexpr Field kRangerReading[] = {
 SIM_FIELDS(RangerReading, kRangerReading, mountings_fault)
 
 DeviceKind infrared_kind() {
-  return device_kind<InfraredParams, RangerReading>("infrared", make_ranger);
+  return device_kind<InfraredParams, RangerReading>("infrared", {{"ir"}, {"ranger", 2}},
+                                                    make_ranger);
 }
 
-DeviceKind sonar_kind() { return device_kind<SonarParams, RangerReading>("sonar", make_ranger); }
+DeviceKind sonar_kind() {
+  return device_kind<SonarParams, RangerReading>("sonar", {{"ranger", 1}, {"sonar"}}, make_ranger);
+}
 
 }  // namespace sim

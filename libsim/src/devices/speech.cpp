@@ -45,7 +45,7 @@ constexpr Field kSpeechSettings[] = {
 SIM_FIELDS(SpeechParams, kSpeechSettings)
 
 DeviceKind speech_kind() {
-  return device_kind<SpeechParams, void>("speech",
+  return device_kind<SpeechParams, void>("speech", {{"speech"}},
                                          [](const DeviceOrder& order, const SpeechParams& params) {
                                            return std::make_unique<Speech>(order.name(), params);
                                          });

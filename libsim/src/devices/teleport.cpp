@@ -36,7 +36,7 @@ SIM_FIELDS(TeleportParams, {})
 
 DeviceKind teleport_kind() {
   return device_kind<TeleportParams, void>(
-      "teleport", [](const DeviceOrder& order, const TeleportParams& params) {
+      "teleport", {}, [](const DeviceOrder& order, const TeleportParams& params) {
         return std::make_unique<Teleport>(order.name(), params);
       });
 }

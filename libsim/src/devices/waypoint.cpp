@@ -159,7 +159,7 @@ std::string_view to_string(WaypointStatus status) noexcept {
 
 DeviceKind waypoint_kind() {
   return device_kind<WaypointParams, WaypointReading>(
-      "waypoint", [](const DeviceOrder& order, const WaypointParams& params) {
+      "waypoint", {}, [](const DeviceOrder& order, const WaypointParams& params) {
         return std::make_unique<Waypoint>(order.name(), params, order.robot.pose);
       });
 }

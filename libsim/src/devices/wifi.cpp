@@ -145,7 +145,7 @@ SIM_FIELDS(WifiReading, kWifiReading)
 
 DeviceKind wifi_kind() {
   return device_kind<WifiParams, WifiReading>(
-      "wifi", [](const DeviceOrder& order, const WifiParams& params) {
+      "wifi", {{"wifi"}}, [](const DeviceOrder& order, const WifiParams& params) {
         return std::make_unique<Wifi>(order.name(), params, order.noise());
       });
 }

@@ -29,12 +29,19 @@ struct ReadingKind {
   [[nodiscard]] void* object(Reading& reading) const;
 };
 
+/// An interface, by its name in Player, under which clients find devices of a kind.
+struct CarriedInterface {
+  const char* name;
+  int rank = 0;  ///< of the kinds that carry it, the one of the least rank has index 0
+};
+
 /// A row of the table of device kinds: what its settings and readings are, and how it is made.
 struct DeviceKind : io::DeviceType {
   const FieldTable* settings = nullptr;
   /// The struct that `settings` describes, in what parse() and defaults() give.
   const void* (*settings_in)(const std::any& params) = nullptr;
   ReadingKind reading;
+  std::vector<CarriedInterface> interfaces;
   /// @param world_seed  seed of the run, for the device's noise stream.
   std::function<std::unique_ptr<Device>(const DeviceDescription&, const RobotDescription&,
                                         const RobotModel&, std::uint64_t world_seed)>
