@@ -180,11 +180,6 @@ constexpr Field kAioReading[] = {
 };
 SIM_FIELDS(AioReading, kAioReading)
 
-DeviceKind aio_kind() {
-  return device_kind<AioParams, AioReading>(
-      "aio", {{"aio"}}, [](const DeviceOrder& order, const AioParams& params) {
-        return std::make_unique<Aio>(order.name(), params, order.noise());
-      });
-}
+DeviceKind aio_kind() { return device_kind<Aio, AioParams, AioReading>("aio", {{"aio"}}); }
 
 }  // namespace sim

@@ -76,11 +76,8 @@ constexpr Field kBlinkenlightReading[] = {
 SIM_FIELDS(BlinkenlightReading, kBlinkenlightReading)
 
 DeviceKind blinkenlight_kind() {
-  return device_kind<BlinkenlightParams, BlinkenlightReading>(
-      "blinkenlight", {{"blinkenlight"}},
-      [](const DeviceOrder& order, const BlinkenlightParams& params) {
-        return std::make_unique<Blinkenlight>(order.name(), params);
-      });
+  return device_kind<Blinkenlight, BlinkenlightParams, BlinkenlightReading>("blinkenlight",
+                                                                            {{"blinkenlight"}});
 }
 
 }  // namespace sim

@@ -218,10 +218,8 @@ constexpr Field kBlobfinderReading[] = {
 SIM_FIELDS(BlobfinderReading, kBlobfinderReading)
 
 DeviceKind blobfinder_kind() {
-  return device_kind<BlobfinderParams, BlobfinderReading>(
-      "blobfinder", {{"blobfinder"}}, [](const DeviceOrder& order, const BlobfinderParams& params) {
-        return std::make_unique<Blobfinder>(order.name(), params, order.noise());
-      });
+  return device_kind<Blobfinder, BlobfinderParams, BlobfinderReading>("blobfinder",
+                                                                      {{"blobfinder"}});
 }
 
 }  // namespace sim

@@ -5,17 +5,15 @@
 
 // The names of all kinds: NAME_kind() stands in the device's own source. The list is written by
 // hand, as static libraries drop objects that would register themselves.
-#define SIM_DEVICE_KINDS(KIND)                                                                \
-  KIND(aio)                                                                                   \
-  KIND(battery)                                                                               \
-  KIND(bumper)                                                                                \
-  KIND(blinkenlight)                                                                          \
-  KIND(blobfinder)                                                                            \
-  KIND(camera)                                                                                \
-  KIND(collision)                                                                             \
-  KIND(fiducial) KIND(gps) KIND(gripper) KIND(imu) KIND(dio) KIND(infrared) KIND(laser)       \
-      KIND(motion) KIND(odometry) KIND(opaque) KIND(pen) KIND(pose) KIND(proximity) KIND(ptz) \
-          KIND(sonar) KIND(speech) KIND(teleport) KIND(waypoint) KIND(wifi)
+// clang-format off
+#define SIM_DEVICE_KINDS(KIND) \
+  KIND(aio) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \
+  KIND(camera) KIND(collision) KIND(fiducial) KIND(gps) \
+  KIND(gripper) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
+  KIND(motion) KIND(odometry) KIND(opaque) KIND(pen) KIND(pose) \
+  KIND(proximity) KIND(ptz) KIND(sonar) KIND(speech) KIND(teleport) \
+  KIND(waypoint) KIND(wifi)
+// clang-format on
 
 namespace sim {
 

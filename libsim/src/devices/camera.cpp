@@ -154,10 +154,7 @@ constexpr Field kCameraReading[] = {
 SIM_FIELDS(CameraReading, kCameraReading, pixels_fault)
 
 DeviceKind camera_kind() {
-  return device_kind<CameraParams, CameraReading>(
-      "camera", {{"camera"}}, [](const DeviceOrder& order, const CameraParams& params) {
-        return std::make_unique<Camera>(order.name(), params);
-      });
+  return device_kind<Camera, CameraParams, CameraReading>("camera", {{"camera"}});
 }
 
 }  // namespace sim

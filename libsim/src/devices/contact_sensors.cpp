@@ -51,10 +51,7 @@ constexpr Field kCollisionReading[] = {
 SIM_FIELDS(CollisionReading, kCollisionReading)
 
 DeviceKind collision_kind() {
-  return device_kind<CollisionParams, CollisionReading>(
-      "collision", {}, [](const DeviceOrder& order, const CollisionParams& params) {
-        return std::make_unique<CollisionSensor>(order.name(), params);
-      });
+  return device_kind<CollisionSensor, CollisionParams, CollisionReading>("collision", {});
 }
 
 }  // namespace sim

@@ -67,6 +67,19 @@ template <typename Params, typename ReadingType, typename Make>
   return row;
 }
 
+/// The same of a device that is made of its name, its settings and, if it wants it, its noise.
+template <typename Made, typename Params, typename ReadingType>
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces) {
+  return device_kind<Params, ReadingType>(
+      name, std::move(interfaces), [](const DeviceOrder& order, const Params& params) {
+        if constexpr (std::is_constructible_v<Made, std::string, const Params&, RandomStream>) {
+          return std::make_unique<Made>(order.name(), params, order.noise());
+        } else {
+          return std::make_unique<Made>(order.name(), params);
+        }
+      });
+}
+
 /// Adds to a row what its settings say of a robot of some model.
 /// @param complete  puts into Params what the model decides.
 template <typename Params, typename Complete>

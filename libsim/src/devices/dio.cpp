@@ -150,11 +150,6 @@ constexpr Field kDioReading[] = {
 };
 SIM_FIELDS(DioReading, kDioReading)
 
-DeviceKind dio_kind() {
-  return device_kind<DioParams, DioReading>("dio", {{"dio"}},
-                                            [](const DeviceOrder& order, const DioParams& params) {
-                                              return std::make_unique<Dio>(order.name(), params);
-                                            });
-}
+DeviceKind dio_kind() { return device_kind<Dio, DioParams, DioReading>("dio", {{"dio"}}); }
 
 }  // namespace sim

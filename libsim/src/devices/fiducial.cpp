@@ -105,10 +105,7 @@ constexpr Field kFiducialReading[] = {
 SIM_FIELDS(FiducialReading, kFiducialReading)
 
 DeviceKind fiducial_kind() {
-  return device_kind<FiducialParams, FiducialReading>(
-      "fiducial", {{"fiducial"}}, [](const DeviceOrder& order, const FiducialParams& params) {
-        return std::make_unique<FiducialFinder>(order.name(), params, order.noise());
-      });
+  return device_kind<FiducialFinder, FiducialParams, FiducialReading>("fiducial", {{"fiducial"}});
 }
 
 }  // namespace sim

@@ -147,11 +147,6 @@ constexpr Field kGpsReading[] = {
 };
 SIM_FIELDS(GpsReading, kGpsReading)
 
-DeviceKind gps_kind() {
-  return device_kind<GpsParams, GpsReading>(
-      "gps", {{"gps"}}, [](const DeviceOrder& order, const GpsParams& params) {
-        return std::make_unique<Gps>(order.name(), params, order.noise());
-      });
-}
+DeviceKind gps_kind() { return device_kind<Gps, GpsParams, GpsReading>("gps", {{"gps"}}); }
 
 }  // namespace sim

@@ -120,10 +120,7 @@ constexpr Field kOpaqueReading[] = {
 SIM_FIELDS(OpaqueReading, kOpaqueReading)
 
 DeviceKind opaque_kind() {
-  return device_kind<OpaqueParams, OpaqueReading>(
-      "opaque", {{"opaque"}}, [](const DeviceOrder& order, const OpaqueParams& params) {
-        return std::make_unique<Opaque>(order.name(), params);
-      });
+  return device_kind<Opaque, OpaqueParams, OpaqueReading>("opaque", {{"opaque"}});
 }
 
 }  // namespace sim

@@ -35,11 +35,6 @@ constexpr Field kPenSettings[] = {
 };
 SIM_FIELDS(PenParams, kPenSettings)
 
-DeviceKind pen_kind() {
-  return device_kind<PenParams, void>("pen", {{"graphics2d"}},
-                                      [](const DeviceOrder& order, const PenParams& params) {
-                                        return std::make_unique<Pen>(order.name(), params);
-                                      });
-}
+DeviceKind pen_kind() { return device_kind<Pen, PenParams, void>("pen", {{"graphics2d"}}); }
 
 }  // namespace sim

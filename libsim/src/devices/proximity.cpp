@@ -66,10 +66,7 @@ constexpr Field kProximityReading[] = {
 SIM_FIELDS(ProximityReading, kProximityReading)
 
 DeviceKind proximity_kind() {
-  return device_kind<ProximityParams, ProximityReading>(
-      "proximity", {}, [](const DeviceOrder& order, const ProximityParams& params) {
-        return std::make_unique<Proximity>(order.name(), params);
-      });
+  return device_kind<Proximity, ProximityParams, ProximityReading>("proximity", {});
 }
 
 }  // namespace sim

@@ -118,11 +118,6 @@ constexpr Field kPtzReading[] = {
 };
 SIM_FIELDS(PtzReading, kPtzReading)
 
-DeviceKind ptz_kind() {
-  return device_kind<PtzParams, PtzReading>("ptz", {{"ptz"}},
-                                            [](const DeviceOrder& order, const PtzParams& params) {
-                                              return std::make_unique<Ptz>(order.name(), params);
-                                            });
-}
+DeviceKind ptz_kind() { return device_kind<Ptz, PtzParams, PtzReading>("ptz", {{"ptz"}}); }
 
 }  // namespace sim

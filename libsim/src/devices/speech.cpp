@@ -44,11 +44,6 @@ constexpr Field kSpeechSettings[] = {
 };
 SIM_FIELDS(SpeechParams, kSpeechSettings)
 
-DeviceKind speech_kind() {
-  return device_kind<SpeechParams, void>("speech", {{"speech"}},
-                                         [](const DeviceOrder& order, const SpeechParams& params) {
-                                           return std::make_unique<Speech>(order.name(), params);
-                                         });
-}
+DeviceKind speech_kind() { return device_kind<Speech, SpeechParams, void>("speech", {{"speech"}}); }
 
 }  // namespace sim

@@ -34,11 +34,6 @@ void Teleport::hash(StateHash&) const {}
 
 SIM_FIELDS(TeleportParams, {})
 
-DeviceKind teleport_kind() {
-  return device_kind<TeleportParams, void>(
-      "teleport", {}, [](const DeviceOrder& order, const TeleportParams& params) {
-        return std::make_unique<Teleport>(order.name(), params);
-      });
-}
+DeviceKind teleport_kind() { return device_kind<Teleport, TeleportParams, void>("teleport", {}); }
 
 }  // namespace sim

@@ -143,11 +143,6 @@ constexpr Field kWifiReading[] = {
 };
 SIM_FIELDS(WifiReading, kWifiReading)
 
-DeviceKind wifi_kind() {
-  return device_kind<WifiParams, WifiReading>(
-      "wifi", {{"wifi"}}, [](const DeviceOrder& order, const WifiParams& params) {
-        return std::make_unique<Wifi>(order.name(), params, order.noise());
-      });
-}
+DeviceKind wifi_kind() { return device_kind<Wifi, WifiParams, WifiReading>("wifi", {{"wifi"}}); }
 
 }  // namespace sim

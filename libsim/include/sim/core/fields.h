@@ -158,8 +158,7 @@ struct Field {
   /// @{
   [[nodiscard]] constexpr Field within(double min, double max) const {
     Field made = *this;
-    made.range.min = min;
-    made.range.max = max;
+    made.range = {min, max, false, range.unit};
     made.least = static_cast<std::int64_t>(min);
     made.greatest = static_cast<std::int64_t>(max);
     return made;
@@ -169,67 +168,42 @@ struct Field {
     made.range.min_exclusive = true;
     return made;
   }
-  [[nodiscard]] constexpr Field one_of(std::span<const char* const> all) const {
-    Field made = *this;
-    made.words = all;
-    return made;
-  }
-  /// As numbers from 0 to 255, not as opaque bytes.
-  [[nodiscard]] constexpr Field as_octets() const {
-    Field made = *this;
-    made.type = FieldType::kOctets;
-    return made;
-  }
-  [[nodiscard]] constexpr Field or_default() const {
-    Field made = *this;
-    made.may_be_left_out = true;
-    return made;
-  }
-  [[nodiscard]] constexpr Field told_as(const char* key) const {
-    Field made = *this;
-    made.property = key;
-    return made;
-  }
-  [[nodiscard]] constexpr Field untold() const {
-    Field made = *this;
-    made.told = false;
-    return made;
-  }
-  [[nodiscard]] constexpr Field only_told() const {
-    Field made = *this;
-    made.told_only = true;
-    return made;
-  }
-  [[nodiscard]] constexpr Field telling_each() const {
-    Field made = *this;
-    made.tells_elements = true;
-    return made;
-  }
-  [[nodiscard]] constexpr Field needed(const char* what_for) const {
-    Field made = *this;
-    made.needed_for = what_for;
-    return made;
-  }
   [[nodiscard]] constexpr Field counting(std::size_t from, std::size_t to) const {
-    Field made = *this;
-    made.fewest = from;
-    made.most = to;
+    return with<&Field::fewest>(from).with<&Field::most>(to);
+  }
+  [[nodiscard]] constexpr Field one_of(std::span<const char* const> all) const {
+    return with<&Field::words>(all);
+  }
+  [[nodiscard]] constexpr Field of(const ElementType& type_of_elements) const {
+    Field made = with<&Field::element>(&type_of_elements);
+    made.type = FieldType::kList;
+    made.table = nullptr;
     return made;
   }
   [[nodiscard]] constexpr Field or_fault(const char* id, const char* expected) const {
-    Field made = *this;
-    made.fault_id = id;
-    made.fault_text = expected;
-    return made;
+    return with<&Field::fault_id>(id).with<&Field::fault_text>(expected);
   }
-  [[nodiscard]] constexpr Field of(const ElementType& type_of_elements) const {
-    Field made = *this;
-    made.element = &type_of_elements;
-    made.table = nullptr;
-    made.type = FieldType::kList;
-    return made;
+  [[nodiscard]] constexpr Field told_as(const char* key) const {
+    return with<&Field::property>(key);
   }
+  [[nodiscard]] constexpr Field needed(const char* what_for) const {
+    return with<&Field::needed_for>(what_for);
+  }
+  /// As numbers from 0 to 255, not as opaque bytes.
+  [[nodiscard]] constexpr Field as_octets() const { return with<&Field::type>(FieldType::kOctets); }
+  [[nodiscard]] constexpr Field or_default() const { return with<&Field::may_be_left_out>(true); }
+  [[nodiscard]] constexpr Field untold() const { return with<&Field::told>(false); }
+  [[nodiscard]] constexpr Field only_told() const { return with<&Field::told_only>(true); }
+  [[nodiscard]] constexpr Field telling_each() const { return with<&Field::tells_elements>(true); }
   /// @}
+
+ private:
+  template <auto Trait, typename Value>
+  [[nodiscard]] constexpr Field with(Value value) const {
+    Field made = *this;
+    made.*Trait = value;
+    return made;
+  }
 };
 
 /// @cond
@@ -335,8 +309,7 @@ template <auto First, auto... Rest>
   if constexpr (std::is_enum_v<Value>) static_assert(sizeof(Value) == sizeof(int));
   if constexpr (field_detail::kIsVector<Value>) {
     made.list = &field_detail::kAccess<Value>;
-    if constexpr (field_detail::type_of<Value>() == FieldType::kList &&
-                  std::is_class_v<typename Value::value_type>) {
+    if constexpr (field_detail::type_of<Value>() == FieldType::kList) {
       made.table = &fields_of<typename Value::value_type>;
     }
   } else if constexpr (field_detail::type_of<Value>() == FieldType::kStruct) {
