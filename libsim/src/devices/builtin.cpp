@@ -8,7 +8,7 @@
 // clang-format off
 #define SIM_DEVICE_KINDS(KIND) \
   KIND(aio) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \
-  KIND(camera) KIND(collision) KIND(fiducial) KIND(gps) \
+  KIND(camera) KIND(collision) KIND(compass) KIND(fiducial) KIND(gps) \
   KIND(gripper) KIND(imu) KIND(dio) KIND(infrared) KIND(laser) \
   KIND(motion) KIND(odometry) KIND(opaque) KIND(pen) KIND(pose) \
   KIND(proximity) KIND(ptz) KIND(sonar) KIND(speech) KIND(teleport) \
