@@ -72,11 +72,10 @@ function(playpen_find_modules_from_programs target)
   endif()
 endfunction()
 
-# playpen_group_sources(TARGET [ALONE source...]): with PLAYPEN_UNITY, sources of one folder are
+# playpen_group_sources(TARGET): with PLAYPEN_UNITY, sources of one folder are
 # compiled together, twelve at a time: most of a source's time is spent on the headers of others.
-# Those that are to be compiled alone, or have properties of their own, are.
+# Those that have properties of their own are compiled alone.
 function(playpen_group_sources target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "ALONE")
   if(NOT PLAYPEN_UNITY)
     return()
   endif()
@@ -88,7 +87,7 @@ function(playpen_group_sources target)
   foreach(source IN LISTS sources)
     get_source_file_property(own ${source} COMPILE_DEFINITIONS)
     get_source_file_property(own_options ${source} COMPILE_OPTIONS)
-    if(own OR own_options OR source IN_LIST arg_ALONE OR IS_ABSOLUTE "${source}")
+    if(own OR own_options OR IS_ABSOLUTE "${source}")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       continue()
     endif()

@@ -2,12 +2,10 @@
 #include "playerlike/messages/messages.h"
 
 #include <algorithm>
-#include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <locale>
 #include <sstream>
-#include <variant>
+#include <tuple>
 
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
@@ -19,42 +17,29 @@ namespace {
 struct InterfaceRow {
   std::string_view interface;
   std::string_view device_type;
+  int rank;
 };
-// clang-format off
-constexpr InterfaceRow kInterfaces[] = {  // a row a line, for merging and for reading
-    {"aio", "aio"},
-    {"blinkenlight", "blinkenlight"},
-    {"blobfinder", "blobfinder"},
-    {"bumper", "bumper"},
-    {"camera", "camera"},
-    {"dio", "dio"},
-    {"fiducial", "fiducial"},
-    {"gps", "gps"},
-    {"graphics2d", "pen"},
-    {"gripper", "gripper"},
-    {"imu", "imu"},
-    {"ir", "infrared"},
-    {"laser", "laser"},
-    {"localize", "pose"},
-    {"opaque", "opaque"},
-    {"position2d", "pose"},
-    {"position2d", "odometry"},
-    {"power", "battery"},
-    {"ptz", "ptz"},
-    {"ranger", "laser"},
-    {"ranger", "sonar"},
-    {"ranger", "infrared"},
-    {"sonar", "sonar"},
-    {"speech", "speech"},
-    {"wifi", "wifi"},
-};
-// clang-format on
+
+const std::vector<InterfaceRow>& interface_table() {
+  static const auto* const table = [] {
+    auto* rows = new std::vector<InterfaceRow>();
+    for (const sim::DeviceKind& kind : sim::device_kinds()) {
+      for (const sim::CarriedInterface& interface : kind.interfaces) {
+        rows->push_back({interface.name, kind.name, interface.rank});
+      }
+    }
+    std::ranges::stable_sort(*rows, {},
+                      [](const InterfaceRow& row) { return std::tuple(row.interface, row.rank); });
+    return rows;
+  }();
+  return *table;
+}
 
 // The robot's devices that carry the interface: those that the robot names, then the others in the
 // table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
   std::vector<const DeviceInfo*> found;
-  for (const InterfaceRow& row : kInterfaces) {
+  for (const InterfaceRow& row : interface_table()) {
     if (row.interface != interface) continue;
     for (const DeviceInfo& device : robot.devices) {
       if (device.type == row.device_type) found.push_back(&device);
@@ -69,49 +54,6 @@ std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view
   std::stable_sort(found.begin(), found.end(),
                    [&](const DeviceInfo* a, const DeviceInfo* b) { return place(a) < place(b); });
   return found;
-}
-
-bool all_finite(std::initializer_list<double> values) {
-  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-}
-bool is_finite(const sim::Pose& pose) { return all_finite({pose.x_m, pose.y_m, pose.yaw_rad}); }
-
-// Whether all numbers of a command are finite: one overload a kind.
-bool is_finite(const sim::TwistCommand& c) {
-  return all_finite({c.twist.v_mps, c.twist.omega_radps, c.twist.lateral_mps});
-}
-bool is_finite(const sim::MotorEnableCommand&) { return true; }
-bool is_finite(const sim::SetPoseCommand& c) { return is_finite(c.pose); }
-bool is_finite(const sim::GotoCommand& c) {
-  return all_finite({c.goal_m.x(), c.goal_m.y(), c.tolerance_m, c.speed_mps});
-}
-bool is_finite(const sim::StopCommand&) { return true; }
-bool is_finite(const sim::ResumeCommand&) { return true; }
-bool is_finite(const sim::PlaceCommand& c) { return is_finite(c.pose); }
-bool is_finite(const sim::TranslateCommand& c) {
-  return all_finite({c.offset_m.x(), c.offset_m.y()});
-}
-bool is_finite(const sim::RotateCommand& c) { return all_finite({c.yaw_rad}); }
-bool is_finite(const sim::HeadingCommand& c) {
-  return all_finite({c.v_mps, c.lateral_mps, c.yaw_rad});
-}
-bool is_finite(const sim::PositionCommand& c) {
-  return is_finite(c.goal) && all_finite({c.max_speed_mps, c.max_turn_rate_radps});
-}
-bool is_finite(const sim::CarCommand& c) { return all_finite({c.v_mps, c.steering_rad}); }
-bool is_finite(const sim::SayCommand&) { return true; }
-bool is_finite(const sim::DigitalOutputCommand&) { return true; }
-bool is_finite(const sim::AnalogOutputCommand& c) { return all_finite({c.voltage_v}); }
-bool is_finite(const sim::LightCommand& c) {
-  return all_finite({c.period_s.value_or(0.0), c.duty_cycle.value_or(0.0)});
-}
-bool is_finite(const sim::GripCommand&) { return true; }
-bool is_finite(const sim::OpaqueCommand&) { return true; }
-bool is_finite(const sim::PointCommand& c) {
-  return all_finite({c.pan_rad, c.tilt_rad, c.view_rad, c.pan_speed_radps, c.tilt_speed_radps});
-}
-bool is_finite(const sim::PanCommand& c) {
-  return all_finite({c.pan_speed_radps, c.tilt_speed_radps, c.zoom_speed_radps});
 }
 
 // What the world itself offers, whatever robots are in it.
@@ -130,7 +72,7 @@ bool is_open(const std::vector<RobotInfo>& robots, int port) {
 
 std::vector<std::string_view> interface_names() {
   std::vector<std::string_view> names;
-  for (const InterfaceRow& row : kInterfaces) {
+  for (const InterfaceRow& row : interface_table()) {
     if (names.empty() || names.back() != row.interface) names.push_back(row.interface);
   }
   return names;
@@ -174,20 +116,21 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
 }  // namespace
 
 void require_finite(const sim::Command& command) {
-  if (std::visit([](const auto& c) { return is_finite(c); }, command)) return;
+  const auto& kind = sim::command_kinds()[command.index()];
+  if (sim::all_finite(kind.fields(), sim::object_in(command))) return;
   throw SessionError(SessionError::Code::kBadArgument,
                      "a command holds a value that is not a finite number");
 }
 
 bool carries(std::string_view device_type, std::string_view interface) {
-  return std::any_of(std::begin(kInterfaces), std::end(kInterfaces), [&](const InterfaceRow& row) {
+  return std::ranges::any_of(interface_table(), [&](const InterfaceRow& row) {
     return row.device_type == device_type && row.interface == interface;
   });
 }
 
 std::string example_world(std::string_view interface) {
   // Each kind of device has a world of its name; the tests see to it.
-  for (const InterfaceRow& row : kInterfaces) {
+  for (const InterfaceRow& row : interface_table()) {
     if (row.interface == interface) return "devices/" + std::string(row.device_type) + ".json";
   }
   return "";
@@ -262,13 +205,9 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
       info.id = {r, static_cast<int>(d)};
       info.name = device.name;
       info.type = device.type;
-      for (const sim::DeviceKind& kind : sim::device_kinds()) {
-        if (kind.name != device.type) continue;
-        info.properties = kind.properties(device.params);
-        if (!kind.model_properties) continue;
-        for (const auto& [key, value] : kind.model_properties(device.params, model)) {
-          info.properties[key] = value;
-        }
+      if (const sim::DeviceKind* kind = sim::find_device_kind(device.type)) {
+        info.properties = kind->model_properties ? kind->model_properties(device.params, model)
+                                                 : kind->properties(device.params);
       }
       robot.devices.push_back(std::move(info));
     }

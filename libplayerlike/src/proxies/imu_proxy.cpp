@@ -5,6 +5,7 @@
 #include "devices/errors.h"
 #include "libplayerc++/imuproxy.h"
 #include "proxies/link.h"
+#include "sim/devices/compass.h"
 #include "sim/devices/imu.h"
 
 namespace PlayerCc {
@@ -20,6 +21,9 @@ void ImuProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_IMU_CODE, aIndex, "Imu
 void ImuProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
 
 void ImuProxy::HandleReading(const detail::Reading& aReading) {
+  if (const auto* compass = dynamic_cast<const sim::CompassReading*>(&aReading.measured)) {
+    mPose.pyaw = compass->heading_rad;
+  }
   const auto* reading = dynamic_cast<const sim::ImuReading*>(&aReading.measured);
   if (reading == nullptr) return;
   const auto& a = reading->acceleration_mps2;

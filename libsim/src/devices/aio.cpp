@@ -1,9 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/aio.h"
 
+#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
+#include "devices/parse_wire.h"
 #include "sim/core/assert.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/laser.h"
@@ -117,5 +120,66 @@ void Aio::hash(StateHash& hash) const {
   for (const double voltage_v : outputs_v_) hash.add(voltage_v);
   hash.add(noise_.draws());
 }
+
+namespace {
+
+bool read_analog(const io::Reader& value, void* into) {
+  auto& source = *static_cast<AnalogSource*>(into);
+  const std::optional<std::string> text = value.scalar_text();
+  if (!text || text->empty() || value.is_boolean()) return false;
+  if (value.is_number()) {
+    double voltage_v = 0.0;
+    std::from_chars(text->data(), text->data() + text->size(), voltage_v);
+    source = voltage_v;
+    return std::abs(voltage_v) <= AioParams::kMaxVolts;
+  }
+  if (*text == "speed") {
+    source = AnalogSignal::kSpeed;
+  } else if (*text == "turn_rate") {
+    source = AnalogSignal::kTurnRate;
+  } else if (text->find('.') == std::string::npos) {
+    source = BatteryTap{*text};
+  } else if (std::optional<Wire> wire = parse_wire(*text)) {
+    source = std::move(*wire);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::string analog_text(const void* from) {
+  const auto& source = *static_cast<const AnalogSource*>(from);
+  if (const auto* voltage_v = std::get_if<double>(&source)) return shortest_text(*voltage_v);
+  if (const auto* battery = std::get_if<BatteryTap>(&source)) return '"' + battery->device + '"';
+  if (const auto* wire = std::get_if<Wire>(&source)) return '"' + to_string(*wire) + '"';
+  return std::get<AnalogSignal>(source) == AnalogSignal::kSpeed ? R"("speed")" : R"("turn_rate")";
+}
+
+}  // namespace
+
+constexpr ElementType kAnalogSource{read_analog, analog_text, R"({"type": ["number", "string"]})"};
+
+constexpr Field kAioSettings[] = {
+    frequency_field<&AioParams::frequency_hz>(),
+    field<&AioParams::noise_v>("noise", "V", "standard deviation of each input")
+        .within(0.0, 1000.0),
+    field<&AioParams::inputs>("inputs", "", "what input 0, 1, ... shows; at most 8")
+        .of(kAnalogSource)
+        .counting(0, AioParams::kMaxLines)
+        .or_fault("device/input",
+                  "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's "
+                  "name), or a wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\""),
+    field<&AioParams::outputs>("outputs", "", "how many outputs there are")
+        .within(0, AioParams::kMaxLines),
+};
+SIM_FIELDS(AioParams, kAioSettings)
+
+constexpr Field kAioReading[] = {
+    field<&AioReading::inputs_v>("inputs", "V"),
+    field<&AioReading::outputs_v>("outputs", "V"),
+};
+SIM_FIELDS(AioReading, kAioReading)
+
+DeviceKind aio_kind() { return device_kind<Aio, AioParams, AioReading>("aio", {{"aio"}}); }
 
 }  // namespace sim

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/core/assert.h"
 
 namespace sim {
@@ -13,18 +14,6 @@ namespace {
 constexpr double kJoulesPerWh = 3600.0;
 
 }  // namespace
-
-std::string_view to_string(BatteryStatus status) {
-  switch (status) {
-    case BatteryStatus::kCharged:
-      return "Charged";
-    case BatteryStatus::kCharging:
-      return "Charging";
-    case BatteryStatus::kDischarging:
-      break;
-  }
-  return "Discharging";
-}
 
 double battery_load_w(const BatteryParams& params, const Twist& commanded,
                       double wheel_separation_m) {
@@ -91,6 +80,65 @@ void Battery::measure(const StepContext& context) {
 void Battery::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(energy_j_);
+}
+
+namespace {
+
+std::optional<FieldFault> voltage_fault(const void* object) {
+  const auto& p = *static_cast<const BatteryParams*>(object);
+  if (p.empty_voltage_v <= p.full_voltage_v) return std::nullopt;
+  return FieldFault{"device/battery-voltage", "an empty_voltage of at most full_voltage",
+                    rounded_text(p.empty_voltage_v, 6) + " V empty, " +
+                        rounded_text(p.full_voltage_v, 6) + " V full",
+                    ""};
+}
+
+}  // namespace
+
+constexpr const char* kBatteryWords[] = {"Charged", "Charging", "Discharging"};
+
+constexpr Field kBatterySettings[] = {
+    frequency_field<&BatteryParams::frequency_hz>(),
+    field<&BatteryParams::capacity_wh>("capacity", "W h", "energy of a full battery")
+        .above(0.0, 100000.0),
+    field<&BatteryParams::initial_charge_percent>("initial_charge", "percent",
+                                                  "of the capacity, at the start")
+        .within(0.0, 100.0),
+    field<&BatteryParams::idle_power_w>("idle_power", "W", "drawn at all times")
+        .within(0.0, 10000.0),
+    field<&BatteryParams::drive_power_ws_per_m>(
+        "drive_power", "W for each m/s", "drawn besides for each m/s that the wheels are driven at")
+        .within(0.0, 10000.0),
+    field<&BatteryParams::charging_power_w>("charging_power", "W",
+                                            "what a dock puts into the battery")
+        .within(0.0, 10000.0),
+    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "at full charge").above(0.0, 1000.0),
+    field<&BatteryParams::empty_voltage_v>("empty_voltage", "V",
+                                           "when empty; at most `full_voltage`")
+        .above(0.0, 1000.0),
+};
+SIM_FIELDS(BatteryParams, kBatterySettings, voltage_fault)
+
+constexpr Field kBatteryReading[] = {
+    field<&BatteryReading::charge_percent>("charge", "percent"),
+    field<&BatteryReading::status>("status").one_of(kBatteryWords),
+    field<&BatteryReading::voltage_v>("voltage", "V"),
+    field<&BatteryReading::energy_wh>("energy", "W h"),
+    field<&BatteryReading::capacity_wh>("capacity", "W h"),
+    field<&BatteryReading::power_w>("power", "W"),
+};
+SIM_FIELDS(BatteryReading, kBatteryReading)
+
+std::string_view to_string(BatteryStatus status) {
+  return kBatteryWords[static_cast<std::size_t>(status)];
+}
+
+DeviceKind battery_kind() {
+  return device_kind<BatteryParams, BatteryReading>(
+      "battery", {{"power"}}, [](const DeviceOrder& order, const BatteryParams& params) {
+        return std::make_unique<Battery>(order.name(), params,
+                                         order.model.drive.wheel_separation_m);
+      });
 }
 
 }  // namespace sim

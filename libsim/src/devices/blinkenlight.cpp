@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/device_kind.h"
+
 namespace sim {
 
 bool is_lit(double period_s, double duty_cycle, SimTime time_ns) {
@@ -48,6 +50,34 @@ void Blinkenlight::hash(StateHash& hash) const {
   for (const int channel : {now_.colour.r, now_.colour.g, now_.colour.b}) hash.add(channel);
   hash.add(now_.period_s);
   hash.add(now_.duty_cycle);
+}
+
+constexpr Field kBlinkenlightSettings[] = {
+    frequency_field<&BlinkenlightParams::frequency_hz>(),
+    field<&BlinkenlightParams::colour>("colour", "", "`#RGB` or `#RRGGBB`"),
+    field<&BlinkenlightParams::enabled>("enabled", "", "whether it is on at the start"),
+    field<&BlinkenlightParams::period_s>("period", "s", "of one on and off; 0: it does not blink")
+        .within(0.0, 1e6),
+    field<&BlinkenlightParams::duty_cycle>("duty_cycle", "", "share of the period that it is lit")
+        .within(0.0, 1.0),
+    field<&BlinkenlightParams::p_BL>("position", "m", "where it is on the robot, in its frame")
+        .within(-100.0, 100.0)
+        .told_as(""),
+};
+SIM_FIELDS(BlinkenlightParams, kBlinkenlightSettings)
+
+constexpr Field kBlinkenlightReading[] = {
+    field<&BlinkenlightReading::enabled>("on"),
+    field<&BlinkenlightReading::colour>("colour"),
+    field<&BlinkenlightReading::period_s>("period", "s"),
+    field<&BlinkenlightReading::duty_cycle>("duty_cycle"),
+    field<&BlinkenlightReading::lit>("lit"),
+};
+SIM_FIELDS(BlinkenlightReading, kBlinkenlightReading)
+
+DeviceKind blinkenlight_kind() {
+  return device_kind<Blinkenlight, BlinkenlightParams, BlinkenlightReading>("blinkenlight",
+                                                                            {{"blinkenlight"}});
 }
 
 }  // namespace sim

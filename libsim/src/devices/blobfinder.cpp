@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "devices/column_view.h"
+#include "devices/device_kind.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -156,6 +157,69 @@ void Blobfinder::hash(StateHash& hash) const {
     }
     hash.add(blob.range_m);
   }
+}
+
+namespace {
+
+bool read_colour(const io::Reader& value, void* into) {
+  const std::optional<Colour> colour =
+      value.is_string() ? parse_colour(value.scalar_text().value_or("")) : std::nullopt;
+  *static_cast<Colour*>(into) = colour.value_or(Colour{});
+  return colour.has_value();
+}
+
+std::string colour_text(const void* colour) {
+  return '"' + to_string(*static_cast<const Colour*>(colour)) + '"';
+}
+
+template <auto Member>
+constexpr Field pixels(const char* name) {
+  return field<Member>(name, "pixels").within(0, std::numeric_limits<int>::max());
+}
+
+}  // namespace
+
+constexpr ElementType kColour{
+    read_colour, colour_text,
+    R"({"type": "string", "pattern": "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6}|[0-9A-Fa-f]{8})$"})"};
+
+constexpr Field kBlobfinderSettings[] = {
+    frequency_field<&BlobfinderParams::frequency_hz>(),
+    include<BlobfinderParams, ViewParams>(),
+    noise_field<&BlobfinderParams::noise_m>("standard deviation of a blob's range"),
+    field<&BlobfinderParams::colours>(
+        "colours", "", "list of the colours that it sees, like `\"#ff8800\"`, exactly; none: all")
+        .of(kColour)
+        .counting(0, BlobfinderParams::kMaxColours)
+        .or_fault("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),
+};
+SIM_FIELDS(BlobfinderParams, kBlobfinderSettings)
+
+using Blob = BlobfinderReading::Blob;
+
+constexpr Field kBlob[] = {
+    field<&Blob::colour>("colour"),
+    pixels<&Blob::area>("area"),
+    pixels<&Blob::x>("x"),
+    pixels<&Blob::y>("y"),
+    pixels<&Blob::left>("left"),
+    pixels<&Blob::right>("right"),
+    pixels<&Blob::top>("top"),
+    pixels<&Blob::bottom>("bottom"),
+    field<&Blob::range_m>("range", "m"),
+};
+SIM_FIELDS(BlobfinderReading::Blob, kBlob)
+
+constexpr Field kBlobfinderReading[] = {
+    pixels<&BlobfinderReading::width>("width"),
+    pixels<&BlobfinderReading::height>("height"),
+    field<&BlobfinderReading::blobs>("blobs"),
+};
+SIM_FIELDS(BlobfinderReading, kBlobfinderReading)
+
+DeviceKind blobfinder_kind() {
+  return device_kind<Blobfinder, BlobfinderParams, BlobfinderReading>("blobfinder",
+                                                                      {{"blobfinder"}});
 }
 
 }  // namespace sim

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 
 namespace sim {
@@ -104,6 +105,69 @@ void Bumper::measure(const StepContext& context) {
 void Bumper::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add_bytes(pressed_.data(), pressed_.size());
+}
+
+namespace {
+
+std::optional<FieldFault> segment_fault(const void* object) {
+  const auto& segment = *static_cast<const BumperSegment*>(object);
+  if (segment.radius_m <= 0.0 ||
+      segment.length_m <= 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
+    return std::nullopt;
+  }
+  return FieldFault{"device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
+                    rounded_text(segment.length_m, 6) + " m long with a radius of " +
+                        rounded_text(segment.radius_m, 6) + " m",
+                    ""};
+}
+
+}  // namespace
+
+constexpr Field kSegment[] = {
+    field<&BumperSegment::X_BS, &Pose::x_m>("x", "m",
+                                            "of its middle, ahead of the middle of the axle")
+        .within(-100.0, 100.0)
+        .told_as("mount_x"),
+    field<&BumperSegment::X_BS, &Pose::y_m>("y", "m", "of its middle, to the left")
+        .within(-100.0, 100.0)
+        .told_as("mount_y"),
+    field<&BumperSegment::X_BS, &Pose::yaw_rad>(
+        "yaw_deg", "degrees", "where it looks, outwards, counter-clockwise from ahead")
+        .told_as("mount_yaw"),
+    field<&BumperSegment::length_m>("length", "m", "along the piece").within(kLeastLength_m, 100.0),
+    field<&BumperSegment::radius_m>("radius", "m", "of the arc; 0: straight").within(0.0, 100.0),
+};
+SIM_FIELDS(BumperSegment, kSegment, segment_fault)
+
+constexpr Field kBumperSettings[] = {
+    frequency_field<&BumperParams::frequency_hz>(),
+    field<&BumperParams::reach_m>("reach", "m",
+                                  "a touch farther than this from all segments presses none")
+        .above(0.0, 1.0),
+    field<&BumperParams::segments>(
+        "segments", "m, degrees",
+        "list of at most 64 segments, in the order in which programs count them; none: a straight "
+        "one for each side of the footprint")
+        .counting(0, BumperParams::kMaxSegments)
+        .telling_each(),
+};
+SIM_FIELDS(BumperParams, kBumperSettings)
+
+constexpr Field kBumperReading[] = {
+    field<&BumperReading::pressed>("pressed").as_octets(),
+};
+SIM_FIELDS(BumperReading, kBumperReading)
+
+DeviceKind bumper_kind() {
+  DeviceKind row = device_kind<BumperParams, BumperReading>(
+      "bumper", {{"bumper"}}, [](const DeviceOrder& order, const BumperParams& params) {
+        return std::make_unique<Bumper>(order.name(), params, order.model.footprint);
+      });
+  return with_model<BumperParams>(std::move(row),
+                                  [](BumperParams& params, const RobotModel& model) {
+                                    if (params.segments.empty())
+                                      params.segments = segments_round(model.footprint);
+                                  });
 }
 
 }  // namespace sim

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "devices/column_view.h"
+#include "devices/device_kind.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -126,6 +127,34 @@ void Camera::paint_background() {
 void Camera::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add_bytes(reading_.pixels.data(), reading_.pixels.size());
+}
+
+namespace {
+
+std::optional<FieldFault> pixels_fault(const void* object) {
+  const auto& reading = *static_cast<const CameraReading*>(object);
+  const std::int64_t size = std::int64_t{3} * reading.width * reading.height;
+  if (static_cast<std::int64_t>(reading.pixels.size()) == size) return std::nullopt;
+  return FieldFault{"", "three bytes for each pixel", "", "", "pixels"};
+}
+
+}  // namespace
+
+constexpr Field kCameraSettings[] = {
+    frequency_field<&CameraParams::frequency_hz>("pictures a simulated second"),
+    include<CameraParams, ViewParams>(),
+};
+SIM_FIELDS(CameraParams, kCameraSettings)
+
+constexpr Field kCameraReading[] = {
+    field<&CameraReading::width>("width", "pixels").within(0, ViewParams::kMaxWidth),
+    field<&CameraReading::height>("height", "pixels").within(0, ViewParams::kMaxHeight),
+    field<&CameraReading::pixels>("pixels"),
+};
+SIM_FIELDS(CameraReading, kCameraReading, pixels_fault)
+
+DeviceKind camera_kind() {
+  return device_kind<Camera, CameraParams, CameraReading>("camera", {{"camera"}});
 }
 
 }  // namespace sim

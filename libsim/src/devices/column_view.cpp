@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "devices/device_kind.h"
+
 namespace sim {
 namespace {
 
@@ -174,5 +176,51 @@ void ColumnView::paint(int column, std::span<const Hit> hits) {
   const int foot = std::min(taken, row(end.depth_m, -params_.height_m));
   if (foot > 0) runs_.push_back({column, 0, foot, end.face, false, end.depth_m * stretch});
 }
+
+namespace {
+
+void read_image(io::Reader& settings, const Field& field, void* object) {
+  auto& p = *static_cast<ViewParams*>(object);
+  const auto [width, height] =
+      settings.integer_pair(field.name, {p.width, p.height}, 1, ViewParams::kMaxWidth);
+  p.width = static_cast<int>(width);
+  p.height = static_cast<int>(height);
+  if (p.height > ViewParams::kMaxHeight) {
+    settings.issue("device/image-height",
+                   "a picture of at most " + std::to_string(ViewParams::kMaxHeight) + " rows",
+                   std::to_string(p.height), "[columns, rows]", field.name);
+  }
+}
+
+std::string image_text(const void* object) {
+  const auto& p = *static_cast<const ViewParams*>(object);
+  return "[" + std::to_string(p.width) + ", " + std::to_string(p.height) + "]";
+}
+
+void tell_image(const void* object, std::map<std::string, double>& properties) {
+  const auto& p = *static_cast<const ViewParams*>(object);
+  properties["image_width"] = p.width;
+  properties["image_height"] = p.height;
+}
+
+}  // namespace
+
+constexpr CustomField kImage{
+    read_image, image_text, tell_image,
+    R"("type": "array", "prefixItems": [{"type": "integer", "minimum": 1, "maximum": 640}, )"
+    R"({"type": "integer", "minimum": 1, "maximum": 480}], "minItems": 2, "maxItems": 2)"};
+
+constexpr Field kViewSettings[] = {
+    custom("image", kImage, "pixels", "`[columns, rows]` of the picture, at most 640 x 480"),
+    field<&ViewParams::field_of_view_rad>(
+        "field_of_view_deg", "degrees",
+        "from its left to its right side; on a head, that of the head")
+        .within(0.01, 170.0),
+    range_max_field<&ViewParams::range_max_m>(),
+    mount_field<&ViewParams::X_BS>("where the lens sits on the body and looks, X_BS"),
+    height_field<&ViewParams::height_m>("of the lens above the floor"),
+    field<&ViewParams::ptz>("ptz", "", "name of the robot's ptz device that turns and zooms it"),
+};
+SIM_FIELDS(ViewParams, kViewSettings)
 
 }  // namespace sim

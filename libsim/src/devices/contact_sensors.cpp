@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 
 namespace sim {
@@ -36,6 +37,21 @@ void CollisionSensor::measure(const StepContext& context) {
 void CollisionSensor::hash(StateHash& hash) const {
   Sensor::hash(hash);
   for (const std::string& name : touched_) hash.add(name);
+}
+
+constexpr Field kCollisionSettings[] = {
+    frequency_field<&CollisionParams::frequency_hz>(),
+};
+SIM_FIELDS(CollisionParams, kCollisionSettings)
+
+constexpr Field kCollisionReading[] = {
+    field<&CollisionReading::collision>("collision"),
+    field<&CollisionReading::objects>("objects"),
+};
+SIM_FIELDS(CollisionReading, kCollisionReading)
+
+DeviceKind collision_kind() {
+  return device_kind<CollisionSensor, CollisionParams, CollisionReading>("collision", {});
 }
 
 }  // namespace sim

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/device.h"
 
+#include "devices/device_kind.h"
 #include "sim/core/assert.h"
 
 namespace sim {
@@ -48,6 +49,16 @@ void Sensor::succeed(const Device& before, SimTime now_ns) {
 void Sensor::hash(StateHash& hash) const {
   hash.add(sequence_);
   hash.add(next_due_ns_);
+}
+
+bool well_within(const Polygon& footprint, const Pose& X_BL) {
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Vec2& a = footprint[i];
+    const Vec2 edge = footprint[(i + 1) % footprint.size()] - a;
+    const Vec2 inward = Vec2(-edge.y(), edge.x()).normalized();
+    if (inward.dot(X_BL.position() - a) < 0.005) return false;
+  }
+  return true;
 }
 
 }  // namespace sim

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/device_kind.h"
+#include "devices/parse_wire.h"
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/devices/battery.h"
@@ -90,5 +92,64 @@ void Dio::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(outputs_);
 }
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kSignals = {"contact", "stalled", "dock"};
+
+bool read_digital(const io::Reader& value, void* into) {
+  auto& source = *static_cast<DigitalSource*>(into);
+  const std::optional<std::string> text = value.scalar_text();
+  if (!text || value.is_number()) return false;
+  const auto* const signal = std::ranges::find(kSignals, *text);
+  if (value.is_boolean()) {
+    source = *text == "true";
+  } else if (signal != kSignals.end()) {
+    source = static_cast<DigitalSignal>(signal - kSignals.begin());
+  } else if (std::optional<Wire> wire = parse_wire(*text)) {
+    source = std::move(*wire);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+std::string digital_text(const void* from) {
+  const auto& source = *static_cast<const DigitalSource*>(from);
+  if (const auto* level = std::get_if<bool>(&source)) return *level ? "true" : "false";
+  if (const auto* wire = std::get_if<Wire>(&source)) return '"' + to_string(*wire) + '"';
+  return '"' + std::string(kSignals[static_cast<std::size_t>(std::get<DigitalSignal>(source))]) +
+         '"';
+}
+
+}  // namespace
+
+constexpr ElementType kDigitalSource{
+    read_digital, digital_text,
+    R"({"oneOf": [{"type": "boolean"}, {"enum": ["contact", "stalled", "dock"]}, )"
+    R"({"type": "string", "pattern": "^([A-Za-z0-9_-]+\\.)?[A-Za-z0-9_-]+\\.[0-9]+$"}]})"};
+
+constexpr Field kDioSettings[] = {
+    frequency_field<&DioParams::frequency_hz>(),
+    field<&DioParams::inputs>("inputs", "", "what input 0, 1, ... shows; at most 32")
+        .of(kDigitalSource)
+        .counting(0, DioParams::kMaxLines)
+        .or_fault("device/input",
+                  "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
+                  "\"ROBOT.DEVICE.INDEX\""),
+    field<&DioParams::outputs>("outputs", "", "how many outputs there are")
+        .within(0, DioParams::kMaxLines),
+};
+SIM_FIELDS(DioParams, kDioSettings)
+
+constexpr Field kDioReading[] = {
+    field<&DioReading::input_count>("count").within(0, DioParams::kMaxLines),
+    field<&DioReading::inputs>("inputs"),
+    field<&DioReading::output_count>("output_count").within(0, DioParams::kMaxLines),
+    field<&DioReading::outputs>("outputs"),
+};
+SIM_FIELDS(DioReading, kDioReading)
+
+DeviceKind dio_kind() { return device_kind<Dio, DioParams, DioReading>("dio", {{"dio"}}); }
 
 }  // namespace sim

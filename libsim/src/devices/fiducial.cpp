@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 #include "sim/world/description.h"
 
@@ -70,6 +71,41 @@ void FiducialFinder::measure(const StepContext& context) {
 void FiducialFinder::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
+}
+
+constexpr Field kFiducialSettings[] = {
+    frequency_field<&FiducialParams::frequency_hz>(),
+    range_max_field<&FiducialParams::range_max_m>(),
+    field<&FiducialParams::range_max_id_m>("range_max_id", "m",
+                                           "of farther things the number cannot be read")
+        .within(0.0, 1000.0),
+    field<&FiducialParams::field_of_view_rad>("field_of_view_deg", "degrees", "full angle of view")
+        .within(0.01, 360.0),
+    mount_field<&FiducialParams::X_BS>("where the sensor sits on the body, X_BS"),
+    height_field<&FiducialParams::height_m>(
+        "above the floor; what is not higher neither hides nor is seen"),
+    noise_field<&FiducialParams::noise_m>("standard deviation of a distance"),
+    field<&FiducialParams::noise_bearing_rad>("noise_bearing_deg", "degrees", "of a direction")
+        .within(0.0, 180.0),
+    field<&FiducialParams::noise_yaw_rad>("noise_yaw_deg", "degrees",
+                                          "of the heading of what is seen")
+        .within(0.0, 360.0),
+};
+SIM_FIELDS(FiducialParams, kFiducialSettings)
+
+constexpr Field kMark[] = {
+    field<&FiducialReading::Mark::id>("id"),
+    field<&FiducialReading::Mark::X_ST>("", "m, rad"),
+};
+SIM_FIELDS(FiducialReading::Mark, kMark)
+
+constexpr Field kFiducialReading[] = {
+    field<&FiducialReading::marks>("marks"),
+};
+SIM_FIELDS(FiducialReading, kFiducialReading)
+
+DeviceKind fiducial_kind() {
+  return device_kind<FiducialFinder, FiducialParams, FiducialReading>("fiducial", {{"fiducial"}});
 }
 
 }  // namespace sim

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/core/degrees.h"
 
 namespace sim {
@@ -112,5 +113,40 @@ void Gps::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
 }
+
+constexpr Field kGpsSettings[] = {
+    frequency_field<&GpsParams::frequency_hz>(),
+    // Snyder's series are for Mercator's part of the world, as UTM is.
+    field<&GpsParams::latitude_rad>("latitude_deg", "degrees",
+                                    "of the world's origin, north positive")
+        .within(-84.0, 84.0),
+    field<&GpsParams::longitude_rad>("longitude_deg", "degrees",
+                                     "of the world's origin, east positive")
+        .within(-180.0, 180.0),
+    field<&GpsParams::altitude_m>("altitude", "m", "of the floor, over the ellipsoid")
+        .within(-1000.0, 100'000.0),
+    north_field<&GpsParams::north_rad>(),
+    noise_field<&GpsParams::noise_m>("standard deviation to the east, and to the north"),
+    field<&GpsParams::noise_vertical_m>("noise_vertical", "m", "standard deviation of the altitude")
+        .within(0.0, 100.0),
+    field<&GpsParams::satellites>("satellites", "", "in view; with fewer than 4 there is no fix")
+        .within(0, 64),
+};
+SIM_FIELDS(GpsParams, kGpsSettings)
+
+constexpr Field kGpsReading[] = {
+    field<&GpsReading::latitude_rad>("latitude", "rad"),
+    field<&GpsReading::longitude_rad>("longitude", "rad"),
+    field<&GpsReading::altitude_m>("altitude", "m"),
+    field<&GpsReading::speed_mps>("speed", "m/s"),
+    field<&GpsReading::course_rad>("course", "rad"),
+    field<&GpsReading::utm_easting_m>("utm_easting", "m"),
+    field<&GpsReading::utm_northing_m>("utm_northing", "m"),
+    field<&GpsReading::satellites>("satellites"),
+    field<&GpsReading::quality>("quality"),
+};
+SIM_FIELDS(GpsReading, kGpsReading)
+
+DeviceKind gps_kind() { return device_kind<Gps, GpsParams, GpsReading>("gps", {{"gps"}}); }
 
 }  // namespace sim

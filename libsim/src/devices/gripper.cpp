@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 #include "sim/world/description.h"
 
@@ -28,20 +29,6 @@ Pose pose_of(const ObstacleDescription& thing) {
 }
 
 }  // namespace
-
-std::string_view to_string(GripperState state) noexcept {
-  switch (state) {
-    case GripperState::kOpen:
-      return "open";
-    case GripperState::kClosed:
-      return "closed";
-    case GripperState::kMoving:
-      return "moving";
-    case GripperState::kError:
-      break;
-  }
-  return "error";
-}
 
 std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Vec2& size_m,
                                                       double from_m, double to_m) {
@@ -276,6 +263,63 @@ void Gripper::hash(StateHash& hash) const {
     hash.add(static_cast<std::uint64_t>(held.obstacle));
     hash.add(held.closed_ns);
   }
+}
+
+namespace {
+
+/// The middle of a robot's front.
+Pose front_of(const RobotModel& model) {
+  double front_m = 0.0;
+  for (const Vec2& v : model.footprint) front_m = std::max(front_m, v.x());
+  return {front_m, 0.0, 0.0};
+}
+
+}  // namespace
+
+constexpr const char* kStateWords[] = {"open", "closed", "moving", "error"};
+
+constexpr Field kGripperSettings[] = {
+    frequency_field<&GripperParams::frequency_hz>(),
+    mount_field<&GripperParams::X_BG>(
+        "where the paddles begin, half-way between them, on the body; they point along its x axis. "
+        "None: the middle of the robot's front"),
+    field<&GripperParams::length_m>("length", "m", "of a paddle").within(kLeastLength_m, 10.0),
+    field<&GripperParams::thickness_m>("thickness", "m", "of a paddle").within(0.0, 10.0),
+    field<&GripperParams::opening_m>("opening", "m", "between the open paddles")
+        .within(kLeastLength_m, 10.0),
+    height_field<&GripperParams::height_m>(
+        "of paddles and beams above the floor; what is not higher is neither felt nor taken"),
+    field<&GripperParams::travel_time_s>("travel_time", "s", "from open to closed, and back")
+        .above(0.0, 3600.0),
+    field<&GripperParams::capacity>("capacity", "", "how many things the store holds")
+        .within(0, GripperParams::kMaxStored),
+};
+SIM_FIELDS(GripperParams, kGripperSettings)
+
+constexpr Field kGripperReading[] = {
+    field<&GripperReading::state>("state").one_of(kStateWords),
+    field<&GripperReading::outer_beam>("outer_beam"),
+    field<&GripperReading::inner_beam>("inner_beam"),
+    field<&GripperReading::holding>("holding"),
+    field<&GripperReading::stored>("stored").within(0, GripperParams::kMaxStored),
+    field<&GripperReading::gap_m>("gap", "m"),
+};
+SIM_FIELDS(GripperReading, kGripperReading)
+
+std::string_view to_string(GripperState state) noexcept {
+  return kStateWords[static_cast<std::size_t>(state)];
+}
+
+DeviceKind gripper_kind() {
+  DeviceKind row = device_kind<GripperParams, GripperReading>(
+      "gripper", {{"gripper"}}, [](const DeviceOrder& order, const GripperParams& params) {
+        return std::make_unique<Gripper>(order.name(), params,
+                                         params.X_BG.value_or(front_of(order.model)));
+      });
+  return with_model<GripperParams>(std::move(row),
+                                   [](GripperParams& params, const RobotModel& model) {
+                                     if (!params.X_BG) params.X_BG = front_of(model);
+                                   });
 }
 
 }  // namespace sim

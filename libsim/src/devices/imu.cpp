@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -70,6 +71,43 @@ void Imu::hash(StateHash& hash) const {
   for (const double x : {gained_x_mps_, gained_y_mps_, turned_rad_, time_s_, yaw_rad_}) {
     hash.add(x);
   }
+}
+
+constexpr Field kImuSettings[] = {
+    frequency_field<&ImuParams::frequency_hz>(),
+    field<&ImuParams::noise_mps2>("noise_acceleration", "m/s^2",
+                                  "standard deviation of an acceleration")
+        .within(0.0, 1000.0),
+    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s", "of a turning rate")
+        .within(0.0, 3600.0),
+    field<&ImuParams::noise_ut>("noise_field", "uT", "of the magnetic field").within(0.0, 1000.0),
+    field<&ImuParams::bias_mps2>("bias_acceleration", "m/s^2",
+                                 "standard deviation of each axis's constant error")
+        .within(0.0, 1000.0),
+    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s", "the same of the turning rates")
+        .within(0.0, 3600.0),
+    field<&ImuParams::field_horizontal_ut>("field_horizontal", "uT",
+                                           "of the Earth's magnetic field, to the north")
+        .within(0.0, 1000.0),
+    field<&ImuParams::field_down_ut>("field_down", "uT", "of that field, downwards")
+        .within(-1000.0, 1000.0),
+    north_field<&ImuParams::north_rad>(),
+};
+SIM_FIELDS(ImuParams, kImuSettings)
+
+constexpr Field kImuReading[] = {
+    field<&ImuReading::acceleration_mps2>("acceleration", "m/s^2"),
+    field<&ImuReading::rate_radps>("rate", "rad/s"),
+    field<&ImuReading::field_ut>("field", "uT"),
+    field<&ImuReading::yaw_rad>("yaw", "rad"),
+};
+SIM_FIELDS(ImuReading, kImuReading)
+
+DeviceKind imu_kind() {
+  return device_kind<ImuParams, ImuReading>(
+      "imu", {{"imu"}}, [](const DeviceOrder& order, const ImuParams& params) {
+        return std::make_unique<Imu>(order.name(), params, order.robot.pose.yaw_rad, order.noise());
+      });
 }
 
 }  // namespace sim

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 
 namespace sim {
@@ -49,6 +50,54 @@ void Laser::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
   hash.add_bytes(reading_.ranges_m.data(), reading_.ranges_m.size() * sizeof(double));
+}
+
+namespace {
+
+std::optional<FieldFault> laser_view_fault(const void* object) {
+  const auto& p = *static_cast<const LaserParams*>(object);
+  const double field_of_view_rad = p.resolution_rad * (p.beam_count - 1);
+  if (field_of_view_rad <= 2.0 * std::numbers::pi + 1e-9) return std::nullopt;
+  return FieldFault{"device/laser-field-of-view",
+                    "beams that span at most 360 degrees together, (beams - 1) * resolution_deg",
+                    rounded_text(field_of_view_rad / kDegrees, 6) + " degrees", ""};
+}
+
+}  // namespace
+
+constexpr Field kLaserSettings[] = {
+    frequency_field<&LaserParams::frequency_hz>("scans a simulated second"),
+    noise_field<&LaserParams::noise_m>("standard deviation of a range"),
+    field<&LaserParams::beam_count>("beams", "", "number of beams").within(1, 8192),
+    field<&LaserParams::resolution_rad>(
+        "resolution_deg", "degrees",
+        "angle between neighbouring beams; all beams together span at most 360")
+        .within(1e-4, 360.0),
+    range_max_field<&LaserParams::range_max_m>(
+        "greatest range, and what a beam reads that meets nothing"),
+    mount_field<&LaserParams::X_BL>("mounting on the body, X_BL"),
+    height_field<&LaserParams::height_m>("above the floor; lower obstacles are not seen"),
+    field<&LaserParams::size_m>(
+        "size", "m", "of its case along its own x and y, [0, 100] each; only told to programs")
+        .within(0.0, 100.0),
+    field<&LaserParams::size_height_m>("size_height", "m", "the same upwards").within(0.0, 100.0),
+};
+SIM_FIELDS(LaserParams, kLaserSettings, laser_view_fault)
+
+constexpr Field kLaserReading[] = {
+    field<&LaserReading::ranges_m>("ranges", "m"),
+    field<&LaserReading::angle_min_rad>("angle_min", "rad"),
+    field<&LaserReading::resolution_rad>("resolution", "rad"),
+    field<&LaserReading::range_max_m>("range_max", "m"),
+};
+SIM_FIELDS(LaserReading, kLaserReading)
+
+DeviceKind laser_kind() {
+  return device_kind<LaserParams, LaserReading>(
+      "laser", {{"laser"}, {"ranger"}}, [](const DeviceOrder& order, const LaserParams& params) {
+        return std::make_unique<Laser>(
+            order.name(), params, !well_within(order.model.footprint, params.X_BL), order.noise());
+      });
 }
 
 }  // namespace sim

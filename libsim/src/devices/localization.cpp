@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "devices/device_kind.h"
+
 namespace sim {
 namespace {
 
@@ -116,6 +118,59 @@ void Odometry::hash(StateHash& hash) const {
   hash_pose(hash, X_SB_);
   if (X_SR_ != X_SB_) hash_pose(hash, X_SR_);
   if (path_length_m_ != 0.0) hash.add(path_length_m_);
+}
+
+constexpr const char* kLevels[] = {"integrated", "differential", "raw"};
+
+constexpr Field kPoseSettings[] = {
+    frequency_field<&PoseParams::frequency_hz>(),
+    noise_field<&PoseParams::noise_m>("standard deviation of x and of y"),
+    field<&PoseParams::noise_yaw_rad>("noise_yaw_deg", "degrees",
+                                      "standard deviation of the heading")
+        .within(0.0, 360.0),
+};
+SIM_FIELDS(PoseParams, kPoseSettings)
+
+constexpr Field kOdometrySettings[] = {
+    frequency_field<&OdometryParams::frequency_hz>(
+        "readings a simulated second; the wheels are integrated each step"),
+    field<&OdometryParams::noise>(
+        "noise", "m after 1 m",
+        "standard deviation of a wheel's path after 1 m of it; grows with the root of the path")
+        .within(0.0, 10.0),
+    field<&OdometryParams::level>("level", "",
+                                  "what clients of MORSE's protocol are shown: `\"integrated\"`, "
+                                  "`\"differential\"` or `\"raw\"`, see below")
+        .one_of(kLevels),
+};
+SIM_FIELDS(OdometryParams, kOdometrySettings)
+
+constexpr Field kPoseReading[] = {
+    field<&PoseReading::pose>("", "m, rad"),
+    field<&PoseReading::twist, &Twist::v_mps>("v", "m/s"),
+    field<&PoseReading::twist, &Twist::omega_radps>("omega", "rad/s"),
+    field<&PoseReading::twist, &Twist::lateral_mps>("lateral", "m/s"),
+    field<&PoseReading::stalled>("stalled"),
+    field<&PoseReading::path_length_m>("path_length", "m"),
+    field<&PoseReading::increment>("increment", "m, rad"),
+};
+SIM_FIELDS(PoseReading, kPoseReading)
+
+DeviceKind odometry_kind() {
+  return device_kind<OdometryParams, PoseReading>(
+      "odometry", {{"position2d", 1}}, [](const DeviceOrder& order, const OdometryParams& params) {
+        const DriveDescription& drive = order.model.drive;
+        return std::make_unique<Odometry>(order.name(), params, drive.wheel_separation_m,
+                                          drive.kind == DriveKind::kOmnidirectional, order.noise());
+      });
+}
+
+DeviceKind pose_kind() {
+  return device_kind<PoseParams, PoseReading>(
+      "pose", {{"localize"}, {"position2d"}},
+      [](const DeviceOrder& order, const PoseParams& params) {
+        return std::make_unique<PoseSensor>(order.name(), params, order.robot.pose, order.noise());
+      });
 }
 
 }  // namespace sim

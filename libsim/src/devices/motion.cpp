@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "devices/device_kind.h"
+
 namespace sim {
 namespace {
 
@@ -311,6 +313,65 @@ void Motion::hash(StateHash& hash) const {
     hash.add(heading_.frame);
   }
   if (mode_ == Mode::kPosition) position_.hash(hash);
+}
+
+namespace {
+
+// Of robots that have no steering: beyond it the turn rate has long reached its limit.
+constexpr double kMostSteering_rad = 80.0 * kDegrees;
+
+/// The drive as its motors are told of it: a robot that is no car pretends to be one as long as
+/// itself when it is told to drive like one.
+DriveDescription drive_of(const RobotModel& model) {
+  DriveDescription drive = model.drive;
+  if (drive.kind == DriveKind::kCar || model.footprint.empty()) return drive;
+  const auto [rear, front] =
+      std::minmax_element(model.footprint.begin(), model.footprint.end(),
+                          [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+  drive.wheelbase_m = front->x() - rear->x();
+  drive.max_steering_rad = kMostSteering_rad;
+  return drive;
+}
+
+}  // namespace
+
+constexpr Field kMotionSettings[] = {
+    field<&MotionParams::max_speed_mps>("max_speed", "m/s",
+                                        "commands beyond it are clamped, either way")
+        .above(0.0, 20.0),
+    field<&MotionParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
+                                              "the same for turning; default 3 rad/s")
+        .above(0.0, 3600.0),
+    field<&MotionParams::max_acceleration_mps2>("max_acceleration", "m/s^2",
+                                                "0: no limit, the speed changes within a step")
+        .within(0.0, 1000.0),
+    field<&MotionParams::max_turn_acceleration_radps2>("max_turn_acceleration_deg", "degrees/s^2",
+                                                       "0: no limit")
+        .within(0.0, 1e6),
+    field<&MotionParams::enabled_at_start>("enabled", "",
+                                           "whether the motors are on before a program says so")
+        .untold(),
+    field<&MotionParams::approach_gain>("approach_gain", "1/s",
+                                        "position control: speed for each metre that is missing")
+        .above(0.0, 50.0),
+    field<&MotionParams::turn_gain>(
+        "turn_gain", "1/s",
+        "control of position and heading: turn rate for each radian that is missing")
+        .above(0.0, 50.0),
+    field<&MotionParams::tolerance_m>("tolerance", "m",
+                                      "position control: so near to its goal the robot is there")
+        .above(0.0, 1000.0),
+    field<&MotionParams::heading_tolerance_rad>("heading_tolerance_deg", "degrees",
+                                                "the same for its heading; default 0.01 rad")
+        .above(0.0, 180.0),
+};
+SIM_FIELDS(MotionParams, kMotionSettings)
+
+DeviceKind motion_kind() {
+  return device_kind<MotionParams, void>(
+      "motion", {}, [](const DeviceOrder& order, const MotionParams& params) {
+        return std::make_unique<Motion>(order.name(), params, drive_of(order.model));
+      });
 }
 
 }  // namespace sim

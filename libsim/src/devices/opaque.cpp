@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/device_kind.h"
+
 namespace sim {
 
 Opaque::Opaque(std::string name, const OpaqueParams& params)
@@ -79,6 +81,46 @@ void Opaque::hash(StateHash& hash) const {
   hash.add(reading_.number);
   hash.add(lost_);
   for (const Message& message : arrived_) hash.add_bytes(message.data(), message.size());
+}
+
+namespace {
+
+bool read_sender(const io::Reader& value, void* sender) {
+  const std::optional<std::string> text = value.scalar_text();
+  if (!value.is_string() || !text || text->empty()) return false;
+  *static_cast<std::string*>(sender) = *text;
+  return true;
+}
+
+std::string sender_text(const void* sender) {
+  return '"' + *static_cast<const std::string*>(sender) + '"';
+}
+
+}  // namespace
+
+constexpr ElementType kSender{read_sender, sender_text, R"({"type": "string"})"};
+
+constexpr Field kOpaqueSettings[] = {
+    frequency_field<&OpaqueParams::frequency_hz>(
+        "readings a simulated second, each of which takes one message at most"),
+    field<&OpaqueParams::from>("from", "",
+                               "whose messages arrive here, at most 64: `\"ROBOT\"`, for its "
+                               "device `opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
+        .of(kSender)
+        .counting(0, OpaqueParams::kMaxSenders)
+        .or_fault("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),
+};
+SIM_FIELDS(OpaqueParams, kOpaqueSettings)
+
+constexpr Field kOpaqueReading[] = {
+    field<&OpaqueReading::data>("data"),
+    field<&OpaqueReading::number>("number"),
+    field<&OpaqueReading::lost>("lost"),
+};
+SIM_FIELDS(OpaqueReading, kOpaqueReading)
+
+DeviceKind opaque_kind() {
+  return device_kind<Opaque, OpaqueParams, OpaqueReading>("opaque", {{"opaque"}});
 }
 
 }  // namespace sim

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/pen.h"
 
+#include "devices/device_kind.h"
+
 namespace sim {
 
 Pen::Pen(std::string name, const PenParams& params)
@@ -26,5 +28,13 @@ void Pen::hash(StateHash& hash) const {
   hash.add(last_column_);
   hash.add(last_row_);
 }
+
+constexpr Field kPenSettings[] = {
+    field<&PenParams::colour>("colour", "", "of the trail: `#RGB`, `#RRGGBB` or `#RRGGBBAA`"),
+    field<&PenParams::trail>("trail", "", "mark the robot's way without being told"),
+};
+SIM_FIELDS(PenParams, kPenSettings)
+
+DeviceKind pen_kind() { return device_kind<Pen, PenParams, void>("pen", {{"graphics2d"}}); }
 
 }  // namespace sim

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 #include "sim/world/description.h"
 
@@ -42,6 +43,30 @@ void Proximity::measure(const StepContext& context) {
   std::sort(found.begin(), found.end(), [](const Neighbour& a, const Neighbour& b) {
     return std::tie(a.name, a.distance_m) < std::tie(b.name, b.distance_m);
   });
+}
+
+constexpr Field kProximitySettings[] = {
+    frequency_field<&ProximityParams::frequency_hz>(),
+    field<&ProximityParams::range_m>("range", "m", "how far it sees")
+        .within(kLeastLength_m, 1000.0),
+    field<&ProximityParams::obstacles>(
+        "obstacles", "", "tells obstacles and dock separators, too, not robots alone"),
+};
+SIM_FIELDS(ProximityParams, kProximitySettings)
+
+constexpr Field kNeighbour[] = {
+    field<&ProximityReading::Neighbour::name>("name"),
+    field<&ProximityReading::Neighbour::distance_m>("distance", "m"),
+};
+SIM_FIELDS(ProximityReading::Neighbour, kNeighbour)
+
+constexpr Field kProximityReading[] = {
+    field<&ProximityReading::near_objects>("near_objects"),
+};
+SIM_FIELDS(ProximityReading, kProximityReading)
+
+DeviceKind proximity_kind() {
+  return device_kind<Proximity, ProximityParams, ProximityReading>("proximity", {});
 }
 
 }  // namespace sim

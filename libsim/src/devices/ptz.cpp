@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -69,5 +70,54 @@ void Ptz::hash(StateHash& hash) const {
     for (const double x : {axis->now, axis->goal, axis->speed}) hash.add(x);
   }
 }
+
+namespace {
+
+std::optional<FieldFault> ptz_view_fault(const void* object) {
+  const auto& p = *static_cast<const PtzParams*>(object);
+  if (p.view_min_rad <= p.view_max_rad) return std::nullopt;
+  return FieldFault{"device/ptz-field-of-view",
+                    "a field_of_view_min_deg of at most field_of_view_max_deg",
+                    rounded_text(p.view_min_rad / kDegrees, 6) + " and " +
+                        rounded_text(p.view_max_rad / kDegrees, 6) + " degrees",
+                    ""};
+}
+
+}  // namespace
+
+constexpr Field kPtzSettings[] = {
+    frequency_field<&PtzParams::frequency_hz>(),
+    field<&PtzParams::pan_max_rad>("pan_max_deg", "degrees", "as far as it turns to either side")
+        .within(0.0, 180.0),
+    field<&PtzParams::tilt_max_rad>("tilt_max_deg", "degrees", "as far as it looks up and down")
+        .within(0.0, 60.0),
+    field<&PtzParams::view_min_rad>("field_of_view_min_deg", "degrees",
+                                    "of the lens, from side to side, zoomed in")
+        .within(0.01, 170.0),
+    field<&PtzParams::view_max_rad>("field_of_view_max_deg", "degrees",
+                                    "zoomed out, as at the start")
+        .within(0.01, 170.0),
+    field<&PtzParams::pan_speed_radps>("pan_speed_deg", "degrees/s", "how fast it turns")
+        .above(0.0, 3600.0),
+    field<&PtzParams::tilt_speed_radps>("tilt_speed_deg", "degrees/s", "how fast it tilts")
+        .above(0.0, 3600.0),
+    field<&PtzParams::zoom_speed_radps>("zoom_speed_deg", "degrees/s",
+                                        "how fast the field of view changes")
+        .above(0.0, 3600.0),
+};
+SIM_FIELDS(PtzParams, kPtzSettings, ptz_view_fault)
+
+constexpr Field kPtzReading[] = {
+    field<&PtzReading::pan_rad>("pan", "rad"),
+    field<&PtzReading::tilt_rad>("tilt", "rad"),
+    field<&PtzReading::view_rad>("view", "rad"),
+    field<&PtzReading::pan_speed_radps>("pan_speed", "rad/s"),
+    field<&PtzReading::tilt_speed_radps>("tilt_speed", "rad/s"),
+    field<&PtzReading::zoom_speed_radps>("zoom_speed", "rad/s"),
+    field<&PtzReading::moving>("moving"),
+};
+SIM_FIELDS(PtzReading, kPtzReading)
+
+DeviceKind ptz_kind() { return device_kind<Ptz, PtzParams, PtzReading>("ptz", {{"ptz"}}); }
 
 }  // namespace sim

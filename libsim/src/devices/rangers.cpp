@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/degrees.h"
@@ -116,6 +117,78 @@ void Ranger::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
   hash.add_bytes(reading_.ranges_m.data(), reading_.ranges_m.size() * sizeof(double));
+}
+
+namespace {
+
+std::optional<FieldFault> mountings_fault(const void* object) {
+  const auto& reading = *static_cast<const RangerReading*>(object);
+  if (reading.X_BS.size() == reading.ranges_m.size()) return std::nullopt;
+  return FieldFault{"", "as many as there are ranges", "", "", "mountings"};
+}
+
+std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams& params) {
+  const bool may_be_inside = !std::ranges::all_of(
+      params.X_BS, [&order](const Pose& X_BS) { return well_within(order.model.footprint, X_BS); });
+  return std::make_unique<Ranger>(order.name(), order.device.type, params, may_be_inside,
+                                  order.noise());
+}
+
+}  // namespace
+
+constexpr Field kRangerSettings[] = {
+    frequency_field<&RangerParams::frequency_hz>(),
+    noise_field<&RangerParams::noise_m>("standard deviation of a range"),
+    range_max_field<&RangerParams::range_max_m>(
+        "greatest range, and what a transducer reads that meets nothing"),
+    height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
+    field<&RangerParams::X_BS>("mounts", "m, degrees",
+                               "where each transducer sits on the body and looks, X_BS; 1 to 64 "
+                               "of them")
+        .counting(1, RangerParams::kMaxTransducers)
+        .or_fault("device/ranger-mounts",
+                  "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")
+        .told_as("mount")
+        .telling_each(),
+};
+SIM_FIELDS(RangerParams, kRangerSettings)
+
+static_assert(RangerParams::kMaxTransducers == 64, "the texts above say so");
+
+constexpr Field kInfrared[] = {
+    include<InfraredParams, RangerParams>(),
+    field<&InfraredParams::field_of_view_rad>("field_of_view", "rad").only_told(),
+    field<&InfraredParams::voltage_gain_vm>("voltage_gain", "V m",
+                                            "of the sensor curve, gain / (range + shift)")
+        .above(0.0, 1000.0),
+    field<&InfraredParams::voltage_shift_m>("voltage_shift", "m", "of the sensor curve")
+        .above(0.0, 10.0),
+};
+SIM_FIELDS(InfraredParams, kInfrared)
+
+constexpr Field kSonar[] = {
+    include<SonarParams, RangerParams>(),
+    field<&SonarParams::field_of_view_rad>("field_of_view_deg", "degrees",
+                                           "full angle of each transducer's cone")
+        .within(0.01, 180.0),
+};
+SIM_FIELDS(SonarParams, kSonar)
+
+constexpr Field kRangerReading[] = {
+    field<&RangerReading::ranges_m>("ranges", "m"),
+    field<&RangerReading::X_BS>("mountings", "m, rad"),
+    field<&RangerReading::range_max_m>("range_max", "m"),
+    field<&RangerReading::field_of_view_rad>("field_of_view", "rad"),
+};
+SIM_FIELDS(RangerReading, kRangerReading, mountings_fault)
+
+DeviceKind infrared_kind() {
+  return device_kind<InfraredParams, RangerReading>("infrared", {{"ir"}, {"ranger", 2}},
+                                                    make_ranger);
+}
+
+DeviceKind sonar_kind() {
+  return device_kind<SonarParams, RangerReading>("sonar", {{"ranger", 1}, {"sonar"}}, make_ranger);
 }
 
 }  // namespace sim

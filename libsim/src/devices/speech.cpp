@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -35,5 +36,14 @@ void Speech::hash(StateHash& hash) const {
   hash.add(text_);
   hash.add(text_.empty() ? SimTime{0} : left_ns_);
 }
+
+constexpr Field kSpeechSettings[] = {
+    field<&SpeechParams::shown_s>("shown", "s",
+                                  "for so long a text stands over the robot in pictures")
+        .above(0.0, 1000.0),
+};
+SIM_FIELDS(SpeechParams, kSpeechSettings)
+
+DeviceKind speech_kind() { return device_kind<Speech, SpeechParams, void>("speech", {{"speech"}}); }
 
 }  // namespace sim

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
+
 namespace sim {
 
 Teleport::Teleport(std::string name, const TeleportParams&)
@@ -29,5 +31,9 @@ std::optional<std::string> Teleport::carry_out(const Command& command, RobotCont
 }
 
 void Teleport::hash(StateHash&) const {}
+
+SIM_FIELDS(TeleportParams, {})
+
+DeviceKind teleport_kind() { return device_kind<Teleport, TeleportParams, void>("teleport", {}); }
 
 }  // namespace sim

@@ -5,21 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "sim/core/number_text.h"
 
 namespace sim {
-
-std::string_view to_string(WaypointStatus status) noexcept {
-  switch (status) {
-    case WaypointStatus::kArrived:
-      return "Arrived";
-    case WaypointStatus::kTransit:
-      return "Transit";
-    case WaypointStatus::kStop:
-      break;
-  }
-  return "Stop";
-}
 
 Twist waypoint_twist(const Pose& X_WB, const GotoCommand& goal, const WaypointParams& params) {
   const Vec2 way = goal.goal_m - X_WB.position();
@@ -132,6 +121,47 @@ void Waypoint::hash(StateHash& hash) const {
   for (const double x : {goal_.goal_m.x(), goal_.goal_m.y(), goal_.tolerance_m, goal_.speed_mps}) {
     hash.add(x);
   }
+}
+
+constexpr const char* kWaypointWords[] = {"Arrived", "Transit", "Stop"};
+
+constexpr Field kWaypointSettings[] = {
+    frequency_field<&WaypointParams::frequency_hz>(
+        "readings a simulated second; steering is done each step"),
+    field<&WaypointParams::tolerance_m>(
+        "tolerance", "m",
+        "so near to a goal the robot has arrived, where a program names no tolerance")
+        .above(0.0, 1000.0),
+    field<&WaypointParams::speed_mps>(
+        "speed", "m/s", "at most, where a program names none; the motors' limits hold too")
+        .above(0.0, 20.0),
+    field<&WaypointParams::turn_gain>("turn_gain", "1/s", "turn rate a bearing of the goal")
+        .above(0.0, 50.0),
+    field<&WaypointParams::approach_gain>("approach_gain", "1/s", "speed a distance of the goal")
+        .above(0.0, 50.0),
+    field<&WaypointParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
+                                                "on the way to a goal; default 2 rad/s")
+        .above(0.0, 3600.0),
+};
+SIM_FIELDS(WaypointParams, kWaypointSettings)
+
+constexpr Field kWaypointReading[] = {
+    field<&WaypointReading::status>("status").one_of(kWaypointWords),
+    field<&WaypointReading::goal_number>("goal_number"),
+    field<&WaypointReading::goal_m>("", "m"),
+    field<&WaypointReading::distance_m>("distance", "m"),
+};
+SIM_FIELDS(WaypointReading, kWaypointReading)
+
+std::string_view to_string(WaypointStatus status) noexcept {
+  return kWaypointWords[static_cast<std::size_t>(status)];
+}
+
+DeviceKind waypoint_kind() {
+  return device_kind<WaypointParams, WaypointReading>(
+      "waypoint", {}, [](const DeviceOrder& order, const WaypointParams& params) {
+        return std::make_unique<Waypoint>(order.name(), params, order.robot.pose);
+      });
 }
 
 }  // namespace sim

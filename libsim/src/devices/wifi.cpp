@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "devices/device_kind.h"
 #include "physics/physics_world.h"
 #include "sim/world/description.h"
 
@@ -99,5 +100,49 @@ void Wifi::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
 }
+
+constexpr Field kAccessPoint[] = {
+    field<&AccessPoint::name>("name", "", "name of its network").needed("the name of its network"),
+    field<&AccessPoint::p_W>("", "m", "place in the world").within(-kFarthest_m, kFarthest_m),
+};
+SIM_FIELDS(AccessPoint, kAccessPoint)
+
+constexpr Field kWifiSettings[] = {
+    frequency_field<&WifiParams::frequency_hz>(),
+    field<&WifiParams::level_1m_dbm>("level_1m", "dBm", "signal 1 m from a sender")
+        .within(-200.0, 100.0),
+    field<&WifiParams::exponent>("exponent", "",
+                                 "path loss exponent: 2 in free space, 3 or so in a building")
+        .above(0.0, 10.0),
+    field<&WifiParams::noise_db>("noise", "dB", "standard deviation of a level (shadowing)")
+        .within(0.0, 100.0),
+    field<&WifiParams::floor_dbm>("floor", "dBm", "noise of the channel").within(-200.0, 100.0),
+    field<&WifiParams::least_dbm>("least", "dBm", "weaker links are not listed")
+        .within(-200.0, 100.0),
+    field<&WifiParams::channel_mhz>("channel", "MHz", "carrier").above(0.0, 100'000.0),
+    field<&WifiParams::access_points>("access_points", "m",
+                                      "list of at most 64 `{\"name\", \"x\", \"y\"}` in the world")
+        .counting(0, 64),
+};
+SIM_FIELDS(WifiParams, kWifiSettings)
+
+constexpr Field kLink[] = {
+    field<&WifiReading::Link::name>("name"),
+    field<&WifiReading::Link::mac>("mac"),
+    field<&WifiReading::Link::ip>("ip"),
+    field<&WifiReading::Link::access_point>("access_point"),
+    field<&WifiReading::Link::level_dbm>("level", "dBm"),
+};
+SIM_FIELDS(WifiReading::Link, kLink)
+
+constexpr Field kWifiReading[] = {
+    field<&WifiReading::links>("links"),
+    field<&WifiReading::own_ip>("own.ip"),
+    field<&WifiReading::floor_dbm>("floor", "dBm"),
+    field<&WifiReading::channel_mhz>("channel", "MHz"),
+};
+SIM_FIELDS(WifiReading, kWifiReading)
+
+DeviceKind wifi_kind() { return device_kind<Wifi, WifiParams, WifiReading>("wifi", {{"wifi"}}); }
 
 }  // namespace sim

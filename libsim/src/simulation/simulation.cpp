@@ -152,10 +152,8 @@ struct Simulation::Impl {
     }
     parts.first_slot = static_cast<std::uint32_t>(slots.size());
     for (const DeviceDescription& device : robot.devices) {
-      const auto& kinds = device_kinds();
-      const auto row = std::find_if(kinds.begin(), kinds.end(),
-                                    [&](const DeviceKind& k) { return k.name == device.type; });
-      SIM_ASSERT(row != kinds.end());
+      const DeviceKind* row = find_device_kind(device.type);
+      SIM_ASSERT(row != nullptr);
       parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
       Device* made = parts.devices.back().get();
       auto* const sensor = dynamic_cast<Sensor*>(made);

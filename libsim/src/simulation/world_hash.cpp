@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation/world_hash.h"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -53,11 +52,8 @@ void add(StateHash& hash, const std::vector<DeviceDescription>& devices) {
     hash.add(device.name);
     hash.add(device.type);
     if (!device.params.has_value()) continue;
-    const std::vector<DeviceKind>& kinds = device_kinds();
-    const auto kind = std::find_if(kinds.begin(), kinds.end(), [&device](const DeviceKind& k) {
-      return k.name == device.type;
-    });
-    if (kind == kinds.end()) continue;
+    const DeviceKind* kind = find_device_kind(device.type);
+    if (kind == nullptr) continue;
     for (const auto& [name, value] : kind->properties(device.params)) {
       hash.add(name);
       hash.add(value);

@@ -25,6 +25,7 @@
 #include "sim/devices/builtin.h"
 #include "sim/devices/bumper.h"
 #include "sim/devices/camera.h"
+#include "sim/devices/compass.h"
 #include "sim/devices/contact_sensors.h"
 #include "sim/devices/dio.h"
 #include "sim/devices/fiducial.h"
@@ -293,6 +294,11 @@ template <typename F>
 void each(sim::CollisionReading& v, F& f) {
   each_of_reading(v, f);
   f(v.collision), f(v.objects);
+}
+template <typename F>
+void each(sim::CompassReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.heading_rad);
 }
 template <typename F>
 void each(sim::FiducialReading::Mark& v, F& f) {
@@ -1103,6 +1109,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
                 arrives_if<sim::DioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::OpaqueReading>(*sensor, GetParam()) ||
                 arrives_if<sim::CollisionReading>(*sensor, GetParam()) ||
+                arrives_if<sim::CompassReading>(*sensor, GetParam()) ||
                 arrives_if<sim::FiducialReading>(*sensor, GetParam()) ||
                 arrives_if<sim::GpsReading>(*sensor, GetParam()) ||
                 arrives_if<sim::GripperReading>(*sensor, GetParam()) ||
@@ -1114,7 +1121,7 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
                 arrives_if<sim::RangerReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WaypointReading>(*sensor, GetParam()) ||
                 arrives_if<sim::WifiReading>(*sensor, GetParam()))
-        << "the readings of " << kind.name << " need a codec (device_codec.cpp) and a line here";
+        << "the readings of " << kind.name << " need a line here";
   }
   EXPECT_GE(sensors, 9);
 }
@@ -1158,6 +1165,7 @@ TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
     all.emplace_back("dio", std::make_unique<sim::DioReading>());
     all.emplace_back("opaque", std::make_unique<sim::OpaqueReading>());
     all.emplace_back("collision", std::make_unique<sim::CollisionReading>());
+    all.emplace_back("compass", std::make_unique<sim::CompassReading>());
     all.emplace_back("fiducial", std::make_unique<sim::FiducialReading>());
     all.emplace_back("gps", std::make_unique<sim::GpsReading>());
     all.emplace_back("gripper", std::make_unique<sim::GripperReading>());

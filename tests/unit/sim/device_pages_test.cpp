@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "field_pages.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
@@ -121,6 +122,21 @@ INSTANTIATE_TEST_SUITE_P(All, DevicePage, testing::ValuesIn(device_kinds()),
 TEST_P(DevicePage, ExistsAndIsNamedAfterTheType) {
   ASSERT_TRUE(fs::exists(page_file())) << page_file();
   EXPECT_TRUE(read_bytes(page_file()).starts_with("# " + type() + "\n"));
+}
+
+TEST_P(DevicePage, HasTheTableThatTheFieldsMake) {
+  const std::string page = read_bytes(page_file());
+  const std::size_t section = page.find("\n## Settings\n");
+  ASSERT_NE(section, std::string::npos);
+  const std::size_t first = std::min(page.find("\n| key |", section) + 1, page.size());
+  const std::size_t last = std::min(page.find("\n\n", first) + 1, page.size());
+  const std::string made = test::settings_table(GetParam());
+  if (made.empty()) return;
+  if (test::writes_pages()) {
+    test::write_page(page_file().string(), page.substr(0, first) + made + page.substr(last));
+  } else {
+    EXPECT_EQ(page.substr(first, last - first), made) << "PLAYPEN_WRITE_PAGES=1 writes it anew";
+  }
 }
 
 TEST_P(DevicePage, ListsTheKeysThatTheReaderKnowsAndNoOther) {

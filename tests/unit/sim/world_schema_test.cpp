@@ -10,9 +10,11 @@
 #include <string>
 
 #include "device_table.h"
+#include "field_pages.h"
 #include "known_keys.h"
 #include "sim/io/world_io.h"
 #include "sim/world/robot_model.h"
+#include "temporary_folder.h"
 
 namespace sim::io {
 namespace {
@@ -74,6 +76,15 @@ TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
     EXPECT_EQ(keys, keys_of(definition.at("properties"))) << pointer;
     EXPECT_EQ(definition.at("additionalProperties"), false) << pointer;
   }
+}
+
+TEST(WorldSchema, IsMadeOfTheFieldsOfDevices) {
+  const std::string file = std::string(PLAYPEN_SOURCE_DIR) + "/worlds/schema/world.schema.json";
+  const std::string now = test_support::read_bytes(file);
+  const std::string made = test::json_text(test::with_devices(test::Json::parse(now))) + "\n";
+  if (test::writes_pages()) test::write_page(file, made);
+  EXPECT_TRUE(now == made || test::writes_pages())
+      << file << " is not what the fields say: set PLAYPEN_WRITE_PAGES=1 to write it anew";
 }
 
 TEST(WorldSchema, ExplainsEachKey) {

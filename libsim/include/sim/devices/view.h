@@ -4,6 +4,7 @@
 #include <numbers>
 #include <string>
 
+#include "sim/core/fields.h"
 #include "sim/core/pose.h"
 
 namespace sim {
@@ -24,6 +25,9 @@ struct ViewParams {
   static constexpr int kMaxHeight = 480;
   static constexpr double kMaxView_rad = 170.0 / 180.0 * std::numbers::pi;
 };
+
+template <>
+const FieldTable& fields_of<ViewParams>();
 
 /// How the world is projected on a picture: an ideal pinhole with square pixels, its axis
 /// horizontal (Hartley, Zisserman, Multiple View Geometry, 2nd ed. 2004, sec. 6.1, with the

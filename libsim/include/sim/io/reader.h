@@ -12,17 +12,12 @@
 
 #include "sim/core/colour.h"
 #include "sim/core/error.h"
+#include "sim/core/fields.h"
 #include "sim/core/pose.h"
 
 namespace sim::io {
 
-/// Bounds of a number; the text says them as a person would.
-struct NumberRange {
-  double min = -1e9;
-  double max = 1e9;
-  bool min_exclusive = false;
-  const char* unit = "";  ///< for messages, e.g. "m"
-};
+using sim::NumberRange;
 
 /// A view of one JSON value of a file, with the place it stands at.
 ///

@@ -1,0 +1,425 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "sim/core/colour.h"
+#include "sim/core/hash.h"
+#include "sim/core/pose.h"
+
+/// @file
+/// A struct that crosses a border (settings, readings, commands, requests) lists its fields once,
+/// in a FieldTable beside it. Readers, writers, checks, hashes and documentation walk that table;
+/// none of them is a template, so a further struct costs its table and no code.
+///
+///     constexpr Field kReadingFields[] = {
+///         field<&LaserReading::ranges_m>("ranges", "m"),
+///         field<&LaserReading::range_max_m>("range_max", "m"),
+///     };
+///     SIM_FIELDS(LaserReading, kReadingFields)
+namespace sim {
+
+namespace io {
+class Reader;
+}
+
+/// Bounds of a number; the text says them as a person would.
+struct NumberRange {
+  double min = -1e9;
+  double max = 1e9;
+  bool min_exclusive = false;
+  const char* unit = "";  ///< for messages, e.g. "m"
+};
+
+/// What a member holds. Deduced from its C++ type.
+enum class FieldType : std::uint8_t {
+  kNumber,   ///< double
+  kInt,      ///< int
+  kInt64,    ///< std::int64_t
+  kUint32,   ///< std::uint32_t
+  kUint64,   ///< std::uint64_t, at most 2^63 - 1
+  kBool,     ///< bool
+  kText,     ///< std::string
+  kChoice,   ///< an enumeration of the size of an int, whose values count from 0: see Field::words
+  kColour,   ///< Colour
+  kVec2,     ///< Vec2
+  kPose,     ///< Pose
+  kVec3,     ///< std::array<double, 3>
+  kBytes,    ///< std::vector<std::uint8_t>, opaque
+  kOctets,   ///< std::vector<std::uint8_t>, numbers from 0 to 255
+  kNumbers,  ///< std::vector<double>
+  kTexts,    ///< std::vector<std::string>
+  kPoses,    ///< std::vector<Pose>
+  kList,     ///< std::vector of structs that have a table, or of what Field::element reads
+  kStruct,   ///< a struct that has a table
+  kInclude,  ///< a base class that has a table: its fields stand among those of the derived class
+  kCustom,   ///< see Field::custom
+};
+
+/// What is wrong with the fields of a struct together.
+struct FieldFault {
+  std::string id;        ///< in world files, e.g. "device/battery-voltage"
+  std::string expected;  ///< in words, after "expected "
+  std::string found;
+  std::string hint;
+  const char* key = "";  ///< the field that is at fault; empty: the struct
+};
+
+struct Field;
+
+/// The fields of a struct, in the order in which they are read, written and shown.
+struct FieldTable {
+  std::span<const Field> fields;
+  /// Looks at all fields together once they are read; nullptr: nothing to look at.
+  std::optional<FieldFault> (*check)(const void* object) = nullptr;
+};
+
+/// The table of a struct: specialised beside the struct.
+template <typename Struct>
+[[nodiscard]] const FieldTable& fields_of();
+
+/// Defines fields_of<Struct>() in namespace sim: SIM_FIELDS(Struct, kFields), or
+/// SIM_FIELDS(Struct, kFields, check).
+#define SIM_FIELDS(Struct, ...)                         \
+  template <>                                           \
+  const FieldTable& fields_of<Struct>() {               \
+    static constexpr FieldTable kTable = {__VA_ARGS__}; \
+    return kTable;                                      \
+  }
+
+/// How to walk a std::vector of a type that the walker does not know.
+struct ListAccess {
+  std::size_t (*size)(const void* list);
+  const void* (*at)(const void* list, std::size_t index);
+  void* (*append)(void* list);
+  void (*clear)(void* list);
+};
+
+/// An element of a list that stands in world files as a single value.
+struct ElementType {
+  bool (*read)(const io::Reader& value, void* element);  ///< false: it makes no sense
+  std::string (*text)(const void* element);              ///< as JSON
+  const char* schema;                                    ///< JSON schema of a value
+};
+
+/// A field that no FieldType fits; its functions are given the struct itself. World files only.
+struct CustomField {
+  void (*read)(io::Reader& settings, const Field& field, void* object);
+  std::string (*text)(const void* object);  ///< as JSON
+  void (*tell)(const void* object, std::map<std::string, double>& properties);
+  const char* schema;  ///< members of its JSON schema, without braces
+};
+
+/// One field of a struct. Made by field<>(), include<>() and custom<>().
+struct Field {
+  const char* name;  ///< its key; empty for a vector or pose whose parts stand in its place
+  FieldType type;
+  NumberRange range = {};    ///< of a number, or of each part; its unit is that of the field
+  const char* meaning = "";  ///< a phrase in lower case, in Markdown
+  std::int64_t least = 0;    ///< of a whole number
+  std::int64_t greatest = 0;
+  std::size_t fewest = 0;  ///< elements of a list
+  std::size_t most = std::numeric_limits<std::size_t>::max();
+  std::span<const char* const> words = {};  ///< of a choice, in the order of its values
+  /// What clients are told it is; nullptr: the name without _deg.
+  const char* property = nullptr;
+  bool told = true;              ///< clients are told of it
+  bool told_only = false;        ///< it is no setting of world files
+  bool tells_elements = false;   ///< clients are told of each element, not of their number alone
+  bool may_be_left_out = false;  ///< on the wire, where it keeps its default
+  bool is_angle = false;         ///< in degrees in world files, in radians elsewhere
+  const char* needed_for = nullptr;  ///< a name that must be there, and what for
+  const char* fault_id = nullptr;    ///< of a list with wrong elements, or too few or many of them
+  const char* fault_text = nullptr;  ///< what was expected then
+  const FieldTable& (*table)() = nullptr;  ///< of a struct, or of a list's elements
+  const ListAccess* list = nullptr;
+  const ElementType* element = nullptr;
+  const CustomField* custom = nullptr;
+  /// The value in an object; nullptr if it is a std::optional without one.
+  const void* (*get)(const void* object) = nullptr;
+  /// The same to write to; a std::optional gets a value by it.
+  void* (*set)(void* object) = nullptr;
+  /// Takes the value of a std::optional away; nullptr for other members.
+  void (*drop)(void* object) = nullptr;
+
+  /// @name For tables: the same field with a trait more
+  /// @{
+  [[nodiscard]] constexpr Field within(double min, double max) const {
+    Field made = *this;
+    made.range = {min, max, false, range.unit};
+    made.least = static_cast<std::int64_t>(min);
+    made.greatest = static_cast<std::int64_t>(max);
+    return made;
+  }
+  [[nodiscard]] constexpr Field above(double min, double max) const {
+    Field made = within(min, max);
+    made.range.min_exclusive = true;
+    return made;
+  }
+  [[nodiscard]] constexpr Field counting(std::size_t from, std::size_t to) const {
+    return with<&Field::fewest>(from).with<&Field::most>(to);
+  }
+  [[nodiscard]] constexpr Field one_of(std::span<const char* const> all) const {
+    return with<&Field::words>(all);
+  }
+  [[nodiscard]] constexpr Field of(const ElementType& type_of_elements) const {
+    Field made = with<&Field::element>(&type_of_elements);
+    made.type = FieldType::kList;
+    made.table = nullptr;
+    return made;
+  }
+  [[nodiscard]] constexpr Field or_fault(const char* id, const char* expected) const {
+    return with<&Field::fault_id>(id).with<&Field::fault_text>(expected);
+  }
+  [[nodiscard]] constexpr Field told_as(const char* key) const {
+    return with<&Field::property>(key);
+  }
+  [[nodiscard]] constexpr Field needed(const char* what_for) const {
+    return with<&Field::needed_for>(what_for);
+  }
+  /// As numbers from 0 to 255, not as opaque bytes.
+  [[nodiscard]] constexpr Field as_octets() const { return with<&Field::type>(FieldType::kOctets); }
+  [[nodiscard]] constexpr Field or_default() const { return with<&Field::may_be_left_out>(true); }
+  [[nodiscard]] constexpr Field untold() const { return with<&Field::told>(false); }
+  [[nodiscard]] constexpr Field only_told() const { return with<&Field::told_only>(true); }
+  [[nodiscard]] constexpr Field telling_each() const { return with<&Field::tells_elements>(true); }
+  /// @}
+
+ private:
+  template <auto Trait, typename Value>
+  [[nodiscard]] constexpr Field with(Value value) const {
+    Field made = *this;
+    made.*Trait = value;
+    return made;
+  }
+};
+
+/// @cond
+namespace field_detail {
+
+template <typename Member>
+struct Parts;
+template <typename Type, typename Class>
+struct Parts<Type Class::*> {
+  using Owner = Class;
+};
+
+template <auto First, auto... Rest>
+[[nodiscard]] constexpr auto& follow(auto& object) {
+  if constexpr (sizeof...(Rest) == 0) {
+    return object.*First;
+  } else {
+    return follow<Rest...>(object.*First);
+  }
+}
+
+template <typename T>
+inline constexpr bool kIsOptional = false;
+template <typename T>
+inline constexpr bool kIsOptional<std::optional<T>> = true;
+template <typename T>
+inline constexpr bool kIsVector = false;
+template <typename T>
+inline constexpr bool kIsVector<std::vector<T>> = true;
+
+template <typename T>
+struct ValueOf {
+  using Type = T;
+};
+template <typename T>
+struct ValueOf<std::optional<T>> {
+  using Type = T;
+};
+
+template <typename T>
+[[nodiscard]] constexpr FieldType type_of() {
+  if constexpr (std::is_same_v<T, double>) return FieldType::kNumber;
+  if constexpr (std::is_same_v<T, int>) return FieldType::kInt;
+  if constexpr (std::is_same_v<T, std::int64_t>) return FieldType::kInt64;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return FieldType::kUint32;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return FieldType::kUint64;
+  if constexpr (std::is_same_v<T, bool>) return FieldType::kBool;
+  if constexpr (std::is_same_v<T, std::string>) return FieldType::kText;
+  if constexpr (std::is_enum_v<T>) return FieldType::kChoice;
+  if constexpr (std::is_same_v<T, Colour>) return FieldType::kColour;
+  if constexpr (std::is_same_v<T, Vec2>) return FieldType::kVec2;
+  if constexpr (std::is_same_v<T, Pose>) return FieldType::kPose;
+  if constexpr (std::is_same_v<T, std::array<double, 3>>) return FieldType::kVec3;
+  if constexpr (std::is_same_v<T, std::vector<std::uint8_t>>) return FieldType::kBytes;
+  if constexpr (std::is_same_v<T, std::vector<double>>) return FieldType::kNumbers;
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) return FieldType::kTexts;
+  if constexpr (std::is_same_v<T, std::vector<Pose>>) return FieldType::kPoses;
+  return kIsVector<T> ? FieldType::kList : FieldType::kStruct;
+}
+
+/// Least and greatest whole number of a type that messages can hold.
+template <typename T>
+[[nodiscard]] constexpr std::pair<std::int64_t, std::int64_t> integer_range() {
+  if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return {0, std::numeric_limits<std::int64_t>::max()};
+  } else if constexpr (std::is_integral_v<T>) {
+    return {std::int64_t{std::numeric_limits<T>::min()},
+            std::int64_t{std::numeric_limits<T>::max()}};
+  } else {
+    return {0, 0};
+  }
+}
+
+template <typename List>
+inline constexpr ListAccess kAccess = {
+    [](const void* list) { return static_cast<const List*>(list)->size(); },
+    [](const void* list, std::size_t i) -> const void* {
+      return &(*static_cast<const List*>(list))[i];
+    },
+    [](void* list) -> void* { return &static_cast<List*>(list)->emplace_back(); },
+    [](void* list) { static_cast<List*>(list)->clear(); }};
+
+}  // namespace field_detail
+/// @endcond
+
+/// A member of a struct, or of a member: field<&PoseReading::twist, &Twist::v_mps>("v", "m/s").
+/// @param unit     for messages and pages; empty if it has none.
+/// @param meaning  for pages and schema.
+template <auto First, auto... Rest>
+[[nodiscard]] constexpr Field field(const char* name, const char* unit = "",
+                                    const char* meaning = "") {
+  using Owner = typename field_detail::Parts<decltype(First)>::Owner;
+  using Member =
+      std::remove_cvref_t<decltype(field_detail::follow<First, Rest...>(std::declval<Owner&>()))>;
+  using Value = typename field_detail::ValueOf<Member>::Type;
+  Field made{name, field_detail::type_of<Value>()};
+  made.range.unit = unit;
+  made.meaning = meaning;
+  const auto limits = field_detail::integer_range<Value>();
+  made.least = limits.first;
+  made.greatest = limits.second;
+  made.is_angle = made.type == FieldType::kNumber && std::string_view(name).ends_with("_deg");
+  if constexpr (std::is_enum_v<Value>) static_assert(sizeof(Value) == sizeof(int));
+  if constexpr (field_detail::kIsVector<Value>) {
+    made.list = &field_detail::kAccess<Value>;
+    if constexpr (field_detail::type_of<Value>() == FieldType::kList) {
+      made.table = &fields_of<typename Value::value_type>;
+    }
+  } else if constexpr (field_detail::type_of<Value>() == FieldType::kStruct) {
+    made.table = &fields_of<Value>;
+  }
+  if constexpr (field_detail::kIsOptional<Member>) {
+    made.get = [](const void* object) -> const void* {
+      const auto& member = field_detail::follow<First, Rest...>(*static_cast<const Owner*>(object));
+      return member.has_value() ? &*member : nullptr;
+    };
+    made.set = [](void* object) -> void* {
+      auto& member = field_detail::follow<First, Rest...>(*static_cast<Owner*>(object));
+      return member.has_value() ? &*member : &member.emplace();
+    };
+    made.drop = [](void* object) {
+      field_detail::follow<First, Rest...>(*static_cast<Owner*>(object)).reset();
+    };
+  } else {
+    made.get = [](const void* object) -> const void* {
+      return &field_detail::follow<First, Rest...>(*static_cast<const Owner*>(object));
+    };
+    made.set = [](void* object) -> void* {
+      return &field_detail::follow<First, Rest...>(*static_cast<Owner*>(object));
+    };
+  }
+  return made;
+}
+
+/// The fields of a base class, among those of the class that derives from it.
+template <typename Derived, typename Base>
+[[nodiscard]] constexpr Field include() {
+  Field made{"", FieldType::kInclude};
+  made.table = &fields_of<Base>;
+  made.get = [](const void* object) -> const void* {
+    return static_cast<const Base*>(static_cast<const Derived*>(object));
+  };
+  made.set = [](void* object) -> void* {
+    return static_cast<Base*>(static_cast<Derived*>(object));
+  };
+  return made;
+}
+
+[[nodiscard]] constexpr Field custom(const char* name, const CustomField& functions,
+                                     const char* unit, const char* meaning) {
+  Field made{name, FieldType::kCustom};
+  made.custom = &functions;
+  made.range.unit = unit;
+  made.meaning = meaning;
+  made.get = [](const void* object) { return object; };
+  made.set = [](void* object) { return object; };
+  return made;
+}
+
+/// The fields of a table, those of included tables in their place.
+/// @param visit  called with each field and the object that it belongs to.
+template <typename Object, typename Visit>
+void for_each_field(const FieldTable& table, Object* object, const Visit& visit) {
+  for (const Field& one : table.fields) {
+    if (one.type != FieldType::kInclude) {
+      visit(one, object);
+    } else if constexpr (std::is_const_v<Object>) {
+      for_each_field(one.table(), one.get(object), visit);
+    } else {
+      for_each_field(one.table(), one.set(object), visit);
+    }
+  }
+}
+
+/// A whole number or a choice, whatever its size.
+[[nodiscard]] std::int64_t integer_at(const Field& field, const void* value);
+void set_integer(const Field& field, void* value, std::int64_t number);
+
+/// Whether all numbers of a struct are finite.
+[[nodiscard]] bool all_finite(const FieldTable& table, const void* object);
+
+/// Adds the fields of a struct in the order of its table; of a std::optional, whether it has a
+/// value first.
+void hash_fields(StateHash& hash, const FieldTable& table, const void* object);
+
+/// The numbers of a struct as clients are told of them, in SI units and radians. Of a list their
+/// number, or with tells_elements each element's fields with "_0", "_1", ... at their end.
+void tell_fields(const FieldTable& table, const void* object,
+                 std::map<std::string, double>& properties, const std::string& suffix = "");
+
+/// An alternative of a variant of structs: its name on the wire and its fields.
+template <typename Variant>
+struct AlternativeKind {
+  const char* name;
+  const FieldTable& (*fields)();
+  Variant (*make)();
+};
+
+/// The alternatives of a variant in its order.
+/// @param names  one an alternative.
+template <typename Variant>
+[[nodiscard]] constexpr auto alternative_kinds(
+    const std::array<const char*, std::variant_size_v<Variant>>& names) {
+  return [&]<std::size_t... kIndex>(std::index_sequence<kIndex...>) {
+    return std::array<AlternativeKind<Variant>, sizeof...(kIndex)>{AlternativeKind<Variant>{
+        names[kIndex], &fields_of<std::variant_alternative_t<kIndex, Variant>>,
+        [] { return Variant(std::in_place_index<kIndex>); }}...};
+  }
+  (std::make_index_sequence<std::variant_size_v<Variant>>());
+}
+
+/// The struct that a variant holds.
+template <typename Variant>
+[[nodiscard]] auto* object_in(Variant& variant) {
+  using Object = std::conditional_t<std::is_const_v<Variant>, const void, void>;
+  return std::visit([](auto& alternative) -> Object* { return &alternative; }, variant);
+}
+
+}  // namespace sim

@@ -1,0 +1,54 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include "sim/devices/device.h"
+
+namespace sim {
+
+/// Settings of a magnetic compass.
+struct CompassParams {
+  double frequency_hz = 10.0;                 ///< (0, 1000]
+  double noise_rad = 0.0;                     ///< standard deviation of the heading [rad], >= 0
+  double north_rad = 0.5 * std::numbers::pi;  ///< direction of magnetic north in W,
+                                              ///< counter-clockwise from x [rad]
+};
+
+/// What a compass tells.
+struct CompassReading final : Reading {
+  double heading_rad = 0.0;  ///< of B's x axis from magnetic north, counter-clockwise, (-pi, pi]
+
+  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
+    return std::make_unique<CompassReading>(*this);
+  }
+};
+
+/// Noise-free heading of a robot from magnetic north.
+///
+/// Frames: W world; B body.
+/// @param X_WB       pose of B in W [m, rad].
+/// @param north_rad  direction of magnetic north in W, counter-clockwise from x [rad].
+/// @return [rad], counter-clockwise, in (-pi, pi].
+[[nodiscard]] double compass_heading_rad(const Pose& X_WB, double north_rad);
+
+/// A compass: compass_heading_rad() plus Gaussian noise.
+class Compass final : public Sensor {
+ public:
+  Compass(std::string name, const CompassParams& params, RandomStream noise);
+
+  [[nodiscard]] const CompassReading& reading() const noexcept override { return reading_; }
+  void hash(StateHash& hash) const override;
+
+ protected:
+  void measure(const StepContext& context) override;
+
+ private:
+  CompassParams params_;
+  RandomStream noise_;
+  CompassReading reading_;
+};
+
+}  // namespace sim

@@ -1,0 +1,242 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "sim/core/fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "sim/core/assert.h"
+
+namespace sim {
+namespace {
+
+template <typename T>
+const T& as(const void* value) {
+  return *static_cast<const T*>(value);
+}
+
+bool is_finite(const Pose& pose) {
+  return std::isfinite(pose.x_m) && std::isfinite(pose.y_m) && std::isfinite(pose.yaw_rad);
+}
+
+bool is_finite(const Field& field, const void* value) {
+  switch (field.type) {
+    case FieldType::kNumber:
+      return std::isfinite(as<double>(value));
+    case FieldType::kVec2:
+      return as<Vec2>(value).allFinite();
+    case FieldType::kPose:
+      return is_finite(as<Pose>(value));
+    case FieldType::kVec3:
+      return std::ranges::all_of(as<std::array<double, 3>>(value),
+                                 [](double x) { return std::isfinite(x); });
+    case FieldType::kNumbers:
+      return std::ranges::all_of(as<std::vector<double>>(value),
+                                 [](double x) { return std::isfinite(x); });
+    case FieldType::kPoses:
+      return std::ranges::all_of(as<std::vector<Pose>>(value),
+                                 [](const Pose& pose) { return is_finite(pose); });
+    case FieldType::kStruct:
+    case FieldType::kInclude:
+      return all_finite(field.table(), value);
+    case FieldType::kList:
+      for (std::size_t i = 0; field.table != nullptr && i < field.list->size(value); ++i) {
+        if (!all_finite(field.table(), field.list->at(value, i))) return false;
+      }
+      return true;
+    default:
+      return true;
+  }
+}
+
+void add(StateHash& hash, const Pose& pose) {
+  for (const double x : {pose.x_m, pose.y_m, pose.yaw_rad}) hash.add(x);
+}
+
+void add(StateHash& hash, const Field& field, const void* value) {
+  switch (field.type) {
+    case FieldType::kNumber:
+      return hash.add(as<double>(value));
+    case FieldType::kInt:
+    case FieldType::kInt64:
+    case FieldType::kUint32:
+    case FieldType::kUint64:
+    case FieldType::kChoice:
+      return hash.add(integer_at(field, value));
+    case FieldType::kBool:
+      return hash.add(as<bool>(value));
+    case FieldType::kText:
+      return hash.add(std::string_view(as<std::string>(value)));
+    case FieldType::kColour: {
+      const auto& colour = as<Colour>(value);
+      for (const int channel : {colour.r, colour.g, colour.b, colour.a}) hash.add(channel);
+      return;
+    }
+    case FieldType::kVec2:
+      for (const double x : as<Vec2>(value)) hash.add(x);
+      return;
+    case FieldType::kPose:
+      return add(hash, as<Pose>(value));
+    case FieldType::kVec3:
+      for (const double x : as<std::array<double, 3>>(value)) hash.add(x);
+      return;
+    case FieldType::kBytes:
+    case FieldType::kOctets: {
+      const auto& bytes = as<std::vector<std::uint8_t>>(value);
+      return hash.add_bytes(bytes.data(), bytes.size());
+    }
+    case FieldType::kNumbers: {
+      const auto& numbers = as<std::vector<double>>(value);
+      return hash.add_bytes(numbers.data(), numbers.size() * sizeof(double));
+    }
+    case FieldType::kTexts:
+      hash.add(as<std::vector<std::string>>(value).size());
+      for (const std::string& text : as<std::vector<std::string>>(value)) hash.add(text);
+      return;
+    case FieldType::kPoses:
+      hash.add(as<std::vector<Pose>>(value).size());
+      for (const Pose& pose : as<std::vector<Pose>>(value)) add(hash, pose);
+      return;
+    case FieldType::kList:
+      hash.add(field.list->size(value));
+      for (std::size_t i = 0; i < field.list->size(value); ++i) {
+        const void* element = field.list->at(value, i);
+        if (field.table != nullptr) {
+          hash_fields(hash, field.table(), element);
+        } else {
+          hash.add(field.element->text(element));
+        }
+      }
+      return;
+    case FieldType::kStruct:
+    case FieldType::kInclude:
+      return hash_fields(hash, field.table(), value);
+    case FieldType::kCustom:
+      return hash.add(field.custom->text(value));
+  }
+}
+
+void tell(const Pose& pose, const std::string& prefix, const std::string& suffix,
+          std::map<std::string, double>& properties) {
+  properties[prefix + "_x" + suffix] = pose.x_m;
+  properties[prefix + "_y" + suffix] = pose.y_m;
+  properties[prefix + "_yaw" + suffix] = pose.yaw_rad;
+}
+
+std::string property_of(const Field& field) {
+  if (field.property != nullptr) return field.property;
+  std::string name = field.name;
+  if (field.is_angle) name.resize(name.size() - std::string_view("_deg").size());
+  return name;
+}
+
+void tell(const Field& field, const void* value, std::map<std::string, double>& properties,
+          const std::string& suffix) {
+  const std::string name = property_of(field);
+  switch (field.type) {
+    case FieldType::kNumber:
+      properties[name + suffix] = as<double>(value);
+      return;
+    case FieldType::kInt:
+    case FieldType::kInt64:
+    case FieldType::kUint32:
+    case FieldType::kUint64:
+    case FieldType::kChoice:
+      properties[name + suffix] = static_cast<double>(integer_at(field, value));
+      return;
+    case FieldType::kBool:
+      properties[name + suffix] = as<bool>(value) ? 1.0 : 0.0;
+      return;
+    case FieldType::kVec2: {
+      const std::string prefix = name.empty() ? "" : name + "_";
+      properties[prefix + "x" + suffix] = as<Vec2>(value).x();
+      properties[prefix + "y" + suffix] = as<Vec2>(value).y();
+      return;
+    }
+    case FieldType::kPose:
+      return tell(value == nullptr ? Pose{} : as<Pose>(value), name, suffix, properties);
+    case FieldType::kPoses:
+    case FieldType::kList: {
+      const std::size_t count = field.list->size(value);
+      properties[field.tells_elements ? "count" : name] = static_cast<double>(count);
+      for (std::size_t i = 0; field.tells_elements && i < count; ++i) {
+        const std::string end = "_" + std::to_string(i);
+        const void* element = field.list->at(value, i);
+        if (field.type == FieldType::kPoses) {
+          tell(as<Pose>(element), name, end, properties);
+        } else {
+          tell_fields(field.table(), element, properties, end);
+        }
+      }
+      return;
+    }
+    case FieldType::kStruct:
+      return tell_fields(field.table(), value, properties, suffix);
+    case FieldType::kCustom:
+      return field.custom->tell(value, properties);
+    default:
+      return;  // no numbers
+  }
+}
+
+}  // namespace
+
+std::int64_t integer_at(const Field& field, const void* value) {
+  switch (field.type) {
+    case FieldType::kInt64:
+      return as<std::int64_t>(value);
+    case FieldType::kUint32:
+      return as<std::uint32_t>(value);
+    case FieldType::kUint64:
+      return static_cast<std::int64_t>(as<std::uint64_t>(value));
+    default: {
+      SIM_ASSERT(field.type == FieldType::kInt || field.type == FieldType::kChoice);
+      int number = 0;
+      std::memcpy(&number, value, sizeof number);
+      return number;
+    }
+  }
+}
+
+void set_integer(const Field& field, void* value, std::int64_t number) {
+  switch (field.type) {
+    case FieldType::kInt64:
+      *static_cast<std::int64_t*>(value) = number;
+      return;
+    case FieldType::kUint32:
+      *static_cast<std::uint32_t*>(value) = static_cast<std::uint32_t>(number);
+      return;
+    case FieldType::kUint64:
+      *static_cast<std::uint64_t*>(value) = static_cast<std::uint64_t>(number);
+      return;
+    default: {
+      SIM_ASSERT(field.type == FieldType::kInt || field.type == FieldType::kChoice);
+      const int narrow = static_cast<int>(number);
+      std::memcpy(value, &narrow, sizeof narrow);
+    }
+  }
+}
+
+bool all_finite(const FieldTable& table, const void* object) {
+  return std::ranges::all_of(table.fields, [object](const Field& field) {
+    const void* value = field.get(object);
+    return value == nullptr || is_finite(field, value);
+  });
+}
+
+void hash_fields(StateHash& hash, const FieldTable& table, const void* object) {
+  for (const Field& field : table.fields) {
+    const void* value = field.get(object);
+    if (field.drop != nullptr) hash.add(value != nullptr);
+    if (value != nullptr) add(hash, field, value);
+  }
+}
+
+void tell_fields(const FieldTable& table, const void* object,
+                 std::map<std::string, double>& properties, const std::string& suffix) {
+  for_each_field(table, object, [&](const Field& field, const void* owner) {
+    if (field.told) tell(field, field.get(owner), properties, suffix);
+  });
+}
+
+}  // namespace sim

@@ -1,0 +1,122 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The fields of commands. A new one gets its table here and its name at the end.
+#include <array>
+
+#include "sim/devices/aio.h"
+#include "sim/devices/builtin.h"
+#include "sim/devices/dio.h"
+
+namespace sim {
+namespace {
+
+constexpr const char* kGripActions[] = {"open", "close", "stop", "store", "retrieve"};
+
+constexpr Field kTwist[] = {
+    field<&TwistCommand::twist, &Twist::v_mps>("v", "m/s"),
+    field<&TwistCommand::twist, &Twist::omega_radps>("omega", "rad/s"),
+    field<&TwistCommand::twist, &Twist::lateral_mps>("lateral", "m/s").or_default(),
+};
+constexpr Field kMotorEnable[] = {
+    field<&MotorEnableCommand::enabled>("on"),
+};
+constexpr Field kSetPose[] = {
+    field<&SetPoseCommand::pose>("", "m, rad"),
+};
+constexpr Field kGoto[] = {
+    field<&GotoCommand::goal_m>("", "m"),
+    field<&GotoCommand::tolerance_m>("tolerance", "m"),
+    field<&GotoCommand::speed_mps>("speed", "m/s"),
+};
+constexpr Field kPlace[] = {
+    field<&PlaceCommand::pose>("", "m, rad"),
+};
+constexpr Field kTranslate[] = {
+    field<&TranslateCommand::offset_m>("", "m"),
+};
+constexpr Field kRotate[] = {
+    field<&RotateCommand::yaw_rad>("yaw", "rad"),
+};
+constexpr Field kHeading[] = {
+    field<&HeadingCommand::v_mps>("v", "m/s"),
+    field<&HeadingCommand::lateral_mps>("lateral", "m/s").or_default(),
+    field<&HeadingCommand::yaw_rad>("yaw", "rad"),
+    field<&HeadingCommand::frame>("frame"),
+};
+constexpr Field kPosition[] = {
+    field<&PositionCommand::goal>("", "m, rad"),
+    field<&PositionCommand::max_speed_mps>("max_speed", "m/s"),
+    field<&PositionCommand::max_turn_rate_radps>("max_turn_rate", "rad/s"),
+    field<&PositionCommand::frame>("frame"),
+};
+constexpr Field kCar[] = {
+    field<&CarCommand::v_mps>("v", "m/s"),
+    field<&CarCommand::steering_rad>("steering", "rad"),
+};
+constexpr Field kSay[] = {
+    field<&SayCommand::text>("text"),
+};
+constexpr Field kDigitalOutput[] = {
+    field<&DigitalOutputCommand::count>("count").within(0, DioParams::kMaxLines),
+    field<&DigitalOutputCommand::bits>("outputs"),
+};
+constexpr Field kAnalogOutput[] = {
+    field<&AnalogOutputCommand::channel>("output").within(0, AioParams::kMaxLines - 1),
+    field<&AnalogOutputCommand::voltage_v>("voltage", "V"),
+};
+constexpr Field kLight[] = {
+    field<&LightCommand::enabled>("on"),
+    field<&LightCommand::colour>("colour"),
+    field<&LightCommand::period_s>("period", "s"),
+    field<&LightCommand::duty_cycle>("duty_cycle"),
+};
+constexpr Field kGrip[] = {
+    field<&GripCommand::action>("action").one_of(kGripActions),
+};
+constexpr Field kOpaque[] = {
+    field<&OpaqueCommand::data>("data"),
+};
+constexpr Field kPoint[] = {
+    field<&PointCommand::pan_rad>("pan", "rad"),
+    field<&PointCommand::tilt_rad>("tilt", "rad"),
+    field<&PointCommand::view_rad>("view", "rad"),
+    field<&PointCommand::pan_speed_radps>("pan_speed", "rad/s"),
+    field<&PointCommand::tilt_speed_radps>("tilt_speed", "rad/s"),
+};
+constexpr Field kPan[] = {
+    field<&PanCommand::pan_speed_radps>("pan_speed", "rad/s"),
+    field<&PanCommand::tilt_speed_radps>("tilt_speed", "rad/s"),
+    field<&PanCommand::zoom_speed_radps>("zoom_speed", "rad/s"),
+};
+
+}  // namespace
+
+SIM_FIELDS(TwistCommand, kTwist)
+SIM_FIELDS(MotorEnableCommand, kMotorEnable)
+SIM_FIELDS(SetPoseCommand, kSetPose)
+SIM_FIELDS(GotoCommand, kGoto)
+SIM_FIELDS(PlaceCommand, kPlace)
+SIM_FIELDS(TranslateCommand, kTranslate)
+SIM_FIELDS(RotateCommand, kRotate)
+SIM_FIELDS(HeadingCommand, kHeading)
+SIM_FIELDS(PositionCommand, kPosition)
+SIM_FIELDS(CarCommand, kCar)
+SIM_FIELDS(SayCommand, kSay)
+SIM_FIELDS(DigitalOutputCommand, kDigitalOutput)
+SIM_FIELDS(AnalogOutputCommand, kAnalogOutput)
+SIM_FIELDS(LightCommand, kLight)
+SIM_FIELDS(GripCommand, kGrip)
+SIM_FIELDS(OpaqueCommand, kOpaque)
+SIM_FIELDS(PointCommand, kPoint)
+SIM_FIELDS(PanCommand, kPan)
+SIM_FIELDS(StopCommand, {})
+SIM_FIELDS(ResumeCommand, {})
+
+std::span<const AlternativeKind<Command>> command_kinds() {
+  static constexpr auto kKinds = alternative_kinds<Command>(
+      {"twist",     "motors", "set_pose", "goto",     "stop",  "resume", "place",
+       "translate", "rotate", "heading",  "position", "car",   "say",    "digital",
+       "analog",    "light",  "grip",     "opaque",   "point", "pan"});
+  return kKinds;
+}
+
+}  // namespace sim

@@ -1,0 +1,131 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <numbers>
+#include <string>
+#include <type_traits>
+#include <typeinfo>
+#include <utility>
+
+#include "sim/core/degrees.h"
+#include "sim/core/fields.h"
+#include "sim/core/number_text.h"
+#include "sim/devices/builtin.h"
+#include "sim/io/field_reader.h"
+#include "sim/world/limits.h"
+
+/// For the sources of devices: what they need to write their row of the table of kinds.
+namespace sim {
+
+/// What a device is made of.
+struct DeviceOrder {
+  const DeviceDescription& device;
+  const RobotDescription& robot;
+  const RobotModel& model;
+  std::uint64_t world_seed;
+
+  [[nodiscard]] const std::string& name() const { return device.name; }
+  /// The device's own stream.
+  [[nodiscard]] RandomStream noise() const { return {world_seed, robot.name + "/" + device.name}; }
+};
+
+/// The settings in a description; the defaults if it has none.
+template <typename Params>
+[[nodiscard]] Params params_in(const std::any& params) {
+  return params.has_value() ? std::any_cast<const Params&>(params) : Params{};
+}
+
+/// A row: fields_of<Params>() and fields_of<ReadingType>() describe settings and readings.
+/// @tparam ReadingType  void for a device that makes none.
+/// @param interfaces  that it carries; a name alone has rank 0.
+/// @param make  makes the device of a DeviceOrder and Params.
+template <typename Params, typename ReadingType, typename Make>
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces,
+                                     Make make) {
+  DeviceKind row;
+  row.name = name;
+  row.interfaces = std::move(interfaces);
+  row.settings = &fields_of<Params>();
+  row.parse = [](io::Reader& settings, const std::any& defaults) -> std::any {
+    auto params = std::any_cast<const Params&>(defaults);
+    io::read_fields(settings, fields_of<Params>(), &params);
+    return params;
+  };
+  row.defaults = [] { return std::any(Params{}); };
+  row.settings_in = [](const std::any& params) -> const void* {
+    return std::any_cast<Params>(&params);
+  };
+  row.create = [make](const DeviceDescription& device, const RobotDescription& robot,
+                      const RobotModel& model, std::uint64_t seed) -> std::unique_ptr<Device> {
+    return make(DeviceOrder{device, robot, model, seed}, params_in<Params>(device.params));
+  };
+  if constexpr (!std::is_void_v<ReadingType>) {
+    row.reading = {&fields_of<ReadingType>(), &typeid(ReadingType),
+                   []() -> std::unique_ptr<Reading> { return std::make_unique<ReadingType>(); }};
+  }
+  return row;
+}
+
+/// The same of a device that is made of its name, its settings and, if it wants it, its noise.
+template <typename Made, typename Params, typename ReadingType>
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces) {
+  return device_kind<Params, ReadingType>(
+      name, std::move(interfaces), [](const DeviceOrder& order, const Params& params) {
+        if constexpr (std::is_constructible_v<Made, std::string, const Params&, RandomStream>) {
+          return std::make_unique<Made>(order.name(), params, order.noise());
+        } else {
+          return std::make_unique<Made>(order.name(), params);
+        }
+      });
+}
+
+/// Adds to a row what its settings say of a robot of some model.
+/// @param complete  puts into Params what the model decides.
+template <typename Params, typename Complete>
+[[nodiscard]] DeviceKind with_model(DeviceKind row, Complete complete) {
+  row.model_properties = [complete](const std::any& params, const RobotModel& model) {
+    auto completed = params_in<Params>(params);
+    complete(completed, model);
+    std::map<std::string, double> properties;
+    tell_fields(fields_of<Params>(), &completed, properties);
+    return properties;
+  };
+  return row;
+}
+
+/// Whether a mount lies so far within the footprint that no solid reaches it: robots sink into
+/// solids by less than 2 mm.
+[[nodiscard]] bool well_within(const Polygon& footprint, const Pose& X_BL);
+
+/// @name Fields that many devices have
+/// @{
+template <auto Member>
+[[nodiscard]] constexpr Field frequency_field(const char* meaning = "readings a simulated second") {
+  return field<Member>("frequency", "Hz", meaning).above(0.0, 1000.0);
+}
+template <auto Member>
+[[nodiscard]] constexpr Field noise_field(const char* meaning) {
+  return field<Member>("noise", "m", meaning).within(0.0, 100.0);
+}
+template <auto Member>
+[[nodiscard]] constexpr Field range_max_field(const char* meaning = "farther things are not seen") {
+  return field<Member>("range_max", "m", meaning).within(kLeastLength_m, 1000.0);
+}
+template <auto Member>
+[[nodiscard]] constexpr Field height_field(const char* meaning) {
+  return field<Member>("height", "m", meaning).within(0.0, 100.0);
+}
+template <auto Member>
+[[nodiscard]] constexpr Field mount_field(const char* meaning) {
+  return field<Member>("pose", "m, degrees", meaning).told_as("mount");
+}
+template <auto Member>
+[[nodiscard]] constexpr Field north_field() {
+  return field<Member>("north_deg", "degrees",
+                       "direction of north in the world, counter-clockwise from its x axis")
+      .within(-360.0, 360.0);
+}
+/// @}
+
+}  // namespace sim

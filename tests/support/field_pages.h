@@ -1,0 +1,273 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/core/degrees.h"
+#include "sim/core/fields.h"
+#include "sim/core/number_text.h"
+#include "sim/devices/builtin.h"
+
+/// What is made of the tables of fields for people and editors: tables of settings in Markdown, and
+/// JSON schemas.
+namespace sim::test {
+
+using Json = nlohmann::ordered_json;
+
+/// A number with at most 12 digits, so that 171.88733853924697 degrees look like 171.887338539.
+[[nodiscard]] inline Json rounded(double value) {
+  return Json::parse(rounded_text(value + 0.0, 12));
+}
+
+/// As world files have it.
+[[nodiscard]] inline Json pose_json(const Pose& pose, bool with_zeros) {
+  Json out = Json::object();
+  if (with_zeros || pose.x_m != 0.0) out["x"] = rounded(pose.x_m);
+  if (with_zeros || pose.y_m != 0.0) out["y"] = rounded(pose.y_m);
+  if (with_zeros || pose.yaw_rad != 0.0) out["yaw_deg"] = rounded(pose.yaw_rad / kDegrees);
+  return out;
+}
+
+/// The value of a setting as world files have it.
+[[nodiscard]] inline Json value_json(const Field& field, const void* object) {
+  const void* value = field.get(object);
+  if (value == nullptr) return Json::object();
+  switch (field.type) {
+    case FieldType::kNumber:
+      return rounded(*static_cast<const double*>(value) / (field.is_angle ? kDegrees : 1.0));
+    case FieldType::kInt:
+      return integer_at(field, value);
+    case FieldType::kBool:
+      return *static_cast<const bool*>(value);
+    case FieldType::kText:
+      return *static_cast<const std::string*>(value);
+    case FieldType::kChoice:
+      return field.words[static_cast<std::size_t>(integer_at(field, value))];
+    case FieldType::kColour:
+      return to_string(*static_cast<const Colour*>(value));
+    case FieldType::kVec2: {
+      const auto& point = *static_cast<const Vec2*>(value);
+      return Json::array({rounded(point.x()), rounded(point.y())});
+    }
+    case FieldType::kPose:
+      return pose_json(*static_cast<const Pose*>(value), true);
+    case FieldType::kPoses:
+    case FieldType::kList: {
+      Json list = Json::array();
+      for (std::size_t i = 0; i < field.list->size(value); ++i) {
+        const void* element = field.list->at(value, i);
+        list.push_back(field.type == FieldType::kPoses
+                           ? pose_json(*static_cast<const Pose*>(element), false)
+                           : Json::parse(field.element->text(element)));
+      }
+      return list;
+    }
+    default:
+      return Json::parse(field.custom->text(value));
+  }
+}
+
+/// JSON in lines of at most 200 characters, where its structure allows it.
+[[nodiscard]] inline std::string json_text(const Json& value, std::size_t indent = 0,
+                                           std::size_t before = 0) {
+  constexpr std::size_t kWidth = 200;
+  if (!value.is_structured() || value.empty()) return value.dump();
+  const char* const brackets = value.is_object() ? "{}" : "[]";
+  const auto joined = [&](const std::string& separator, std::size_t inner, bool nested) {
+    std::string text;
+    for (const auto& [key, member] : value.items()) {
+      const std::string name = value.is_object() ? Json(key).dump() + ": " : "";
+      text += (text.empty() ? "" : "," + separator) + name +
+              json_text(member, inner, nested ? inner + name.size() : kWidth);
+    }
+    return text;
+  };
+  // Members that do not fit by themselves do not fit together either.
+  std::string line =
+      value.dump().size() > kWidth ? "" : brackets[0] + joined(" ", 0, false) + brackets[1];
+  line = line.find('\n') == std::string::npos ? line : "";
+  if (!line.empty() && before + line.size() <= kWidth) return line;
+  const std::string margin = "\n" + std::string(indent + 2, ' ');
+  return brackets[0] + margin + joined(margin, indent + 2, true) + "\n" + std::string(indent, ' ') +
+         brackets[1];
+}
+
+/// JSON in one line: {"x": 1, "y": 2}.
+[[nodiscard]] inline std::string line_of_json(const Json& value) {
+  if (!value.is_structured()) return value.dump();
+  std::string text;
+  for (const auto& [key, member] : value.items()) {
+    text += text.empty() ? "" : ", ";
+    if (value.is_object()) text += Json(key).dump() + ": ";
+    text += line_of_json(member);
+  }
+  return value.is_object() ? "{" + text + "}" : "[" + text + "]";
+}
+
+/// "(0, 1000]", or a dash for what has no range of numbers.
+[[nodiscard]] inline std::string range_text(const Field& field) {
+  const bool has_range = field.type == FieldType::kInt ||
+                         (field.type == FieldType::kNumber && field.range.min > NumberRange{}.min);
+  if (!has_range) return "–";
+  return std::string(field.range.min_exclusive ? "(" : "[") + rounded_text(field.range.min, 12) +
+         ", " + rounded_text(field.range.max, 12) + "]";
+}
+
+/// Each setting of a kind of device with the object that holds its default.
+template <typename Visit>
+void for_each_setting(const DeviceKind& kind, const Visit& visit) {
+  const std::any defaults = kind.defaults();
+  for_each_field(*kind.settings, kind.settings_in(defaults),
+                 [&](const Field& field, const void* owner) {
+                   if (!field.told_only) visit(field, owner);
+                 });
+}
+
+/// The table of settings of a kind's page; empty if it has none.
+[[nodiscard]] inline std::string settings_table(const DeviceKind& kind) {
+  std::string rows;
+  for_each_setting(kind, [&](const Field& field, const void* defaults) {
+    const std::string unit = field.range.unit;
+    rows += "| `" + std::string(field.name) + "` | " + (unit.empty() ? "–" : unit) + " | " +
+            range_text(field) + " | `" + line_of_json(value_json(field, defaults)) + "` | " +
+            field.meaning + " |\n";
+  });
+  if (rows.empty()) return "";
+  return "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n" + rows;
+}
+
+/// A phrase as a sentence without Markdown: "above the floor" -> "Above the floor [m]."
+[[nodiscard]] inline std::string sentence(std::string phrase, const std::string& unit) {
+  std::erase(phrase, '`');
+  if (!phrase.empty()) {
+    phrase[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(phrase[0])));
+  }
+  return phrase + (unit.empty() ? "." : " [" + unit + "].");
+}
+
+[[nodiscard]] Json object_schema(const FieldTable& table);
+
+/// Adds the schema of a field, or of its parts if it has no name, to the properties of an object.
+inline void add_schema(const Field& field, const void* defaults, Json& properties) {
+  Json schema = {{"description", sentence(field.meaning, field.range.unit)}};
+  const auto add_range = [&field](Json& number) {
+    number[field.range.min_exclusive ? "exclusiveMinimum" : "minimum"] = rounded(field.range.min);
+    number["maximum"] = rounded(field.range.max);
+  };
+  switch (field.type) {
+    case FieldType::kNumber:
+    case FieldType::kInt:
+      if (range_text(field) == "–") {
+        schema["$ref"] = "#/$defs/angle";
+        break;
+      }
+      schema["type"] = field.type == FieldType::kInt ? "integer" : "number";
+      add_range(schema);
+      break;
+    case FieldType::kBool:
+      schema["type"] = "boolean";
+      break;
+    case FieldType::kText:
+      schema.update(field.needed_for == nullptr ? Json{{"type", "string"}}
+                                                : Json{{"$ref", "#/$defs/name"}});
+      break;
+    case FieldType::kChoice:
+      schema["enum"] = std::vector<std::string>(field.words.begin(), field.words.end());
+      break;
+    case FieldType::kColour:
+      schema["type"] = "string";
+      schema["pattern"] = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6}|[0-9A-Fa-f]{8})$";
+      break;
+    case FieldType::kVec2: {
+      Json part = {{"type", "number"}};
+      add_range(part);
+      if (*field.name == '\0') {
+        for (const char* key : {"x", "y"}) {
+          properties[key] = {{"description", schema["description"]}};
+          properties[key].update(part);
+          properties[key]["default"] = 0;
+        }
+        return;
+      }
+      schema.update({{"type", "array"}, {"items", part}, {"minItems", 2}, {"maxItems", 2}});
+      break;
+    }
+    case FieldType::kPose:
+      schema["$ref"] = "#/$defs/pose";
+      break;
+    case FieldType::kPoses:
+    case FieldType::kList:
+      schema["type"] = "array";
+      if (field.fewest > 0) schema["minItems"] = field.fewest;
+      schema["maxItems"] = field.most;
+      schema["items"] = field.element != nullptr          ? Json::parse(field.element->schema)
+                        : field.type == FieldType::kPoses ? Json{{"$ref", "#/$defs/pose"}}
+                                                          : object_schema(field.table());
+      break;
+    default:
+      schema.update(Json::parse("{" + std::string(field.custom->schema) + "}"));
+  }
+  if (defaults != nullptr && field.get(defaults) != nullptr) {
+    schema["default"] = value_json(field, defaults);
+  }
+  properties[field.name] = schema;
+}
+
+/// The schema of an object with these fields.
+inline Json object_schema(const FieldTable& table) {
+  Json schema = {{"type", "object"}, {"properties", Json::object()}};
+  for (const Field& field : table.fields) {
+    add_schema(field, nullptr, schema["properties"]);
+    if (field.needed_for != nullptr) schema["required"].push_back(field.name);
+  }
+  schema["additionalProperties"] = false;
+  return schema;
+}
+
+/// The schema of what stands under a device's name in a world file.
+[[nodiscard]] inline Json device_schema(const DeviceKind& kind) {
+  Json properties = {{"type", {{"$ref", "#/$defs/device_type"}}}};
+  for_each_setting(kind, [&properties](const Field& field, const void* defaults) {
+    add_schema(field, defaults, properties);
+  });
+  const Json settings = {
+      {"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
+  return {{"description", "Settings of a device of type " + kind.name +
+                              "; those left out keep the model's, or have their defaults."},
+          {"oneOf", {settings, {{"$ref", "#/$defs/removed"}}}}};
+}
+
+/// The schema of worlds with the part about devices made anew.
+[[nodiscard]] inline Json with_devices(Json schema) {
+  Json& definitions = schema.at("$defs");
+  std::vector<std::string> names;
+  for (const DeviceKind& kind : device_kinds()) names.push_back(kind.name);
+  std::sort(names.begin(), names.end());
+  std::vector<std::string> old;
+  for (const auto& [key, value] : definitions.items()) {
+    if (key.starts_with("device_") && key != "device_type") old.push_back(key);
+  }
+  for (const std::string& key : old) definitions.erase(key);
+  Json devices = Json::object();
+  for (const std::string& name : names) {
+    devices[name] = {{"$ref", "#/$defs/device_" + name}};
+    definitions["device_" + name] = device_schema(*find_device_kind(name));
+  }
+  definitions.at("robot").at("properties").at("devices").at("properties") = devices;
+  return schema;
+}
+
+/// Whether files are to be written anew, not compared: PLAYPEN_WRITE_PAGES=1.
+[[nodiscard]] inline bool writes_pages() { return std::getenv("PLAYPEN_WRITE_PAGES") != nullptr; }
+
+inline void write_page(const std::string& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+}  // namespace sim::test
