@@ -201,6 +201,20 @@ TEST_F(PlaypenEnds, AProgramThatKillsWhoeverStartedItEndsToo) {
   expect_all_results();
 }
 
+TEST_F(PlaypenEnds, AProgramThatStopsItselfIsToldOfAndEndsWhenAskedTo) {
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    SCOPED_TRACE(signal);
+    fs::remove_all(out_);
+    Process process(command({}, {"stop"}));
+    ASSERT_TRUE(process.read_error_until("has stopped itself (SIGSTOP)"));
+    process.send_signal(signal);
+    const ProcessResult end = process.finish();
+    EXPECT_FALSE(end.timed_out) << "something goes on";
+    expect_all_results();
+    EXPECT_GE(report().at("run").at("steps"), 510);
+  }
+}
+
 TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
   ProcessOptions options;
   options.file_limit = 4096;  // enough for the report, and for no picture
@@ -359,18 +373,30 @@ class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<
       const ProcessResult end = process.finish();
       gone = !end.timed_out;
     }
-    bool reported = false;
-    if (has("report.json")) reported = !report().at("ended").is_null();
+    const json ended = has("report.json") ? report().at("ended") : json();
     const bool pictures = has("scene.png") && has("canvas.png");
-    const bool whole = gone && has("trajectory.csv") && pictures == (way.whom != Whom::kDisk);
+    bool whole = gone && has("trajectory.csv") && pictures == (way.whom != Whom::kDisk);
     // The limit holds for the memory shared with the program, too: if that must be killed before
     // its first step, there is no report.
-    return whole && (reported || (way.whom == Whom::kDisk && phase == Phase::kStart));
+    const bool owes_no_report = way.whom == Whom::kDisk && phase == Phase::kStart;
+    whole = whole && (owes_no_report || !ended.is_null());
+    if (!whole) tell_what_is_left(gone, ended);
+    return whole;
   }
 
   [[nodiscard]] bool has_film() const { return fs::exists(film_); }
 
  private:
+  void tell_what_is_left(bool gone, const json& ended) const {
+    std::cout << "not whole: processes " << (gone ? "gone" : "left") << ", ended " << ended;
+    if (fs::is_directory(out_)) {
+      for (const auto& file : fs::directory_iterator(out_)) {
+        std::cout << ", " << file.path().filename() << " of " << file.file_size() << " bytes";
+      }
+    }
+    std::cout << std::endl;
+  }
+
   /// Waits until a run that ends by itself has come to a phase.
   void wait_for(Phase phase) const {
     const auto deadline = std::chrono::steady_clock::now() + test_support::patience();

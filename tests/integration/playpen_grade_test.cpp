@@ -132,6 +132,10 @@ TEST_F(PlaypenGrade, AProgramThatHangsIsEnded) {
   EXPECT_EQ(run.status, 1);
   EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "timeout"}}));
   EXPECT_THAT(run.out, HasSubstr("timeout: still running after 0.2 s"));
+  const ProcessResult stopped =
+      grade({"--seeds", "1,", "--timeout", "0.2"}, {"sh", "-c", "kill -STOP $$; exit 0"});
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "timeout"}}));
 }
 
 /// Takes wall times out, wherever they stand.

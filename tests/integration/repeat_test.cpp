@@ -35,7 +35,7 @@ using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
 const char* const kPreloaded = PRELOADED_LIBRARY;
-constexpr const char* kDuration_s = "6";
+constexpr const char* kDuration_s = "4";
 
 int repeats() {
   const char* text = std::getenv("PLAYPEN_REPEATS");

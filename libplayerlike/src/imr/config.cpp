@@ -7,13 +7,13 @@
 #include <iostream>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <typeindex>
 
 #include "imr-h/imr_config.h"
+#include "sim/core/error.h"
 #include "sim/core/file.h"
 #include "sim/core/number_text.h"
 #include "text.h"
@@ -93,22 +93,6 @@ TypeWords type_words(const std::type_info& type) {
   return {name, "a value of type " + name};
 }
 
-// Number of characters to insert, delete or replace to make one text of the other (Levenshtein).
-std::size_t edit_distance(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 struct Option {
   std::string name;
   std::string description;
@@ -130,22 +114,14 @@ auto find_option(Options& options, std::string_view name) {
 // "unknown option '--prt'; did you mean '--port'?", with `dashes` in front of both names.
 std::string unknown_option_text(const std::vector<Option>& options, const std::string& shown,
                                 std::string_view name, const std::string& dashes) {
-  const Option* nearest = nullptr;
-  std::size_t least_distance = 0;
-  for (const Option& option : options) {
-    const std::size_t distance =
-        edit_distance(lower_case(std::string(name)), lower_case(option.name));
-    // A name of which less than half is right is no slip of the finger.
-    const bool is_near = 2 * distance <= std::max(name.size(), option.name.size());
-    if (is_near && (nearest == nullptr || distance < least_distance)) {
-      nearest = &option;
-      least_distance = distance;
-    }
-  }
+  std::vector<std::string> known;
+  known.reserve(options.size());
+  for (const Option& option : options) known.push_back(lower_case(option.name));
+  const std::string near = sim::nearest_word(lower_case(std::string(name)), known);
   std::string text = "unknown option '" + shown + "'";
-  if (nearest != nullptr) {
-    text += "; did you mean '" + dashes + nearest->name + "'?";
-  }
+  if (near.empty()) return text;
+  const auto place = std::find(known.begin(), known.end(), near) - known.begin();
+  text += "; did you mean '" + dashes + options[static_cast<std::size_t>(place)].name + "'?";
   return text;
 }
 

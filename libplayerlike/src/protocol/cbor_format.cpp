@@ -10,11 +10,16 @@
 
 #include "protocol/formats.h"
 #include "protocol/framing.h"
+#include "sim/core/utf8.h"
 
 namespace playerlike::protocol {
 namespace {
 
 using nlohmann::json;
+
+bool is_utf8(std::string_view text) noexcept {
+  return sim::find_invalid_utf8(text) == std::string_view::npos;
+}
 
 /// Whether all texts of a value are UTF-8.
 bool is_sound(const json& value) {
@@ -231,39 +236,6 @@ class CborReader {
 };
 
 }  // namespace
-
-// Unicode 15.0, table 3-7: well-formed UTF-8 byte sequences.
-bool is_utf8(std::string_view text) noexcept {
-  const auto* at = reinterpret_cast<const unsigned char*>(text.data());
-  const auto* const end = at + text.size();
-  while (at != end) {
-    const unsigned char first = *at++;
-    if (first < 0x80) continue;
-    int more = 0;
-    unsigned char least = 0x80;
-    unsigned char most = 0xbf;
-    if (first >= 0xc2 && first <= 0xdf) {
-      more = 1;
-    } else if (first >= 0xe0 && first <= 0xef) {
-      more = 2;
-      if (first == 0xe0) least = 0xa0;
-      if (first == 0xed) most = 0x9f;
-    } else if (first >= 0xf0 && first <= 0xf4) {
-      more = 3;
-      if (first == 0xf0) least = 0x90;
-      if (first == 0xf4) most = 0x8f;
-    } else {
-      return false;
-    }
-    for (; more > 0; --more) {
-      if (at == end || *at < least || *at > most) return false;
-      ++at;
-      least = 0x80;
-      most = 0xbf;
-    }
-  }
-  return true;
-}
 
 void append_cbor(const json& value, std::string& out) {
   if (is_sound(value)) {

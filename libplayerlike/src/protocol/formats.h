@@ -15,6 +15,4 @@ void append_cbor(const nlohmann::json& value, std::string& out);
 [[nodiscard]] nlohmann::json parse_json(std::string_view text, bool splice_lists);
 [[nodiscard]] nlohmann::json parse_cbor(std::string_view bytes);
 
-[[nodiscard]] bool is_utf8(std::string_view text) noexcept;
-
 }  // namespace playerlike::protocol

@@ -7,35 +7,16 @@
 #include "devices/errors.h"
 #include "libplayerc++/speechproxy.h"
 #include "proxies/link.h"
+#include "sim/core/utf8.h"
 
 namespace PlayerCc {
 namespace {
-
-// Bytes of the UTF-8 character that a text begins with; 0 if it begins with none. See Unicode 15,
-// table 3-7.
-std::size_t character_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
-  };
-  const unsigned first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xc2 && first <= 0xdf   ? 2
-                             : first >= 0xe0 && first <= 0xef ? 3
-                             : first >= 0xf0 && first <= 0xf4 ? 4
-                                                              : 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if (byte(i) < 0x80 || byte(i) > 0xbf) return 0;
-  }
-  const bool overlong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
-  const bool no_character = (first == 0xed && byte(1) > 0x9f) || (first == 0xf4 && byte(1) > 0x8f);
-  return overlong || no_character ? 0 : length;
-}
 
 // What of a text can be said.
 std::string sayable(std::string_view text) {
   std::string said;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = sim::utf8_length(text);
     const auto first = static_cast<unsigned char>(text.front());
     const bool printable = length > 1 || (length == 1 && first >= 0x20 && first != 0x7f);
     const bool space = first == '\n' || first == '\t' || first == '\r';

@@ -117,14 +117,28 @@ bool Access::has_wrong(const std::vector<std::string>& tokens) const {
   return wrong;
 }
 
-std::chrono::milliseconds Hub::note_wrong_token(const Peer& peer) {
-  const TokenGuard::Cost cost = guard.note_wrong(peer.name(), TokenGuard::Clock::now());
+Hub::TokenVerdict Hub::judge_tokens(const Peer& peer, const std::vector<std::string>& tokens) {
+  const TokenGuard::Clock::time_point now = TokenGuard::Clock::now();
+  if (tokens.empty()) return {};
+  if (!access().has_wrong(tokens)) return {false, guard_.delay_of_right(peer.name(), now)};
+  const TokenGuard::Cost cost = guard_.note_wrong(peer.name(), now);
   if (cost.tell) {
     log(sim::LogLevel::kWarning,
         peer.name() + ": a wrong token, " + std::to_string(cost.count) +
             (cost.count == 1 ? " from this address" : " from this address in the last minute"));
   }
-  return cost.delay;
+  return {true, cost.delay};
+}
+
+void Hub::answer_after(std::chrono::milliseconds delay, Peer& peer, std::weak_ptr<void> handler,
+                       std::function<void()> action) {
+  if (delay <= delay.zero()) return action();
+  peer.set_busy(true);
+  after(delay, [&peer, handler = std::move(handler), action = std::move(action)] {
+    if (handler.expired()) return;
+    peer.set_busy(false);  // what is read now is looked at afterwards
+    action();
+  });
 }
 
 }  // namespace playerlike::server

@@ -35,8 +35,7 @@ bool is_sound_id(std::string_view id) {
          std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
 
-constexpr const char* kTooManyWrong =
-    "too many wrong tokens came from this address; try again in a minute";
+constexpr const char* kTooManyWrong = "too many wrong tokens came through this connection";
 
 /// The tokens that a hello presents, as far as they are texts.
 std::vector<std::string> tokens_in(const json& hello) {
@@ -167,25 +166,14 @@ void MorseConnection::work(const std::string& id, const MorseService& service, c
 
 void MorseConnection::try_tokens(const std::string& id, const std::vector<std::string>& tokens,
                                  std::function<void()> action) {
-  if (!tokens.empty() && hub_.guard.blocks(peer_.name(), TokenGuard::Clock::now())) {
-    return peer_.close(farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
-  }
-  if (!hub_.access().has_wrong(tokens)) return action();
-  ++wrong_tokens_;
-  // Nothing more is read from the connection before, and nobody else waits for it.
-  peer_.set_busy(true);
-  hub_.after(hub_.note_wrong_token(peer_),
-             [weak = std::weak_ptr<MorseConnection*>(self_), id, action = std::move(action)] {
-               const auto self = weak.lock();
-               if (!self) return;
-               MorseConnection& from = **self;
-               from.guarded(id, action);
-               if (from.wrong_tokens_ >= TokenGuard::kMostOfAConnection) {
-                 return from.peer_.close(
-                     from.farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
-               }
-               from.peer_.set_busy(false);
-             });
+  const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, tokens);
+  if (verdict.wrong) ++wrong_tokens_;
+  hub_.answer_after(verdict.delay, peer_, self_, [this, id, action = std::move(action)] {
+    guarded(id, action);
+    if (wrong_tokens_ >= TokenGuard::kMostOfAConnection) {
+      peer_.close(farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
+    }
+  });
 }
 
 // What is Playpen's own among the requests.

@@ -50,17 +50,12 @@ class StreamConnection : public Handler {
     if (!first) return false;
     const auto token = token_in(line);
     if (!token) return false;
-    if (hub_.guard.blocks(peer_.name(), TokenGuard::Clock::now())) {
-      peer_.close("");
-    } else if (hub_.access().has_wrong({*token})) {
-      // A connection has one try: it is closed, after a while.
-      peer_.set_busy(true);
-      hub_.after(hub_.note_wrong_token(peer_), [this, weak = std::weak_ptr<bool>(alive_)] {
-        if (!weak.expired()) peer_.close("");
-      });
-    } else {
-      rights_ = hub_.access().rights({*token});
-    }
+    const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, {*token});
+    // A connection has one try: with a wrong token it is closed.
+    hub_.answer_after(verdict.delay, peer_, alive_, [this, wrong = verdict.wrong, token = *token] {
+      if (wrong) return peer_.close("");
+      rights_ = hub_.access().rights({token});
+    });
     return true;
   }
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
@@ -306,15 +301,13 @@ class SyncConnection final : public Handler {
   // What comes together counts as one message, as in MORSE, but for lines.
   void on_message(std::string_view bytes) override {
     if (!allowed_) {
-      const auto token = token_in(bytes);
-      const bool blocked = hub_.guard.blocks(peer_.name(), TokenGuard::Clock::now());
-      if (token && !blocked && hub_.access().has_wrong({*token})) {
-        static_cast<void>(hub_.note_wrong_token(peer_));
-      } else if (token && !blocked) {
-        allow(hub_.access().rights({*token}));
-      }
-      if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");
-      return;
+      std::vector<std::string> tokens;
+      if (auto token = token_in(bytes)) tokens.push_back(std::move(*token));
+      const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, tokens);
+      return hub_.answer_after(verdict.delay, peer_, alive_, [this, tokens = std::move(tokens)] {
+        allow(hub_.access().rights(tokens));
+        if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");
+      });
     }
     const auto lines = std::count(bytes.begin(), bytes.end(), '\n');
     hub_.host().add_step_credit(static_cast<std::uint64_t>(std::max<std::ptrdiff_t>(1, lines)));
@@ -331,6 +324,7 @@ class SyncConnection final : public Handler {
   Peer& peer_;
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< outlived by timers
   bool allowed_ = false;
 };
 

@@ -162,9 +162,18 @@ class Hub {
   /// Replaces the handler of a connection (from inside its on_message(): after that returns).
   virtual void hand_over(Peer& peer, std::unique_ptr<Handler> handler) = 0;
 
-  /// Notes a wrong token of a connection, and tells the log of it now and then.
-  /// @return how long its answer is to be held back.
-  std::chrono::milliseconds note_wrong_token(const Peer& peer);
+  /// What is to be done about tokens that a connection has presented.
+  struct TokenVerdict {
+    bool wrong = false;                  ///< whether one of them is none of this server's
+    std::chrono::milliseconds delay{0};  ///< of the answer
+  };
+  /// Looks at tokens; notes wrong ones, and tells the log of them now and then.
+  [[nodiscard]] TokenVerdict judge_tokens(const Peer& peer, const std::vector<std::string>& tokens);
+  /// Does something for a connection after a time, in which nothing more is read from it and nobody
+  /// else waits for it; at once if that is no time.
+  /// @param handler  of the connection: if it has expired by then, nothing is done.
+  void answer_after(std::chrono::milliseconds delay, Peer& peer, std::weak_ptr<void> handler,
+                    std::function<void()> action);
 
   /// A client has asked for the end of the server.
   virtual void quit() = 0;
@@ -173,13 +182,14 @@ class Hub {
   /// @param process  what the process calls itself in its hellos; @param thread  its number there.
   [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
 
-  /// Slows down those who guess tokens, on all ports.
-  TokenGuard guard;
   /// What the connections in MORSE's protocol share; made for the first one. To be dropped while
   /// post() can still be called.
   std::shared_ptr<MorseState> morse_state;
   /// What the connections in Playpen's own protocol share; made for the first one.
   std::shared_ptr<NativeState> native_state;
+
+ private:
+  TokenGuard guard_;  ///< of all ports
 };
 
 /// Handler of a new connection to the services' port: MORSE's protocol, and `playpen hello`.

@@ -13,9 +13,11 @@ std::map<std::string, TokenGuard::Address>::iterator TokenGuard::find(const std:
   return addresses_.end();
 }
 
-bool TokenGuard::blocks(const std::string& peer, Clock::time_point now) {
+std::chrono::milliseconds TokenGuard::delay_of_right(const std::string& peer,
+                                                     Clock::time_point now) {
   const auto it = find(peer, now);
-  return it != addresses_.end() && it->second.wrong >= kMostOfAnAddress;
+  const bool suspect = it != addresses_.end() && it->second.wrong >= kMostOfAnAddress;
+  return suspect ? kLongestDelay : std::chrono::milliseconds(0);
 }
 
 TokenGuard::Cost TokenGuard::note_wrong(const std::string& peer, Clock::time_point now) {

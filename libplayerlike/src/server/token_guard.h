@@ -10,17 +10,18 @@
 namespace playerlike::server {
 
 /// Slows down those who guess tokens. Counts wrong tokens by the address that they come from: the
-/// first ones cost some ms, as a slip may happen, later ones more and more; after many in a minute
-/// no token at all is taken from that address for a while. Used by the server's thread only.
+/// first ones cost some ms, as a slip may happen, later ones more and more. After many in a minute
+/// right tokens from that address are answered as late as wrong ones, so that nobody can tell by
+/// the time which of his guesses to give up. Used by the server's thread only.
 class TokenGuard {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// Wrong tokens after which a connection is closed.
   static constexpr int kMostOfAConnection = 5;
-  /// Wrong tokens after which an address has to wait.
+  /// Wrong tokens after which right ones of the address have to wait, too.
   static constexpr int kMostOfAnAddress = 60;
-  /// How long an address is remembered after its last wrong token, and waits at most.
+  /// How long an address is remembered after its last wrong token.
   static constexpr std::chrono::seconds kMemory{60};
   /// Of the answer to the first wrong token; each further one takes twice as long, up to the
   /// second.
@@ -29,9 +30,10 @@ class TokenGuard {
   /// Addresses that are remembered; the one heard of longest ago makes room.
   static constexpr std::size_t kMostAddresses = 4096;
 
-  /// Whether no token may be looked at, right or wrong.
+  /// How long the answer to a right token takes.
   /// @param peer  "ADDRESS:PORT".
-  [[nodiscard]] bool blocks(const std::string& peer, Clock::time_point now);
+  [[nodiscard]] std::chrono::milliseconds delay_of_right(const std::string& peer,
+                                                         Clock::time_point now);
 
   /// What a wrong token costs.
   struct Cost {

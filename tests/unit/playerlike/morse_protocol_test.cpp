@@ -19,6 +19,7 @@
 #include "playerlike/server/server.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
+#include "server/token_guard.h"
 #include "sim/core/number_text.h"
 #include "temporary_folder.h"
 
@@ -838,6 +839,30 @@ TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
   EXPECT_THAT(logged(),
               AllOf(HasSubstr("a wrong token, 1 from this address"),
                     HasSubstr("a wrong token, 4 from this address"), Not(HasSubstr("guess"))));
+}
+
+// Once, right tokens of the guesser's address were refused for a minute: one guesser kept all
+// newcomers of his machine out.
+TEST_F(MorseProtocol, BesideAGuesserRightTokensAreTakenLaterButTaken) {
+  settings.access.server_token = "open sesame";
+  MorseClient client = start();
+  client.get("playpen token [\"open sesame\"]");
+  std::vector<RawClient> guessers;
+  for (int i = 0; i < server::TokenGuard::kMostOfAnAddress; ++i) {
+    guessers.push_back(stream(client, "r1.pose"));
+    guessers.back().send("{\"playpen_token\": \"wrong\"}\n");
+  }
+  // A stream has one try: it is closed when its delay is over. By then all have been counted.
+  EXPECT_EQ(guessers.back().rest(), "");
+  MorseClient newcomer = connect();
+  RawClient writer = stream(client, "r1.motion");
+  writer.send("{\"playpen_token\": \"open sesame\"}\n{\"v\": 0, \"w\": 0.5}\n");
+  RawClient native("127.0.0.1", server->port());
+  native.send("1 playpen hello [{\"version\": 1, \"tokens\": [\"open sesame\"]}]\n");
+  newcomer.get("playpen token [\"open sesame\"]");
+  EXPECT_THAT(native.line(), StartsWith("1 SUCCESS"));
+  EXPECT_TRUE(
+      comes_true(newcomer, [&] { return newcomer.data("r1.odometry").value("wz", 0.0) == 0.5; }));
 }
 
 TEST_F(MorseProtocol, RobotTokenIsWantedForItsCommands) {

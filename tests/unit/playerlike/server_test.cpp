@@ -862,14 +862,14 @@ TEST(TokenFile, MadeTokensAreLongAndDiffer) {
   }
 }
 
-TEST(TokenGuards, SlowDownAndThenBlockAnAddressForAWhile) {
+TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
   using std::chrono::milliseconds;
   TokenGuard guard;
   auto now = TokenGuard::Clock::now();
   int told = 0;
   milliseconds waited{0};
   for (int i = 1; i <= TokenGuard::kMostOfAnAddress; ++i) {
-    EXPECT_FALSE(guard.blocks("10.0.0.7:" + std::to_string(i), now));
+    EXPECT_EQ(guard.delay_of_right("10.0.0.7:" + std::to_string(i), now), milliseconds(0));
     const TokenGuard::Cost cost = guard.note_wrong("10.0.0.7:" + std::to_string(i), now);
     EXPECT_EQ(cost.count, i) << "whatever the connection";
     EXPECT_EQ(cost.delay,
@@ -880,11 +880,13 @@ TEST(TokenGuards, SlowDownAndThenBlockAnAddressForAWhile) {
   }
   EXPECT_EQ(told, 6) << "1, 2, 4, 8, 16, 32";
   EXPECT_GT(waited, std::chrono::minutes(4)) << "for 60 guesses one after the other";
-  EXPECT_TRUE(guard.blocks("10.0.0.7:99", now));
-  EXPECT_FALSE(guard.blocks("10.0.0.8:99", now));
-  EXPECT_FALSE(guard.blocks("[10.0.0.7::1]:99", now));
+  EXPECT_EQ(guard.delay_of_right("10.0.0.7:99", now), milliseconds(5000));
+  EXPECT_EQ(guard.note_wrong("10.0.0.7:98", now).delay, milliseconds(5000))
+      << "so that the time does not tell right from wrong";
+  EXPECT_EQ(guard.delay_of_right("10.0.0.8:99", now), milliseconds(0));
+  EXPECT_EQ(guard.delay_of_right("[10.0.0.7::1]:99", now), milliseconds(0));
   now += TokenGuard::kMemory;
-  EXPECT_FALSE(guard.blocks("10.0.0.7:99", now));
+  EXPECT_EQ(guard.delay_of_right("10.0.0.7:99", now), milliseconds(0));
   EXPECT_EQ(guard.note_wrong("10.0.0.7:99", now).count, 1);
 }
 
