@@ -32,7 +32,7 @@ constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
 // sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
-double sinc(double x) {
+inline double sinc(double x) {
   if (std::abs(x) > 0.05) return std::sin(x) / x;
   const double x2 = x * x;
   return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
@@ -55,7 +55,7 @@ double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction,
 
 // Where an unhindered robot gets to: along the exact arc of the twist (the exponential map of
 // SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
-Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
+inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
   const double half_turn = 0.5 * twist.omega_radps * dt_s;
   const double chord = twist.v_mps * dt_s * sinc(half_turn);
   const double side = twist.lateral_mps * dt_s * sinc(half_turn);
@@ -66,7 +66,7 @@ Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
 }
 
 // Takes back what Box2D's solver may have done to a body that is not to move.
-void hold(Robot& r) {
+inline void hold(Robot& r) {
   const b2Vec2 p = to_box2d(r.X_WB.position());
   const float angle = static_cast<float>(r.X_WB.yaw_rad);
   if (r.body->GetPosition() == p && r.body->GetAngle() == angle) return;
@@ -76,13 +76,13 @@ void hold(Robot& r) {
 }
 
 // Keeps angles small, where single precision is fine.
-void unwind(Robot& r) {
+inline void unwind(Robot& r) {
   r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
   if (r.body == nullptr) return;
   r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
 }
 
-void finish_step(Robot& r, double dt_s) {
+inline void finish_step(Robot& r, double dt_s) {
   BodyState& s = *r.state;
   s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
   s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, s.side_m / dt_s};
@@ -97,6 +97,45 @@ void finish_step(Robot& r, double dt_s) {
 }
 
 }  // namespace
+
+// Inline, as they are called for every robot in every step.
+
+// Books that a robot went so far and turned so much.
+inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
+  r.state->turn_rad += turn_rad;
+  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
+  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
+  r.gone_m += most_m;
+  r.moved_m += most_m;
+  farthest_m_ = std::max(farthest_m_, r.moved_m);
+}
+
+// The robot is where its twist took it.
+inline void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
+  r.X_WB = goal;
+  const double travel = twist.v_mps * dt_s;
+  const double side = twist.lateral_mps * dt_s;
+  r.state->travel_m += travel;
+  r.state->side_m += side;
+  moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
+}
+
+// To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
+inline void Mover::move_freely(Robot& r, double dt_s) {
+  if (r.body != nullptr) {
+    if (--r.kept_parts == 0) {
+      bodies_.take_out_of_box2d(r);
+    } else if (r.body->IsAwake()) {
+      r.body->SetAwake(false);
+    }
+  }
+  if (r.target == Twist{}) return;
+  const Pose goal = arc_end(r.X_WB, r.target, dt_s);
+  if (r.body != nullptr) {
+    r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
+  }
+  arrive(r, goal, r.target, dt_s);
+}
 
 void Mover::step(double dt_s) {
   double travel_m = 0.0;
@@ -282,23 +321,6 @@ void Mover::find_shoving() {
   }
 }
 
-// To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
-void Mover::move_freely(Robot& r, double dt_s) {
-  if (r.body != nullptr) {
-    if (--r.kept_parts == 0) {
-      bodies_.take_out_of_box2d(r);
-    } else if (r.body->IsAwake()) {
-      r.body->SetAwake(false);
-    }
-  }
-  if (r.target == Twist{}) return;
-  const Pose goal = arc_end(r.X_WB, r.target, dt_s);
-  if (r.body != nullptr) {
-    r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
-  }
-  arrive(r, goal, r.target, dt_s);
-}
-
 // Moves the robots that are hindered: those that shove by dt_s, the others by others_dt_s, in one
 // step of Box2D. In the first part that is all the time there is; then it is 0, and they rest.
 void Mover::substep(double dt_s, double others_dt_s) {
@@ -356,26 +378,6 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
   r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
   moved(r, std::hypot(dx, dy), turn);
-}
-
-// The robot is where its twist took it.
-void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
-  r.X_WB = goal;
-  const double travel = twist.v_mps * dt_s;
-  const double side = twist.lateral_mps * dt_s;
-  r.state->travel_m += travel;
-  r.state->side_m += side;
-  moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
-}
-
-// Books that a robot went so far and turned so much.
-void Mover::moved(Robot& r, double way_m, double turn_rad) {
-  r.state->turn_rad += turn_rad;
-  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
-  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
-  r.gone_m += most_m;
-  r.moved_m += most_m;
-  farthest_m_ = std::max(farthest_m_, r.moved_m);
 }
 
 void Mover::bare_step(double dt_s) {
