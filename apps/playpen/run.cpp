@@ -75,55 +75,11 @@ void tell_more(const RunRequest& request, const std::string& world,
             << " -- gdb -ex run --args" << command << '\n';
 }
 
-}  // namespace
-
-int run(RunRequest request) {
-  if (request.world.starts_with("tcp://")) {
-    throw std::runtime_error(
-        "playpen run makes a simulation of its own; for the one of a server, "
-        "start the program itself: PLAYPEN_WORLD=" +
-        request.world + ' ' + request.command.front());
-  }
-  const std::string world_file = find_world(request.world);
-  sim::WorldDescription world = load_found_world(world_file);
-  request.settings.apply_to(world);  // says what does not go with the world before the run
-  request.command.front() = playerlike::find_program(request.command.front());
-  playerlike::RunSettings& settings = request.settings;
-  if (request.view) pace_for_view(settings, world);
-  settings.progress = !request.quiet;
-  settings.quiet_end = true;
-  prepare_outputs(settings, world_file);
-  if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
-    std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
-                 "(or give --duration)\n";
-  }
-  std::optional<ViewerProcess> viewer;
-  if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
-
+// Says how a run has ended. @return the command's exit code.
+int verdict(const RunRequest& request, const sim::WorldDescription& world,
+            const playerlike::ProgramEnd& end, bool completed) {
+  const playerlike::RunSettings& settings = request.settings;
   const std::string& program = request.command.front();
-  std::optional<PreloadedLibrary> virtual_time;
-  settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
-  const playerlike::KeptRun kept;
-  settings.kept_run = kept.file();
-  playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
-  add_libraries_folder(environment);
-  if (settings.virtual_time) virtual_time.emplace().add_to(environment);
-  playerlike::RunWatch watch;
-  watch.kept = &kept;
-  watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
-  bool completed = false;
-  watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
-    try {
-      completed = playerlike::complete_results(kept, world, settings.output_folder, settings.film,
-                                               program_end);
-    } catch (const std::exception& e) {
-      std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
-    }
-  };
-  const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment, watch);
-
-  viewer.reset();  // it has nothing to show any more
-
   const bool reported = has_report(settings);
   if (reported && !has_pictures(settings)) {
     std::cerr << "playpen: not all pictures could be written; the reason is above\n";
@@ -159,6 +115,57 @@ int run(RunRequest request) {
     return kProgramFailed;
   }
   return kOk;
+}
+
+}  // namespace
+
+int run(RunRequest request) {
+  if (request.world.starts_with("tcp://")) {
+    throw std::runtime_error(
+        "playpen run makes a simulation of its own; for the one of a server, "
+        "start the program itself: PLAYPEN_WORLD=" +
+        request.world + ' ' + request.command.front());
+  }
+  const std::string world_file = find_world(request.world);
+  sim::WorldDescription world = load_found_world(world_file);
+  request.settings.apply_to(world);  // says what does not go with the world before the run
+  request.command.front() = playerlike::find_program(request.command.front());
+  playerlike::RunSettings& settings = request.settings;
+  if (request.view) pace_for_view(settings, world);
+  settings.progress = !request.quiet;
+  settings.quiet_end = true;
+  prepare_outputs(settings, world_file);
+  if (!request.quiet && !settings.duration_s && !world.simulation.duration_ns) {
+    std::cerr << "playpen: the world sets no duration, so the run ends when the program does "
+                 "(or give --duration)\n";
+  }
+  std::optional<ViewerProcess> viewer;
+  if (request.view) settings.view_socket = viewer.emplace("Playpen: " + world.name).socket();
+
+  std::optional<PreloadedLibrary> virtual_time;
+  settings.virtual_time = !request.real_sleep && in_lockstep(settings, world);
+  const playerlike::KeptRun kept;
+  settings.kept_run = kept.file();
+  playerlike::EnvironmentChanges environment = playerlike::run_environment(world_file, settings);
+  add_libraries_folder(environment);
+  if (settings.virtual_time) virtual_time.emplace().add_to(environment);
+  playerlike::RunWatch watch;
+  watch.kept = &kept;
+  watch.tell = [](const std::string& text) { std::cerr << "playpen: " << text << '\n'; };
+  bool completed = false;
+  watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
+    try {
+      completed = playerlike::complete_results(kept, world, settings.output_folder, settings.film,
+                                               program_end);
+    } catch (const std::exception& e) {
+      std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
+    }
+  };
+  const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment, watch);
+
+  viewer.reset();  // it has nothing to show any more
+
+  return verdict(request, world, end, completed);
 }
 
 }  // namespace playpen

@@ -25,8 +25,9 @@ if(TARGET playpen_player)
 endif()
 
 # Folders, not file sets: CMake has those from 3.23 on, Ubuntu 22.04 has 3.22.
-foreach(_dir IN ITEMS libsim/include libplayerlike/include)
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${_dir}/"
+foreach(_dir IN ITEMS "${PROJECT_SOURCE_DIR}/libsim/include" "${PROJECT_SOURCE_DIR}/libplayerlike/include"
+    "${PROJECT_BINARY_DIR}/libplayerlike/include")
+  install(DIRECTORY "${_dir}/"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/playpen"
     FILES_MATCHING PATTERN "*.h")
 endforeach()

@@ -19,10 +19,10 @@ endif()
 file(RELATIVE_PATH playpen_libraries_from_command
   "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 
-# playpen_module(NAME SOURCE): a library that is loaded at run time from lib/playpen. It is not built
+# playpen_module(NAME SOURCE...): a library that is loaded at run time from lib/playpen. It is not built
 # with sanitizers: it is there before they are, or belongs to a library that has none.
-function(playpen_module name source)
-  add_library(${name} MODULE ${source})
+function(playpen_module name)
+  add_library(${name} MODULE ${ARGN})
   set_target_properties(${name} PROPERTIES
     CXX_STANDARD 20
     CXX_STANDARD_REQUIRED ON

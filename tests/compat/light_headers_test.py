@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-"""light_headers_test.py COMPILER INCLUDE_FOLDER: fails if playerc++.h brings along a header that
+"""light_headers_test.py COMPILER INCLUDE_FOLDER...: fails if playerc++.h brings along a header that
 takes long to compile, or that client programs have no business with: of a library that only
 Playpen's sources use, of the simulator, or of Boost, which programs may include themselves.
 """
@@ -14,8 +14,9 @@ HEAVY = re.compile(r"/(Eigen|opencv\d?|nlohmann|spdlog|fmt|asio|yaml-cpp|CLI|box
 
 
 def main():
-    compiler, folder = sys.argv[1:]
-    run = subprocess.run([compiler, "-std=c++17", "-H", "-fsyntax-only", "-I", folder, "-x", "c++", "-"],
+    compiler, *folders = sys.argv[1:]
+    run = subprocess.run([compiler, "-std=c++17", "-H", "-fsyntax-only", *(f"-I{f}" for f in folders), "-x", "c++",
+                          "-"],
                          input="#include <libplayerc++/playerc++.h>\n", capture_output=True,
                          text=True, check=False)
     if run.returncode != 0:

@@ -323,18 +323,17 @@ def constant_checks(rows):
     return out
 
 
-def struct_checks(name, fields):
-    """The types and the order of a struct's fields."""
-    out = [f'static_assert(std::is_standard_layout<{name}>::value && std::is_trivial<{name}>::value, '
+def struct_checks(name, text):
+    """The types, the order and the places of a struct's fields; it has no others."""
+    fields = fields_of(text)
+    expected = f"expected_{name}"
+    out = [f"struct {expected} {{ {text}; }};",
+           f'static_assert(sizeof({expected}) == sizeof({name}), "");',
+           f'static_assert(std::is_standard_layout<{name}>::value && std::is_trivial<{name}>::value, '
            '"");']
-    before = None
     for kind, field in fields:
         out.append(f'static_assert(std::is_same<decltype({name}::{field}), {kind}>::value, "");')
-        if before is None:
-            out.append(f'static_assert(offsetof({name}, {field}) == 0, "");')
-        else:
-            out.append(f'static_assert(offsetof({name}, {before}) < offsetof({name}, {field}), "");')
-        before = field
+        out.append(f'static_assert(offsetof({name}, {field}) == offsetof({expected}, {field}), "");')
     return out
 
 
@@ -356,10 +355,10 @@ def write_cxx(path, tables, only):
     for _, name, fields in (row[:3] for row in structs):
         tag = re.sub(r"_t$", "", name)
         out.append(f'static_assert(std::is_same<struct {tag}, {name}>::value, "");')
-        out += struct_checks(name, fields_of(fields))
+        out += struct_checks(name, fields)
     out.append("\n// The C library.")
     for name, fields in c_structs:
-        out += struct_checks(name, fields_of(fields))
+        out += struct_checks(name, fields)
     out += [f'static_assert(std::is_same<decltype({f.name}), {f.type}({f.types()})>::value, "");'
             for f in functions]
     uses = ""

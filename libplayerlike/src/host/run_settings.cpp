@@ -45,6 +45,43 @@ bool is_set(const char* name) {
   return !value.empty() && value != "0";
 }
 
+bool parse_positive_seconds(const std::string& text, double& value) {
+  return parse_whole(text, value) && positive(value) && value <= kLongest_s;
+}
+
+// What reads a text into the target if parse(text, value) understands it.
+template <typename T, typename Target>
+auto into(Target& target, bool (*parse)(const std::string&, T&)) {
+  return [&target, parse](const std::string& text) {
+    T value{};
+    if (!parse(text, value)) return false;
+    target = value;
+    return true;
+  };
+}
+
+// Variables of the environment, and what is wrong with them.
+class Variables {
+ public:
+  // @param read  takes the text of a variable that is set; false: something else was expected.
+  template <typename Read>
+  void read(const char* name, const char* expected, Read read) {
+    const std::string text(environment(name));
+    if (!text.empty() && !read(text)) refuse(name, expected);
+  }
+  void refuse(const char* name, const char* expected) {
+    issues_.push_back(
+        {"run/environment", name, "", expected, '"' + std::string(environment(name)) + '"', ""});
+  }
+  // @throws sim::ConfigError if something is wrong.
+  void check() {
+    if (!issues_.empty()) throw sim::ConfigError(std::move(issues_));
+  }
+
+ private:
+  std::vector<sim::ConfigIssue> issues_;
+};
+
 }  // namespace
 
 bool parse_time_mode(const std::string& text, sim::TimeMode& mode, double& factor) {
@@ -83,93 +120,55 @@ bool parse_snapshot_period(const std::string& text, double& period_s) {
 
 RunSettings RunSettings::from_environment() {
   RunSettings settings;
-  std::vector<sim::ConfigIssue> issues;
-  const auto wrong = [&issues](const char* name, std::string expected) {
-    issues.push_back({"run/environment", name, "", std::move(expected),
-                      '"' + std::string(environment(name)) + '"', ""});
-  };
-  if (const auto text = environment("PLAYPEN_SEED"); !text.empty()) {
-    std::uint64_t seed = 0;
-    if (parse_whole(text, seed)) {
-      settings.seed = seed;
-    } else {
-      wrong("PLAYPEN_SEED", "a whole number from 0 to 2^64 - 1");
-    }
-  }
-  if (const auto text = environment("PLAYPEN_DURATION"); !text.empty()) {
-    double duration_s = 0.0;
-    if (parse_whole(text, duration_s) && positive(duration_s) && duration_s <= kLongest_s) {
-      settings.duration_s = duration_s;
-    } else {
-      wrong("PLAYPEN_DURATION", "a number of seconds in (0, 1e9]");
-    }
-  }
-  if (const auto text = environment("PLAYPEN_TIME"); !text.empty()) {
-    sim::TimeMode mode = sim::TimeMode::kLockstep;
-    if (parse_time_mode(std::string(text), mode, settings.time_factor)) {
-      settings.time_mode = mode;
-    } else {
-      wrong("PLAYPEN_TIME", "\"lockstep\", \"real\" or a factor in (0, 1e6]");
-    }
-  }
-  if (const auto text = environment("PLAYPEN_SILENCE_LIMIT"); !text.empty()) {
-    double limit_s = 0.0;
-    if (parse_whole(text, limit_s) && positive(limit_s) && limit_s <= kLongest_s) {
-      settings.silence_limit_s = limit_s;
-    } else {
-      wrong("PLAYPEN_SILENCE_LIMIT", "a number of seconds in (0, 1e9]");
-    }
-  }
-  if (const auto text = environment("PLAYPEN_VIEW"); !text.empty()) {
-    int descriptor = 0;
-    if (parse_whole(text, descriptor) && descriptor > 2) {
-      settings.view_socket = descriptor;
-    } else {
-      wrong("PLAYPEN_VIEW", "the number of a descriptor above 2, as playpen run --view sets it");
-    }
-  }
+  Variables variables;
+  variables.read(
+      "PLAYPEN_SEED", "a whole number from 0 to 2^64 - 1",
+      into<std::uint64_t>(settings.seed, [](const std::string& text, std::uint64_t& seed) {
+        return parse_whole(text, seed);
+      }));
+  variables.read("PLAYPEN_DURATION", "a number of seconds in (0, 1e9]",
+                 into<double>(settings.duration_s, parse_positive_seconds));
+  variables.read("PLAYPEN_TIME", "\"lockstep\", \"real\" or a factor in (0, 1e6]",
+                 [&](const std::string& text) {
+                   sim::TimeMode mode = sim::TimeMode::kLockstep;
+                   if (!parse_time_mode(text, mode, settings.time_factor)) return false;
+                   settings.time_mode = mode;
+                   return true;
+                 });
+  variables.read("PLAYPEN_SILENCE_LIMIT", "a number of seconds in (0, 1e9]",
+                 into<double>(settings.silence_limit_s, parse_positive_seconds));
+  variables.read("PLAYPEN_VIEW",
+                 "the number of a descriptor above 2, as playpen run --view sets it",
+                 into<int>(settings.view_socket, [](const std::string& text, int& descriptor) {
+                   return parse_whole(text, descriptor) && descriptor > 2;
+                 }));
   settings.output_folder = environment("PLAYPEN_OUT");
   settings.kept_run = environment("PLAYPEN_STATE");
   settings.film = environment("PLAYPEN_RECORD");
   if (!settings.film.empty() && !sim::render::FilmWriter::is_film_name(settings.film)) {
-    wrong("PLAYPEN_RECORD", kFilmExpected);
+    variables.refuse("PLAYPEN_RECORD", kFilmExpected);
   }
-  const auto text_of = [](const char* name) { return std::string(environment(name)); };
-  if (const std::string text = text_of("PLAYPEN_RECORD_FPS");
-      !text.empty() && !parse_film_fps(text, settings.film_fps)) {
-    wrong("PLAYPEN_RECORD_FPS", kFilmFpsExpected);
+  variables.read("PLAYPEN_RECORD_FPS", kFilmFpsExpected,
+                 into<double>(settings.film_fps, parse_film_fps));
+  variables.read("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected,
+                 into<double>(settings.film_speed, parse_film_speed));
+  variables.read("PLAYPEN_SNAPSHOT_EVERY", kSnapshotPeriodExpected,
+                 into<double>(settings.snapshot_period_s, parse_snapshot_period));
+  if (settings.snapshot_period_s && settings.output_folder.empty()) {
+    settings.snapshot_period_s.reset();
+    variables.refuse("PLAYPEN_SNAPSHOT_EVERY",
+                     "PLAYPEN_OUT beside it, the folder for the pictures");
   }
-  if (const std::string text = text_of("PLAYPEN_RECORD_SPEED");
-      !text.empty() && !parse_film_speed(text, settings.film_speed)) {
-    wrong("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected);
-  }
-  if (const std::string text = text_of("PLAYPEN_SNAPSHOT_EVERY"); !text.empty()) {
-    double period_s = 0.0;
-    if (!parse_snapshot_period(text, period_s)) {
-      wrong("PLAYPEN_SNAPSHOT_EVERY", kSnapshotPeriodExpected);
-    } else if (settings.output_folder.empty()) {
-      wrong("PLAYPEN_SNAPSHOT_EVERY", "PLAYPEN_OUT beside it, the folder for the pictures");
-    } else {
-      settings.snapshot_period_s = period_s;
-    }
-  }
-  if (const std::string text = text_of("PLAYPEN_VIEW_MODE"); !text.empty()) {
+  variables.read("PLAYPEN_VIEW_MODE", kViewModeExpected, [&](const std::string& text) {
     settings.view_mode = sim::parse_view_mode(text);
-    if (!settings.view_mode) wrong("PLAYPEN_VIEW_MODE", kViewModeExpected);
-  }
+    return settings.view_mode.has_value();
+  });
   settings.grading.nonce = environment("PLAYPEN_GRADE");
-  if (const std::string text = text_of("PLAYPEN_CLIENTS"); !text.empty()) {
-    int clients = 0;
-    if (parse_clients(text, clients)) {
-      settings.clients = clients;
-    } else {
-      wrong("PLAYPEN_CLIENTS", kClientsExpected);
-    }
-  }
+  variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
-  if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+  variables.check();
   return settings;
 }
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// What the preloaded library (preload.cpp) and Playpen in the same process say to each other. A C
+/// What the preloaded library (preload/) and Playpen in the same process say to each other. A C
 /// interface between binaries that may have been built apart: what changes gets another version.
 /// See docs/virtual_time.md.
 extern "C" {

@@ -8,7 +8,7 @@
 #include "sim/core/time.h"
 
 /// Playpen's side of virtual time (docs/virtual_time.md): what becomes of a sleep, or of a look at
-/// the clock, in a program that `playpen run` has started. Its other side is preload.cpp.
+/// the clock, in a program that `playpen run` has started. Its other side is preload/.
 ///
 /// Each thread has its own way: the main thread and those that take part in the lockstep live in
 /// virtual time while they are in the program's own code; in Playpen's own code (Inside) and in all

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "render/robot_place.h"
+
 namespace sim::render {
 namespace {
 
@@ -225,15 +227,15 @@ class RobotPainter {
   }
 
   void draw_robot(const RobotSnapshot& robot) {
-    if (!has_place(robot)) return;
+    if (!has_place(robot, layout_)) return;
     const Colour colour = opaque(robot.colour);
     const Colour dark = mix(colour, palette::kWheel, 0.65);
     const Vec2 center = layout_(robot.X_WB.position());
-    const double radius = radius_px(robot);
-    const bool small = radius < marked_radius_px(robot);
+    const double radius = radius_px(robot, layout_);
+    const bool small = radius < marked_radius_px(robot, layout_);
     if (small) draw_marker(robot, center, colour);
-    if (robot.stalled) draw_stall_ring(center, marked_radius_px(robot));
-    if (robot.marked) draw_mark(center, marked_radius_px(robot));
+    if (robot.stalled) draw_stall_ring(center, marked_radius_px(robot, layout_));
+    if (robot.marked) draw_mark(center, marked_radius_px(robot, layout_));
 
     Vec2 low = robot.footprint.front();
     Vec2 high = low;
@@ -289,75 +291,6 @@ class RobotPainter {
     outline(body, dark, layout_.line_px(1.5));
     draw_bumpers(robot, dark);
     draw_lights(robot);
-  }
-
-  // Bubbles beside the robots that say something, none over another if there is room.
-  void draw_speech() {
-    for (const Bubble& bubble : bubbles()) {
-      Shape shape;
-      shape.add_piece(rounded(bubble.place, layout_.line_px(5.0, 2.0)));
-      shape.add_piece(bubble.tail);
-      for (const double distance : {1.2, 2.6}) {
-        Shape shadow;
-        shadow.append(shape, Vec2(0.6, 1.0) * distance * layout_.unit_px);
-        painter_.fill(shadow, palette::kShadow, 0.1);
-      }
-      // The inner half of the rim is covered by the bubble itself, and so is what divides its
-      // parts.
-      const double rim_px = 2.0 * layout_.line_px(1.5, 1.0);
-      Shape rim;
-      rim.add_line(rounded(bubble.place, layout_.line_px(5.0, 2.0)), rim_px, true);
-      rim.add_line(bubble.tail, rim_px, true);
-      painter_.fill(rim, bubble.rim);
-      painter_.fill(shape, palette::kLight);
-      double base = bubble.place.top + bubble.padding_px + bubble.style.cap_height_px;
-      for (const std::string& line : bubble.lines) {
-        const double width_px = Painter::text_width_px(line, bubble.style);
-        painter_.draw_text(line, {0.5 * (bubble.place.left + bubble.place.right - width_px), base},
-                           bubble.style);
-        base += bubble.line_px;
-      }
-    }
-  }
-
-  // Names beside the robots. Each takes, of places all round its robot, the one that covers least
-  // of other names and robots; a second round lets early names give way to later ones.
-  void draw_names() {
-    std::vector<Label> labels;
-    std::vector<Rectangle> bodies;
-    for (const RobotSnapshot& robot : scene_.robots) {
-      if (!has_place(robot)) continue;
-      Label label;
-      label.center = layout_(robot.X_WB.position());
-      label.radius_px = marked_radius_px(robot) + (robot.marked    ? 15.0
-                                                   : robot.stalled ? 8.0
-                                                                   : 0.0) *
-                                                      layout_.unit_px;
-      const Vec2 reach = Vec2::Constant(0.9 * label.radius_px);
-      bodies.push_back(rectangle(label.center - reach, label.center + reach));
-      const Colour colour = opaque(robot.colour);
-      label.style =
-          layout_.text_style(11.5, mix(colour, palette::kInk, luma(colour) > 0.5 ? 0.8 : 0.55));
-      label.style.weight = 0.15;
-      label.style.halo = palette::kHalo;
-      label.style.halo_px = std::max(2.4 * layout_.unit_px, 1.5);
-      label.text = shortened(robot.name, label.style, 0.4 * layout_.width);
-      label.width_px = Painter::text_width_px(label.text, label.style);
-      if (!label.text.empty()) labels.push_back(std::move(label));
-    }
-    for (const Bubble& bubble : bubbles()) bodies.push_back(bubble.place);
-    for (const int round : {0, 1}) {
-      for (std::size_t i = 0; i < labels.size(); ++i) {
-        std::vector<Rectangle> names;
-        for (std::size_t j = 0; j < labels.size(); ++j) {
-          if (j != i && (round == 1 || j < i)) names.push_back(labels[j].place);
-        }
-        labels[i].place = best_place(labels[i], names, bodies);
-      }
-    }
-    for (const Label& label : labels) {
-      painter_.draw_text(label.text, {label.place.left, label.place.bottom}, label.style);
-    }
   }
 
  private:
@@ -445,21 +378,9 @@ class RobotPainter {
     return static_cast<double>(coloured) / static_cast<double>(trail.size());
   }
 
-  // Distance from the axle's centre to the footprint's farthest corner.
-  [[nodiscard]] double radius_px(const RobotSnapshot& robot) const {
-    double radius_m = 0.0;
-    for (const Vec2& corner : robot.footprint) radius_m = std::max(radius_m, corner.norm());
-    return radius_m * layout_.pixels_per_m;
-  }
-
-  // Radius of a robot with the disc that marks it where it is small.
-  [[nodiscard]] double marked_radius_px(const RobotSnapshot& robot) const {
-    return std::max(radius_px(robot), 8.0 * layout_.unit_px);
-  }
-
   // Shows where a robot is, and where it heads, that is only a few pixels large.
   void draw_marker(const RobotSnapshot& robot, const Vec2& center, Colour colour) {
-    const double radius = marked_radius_px(robot);
+    const double radius = marked_radius_px(robot, layout_);
     Shape disc;
     disc.add_disc(center, radius);
     painter_.fill(disc, colour, 0.35);
@@ -505,7 +426,7 @@ class RobotPainter {
 
   // A light glows over what is round it; one that is dark is a dull dot.
   void draw_lights(const RobotSnapshot& robot) {
-    const double radius = std::max(0.13 * radius_px(robot), layout_.line_px(2.6, 1.6));
+    const double radius = std::max(0.13 * radius_px(robot, layout_), layout_.line_px(2.6, 1.6));
     for (const LightSnapshot& light : robot.lights) {
       const Vec2 center = layout_(robot.X_WB * light.p_BL);
       if (!is_drawable(center)) continue;
@@ -527,230 +448,10 @@ class RobotPainter {
     }
   }
 
-  struct Bubble {
-    std::vector<std::string> lines;
-    TextStyle style;
-    double padding_px = 0.0;
-    double line_px = 0.0;  // from one base line to the next
-    Colour rim;
-    Rectangle place;
-    std::vector<Vec2> tail;
-  };
-
-  // A text as the painter can write it: one '?' for each character that is not ASCII.
-  static std::string plain(const std::string& text) {
-    std::string ascii;
-    for (const char c : text) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x80) {
-        ascii += byte < 0x20 || byte == 0x7f ? ' ' : c;
-      } else if (byte >= 0xc0) {
-        ascii += '?';
-      }
-    }
-    return ascii;
-  }
-
-  // A text in two lines at most, parted between words; dots stand for what has no room.
-  static std::vector<std::string> wrapped(const std::string& text, const TextStyle& style,
-                                          double width_px) {
-    const auto fits = [&](const std::string& line) {
-      return Painter::text_width_px(line, style) <= width_px;
-    };
-    std::string rest = text;
-    rest.erase(0, std::min(rest.find_first_not_of(' '), rest.size()));
-    if (rest.empty() || fits(rest)) return {rest};
-    std::size_t end = 0;  // of the first line
-    for (std::size_t at = rest.find(' '); at != std::string::npos; at = rest.find(' ', at + 1)) {
-      if (!fits(rest.substr(0, at))) break;
-      end = at;
-    }
-    if (end == 0) {  // a word that is longer than a line
-      end = 1;
-      while (end < rest.size() && fits(rest.substr(0, end + 1))) ++end;
-    }
-    std::string second = rest.substr(end);
-    second.erase(0, std::min(second.find_first_not_of(' '), second.size()));
-    return {rest.substr(0, end), shortened(second, style, width_px)};
-  }
-
-  [[nodiscard]] std::vector<Bubble> bubbles() const {
-    std::vector<Bubble> all;
-    std::vector<Rectangle> bodies;
-    for (const RobotSnapshot& robot : scene_.robots) {
-      if (!has_place(robot)) continue;
-      const Vec2 center = layout_(robot.X_WB.position());
-      const Vec2 reach = Vec2::Constant(marked_radius_px(robot));
-      bodies.push_back(rectangle(center - reach, center + reach));
-    }
-    for (const RobotSnapshot& robot : scene_.robots) {
-      if (robot.says.empty() || !has_place(robot)) continue;
-      Bubble bubble;
-      bubble.style = layout_.text_style(12.5, palette::kInk);
-      bubble.padding_px = 0.75 * bubble.style.cap_height_px;
-      bubble.line_px = 1.75 * bubble.style.cap_height_px;
-      bubble.rim = mix(opaque(robot.colour), palette::kInk, 0.55);
-      bubble.lines = wrapped(plain(robot.says), bubble.style, 0.32 * layout_.width);
-      put_bubble(bubble, layout_(robot.X_WB.position()), marked_radius_px(robot), all, bodies);
-      all.push_back(std::move(bubble));
-    }
-    return all;
-  }
-
-  // Gives a bubble the place round its robot where it covers least of others, and its tail.
-  void put_bubble(Bubble& bubble, const Vec2& center, double radius,
-                  const std::vector<Bubble>& others, const std::vector<Rectangle>& bodies) const {
-    double width_px = 0.0;
-    for (const std::string& line : bubble.lines) {
-      width_px = std::max(width_px, Painter::text_width_px(line, bubble.style));
-    }
-    const auto further_lines = static_cast<double>(bubble.lines.size()) - 1.0;
-    const Vec2 half(
-        0.5 * width_px + 1.2 * bubble.padding_px,
-        0.5 * (bubble.style.cap_height_px + further_lines * bubble.line_px) + bubble.padding_px);
-    const double gap = 13.0 * layout_.unit_px;
-    const double edge = 4.0 * layout_.unit_px;
-    const double area = 4.0 * half.x() * half.y();
-    constexpr std::array<std::array<double, 2>, 8> kDirections = {
-        {{0.5, -1}, {-0.5, -1}, {0, -1}, {0.5, 1}, {-0.5, 1}, {0, 1}, {1, 0}, {-1, 0}}};
-    double least_cost = std::numeric_limits<double>::infinity();
-    double preference = 0.0;
-    for (const auto& direction : kDirections) {
-      const bool beside = direction[1] == 0.0;
-      Vec2 middle = center + Vec2(direction[0] * (beside ? radius + gap + half.x() : half.x()),
-                                  direction[1] * (radius + gap + half.y()));
-      const Vec2 wanted = middle;
-      const double bottom = std::max(layout_.floor.bottom, 2.0 * half.y() + 2.0 * edge);
-      // Over the floor where it is wide enough, else anywhere in the picture.
-      const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
-      const double least_x = (fits ? layout_.floor.left : 0.0) + half.x() + edge;
-      const double most_x = (fits ? layout_.floor.right : layout_.width) - half.x() - edge;
-      middle.x() = std::clamp(middle.x(), least_x, std::max(most_x, least_x));
-      middle.y() = std::clamp(middle.y(), half.y() + edge,
-                              std::max(bottom - half.y() - edge, half.y() + edge));
-      const Rectangle place = rectangle(middle - half, middle + half);
-      double cost = preference + 0.5 * (middle - wanted).norm() / half.norm();
-      for (const Bubble& other : others) cost += 20.0 * place.overlap(other.place) / area;
-      for (const Rectangle& body : bodies) cost += 8.0 * place.overlap(body) / area;
-      preference += 0.05;
-      if (cost >= least_cost) continue;
-      least_cost = cost;
-      bubble.place = place;
-    }
-    // From the edge that faces the robot to a little before its rim.
-    const Rectangle& place = bubble.place;
-    const double foot = std::min(7.0 * layout_.unit_px, 0.4 * half.y());
-    const double corner = layout_.line_px(5.0, 2.0) + foot;
-    const Vec2 from(std::clamp(center.x(), place.left + corner,
-                               std::max(place.right - corner, place.left + corner)),
-                    std::clamp(center.y(), place.top + corner,
-                               std::max(place.bottom - corner, place.top + corner)));
-    const bool above = place.bottom <= center.y();
-    const bool below = place.top >= center.y();
-    const Vec2 root(above || below            ? from.x()
-                    : place.left > center.x() ? place.left + 1.0
-                                              : place.right - 1.0,
-                    above   ? place.bottom - 1.0
-                    : below ? place.top + 1.0
-                            : from.y());
-    const Vec2 aside = above || below ? Vec2(foot, 0.0) : Vec2(0.0, foot);
-    const Vec2 way = root - center;
-    const double length = way.norm();
-    if (length < radius) {  // it lies on its robot: there is nothing to point from
-      bubble.tail = {root - aside, root + aside, root};
-      return;
-    }
-    const Vec2 tip = center + way * ((radius + 2.0 * layout_.unit_px) / length);
-    bubble.tail = {root - aside, root + aside, tip};
-  }
-
-  // A rectangle with round corners.
-  static std::vector<Vec2> rounded(const Rectangle& place, double radius_px) {
-    constexpr int kParts = 6;  // of a corner
-    constexpr double kQuarter = 1.5707963267948966;
-    const double r =
-        std::min({radius_px, 0.5 * (place.right - place.left), 0.5 * (place.bottom - place.top)});
-    const std::array<Vec2, 4> centers = {
-        Vec2(place.right - r, place.bottom - r), Vec2(place.left + r, place.bottom - r),
-        Vec2(place.left + r, place.top + r), Vec2(place.right - r, place.top + r)};
-    std::vector<Vec2> points;
-    for (std::size_t i = 0; i < centers.size(); ++i) {
-      for (int k = 0; k <= kParts; ++k) {
-        const double angle = kQuarter * (static_cast<double>(i) + static_cast<double>(k) / kParts);
-        points.emplace_back(centers[i] + r * Vec2(std::cos(angle), std::sin(angle)));
-      }
-    }
-    return points;
-  }
-
-  struct Label {
-    std::string text;
-    TextStyle style;
-    double width_px = 0.0;
-    Vec2 center = Vec2::Zero();  // of the robot
-    double radius_px = 0.0;      // of the robot
-    Rectangle place;
-  };
-
-  [[nodiscard]] Rectangle best_place(const Label& label, const std::vector<Rectangle>& names,
-                                     const std::vector<Rectangle>& bodies) const {
-    // Directions by preference: above, below, right, left, then the corners.
-    constexpr std::array<std::array<double, 2>, 8> kDirections = {
-        {{0, -1}, {0, 1}, {1, 0}, {-1, 0}, {0.8, -0.8}, {-0.8, -0.8}, {0.8, 0.8}, {-0.8, 0.8}}};
-    const Vec2 half(0.5 * label.width_px, 0.5 * label.style.cap_height_px);
-    const double area = 4.0 * half.x() * half.y();
-    const double edge = label.style.halo_px + 1.0;
-    Rectangle best;
-    double least_cost = std::numeric_limits<double>::infinity();
-    double preference = 0.0;
-    for (const double gap : {5.5, 16.0}) {
-      for (const auto& direction : kDirections) {
-        const double reach = label.radius_px + gap * layout_.unit_px;
-        Vec2 middle = label.center +
-                      Vec2(direction[0] * (reach + half.x()), direction[1] * (reach + half.y()));
-        // On the floor where it is wide enough, else in the picture and above the footer.
-        const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
-        const double least_x = fits ? layout_.floor.left : 0.0;
-        const double most_x = fits ? layout_.floor.right : layout_.width;
-        const double least_y = half.y() + edge;
-        middle.x() = std::clamp(middle.x(), least_x + half.x() + edge,
-                                std::max(most_x - half.x() - edge, least_x + half.x() + edge));
-        middle.y() = std::clamp(middle.y(), least_y,
-                                std::max(least_y, layout_.floor.bottom - half.y() - edge));
-        const Rectangle place = rectangle(middle - half, middle + half);
-        const Rectangle with_halo =
-            rectangle(middle - half - Vec2(edge, edge), middle + half + Vec2(edge, edge));
-        double cost = preference;
-        for (const Rectangle& name : names) cost += 12.0 * with_halo.overlap(name) / area;
-        for (const Rectangle& body : bodies) cost += 5.0 * with_halo.overlap(body) / area;
-        cost += 3.0 * (1.0 - place.overlap(layout_.floor) / area);
-        if (cost < least_cost) {
-          least_cost = cost;
-          best = place;
-        }
-        preference += 0.12;
-      }
-    }
-    return best;
-  }
-
   void outline(const std::vector<Vec2>& points, Colour colour, double width_px) {
     Shape line;
     line.add_line(points, width_px, true);
     painter_.fill(line, colour);
-  }
-
-  [[nodiscard]] bool has_place(const RobotSnapshot& robot) const {
-    const Vec2 center = layout_(robot.X_WB.position());
-    if (robot.footprint.empty() || !is_drawable(center) || !std::isfinite(robot.X_WB.yaw_rad)) {
-      return false;
-    }
-    const Vec2 reach = Vec2::Constant(marked_radius_px(robot));
-    return !layout_.floor_only ||
-           rectangle(center - reach, center + reach).overlap(layout_.floor) > 0.0;
-  }
-  static Rectangle rectangle(const Vec2& low, const Vec2& high) {
-    return {low.x(), low.y(), high.x(), high.y()};
   }
 
   const SceneSnapshot& scene_;
@@ -781,14 +482,6 @@ void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painte
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
   RobotPainter robots(scene, layout, painter);
   for (const RobotSnapshot& robot : scene.robots) robots.draw_robot(robot);
-}
-
-void draw_speech(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
-  RobotPainter(scene, layout, painter).draw_speech();
-}
-
-void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
-  RobotPainter(scene, layout, painter).draw_names();
 }
 
 }  // namespace sim::render

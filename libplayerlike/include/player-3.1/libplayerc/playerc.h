@@ -1,7 +1,0 @@
-// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#pragma once
-
-/// @file
-/// libplayerc/playerc.h, as programs include it that name the version of Player.
-
-#include "libplayerc/playerc.h"

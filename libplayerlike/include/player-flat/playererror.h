@@ -1,7 +1,0 @@
-// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#pragma once
-
-/// @file
-/// libplayerc++/playererror.h, for programs that leave out the folder.
-
-#include "libplayerc++/playererror.h"

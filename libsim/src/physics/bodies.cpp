@@ -1,0 +1,266 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "physics/bodies.h"
+
+#include <array>
+#include <utility>
+
+namespace sim::physics {
+namespace {
+
+// For so many parts of a step Box2D keeps the body of a robot that nothing hinders any more.
+constexpr std::uint8_t kKeptParts = 5;
+
+// Lets the body turn about B, the axle's centre, as its wheels make it: to Box2D a body's velocity
+// is that of its centre of mass. Outlines that are round about B but for rounding keep theirs.
+void center_mass_on_axle(b2Body& body) {
+  constexpr float kRounding = 1e-4F;
+  if (body.GetLocalCenter().Length() <= kRounding) return;
+  b2MassData mass;
+  body.GetMassData(&mass);
+  mass.center.SetZero();
+  body.SetMassData(&mass);
+}
+
+// A mass beside which all others are nothing, rather than a static body: contacts live on.
+void make_heavy(b2Body& body) {
+  constexpr float kMore = 1e9F;
+  b2MassData mass;
+  body.GetMassData(&mass);
+  mass.mass *= kMore;
+  mass.I *= kMore;
+  body.SetMassData(&mass);
+}
+
+}  // namespace
+
+Bodies::Bodies(const ArenaDescription& arena)
+    : world_(b2Vec2(0.0F, 0.0F)), separator_count_(arena.dock_separators.size()) {
+  world_.SetAutoClearForces(false);    // there are none
+  world_.SetContinuousPhysics(false);  // kMaxTravel_m and feasible_twist do its work
+  b2BodyDef ground;
+  static_body_ = world_.CreateBody(&ground);
+  add_obstacles(arena);
+  if (arena.border) add_border(arena);
+  for (const WallLoop& loop : arena.walls) add_wall(loop);
+}
+
+FixtureInfo* Bodies::new_info(Contact::Kind kind, int index, double height_m) {
+  infos_.push_back(std::make_unique<FixtureInfo>(FixtureInfo{kind, index, height_m}));
+  return infos_.back().get();
+}
+
+void Bodies::attach(b2Body* body, const b2Shape& shape, FixtureInfo* info, float density) {
+  b2FixtureDef def;
+  def.shape = &shape;
+  def.density = density;
+  def.friction = 0.0F;
+  def.restitution = 0.0F;
+  def.userData.pointer = reinterpret_cast<uintptr_t>(info);
+  body->CreateFixture(&def);
+}
+
+void Bodies::append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices) {
+  info.first_edge = edges_.edges.size();
+  info.edge_count = vertices.size();
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vec2& a = vertices[i];
+    const Vec2& b = vertices[(i + 1) % vertices.size()];
+    edges_.add({a.x(), a.y(), b.x(), b.y()}, info.height_m);
+  }
+}
+
+void Bodies::add_box(const ObstacleDescription& o, Contact::Kind kind, int index) {
+  FixtureInfo* info = new_info(kind, index, o.height_m);
+  const std::vector<Vec2> corners = box_corners(o);
+  append_outline(*info, corners);
+  b2BodyDef def;  // a body of its own, so that it can be switched off
+  b2Body* body = world_.CreateBody(&def);
+  attach(body, polygon_shape(corners), info, 0.0F);
+  body->SetEnabled(o.type == ObstacleType::kStatic || o.state == ObstacleState::kExtended);
+  if (kind == Contact::Kind::kObstacle) {
+    obstacles_.push_back(body);
+  }
+}
+
+void Bodies::add_obstacles(const ArenaDescription& arena) {
+  for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
+    add_box(arena.obstacles[i], Contact::Kind::kObstacle, static_cast<int>(i));
+  }
+  for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
+    add_box(arena.dock_separators[i], Contact::Kind::kSeparator, static_cast<int>(i));
+  }
+}
+
+void Bodies::add_border(const ArenaDescription& arena) {
+  const double x0 = arena.origin.x();
+  const double y0 = arena.origin.y();
+  const double x1 = x0 + arena.size.x();
+  const double y1 = y0 + arena.size.y();
+  const double t = 0.1;  // thickness [m]; only the inner faces matter
+  const Vec2 mid(0.5 * (x0 + x1), 0.5 * (y0 + y1));
+  const double w = arena.size.x() + 2.0 * t;
+  const double h = arena.size.y() + 2.0 * t;
+  const std::array<std::pair<Vec2, Vec2>, 4> boxes = {{{{mid.x(), y0 - 0.5 * t}, {w, t}},
+                                                       {{x1 + 0.5 * t, mid.y()}, {t, h}},
+                                                       {{mid.x(), y1 + 0.5 * t}, {w, t}},
+                                                       {{x0 - 0.5 * t, mid.y()}, {t, h}}}};
+  // Seen from inside, the solid is on the left of edges that run clockwise round the floor.
+  const std::array<Edge, 4> faces = {
+      {{x1, y0, x0, y0}, {x1, y1, x1, y0}, {x0, y1, x1, y1}, {x0, y0, x0, y1}}};
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    FixtureInfo* info = new_info(Contact::Kind::kBorder, -1, arena.border_height_m);
+    info->first_edge = edges_.edges.size();
+    info->edge_count = 1;
+    edges_.add(faces[i], arena.border_height_m);
+    attach(
+        static_body_,
+        polygon_shape(box_corners({boxes[i].first.x(), boxes[i].first.y(), 0.0}, boxes[i].second)),
+        info, 0.0F);
+  }
+}
+
+void Bodies::add_wall(const WallLoop& loop) {
+  const std::size_t n = loop.vertices.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2& before = loop.vertices[(i + n - 1) % n];
+    const Vec2& a = loop.vertices[i];
+    const Vec2& b = loop.vertices[(i + 1) % n];
+    const Vec2& after = loop.vertices[(i + 2) % n];
+    // Walls of a map have no height of their own: every sensor sees them.
+    FixtureInfo* info = new_info(Contact::Kind::kWall, -1, std::numeric_limits<double>::infinity());
+    info->first_edge = edges_.edges.size();
+    info->edge_count = 1;
+    edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);
+    b2EdgeShape shape;
+    shape.SetOneSided(to_box2d(before), to_box2d(a), to_box2d(b), to_box2d(after));
+    attach(static_body_, shape, info, 0.0F);
+    has_walls_ = true;
+    wall_right_m_ = std::max({wall_right_m_, a.x(), b.x()});
+  }
+}
+
+void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
+  b2Body& body = obstacle(index);
+  b2Fixture* before = body.GetFixtureList();
+  auto* info = reinterpret_cast<FixtureInfo*>(before->GetUserData().pointer);
+  info->height_m = now.height_m;
+  const std::vector<Vec2> corners = box_corners(now);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& a = corners[i];
+    const Vec2& b = corners[(i + 1) % corners.size()];
+    edges_.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
+    edges_.heights_m[info->first_edge + i] = now.height_m;
+  }
+  edges_.least_height_m = std::min(edges_.least_height_m, now.height_m);
+  body.DestroyFixture(before);
+  attach(&body, polygon_shape(corners), info, 0.0F);
+}
+
+int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
+  const int index = static_cast<int>(robots_.size());
+  Robot r;
+  r.state = &states_.emplace_back();
+  r.details = &details_.emplace_back();
+  r.details->shape = polygon_shape(model.footprint);
+  r.details->reaching_shape = r.details->shape;
+  r.details->reaching_shape.m_radius = static_cast<float>(3.0 * kMaxTravel_m) * kScaleF;
+  r.drive = model.drive.kind;
+  r.details->height_m = model.height_m;
+  for (const Vec2& v : model.footprint) r.radius_m = std::max(r.radius_m, v.norm());
+  r.details->seen_radius_m = r.radius_m;
+  r.X_WB = X_WB;
+  r.state->X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
+
+  r.details->info = new_info(Contact::Kind::kRobot, index, model.height_m);
+  r.details->mass_kg = model.mass_kg;
+  keep_in_box2d(r);
+  r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
+
+  largest_radius_m_ = std::max(largest_radius_m_, r.radius_m);
+  by_x_.push_back({X_WB.x_m, X_WB.y_m, r.radius_m, index});
+  robots_.push_back(std::move(r));
+  order_fresh_ = false;
+  return index;
+}
+
+void Bodies::set_pose(Robot& r, const Pose& X_WB) {
+  r.X_WB = X_WB;
+  if (r.body != nullptr) {
+    r.body->SetTransform(to_box2d(X_WB.position()), static_cast<float>(X_WB.yaw_rad));
+    r.body->SetLinearVelocity({0.0F, 0.0F});
+    r.body->SetAngularVelocity(0.0F);
+    r.body->SetAwake(true);
+  }
+  *r.state = {};
+  r.state->X_WB = {X_WB.x_m, X_WB.y_m, normalize_angle(X_WB.yaw_rad)};
+  r.stall_clock_s = 0.0;
+  order_fresh_ = false;
+}
+
+void Bodies::set_suspended(Robot& r, bool suspended) {
+  if (suspended == r.suspended) return;
+  r.suspended = suspended;
+  if (suspended) r.target = {};
+  if (r.body == nullptr) return;
+  if (!suspended) {
+    r.body->ResetMassData();
+    center_mass_on_axle(*r.body);
+    return;
+  }
+  make_heavy(*r.body);
+  r.body->SetLinearVelocity({0.0F, 0.0F});
+  r.body->SetAngularVelocity(0.0F);
+}
+
+int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf) const {
+  const auto it = std::find_if(robots_.begin(), robots_.end(), [&](const Robot& r) {
+    return b2TestOverlap(&shape, 0, &r.details->shape, 0, xf, transform_of(r));
+  });
+  return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
+}
+
+// Gives Box2D a body for a robot, at rest.
+void Bodies::put_into_box2d(Robot& r) {
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  def.position = to_box2d(r.X_WB.position());
+  def.angle = static_cast<float>(r.X_WB.yaw_rad);
+  r.body = world_.CreateBody(&def);
+  ++in_box2d_;
+  b2MassData unit;
+  r.details->shape.ComputeMass(&unit, 1.0F);
+  attach(r.body, r.details->shape, r.details->info,
+         static_cast<float>(r.details->mass_kg) / unit.mass);
+  center_mass_on_axle(*r.body);
+  if (r.suspended) make_heavy(*r.body);
+}
+
+void Bodies::take_out_of_box2d(Robot& r) {
+  world_.DestroyBody(r.body);
+  r.body = nullptr;
+  --in_box2d_;
+}
+
+void Bodies::keep_in_box2d(Robot& r) {
+  if (r.body == nullptr) put_into_box2d(r);
+  r.kept_parts = kKeptParts;
+}
+
+const std::vector<Bodies::Circle>& Bodies::by_x() {
+  if (order_fresh_) return by_x_;
+  order_fresh_ = true;
+  for (Circle& circle : by_x_) {
+    const Robot& r = robot(circle.robot);
+    circle.x = r.X_WB.x_m;
+    circle.y = r.X_WB.y_m;
+  }
+  for (std::size_t i = 1; i < by_x_.size(); ++i) {  // insertion sort: nearly sorted already
+    const Circle moving = by_x_[i];
+    std::size_t j = i;
+    for (; j > 0 && by_x_[j - 1].x > moving.x; --j) by_x_[j] = by_x_[j - 1];
+    by_x_[j] = moving;
+  }
+  return by_x_;
+}
+
+}  // namespace sim::physics

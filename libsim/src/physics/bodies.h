@@ -1,0 +1,115 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "physics/fixtures.h"
+#include "physics/robot_body.h"
+#include "sim/world/description.h"
+
+namespace sim::physics {
+
+/// Box2D's world: the solids of the arena, and a body for each robot that something hinders.
+class Bodies {
+ public:
+  /// Round a robot.
+  struct Circle {
+    double x, y, radius;
+    int robot;
+  };
+
+  explicit Bodies(const ArenaDescription& arena);
+
+  [[nodiscard]] b2World& world() noexcept { return world_; }
+  [[nodiscard]] const b2World& world() const noexcept { return world_; }
+
+  // --- Robots
+  /// Adds a robot at rest; Box2D has a body for it.
+  int add_robot(const RobotModel& model, const Pose& X_WB);
+  [[nodiscard]] std::vector<Robot>& robots() noexcept { return robots_; }
+  [[nodiscard]] const std::vector<Robot>& robots() const noexcept { return robots_; }
+  [[nodiscard]] Robot& robot(int index) { return robots_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] const Robot& robot(int index) const {
+    return robots_[static_cast<std::size_t>(index)];
+  }
+  /// Puts a robot somewhere, at rest.
+  void set_pose(Robot& r, const Pose& X_WB);
+  void set_suspended(Robot& r, bool suspended);
+  [[nodiscard]] double largest_radius_m() const noexcept { return largest_radius_m_; }
+  /// The first robot whose footprint overlaps a shape; -1 if none does.
+  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
+
+  /// Lets Box2D have a body for a robot, for some parts of a step from now on.
+  void keep_in_box2d(Robot& r);
+  void take_out_of_box2d(Robot& r);
+  /// Whether Box2D has a body for any robot.
+  [[nodiscard]] bool has_robots_in_box2d() const noexcept { return in_box2d_ > 0; }
+
+  /// Robots have moved.
+  void note_moved() noexcept { order_fresh_ = false; }
+  /// The circles round all robots, in order of x.
+  [[nodiscard]] const std::vector<Circle>& by_x();
+  /// Calls visit(circle) for the circle round every robot that may reach into a box, in order of x.
+  template <typename Visitor>
+  void for_robots_in(const Vec2& low, const Vec2& high, Visitor visit) {
+    const std::vector<Circle>& order = by_x();
+    auto it = std::partition_point(order.begin(), order.end(), [&](const Circle& c) {
+      return c.x < low.x() - largest_radius_m_;
+    });
+    for (; it != order.end() && it->x <= high.x() + largest_radius_m_; ++it) {
+      if (it->y + it->radius >= low.y() && it->y - it->radius <= high.y()) visit(*it);
+    }
+  }
+
+  // --- What does not move
+  [[nodiscard]] const std::vector<std::unique_ptr<FixtureInfo>>& infos() const noexcept {
+    return infos_;
+  }
+  /// Edges of every static thing, extended or not.
+  [[nodiscard]] const EdgeList& edges() const noexcept { return edges_; }
+  [[nodiscard]] const std::vector<b2Body*>& obstacles() const noexcept { return obstacles_; }
+  [[nodiscard]] b2Body& obstacle(int index) const {
+    return *obstacles_[static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
+  void change_obstacle(int index, const ObstacleDescription& now);
+  /// Whether there are walls of a map, and how far to the right they reach.
+  [[nodiscard]] bool has_walls() const noexcept { return has_walls_; }
+  [[nodiscard]] double wall_right_m() const noexcept { return wall_right_m_; }
+
+ private:
+  FixtureInfo* new_info(Contact::Kind kind, int index, double height_m);
+  static void attach(b2Body* body, const b2Shape& shape, FixtureInfo* info, float density);
+  void append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices);
+  void add_box(const ObstacleDescription& o, Contact::Kind kind, int index);
+  void add_obstacles(const ArenaDescription& arena);
+  void add_border(const ArenaDescription& arena);
+  void add_wall(const WallLoop& loop);
+  void put_into_box2d(Robot& r);
+
+  b2World world_;
+  b2Body* static_body_ = nullptr;
+  std::vector<std::unique_ptr<FixtureInfo>> infos_;
+  std::vector<b2Body*> obstacles_;
+  std::size_t separator_count_ = 0;
+  bool has_walls_ = false;
+  double wall_right_m_ = -std::numeric_limits<double>::infinity();
+  EdgeList edges_;
+
+  std::vector<Robot> robots_;
+  std::deque<BodyState> states_;      // of them
+  std::deque<RobotDetails> details_;  // likewise
+  double largest_radius_m_ = 0.0;
+  int in_box2d_ = 0;          // robots that Box2D has
+  std::vector<Circle> by_x_;  // round the robots, in this order
+  bool order_fresh_ = false;
+};
+
+}  // namespace sim::physics

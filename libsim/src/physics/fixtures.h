@@ -1,0 +1,78 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "physics/physics_world.h"
+#include "physics/shapes.h"
+#include "sim/core/pose.h"
+
+namespace sim::physics {
+
+using Contact = PhysicsWorld::Contact;
+
+/// What a fixture of Box2D belongs to.
+struct FixtureInfo {
+  Contact::Kind kind;
+  int index;  ///< of the obstacle, separator or robot; -1 for borders and walls
+  double height_m;
+  std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for robots
+  std::size_t edge_count = 0;
+};
+
+struct Edge {
+  double x0, y0, x1, y1;
+};
+
+/// Edges of solids with their heights, in one array, so that a small world's are collected in one
+/// sweep.
+struct EdgeList {
+  std::vector<Edge> edges;
+  std::vector<double> heights_m;
+  double least_height_m = std::numeric_limits<double>::infinity();
+
+  void clear() {
+    edges.clear();
+    heights_m.clear();
+    least_height_m = std::numeric_limits<double>::infinity();
+  }
+  void add(const Edge& edge, double height_m) {
+    edges.push_back(edge);
+    heights_m.push_back(height_m);
+    least_height_m = std::min(least_height_m, height_m);
+  }
+};
+
+inline const FixtureInfo& info_of(const b2Fixture* fixture) {
+  return *reinterpret_cast<const FixtureInfo*>(
+      const_cast<b2Fixture*>(fixture)->GetUserData().pointer);
+}
+
+/// Calls visit(fixture) for everything but robots whose fat box meets the box.
+template <typename Visitor>
+void visit_fixed(const b2World& world, const b2AABB& box, Visitor visit) {
+  struct Callback : b2QueryCallback {
+    explicit Callback(Visitor& v) : visitor(v) {}
+    bool ReportFixture(b2Fixture* fixture) override {
+      if (info_of(fixture).kind != Contact::Kind::kRobot) visitor(*fixture);
+      return true;
+    }
+    Visitor& visitor;
+  } callback(visit);
+  world.QueryAABB(&callback, box);
+}
+
+template <typename Visitor>
+void visit_fixed(const b2World& world, const Vec2& low, const Vec2& high, Visitor visit) {
+  b2AABB box;
+  box.lowerBound = to_box2d(low);
+  box.upperBound = to_box2d(high);
+  visit_fixed(world, box, visit);
+}
+
+}  // namespace sim::physics

@@ -1,0 +1,394 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "physics/mover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace sim::physics {
+namespace {
+
+// By so much a gap may be less after a part of a step than the constraints say, as they are linear.
+constexpr double kSecondOrder_m = 0.0003;
+
+// Farther than this a point of a robot must not move while robots touch: where one is shoved is up
+// to Box2D, which sees a contact only once hulls are closer than their skins of 2 mm together.
+constexpr double kMaxShove_m = 0.002;
+
+// The same while those that touch have nothing else within reach.
+constexpr double kMaxLoneShove_m = 0.003;
+
+// A twist counts as achieved within these.
+constexpr double kSpeedTolerance_mps = 0.01;
+constexpr double kTurnTolerance_radps = 0.05;
+constexpr double kStallDelay_s = 0.2;
+
+// How far round a robot whose pace is slow things are looked for as if it were this [m a part of a
+// step]: enough for all that touches.
+constexpr double kLeastTravel_m = 0.25 * kMaxTravel_m;
+
+constexpr int kVelocityIterations = 8;
+constexpr int kPositionIterations = 3;
+
+// sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
+inline double sinc(double x) {
+  if (std::abs(x) > 0.05) return std::sin(x) / x;
+  const double x2 = x * x;
+  return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
+}
+
+// How far any corner of a robot gets in a direction of W, at most, by a twist as if it were
+// straight.
+double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
+                 double dt_s) {
+  const b2Vec2 n = b2MulT(xf.q, direction);
+  float lever = -b2_maxFloat;  // about B, in the sense of the turn
+  const float sense = twist.omega_radps < 0.0 ? -1.0F : 1.0F;
+  for (int32 i = 0; i < r.details->shape.m_count; ++i) {
+    lever = std::max(lever, sense * b2Cross(r.details->shape.m_vertices[i], n));
+  }
+  return (static_cast<double>(n.x) * twist.v_mps + static_cast<double>(n.y) * twist.lateral_mps +
+          metres(lever) * std::abs(twist.omega_radps)) *
+         dt_s;
+}
+
+// Where an unhindered robot gets to: along the exact arc of the twist (the exponential map of
+// SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
+inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
+  const double half_turn = 0.5 * twist.omega_radps * dt_s;
+  const double chord = twist.v_mps * dt_s * sinc(half_turn);
+  const double side = twist.lateral_mps * dt_s * sinc(half_turn);
+  const double heading = X_WB.yaw_rad + half_turn;
+  return {X_WB.x_m + chord * std::cos(heading) - side * std::sin(heading),
+          X_WB.y_m + chord * std::sin(heading) + side * std::cos(heading),
+          X_WB.yaw_rad + twist.omega_radps * dt_s};
+}
+
+// Takes back what Box2D's solver may have done to a body that is not to move.
+inline void hold(Robot& r) {
+  const b2Vec2 p = to_box2d(r.X_WB.position());
+  const float angle = static_cast<float>(r.X_WB.yaw_rad);
+  if (r.body->GetPosition() == p && r.body->GetAngle() == angle) return;
+  r.body->SetTransform(p, angle);
+  r.body->SetLinearVelocity({0.0F, 0.0F});
+  r.body->SetAngularVelocity(0.0F);
+}
+
+// Keeps angles small, where single precision is fine.
+inline void unwind(Robot& r) {
+  r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
+  if (r.body == nullptr) return;
+  r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
+}
+
+inline void finish_step(Robot& r, double dt_s) {
+  BodyState& s = *r.state;
+  s.X_WB = {r.X_WB.x_m, r.X_WB.y_m, normalize_angle(r.X_WB.yaw_rad)};
+  s.twist = {s.travel_m / dt_s, s.turn_rad / dt_s, s.side_m / dt_s};
+  s.commanded = r.target;
+  const bool achieved =
+      std::abs(s.twist.v_mps - r.target.v_mps) <= kSpeedTolerance_mps &&
+      std::abs(s.twist.omega_radps - r.target.omega_radps) <= kTurnTolerance_radps &&
+      (r.drive != DriveKind::kOmnidirectional ||
+       std::abs(s.twist.lateral_mps - r.target.lateral_mps) <= kSpeedTolerance_mps);
+  r.stall_clock_s = achieved ? 0.0 : r.stall_clock_s + dt_s;
+  s.stalled = r.stall_clock_s >= kStallDelay_s - 1e-9;
+}
+
+}  // namespace
+
+// Inline, as they are called for every robot in every step.
+
+// Books that a robot went so far and turned so much.
+inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
+  r.state->turn_rad += turn_rad;
+  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
+  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
+  r.gone_m += most_m;
+  r.moved_m += most_m;
+  farthest_m_ = std::max(farthest_m_, r.moved_m);
+}
+
+// The robot is where its twist took it.
+inline void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
+  r.X_WB = goal;
+  const double travel = twist.v_mps * dt_s;
+  const double side = twist.lateral_mps * dt_s;
+  r.state->travel_m += travel;
+  r.state->side_m += side;
+  moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
+}
+
+// To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
+inline void Mover::move_freely(Robot& r, double dt_s) {
+  if (r.body != nullptr) {
+    if (--r.kept_parts == 0) {
+      bodies_.take_out_of_box2d(r);
+    } else if (r.body->IsAwake()) {
+      r.body->SetAwake(false);
+    }
+  }
+  if (r.target == Twist{}) return;
+  const Pose goal = arc_end(r.X_WB, r.target, dt_s);
+  if (r.body != nullptr) {
+    r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
+  }
+  arrive(r, goal, r.target, dt_s);
+}
+
+void Mover::step(double dt_s) {
+  double travel_m = 0.0;
+  for (const Robot& r : bodies_.robots()) travel_m = std::max(travel_m, most_travel_m(r, dt_s));
+  const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
+  neighbours_.begin_step(std::max(travel_m / parts, kLeastTravel_m));
+  step_s_ = dt_s;
+  const double gone_m = neighbours_.gone_m();
+  for (int i = 0; i < parts; ++i) advance(dt_s / parts, i == 0, i + 1 == parts);
+  step_gone_m_ = neighbours_.gone_m() - gone_m;
+}
+
+// Moves all for a time in which no robot travels farther than kMaxTravel_m. Robots that are free,
+// or stay clear of all that is near, are done with at once, without Box2D; those that shove one
+// another take several parts.
+void Mover::advance(double dt_s, bool first, bool last) {
+  neighbours_.find(dt_s);
+  if (neighbours_.something_was_placed()) {
+    // Lets Box2D find the contacts of what was put somewhere since the last step.
+    bodies_.world().Step(0.0F, 1, 1);
+    neighbours_.note_contacts_found();
+  }
+  std::vector<Robot>& robots = bodies_.robots();
+  goals_.resize(robots.size());
+  twists_.resize(robots.size());
+  farthest_m_ = 0.0;
+  find_shoving();
+  hindered_.clear();
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    Robot& r = robots[i];
+    r.moved_m = 0.0;
+    if (first) r.state->travel_m = r.state->turn_rad = r.state->side_m = 0.0;
+    if (r.shoving || !neighbours_.is_free(i, dt_s)) {
+      hindered_.push_back(i);
+      continue;
+    }
+    move_freely(r, dt_s);
+    if (last) finish_step(r, step_s_);
+  }
+  std::erase_if(hindered_, [&](std::size_t i) {
+    Robot& r = robots[i];
+    if (!r.shoving) {
+      twists_[i] = allowed_twist(i, dt_s);
+      if (stays_clear(r, twists_[i], dt_s)) {
+        move_freely(r, dt_s);
+        if (last) finish_step(r, step_s_);
+        return true;
+      }
+    }
+    bodies_.keep_in_box2d(r);
+    for (const Neighbours::Neighbour& near : neighbours_.near_to(i)) {
+      bodies_.keep_in_box2d(bodies_.robot(near.robot));
+    }
+    return false;
+  });
+  double shove_m = 0.0;
+  for (const std::size_t i : shoving_) shove_m = std::max(shove_m, most_travel_m(robots[i], dt_s));
+  const int parts = std::max(1, static_cast<int>(std::ceil(shove_m / most_shove_m_)));
+  substep(dt_s / parts, dt_s);
+  for (int i = 1; i < parts; ++i) substep(dt_s / parts, 0.0);
+  if (last) {
+    for (const std::size_t i : hindered_) finish_step(robots[i], step_s_);
+  }
+  neighbours_.note_moved(farthest_m_);
+  bodies_.note_moved();
+}
+
+// Puts the closing-speed limits that a pair of shapes gives robot `r` into constraints_.
+// `share` is the part of the gap that r may close in this step.
+void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
+                            double share, double dt_s) {
+  const b2Transform xf = transform_of(r);
+  b2Manifold manifold;
+  b2WorldManifold points;
+  double sign = 1.0;  // the normal points from A to B
+  if (other.GetType() == b2Shape::e_polygon) {
+    const auto& polygon = static_cast<const b2PolygonShape&>(other);
+    b2CollidePolygons(&manifold, &r.details->reaching_shape, xf, &polygon, other_xf);
+    points.Initialize(&manifold, xf, r.details->reaching_shape.m_radius, other_xf,
+                      polygon.m_radius);
+  } else {
+    const auto& edge = static_cast<const b2EdgeShape&>(other);
+    b2CollideEdgeAndPolygon(&manifold, &edge, other_xf, &r.details->reaching_shape, xf);
+    points.Initialize(&manifold, other_xf, edge.m_radius, xf, r.details->reaching_shape.m_radius);
+    sign = -1.0;
+  }
+  if (manifold.pointCount == 0) return;
+  const double nx = sign * static_cast<double>(points.normal.x);
+  const double ny = sign * static_cast<double>(points.normal.y);
+  const double c = std::cos(r.X_WB.yaw_rad);
+  const double s = std::sin(r.X_WB.yaw_rad);
+  const double skins = static_cast<double>(r.details->reaching_shape.m_radius + other.m_radius);
+  for (int32 i = 0; i < manifold.pointCount; ++i) {
+    const double gap_m = (static_cast<double>(points.separations[i]) + skins) / kScale;
+    const double rx = metres(points.points[i].x) - r.X_WB.x_m;
+    const double ry = metres(points.points[i].y) - r.X_WB.y_m;
+    constraints_.push_back({nx * c + ny * s, rx * ny - ry * nx,
+                            share * std::max(0.0, gap_m - kRestingGap_m) / dt_s, ny * c - nx * s});
+  }
+}
+
+// Whether a robot that gets its target stays clear of a wall: of the line through its edge.
+bool Mover::keeps_off(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
+  const OffLine off = off_line(r, wall, xf);
+  return off.apart_m > 0.0 && advance_m(r, xf, off.direction, r.target, dt_s) + kSecondOrder_m <=
+                                  off.apart_m - kTouchingGap_m;
+}
+
+Twist Mover::allowed_twist(std::size_t index, double dt_s) {
+  Robot& r = bodies_.robots()[index];
+  constraints_.clear();
+  if (r.target == Twist{}) return r.target;
+  const double way_m = most_travel_m(r, dt_s);
+  // What is farther away, or not that way, leaves the robot its target, and clear of it.
+  const b2Transform xf = transform_of(r);
+  const double reach_m = way_m + kTouchingGap_m + kSecondOrder_m;
+  if (r.wall_until_m - r.gone_m <= reach_m) {
+    for (const Wall& wall : r.details->walls) {
+      if (!may_reach(r, wall, reach_m)) continue;
+      if (wall.is_edge && keeps_off(r, wall, xf, dt_s)) continue;
+      add_constraints(r, *wall.shape, unmoved(), 1.0, dt_s);
+    }
+  }
+  for (const Neighbours::Neighbour& near : neighbours_.near_to(index)) {
+    const Robot& other = bodies_.robot(near.robot);
+    const double share = other.suspended ? 1.0 : 0.5;  // as good as a wall
+    const double apart_m = near.apart_m - r.moved_m - other.moved_m;
+    const double mine_m = share * (apart_m - kTouchingGap_m);
+    if (mine_m > way_m) continue;
+    if (apart_m > 0.0 &&
+        advance_m(r, xf, near.direction, r.target, dt_s) + kSecondOrder_m <= mine_m) {
+      continue;
+    }
+    // Pushing: Box2D's solver shares the momentum.
+    if (!other.suspended && touches(r.body, other.body)) continue;
+    add_constraints(r, other.details->shape, transform_of(other), share, dt_s);
+  }
+  if (constraints_.empty()) return r.target;
+  switch (r.drive) {
+    case DriveKind::kOmnidirectional:
+      return feasible_planar_twist(r.target, r.details->mass_kg, r.details->inertia_kgm2,
+                                   constraints_);
+    case DriveKind::kCar:
+      return feasible_share(r.target, constraints_);
+    case DriveKind::kDifferential:
+      break;
+  }
+  return feasible_twist(r.target, r.details->mass_kg, r.details->inertia_kgm2, constraints_);
+}
+
+// Whether a robot that is not free has its way after all: it touches nothing, and by the
+// constraints that were just found for it, it will not either.
+bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const {
+  if (allowed != r.target || r.target == Twist{}) return false;
+  for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
+    if (e->contact->IsTouching()) return false;
+  }
+  const double spare = (kTouchingGap_m - kRestingGap_m + kSecondOrder_m) / dt_s;
+  return std::all_of(constraints_.begin(), constraints_.end(), [&](const TwistConstraint& c) {
+    return c.closing(allowed) + spare <= c.limit;
+  });
+}
+
+// Robots that touch others, with those near them, and those near these, and so on.
+void Mover::find_shoving() {
+  for (const std::size_t i : shoving_) bodies_.robots()[i].shoving = false;
+  shoving_.clear();
+  const auto add = [this](int index) {
+    const auto i = static_cast<std::size_t>(index);
+    if (!std::exchange(bodies_.robots()[i].shoving, true)) shoving_.push_back(i);
+  };
+  for (const Neighbours::NearPair& pair : neighbours_.near_pairs()) {
+    if (!touches(bodies_.robot(pair.first).body, bodies_.robot(pair.second).body)) continue;
+    add(pair.first);
+    add(pair.second);
+  }
+  most_shove_m_ = std::any_of(shoving_.begin(), shoving_.end(),
+                              [this](std::size_t i) { return neighbours_.may_be_shoved_into(i); })
+                      ? kMaxShove_m
+                      : kMaxLoneShove_m;
+  for (std::size_t i = 0; i < shoving_.size(); ++i) {
+    for (const Neighbours::Neighbour& near : neighbours_.near_to(shoving_[i])) add(near.robot);
+  }
+}
+
+// Moves the robots that are hindered: those that shove by dt_s, the others by others_dt_s, in one
+// step of Box2D. In the first part that is all the time there is; then it is 0, and they rest.
+void Mover::substep(double dt_s, double others_dt_s) {
+  if (!bodies_.has_robots_in_box2d()) return;
+  const float inv_dt = static_cast<float>(1.0 / dt_s);
+  for (const std::size_t i : hindered_) {
+    Robot& r = bodies_.robots()[i];
+    const double own_dt_s = r.shoving ? dt_s : others_dt_s;
+    if (own_dt_s == 0.0) {
+      r.body->SetAwake(false);
+      continue;
+    }
+    if (others_dt_s > 0.0 && r.shoving) twists_[i] = allowed_twist(i, others_dt_s);
+    goals_[i] = arc_end(r.X_WB, twists_[i], own_dt_s);
+    if (goals_[i] == r.X_WB && !r.body->IsAwake()) continue;
+    // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
+    // does not pile up.
+    const b2Vec2 goal = to_box2d(goals_[i].position());
+    r.body->SetLinearVelocity(inv_dt * (goal - r.body->GetPosition()));
+    r.body->SetAngularVelocity(inv_dt *
+                               (static_cast<float>(goals_[i].yaw_rad) - r.body->GetAngle()));
+  }
+  bodies_.world().Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+  for (const std::size_t i : hindered_) {
+    const double own_dt_s = bodies_.robots()[i].shoving ? dt_s : others_dt_s;
+    if (own_dt_s > 0.0) follow_body(i, own_dt_s);
+  }
+}
+
+// Takes over where Box2D put the robot: the exact goal if nothing hindered it.
+void Mover::follow_body(std::size_t index, double dt_s) {
+  Robot& r = bodies_.robots()[index];
+  if (r.suspended) {
+    hold(r);
+    return;
+  }
+  const Pose& goal = goals_[index];
+  const b2Vec2 p = r.body->GetPosition();
+  const b2Vec2 wanted = to_box2d(goal.position());
+  const float angle = r.body->GetAngle();
+  // Rounding of position and angle, a few units in the last place.
+  const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
+  if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
+      std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
+    arrive(r, goal, twists_[index], dt_s);
+    return;
+  }
+  const Pose before = r.X_WB;
+  r.X_WB = {metres(p.x), metres(p.y), static_cast<double>(angle)};
+  const double turn = r.X_WB.yaw_rad - before.yaw_rad;
+  const double heading = before.yaw_rad + 0.5 * turn;
+  const double dx = r.X_WB.x_m - before.x_m;
+  const double dy = r.X_WB.y_m - before.y_m;
+  // The wheels' path is the arc whose chord this is.
+  r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
+  r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
+  moved(r, std::hypot(dx, dy), turn);
+}
+
+void Mover::bare_step(double dt_s) {
+  for (Robot& r : bodies_.robots()) {
+    bodies_.keep_in_box2d(r);
+    const double yaw = static_cast<double>(r.body->GetAngle());
+    r.body->SetLinearVelocity(
+        to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));
+    r.body->SetAngularVelocity(static_cast<float>(r.target.omega_radps));
+  }
+  bodies_.world().Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
+}
+
+}  // namespace sim::physics

@@ -1,0 +1,316 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "physics/neighbours.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace sim::physics {
+namespace {
+
+// How much farther than asked for clearance_m looks for candidates: how far things may move until
+// it must look again.
+constexpr double kCandidateMargin_m = 0.1;
+
+// Two robots are a pair while no more than this is between the circles round them, and all move.
+constexpr double kPairReach_m = 0.2;
+
+// How far round a robot walls are looked for, and from where on how near the circle round it comes
+// to them says enough.
+constexpr double kWallSearch_m = 0.25;
+constexpr double kRoughWall_m = 0.05;
+
+}  // namespace
+
+void Neighbours::forget() {
+  placed_ = true;
+  pairs_until_m_ = gone_m_;
+  for (Robot& r : bodies_.robots()) {
+    r.wall_until_m = kUnknown;
+    r.wall_gone_m = kUnknown;
+    r.details->walls_until_m = kUnknown;
+    r.details->candidates_reach_m = -1.0;
+  }
+}
+
+bool Neighbours::comes_before(const Pair& a, const Pair& b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+// Lists the pairs of robots that may come near one another before all have gone some way (as
+// Verlet's neighbour lists do, Phys. Rev. 159, 98, 1967), by a sweep over their order in x.
+void Neighbours::list_pairs() {
+  pairs_before_.swap(pairs_);
+  pairs_.clear();
+  pairs_until_m_ = gone_m_ + 0.5 * (kPairReach_m - 3.0 * kMaxTravel_m);
+  const std::vector<Bodies::Circle>& by_x = bodies_.by_x();
+  for (std::size_t i = 0; i < by_x.size(); ++i) {
+    const Bodies::Circle& a = by_x[i];
+    const double farthest_x = a.x + a.radius + bodies_.largest_radius_m() + kPairReach_m;
+    for (std::size_t j = i + 1; j < by_x.size() && by_x[j].x <= farthest_x; ++j) {
+      const Bodies::Circle& b = by_x[j];
+      const double reach = a.radius + b.radius + kPairReach_m;
+      const double dx = b.x - a.x;
+      const double dy = b.y - a.y;
+      if (dx * dx + dy * dy >= reach * reach) continue;
+      pairs_.push_back({std::min(a.robot, b.robot),
+                        std::max(a.robot, b.robot),
+                        0.0,
+                        kUnknown,
+                        {1.0F, 0.0F},
+                        {}});
+    }
+  }
+  std::sort(pairs_.begin(), pairs_.end(), comes_before);
+  meet_before_.swap(meet_gone_m_);
+  meet_gone_m_.assign(pairs_.size(), kUnknown);
+  if (placed_) return;
+  // What is known of those that were listed before still holds.
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    while (before < pairs_before_.size() && comes_before(pairs_before_[before], pairs_[i])) {
+      ++before;
+    }
+    if (before == pairs_before_.size() || comes_before(pairs_[i], pairs_before_[before])) continue;
+    pairs_[i] = pairs_before_[before];
+    meet_gone_m_[i] = meet_before_[before];
+  }
+}
+
+// How far the outlines of a pair are apart, along its direction: a lower bound, exact up to
+// `enough_m`.
+double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, Pair& pair) {
+  // Two cheap lower bounds, by the circles round them and along the direction of the last nearest
+  // points, mostly say enough.
+  const double circles_m = circles_apart_m(a, b);
+  if (circles_m > enough_m) {
+    const Vec2 way = (b.X_WB.position() - a.X_WB.position()).normalized();
+    pair.direction = {static_cast<float>(way.x()), static_cast<float>(way.y())};
+    return circles_m;
+  }
+  const b2Transform xf_a = transform_of(a);
+  const b2Transform xf_b = transform_of(b);
+  const double along_m = metres(least_along(pair.direction, b.details->shape, xf_b) +
+                                least_along(-pair.direction, a.details->shape, xf_a));
+  if (along_m > enough_m) return along_m;
+  const b2DistanceOutput found =
+      distance_between(a.details->shape, xf_a, b.details->shape, xf_b, pair.cache);
+  if (found.distance > 0.0F) {
+    pair.direction = (1.0F / found.distance) * (found.pointB - found.pointA);
+  }
+  return metres(found.distance);
+}
+
+void Neighbours::find(double dt_s) {
+  if (gone_m_ >= pairs_until_m_) list_pairs();
+  near_to_.resize(bodies_.robots().size());
+  for (const NearPair& pair : near_pairs_) {
+    near_to_[static_cast<std::size_t>(pair.first)].clear();
+    near_to_[static_cast<std::size_t>(pair.second)].clear();
+  }
+  near_pairs_.clear();
+  find_near_pairs(dt_s);
+  for (const NearPair& pair : near_pairs_) {
+    near_to_[static_cast<std::size_t>(pair.first)].push_back(
+        {pair.second, pair.apart_m, pair.direction});
+    near_to_[static_cast<std::size_t>(pair.second)].push_back(
+        {pair.first, pair.apart_m, -pair.direction});
+  }
+  for (Robot& r : bodies_.robots()) look_for_walls(r, dt_s);
+}
+
+// Appends the pairs that may be in each other's way to near_pairs_.
+void Neighbours::find_near_pairs(double dt_s) {
+  const double in_the_way_m = 3.0 * travel_m_;
+  // Whether it may be so soon cannot be foreseen: to list first, without a branch, costs less.
+  may_meet_.resize(pairs_.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    may_meet_[count] = i;
+    count += meet_gone_m_[i] - gone_m_ <= 0.5 * in_the_way_m ? 1 : 0;
+  }
+  for (const std::size_t i : std::span(may_meet_).first(count)) {
+    Pair& pair = pairs_[i];
+    Robot& a = bodies_.robot(pair.first);
+    Robot& b = bodies_.robot(pair.second);
+    double apart_m = pair.apart_m - (a.gone_m + b.gone_m - pair.both_gone_m);
+    if (apart_m > in_the_way_m) continue;
+    // How near exactly need not be known while both can have their way.
+    const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
+    const double touch_m = 2.0 * way_m + kTouchingGap_m;
+    if (pair.apart_m > in_the_way_m || a.shoving || b.shoving || apart_m <= touch_m) {
+      apart_m = distance_m(a, b, pair.apart_m > in_the_way_m ? in_the_way_m : touch_m, pair);
+      pair.apart_m = apart_m;
+      meet_gone_m_[i] = gone_m_ + 0.5 * apart_m;
+      pair.both_gone_m = a.gone_m + b.gone_m;
+      if (apart_m > in_the_way_m) continue;
+    }
+    if (placed_) bodies_.keep_in_box2d(a);
+    if (placed_) bodies_.keep_in_box2d(b);
+    near_pairs_.push_back({pair.first, pair.second, apart_m, pair.direction});
+  }
+}
+
+// Finds out whether something that does not move is near a robot.
+void Neighbours::look_for_walls(Robot& r, double dt_s) {
+  const double reach_m = wall_reach_m();
+  double apart_m = r.wall_until_m - r.gone_m;
+  if (apart_m > reach_m) return;
+  const bool was_near = r.wall_until_m - r.wall_gone_m <= reach_m;
+  // How near exactly need not be known while the robot can have its way.
+  const double way_m = most_travel_m(r, dt_s) + kTouchingGap_m;
+  if (apart_m <= (was_near ? way_m : reach_m) && r.gone_m != r.wall_gone_m) {
+    apart_m = distance_to_walls_m(r);
+    r.wall_until_m = r.gone_m + apart_m;
+    r.wall_gone_m = r.gone_m;
+  }
+  if (placed_ && apart_m <= reach_m) bodies_.keep_in_box2d(r);
+}
+
+// Nearer than this something that does not move may be in a robot's way.
+double Neighbours::wall_reach_m() const { return 1.5 * travel_m_ + kRestingGap_m; }
+
+// Finds all that may come within reach_m of a robot that fills a box.
+void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m) {
+  r.details->candidates.clear();
+  r.details->candidates_reach_m = reach_m;
+  r.details->candidates_gone_m = gone_m_;
+  visit_fixed(bodies_.world(), grown(box, reach_m), [&](const b2Fixture& fixture) {
+    r.details->candidates.push_back({fixture.GetShape(), -1, fixture.GetAABB(0), {}});
+  });
+  const Vec2 p_WB = r.X_WB.position();
+  const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
+  bodies_.for_robots_in(p_WB - reach, p_WB + reach, [&](const Bodies::Circle& circle) {
+    const Robot& other = bodies_.robot(circle.robot);
+    if (&other == &r) return;
+    r.details->candidates.push_back({&other.details->shape, circle.robot, {}, {}});
+  });
+}
+
+Wall Neighbours::wall_of(const b2Fixture& fixture) const {
+  Wall wall;
+  wall.shape = fixture.GetShape();
+  const FixtureInfo& info = info_of(&fixture);
+  if (info.kind != Contact::Kind::kWall) return wall;
+  const Edge& edge = bodies_.edges().edges[info.first_edge];
+  const Vec2 way(edge.x1 - edge.x0, edge.y1 - edge.y0);
+  wall.length_m = way.norm();
+  if (wall.length_m <= 0.0) return wall;
+  wall.is_edge = true;
+  wall.start = {edge.x0, edge.y0};
+  wall.along = way / wall.length_m;
+  return wall;
+}
+
+// How near the nearest solid is to a robot's outline, robots apart: a lower bound, exact where it
+// matters; at most kWallSearch_m [m].
+double Neighbours::distance_to_walls_m(Robot& r) {
+  const b2Transform xf = transform_of(r);
+  if (!(r.gone_m < r.details->walls_until_m)) {
+    b2AABB box;
+    r.details->shape.ComputeAABB(&box, xf, 0);
+    r.details->walls.clear();
+    r.details->walls_until_m = r.gone_m + kWallSearch_m;
+    visit_fixed(bodies_.world(), grown(box, 2.0 * kWallSearch_m),
+                [&](const b2Fixture& fixture) { r.details->walls.push_back(wall_of(fixture)); });
+  }
+  double least_m = kWallSearch_m;
+  for (Wall& wall : r.details->walls) {
+    // Two cheap lower bounds, by the circle round the robot and by how far it is off the line,
+    // mostly say enough.
+    if (!may_reach(r, wall, least_m)) continue;
+    if (wall.is_edge) {
+      const OffLine off = off_line(r, wall, xf);
+      if (off.exact || off.apart_m >= std::min(least_m, kRoughWall_m)) {
+        least_m = std::min(least_m, off.apart_m);
+        continue;
+      }
+      if (!may_reach(r, wall, kRoughWall_m)) {
+        least_m = std::min(least_m, kRoughWall_m);
+        continue;
+      }
+    }
+    const b2DistanceOutput found =
+        distance_between(r.details->shape, xf, *wall.shape, unmoved(), wall.cache);
+    least_m = std::min(least_m, metres(found.distance));
+  }
+  return least_m;
+}
+
+bool Neighbours::is_free(std::size_t index, double dt_s) const {
+  const Robot& r = bodies_.robots()[index];
+  const double way_m = most_travel_m(r, dt_s);
+  if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) return false;
+  return std::all_of(near_to_[index].begin(), near_to_[index].end(), [&](const Neighbour& near) {
+    const double share = bodies_.robot(near.robot).suspended ? 1.0 : 0.5;
+    return share * (near.apart_m - kTouchingGap_m) > way_m;
+  });
+}
+
+// Whether a contact is with something that does not move, and that is within reach.
+bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
+  const b2Fixture* other = contact.GetFixtureA();
+  if (other->GetBody() == r.body) other = contact.GetFixtureB();
+  if (info_of(other).kind == Contact::Kind::kRobot) return false;
+  const b2Transform& xf = r.body->GetTransform();
+  const double apart_m =
+      metres(distance_between(r.details->shape, xf, *other->GetShape(), unmoved()).distance);
+  return apart_m <= wall_reach_m();
+}
+
+bool Neighbours::may_be_shoved_into(std::size_t index) const {
+  const Robot& r = bodies_.robots()[index];
+  for (const Neighbour& near : near_to_[index]) {
+    if (!touches(r.body, bodies_.robot(near.robot).body)) return true;
+  }
+  for (const b2ContactEdge* e = r.body->GetContactList(); e != nullptr; e = e->next) {
+    if (!e->contact->IsTouching() && is_near_wall(r, *e->contact)) return true;
+  }
+  return false;
+}
+
+double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
+  const b2Transform xf = transform_of(r);
+  b2AABB box;
+  r.details->shape.ComputeAABB(&box, xf, 0);
+  // What may be nearest is kept in a list that is good for some way (as Verlet's neighbour lists
+  // are, Phys. Rev. 159, 98, 1967), most often the first of it. A list for a far greater limit is
+  // too long.
+  const double reach_m =
+      r.details->candidates_reach_m - 2.0 * (gone_m_ - r.details->candidates_gone_m);
+  if (limit_m > reach_m || reach_m > limit_m + 2.0 * kCandidateMargin_m) {
+    collect_candidates(r, box, limit_m + kCandidateMargin_m);
+  }
+  double least_m = limit_m;
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < r.details->candidates.size(); ++i) {
+    // Two cheap lower bounds, by what is round them and along the direction of the last nearest
+    // points, mostly say enough.
+    Candidate& candidate = r.details->candidates[i];
+    const Robot* other = candidate.robot < 0 ? nullptr : &bodies_.robot(candidate.robot);
+    const double boxes_apart_m =
+        other == nullptr ? metres(gap_between(box, candidate.box)) : circles_apart_m(r, *other);
+    if (boxes_apart_m >= least_m) continue;
+    const b2Transform their_xf = other == nullptr ? unmoved() : transform_of(*other);
+    const float apart = least_along(r.details->nearest_direction, *candidate.shape, their_xf) +
+                        least_along(-r.details->nearest_direction, r.details->shape, xf);
+    const double bound_m = std::max(boxes_apart_m, metres(apart));
+    if (bound_m >= least_m) continue;
+    if (bound_m >= exact_below_m) {
+      least_m = bound_m;
+      continue;
+    }
+    const b2DistanceOutput found =
+        distance_between(r.details->shape, xf, *candidate.shape, their_xf, candidate.cache);
+    if (metres(found.distance) >= least_m) continue;
+    if (found.distance > 0.0F) {
+      r.details->nearest_direction = (1.0F / found.distance) * (found.pointB - found.pointA);
+    }
+    least_m = metres(found.distance);
+    nearest = i;
+  }
+  if (nearest > 0) std::swap(r.details->candidates[0], r.details->candidates[nearest]);
+  return least_m;
+}
+
+}  // namespace sim::physics

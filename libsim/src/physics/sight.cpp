@@ -1,0 +1,357 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "physics/sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "physics/hilbert_curve.h"
+
+namespace sim::physics {
+namespace {
+
+// More static edges than this are searched by Box2D's tree instead of swept.
+constexpr std::size_t kSweepLimit = 512;
+
+// Edges are many, so they are handled as one vector each.
+using Four = double __attribute__((vector_size(4 * sizeof(double))));
+using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
+
+// Writes the edge between two points of W, which follow one another in memory, relative to
+// `origin`.
+void put_edge(scan::Edge* to, const double* points, const Four& origin) {
+  static_assert(sizeof(scan::Edge) == sizeof(FourFloats));
+  Four both;
+  std::memcpy(&both, points, sizeof both);
+  const FourFloats edge = __builtin_convertvector(both - origin, FourFloats);
+  std::memcpy(&to->x0_m, &edge, sizeof edge);
+}
+
+// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
+void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
+                  double sensor_height_m, scan::EdgeBuffer& out) {
+  static_assert(sizeof(Edge) == sizeof(Four));
+  const std::size_t begin = out.size();
+  const bool all_high_enough = list.least_height_m > sensor_height_m;
+  scan::Edge* const target = out.append(last - first);
+  const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
+  std::size_t count = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    if (!all_high_enough && list.heights_m[i] <= sensor_height_m) continue;
+    put_edge(target + count++, &list.edges[i].x0, origin);
+  }
+  out.truncate(begin + count);
+}
+
+}  // namespace
+
+void Sight::solids_changed() {
+  sweep_ = bodies_.edges().edges.size() <= kSweepLimit;
+  fixed_edges_.clear();
+  if (!sweep_) return;
+  for (const auto& info : bodies_.infos()) {
+    if (info->kind == Contact::Kind::kRobot) continue;
+    if (info->kind == Contact::Kind::kObstacle && !bodies_.obstacle(info->index).IsEnabled()) {
+      continue;
+    }
+    for (std::size_t i = 0; i < info->edge_count; ++i) {
+      fixed_edges_.add(bodies_.edges().edges[info->first_edge + i], info->height_m);
+    }
+  }
+}
+
+void Sight::robot_was_placed() {
+  for (Spot& spot : by_place_) spot.until_m = 0.0;
+  outlines_fresh_ = false;
+}
+
+void Sight::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
+  r.details->load.clear();
+  r.details->load_obstacles.clear();
+  r.details->seen_radius_m = r.radius_m;
+  for (const PhysicsWorld::Load& load : loads) {
+    const ObstacleDescription& box = load.box_B;
+    const std::vector<Vec2> corners = box_corners(box);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec2& a = corners[i];
+      const Vec2& b = corners[(i + 1) % corners.size()];
+      r.details->load.add({a.x(), a.y(), b.x(), b.y()}, box.height_m);
+      r.details->load_obstacles.push_back(load.obstacle);
+      r.details->seen_radius_m = std::max(r.details->seen_radius_m, a.norm());
+    }
+  }
+  outlines_fresh_ = false;
+}
+
+// Puts the robots in the order in which a Hilbert curve meets them, so that those that follow one
+// another are near each other. Which way a robot went since it was put somewhere in it matters
+// little for a while.
+void Sight::sort_by_place() {
+  constexpr double kWhile_m = 0.1;
+  for (Spot& spot : by_place_) {
+    const Robot& r = bodies_.robot(spot.robot);
+    if (r.gone_m < spot.until_m) continue;
+    spot.place = along_hilbert_curve(r.X_WB.position());
+    spot.until_m = r.gone_m + kWhile_m;
+  }
+  for (std::size_t i = 1; i < by_place_.size(); ++i) {  // insertion sort: nearly sorted already
+    const Spot moving = by_place_[i];
+    std::size_t j = i;
+    for (; j > 0 && by_place_[j - 1].place > moving.place; --j) by_place_[j] = by_place_[j - 1];
+    by_place_[j] = moving;
+  }
+}
+
+void Sight::rebuild_outlines() {
+  load_edges_.clear();
+  outlines_.resize(bodies_.robots().size());
+  robot_discs_.clear();
+  sort_by_place();
+  for (std::size_t k = 0; k < by_place_.size(); ++k) {
+    const Robot& r = bodies_.robot(by_place_[k].robot);
+    robot_discs_.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
+                     static_cast<float>(r.details->seen_radius_m));
+    const double c = std::cos(r.X_WB.yaw_rad);
+    const double s = std::sin(r.X_WB.yaw_rad);
+    Outline& outline = outlines_[k];
+    outline.count = static_cast<std::size_t>(r.details->shape.m_count);
+    for (std::size_t i = 0; i < outline.count; ++i) {
+      const double x = metres(r.details->shape.m_vertices[i].x);
+      const double y = metres(r.details->shape.m_vertices[i].y);
+      outline.corners[i] = {r.X_WB.x_m + c * x - s * y, r.X_WB.y_m + s * x + c * y};
+    }
+    outline.corners[outline.count] = outline.corners[0];
+    outline.p_WB = r.X_WB.position();
+    outline.seen_radius_m = r.details->seen_radius_m;
+    outline.height_m = r.details->height_m;
+    outline.robot = by_place_[k].robot;
+    outline.first_load = load_edges_.edges.size();
+    for (std::size_t i = 0; i < r.details->load.edges.size(); ++i) {
+      const Edge& e = r.details->load.edges[i];
+      load_edges_.add({r.X_WB.x_m + c * e.x0 - s * e.y0, r.X_WB.y_m + s * e.x0 + c * e.y0,
+                       r.X_WB.x_m + c * e.x1 - s * e.y1, r.X_WB.y_m + s * e.x1 + c * e.y1},
+                      r.details->load.heights_m[i]);
+    }
+    outline.end_load = load_edges_.edges.size();
+  }
+  robot_discs_.group();
+  outlines_fresh_ = true;
+}
+
+// Casts a ray from A to C at the robots that may(robot) lets: calls visit(fraction of the line)
+// for each that it meets from outside, until that returns false.
+template <typename Filter, typename Visitor>
+void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
+  const Vec2 line = p_WC - p_WA;
+  b2RayCastInput input;
+  input.p1 = to_box2d(p_WA);
+  input.p2 = to_box2d(p_WC);
+  input.maxFraction = 1.0F;
+  bool more = true;
+  bodies_.for_robots_in(
+      p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Bodies::Circle& circle) {
+        if (!more) return;
+        const Vec2 p_AB = Vec2(circle.x, circle.y) - p_WA;
+        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // times the line's length
+        if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
+        if (!may(circle.robot)) return;
+        const Robot& r = bodies_.robot(circle.robot);
+        b2RayCastOutput output;
+        if (!r.details->shape.RayCast(&output, input, transform_of(r), 0)) return;
+        more = visit(output.fraction);
+      });
+}
+
+scan::ScanKernel& Sight::kernel_of(const scan::ScanGeometry& geometry) {
+  const auto it = std::find_if(kernels_.begin(), kernels_.end(),
+                               [&](const scan::ScanKernel& k) { return k.geometry() == geometry; });
+  return it != kernels_.end() ? *it : kernels_.emplace_back(geometry);
+}
+
+// Appends the edges of a robot's outline.
+void Sight::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
+  static_assert(sizeof(Vec2) == 2 * sizeof(double));
+  scan::Edge* const target = out.append(outline.count);
+  const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
+  for (std::size_t i = 0; i < outline.count; ++i) {
+    put_edge(target + i, outline.corners[i].data(), origin);
+  }
+}
+
+void Sight::collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                                 scan::EdgeBuffer& edges) {
+  edges.clear();
+  if (sweep_) {
+    append_edges(fixed_edges_, 0, fixed_edges_.edges.size(), p_WL, sensor_height_m, edges);
+    return;
+  }
+  const Vec2 reach(radius_m, radius_m);
+  visit_fixed(bodies_.world(), p_WL - reach, p_WL + reach, [&](const b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    append_edges(bodies_.edges(), info.first_edge, info.first_edge + info.edge_count, p_WL,
+                 sensor_height_m, edges);
+  });
+}
+
+void Sight::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
+                          bool test_inside, scan::EdgeBuffer& edges) {
+  collect_static_edges(p_WL, radius_m, sensor_height_m, edges);
+  if (!outlines_fresh_) rebuild_outlines();
+  for (const Outline& outline : outlines_) {
+    if (outline.robot == own_robot) continue;
+    const double reach = radius_m + outline.seen_radius_m;
+    if ((outline.p_WB - p_WL).squaredNorm() > reach * reach) continue;
+    if (outline.height_m > sensor_height_m) {
+      for (std::size_t i = 0; i < outline.count; ++i) {
+        const Edge e = outline.edge(i);
+        edges.add(static_cast<float>(e.x0 - p_WL.x()), static_cast<float>(e.y0 - p_WL.y()),
+                  static_cast<float>(e.x1 - p_WL.x()), static_cast<float>(e.y1 - p_WL.y()));
+      }
+    }
+    append_edges(load_edges_, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
+  }
+  if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
+}
+
+void Sight::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
+                 int own_robot, bool test_inside, std::span<double> ranges_m) {
+  if (!outlines_fresh_) rebuild_outlines();
+  scan::ScanKernel& kernel = kernel_of(geometry);
+  scan::EdgeBuffer& edges = scan_edges_;
+  const Vec2 p_WL = X_WL.position();
+  const auto append = [&](std::span<const std::int32_t> discs) {
+    for (const std::int32_t disc : discs) {
+      const Outline& outline = outlines_[static_cast<std::size_t>(disc)];
+      if (outline.robot == own_robot) continue;
+      if (outline.height_m > sensor_height_m) append_robot(outline, p_WL, edges);
+      if (outline.first_load == outline.end_load) continue;
+      append_edges(load_edges_, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
+    }
+  };
+
+  collect_static_edges(p_WL, geometry.range_max_m, sensor_height_m, edges);
+  if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
+  kernel.begin(X_WL.yaw_rad);
+  kernel.locate(robot_discs_, static_cast<float>(p_WL.x()), static_cast<float>(p_WL.y()));
+  append(kernel.near());
+  kernel.add(edges);
+  edges.clear();
+  append(kernel.visible());
+  if (edges.size() > 0) kernel.add(edges);
+  kernel.finish(ranges_m);
+}
+
+void Sight::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
+                          std::vector<Face>& faces) {
+  faces.clear();
+  if (!outlines_fresh_) rebuild_outlines();
+  const auto add = [&](const Edge& e, Contact::Kind kind, int index, double height_m) {
+    if (std::max(e.x0, e.x1) < low.x() || std::min(e.x0, e.x1) > high.x()) return;
+    if (std::max(e.y0, e.y1) < low.y() || std::min(e.y0, e.y1) > high.y()) return;
+    faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
+  };
+  visit_fixed(bodies_.world(), low, high, [&](const b2Fixture& fixture) {
+    const FixtureInfo& info = info_of(&fixture);
+    for (std::size_t i = 0; i < info.edge_count; ++i) {
+      add(bodies_.edges().edges[info.first_edge + i], info.kind, info.index, info.height_m);
+    }
+  });
+  for (const Outline& outline : outlines_) {
+    if (outline.robot == own_robot) continue;
+    for (std::size_t i = 0; i < outline.count; ++i) {
+      add(outline.edge(i), Contact::Kind::kRobot, outline.robot, outline.height_m);
+    }
+    const Robot& r = bodies_.robot(outline.robot);
+    for (std::size_t i = outline.first_load; i < outline.end_load; ++i) {
+      add(load_edges_.edges[i], Contact::Kind::kObstacle,
+          r.details->load_obstacles[i - outline.first_load], load_edges_.heights_m[i]);
+    }
+  }
+}
+
+bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
+                         const Contact& target) {
+  struct Blocked : b2RayCastCallback {
+    float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
+      const FixtureInfo& info = info_of(fixture);
+      const bool wanted = info.kind == target_kind && info.index == target_index;
+      if (info.kind == Contact::Kind::kRobot || wanted || info.height_m <= height_m) return -1.0F;
+      blocked = true;
+      return 0.0F;
+    }
+    double height_m = 0.0;
+    Contact::Kind target_kind = Contact::Kind::kRobot;
+    int target_index = -1;
+    bool blocked = false;
+  } callback;
+  callback.height_m = height_m;
+  callback.target_kind = target.kind;
+  callback.target_index = target.index;
+  // Box2D takes no line without a length.
+  if ((p_WC - p_WA).squaredNorm() <= 0.0) return true;
+  // Robots first, which cost less to ask.
+  const int target_robot = target.kind == Contact::Kind::kRobot ? target.index : -1;
+  bool blocked = false;
+  cast_at_robots(
+      p_WA, p_WC,
+      [&](int robot) {
+        return robot != own_robot && robot != target_robot &&
+               bodies_.robot(robot).details->height_m > height_m;
+      },
+      [&](float) {
+        blocked = true;
+        return false;
+      });
+  if (blocked) return false;
+  bodies_.world().RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
+  return !callback.blocked;
+}
+
+bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
+  bool inside = false;
+  visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
+    if (info_of(&fixture).height_m <= height_m) return;
+    inside = inside || fixture.TestPoint(to_box2d(p_W));
+  });
+  bodies_.for_robots_in(p_W, p_W, [&](const Bodies::Circle& circle) {
+    const Robot& r = bodies_.robot(circle.robot);
+    if (inside || circle.robot == own_robot || r.details->height_m <= height_m) return;
+    inside = r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
+  });
+  if (inside || !bodies_.has_walls()) return inside;
+  // Walls of a map are closed outlines: inside where a ray to the far right crosses an odd number
+  // of them (half-open rule at vertices).
+  int crossings = 0;
+  visit_fixed(bodies_.world(), p_W, {bodies_.wall_right_m(), p_W.y()},
+              [&](const b2Fixture& fixture) {
+                const FixtureInfo& info = info_of(&fixture);
+                if (info.kind != Contact::Kind::kWall) return;
+                const Edge& e = bodies_.edges().edges[info.first_edge];
+                if ((e.y0 > p_W.y()) == (e.y1 > p_W.y())) return;
+                const double x = e.x0 + (p_W.y() - e.y0) / (e.y1 - e.y0) * (e.x1 - e.x0);
+                if (x > p_W.x()) ++crossings;
+              });
+  return crossings % 2 == 1;
+}
+
+double Sight::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m, int own_robot) {
+  struct Closest : b2RayCastCallback {
+    float fraction = 1.0F;
+    float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {
+      if (info_of(fixture).kind == Contact::Kind::kRobot) return -1.0F;
+      fraction = f;
+      return f;
+    }
+  } closest;
+  const Vec2 end = p_WL + range_max_m * Vec2(std::cos(angle_rad), std::sin(angle_rad));
+  bodies_.world().RayCast(&closest, to_box2d(p_WL), to_box2d(end));
+  cast_at_robots(
+      p_WL, end, [&](int robot) { return robot != own_robot; },
+      [&](float fraction) {
+        closest.fraction = std::min(closest.fraction, fraction);
+        return true;
+      });
+  return static_cast<double>(closest.fraction) * range_max_m;
+}
+
+}  // namespace sim::physics

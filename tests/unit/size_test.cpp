@@ -1,0 +1,181 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Files and functions stay so small that they can be read at one sitting. Headers that the build
+// makes from tables do not count, nor do tests, which are lists of cases.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFileLines = 700;
+constexpr std::size_t kFunctionLines = 80;
+
+struct Excuse {
+  std::size_t lines;  // it may have, and no more
+  const char* reason;
+};
+
+// This list may only shrink: who makes one of them shorter lowers its number, or takes it out.
+const std::map<std::string, Excuse>& excused_files() {
+  static const std::map<std::string, Excuse> excused = {
+      {"libplayerlike/src/host/host.cpp", {1731, "Host::Core is to be divided"}},
+      {"libplayerlike/src/protocol/codec.cpp", {794, "requests are to be described by fields"}},
+      {"libplayerlike/src/protocol/device_codec.cpp",
+       {784, "readings are to be described by fields"}},
+      {"libplayerlike/src/server/morse_services.cpp", {824, "to be divided by components"}},
+      {"libplayerlike/src/server/native_handler.cpp", {726, "requests are to become values"}},
+      {"libplayerlike/src/session/socket_session.cpp", {835, "requests are to become values"}},
+      {"libsim/src/devices/builtin.cpp", {932, "rows of the table go to the devices"}},
+      {"libsim/src/simulation/simulation.cpp",
+       {932, "snapshot, hash and named objects are to leave"}},
+  };
+  return excused;
+}
+
+// Functions by file and the line that their brace is on.
+const std::map<std::string, Excuse>& excused_functions() {
+  static const std::map<std::string, Excuse> excused = {
+      {"apps/playpen/completion.cpp: std::string bash_script(const CommandLine& line) {",
+       {84, "most of it is the text of a script"}},
+      {"libsim/src/devices/builtin.cpp: std::vector<DeviceKind> make_table() {",
+       {111, "its rows go to the devices"}},
+  };
+  return excused;
+}
+
+struct Function {
+  std::string first_line;
+  std::size_t lines;
+};
+
+/// For each line, the braces that it opens less those that it closes, but for texts and comments.
+std::vector<int> braces_of(const std::vector<std::string>& lines) {
+  std::vector<int> braces;
+  std::string raw_end;  // of the raw text that goes on, if one does
+  for (const std::string& line : lines) {
+    int& open = braces.emplace_back(0);
+    std::size_t i = 0;
+    while (i < line.size()) {
+      if (!raw_end.empty()) {
+        const std::size_t end = line.find(raw_end, i);
+        if (end == std::string::npos) break;
+        i = end + raw_end.size();
+        raw_end.clear();
+      } else if (line.compare(i, 2, "//") == 0) {
+        break;
+      } else if (line.compare(i, 2, "R\"") == 0) {
+        const std::size_t begin = line.find('(', i);
+        raw_end = ')' + line.substr(i + 2, begin - i - 2) + '"';
+        i = begin + 1;
+      } else if (line[i] == '"' ||
+                 (line[i] == '\'' && (i == 0 || std::isalnum(line[i - 1]) == 0))) {
+        const char quote = line[i++];
+        while (i < line.size() && line[i] != quote) i += line[i] == '\\' ? 2 : 1;
+        ++i;
+      } else {
+        open += line[i] == '{' ? 1 : (line[i] == '}' ? -1 : 0);
+        ++i;
+      }
+    }
+  }
+  return braces;
+}
+
+/// Functions of a source as clang-format lays them out: from the line that ends with their brace to
+/// its counterpart. Statements and lambdas that look like one are shorter than what they are in.
+std::vector<Function> functions_of(const std::vector<std::string>& lines) {
+  const std::vector<int> braces = braces_of(lines);
+  std::vector<Function> found;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!lines[i].ends_with(" {") || lines[i].find(')') == std::string::npos) continue;
+    std::size_t end = i;
+    int open = 1;  // also if the line closes another one
+    while (open > 0 && end + 1 < lines.size()) open += braces[++end];
+    found.push_back({lines[i].substr(lines[i].find_first_not_of(' ')), end - i + 1});
+  }
+  return found;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// Sources of libraries and programs: path in the repository -> lines.
+std::map<std::string, std::vector<std::string>> sources() {
+  const fs::path root(PLAYPEN_SOURCE_DIR);
+  std::map<std::string, std::vector<std::string>> all;
+  for (const char* folder : {"libsim", "libplayerlike", "apps"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp" && extension != ".cc") continue;
+      all.emplace(fs::relative(entry.path(), root).generic_string(), lines_of(entry.path()));
+    }
+  }
+  return all;
+}
+
+TEST(Size, FilesHave700LinesAtMost) {
+  for (const auto& [path, lines] : sources()) {
+    const auto excuse = excused_files().find(path);
+    const std::size_t most = excuse == excused_files().end() ? kFileLines : excuse->second.lines;
+    EXPECT_LE(lines.size(), most) << path << ": divide it along what its parts own";
+    EXPECT_TRUE(excuse == excused_files().end() || lines.size() > kFileLines)
+        << path << " needs no excuse any more: take it off the list";
+  }
+}
+
+TEST(Size, FunctionsHave80LinesAtMost) {
+  for (const auto& [path, lines] : sources()) {
+    for (const Function& function : functions_of(lines)) {
+      const std::string name = path + ": " + function.first_line;
+      const auto excuse = excused_functions().find(name);
+      const std::size_t most =
+          excuse == excused_functions().end() ? kFunctionLines : excuse->second.lines;
+      EXPECT_LE(function.lines, most) << name;
+      EXPECT_TRUE(excuse == excused_functions().end() || function.lines > kFunctionLines)
+          << name << " needs no excuse any more: take it off the list";
+    }
+  }
+}
+
+TEST(Size, ExcusesAreForWhatIsThere) {
+  const auto all = sources();
+  for (const auto& [path, excuse] : excused_files()) {
+    EXPECT_TRUE(all.contains(path)) << path << " (" << excuse.reason << ")";
+  }
+  for (const auto& [name, excuse] : excused_functions()) {
+    const auto source = all.find(name.substr(0, name.find(": ")));
+    ASSERT_TRUE(source != all.end()) << name << " (" << excuse.reason << ")";
+    const auto functions = functions_of(source->second);
+    EXPECT_TRUE(std::any_of(functions.begin(), functions.end(), [&](const Function& function) {
+      return name.ends_with(": " + function.first_line);
+    })) << name;
+  }
+}
+
+// The measure itself, so that one that finds nothing is noticed.
+TEST(SizeRules, MeasureFunctions) {
+  const auto found = functions_of({"namespace {", "int one() { return 1; }", "int two(int a,",
+                                   "        int b) const {", "  if (a == '}') return 0;  // }",
+                                   "  return R\"(", "}}", ")\";", "}", "class C {",
+                                   "  void three() {", "  }", "};", "}  // namespace"});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].first_line, "int b) const {");
+  EXPECT_EQ(found[0].lines, 6U);
+  EXPECT_EQ(found[1].first_line, "void three() {");
+  EXPECT_EQ(found[1].lines, 2U);
+}
+
+}  // namespace
