@@ -156,6 +156,12 @@ struct Field {
 
   /// @name For tables: the same field with a trait more
   /// @{
+  template <auto Trait, typename Value>
+  [[nodiscard]] constexpr Field with(Value value) const {
+    Field made = *this;
+    made.*Trait = value;
+    return made;
+  }
   [[nodiscard]] constexpr Field within(double min, double max) const {
     Field made = *this;
     made.range = {min, max, false, range.unit};
@@ -196,14 +202,6 @@ struct Field {
   [[nodiscard]] constexpr Field only_told() const { return with<&Field::told_only>(true); }
   [[nodiscard]] constexpr Field telling_each() const { return with<&Field::tells_elements>(true); }
   /// @}
-
- private:
-  template <auto Trait, typename Value>
-  [[nodiscard]] constexpr Field with(Value value) const {
-    Field made = *this;
-    made.*Trait = value;
-    return made;
-  }
 };
 
 /// @cond
