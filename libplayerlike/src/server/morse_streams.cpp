@@ -55,9 +55,12 @@ class StreamConnection : public Handler {
     hub_.answer_after(verdict.delay, peer_, alive_, [this, wrong = verdict.wrong, token = *token] {
       if (wrong) return peer_.close("");
       rights_ = hub_.access().rights({token});
+      on_rights();
     });
     return true;
   }
+  /// The token has given the connection its rights.
+  virtual void on_rights() {}
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
   [[nodiscard]] MorseState& state() noexcept { return *state_; }
   /// Tells the log of it, the first time.
@@ -201,11 +204,10 @@ class MorseStreams::Reader final : public StreamConnection {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  void on_message(std::string_view line) override {
-    if (take_token(line)) listen_if_allowed();
-  }
+  void on_message(std::string_view line) override { static_cast<void>(take_token(line)); }
 
  private:
+  void on_rights() override { listen_if_allowed(); }
   void listen_if_allowed() {
     if (listens_ || !(rights().connect || rights().watch)) return;
     const auto robot = static_cast<std::size_t>(source_->component().robot);
