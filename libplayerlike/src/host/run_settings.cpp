@@ -123,8 +123,8 @@ RunSettings RunSettings::from_environment() {
   Variables variables;
   variables.read(
       "PLAYPEN_SEED", "a whole number from 0 to 2^64 - 1",
-      into<std::uint64_t>(settings.seed, [](const std::string& text, std::uint64_t& seed) {
-        return parse_whole(text, seed);
+      into<std::uint64_t>(settings.seed, [](const std::string& text, std::uint64_t& value) {
+        return parse_whole(text, value);
       }));
   variables.read("PLAYPEN_DURATION", "a number of seconds in (0, 1e9]",
                  into<double>(settings.duration_s, parse_positive_seconds));

@@ -2,13 +2,9 @@
 #include "render/robot_painter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "render/robot_place.h"
