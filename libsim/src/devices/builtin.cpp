@@ -1,7 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/devices/builtin.h"
 
-#include <algorithm>
+#include <map>
+#include <string_view>
 
 // The names of all kinds: NAME_kind() stands in the device's own source. The list is written by
 // hand, as static libraries drop objects that would register themselves.
@@ -47,9 +48,13 @@ const std::vector<DeviceKind>& device_kinds() {
 }
 
 const DeviceKind* find_device_kind(std::string_view name) {
-  const std::vector<DeviceKind>& kinds = device_kinds();
-  const auto found = std::ranges::find(kinds, name, &DeviceKind::name);
-  return found == kinds.end() ? nullptr : &*found;
+  static const auto* const by_name = [] {
+    auto* index = new std::map<std::string_view, const DeviceKind*>();
+    for (const DeviceKind& kind : device_kinds()) index->emplace(kind.name, &kind);
+    return index;
+  }();
+  const auto found = by_name->find(name);
+  return found == by_name->end() ? nullptr : found->second;
 }
 
 std::vector<io::DeviceType> device_types() {
