@@ -22,7 +22,7 @@
 
 #include "environment.h"
 #include "own_folders.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/program.h"
 #include "preload.h"
 #include "project.h"

@@ -11,8 +11,8 @@
 
 #include "commands.h"
 #include "playerlike/host/host.h"
-#include "playerlike/host/log.h"
 #include "playerlike/host/program.h"
+#include "playerlike/process/log.h"
 #include "playerlike/server/server.h"
 #include "run_outputs.h"
 #include "shipped.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"
 

@@ -42,7 +42,7 @@ class ClientCore final : private ReadingSink {
   [[nodiscard]] const std::vector<RobotInfo>& robots() const noexcept { return session_->robots(); }
 
   /// Subscribes a listener to a device. The mutex is held by the caller.
-  /// @param replace  see Session::set_replace(); nullopt: whatever the session does by itself.
+  /// @param replace  see ReplaceRequest; nullopt: whatever the session does by itself.
   void add(DeviceId device, ReadingListener& listener, std::optional<bool> replace = std::nullopt);
   /// Whether a listener was added. The mutex is held by the caller.
   [[nodiscard]] bool listens(const ReadingListener& listener) const noexcept;
@@ -74,7 +74,7 @@ class ClientCore final : private ReadingSink {
   /// Throws SessionError if the client is gone, or the run over in the background.
   void require_usable() const;
 
-  /// Notes that the program has looked at data of a sensor; see Session::note_looks(). The mutex is
+  /// Notes that the program has looked at data of a sensor; see NoteLooksRequest. The mutex is
   /// held by the caller.
   void note_look(bool has_data) {
     constexpr int kAtOnce = 1024;

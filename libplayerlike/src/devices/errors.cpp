@@ -7,7 +7,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "host/end_of_program.h"
+#include "process/end_of_program.h"
 #include "sim/core/number_text.h"
 
 namespace playerlike {

@@ -8,7 +8,7 @@
 #include "devices/errors.h"
 #include "libCCMorse/MorseClient.h"
 #include "libCCMorse/MorseProperties.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 
 namespace CCMorse {
 

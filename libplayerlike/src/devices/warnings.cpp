@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "devices/warnings.h"
 
-#include "playerlike/host/log.h"
+#include "playerlike/process/log.h"
 
 namespace playerlike {
 

@@ -156,24 +156,8 @@ class Host::Core : private ViewedRun, private TurnClock {
   void resize_canvas(Client& client, int width, int height);
   void join(Client& client, ThinkerId thinker);
 
-  /// Virtual time: lets time pass for the calling thread, until this moment or the step before it.
-  /// @param interrupted  set to whether a signal ended that.
-  /// @return how far the moment lies ahead then; nullopt if the thread is to sleep for real.
-  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted);
-  /// Virtual time: a wait with a deadline was over. After the run's end it is for ever, so that is
-  /// slowed down, and ended, as sleeps are.
-  /// @param left_ns  how far the deadline lies ahead of simulated time.
-  void note_timed_wait(Lock& lock, sim::SimTime left_ns);
-  /// Virtual time: from now on the threads of the program wait for this simulation's time, ...
-  /// @param before_ns  what the clocks tell at its beginning, since the program's start.
-  void begin_turns(sim::SimTime before_ns);
-  /// ... and no longer.
-  void end_turns(sim::SimTime before_ns);
-  /// Simulated time and the time of a step, without a lock.
-  [[nodiscard]] sim::SimTime now_ns() const noexcept {
-    return now_ns_.load(std::memory_order_acquire);
-  }
-  [[nodiscard]] sim::SimTime step_ns() const noexcept { return step_ns_; }
+  /// As the clock of those who take turns.
+  [[nodiscard]] TurnClock& clock() noexcept { return *this; }
 
   void prefer_real_time(const std::string& reason);
   TimeStatistics time() const;
@@ -215,6 +199,14 @@ class Host::Core : private ViewedRun, private TurnClock {
   /// Makes ready those threads whose wait is over, in their order.
   void make_ready();
   // As the clock of those who take turns.
+  [[nodiscard]] sim::SimTime now_ns() const noexcept final {
+    return now_ns_.load(std::memory_order_acquire);
+  }
+  [[nodiscard]] sim::SimTime step_ns() const noexcept final { return step_ns_; }
+  void begin_turns(sim::SimTime before_ns) override;
+  void end_turns(sim::SimTime before_ns) override;
+  std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted) override;
+  void note_timed_wait(Lock& lock, sim::SimTime left_ns) override;
   bool step(Lock& lock) override;
   [[nodiscard]] bool has_come(sim::SimTime wake_ns) const override;
   void look_at_start() override;
@@ -371,11 +363,6 @@ class InsideCore {
  private:
   virtual_time::Inside inside_;
   Host::Core& core_;
-};
-
-/// A host's body, for virtual time.
-struct VirtualTimeAccess {
-  [[nodiscard]] static Host::Core& core(const Host& host) noexcept { return *host.core_; }
 };
 
 }  // namespace playerlike

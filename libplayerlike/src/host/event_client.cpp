@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "host/core.h"
-#include "session/in_process_session.h"
+#include "host/in_process_session.h"
 
 namespace playerlike {
 

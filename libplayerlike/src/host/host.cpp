@@ -16,10 +16,10 @@
 
 #include "host/busy_alarm.h"
 #include "host/core.h"
-#include "host/end_of_program.h"
 #include "host/file_limit_errors.h"
+#include "host/in_process_session.h"
 #include "host/outputs.h"
-#include "session/in_process_session.h"
+#include "process/end_of_program.h"
 #include "sim/core/number_text.h"
 #include "sim/world/view_mode.h"
 #include "virtual_time/virtual_time.h"
@@ -78,24 +78,6 @@ bool replaces_earlier_ones(const sim::Command& command) {
 }
 
 }  // namespace
-
-ThinkerId new_thinker() noexcept {
-  static std::atomic<ThinkerId> last{0};
-  return ++last;
-}
-
-namespace {
-constinit thread_local ThinkerId own_thinker = 0;
-}
-
-ThinkerId this_thinker() noexcept {
-  if (own_thinker == 0) own_thinker = new_thinker();
-  return own_thinker;
-}
-
-bool is_thinker() noexcept { return own_thinker != 0; }
-
-void set_this_thinker(ThinkerId thinker) noexcept { own_thinker = thinker; }
 
 // --- Construction
 // ---------------------------------------------------------------------------------
@@ -180,7 +162,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   layer_book_.leave(client.number);
   for (const Client::Subscription& s : client.subscriptions) forget_subscriber(client, s.device);
   client.subscriptions.clear();
-  if (turns_) Turns::instance().let_go(client);
+  if (turns_) Turns::instance().let_go(&client);
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
   changed_.notify_all();
 }
@@ -1584,6 +1566,7 @@ TimeStatistics Host::time() const { return InsideCore(*core_)->time(); }
 sim::RobotStatistics Host::statistics(int robot) const {
   return InsideCore(*core_)->statistics(robot);
 }
+std::shared_ptr<TurnClock> Host::clock() { return {shared_from_this(), &core_->clock()}; }
 std::uint64_t Host::state_hash() const { return InsideCore(*core_)->state_hash(); }
 
 }  // namespace playerlike

@@ -2,34 +2,15 @@
 #include "host/idle_calls.h"
 
 #include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "process/system_threads.h"
+
 namespace playerlike {
-
-pid_t this_thread() noexcept { return static_cast<pid_t>(syscall(SYS_gettid)); }
-
-std::optional<std::uint64_t> sleeps_since(pid_t thread) {
-  std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");
-  bool asleep = false;
-  for (std::string line; std::getline(status, line);) {
-    if (line.starts_with("State:")) asleep = line.find("S (") != std::string::npos;
-    constexpr std::string_view kSwitches = "voluntary_ctxt_switches:";
-    if (asleep && line.starts_with(kSwitches)) {
-      return std::strtoull(line.c_str() + kSwitches.size(), nullptr, 10);
-    }
-  }
-  return std::nullopt;
-}
-
 namespace {
 
 // How often the calling thread has gone to sleep by itself.

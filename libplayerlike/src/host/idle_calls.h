@@ -11,11 +11,6 @@
 
 namespace playerlike {
 
-/// Number of the calling thread for the system.
-[[nodiscard]] pid_t this_thread() noexcept;
-/// How often a thread of this process has gone to sleep by itself; nullopt unless it sleeps now.
-[[nodiscard]] std::optional<std::uint64_t> sleeps_since(pid_t thread);
-
 /// Finds out that a program looks and commands again and again while simulated time stands still,
 /// and that no thread of it is about to let time pass: it does not call Read().
 ///

@@ -69,7 +69,7 @@ inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 [[nodiscard]] sim::OccupancyMap occupancy_map(const sim::LayerStack& stack, sim::LayerId layer);
 
 /// Where a picture goes that a client wants saved.
-/// @throws SessionError as Session::save_image().
+/// @throws SessionError as SaveImageRequest.
 [[nodiscard]] std::string picture_file(const std::string& folder, const std::string& name,
                                        int scale);
 /// Writes the canvas as a PNG, scale x scale pixels a cell.
@@ -78,7 +78,7 @@ void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::
                    int scale, const std::string& file);
 
 /// Where the two files of a map go that a client wants saved, without their endings.
-/// @throws SessionError as Session::save_map().
+/// @throws SessionError as SaveMapRequest.
 [[nodiscard]] std::string map_stem(const std::string& folder, const std::string& name);
 /// Writes a map as sim::io::write_map() does.
 /// @throws SessionError kNotAvailable if it cannot be written.

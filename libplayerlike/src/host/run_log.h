@@ -47,7 +47,7 @@ class RunLog {
                                         const std::vector<RobotInfo>& robots);
   /// Makes changes, in the order that LogRequest lists them in, and tells what is then.
   /// @param loaded  the file that file_to_read() has named; may be null if none.
-  /// @throws SessionError as Session::control_log(); what came before the change in question is
+  /// @throws SessionError as LogRequest; what came before the change in question is
   /// done.
   LogStatus control(const LogRequest& changes, const sim::Simulation& simulation, Loaded* loaded);
 

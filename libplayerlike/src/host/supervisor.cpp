@@ -23,7 +23,7 @@
 #include <string_view>
 #include <utility>
 
-#include "host/end_of_program.h"
+#include "process/end_of_program.h"
 
 namespace playerlike {
 namespace {

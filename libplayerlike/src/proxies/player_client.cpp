@@ -11,7 +11,7 @@
 
 #include "devices/errors.h"
 #include "libplayerc++/playerclient.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "proxies/link.h"
 #include "virtual_time/virtual_time.h"
 

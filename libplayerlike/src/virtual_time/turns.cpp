@@ -13,7 +13,7 @@
 #include <ctime>
 #include <utility>
 
-#include "host/idle_calls.h"
+#include "process/system_threads.h"
 #include "virtual_time/virtual_time.h"
 
 namespace playerlike {
@@ -331,9 +331,9 @@ void Turns::interrupt(const void* handle, bool by_signal) {
   kick();
 }
 
-void Turns::let_go(const Client& client) {
+void Turns::let_go(const void* client) {
   for (const auto& thread : threads_) {
-    if (thread->client != &client) continue;
+    if (thread->client != client) continue;
     thread->wake = Wake::kNone;
     if (thread->state == State::kWaits || thread->state == State::kReady) {
       move(*thread, State::kBeside);

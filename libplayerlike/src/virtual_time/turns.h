@@ -13,12 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "playerlike/host/event_client.h"
+#include "playerlike/process/thinker.h"
 #include "sim/core/time.h"
 
 namespace playerlike {
-
-struct Client;
 
 /// A thread of the program in virtual time. Guarded by the mutex of Turns, but for the bell.
 struct TurnThread {
@@ -46,7 +44,7 @@ struct TurnThread {
   const void* object = nullptr;  ///< until somebody wakes one who waits for that
   int (*is_there)(const void*, unsigned) = nullptr;  ///< asked before time goes on, if set
   unsigned value = 0;                                ///< for is_there
-  const Client* client = nullptr;                    ///< this client's data, or ...
+  const void* client = nullptr;                      ///< this client's data, or ...
   /// ... this moment: simulated time, or without a simulation time since the program's start.
   std::optional<sim::SimTime> wake_ns;
   bool takes_mutex = false;    ///< the object is a mutex, which it takes when it is its turn
@@ -68,7 +66,8 @@ struct TurnThread {
   }
 };
 
-/// The simulation whose time the threads wait for. Called with the lock held.
+/// The simulation whose time the threads wait for. Called with the lock held, but for what says
+/// otherwise.
 class TurnClock {
  public:
   TurnClock() = default;
@@ -90,6 +89,28 @@ class TurnClock {
   /// clock now.
   virtual void on_silent(const TurnThread& thread) = 0;
   virtual bool on_blocked(const TurnThread& thread) = 0;
+
+  // Without the lock:
+
+  /// Simulated time, and the time of a step.
+  [[nodiscard]] virtual sim::SimTime now_ns() const noexcept = 0;
+  [[nodiscard]] virtual sim::SimTime step_ns() const noexcept = 0;
+  /// From now on the threads of the program wait for this simulation's time, ...
+  /// @param before_ns  what the clocks tell at its beginning, since the program's start.
+  virtual void begin_turns(sim::SimTime before_ns) = 0;
+  /// ... and no longer.
+  virtual void end_turns(sim::SimTime before_ns) = 0;
+  /// Lets time pass for the calling thread, until this moment or the step before it.
+  /// @param interrupted  set to whether a signal ended that.
+  /// @return how far the moment lies ahead then; nullopt if the thread is to sleep for real.
+  virtual std::optional<sim::SimTime> pass_time(sim::SimTime target_ns, bool& interrupted) = 0;
+
+  // With the lock held:
+
+  /// A wait with a deadline was over. After the run's end it is for ever, so that is slowed down,
+  /// and ended, as sleeps are.
+  /// @param left_ns  how far the deadline lies ahead of simulated time.
+  virtual void note_timed_wait(std::unique_lock<std::mutex>& lock, sim::SimTime left_ns) = 0;
   /// How long a thread may think before the others no longer wait for it.
   [[nodiscard]] virtual std::chrono::steady_clock::duration silence_limit() const = 0;
 };
@@ -162,7 +183,7 @@ class Turns {
   /// What a thread waits for is there: it goes on in its turn.
   void make_ready(TurnThread& thread, Wake wake);
   /// The thread that waits for this client's data goes on at once, beside the others.
-  void let_go(const Client& client);
+  void let_go(const void* client);
   /// Lets somebody go on, if nobody thinks; wakes one to let time pass.
   void kick();
 

@@ -21,10 +21,8 @@
 #include <string_view>
 #include <vector>
 
-#include "host/core.h"
-#include "playerlike/host/host.h"
-#include "playerlike/host/log.h"
-#include "session/in_process_session.h"
+#include "playerlike/process/log.h"
+#include "process/thread_end.h"
 #include "virtual_time/hooks.h"
 #include "virtual_time/turns.h"
 
@@ -77,7 +75,7 @@ constinit thread_local ThreadState state;
 constinit std::atomic<bool> registered{false};
 constinit std::atomic<bool> given_up{false};
 constinit std::atomic<bool> background{false};
-constinit std::atomic<Host*> attached{nullptr};
+constinit std::atomic<TurnClock*> attached{nullptr};
 /// Time before the simulation, and what was slept after its end [ns].
 constinit std::atomic<long long> offset_ns{0};
 /// When it was given up: what the clocks showed then, and the real one.
@@ -132,9 +130,9 @@ const void* code_of_thread(const void* caller, const void* start, const void* ar
 }
 
 /// Simulations that were attached. A thread may be on its way into one, so they are kept.
-std::vector<std::shared_ptr<Host>>& kept_hosts() {
-  static auto* const hosts = new std::vector<std::shared_ptr<Host>>;
-  return *hosts;
+std::vector<std::shared_ptr<TurnClock>>& kept_clocks() {
+  static auto* const clocks = new std::vector<std::shared_ptr<TurnClock>>;
+  return *clocks;
 }
 constinit std::mutex lists_mutex;  // over that
 
@@ -143,9 +141,9 @@ long long elapsed(const ThreadState& thread) {
     return last_ns.load() + real_ns() - last_real_ns.load();
   }
   const long long before_ns = offset_ns.load();
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (host == nullptr) return before_ns;
-  const sim::SimTime now_ns = VirtualTimeAccess::core(*host).now_ns();
+  TurnClock* const clock = attached.load(std::memory_order_acquire);
+  if (clock == nullptr) return before_ns;
+  const sim::SimTime now_ns = clock->now_ns();
   const bool ahead = thread.takes_part && thread.ahead_from == now_ns;
   return before_ns + now_ns + (ahead ? thread.ahead_ns : 0);
 }
@@ -154,22 +152,22 @@ enum class Passed { kNo, kYes, kInterrupted };
 
 /// Lets simulated time pass for the calling thread.
 /// @param left_ns  set to what is left if a signal ends that.
-Passed pass(ThreadState& thread, Host& host, long long duration_ns, long long* left_ns = nullptr) {
+Passed pass(ThreadState& thread, TurnClock& clock, long long duration_ns,
+            long long* left_ns = nullptr) {
   const Inside inside;
   try {
     thread.takes_part = true;
     remember_thread();
-    auto& core = VirtualTimeAccess::core(host);
-    const sim::SimTime from_ns = core.now_ns();
+    const sim::SimTime from_ns = clock.now_ns();
     const sim::SimTime start_ns = from_ns + (thread.ahead_from == from_ns ? thread.ahead_ns : 0);
     bool interrupted = false;
-    const auto ahead_ns = core.pass_time(start_ns + duration_ns, interrupted);
+    const auto ahead_ns = clock.pass_time(start_ns + duration_ns, interrupted);
     if (!ahead_ns) return Passed::kNo;
     if (interrupted) {
       if (left_ns != nullptr) *left_ns = std::max<sim::SimTime>(*ahead_ns, 0);
       return Passed::kInterrupted;
     }
-    thread.ahead_from = core.now_ns();
+    thread.ahead_from = clock.now_ns();
     thread.ahead_ns = *ahead_ns;
     return Passed::kYes;
   } catch (const std::exception&) {
@@ -204,8 +202,8 @@ int sleep_before(long long duration_ns, long long* left_ns) {
 int on_sleep(long long duration_ns, const void* caller, long long* left_ns) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended || given_up.load(std::memory_order_acquire)) return 0;
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (host == nullptr) {
+  TurnClock* const clock = attached.load(std::memory_order_acquire);
+  if (clock == nullptr) {
     if (const int slept = sleep_before(duration_ns, left_ns); slept != 0) return slept;
     // There is nothing yet that could go on instead. But the clock is not to stand still.
     if (is_main(thread)) offset_ns.fetch_add(duration_ns);
@@ -217,7 +215,7 @@ int on_sleep(long long duration_ns, const void* caller, long long* left_ns) {
   thread.asks = 0;
   thread.looks = 0;
   thread.yields = 0;
-  switch (pass(thread, *host, duration_ns, left_ns)) {
+  switch (pass(thread, *clock, duration_ns, left_ns)) {
     case Passed::kNo:
       return 0;
     case Passed::kYes:
@@ -237,11 +235,11 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
   if (ask != 0 && programs && !given_up.load(std::memory_order_acquire) &&
       ++thread.asks > kFreeAsks) {
     thread.asks = kFreeAsks;
-    Host* const host = attached.load(std::memory_order_acquire);
-    if (host == nullptr) {
+    TurnClock* const clock = attached.load(std::memory_order_acquire);
+    if (clock == nullptr) {
       offset_ns.fetch_add(kStepBefore_ns);
     } else {
-      pass(thread, *host, VirtualTimeAccess::core(*host).step_ns());
+      pass(thread, *clock, clock->step_ns());
     }
   }
   *elapsed_ns = elapsed(thread);
@@ -335,9 +333,9 @@ int on_begin_wait(const void* object, int kind, long long deadline_ns,
     // At least a little, so that a loop of waits for no time at all ends.
     thread.deadline_ns = std::max(deadline_ns, elapsed(thread) + 1'000);
     self->wake_ns = thread.deadline_ns;
-    if (Host* const host = attached.load()) {
+    if (TurnClock* const clock = attached.load()) {
       const sim::SimTime wake_ns = thread.deadline_ns - offset_ns.load();
-      self->wake_ns = wake_ns - wake_ns % VirtualTimeAccess::core(*host).step_ns();
+      self->wake_ns = wake_ns - wake_ns % clock->step_ns();
     }
   }
   return 1;
@@ -364,14 +362,13 @@ int on_finish_wait() {
   }
   thread.asks = 0;
   thread.looks = 0;
-  Host* const host = attached.load();
-  if (timed && host != nullptr) {
-    auto& core = VirtualTimeAccess::core(*host);
+  TurnClock* const clock = attached.load();
+  if (timed && clock != nullptr) {
     thread.takes_part = true;
-    thread.ahead_from = core.now_ns();
+    thread.ahead_from = clock->now_ns();
     thread.ahead_ns =
         std::max<sim::SimTime>(0, thread.deadline_ns - offset_ns.load() - thread.ahead_from);
-    core.note_timed_wait(lock, thread.ahead_ns);
+    clock->note_timed_wait(lock, thread.ahead_ns);
   }
   return kPlaypenWaitTime;
 }
@@ -442,8 +439,8 @@ void on_yield() {
   // Nobody is left who could go on: it waits for what simulated time brings.
   if (++thread.yields < kFreeYields || given_up.load(std::memory_order_acquire)) return;
   thread.yields = 0;
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (host != nullptr) pass(thread, *host, VirtualTimeAccess::core(*host).step_ns());
+  TurnClock* const clock = attached.load(std::memory_order_acquire);
+  if (clock != nullptr) pass(thread, *clock, clock->step_ns());
 }
 
 void on_leaving(int process) { state.leaving = process != 0 ? 1 : -1; }
@@ -550,20 +547,20 @@ StartsForProgram::~StartsForProgram() { --state.starts_for_program; }
 StartsForLibraries::StartsForLibraries() noexcept { ++state.starts_for_libraries; }
 StartsForLibraries::~StartsForLibraries() { --state.starts_for_libraries; }
 
-void attach(const std::shared_ptr<Host>& host) {
+void attach(const std::shared_ptr<TurnClock>& clock) {
   const std::lock_guard lock(lists_mutex);
   if (attached.load() != nullptr || !active()) return;
-  kept_hosts().push_back(host);
-  VirtualTimeAccess::core(*host).begin_turns(offset_ns.load());
-  attached.store(host.get(), std::memory_order_release);
+  kept_clocks().push_back(clock);
+  clock->begin_turns(offset_ns.load());
+  attached.store(clock.get(), std::memory_order_release);
 }
 
-void detach(const Host& host) noexcept {
+void detach(TurnClock& clock) noexcept {
   const std::lock_guard lock(lists_mutex);
-  if (attached.load() != &host) return;
-  offset_ns.fetch_add(VirtualTimeAccess::core(host).now_ns());
+  if (attached.load() != &clock) return;
+  offset_ns.fetch_add(clock.now_ns());
   attached.store(nullptr, std::memory_order_release);
-  VirtualTimeAccess::core(host).end_turns(offset_ns.load());
+  clock.end_turns(offset_ns.load());
 }
 
 long long time_before_ns() noexcept { return offset_ns.load(); }
@@ -585,6 +582,10 @@ void give_up() noexcept {
   give_up_locked();
 }
 
+void remember_thread() {
+  if (ThreadEnd* const end = ThreadEnd::mine()) end->leave_by(note_thread_ends);
+}
+
 void note_wait() noexcept {
   state.takes_part = true;
   state.asks = 0;
@@ -600,10 +601,10 @@ void note_look() noexcept {
   if (thread.looks % kLooksATurn == 0 && thread.inside == 0) let_others_go_on();
   if (thread.looks < free_looks) return;
   thread.looks = free_looks - (alone ? kLooksAStepAlone : kLooksAStep);
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (thread.inside > 0 || thread.ended || given_up || host == nullptr) return;
+  TurnClock* const clock = attached.load(std::memory_order_acquire);
+  if (thread.inside > 0 || thread.ended || given_up || clock == nullptr) return;
   if (!thread.takes_part && (!alone || !(thread.programs || is_main(thread)))) return;
-  pass(thread, *host, VirtualTimeAccess::core(*host).step_ns());
+  pass(thread, *clock, clock->step_ns());
 }
 
 void note_background() noexcept { background = true; }
@@ -625,13 +626,13 @@ void note_thread_ends() noexcept {
 
 bool wait_until(const void* simulation, const std::function<bool()>& condition) {
   ThreadState& thread = state;
-  Host* const host = attached.load(std::memory_order_acquire);
-  if (!active() || host == nullptr || host != simulation || thread.ended || !thread.takes_part) {
+  TurnClock* const clock = attached.load(std::memory_order_acquire);
+  if (!active() || clock == nullptr || clock != simulation || thread.ended || !thread.takes_part) {
     return false;
   }
-  const sim::SimTime step_ns = VirtualTimeAccess::core(*host).step_ns();
+  const sim::SimTime step_ns = clock->step_ns();
   while (!condition()) {
-    if (given_up || pass(thread, *host, step_ns) == Passed::kNo) return false;
+    if (given_up || pass(thread, *clock, step_ns) == Passed::kNo) return false;
   }
   return true;
 }

@@ -15,7 +15,7 @@
 /// other threads everything is real. All functions may be called from any thread.
 namespace playerlike {
 
-class Host;
+class TurnClock;
 
 namespace virtual_time {
 
@@ -54,9 +54,9 @@ class StartsForLibraries {
 
 /// From now on sleeps move this simulation's time, and the clocks tell it; it must be in lockstep.
 /// The first one stays until it is detached: a program has one clock.
-void attach(const std::shared_ptr<Host>& host);
+void attach(const std::shared_ptr<TurnClock>& simulation);
 /// The clocks stay where they are until another simulation is attached.
-void detach(const Host& host) noexcept;
+void detach(TurnClock& simulation) noexcept;
 /// From now on sleeps are real, and the clocks go on with the wall clock from where they are.
 /// With the simulation locked, or Turns if there is none.
 void give_up_locked() noexcept;
@@ -67,6 +67,8 @@ void give_up() noexcept;
 [[nodiscard]] long long time_before_ns() noexcept;
 void set_time_before_ns(long long now_ns) noexcept;
 
+/// The calling thread lives in virtual time: that is to be told when it ends.
+void remember_thread();
 /// The calling thread waits for simulated time, and so takes part in the lockstep from now on.
 void note_wait() noexcept;
 /// The calling thread has looked at data or given a command. One that does nothing else for very

@@ -20,7 +20,7 @@
 
 #include "libplayerc++/playerc++.h"
 #include "libplayercore/playercore.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "reachable_host.h"
 #include "sim/simulation/simulation.h"
 #include "temporary_folder.h"

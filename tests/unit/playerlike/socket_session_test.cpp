@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // What only sessions across a network meet: servers that are not there, go away, fall silent or
 // come back. What holds for all sessions is in host_test, host_canvas_test and others.
-#include "session/socket_session.h"
+#include "remote/socket_session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@
 
 #include "libplayerc++/playerc++.h"
 #include "patient_host.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "playerlike/server/server.h"
 #include "raw_client.h"

@@ -11,7 +11,7 @@
 
 #include "fake_viewer.h"
 #include "patience.h"
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 #include "playerlike/host/host.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "playerlike/process/thinker.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
@@ -15,21 +16,6 @@ namespace playerlike {
 
 class Host;
 struct Client;
-
-/// Who thinks while a client does not wait: in lockstep a thinker waits as soon as one of its
-/// clients does, since a thread can only wait for one thing at a time. In this process each thread
-/// is one; a server makes one for each thread of each process that its clients tell it of. Never
-/// given twice; 0 is nobody.
-using ThinkerId = std::uint64_t;
-
-/// A number that no thinker of this process has had. Thread-safe.
-[[nodiscard]] ThinkerId new_thinker() noexcept;
-/// The calling thread's own.
-[[nodiscard]] ThinkerId this_thinker() noexcept;
-/// Whether it has one: whether it has asked for it, or was given one.
-[[nodiscard]] bool is_thinker() noexcept;
-/// Gives the calling thread one that was made for it, before it uses its own.
-void set_this_thinker(ThinkerId thinker) noexcept;
 
 /// Drawings that are carried out piece by piece, see EventClient::draw_some().
 struct DrawWork {

@@ -14,6 +14,8 @@
 
 namespace playerlike {
 
+class TurnClock;
+
 /// Runs a simulation for clients, in lockstep or paced (DESIGN section 3).
 ///
 /// Lockstep: no thread is started; the thread that waits last steps the world. Paced: one thread
@@ -100,6 +102,10 @@ class Host : public std::enable_shared_from_this<Host> {
   /// What a robot has been through so far. @param robot  its index in the world; it must exist.
   [[nodiscard]] sim::RobotStatistics statistics(int robot) const;
 
+  /// What the threads of the program wait for in virtual time, see virtual_time::attach(). Keeps
+  /// the host.
+  [[nodiscard]] std::shared_ptr<TurnClock> clock();
+
   /// Hash of the simulation's state, see sim::Simulation::state_hash.
   [[nodiscard]] std::uint64_t state_hash() const;
 
@@ -107,7 +113,6 @@ class Host : public std::enable_shared_from_this<Host> {
   friend class InProcessSession;
   friend class EventClient;
   friend class InsideCore;
-  friend struct VirtualTimeAccess;
   class Core;
   explicit Host(std::unique_ptr<Core> core);
   /// @throws SessionError kNoSuchDevice.

@@ -129,7 +129,7 @@ void check_interfaces(const sim::WorldDescription& world);
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
 
 /// The cells of the map of an arena's whole floor.
-/// @throws SessionError kBadArgument as Session::world_map().
+/// @throws SessionError kBadArgument as WorldMapRequest.
 [[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
                                               double cell_size_m);
 

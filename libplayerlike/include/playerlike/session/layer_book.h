@@ -10,8 +10,8 @@
 
 namespace playerlike {
 
-/// Who owns which layer of a stack, and what sessions may do with layers: the rules that Session
-/// documents, for those who implement it. Remembers only; the stack is the simulation's.
+/// Who owns which layer of a stack, and what sessions may do with layers: the rules that requests
+/// document, for those who implement it. Remembers only; the stack is the simulation's.
 ///
 /// Layers are stacked by port, then by age: unlike the order in which clients connect, that does
 /// not depend on how their threads were scheduled. Not thread-safe: its owner serialises.
@@ -19,17 +19,17 @@ class LayerBook {
  public:
   /// @param client  number that no other session has had, >= 0.
   /// @param port    of the session.
-  /// @throws SessionError as Session::create_layer().
+  /// @throws SessionError as CreateLayerRequest.
   sim::LayerId create(sim::LayerStack& stack, int client, int port, sim::LayerKind kind,
                       sim::LayerStyle style);
-  /// @throws SessionError as Session::remove_layer().
+  /// @throws SessionError as RemoveLayerRequest.
   void remove(sim::LayerStack& stack, int client, sim::LayerId layer);
-  /// @throws SessionError as Session::set_layer_style().
+  /// @throws SessionError as SetLayerStyleRequest.
   void set_style(sim::LayerStack& stack, int client, sim::LayerId layer, sim::LayerStyle style);
-  /// @throws SessionError as Session::resize_canvas().
+  /// @throws SessionError as ResizeCanvasRequest.
   void require_size(const sim::LayerStack& stack, int width, int height) const;
   /// @param zeros  see sim::LayerStack::resize(). @return memory that is no longer used.
-  /// @throws SessionError as Session::resize_canvas().
+  /// @throws SessionError as ResizeCanvasRequest.
   std::vector<std::vector<std::uint8_t>> resize(sim::LayerStack& stack, int width, int height,
                                                 std::vector<std::vector<std::uint8_t>> zeros = {});
 

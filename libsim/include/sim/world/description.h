@@ -104,7 +104,7 @@ struct SimulationDescription {
   std::optional<SimTime> duration_ns;  ///< the run ends then; none: it goes on
   TimeMode time_mode = TimeMode::kLockstep;
   bool time_mode_given = false;  ///< somebody chose it; else a host may change it, see
-                                 ///< playerlike::Session::prefer_real_time
+                                 ///< playerlike::PreferRealTimeRequest
   double time_factor = 1.0;      ///< paced: simulated seconds a wall second, > 0
   int start_gate_clients = 1;    ///< the clock waits until so many clients have joined, >= 1
   bool objects_locked = false;   ///< clients may look at robots and obstacles by name, but not move

@@ -8,9 +8,6 @@
 
 namespace playerlike {
 
-/// The calling thread lives in virtual time: that is to be told when it ends.
-void remember_thread();
-
 /// A session with a simulation in this process: calls, not messages.
 class InProcessSession final : public Session {
  public:

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "session/connection.h"
+#include "remote/connection.h"
 
 #include <poll.h>
 #include <sys/socket.h>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "playerlike/session/draw_queue.h"
-#include "session/connection.h"
+#include "remote/connection.h"
 
 namespace playerlike {
 

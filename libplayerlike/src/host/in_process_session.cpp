@@ -1,36 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "session/in_process_session.h"
+#include "host/in_process_session.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "process/thread_end.h"
 #include "session/checks.h"
-#include "session/farewell.h"
 
 namespace playerlike {
-namespace {
-
-// Nobody is to wait for a thread that has ended.
-thread_local Farewell<Host> farewell_to_host([](Host& host) {
-  host.thinker_ended(this_thinker());
-});
-
-// Virtual time, too, is to know when a thread that lives in it ends.
-struct VirtualLife {
-  VirtualLife() = default;
-  VirtualLife(const VirtualLife&) = delete;
-  VirtualLife& operator=(const VirtualLife&) = delete;
-  ~VirtualLife() {
-    if (lived) virtual_time::note_thread_ends();
-  }
-  bool lived = false;
-};
-thread_local VirtualLife virtual_life;
-
-}  // namespace
-
-void remember_thread() { virtual_life.lived = true; }
-
 InProcessSession::InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client)
     : host_(std::move(host)), client_(std::move(client)) {}
 
@@ -39,10 +16,14 @@ InProcessSession::~InProcessSession() { close(); }
 InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->core_); }
 
 void InProcessSession::note_wait() const {
-  farewell_to_host.remember(host_);
+  // Nobody is to wait for a thread that has ended.
+  if (ThreadEnd* const end = ThreadEnd::mine()) {
+    end->say_goodbye(host_,
+                     [](void* host) { static_cast<Host*>(host)->thinker_ended(this_thinker()); });
+  }
   // Drivers are Playpen's own.
   if (client_->follower || !virtual_time::active()) return;
-  remember_thread();
+  virtual_time::remember_thread();
   virtual_time::note_wait();
 }
 
@@ -81,7 +62,7 @@ std::unique_ptr<Session> InProcessSession::open_follower() {
                                             core()->add_client(client_->port, /*follower=*/true));
 }
 
-const void* InProcessSession::simulation() const noexcept { return host_.get(); }
+const void* InProcessSession::simulation() const noexcept { return host_->clock().get(); }
 
 DrawQueue& InProcessSession::draw_queue() noexcept { return client_->drawings; }
 

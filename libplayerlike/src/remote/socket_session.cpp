@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "session/socket_session.h"
+#include "remote/socket_session.h"
 
 #include <unistd.h>
 
@@ -10,13 +10,13 @@
 #include <random>
 #include <utility>
 
-#include "host/end_of_program.h"
-#include "playerlike/host/event_client.h"
+#include "playerlike/process/thinker.h"
 #include "playerlike/session/layer_book.h"
+#include "process/end_of_program.h"
+#include "process/thread_end.h"
 #include "protocol/request_codec.h"
+#include "remote/socket_line.h"
 #include "session/checks.h"
-#include "session/farewell.h"
-#include "session/socket_line.h"
 #include "sim/core/error.h"
 #include "sim/core/number_text.h"
 
@@ -44,13 +44,13 @@ Connection::Clock::duration wall(double seconds) {
 }
 
 // Nobody is to wait for a thread that has ended.
-thread_local Farewell<SocketLine> farewell_to_server([](SocketLine& line) {
+void say_goodbye(void* line) {
   try {
-    line.tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+    static_cast<SocketLine*>(line)->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
   } catch (const std::exception&) {
     // The server notices that it has lost the connection.
   }
-});
+}
 
 /// What no other process calls itself.
 std::string process_name() {
@@ -281,7 +281,7 @@ json SocketSession::ask(json request) const {
 }
 
 json SocketSession::read(json request) const {
-  farewell_to_server.remember(line_);
+  if (ThreadEnd* const end = ThreadEnd::mine()) end->say_goodbye(line_, say_goodbye);
   return with_connection([&] { return line_->wait(request); });
 }
 

@@ -14,7 +14,7 @@
 
 #include "playerlike/messages/messages.h"
 #include "protocol/framing.h"
-#include "session/server_address.h"
+#include "remote/server_address.h"
 
 namespace playerlike {
 

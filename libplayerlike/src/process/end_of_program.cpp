@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/end_of_program.h"
+#include "process/end_of_program.h"
 
 #include <signal.h>
 #include <sys/syscall.h>

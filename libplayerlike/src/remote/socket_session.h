@@ -16,7 +16,7 @@
 
 #include "playerlike/session/session.h"
 #include "protocol/codec.h"
-#include "session/connection.h"
+#include "remote/connection.h"
 
 namespace playerlike {
 

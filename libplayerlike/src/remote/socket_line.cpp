@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "session/socket_line.h"
+#include "remote/socket_line.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "playerlike/host/embedded.h"
+#include "playerlike/connect/open_session.h"
 
 #include <unistd.h>
 
@@ -11,8 +11,8 @@
 #include <string_view>
 #include <utility>
 
-#include "playerlike/host/log.h"
-#include "session/socket_session.h"
+#include "playerlike/process/log.h"
+#include "remote/socket_session.h"
 #include "sim/render/render.h"
 #include "virtual_time/virtual_time.h"
 
@@ -102,7 +102,7 @@ std::shared_ptr<Host> host_of(const std::string& file) {
     ++registry.results;
     if (settings.virtual_time) {
       if (host->time().mode == sim::TimeMode::kLockstep) {
-        virtual_time::attach(host);
+        virtual_time::attach(host->clock());
       } else {
         virtual_time::give_up();
       }
@@ -235,7 +235,7 @@ void close_embedded_hosts() {
   Registry& registry = Registry::instance();
   const std::lock_guard lock(registry.mutex);
   for (const auto& [key, host] : registry.hosts) {
-    virtual_time::detach(*host);
+    virtual_time::detach(*host->clock());
     host->finish();
   }
   registry.hosts.clear();

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "session/server_address.h"
+#include "remote/server_address.h"
 
 #include <algorithm>
 #include <charconv>

@@ -1,0 +1,29 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "process/system_threads.h"
+
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace playerlike {
+
+pid_t this_thread() noexcept { return static_cast<pid_t>(syscall(SYS_gettid)); }
+
+std::optional<std::uint64_t> sleeps_since(pid_t thread) {
+  std::ifstream status("/proc/self/task/" + std::to_string(thread) + "/status");
+  bool asleep = false;
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("State:")) asleep = line.find("S (") != std::string::npos;
+    constexpr std::string_view kSwitches = "voluntary_ctxt_switches:";
+    if (asleep && line.starts_with(kSwitches)) {
+      return std::strtoull(line.c_str() + kSwitches.size(), nullptr, 10);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace playerlike
