@@ -28,8 +28,8 @@ const std::vector<InterfaceRow>& interface_table() {
         rows->push_back({interface.name, kind.name, interface.rank});
       }
     }
-    std::ranges::stable_sort(*rows, {},
-                      [](const InterfaceRow& row) { return std::tuple(row.interface, row.rank); });
+    std::ranges::stable_sort(
+        *rows, {}, [](const InterfaceRow& row) { return std::tuple(row.interface, row.rank); });
     return rows;
   }();
   return *table;
