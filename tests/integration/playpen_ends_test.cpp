@@ -314,6 +314,19 @@ class OnTerminal {
   std::string output_;
 };
 
+TEST_F(PlaypenEnds, AClosedTerminalEndsTheRun) {
+  for (const char* program : {"start", "drive", "compute"}) {
+    SCOPED_TRACE(program);
+    fs::remove_all(out_);
+    OnTerminal process(command({"--quiet", "--time", "20"}, {program}));
+    ASSERT_TRUE(process.read_until("ready"));
+    process.hang_up();
+    ASSERT_TRUE(process.wait_until_all_are_gone());
+    expect_all_results();
+    EXPECT_EQ(report().at("ended"), json({{"by", "request"}, {"signal", "SIGHUP"}}));
+  }
+}
+
 class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<WayToEnd> {
  protected:
   PlaypenEndsTable() {

@@ -94,7 +94,7 @@ class HeldSignals {
 
   struct Signal {
     int number = 0;
-    bool from_system = false;  ///< the terminal's: the program has got it, too
+    bool from_system = false;  ///< the terminal's
   };
   /// The next signal that has come.
   [[nodiscard]] std::optional<Signal> take() const {
@@ -143,6 +143,13 @@ class EndRequests {
   std::optional<int> first_;
   Clock::time_point time_;
 };
+
+/// Whether the program has got a signal, too: the terminal's go to all in the foreground, but that
+/// it was closed only the leader of its session is told.
+bool is_programs_too(const HeldSignals::Signal& signal) {
+  const bool leads_session = getsid(0) == getpid();
+  return signal.from_system && !(signal.number == SIGHUP && leads_session);
+}
 
 /// The bytes of all files in a folder; what is over the limit need not be counted.
 std::uint64_t size_of(const std::string& folder, std::uint64_t limit) {
@@ -343,7 +350,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
         program.kill_all();
         killed = true;
       } else {
-        program.send_signal(signal->from_system ? SIGCONT : signal->number);
+        program.send_signal(is_programs_too(*signal) ? SIGCONT : signal->number);
       }
     }
     const bool run_goes_on = noted != 0 && watch.kept->phase() == KeptRun::Phase::kRunning;

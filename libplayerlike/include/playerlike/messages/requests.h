@@ -46,7 +46,9 @@ struct WholeRange {
 };
 /// Columns, rows and sides in cells.
 inline constexpr WholeRange kCellRange{-(1 << 30), 1 << 30};
+/// Numbers of layers.
 inline constexpr WholeRange kLayerRange{0, 1 << 30};
+/// Sides of a canvas or a map in cells.
 inline constexpr WholeRange kMapSideRange{1, 8192};
 
 /// A member of a struct as messages have it.
@@ -57,12 +59,14 @@ struct MessageField {
   Presence presence;
   WholeRange range;
 };
+/// A row of `fields()`. @param range  of a whole number.
 template <typename Struct, typename Value>
 constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
                                             WholeRange range = {},
                                             Presence presence = Presence::kAlways) {
   return {key, member, presence, range};
 }
+/// The same of what is no whole number.
 template <typename Struct, typename Value>
 constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
                                             Presence presence) {
@@ -82,6 +86,7 @@ struct SubscribeRequest {
   static constexpr auto fields() { return std::tuple(field("device", &SubscribeRequest::device)); }
 };
 
+/// Takes back a SubscribeRequest; readings that wait are gone with the last one.
 struct UnsubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "unsubscribe";
@@ -124,6 +129,7 @@ struct SleepRequest {
   double seconds = 0.0;
 };
 
+/// How far the simulation is.
 struct TimeRequest {
   using Result = TimeStatistics;
   static constexpr const char* kName = "time";
@@ -337,6 +343,7 @@ struct SaveMapRequest {
   }
 };
 
+/// How pictures show the canvas now.
 struct ViewModeRequest {
   using Result = sim::ViewMode;
   static constexpr const char* kName = "view_mode";
@@ -400,6 +407,8 @@ struct ObjectPose {
     return std::tuple(field("pose", &ObjectPose::pose), field("t", &ObjectPose::time_ns));
   }
 };
+/// Where a robot or an obstacle is. @throws SessionError kBadArgument if there is none of that
+/// name.
 struct ObjectPoseRequest {
   using Result = ObjectPose;
   static constexpr const char* kName = "object_pose";
@@ -435,6 +444,9 @@ struct ObjectPropertyRequest {
   }
 };
 
+/// Changes a property, see docs/simulation.md for those there are.
+/// @throws SessionError kBadArgument for what is not there or cannot be; kNotAvailable if objects
+/// are locked.
 struct SetObjectPropertyRequest {
   using Result = void;
   static constexpr const char* kName = "set_object_property";
@@ -473,6 +485,7 @@ struct LogRequest {
 };
 /// @}
 
+/// Any request.
 using Request =
     std::variant<SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
                  SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest,

@@ -350,6 +350,7 @@ template <typename Derived, typename Base>
   return made;
 }
 
+/// A field that no FieldType fits.
 [[nodiscard]] constexpr Field custom(const char* name, const CustomField& functions,
                                      const char* unit, const char* meaning) {
   Field made{name, FieldType::kCustom};
@@ -378,6 +379,7 @@ void for_each_field(const FieldTable& table, Object* object, const Visit& visit)
 
 /// A whole number or a choice, whatever its size.
 [[nodiscard]] std::int64_t integer_at(const Field& field, const void* value);
+/// The same, written.
 void set_integer(const Field& field, void* value, std::int64_t number);
 
 /// Whether all numbers of a struct are finite.

@@ -26,6 +26,7 @@ struct ViewParams {
   static constexpr double kMaxView_rad = 170.0 / 180.0 * std::numbers::pi;
 };
 
+/// Fields that cameras and blobfinders have in common.
 template <>
 const FieldTable& fields_of<ViewParams>();
 
