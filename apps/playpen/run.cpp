@@ -65,7 +65,7 @@ std::string shell_word(const std::string& word) {
 void tell_more(const RunRequest& request, const std::string& world,
                const playerlike::ProgramEnd& end, bool completed) {
   if (end.forced) {
-    std::cerr << "playpen: it had been asked to end, and did not end its run\n";
+    std::cerr << "playpen: it had been asked to end, and did not\n";
   }
   if (completed) std::cerr << "playpen: the results are those until then\n";
   if (!end.signal || !is_crash(*end.signal)) return;

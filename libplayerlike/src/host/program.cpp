@@ -50,8 +50,9 @@ std::string absolute_path(const std::string& path) {
 
 using Clock = std::chrono::steady_clock;
 
-// A program that was asked to end, and whose simulated run has not ended by then, is killed; what
-// is to be written afterwards takes the rest of the two seconds that are promised.
+// A program that was asked to end, and whose simulated run has not ended by then, is killed, and so
+// is one that goes on for so long after its results are complete; what is to be written afterwards
+// takes the rest of the two seconds that are promised.
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
 constexpr std::chrono::milliseconds kLook(20);
 constexpr std::chrono::milliseconds kSeldomLook(200);
@@ -328,6 +329,8 @@ ProgramEnd run_program(const std::vector<std::string>& command,
   SupervisedProgram program(start);
   EndRequests requests;
   bool killed = false;
+  KeptRun::Phase phase = KeptRun::Phase::kNone;
+  Clock::time_point phase_begin = Clock::now();
   for (;;) {
     if (const std::optional<ProgramEnd> end = program.poll()) {
       ProgramEnd result = *end;
@@ -353,10 +356,16 @@ ProgramEnd run_program(const std::vector<std::string>& command,
         program.send_signal(is_programs_too(*signal) ? SIGCONT : signal->number);
       }
     }
-    const bool run_goes_on = noted != 0 && watch.kept->phase() == KeptRun::Phase::kRunning;
+    const KeptRun::Phase now = watch.kept != nullptr ? watch.kept->phase() : KeptRun::Phase::kNone;
+    if (now != phase) phase_begin = Clock::now();
+    phase = now;
+    // Not while results are written, however long that takes.
+    const bool goes_on =
+        noted != 0 && (now == KeptRun::Phase::kRunning || now == KeptRun::Phase::kDone);
     // Somebody may have sent it to the program alone.
     if (noted != 0 && !requests.first()) static_cast<void>(requests.note(noted));
-    if (requests.first() && run_goes_on && requests.age() > kTimeToEnd &&
+    if (requests.first() && goes_on &&
+        std::min(requests.age(), Clock::now() - phase_begin) > kTimeToEnd &&
         !std::exchange(killed, true)) {
       program.kill_all();
     }
