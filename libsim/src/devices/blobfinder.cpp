@@ -172,9 +172,9 @@ std::string colour_text(const void* colour) {
   return '"' + to_string(*static_cast<const Colour*>(colour)) + '"';
 }
 
-template <auto Member>
+template <auto kMember>
 constexpr Field pixels(const char* name) {
-  return field<Member>(name, "pixels").within(0, std::numeric_limits<int>::max());
+  return field<kMember>(name, "pixels").within(0, std::numeric_limits<int>::max());
 }
 
 }  // namespace

@@ -100,30 +100,30 @@ template <typename Params, typename Complete>
 
 /// @name Fields that many devices have
 /// @{
-template <auto Member>
+template <auto kMember>
 [[nodiscard]] constexpr Field frequency_field(const char* meaning = "readings a simulated second") {
-  return field<Member>("frequency", "Hz", meaning).above(0.0, 1000.0);
+  return field<kMember>("frequency", "Hz", meaning).above(0.0, 1000.0);
 }
-template <auto Member>
+template <auto kMember>
 [[nodiscard]] constexpr Field noise_field(const char* meaning) {
-  return field<Member>("noise", "m", meaning).within(0.0, 100.0);
+  return field<kMember>("noise", "m", meaning).within(0.0, 100.0);
 }
-template <auto Member>
+template <auto kMember>
 [[nodiscard]] constexpr Field range_max_field(const char* meaning = "farther things are not seen") {
-  return field<Member>("range_max", "m", meaning).within(kLeastLength_m, 1000.0);
+  return field<kMember>("range_max", "m", meaning).within(kLeastLength_m, 1000.0);
 }
-template <auto Member>
+template <auto kMember>
 [[nodiscard]] constexpr Field height_field(const char* meaning) {
-  return field<Member>("height", "m", meaning).within(0.0, 100.0);
+  return field<kMember>("height", "m", meaning).within(0.0, 100.0);
 }
-template <auto Member>
+template <auto kMember>
 [[nodiscard]] constexpr Field mount_field(const char* meaning) {
-  return field<Member>("pose", "m, degrees", meaning).told_as("mount");
+  return field<kMember>("pose", "m, degrees", meaning).told_as("mount");
 }
-template <auto Member>
+template <auto kMember>
 [[nodiscard]] constexpr Field north_field() {
-  return field<Member>("north_deg", "degrees",
-                       "direction of north in the world, counter-clockwise from its x axis")
+  return field<kMember>("north_deg", "degrees",
+                        "direction of north in the world, counter-clockwise from its x axis")
       .within(-360.0, 360.0);
 }
 /// @}

@@ -156,10 +156,10 @@ struct Field {
 
   /// @name For tables: the same field with a trait more
   /// @{
-  template <auto Trait, typename Value>
+  template <auto kTrait, typename Value>
   [[nodiscard]] constexpr Field with(Value value) const {
     Field made = *this;
-    made.*Trait = value;
+    made.*kTrait = value;
     return made;
   }
   [[nodiscard]] constexpr Field within(double min, double max) const {
@@ -214,12 +214,12 @@ struct Parts<Type Class::*> {
   using Owner = Class;
 };
 
-template <auto First, auto... Rest>
+template <auto kFirst, auto... kRest>
 [[nodiscard]] constexpr auto& follow(auto& object) {
-  if constexpr (sizeof...(Rest) == 0) {
-    return object.*First;
+  if constexpr (sizeof...(kRest) == 0) {
+    return object.*kFirst;
   } else {
-    return follow<Rest...>(object.*First);
+    return follow<kRest...>(object.*kFirst);
   }
 }
 
@@ -290,12 +290,12 @@ inline constexpr ListAccess kAccess = {
 /// A member of a struct, or of a member: field<&PoseReading::twist, &Twist::v_mps>("v", "m/s").
 /// @param unit     for messages and pages; empty if it has none.
 /// @param meaning  for pages and schema.
-template <auto First, auto... Rest>
+template <auto kFirst, auto... kRest>
 [[nodiscard]] constexpr Field field(const char* name, const char* unit = "",
                                     const char* meaning = "") {
-  using Owner = typename field_detail::Parts<decltype(First)>::Owner;
+  using Owner = typename field_detail::Parts<decltype(kFirst)>::Owner;
   using Member =
-      std::remove_cvref_t<decltype(field_detail::follow<First, Rest...>(std::declval<Owner&>()))>;
+      std::remove_cvref_t<decltype(field_detail::follow<kFirst, kRest...>(std::declval<Owner&>()))>;
   using Value = typename field_detail::ValueOf<Member>::Type;
   Field made{name, field_detail::type_of<Value>()};
   made.range.unit = unit;
@@ -315,22 +315,23 @@ template <auto First, auto... Rest>
   }
   if constexpr (field_detail::kIsOptional<Member>) {
     made.get = [](const void* object) -> const void* {
-      const auto& member = field_detail::follow<First, Rest...>(*static_cast<const Owner*>(object));
+      const auto& member =
+          field_detail::follow<kFirst, kRest...>(*static_cast<const Owner*>(object));
       return member.has_value() ? &*member : nullptr;
     };
     made.set = [](void* object) -> void* {
-      auto& member = field_detail::follow<First, Rest...>(*static_cast<Owner*>(object));
+      auto& member = field_detail::follow<kFirst, kRest...>(*static_cast<Owner*>(object));
       return member.has_value() ? &*member : &member.emplace();
     };
     made.drop = [](void* object) {
-      field_detail::follow<First, Rest...>(*static_cast<Owner*>(object)).reset();
+      field_detail::follow<kFirst, kRest...>(*static_cast<Owner*>(object)).reset();
     };
   } else {
     made.get = [](const void* object) -> const void* {
-      return &field_detail::follow<First, Rest...>(*static_cast<const Owner*>(object));
+      return &field_detail::follow<kFirst, kRest...>(*static_cast<const Owner*>(object));
     };
     made.set = [](void* object) -> void* {
-      return &field_detail::follow<First, Rest...>(*static_cast<Owner*>(object));
+      return &field_detail::follow<kFirst, kRest...>(*static_cast<Owner*>(object));
     };
   }
   return made;
