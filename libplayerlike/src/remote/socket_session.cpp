@@ -534,7 +534,7 @@ void SocketSession::sleep_by_the_wall_clock(double seconds) {
 }
 
 TimeStatistics SocketSession::time() const {
-  const auto time = std::get<TimeStatistics>(ask_for(TimeRequest{}));
+  auto time = std::get<TimeStatistics>(ask_for(TimeRequest{}));
   const bool paced = time.mode == sim::TimeMode::kPaced;
   if (paced != line_->paced()) line_->set_paced(paced);
   return time;

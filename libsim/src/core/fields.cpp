@@ -160,7 +160,8 @@ void tell(const Field& field, const void* value, std::map<std::string, double>& 
       const std::size_t count = field.list->size(value);
       properties[field.tells_elements ? "count" : name] = static_cast<double>(count);
       for (std::size_t i = 0; field.tells_elements && i < count; ++i) {
-        const std::string end = "_" + std::to_string(i);
+        std::string end = "_";
+        end += std::to_string(i);
         const void* element = field.list->at(value, i);
         if (field.type == FieldType::kPoses) {
           tell(as<Pose>(element), name, end, properties);
