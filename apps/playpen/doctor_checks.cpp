@@ -220,7 +220,7 @@ constexpr int kProbeRounds = 9;  // of 0.1 s
 /// Counts what a laser reads.
 class Readings : public playerlike::ReadingSink {
  public:
-  void on_reading(playerlike::DeviceId /*device*/, const sim::Reading& /*reading*/) override {
+  void on_reading(playerlike::DeviceId /*device*/, const sim::SharedReading& /*reading*/) override {
     ++count_;
   }
   [[nodiscard]] int count() const noexcept { return count_; }

@@ -174,7 +174,7 @@ class FakeSession final : public playerlike::Session {
     }
     int count = 0;
     for (const auto& [device, reading] : round) {
-      sink.on_reading(device, *reading);
+      sink.on_reading(device, reading);
       ++count;
     }
     return count;

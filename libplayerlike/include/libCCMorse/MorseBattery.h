@@ -22,16 +22,6 @@ class MorseBattery : public MorseSensor {
   /// As MORSE says it: "Charging" in a dock, "Charged" in a dock and full, else "Discharging".
   std::string GetStatus() const;
   bool IsDocked() const;  ///< "Charging" or "Charged"
-
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  double mCharge;
-  double mVoltage;
-  double mEnergy;
-  std::string mStatus;
-  bool mDocked;
 };
 
 }  // namespace CCMorse

@@ -22,13 +22,6 @@ class MorseCollision : public MorseSensor {
   /// map). Sorted, each once.
   std::vector<std::string> GetObjects() const;
   bool Touches(const std::string& aName) const;  ///< whether that name is among GetObjects()
-
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  bool mCollision;
-  std::vector<std::string> mObjects;
 };
 
 }  // namespace CCMorse

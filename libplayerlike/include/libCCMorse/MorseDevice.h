@@ -34,7 +34,7 @@ class MorseDevice {
   /// "Class::function", for errors.
   std::string Fun(const char* aFunction) const;
   /// Locks the client's data. @throws MorseError kDisconnected if the client is gone.
-  PlayerCc::mutex_t::scoped_lock Lock(const char* aFunction) const;
+  PlayerCc::mutex_t::scoped_lock Lock(const char* aFunction, int aLooks = 1) const;
   /// A property, or another value if there is none of that name.
   double GetProperty(const char* aName, double aOtherwise) const;
 

@@ -21,17 +21,6 @@ class MorseGps : public MorseSensor {
   double GetVelocity() const;   ///< over ground [m/s]
   double GetHeading() const;    ///< of motion, clockwise from north, [0, 360) [degrees]
   bool HasFix() const;          ///< whether there are enough satellites
-
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  double mLatitude;
-  double mLongitude;
-  double mAltitude;
-  double mVelocity;
-  double mHeading;
-  bool mFix;
 };
 
 }  // namespace CCMorse

@@ -37,17 +37,6 @@ class MorseGripper : public MorseSensor {
   int GetCapacity() const;         ///< of the store
   double GetGap() const;           ///< between the paddles [m]
   double GetOpening() const;       ///< between the open paddles [m]
-
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  std::string mStatus;
-  bool mHolding;
-  bool mOuterBeam;
-  bool mInnerBeam;
-  int mStored;
-  double mGap;
 };
 
 }  // namespace CCMorse

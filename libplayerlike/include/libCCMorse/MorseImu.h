@@ -20,15 +20,6 @@ class MorseImu : public MorseSensor {
   std::array<double, 3> GetLinearAcceleration() const;  ///< at rest z is g [m/s^2]
   std::array<double, 3> GetMagneticField() const;       ///< [uT]
   double GetYaw() const;  ///< heading added up from the measured rate, (-pi, pi] [rad]
-
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  std::array<double, 3> mRate;
-  std::array<double, 3> mAcceleration;
-  std::array<double, 3> mField;
-  double mYaw;
 };
 
 }  // namespace CCMorse

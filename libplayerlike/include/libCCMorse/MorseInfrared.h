@@ -35,12 +35,10 @@ class MorseRanger : public MorseSensor {
  protected:
   MorseRanger(const MorseRobot& aRobot, const std::string& aName, const char* aType,
               const char* aClass);
-  void HandleReading(const sim::Reading& aReading) override;
 
  private:
-  std::size_t Checked(uint32_t aIndex, const char* aFunction) const;
+  double Checked(uint32_t aIndex, const char* aFunction) const;
   std::vector<player_pose2d_t> mMounts;
-  std::vector<double> mRanges;
 };
 
 /// A ring of infrared rangers, single rays.

@@ -22,9 +22,13 @@ class MorseLaser : public MorseSensor {
   explicit MorseLaser(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseLaser() override;
 
-  uint32_t GetCount() const;                          ///< beams of the newest scan
-  double GetRange(uint32_t aIndex) const;             ///< [m], in [0, GetMaxRange()]
-  double operator[](uint32_t aIndex) const;           ///< GetRange()
+  uint32_t GetCount() const;  ///< beams of the newest scan
+  /// [m], in [0, GetMaxRange()]
+  double GetRange(uint32_t aIndex) const {
+    const double* const range = mElements.Find(aIndex);
+    return range != nullptr ? *range : LockedRange(aIndex);
+  }
+  double operator[](uint32_t aIndex) const { return GetRange(aIndex); }
   double GetBearing(uint32_t aIndex) const;           ///< angle of the beam [rad]
   player_point_2d_t GetPoint(uint32_t aIndex) const;  ///< where the beam ends, in L [m]
   std::vector<double> GetRanges() const;              ///< all of them
@@ -42,15 +46,9 @@ class MorseLaser : public MorseSensor {
   /// Where the laser is mounted: pose of L in the robot's body.
   player_pose2d_t GetMountPose() const;
 
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
  private:
-  double Checked(uint32_t aIndex, const char* aFunction) const;
-  std::vector<double> mRanges;
-  double mMinAngle;
-  double mResolution;
-  double mMaxRange;
+  double LockedRange(uint32_t aIndex) const;
+  void Check(uint32_t aIndex, uint32_t aCount, const char* aFunction) const;
 };
 
 }  // namespace CCMorse

@@ -31,12 +31,6 @@ class MorseLocalization : public MorseSensor {
  protected:
   MorseLocalization(const MorseRobot& aRobot, const std::string& aName, const char* aType,
                     const char* aClass);
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  player_pose2d_t mPose;
-  player_pose2d_t mVelocity;
-  bool mStall;
 };
 
 /// The arena's localisation: the pose of B in the world.

@@ -25,12 +25,6 @@ class MorseProximity : public MorseSensor {
   /// those that are.
   double GetDistance(const std::string& aName) const;
   double GetMaxRange() const;  ///< how far it sees [m]
-
- protected:
-  void HandleReading(const sim::Reading& aReading) override;
-
- private:
-  std::map<std::string, double> mNear;
 };
 
 }  // namespace CCMorse

@@ -3,12 +3,10 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "libCCMorse/MorseDevice.h"
-
-namespace sim {
-struct Reading;
-}
+#include "libplayerc++/elements.h"
 
 namespace CCMorse {
 
@@ -35,12 +33,20 @@ class MorseSensor : public MorseDevice {
   /// Starts and ends the flow of readings: called by constructors and destructors of sensors.
   void Attach();
   void Detach();
-  /// A new reading, valid during the call, with the client's data locked.
-  virtual void HandleReading(const sim::Reading& aReading) = 0;
+  /// The newest reading is another one; called with the client's data locked.
+  virtual void HandleReading();
+  /// What aLook makes of the newest reading, of type Reading; before the first one, of one as it is
+  /// made. Locks as Lock(). Defined in the library's own sources, as are the readings.
+  template <typename Reading, typename Function>
+  auto Look(const char* aFunction, Function aLook) const
+      -> decltype(aLook(std::declval<const Reading&>()));
+  /// The same for a member of the reading.
+  template <typename Reading, typename T>
+  T Look(const char* aFunction, T Reading::*aMember) const;
 
- private:
   struct Receiver;
   std::unique_ptr<Receiver> mReceiver;
+  mutable PlayerCc::detail::Elements mElements;  ///< of rangefinders
 };
 
 }  // namespace CCMorse

@@ -51,7 +51,7 @@ class MorseWaypoint : public MorseSensor {
   double GetSpeed() const;      ///< the same [m/s]
 
  protected:
-  void HandleReading(const sim::Reading& aReading) override;
+  void HandleReading() override;
 
  private:
   void Ordered(const char* aStatus);

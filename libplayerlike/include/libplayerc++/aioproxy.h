@@ -30,15 +30,6 @@ class AioProxy : public ClientProxy {
   void SetVoltage(uint32_t aIndex, double aVoltage);
   /// As GetVoltage().
   double operator[](uint32_t aIndex) const { return GetVoltage(aIndex); }
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const detail::Reading& aReading) override;
-
- private:
-  std::vector<double> mInputs;  // guarded by the client's mutex
 };
 
 }  // namespace PlayerCc

@@ -37,12 +37,6 @@ class BlinkenLightProxy : public ClientProxy {
   void SetDutyCycle(double aDutyCycle);
   void SetColor(uint8_t aRed, uint8_t aGreen, uint8_t aBlue);
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const detail::Reading& aReading) override;
-
  private:
   struct State {
     bool enabled = false;
@@ -53,7 +47,6 @@ class BlinkenLightProxy : public ClientProxy {
     uint8_t green = 0;
     uint8_t blue = 0;
   };
-  State mState;  // guarded by the client's mutex
 };
 
 }  // namespace PlayerCc

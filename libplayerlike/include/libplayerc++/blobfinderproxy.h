@@ -31,17 +31,6 @@ class BlobfinderProxy : public ClientProxy {
   uint32_t GetHeight() const;  ///< [pixels]; known from the start
   /// GetBlob().
   playerc_blobfinder_blob_t operator[](uint32_t aIndex) const;
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
- private:
-  std::vector<playerc_blobfinder_blob_t> mBlobs;
-  uint32_t mWidth = 0;
-  uint32_t mHeight = 0;
 };
 
 }  // namespace PlayerCc

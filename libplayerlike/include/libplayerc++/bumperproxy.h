@@ -34,14 +34,7 @@ class BumperProxy : public ClientProxy {
   /// IsBumped().
   bool operator[](uint32_t aIndex) const;
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
-  std::vector<uint8_t> mPressed;
   std::vector<player_bumper_define_t> mPoses;
 };
 

@@ -35,16 +35,7 @@ class CameraProxy : public ClientProxy {
   void GetImage(uint8_t* aImage) const;
   uint32_t GetCompression() const;  ///< PLAYER_CAMERA_COMPRESS_RAW
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
-  std::vector<uint8_t> mPixels;
-  uint32_t mWidth = 0;
-  uint32_t mHeight = 0;
   uint32_t mFrame = 0;  // number of the next saved picture
 };
 

@@ -7,7 +7,9 @@
 #include <iosfwd>
 #include <memory>
 #include <string>
+#include <utility>
 
+#include "libplayerc++/elements.h"
 #include "libplayerc++/mutex.h"
 #include "libplayerc++/playerclient.h"
 #include "libplayerc++/playererror.h"
@@ -15,12 +17,6 @@
 #include "libplayerc++/readsignal.h"
 
 namespace PlayerCc {
-
-namespace detail {
-/// What a device has measured, for this library's own proxies. The simulator's type stands behind
-/// it, whose namespace is not named here: programs have variables called sim.
-struct Reading;
-}  // namespace detail
 
 /// What all proxies have in common: a device at an index of an interface on a client's port, and
 /// flags that tell whether it has data.
@@ -132,12 +128,18 @@ class ClientProxy {
   /// Locks mMutex.
   /// @throws PlayerError kDisconnected if the client is gone; kRunIsOver, see StartThread().
   scoped_lock_t LockData(const char* aFun = "ClientProxy") const;
-  /// A new reading of the device, valid during the call.
-  virtual void HandleReading(const detail::Reading& aReading);
+  /// What aLook makes of the newest reading, of type Reading; before the first one, of one as it is
+  /// made. Locks as LockData(). Defined in the library's own sources, as are the readings.
+  template <typename Reading, typename Function>
+  auto Look(Function aLook, const char* aFun = "ClientProxy") const
+      -> decltype(aLook(std::declval<const Reading&>()));
+  /// The same for a member of the reading.
+  template <typename Reading, typename T>
+  T Look(T Reading::*aMember, const char* aFun = "ClientProxy") const;
+  /// The newest reading of the device is another one.
+  virtual void HandleReading();
   /// After all new readings were handled: the place for commands that react to them.
   virtual void HandleRound();
-  /// See HasCapability().
-  virtual bool IsCapable(uint32_t aType, uint32_t aSubtype) const;
 
   /// What the library knows of the device behind a proxy; for its own sources.
   struct Link;
@@ -147,6 +149,7 @@ class ClientProxy {
   playerc_device_t* mInfo;    ///< never null
   bool mFresh;                ///< see IsFresh(); under mMutex
   std::unique_ptr<Link> mLink;
+  mutable detail::Elements mElements;  ///< of proxies of rangefinders
 
  private:
   read_signal_t mReadSignal;

@@ -33,16 +33,8 @@ class DioProxy : public ClientProxy {
   /// As GetInput().
   uint32_t operator[](uint32_t aIndex) const { return GetInput(aIndex) ? 1 : 0; }
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const detail::Reading& aReading) override;
-
  private:
   // Guarded by the client's mutex.
-  uint32_t mCount = 0;
-  uint32_t mDigin = 0;
 };
 
 }  // namespace PlayerCc

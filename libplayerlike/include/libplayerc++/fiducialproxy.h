@@ -33,19 +33,6 @@ class FiducialProxy : public ClientProxy {
   void RequestGeometry();
   /// GetFiducialItem().
   player_fiducial_item_t operator[](uint32_t aIndex) const;
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
- private:
-  std::vector<player_fiducial_item_t> mItems;
-  player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  double mNoise = 0.0;         // of a distance [m]
-  double mNoiseBearing = 0.0;  // [rad]
-  double mNoiseYaw = 0.0;      // [rad]
 };
 
 }  // namespace PlayerCc

@@ -31,26 +31,6 @@ class GpsProxy : public ClientProxy {
   double GetTime() const;           ///< simulated time of the reading [s]
   double GetErrHorizontal() const;  ///< standard deviation to the east, and to the north [m]
   double GetErrVertical() const;    ///< standard deviation of the altitude [m]
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
- private:
-  double mLatitude = 0.0;
-  double mLongitude = 0.0;
-  double mAltitude = 0.0;
-  double mSpeed = 0.0;
-  double mCourse = 0.0;
-  double mEasting = 0.0;
-  double mNorthing = 0.0;
-  double mTime = 0.0;
-  double mErrHorizontal = 0.0;
-  double mErrVertical = 0.0;
-  uint32_t mSatellites = 0;
-  uint32_t mQuality = 0;
 };
 
 }  // namespace PlayerCc

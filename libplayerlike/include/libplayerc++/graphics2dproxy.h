@@ -49,7 +49,6 @@ class Graphics2dProxy : public ClientProxy {
  protected:
   void Subscribe(uint32_t aIndex) override;
   void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
 
  private:
   class Sheet;  // the layer

@@ -79,21 +79,12 @@ class GripperProxy : public ClientProxy {
   ///         kBadArgument for others.
   void SetGrip(uint8_t aCmd, uint8_t aArg = 0);
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const detail::Reading& aReading) override;
-
  private:
   // aAction: of PLAYER_GRIPPER_CMD_OPEN, ...
   void Grip(const char* aFun, int aAction);
 
   // Guarded by the client's mutex.
   player_gripper_geom_t mGeom = {};
-  uint32_t mState = 0;
-  uint32_t mBeams = 0;
-  uint32_t mStored = 0;
 };
 
 }  // namespace PlayerCc

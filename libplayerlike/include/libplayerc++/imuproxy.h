@@ -41,16 +41,6 @@ class ImuProxy : public ClientProxy {
   /// it is the device that is told. Of a robot that stands level, only the yaw: the others stay 0.
   /// @throws PlayerError kBadArgument for numbers that are not finite.
   void ResetEuler(float aRoll, float aPitch, float aYaw);
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
- private:
-  player_imu_data_calib_t mValues = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-  player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 };
 
 }  // namespace PlayerCc

@@ -34,18 +34,8 @@ class IrProxy : public ClientProxy {
   /// GetRange().
   double operator[](uint32_t aIndex) const;
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
-  std::vector<double> mRanges;
-  std::vector<double> mVoltages;
   std::vector<player_pose3d_t> mPoses;
-  double mGain = 0.0;   // of the voltage [V m]
-  double mShift = 0.0;  // of the range in it [m]
 };
 
 }  // namespace PlayerCc

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <iosfwd>
-#include <vector>
 
 #include "libplayerc++/clientproxy.h"
 
@@ -36,10 +36,14 @@ class LaserProxy : public ClientProxy {
   double GetConfMaxAngle() const;       ///< of the last beam, as configured [rad]
   bool IntensityOn() const;             ///< false: the simulated laser measures ranges only
   player_point_2d_t GetPoint(uint32_t aIndex) const;  ///< where the beam ends, in L [m]
-  double GetRange(uint32_t aIndex) const;             ///< [m], in [0, GetMaxRange()]
-  double GetBearing(uint32_t aIndex) const;           ///< angle of the beam [rad]
-  int GetIntensity(uint32_t aIndex) const;            ///< 0, see IntensityOn()
-  int GetID() const;                                  ///< serial number; a simulated laser's is 0
+  /// [m], in [0, GetMaxRange()]
+  double GetRange(uint32_t aIndex) const {
+    const double* const range = mElements.Find(aIndex);
+    return range != nullptr ? *range : LockedRange(aIndex, "LaserProxy::GetRange");
+  }
+  double GetBearing(uint32_t aIndex) const;  ///< angle of the beam [rad]
+  int GetIntensity(uint32_t aIndex) const;   ///< 0, see IntensityOn()
+  int GetID() const;                         ///< serial number; a simulated laser's is 0
 
   /// Chooses what this proxy shows of each scan, from now on. The simulated laser itself keeps its
   /// geometry (the world file decides), and so do other clients' proxies: of its beams, those in
@@ -81,35 +85,27 @@ class LaserProxy : public ClientProxy {
   double MinRight() const;     ///< GetMinRight()
 
   /// GetRange().
-  double operator[](uint32_t index) const;
+  double operator[](uint32_t index) const {
+    const double* const range = mElements.Find(index);
+    return range != nullptr ? *range : LockedRange(index, "LaserProxy::operator[]");
+  }
 
  protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+  void HandleReading() override;
 
  private:
   // All of these are guarded by the client's mutex.
   double CheckedRange(uint32_t aIndex, const char* aFun) const;
-  double Bearing(uint32_t aIndex) const;
-  double LeastRange(std::size_t aBegin, std::size_t aEnd) const;
+  double LockedRange(uint32_t aIndex, const char* aFun) const;  // takes it
+  double LeastRange(bool aLeft) const;
   void View();
 
-  std::vector<double> mScan;    // as measured
-  std::vector<double> mRanges;  // as shown
-  double mNativeMin = 0.0;      // angle of the first measured beam
-  double mNativeRes = 0.0;
-  std::size_t mNativeCount = 0;
-  double mMaxRange = 0.0;
-  double mFrequency = 0.0;
+  std::size_t mCount = 0;  // of measured beams
   std::size_t mFirst = 0;  // of the shown beams among the measured ones
   std::size_t mStride = 1;
   std::size_t mShown = 0;
   double mRangeRes = 0.0;  // 0: not rounded
   mutable bool mHasWarned = false;
-  player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  player_bbox3d_t mSize = {0.0, 0.0, 0.0};
 };
 
 }  // namespace PlayerCc

@@ -57,18 +57,9 @@ class LocalizeProxy : public ClientProxy {
   /// @throws PlayerError kBadArgument for a pose that is null or no finite number.
   void SetPose(double pose[3], double cov[6]);
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
   // Guarded by the client's mutex.
-  std::vector<player_localize_hypoth_t> mHypoths;
   std::vector<player_pose2d_t> mParticles;
-  double mNoise_m = 0.0;
-  double mNoiseYaw_rad = 0.0;
 };
 
 }  // namespace PlayerCc

@@ -44,11 +44,6 @@ class LogProxy : public ClientProxy {
   ///                   there.
   void SetFilename(const std::string aFilename);
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
   struct Change;
   void Control(const char* aFun, const Change& aChange);

@@ -47,11 +47,6 @@ class MapProxy : public ClientProxy {
   /// @throws PlayerError kBadArgument for a null pointer, unless there are no cells.
   void GetMap(int8_t* aMap) const;
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
   // All of these are guarded by the client's mutex.
   std::vector<int8_t> mCells;

@@ -35,10 +35,7 @@ class OpaqueProxy : public ClientProxy {
   int SendReq(player_opaque_data_t* aRequest);
 
  protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-  void HandleReading(const detail::Reading& aReading) override;
+  void HandleReading() override;
   void HandleRound() override;
 
  private:

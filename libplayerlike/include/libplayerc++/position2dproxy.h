@@ -95,14 +95,10 @@ class Position2dProxy : public ClientProxy {
   bool GetStall() const;       ///< the commanded speed has not been achieved for 0.2 s
 
  protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+  void HandleReading() override;
 
  private:
   struct Control;
-  player_position2d_data_t mData;
   std::unique_ptr<Control> mControl;
 };
 

@@ -21,19 +21,6 @@ class PowerProxy : public ClientProxy {
   double GetWatts() const;    ///< power that goes into the battery; negative: that it gives [W]
   bool GetCharging() const;   ///< whether it stands in a dock and is not full yet
   bool IsValid() const;       ///< whether there has been a reading
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
- private:
-  double mVoltage = 0.0;
-  double mPercent = 0.0;
-  double mJoules = 0.0;
-  double mWatts = 0.0;
-  bool mCharging = false;
 };
 
 }  // namespace PlayerCc

@@ -36,12 +36,6 @@ class PtzProxy : public ClientProxy {
   double GetZoom() const;  ///< field of view from side to side [rad]
   int GetStatus();         ///< 1: on its way, 0: at rest
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
   struct State {
     double pan = 0.0;
@@ -49,7 +43,6 @@ class PtzProxy : public ClientProxy {
     double zoom = 0.0;
     bool moving = false;
   };
-  State mState;  // guarded by the client's mutex
 };
 
 }  // namespace PlayerCc

@@ -33,10 +33,14 @@ class RangerProxy : public ClientProxy {
   player_pose3d_t GetElementPose(uint32_t aIndex) const;  ///< seen from GetDevicePose()
   player_bbox3d_t GetElementSize(uint32_t aIndex) const;  ///< a laser's own; transducers are points
 
-  uint32_t GetRangeCount() const;            ///< ranges of the newest reading
-  double GetRange(uint32_t aIndex) const;    ///< [m]
-  double operator[](uint32_t aIndex) const;  ///< GetRange()
-  uint32_t GetPointCount() const;            ///< as many as there are ranges
+  uint32_t GetRangeCount() const;  ///< ranges of the newest reading
+  /// [m]
+  double GetRange(uint32_t aIndex) const {
+    const double* const range = mElements.Find(aIndex);
+    return range != nullptr ? *range : LockedRange(aIndex);
+  }
+  double operator[](uint32_t aIndex) const { return GetRange(aIndex); }
+  uint32_t GetPointCount() const;  ///< as many as there are ranges
   /// Where a range ends, seen from GetDevicePose() [m]; z is the height of the element over it.
   player_point_3d_t GetPoint(uint32_t aIndex) const;
   uint32_t GetIntensityCount() const;          ///< 0: the simulated rangers measure ranges only
@@ -85,34 +89,22 @@ class RangerProxy : public ClientProxy {
   player_bbox3d_t GetSensorSize(uint32_t aIndex) const { return GetElementSize(aIndex); }
 
  protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+  void HandleReading() override;
 
  private:
   // All of these are guarded by the client's mutex.
-  double Bearing(std::size_t aShown) const;
+  double LockedRange(uint32_t aIndex) const;  // takes it
   void View();
 
   bool mIsLaser = false;
-  std::vector<double> mMeasured;
-  std::vector<double> mRanges;  // as shown
-  double mNativeMin = 0.0;      // of a laser: angle of the first measured beam
-  double mNativeRes = 0.0;
-  std::size_t mNativeCount = 0;
-  double mNativeMaxRange = 0.0;
-  std::size_t mFirst = 0;  // of the shown beams among the measured ones
+  std::size_t mCount = 0;  // of measured ranges
+  std::size_t mFirst = 0;  // of the shown ones among these
   std::size_t mStride = 1;
   std::size_t mShown = 0;
-  double mFieldOfView = 0.0;  // of a transducer
   double mMinRange = 0.0;
   double mMaxRange = 0.0;
   double mRangeRes = 0.0;  // 0: not rounded
-  double mFrequency = 0.0;
-  player_pose3d_t mPose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  player_bbox3d_t mSize = {0.0, 0.0, 0.0};
-  std::vector<player_pose3d_t> mElements;
+  std::vector<player_pose3d_t> mPoses;
 };
 
 }  // namespace PlayerCc

@@ -76,11 +76,6 @@ class SimulationProxy : public ClientProxy {
                 value_len);
   }
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
   template <typename Action>
   void Try(const char* aFun, Action aAction);

@@ -30,14 +30,7 @@ class SonarProxy : public ClientProxy {
   /// Asks for the places; known from the start.
   void RequestGeom();
 
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
-
  private:
-  std::vector<double> mRanges;
   std::vector<player_pose3d_t> mPoses;
 };
 

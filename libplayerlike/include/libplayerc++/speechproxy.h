@@ -25,11 +25,6 @@ class SpeechProxy : public ClientProxy {
   /// no
   ///              printable character. Empty: the robot is quiet at once.
   void Say(std::string aStr);
-
- protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
 };
 
 }  // namespace PlayerCc

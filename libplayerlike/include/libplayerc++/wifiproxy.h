@@ -36,10 +36,7 @@ class WiFiProxy : public ClientProxy {
   int GetLinkNoise(int index) const;              ///< [dBm], rounded
 
  protected:
-  void Subscribe(uint32_t aIndex) override;
-  void Unsubscribe() override;
-  void HandleReading(const detail::Reading& aReading) override;
-  bool IsCapable(uint32_t aType, uint32_t aSubtype) const override;
+  void HandleReading() override;
 
  private:
   playerc_wifi_link_t& Link(int aIndex, const char* aFun) const;

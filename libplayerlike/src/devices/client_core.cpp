@@ -4,7 +4,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/checks.h"
+#include "sim/devices/laser.h"
+#include "sim/devices/rangers.h"
+
+__thread std::uint64_t PlayerCc::detail::thread_number = 0;
+
 namespace playerlike {
+
+using PlayerCc::detail::Elements;
+using PlayerCc::detail::thread_number;
 
 ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {}
 
@@ -12,9 +21,16 @@ ClientCore::~ClientCore() { session_->close(); }
 
 void ClientCore::add(DeviceId device, ReadingListener& listener, std::optional<bool> replace) {
   require_usable();
-  entries_.reserve(entries_.size() + 1);  // nothing may throw after the subscription
-  session_->request(SubscribeRequest{device});
+  // Nothing may throw after the subscription.
   entries_.push_back({device, &listener, false});
+  const auto place = by_device_.emplace(std::pair(device.robot, device.device), &entries_.back());
+  try {
+    session_->request(SubscribeRequest{device});
+  } catch (...) {
+    by_device_.erase(place);
+    entries_.pop_back();
+    throw;
+  }
   if (replace) session_->request(ReplaceRequest{device, *replace});
 }
 
@@ -29,6 +45,7 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
                                [&](const Entry& e) { return e.listener == &listener; });
   if (it == entries_.end()) return;
   const DeviceId device = it->device;
+  std::erase_if(by_device_, [&](const auto& place) { return place.second == &*it; });
   entries_.erase(it);
   if (closed_) return;
   try {
@@ -65,7 +82,26 @@ bool ClientCore::read_what_waits() {
   return count > 0;
 }
 
+void ClientCore::begin_change() noexcept {
+  static constinit std::atomic<std::uint64_t> last{0};
+  if (thread_number == 0) thread_number = ++last;
+  if (first_user_ == 0 && usable()) {
+    first_user_ = thread_number;
+    sole_user_.store(thread_number, std::memory_order_relaxed);
+  } else if (first_user_ != thread_number) {
+    first_user_ = Elements::kNobody;
+    sole_user_.store(Elements::kNobody, std::memory_order_relaxed);
+  }
+}
+
+void ClientCore::set_run_is_over(bool over) {
+  const std::lock_guard lock(mutex_);
+  if (over) sole_user_.store(Elements::kNobody, std::memory_order_relaxed);
+  run_is_over_ = over;
+}
+
 int ClientCore::hand_out(Notifications& notifications) {
+  begin_change();
   const int count = session_->take(*this);
   for (Entry& entry : entries_) {
     if (!std::exchange(entry.updated, false)) continue;
@@ -75,11 +111,11 @@ int ClientCore::hand_out(Notifications& notifications) {
   return count;
 }
 
-void ClientCore::on_reading(DeviceId device, const sim::Reading& reading) {
-  for (Entry& entry : entries_) {
-    if (!(entry.device == device)) continue;
-    entry.updated = true;
-    entry.listener->on_reading(reading);
+void ClientCore::on_reading(DeviceId device, const sim::SharedReading& reading) {
+  const auto [begin, end] = by_device_.equal_range({device.robot, device.device});
+  for (auto it = begin; it != end; ++it) {
+    it->second->updated = true;
+    it->second->listener->on_reading(reading);
   }
 }
 
@@ -87,6 +123,7 @@ void ClientCore::close() noexcept {
   {
     const std::lock_guard lock(mutex_);
     if (closed_.exchange(true)) return;
+    sole_user_.store(Elements::kNobody, std::memory_order_relaxed);
     for (const Entry& entry : entries_) entry.listener->on_close();
   }
   session_->close();
@@ -152,14 +189,18 @@ const RobotInfo& ClientCore::robot_of(DeviceId device) const {
 }
 
 const DeviceInfo& ClientCore::info_of(DeviceId device) const {
-  const RobotInfo& robot = robot_of(device);
-  const auto it = std::find_if(robot.devices.begin(), robot.devices.end(),
-                               [&](const DeviceInfo& d) { return d.id == device; });
-  if (it == robot.devices.end()) {
-    throw SessionError(SessionError::Code::kNoSuchDevice,
-                       "robot " + robot.name + " has no device with that number");
+  return require_device(robots(), device);
+}
+
+void show_elements(Elements& elements, const Newest& newest) {
+  const auto show = [&](const std::vector<double>& values) {
+    elements.Show(newest.reading, values.data(), static_cast<std::uint32_t>(values.size()));
+  };
+  if (const auto* scan = newest.find<sim::LaserReading>()) {
+    show(scan->ranges_m);
+  } else if (const auto* round = newest.find<sim::RangerReading>()) {
+    show(round->ranges_m);
   }
-  return *it;
 }
 
 std::shared_ptr<ClientCore> make_core(std::unique_ptr<Session> session) {

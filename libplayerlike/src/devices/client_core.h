@@ -2,13 +2,18 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <typeinfo>
+#include <utility>
 #include <vector>
 
+#include "libplayerc++/elements.h"
 #include "libplayerc++/mutex.h"
 #include "playerlike/session/session.h"
 
@@ -18,8 +23,8 @@ namespace playerlike {
 class ReadingListener {
  public:
   virtual ~ReadingListener() = default;
-  /// A new reading, valid during the call. The core's mutex is held.
-  virtual void on_reading(const sim::Reading& reading) = 0;
+  /// A new reading. The core's mutex is held, and begin_change() was called.
+  virtual void on_reading(const sim::SharedReading& reading) = 0;
   /// All readings of a round were handled, and some were this listener's. The mutex is held.
   virtual void on_round() {}
   /// What to call after the round, without the mutex; empty if nothing. The mutex is held.
@@ -64,7 +69,15 @@ class ClientCore final : private ReadingSink {
   /// Whether a thread in the background has met the end of the run, which the program's own
   /// threads cannot notice otherwise.
   [[nodiscard]] bool run_is_over() const noexcept { return run_is_over_; }
-  void set_run_is_over(bool over) noexcept { run_is_over_ = over; }
+  /// Takes the mutex.
+  void set_run_is_over(bool over);
+
+  /// The thread that has changed what the devices show, if it is the only one so far and the client
+  /// is usable, as PlayerCc::detail::thread_number: it may look at its own snapshots without the
+  /// mutex, see PlayerCc::detail::Elements.
+  [[nodiscard]] const std::atomic<std::uint64_t>& sole_user() const noexcept { return sole_user_; }
+  /// To be called before anything changes that devices show. The mutex is held by the caller.
+  void begin_change() noexcept;
 
   /// Whether require_usable() would not throw. Cheap.
   [[nodiscard]] bool usable() const noexcept {
@@ -74,13 +87,13 @@ class ClientCore final : private ReadingSink {
   /// Throws SessionError if the client is gone, or the run over in the background.
   void require_usable() const;
 
-  /// Notes that the program has looked at data of a sensor; see NoteLooksRequest. The mutex is
-  /// held by the caller.
-  void note_look(bool has_data) {
+  /// Notes that the program has looked so often at data of a sensor; see NoteLooksRequest. The
+  /// mutex is held by the caller.
+  void note_looks(int count, bool has_data) {
     constexpr int kAtOnce = 1024;
-    if (++looks_ < kAtOnce) return;
-    looks_ = 0;
-    session_->request(NoteLooksRequest{kAtOnce, has_data});
+    looks_ += count;
+    if (looks_ < kAtOnce) return;
+    session_->request(NoteLooksRequest{std::exchange(looks_, 0), has_data});
   }
 
   /// Where a robot's localisation last said that it is, for devices that report it too; under
@@ -119,20 +132,47 @@ class ClientCore final : private ReadingSink {
 
   using Notifications = std::vector<std::function<void()>>;
 
-  void on_reading(DeviceId device, const sim::Reading& reading) override;
+  void on_reading(DeviceId device, const sim::SharedReading& reading) override;
   /// Hands out what has arrived; the mutex is held. @return how many readings.
   int hand_out(Notifications& notifications);
 
   PlayerCc::mutex_t mutex_;
   const std::unique_ptr<Session> session_;
-  std::vector<Entry> entries_;
+  std::list<Entry> entries_;                              // in the order of their addition
+  std::multimap<std::pair<int, int>, Entry*> by_device_;  // robot and device -> entries
   std::map<int, KnownPose> poses_;
   std::map<int, bool> replace_rules_;
   std::map<sim::LayerId, bool> sheets_;  // layers of graphics proxies -> in use
   int looks_ = 0;                        // not told to the session yet
   std::atomic<bool> closed_{false};
   std::atomic<bool> run_is_over_{false};
+  std::uint64_t first_user_ = 0;  // the first thread that changed anything
+  std::atomic<std::uint64_t> sole_user_{PlayerCc::detail::Elements::kNobody};
 };
+
+/// The newest reading of a device, for whoever shows it; under the mutex.
+struct Newest {
+  /// The reading, or one as it is made if there is none of that type yet.
+  template <typename R>
+  [[nodiscard]] const R& as() const {
+    static const R none;
+    const R* const found = find<R>();
+    return found == nullptr ? none : *found;
+  }
+  /// The reading; null if there is none of that type.
+  template <typename R>
+  [[nodiscard]] const R* find() const noexcept {
+    const sim::Reading* const any = reading.get();
+    return any != nullptr && typeid(*any) == typeid(R) ? static_cast<const R*>(any) : nullptr;
+  }
+
+  sim::SharedReading reading;
+  bool valid = false;
+};
+
+/// The newest reading is shown element by element, too, if it is one of a rangefinder. The mutex is
+/// held, and begin_change() was called.
+void show_elements(PlayerCc::detail::Elements& elements, const Newest& newest);
 
 /// Wraps a session, which must not be null.
 [[nodiscard]] std::shared_ptr<ClientCore> make_core(std::unique_ptr<Session> session);

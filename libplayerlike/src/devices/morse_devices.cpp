@@ -1,10 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <utility>
 
 #include "devices/client_core.h"
 #include "devices/errors.h"
+#include "devices/morse_receiver.h"
 #include "libCCMorse/MorseActuator.h"
 #include "libCCMorse/MorseBattery.h"
 #include "libCCMorse/MorseCollision.h"
@@ -31,6 +34,10 @@ using PlayerCc::PlayerError;
 using playerlike::DeviceId;
 using playerlike::DeviceInfo;
 using playerlike::translated;
+using sim::BatteryReading;
+using sim::LaserReading;
+using sim::PoseReading;
+using sim::RangerReading;
 
 // --- MorseDevice
 
@@ -61,13 +68,11 @@ std::string MorseDevice::Fun(const char* aFunction) const {
   return std::string(mClass) + "::" + aFunction;
 }
 
-PlayerCc::mutex_t::scoped_lock MorseDevice::Lock(const char* aFunction) const {
+PlayerCc::mutex_t::scoped_lock MorseDevice::Lock(const char* aFunction, int aLooks) const {
   PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  // The name is put together only when it is needed: this is called for every beam.
-  if (Core()->closed() || Core()->run_is_over()) {
-    translated(Fun(aFunction).c_str(), [&] { Core()->require_usable(); });
-  }
-  Core()->note_look(/*has_data=*/true);
+  // The name is put together only when it is needed.
+  if (!Core()->usable()) translated(Fun(aFunction).c_str(), [&] { Core()->require_usable(); });
+  Core()->note_looks(aLooks, /*has_data=*/true);
   return lock;
 }
 
@@ -91,22 +96,14 @@ double MorseDevice::GetProperty(const char* aName, double aOtherwise) const {
 
 // --- MorseSensor
 
-struct MorseSensor::Receiver final : playerlike::ReadingListener {
-  explicit Receiver(MorseSensor& owner) : sensor(owner) {}
-
-  void on_reading(const sim::Reading& reading) override {
-    time_s = sim::to_seconds(reading.time_ns);
-    valid = true;
-    fresh = true;
-    sensor.HandleReading(reading);
-  }
-  void on_close() override { valid = false; }
-
-  MorseSensor& sensor;
-  double time_s = 0.0;
-  bool valid = false;
-  bool fresh = false;
-};
+void MorseSensor::Receiver::on_reading(const sim::SharedReading& reading) {
+  time_s = sim::to_seconds(reading->time_ns);
+  newest.valid = true;
+  fresh = true;
+  newest.reading = reading;
+  playerlike::show_elements(sensor.mElements, newest);
+  sensor.HandleReading();
+}
 
 MorseSensor::MorseSensor(const MorseRobot& aRobot, const std::string& aName, const char* aType,
                          const char* aClass)
@@ -121,17 +118,19 @@ void MorseSensor::Attach() {
   });
 }
 
+void MorseSensor::HandleReading() {}
+
 void MorseSensor::Detach() { Core()->remove(*mReceiver); }
 
 bool MorseSensor::IsValid() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  Core()->note_look(mReceiver->valid);
-  return mReceiver->valid;
+  Core()->note_looks(1, mReceiver->newest.valid);
+  return mReceiver->newest.valid;
 }
 
 bool MorseSensor::IsFresh() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  Core()->note_look(mReceiver->valid);
+  Core()->note_looks(1, mReceiver->newest.valid);
   return mReceiver->fresh;
 }
 
@@ -159,47 +158,31 @@ MorseActuator::~MorseActuator() = default;
 
 MorseLocalization::MorseLocalization(const MorseRobot& aRobot, const std::string& aName,
                                      const char* aType, const char* aClass)
-    : MorseSensor(aRobot, aName, aType, aClass), mPose(), mVelocity(), mStall(false) {
+    : MorseSensor(aRobot, aName, aType, aClass) {
   Attach();
 }
 
 MorseLocalization::~MorseLocalization() { Detach(); }
 
-void MorseLocalization::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading);
-  if (reading == nullptr) return;
-  mPose = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};
-  mVelocity = {reading->twist.v_mps, reading->twist.lateral_mps, reading->twist.omega_radps};
-  mStall = reading->stalled;
-}
-
 player_pose2d_t MorseLocalization::GetPose() const {
-  const auto lock = Lock("GetPose");
-  return mPose;
+  const sim::Pose pose = Look("GetPose", &PoseReading::pose);
+  return {pose.x_m, pose.y_m, pose.yaw_rad};
 }
 double MorseLocalization::GetX() const { return GetPose().px; }
 double MorseLocalization::GetY() const { return GetPose().py; }
 double MorseLocalization::GetYaw() const { return GetPose().pa; }
 
-double MorseLocalization::GetSpeed() const {
-  const auto lock = Lock("GetSpeed");
-  return mVelocity.px;
-}
+double MorseLocalization::GetSpeed() const { return Look("GetSpeed", &PoseReading::twist).v_mps; }
 
 double MorseLocalization::GetLateralSpeed() const {
-  const auto lock = Lock("GetLateralSpeed");
-  return mVelocity.py;
+  return Look("GetLateralSpeed", &PoseReading::twist).lateral_mps;
 }
 
 double MorseLocalization::GetTurnRate() const {
-  const auto lock = Lock("GetTurnRate");
-  return mVelocity.pa;
+  return Look("GetTurnRate", &PoseReading::twist).omega_radps;
 }
 
-bool MorseLocalization::GetStall() const {
-  const auto lock = Lock("GetStall");
-  return mStall;
-}
+bool MorseLocalization::GetStall() const { return Look("GetStall", &PoseReading::stalled); }
 
 void MorseLocalization::SetPose(double aX, double aY, double aYaw) {
   const std::string fun = Fun("SetPose");
@@ -221,100 +204,86 @@ MorseOdometry::~MorseOdometry() = default;
 
 // --- MorseLaser
 
+namespace {
+
+uint32_t count_of(const LaserReading& scan) { return static_cast<uint32_t>(scan.ranges_m.size()); }
+
+}  // namespace
+
 MorseLaser::MorseLaser(const MorseRobot& aRobot, const std::string& aName)
-    : MorseSensor(aRobot, aName, "laser", "MorseLaser"),
-      mMinAngle(0.0),
-      mResolution(GetProperty("resolution", 0.0)),
-      mMaxRange(GetProperty("range_max", 0.0)) {
+    : MorseSensor(aRobot, aName, "laser", "MorseLaser") {
+  const auto announced = std::make_shared<LaserReading>();
+  announced->resolution_rad = GetProperty("resolution", 0.0);
+  announced->range_max_m = GetProperty("range_max", 0.0);
   // The simulated laser is symmetric about forward.
-  mMinAngle = -0.5 * std::max(0.0, GetProperty("beams", 0.0) - 1.0) * mResolution;
+  announced->angle_min_rad =
+      -0.5 * std::max(0.0, GetProperty("beams", 0.0) - 1.0) * announced->resolution_rad;
+  mReceiver->newest.reading = announced;
   Attach();
 }
 
 MorseLaser::~MorseLaser() { Detach(); }
 
-void MorseLaser::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::LaserReading*>(&aReading);
-  if (reading == nullptr) return;
-  mRanges = reading->ranges_m;
-  mMinAngle = reading->angle_min_rad;
-  mResolution = reading->resolution_rad;
-  mMaxRange = reading->range_max_m;
+void MorseLaser::Check(uint32_t aIndex, uint32_t aCount, const char* aFunction) const {
+  if (aIndex < aCount) return;
+  throw PlayerError(Fun(aFunction),
+                    "there is no beam " + std::to_string(aIndex) + ": the scan has " +
+                        std::to_string(aCount) + ", counted from 0",
+                    PlayerError::kBadArgument);
 }
 
-double MorseLaser::Checked(uint32_t aIndex, const char* aFunction) const {
-  if (aIndex >= mRanges.size()) {
-    throw PlayerError(Fun(aFunction),
-                      "there is no beam " + std::to_string(aIndex) + ": the scan has " +
-                          std::to_string(mRanges.size()) + ", counted from 0",
-                      PlayerError::kBadArgument);
-  }
-  return mRanges[aIndex];
-}
+uint32_t MorseLaser::GetCount() const { return Look<LaserReading>("GetCount", count_of); }
 
-uint32_t MorseLaser::GetCount() const {
-  const auto lock = Lock("GetCount");
-  return static_cast<uint32_t>(mRanges.size());
+double MorseLaser::LockedRange(uint32_t aIndex) const {
+  const auto lock = mReceiver->lock_element("GetRange");
+  const auto& scan = mReceiver->newest.as<LaserReading>();
+  Check(aIndex, count_of(scan), "GetRange");
+  return scan.ranges_m[aIndex];
 }
-
-double MorseLaser::GetRange(uint32_t aIndex) const {
-  const auto lock = Lock("GetRange");
-  return Checked(aIndex, "GetRange");
-}
-
-double MorseLaser::operator[](uint32_t aIndex) const { return GetRange(aIndex); }
 
 double MorseLaser::GetBearing(uint32_t aIndex) const {
-  const auto lock = Lock("GetBearing");
-  static_cast<void>(Checked(aIndex, "GetBearing"));
-  return mMinAngle + aIndex * mResolution;
+  return Look<LaserReading>("GetBearing", [&](const auto& scan) {
+    Check(aIndex, count_of(scan), "GetBearing");
+    return scan.angle_min_rad + aIndex * scan.resolution_rad;
+  });
 }
 
 player_point_2d_t MorseLaser::GetPoint(uint32_t aIndex) const {
-  const auto lock = Lock("GetPoint");
-  const double range = Checked(aIndex, "GetPoint");
-  const double bearing = mMinAngle + aIndex * mResolution;
-  return {range * std::cos(bearing), range * std::sin(bearing)};
+  return Look<LaserReading>("GetPoint", [&](const auto& scan) -> player_point_2d_t {
+    Check(aIndex, count_of(scan), "GetPoint");
+    const double range = scan.ranges_m[aIndex];
+    const double bearing = scan.angle_min_rad + aIndex * scan.resolution_rad;
+    return {range * std::cos(bearing), range * std::sin(bearing)};
+  });
 }
 
 std::vector<double> MorseLaser::GetRanges() const {
-  const auto lock = Lock("GetRanges");
-  return mRanges;
+  return Look("GetRanges", &LaserReading::ranges_m);
 }
 
-double MorseLaser::GetMinAngle() const {
-  const auto lock = Lock("GetMinAngle");
-  return mMinAngle;
-}
+double MorseLaser::GetMinAngle() const { return Look("GetMinAngle", &LaserReading::angle_min_rad); }
 
 double MorseLaser::GetMaxAngle() const {
-  const auto lock = Lock("GetMaxAngle");
-  const double beams =
-      mRanges.empty() ? GetProperty("beams", 1.0) : static_cast<double>(mRanges.size());
-  return mMinAngle + (beams - 1.0) * mResolution;
+  return Look<LaserReading>("GetMaxAngle", [this](const auto& scan) {
+    const double beams =
+        scan.ranges_m.empty() ? GetProperty("beams", 1.0) : static_cast<double>(count_of(scan));
+    return scan.angle_min_rad + (beams - 1.0) * scan.resolution_rad;
+  });
 }
 
 double MorseLaser::GetResolution() const {
-  const auto lock = Lock("GetResolution");
-  return mResolution;
+  return Look("GetResolution", &LaserReading::resolution_rad);
 }
 
-double MorseLaser::GetMaxRange() const {
-  const auto lock = Lock("GetMaxRange");
-  return mMaxRange;
-}
+double MorseLaser::GetMaxRange() const { return Look("GetMaxRange", &LaserReading::range_max_m); }
 
 double MorseLaser::GetLeastRange() const {
-  const auto lock = Lock("GetLeastRange");
-  if (mRanges.empty()) return mMaxRange;
-  return *std::min_element(mRanges.begin(), mRanges.end());
+  return Look<LaserReading>("GetLeastRange", [](const auto& scan) { return scan.least_range_m(); });
 }
 
 double MorseLaser::GetLeastAngle() const {
-  const auto lock = Lock("GetLeastAngle");
-  if (mRanges.empty()) return 0.0;
-  const auto least = std::min_element(mRanges.begin(), mRanges.end());
-  return mMinAngle + static_cast<double>(least - mRanges.begin()) * mResolution;
+  return Look<LaserReading>("GetLeastAngle",
+                            [](const auto& scan) { return scan.least_angle_rad(); });
 }
 
 player_pose2d_t MorseLaser::GetMountPose() const {
@@ -324,85 +293,65 @@ player_pose2d_t MorseLaser::GetMountPose() const {
 // --- MorseCollision
 
 MorseCollision::MorseCollision(const MorseRobot& aRobot, const std::string& aName)
-    : MorseSensor(aRobot, aName, "collision", "MorseCollision"), mCollision(false) {
+    : MorseSensor(aRobot, aName, "collision", "MorseCollision") {
   Attach();
 }
 
 MorseCollision::~MorseCollision() { Detach(); }
 
-void MorseCollision::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::CollisionReading*>(&aReading);
-  if (reading == nullptr) return;
-  mCollision = reading->collision;
-  mObjects = reading->objects;
-}
-
 bool MorseCollision::GetCollision() const {
-  const auto lock = Lock("GetCollision");
-  return mCollision;
+  return Look("GetCollision", &sim::CollisionReading::collision);
 }
 
 std::vector<std::string> MorseCollision::GetObjects() const {
-  const auto lock = Lock("GetObjects");
-  return mObjects;
+  return Look("GetObjects", &sim::CollisionReading::objects);
 }
 
 bool MorseCollision::Touches(const std::string& aName) const {
-  const auto lock = Lock("Touches");
-  return std::find(mObjects.begin(), mObjects.end(), aName) != mObjects.end();
+  const std::vector<std::string> objects = Look("Touches", &sim::CollisionReading::objects);
+  return std::find(objects.begin(), objects.end(), aName) != objects.end();
 }
 
 // --- MorseBattery
 
 MorseBattery::MorseBattery(const MorseRobot& aRobot, const std::string& aName)
-    : MorseSensor(aRobot, aName, "battery", "MorseBattery"),
-      mCharge(0.0),
-      mVoltage(0.0),
-      mEnergy(0.0),
-      mDocked(false) {
+    : MorseSensor(aRobot, aName, "battery", "MorseBattery") {
   Attach();
 }
 
 MorseBattery::~MorseBattery() { Detach(); }
 
-void MorseBattery::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BatteryReading*>(&aReading);
-  if (reading == nullptr) return;
-  mCharge = reading->charge_percent;
-  mVoltage = reading->voltage_v;
-  mEnergy = reading->energy_wh;
-  mStatus = std::string(sim::to_string(reading->status));
-  mDocked = reading->status != sim::BatteryStatus::kDischarging;
-}
-
 double MorseBattery::GetCharge() const {
-  const auto lock = Lock("GetCharge");
-  return mCharge;
+  return Look("GetCharge", &BatteryReading::charge_percent);
 }
-
-double MorseBattery::GetVoltage() const {
-  const auto lock = Lock("GetVoltage");
-  return mVoltage;
-}
-
-double MorseBattery::GetEnergy() const {
-  const auto lock = Lock("GetEnergy");
-  return mEnergy;
-}
-
+double MorseBattery::GetVoltage() const { return Look("GetVoltage", &BatteryReading::voltage_v); }
+double MorseBattery::GetEnergy() const { return Look("GetEnergy", &BatteryReading::energy_wh); }
 double MorseBattery::GetCapacity() const { return GetProperty("capacity", 0.0); }
 
 std::string MorseBattery::GetStatus() const {
   const auto lock = Lock("GetStatus");
-  return mStatus;
+  const auto* reading = mReceiver->newest.find<BatteryReading>();
+  return reading == nullptr ? "" : std::string(sim::to_string(reading->status));
 }
 
 bool MorseBattery::IsDocked() const {
-  const auto lock = Lock("IsDocked");
-  return mDocked;
+  return Look("IsDocked", &BatteryReading::status) != sim::BatteryStatus::kDischarging;
 }
 
 // --- MorseProximity
+
+namespace {
+
+// Of one name the nearer comes first, and stays.
+std::map<std::string, double> distances(const sim::ProximityReading& reading) {
+  std::map<std::string, double> near;
+  for (const auto& neighbour : reading.near_objects) {
+    near.emplace(neighbour.name, neighbour.distance_m);
+  }
+  return near;
+}
+
+}  // namespace
 
 MorseProximity::MorseProximity(const MorseRobot& aRobot, const std::string& aName)
     : MorseSensor(aRobot, aName, "proximity", "MorseProximity") {
@@ -411,32 +360,20 @@ MorseProximity::MorseProximity(const MorseRobot& aRobot, const std::string& aNam
 
 MorseProximity::~MorseProximity() { Detach(); }
 
-void MorseProximity::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::ProximityReading*>(&aReading);
-  if (reading == nullptr) return;
-  mNear.clear();
-  // Of one name the nearer comes first, and stays.
-  for (const auto& neighbour : reading->near_objects) {
-    mNear.emplace(neighbour.name, neighbour.distance_m);
-  }
-}
-
 std::map<std::string, double> MorseProximity::GetNearObjects() const {
-  const auto lock = Lock("GetNearObjects");
-  return mNear;
+  return Look<sim::ProximityReading>("GetNearObjects", distances);
 }
 
 bool MorseProximity::IsNear(const std::string& aName) const {
-  const auto lock = Lock("IsNear");
-  return mNear.count(aName) > 0;
+  return Look<sim::ProximityReading>("IsNear", distances).count(aName) > 0;
 }
 
 double MorseProximity::GetDistance(const std::string& aName) const {
-  const auto lock = Lock("GetDistance");
-  const auto it = mNear.find(aName);
-  if (it != mNear.end()) return it->second;
+  const auto near = Look<sim::ProximityReading>("GetDistance", distances);
+  const auto it = near.find(aName);
+  if (it != near.end()) return it->second;
   std::string known;
-  for (const auto& [name, distance] : mNear) known += (known.empty() ? "" : ", ") + name;
+  for (const auto& [name, distance] : near) known += (known.empty() ? "" : ", ") + name;
   throw PlayerError(Fun("GetDistance"),
                     "\"" + aName + "\" is not near; near are: " + (known.empty() ? "none" : known),
                     PlayerError::kBadArgument);
@@ -458,56 +395,53 @@ MorseRanger::MorseRanger(const MorseRobot& aRobot, const std::string& aName, con
                        GetProperty(("mount_y_" + number).c_str(), 0.0),
                        GetProperty(("mount_yaw_" + number).c_str(), 0.0)});
   }
-  mRanges.assign(count, GetProperty("range_max", 0.0));
+  const auto announced = std::make_shared<RangerReading>();
+  announced->ranges_m.assign(count, GetProperty("range_max", 0.0));
+  mReceiver->newest.reading = announced;
   Attach();
 }
 
 MorseRanger::~MorseRanger() { Detach(); }
 
-void MorseRanger::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading);
-  if (reading == nullptr) return;
-  mRanges = reading->ranges_m;
-}
-
-std::size_t MorseRanger::Checked(uint32_t aIndex, const char* aFunction) const {
-  const std::size_t count = std::min(mRanges.size(), mMounts.size());
+// With the client's data locked: the range of a transducer that there is.
+double MorseRanger::Checked(uint32_t aIndex, const char* aFunction) const {
+  const std::vector<double>& ranges = mReceiver->newest.as<RangerReading>().ranges_m;
+  const std::size_t count = std::min(ranges.size(), mMounts.size());
   if (aIndex >= count) {
     throw PlayerError(Fun(aFunction),
                       "there is no transducer " + std::to_string(aIndex) + ": the device has " +
                           std::to_string(count) + ", counted from 0",
                       PlayerError::kBadArgument);
   }
-  return aIndex;
+  return ranges[aIndex];
 }
 
 uint32_t MorseRanger::GetCount() const {
-  const auto lock = Lock("GetCount");
-  return static_cast<uint32_t>(mRanges.size());
+  return static_cast<uint32_t>(Look("GetCount", &RangerReading::ranges_m).size());
 }
 
 double MorseRanger::GetRange(uint32_t aIndex) const {
   const auto lock = Lock("GetRange");
-  return mRanges[Checked(aIndex, "GetRange")];
+  return Checked(aIndex, "GetRange");
 }
 
 double MorseRanger::operator[](uint32_t aIndex) const { return GetRange(aIndex); }
 
 std::vector<double> MorseRanger::GetRanges() const {
-  const auto lock = Lock("GetRanges");
-  return mRanges;
+  return Look("GetRanges", &RangerReading::ranges_m);
 }
 
 player_pose2d_t MorseRanger::GetMountPose(uint32_t aIndex) const {
   const auto lock = Lock("GetMountPose");
-  return mMounts[Checked(aIndex, "GetMountPose")];
+  static_cast<void>(Checked(aIndex, "GetMountPose"));
+  return mMounts[aIndex];
 }
 
 player_point_2d_t MorseRanger::GetPoint(uint32_t aIndex) const {
   const auto lock = Lock("GetPoint");
-  const std::size_t i = Checked(aIndex, "GetPoint");
-  const player_pose2d_t& mount = mMounts[i];
-  return {mount.px + mRanges[i] * std::cos(mount.pa), mount.py + mRanges[i] * std::sin(mount.pa)};
+  const double range = Checked(aIndex, "GetPoint");
+  const player_pose2d_t& mount = mMounts[aIndex];
+  return {mount.px + range * std::cos(mount.pa), mount.py + range * std::sin(mount.pa)};
 }
 
 double MorseRanger::GetMaxRange() const { return GetProperty("range_max", 0.0); }
@@ -515,15 +449,15 @@ double MorseRanger::GetMaxRange() const { return GetProperty("range_max", 0.0); 
 double MorseRanger::GetFieldOfView() const { return GetProperty("field_of_view", 0.0); }
 
 double MorseRanger::GetLeastRange() const {
-  const auto lock = Lock("GetLeastRange");
-  if (mRanges.empty()) return GetProperty("range_max", 0.0);
-  return *std::min_element(mRanges.begin(), mRanges.end());
+  const std::vector<double> ranges = GetRanges();
+  if (ranges.empty()) return GetMaxRange();
+  return *std::min_element(ranges.begin(), ranges.end());
 }
 
 uint32_t MorseRanger::GetLeastIndex() const {
-  const auto lock = Lock("GetLeastIndex");
-  const auto least = std::min_element(mRanges.begin(), mRanges.end());
-  return static_cast<uint32_t>(least - mRanges.begin());
+  const std::vector<double> ranges = GetRanges();
+  const auto least = std::min_element(ranges.begin(), ranges.end());
+  return static_cast<uint32_t>(least - ranges.begin());
 }
 
 MorseInfrared::MorseInfrared(const MorseRobot& aRobot, const std::string& aName)

@@ -3,6 +3,7 @@
 
 #include "devices/client_core.h"
 #include "devices/errors.h"
+#include "devices/morse_receiver.h"
 #include "libCCMorse/MorseTeleport.h"
 #include "libCCMorse/MorseWaypoint.h"
 #include "sim/core/number_text.h"
@@ -42,8 +43,8 @@ MorseWaypoint::MorseWaypoint(const MorseRobot& aRobot, const std::string& aName)
 
 MorseWaypoint::~MorseWaypoint() { Detach(); }
 
-void MorseWaypoint::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::WaypointReading*>(&aReading);
+void MorseWaypoint::HandleReading() {
+  const auto* reading = mReceiver->newest.find<sim::WaypointReading>();
   if (reading == nullptr) return;
   mPosition = {reading->position_m.x(), reading->position_m.y()};
   mGoalNumber = static_cast<uint32_t>(reading->goal_number);

@@ -1,10 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "devices/client_core.h"
 #include "devices/errors.h"
+#include "devices/morse_receiver.h"
 #include "libCCMorse/MorseGripper.h"
 #include "sim/devices/gripper.h"
 
 namespace CCMorse {
+
+using sim::GripperReading;
+
 namespace {
 
 using Action = sim::GripCommand::Action;
@@ -17,27 +21,11 @@ void send(playerlike::ClientCore& core, const char* fun, playerlike::DeviceId de
 }  // namespace
 
 MorseGripper::MorseGripper(const MorseRobot& aRobot, const std::string& aName)
-    : MorseSensor(aRobot, aName, "gripper", "MorseGripper"),
-      mHolding(false),
-      mOuterBeam(false),
-      mInnerBeam(false),
-      mStored(0),
-      mGap(0.0) {
+    : MorseSensor(aRobot, aName, "gripper", "MorseGripper") {
   Attach();
 }
 
 MorseGripper::~MorseGripper() { Detach(); }
-
-void MorseGripper::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::GripperReading*>(&aReading);
-  if (reading == nullptr) return;
-  mStatus = std::string(sim::to_string(reading->state));
-  mHolding = reading->holding;
-  mOuterBeam = reading->outer_beam;
-  mInnerBeam = reading->inner_beam;
-  mStored = reading->stored;
-  mGap = reading->gap_m;
-}
 
 void MorseGripper::Open() {
   const auto lock = Lock("Open");
@@ -66,35 +54,25 @@ void MorseGripper::Retrieve() {
 
 std::string MorseGripper::GetStatus() const {
   const auto lock = Lock("GetStatus");
-  return mStatus;
+  const auto* reading = mReceiver->newest.find<GripperReading>();
+  return reading == nullptr ? "" : std::string(sim::to_string(reading->state));
 }
 
-bool MorseGripper::IsHolding() const {
-  const auto lock = Lock("IsHolding");
-  return mHolding;
-}
+bool MorseGripper::IsHolding() const { return Look("IsHolding", &GripperReading::holding); }
 
 bool MorseGripper::IsOuterBeamBroken() const {
-  const auto lock = Lock("IsOuterBeamBroken");
-  return mOuterBeam;
+  return Look("IsOuterBeamBroken", &GripperReading::outer_beam);
 }
 
 bool MorseGripper::IsInnerBeamBroken() const {
-  const auto lock = Lock("IsInnerBeamBroken");
-  return mInnerBeam;
+  return Look("IsInnerBeamBroken", &GripperReading::inner_beam);
 }
 
-int MorseGripper::GetStored() const {
-  const auto lock = Lock("GetStored");
-  return mStored;
-}
+int MorseGripper::GetStored() const { return Look("GetStored", &GripperReading::stored); }
 
 int MorseGripper::GetCapacity() const { return static_cast<int>(GetProperty("capacity", 0.0)); }
 
-double MorseGripper::GetGap() const {
-  const auto lock = Lock("GetGap");
-  return mGap;
-}
+double MorseGripper::GetGap() const { return Look("GetGap", &GripperReading::gap_m); }
 
 double MorseGripper::GetOpening() const { return GetProperty("opening", 0.0); }
 

@@ -1,12 +1,17 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <numbers>
 
+#include "devices/morse_receiver.h"
 #include "libCCMorse/MorseGps.h"
 #include "libCCMorse/MorseImu.h"
 #include "sim/devices/gps.h"
 #include "sim/devices/imu.h"
 
 namespace CCMorse {
+
+using sim::GpsReading;
+using sim::ImuReading;
+
 namespace {
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
@@ -16,95 +21,46 @@ double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; 
 // --- MorseGps
 
 MorseGps::MorseGps(const MorseRobot& aRobot, const std::string& aName)
-    : MorseSensor(aRobot, aName, "gps", "MorseGps"),
-      mLatitude(0.0),
-      mLongitude(0.0),
-      mAltitude(0.0),
-      mVelocity(0.0),
-      mHeading(0.0),
-      mFix(false) {
+    : MorseSensor(aRobot, aName, "gps", "MorseGps") {
   Attach();
 }
 
 MorseGps::~MorseGps() { Detach(); }
 
-void MorseGps::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::GpsReading*>(&aReading);
-  if (reading == nullptr) return;
-  mLatitude = degrees(reading->latitude_rad);
-  mLongitude = degrees(reading->longitude_rad);
-  mAltitude = reading->altitude_m;
-  mVelocity = reading->speed_mps;
-  mHeading = degrees(reading->course_rad);
-  mFix = reading->quality > 0;
-}
-
 double MorseGps::GetLatitude() const {
-  const auto lock = Lock("GetLatitude");
-  return mLatitude;
+  return degrees(Look("GetLatitude", &GpsReading::latitude_rad));
 }
 
 double MorseGps::GetLongitude() const {
-  const auto lock = Lock("GetLongitude");
-  return mLongitude;
+  return degrees(Look("GetLongitude", &GpsReading::longitude_rad));
 }
 
-double MorseGps::GetAltitude() const {
-  const auto lock = Lock("GetAltitude");
-  return mAltitude;
-}
-
-double MorseGps::GetVelocity() const {
-  const auto lock = Lock("GetVelocity");
-  return mVelocity;
-}
-
-double MorseGps::GetHeading() const {
-  const auto lock = Lock("GetHeading");
-  return mHeading;
-}
-
-bool MorseGps::HasFix() const {
-  const auto lock = Lock("HasFix");
-  return mFix;
-}
+double MorseGps::GetAltitude() const { return Look("GetAltitude", &GpsReading::altitude_m); }
+double MorseGps::GetVelocity() const { return Look("GetVelocity", &GpsReading::speed_mps); }
+double MorseGps::GetHeading() const { return degrees(Look("GetHeading", &GpsReading::course_rad)); }
+bool MorseGps::HasFix() const { return Look("HasFix", &GpsReading::quality) > 0; }
 
 // --- MorseImu
 
 MorseImu::MorseImu(const MorseRobot& aRobot, const std::string& aName)
-    : MorseSensor(aRobot, aName, "imu", "MorseImu"), mRate{}, mAcceleration{}, mField{}, mYaw(0.0) {
+    : MorseSensor(aRobot, aName, "imu", "MorseImu") {
   Attach();
 }
 
 MorseImu::~MorseImu() { Detach(); }
 
-void MorseImu::HandleReading(const sim::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::ImuReading*>(&aReading);
-  if (reading == nullptr) return;
-  mRate = reading->rate_radps;
-  mAcceleration = reading->acceleration_mps2;
-  mField = reading->field_ut;
-  mYaw = reading->yaw_rad;
-}
-
 std::array<double, 3> MorseImu::GetAngularVelocity() const {
-  const auto lock = Lock("GetAngularVelocity");
-  return mRate;
+  return Look("GetAngularVelocity", &ImuReading::rate_radps);
 }
 
 std::array<double, 3> MorseImu::GetLinearAcceleration() const {
-  const auto lock = Lock("GetLinearAcceleration");
-  return mAcceleration;
+  return Look("GetLinearAcceleration", &ImuReading::acceleration_mps2);
 }
 
 std::array<double, 3> MorseImu::GetMagneticField() const {
-  const auto lock = Lock("GetMagneticField");
-  return mField;
+  return Look("GetMagneticField", &ImuReading::field_ut);
 }
 
-double MorseImu::GetYaw() const {
-  const auto lock = Lock("GetYaw");
-  return mYaw;
-}
+double MorseImu::GetYaw() const { return Look("GetYaw", &ImuReading::yaw_rad); }
 
 }  // namespace CCMorse

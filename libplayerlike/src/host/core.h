@@ -42,7 +42,7 @@ struct Client {
     int count = 0;
     bool replace = true;
     bool fresh = false;  ///< replace: the device's newest reading was not taken yet
-    std::vector<std::unique_ptr<sim::Reading>> queue;  ///< not replace: readings not taken yet
+    std::vector<sim::SharedReading> queue;  ///< not replace: readings not taken yet
   };
 
   int number = 0;  ///< in order of connection; fixes the order of commands
@@ -224,7 +224,8 @@ class Host::Core : private ViewedRun, private TurnClock {
   [[nodiscard]] bool all_wait() const;
   [[nodiscard]] bool thinker_waits(ThinkerId thinker) const;
   /// Whether lockstep time may go on by a step now.
-  [[nodiscard]] bool may_advance();
+  /// @param all_wait_still  all_wait() is known to be true.
+  [[nodiscard]] bool may_advance(bool all_wait_still = false);
   void wait_for_others(Lock& lock, const Client& client);
   [[nodiscard]] WallClock::time_point silence_deadline() const;
   void note_silence();
@@ -238,7 +239,8 @@ class Host::Core : private ViewedRun, private TurnClock {
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThinkerId thinker, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
-  void advance();
+  /// Makes a step. @return release_waiters()
+  bool advance();
   void apply_inputs(Client& client);
   void carry_out_drawings(Client& client);
   /// Keeps those drawings that are on the shared canvas or on one of the client's layers.
@@ -247,11 +249,15 @@ class Host::Core : private ViewedRun, private TurnClock {
   sim::CanvasDescription copy_in_pieces(Client& client, const Copy& copy);
   void let_others_in() const;
   void distribute();
-  void distribute(const sim::Reading& reading, Client::Subscription& subscription, Client& client);
+  void distribute(const sim::SharedReading& reading, Client::Subscription& subscription,
+                  Client& client);
+  [[nodiscard]] const sim::Sensor& sensor(DeviceId device) const;
+  [[nodiscard]] std::vector<Client*>& subscribers(DeviceId device);
   /// @return null if the client has none for that device.
   [[nodiscard]] static Client::Subscription* find_subscription(Client& client, DeviceId device);
   void forget_subscriber(const Client& client, DeviceId device) noexcept;
-  void release_waiters();
+  /// @return whether somebody who waited may no longer do so.
+  bool release_waiters();
   void ring_alarms();
   void end_run();
   void write_results();
@@ -303,7 +309,7 @@ class Host::Core : private ViewedRun, private TurnClock {
   int end_request_ = 0;                             ///< the signal that asked for the end
   bool window_closed_ = false;
   std::optional<int> program_status_;
-  std::map<std::pair<int, int>, std::vector<Client*>> subscribers_;  ///< by robot and device
+  std::vector<std::vector<std::vector<Client*>>> subscribers_;  ///< by robot and device
   ClientFiles client_files_;
   std::map<int, RunLog> logs_;  ///< by port; those that somebody has asked for
 
@@ -322,7 +328,11 @@ class Host::Core : private ViewedRun, private TurnClock {
   bool ended_ = false;
   int reads_after_end_ = 0;
   const sim::SimTime step_ns_;
-  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
+  std::atomic<sim::SimTime> now_ns_{0};     ///< the simulation's, for those without the lock
+  std::size_t unsubscribed_ = 0;            ///< clients without subscriptions
+  bool somebody_draws_ = false;             ///< some client has had a queue for drawings
+  std::atomic<bool> commands_wait_{false};  ///< some client has sent some since the last step
+  mutable std::vector<ThinkerId> waiting_;  ///< of all_wait()
   std::atomic<bool> wants_time_{false};  ///< the program has subscribed to something or commanded
   bool watches_program_ = false;         ///< see Host::watch_program()
   bool nobody_reads_told_ = false;

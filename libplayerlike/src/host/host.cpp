@@ -39,7 +39,7 @@ constexpr int kSleepsAfterEnd = 1000;
 // How often a program may command or look while simulated time stands still before it is told that
 // nobody calls Read(); see IdleCalls. Before the first Read() few have a reason to. Afterwards one
 // may well send a command for each beam of a scan, and look at each beam many times; but
-// virtual_time::note_look() lets time pass after three million looks.
+// virtual_time::note_looks() lets time pass after three million looks.
 constexpr double kCommandsBeforeFirstStep = 1000.0;
 constexpr double kCommandsInAStep = 10'000.0;
 constexpr double kCommandsAfterSleeps = 20.0;  // a robot; the same for the least of the two above
@@ -89,6 +89,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
                    std::move(world)),
                   log_),
       robots_(describe_robots(simulation_)),
+      subscribers_(robots_.size()),
       client_files_(settings_.client_files_limit, settings_.all_files_limit),
       turns_(settings_.virtual_time &&
              simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
@@ -96,6 +97,9 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
       step_ns_(simulation_.world().simulation.step_ns) {
   if (!settings_.output_folder.empty()) {
     std::filesystem::create_directories(settings_.output_folder);
+  }
+  for (std::size_t r = 0; r < robots_.size(); ++r) {
+    subscribers_[r].resize(robots_[r].devices.size());
   }
   recorder_ = std::make_unique<Recorder>(settings_, simulation_);
   mode_chosen_ = simulation_.world().simulation.time_mode_given;
@@ -142,13 +146,18 @@ std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
   client->creator = this_thinker();
   client->empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
   touch(*client);
-  const auto place = std::find_if(clients_.begin(), clients_.end(), [&](const auto& c) {
-    if (follower && !c->follower) return true;
-    // In virtual time threads may begin at the same moment: the order is that in which they were
-    // started, not that in which they come here.
-    return turns_ && c->follower == follower && c->creator > client->creator;
-  });
+  // Most often it is the last, so the search begins there. In virtual time threads may begin at the
+  // same moment: the order is that in which they were started, not that in which they come here.
+  auto place = clients_.end();
+  while (place != clients_.begin()) {
+    const Client& before = **std::prev(place);
+    const bool after_it = before.follower == follower ? !turns_ || before.creator <= client->creator
+                                                      : before.follower;
+    if (after_it) break;
+    --place;
+  }
   clients_.insert(place, client);
+  ++unsubscribed_;
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
@@ -161,6 +170,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   client.drawings.close();
   layer_book_.leave(client.number);
   for (const Client::Subscription& s : client.subscriptions) forget_subscriber(client, s.device);
+  if (client.subscriptions.empty()) --unsubscribed_;
   client.subscriptions.clear();
   if (turns_) Turns::instance().let_go(&client);
   std::erase_if(clients_, [&](const auto& c) { return c.get() == &client; });
@@ -207,10 +217,11 @@ void Host::Core::subscribe(Client& client, DeviceId device) {
   auto it = std::lower_bound(client.subscriptions.begin(), client.subscriptions.end(), device,
                              subscribed_before);
   if (it == client.subscriptions.end() || !(it->device == device)) {
+    if (client.subscriptions.empty()) --unsubscribed_;
     it = client.subscriptions.emplace(it);
     it->device = device;
     it->replace = client.replace_by_default;
-    subscribers_[{device.robot, device.device}].push_back(&client);
+    subscribers(device).push_back(&client);
   }
   ++it->count;
   if (client.is_programs() && !wants_time_.exchange(true)) start_busy_alarm(lock);
@@ -223,6 +234,7 @@ void Host::Core::unsubscribe(Client& client, DeviceId device) {
       std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.device == device; });
   if (it == all.end() || --it->count > 0) return;
   all.erase(it);
+  if (all.empty()) ++unsubscribed_;
   forget_subscriber(client, device);
   client.has_data = std::any_of(all.begin(), all.end(),
                                 [](const auto& s) { return s.fresh || !s.queue.empty(); });
@@ -241,9 +253,7 @@ void Host::Core::set_replace(Client& client, std::optional<DeviceId> device, boo
       s.queue.erase(s.queue.begin(), s.queue.end() - 1);
     } else if (!replace && s.fresh) {
       s.fresh = false;
-      const auto& sensor =
-          dynamic_cast<const sim::Sensor&>(simulation_.device(s.device.robot, s.device.device));
-      s.queue.push_back(sensor.reading().clone());
+      s.queue.push_back(sensor(s.device).share());
     }
   }
 }
@@ -279,15 +289,21 @@ bool Host::Core::thinker_waits(ThinkerId thinker) const {
                      [&](const auto& c) { return c->waiting && c->owner == thinker; });
 }
 
+// One thread may read many clients: it waits if one of them does.
 bool Host::Core::all_wait() const {
+  waiting_.clear();
+  for (const auto& c : clients_) {
+    if (c->waiting) waiting_.push_back(c->owner);
+  }
   return std::all_of(clients_.begin(), clients_.end(), [this](const auto& c) {
-    return !c->joined || c->silent || c->waiting || thinker_waits(c->owner);
+    return !c->joined || c->silent || c->waiting ||
+           std::find(waiting_.begin(), waiting_.end(), c->owner) != waiting_.end();
   });
 }
 
-bool Host::Core::may_advance() {
+bool Host::Core::may_advance(bool all_wait_still) {
   return !paced_ && !over() && step_credit_ != 0U && gate_open() && program_takes_part() &&
-         all_wait();
+         (all_wait_still || all_wait());
 }
 
 bool Host::Core::wait_is_over(const Client& client) const {
@@ -301,6 +317,8 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   if (in_turns()) wait_for_turn(lock, client);
+  // Until somebody is let go, nothing changes about who waits while this thread has the mutex.
+  bool all_wait_still = false;
   while (!wait_is_over(client)) {
     require_open(client);
     // Said once: threads that all only tell each other that they wait would never sleep.
@@ -308,11 +326,12 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
     if (paced_) {
       if (began) changed_.notify_all();
       changed_.wait(lock);
-    } else if (may_advance()) {
-      advance();
+    } else if (may_advance(all_wait_still)) {
+      all_wait_still = !advance();
     } else {
       if (began) changed_.notify_all();
       wait_for_others(lock, client);
+      all_wait_still = false;
     }
   }
   client.waiting = false;
@@ -366,14 +385,17 @@ void Host::Core::warn_of_silence(const Client& client) const {
        " s of wall time; simulated time goes on without it until it does");
 }
 
-void Host::Core::advance() {
+bool Host::Core::advance() {
   const auto now = WallClock::now();
   if (!first_step_) {
     first_step_ = now;
     last_progress_ = now;
     if (watches_program_) dismiss_busy_alarm();
   }
-  for (const auto& client : clients_) apply_inputs(*client);
+  const bool commanded = commands_wait_.exchange(false);
+  if (commanded || somebody_draws_) {
+    for (const auto& client : clients_) apply_inputs(*client);
+  }
   if (hand_) hand_->before_step(simulation_);
   simulation_.step();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
@@ -391,7 +413,7 @@ void Host::Core::advance() {
   } else {
     keep_results(now);
   }
-  release_waiters();
+  return release_waiters();
 }
 
 void Host::Core::apply_inputs(Client& client) {
@@ -424,9 +446,11 @@ void Host::Core::carry_out_drawings(Client& client) {
 // Each new reading is given to those who have subscribed to its device, and to nobody else is it
 // offered: many clients that want something else cost nothing.
 void Host::Core::distribute() {
-  for (const auto& client : clients_) {
-    if (client->subscriptions.empty() && simulation_.now_ns() >= client->empty_round_ns) {
-      client->has_data = true;
+  if (unsubscribed_ > 0) {
+    for (const auto& client : clients_) {
+      if (client->subscriptions.empty() && simulation_.now_ns() >= client->empty_round_ns) {
+        client->has_data = true;
+      }
     }
   }
   std::vector<int> replayed;  // ports whose readings come from a file
@@ -434,18 +458,14 @@ void Host::Core::distribute() {
     if (!log.replaying()) continue;
     replayed.push_back(port);
     for (const RunLog::Entry* entry : log.due()) {
-      const auto found = subscribers_.find({entry->device.robot, entry->device.device});
-      if (found == subscribers_.end()) continue;
-      for (Client* client : found->second) {
+      for (Client* client : subscribers(entry->device)) {
         if (client->port != port) continue;
-        distribute(*entry->reading, *find_subscription(*client, entry->device), *client);
+        distribute(entry->reading, *find_subscription(*client, entry->device), *client);
       }
     }
   }
   for (const DeviceId& updated : simulation_.updated()) {
-    const auto found = subscribers_.find({updated.robot, updated.device});
-    if (found == subscribers_.end()) continue;
-    for (Client* client : found->second) {
+    for (Client* client : subscribers(updated)) {
       if (std::find(replayed.begin(), replayed.end(), client->port) != replayed.end()) continue;
       Client::Subscription& s = *find_subscription(*client, updated);
       if (s.replace) {
@@ -454,9 +474,7 @@ void Host::Core::distribute() {
         s.queue.clear();
         continue;
       }
-      const auto& sensor =
-          dynamic_cast<const sim::Sensor&>(simulation_.device(updated.robot, updated.device));
-      distribute(sensor.reading(), s, *client);
+      distribute(sensor(updated).share(), s, *client);
     }
   }
 }
@@ -467,14 +485,20 @@ Client::Subscription* Host::Core::find_subscription(Client& client, DeviceId dev
   return it != client.subscriptions.end() && it->device == device ? &*it : nullptr;
 }
 
-void Host::Core::forget_subscriber(const Client& client, DeviceId device) noexcept {
-  const auto found = subscribers_.find({device.robot, device.device});
-  if (found == subscribers_.end()) return;
-  std::erase(found->second, &client);
-  if (found->second.empty()) subscribers_.erase(found);
+std::vector<Client*>& Host::Core::subscribers(DeviceId device) {
+  return subscribers_[static_cast<std::size_t>(device.robot)]
+                     [static_cast<std::size_t>(device.device)];
 }
 
-void Host::Core::distribute(const sim::Reading& reading, Client::Subscription& subscription,
+void Host::Core::forget_subscriber(const Client& client, DeviceId device) noexcept {
+  std::erase(subscribers(device), &client);
+}
+
+const sim::Sensor& Host::Core::sensor(DeviceId device) const {
+  return dynamic_cast<const sim::Sensor&>(simulation_.device(device.robot, device.device));
+}
+
+void Host::Core::distribute(const sim::SharedReading& reading, Client::Subscription& subscription,
                             Client& client) {
   client.has_data = true;
   if (subscription.replace) {
@@ -484,16 +508,21 @@ void Host::Core::distribute(const sim::Reading& reading, Client::Subscription& s
     subscription.queue.erase(subscription.queue.begin());
     ++client.overflow;
   }
-  subscription.queue.push_back(reading.clone());
+  subscription.queue.push_back(reading);
 }
 
 // A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
-void Host::Core::release_waiters() {
-  if (in_turns()) return make_ready();
+bool Host::Core::release_waiters() {
+  if (in_turns()) {
+    make_ready();
+    return true;
+  }
+  bool anybody = false;
   bool released = false;
   for (const auto& client : clients_) {
     if (!client->waiting || !wait_is_over(*client)) continue;
     client->waiting = false;
+    anybody = true;
     touch(*client);
     if (client->notify) {
       client->notify();
@@ -503,6 +532,7 @@ void Host::Core::release_waiters() {
   }
   if (released) changed_.notify_all();
   if (!alarms_.empty()) ring_alarms();
+  return anybody;
 }
 
 void Host::Core::ring_alarms() {
@@ -537,26 +567,23 @@ void Host::Core::wait(Client& client) {
 }
 
 int Host::Core::take(Client& client, ReadingSink& sink) {
-  const Lock lock(mutex_);
-  require_open(client);
-  client.looks = 0;
-  if (!client.has_data) return 0;
-  client.has_data = false;
-  client.empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
-  int count = 0;
-  for (Client::Subscription& s : client.subscriptions) {
-    if (s.fresh) {
-      s.fresh = false;
-      const auto& sensor =
-          static_cast<const sim::Sensor&>(simulation_.device(s.device.robot, s.device.device));
-      sink.on_reading(s.device, sensor.reading());
-      ++count;
+  std::vector<std::pair<DeviceId, sim::SharedReading>> taken;
+  {
+    const Lock lock(mutex_);
+    require_open(client);
+    client.looks = 0;
+    if (!client.has_data) return 0;
+    client.has_data = false;
+    client.empty_round_ns = simulation_.now_ns() + kEmptyRound_ns;
+    taken.reserve(client.subscriptions.size());
+    for (Client::Subscription& s : client.subscriptions) {
+      if (std::exchange(s.fresh, false)) taken.emplace_back(s.device, sensor(s.device).share());
+      for (sim::SharedReading& reading : s.queue) taken.emplace_back(s.device, std::move(reading));
+      s.queue.clear();
     }
-    for (const auto& reading : s.queue) sink.on_reading(s.device, *reading);
-    count += static_cast<int>(s.queue.size());
-    s.queue.clear();
   }
-  return count;
+  for (const auto& [device, reading] : taken) sink.on_reading(device, reading);
+  return static_cast<int>(taken.size());
 }
 
 bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
@@ -899,6 +926,7 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
       client.commands.back().second = command;
     } else {
       client.commands.emplace_back(device, command);
+      commands_wait_.store(true, std::memory_order_relaxed);
       full = client.commands.size() > kCommandLimit;
     }
   }
@@ -1509,10 +1537,7 @@ std::shared_ptr<Host> Host::create(sim::WorldDescription world, RunSettings sett
 
 void Host::require_port(int port) const {
   const auto& robots = core_->robots();
-  const bool known =
-      port == kMorsePort ||
-      std::any_of(robots.begin(), robots.end(), [&](const auto& r) { return r.port == port; });
-  if (!known) {
+  if (!is_open(robots, port)) {
     std::string ports = std::to_string(kMorsePort) + " (all robots)";
     for (const RobotInfo& robot : robots) {
       ports += ", " + std::to_string(robot.port) + " (" + robot.name + ')';

@@ -86,6 +86,7 @@ struct Host::Core::RequestHandler {
     core.touch(client);
     core.carry_out_drawings(client);
     client.drawings.reserve();
+    core.somebody_draws_ = true;
   }
   void operator()(const SetCellsRequest& what) const {
     require_cells(what.rect, what.cells.size());

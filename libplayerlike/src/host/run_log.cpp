@@ -157,7 +157,7 @@ void read_line(const std::string& line, int number, int port, const std::vector<
       message["device"] = protocol::encode_device_id(device.id);
       protocol::DecodedReading decoded = protocol::decode_reading(message, Encoding::kJson);
       const sim::SimTime offset_ns = decoded.reading->time_ns - loaded.begin_ns;
-      loaded.entries.push_back({offset_ns, device.id, std::move(decoded.reading)});
+      loaded.entries.push_back({offset_ns, device.id, std::move(decoded.reading), false});
     }
   }
 }
@@ -246,6 +246,14 @@ void RunLog::write(const sim::Simulation& simulation) {
 void RunLog::find_due(sim::SimTime now_ns) {
   while (next_ < entries_.size() && entries_[next_].offset_ns <= played_ns_) {
     Entry& entry = entries_[next_++];
+    if (std::exchange(entry.given, true)) {
+      // Those who got it before keep it as it was then.
+      const RobotInfo& robot = (*robots_)[static_cast<std::size_t>(entry.device.robot)];
+      const DeviceInfo& device = robot.devices[static_cast<std::size_t>(entry.device.device)];
+      const json again =
+          protocol::encode_reading(entry.device, device.type, *entry.reading, Encoding::kJson);
+      entry.reading = protocol::decode_reading(again, Encoding::kJson).reading;
+    }
     entry.reading->time_ns = now_ns - (played_ns_ - entry.offset_ns);
     due_.push_back(&entry);
   }

@@ -24,7 +24,8 @@ class RunLog {
   struct Entry {
     sim::SimTime offset_ns = 0;  ///< after the log's beginning
     DeviceId device{-1, -1};
-    std::unique_ptr<sim::Reading> reading;
+    std::shared_ptr<sim::Reading> reading;
+    bool given = false;  ///< to whoever was there when it was last due
   };
 
   /// @param folder  of the run's results; "": there is none.

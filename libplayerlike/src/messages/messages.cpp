@@ -64,12 +64,6 @@ bool is_of_world(std::string_view interface) {
          std::end(kWorldInterfaces);
 }
 
-// Whether clients can connect to a port.
-bool is_open(const std::vector<RobotInfo>& robots, int port) {
-  return port == kMorsePort || std::any_of(robots.begin(), robots.end(),
-                                           [&](const RobotInfo& r) { return r.port == port; });
-}
-
 std::vector<std::string_view> interface_names() {
   std::vector<std::string_view> names;
   for (const InterfaceRow& row : interface_table()) {
@@ -86,6 +80,12 @@ std::string where_else(std::string_view interface) {
              : "; of the worlds that come with Playpen, worlds/" + world + " has one";
 }
 
+// The index that a robot's first device of an interface has on port 4000.
+int shared_index(const RobotInfo& robot, std::size_t number, std::string_view interface) {
+  const auto given = robot.proxies.find(std::string(interface));
+  return given != robot.proxies.end() ? given->second : static_cast<int>(number);
+}
+
 // Calls visit(interface, index, robot, device, driver) for every address of a port; driver is null
 // but for the positions that a robot's drivers offer, which only its own port has.
 template <typename Visit>
@@ -96,9 +96,8 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
       const auto devices = carriers(robot, interface);
       if (devices.empty()) continue;
       if (port == kMorsePort) {
-        const auto given = robot.proxies.find(std::string(interface));
-        const int index = given != robot.proxies.end() ? given->second : static_cast<int>(r);
-        visit(interface, index, static_cast<int>(r), *devices.front(), nullptr);
+        visit(interface, shared_index(robot, r, interface), static_cast<int>(r), *devices.front(),
+              nullptr);
       } else if (port == robot.port) {
         for (std::size_t i = 0; i < devices.size(); ++i) {
           visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i], nullptr);
@@ -113,7 +112,50 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
   }
 }
 
+std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, int port,
+                                        std::string_view interface, int index) {
+  if (port == kMorsePort) {
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      if (shared_index(robots[r], r, interface) != index) continue;
+      const auto devices = carriers(robots[r], interface);
+      if (devices.empty()) continue;
+      return InterfaceBinding{devices.front()->id, std::nullopt, static_cast<int>(r), nullptr};
+    }
+    return std::nullopt;
+  }
+  const RobotInfo* const robot = robot_at(robots, port);
+  if (robot == nullptr) return std::nullopt;
+  const auto number = static_cast<int>(robot - robots.data());
+  const auto devices = carriers(*robot, interface);
+  if (index >= 0 && static_cast<std::size_t>(index) < devices.size()) {
+    return InterfaceBinding{devices[static_cast<std::size_t>(index)]->id, std::nullopt, number,
+                            nullptr};
+  }
+  if (interface != "position2d" || devices.empty()) return std::nullopt;
+  for (const SndDriverDescription& driver : robot->snd_drivers) {
+    if (driver.index != index) continue;
+    return InterfaceBinding{devices[static_cast<std::size_t>(driver.position)]->id, std::nullopt,
+                            number, &driver};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+const RobotInfo* robot_at(const std::vector<RobotInfo>& robots, int port) {
+  if (robots.empty()) return nullptr;
+  // Most worlds number them in order.
+  const std::size_t guess =
+      static_cast<std::size_t>(port) - static_cast<std::size_t>(robots.front().port);
+  if (guess < robots.size() && robots[guess].port == port) return &robots[guess];
+  const auto found = std::find_if(robots.begin(), robots.end(),
+                                  [&](const RobotInfo& robot) { return robot.port == port; });
+  return found == robots.end() ? nullptr : &*found;
+}
+
+bool is_open(const std::vector<RobotInfo>& robots, int port) {
+  return port == kMorsePort || robot_at(robots, port) != nullptr;
+}
 
 void require_finite(const sim::Command& command) {
   const auto& kind = sim::command_kinds()[command.index()];
@@ -234,37 +276,40 @@ sim::CanvasDescription map_grid(const sim::ArenaDescription& arena, double cell_
   return grid;
 }
 
-InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
-                                std::string_view interface, int index) {
-  std::optional<InterfaceBinding> found;
+namespace {
+
+SessionError no_such_device(const std::vector<RobotInfo>& robots, int port,
+                            std::string_view interface, int index) {
   std::ostringstream known;
   known.imbue(std::locale::classic());
   bool has_others = is_of_world(interface);  // of the interface, with another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
                        const SndDriverDescription* driver) {
-                     if (name == interface && i == index && !found) {
-                       found = InterfaceBinding{device.id, std::nullopt, robot, driver};
-                     }
                      has_others = has_others || name == interface;
                      known << (known.tellp() > 0 ? ", " : "") << name << ':' << i << " ("
                            << robots[static_cast<std::size_t>(robot)].name << '.'
                            << (driver == nullptr ? device.name : "snd") << ')';
                    });
   if (is_open(robots, port)) {
-    if (is_of_world(interface) && index == 0) return {};
     for (const std::string_view name : kWorldInterfaces) {
       known << (known.tellp() > 0 ? ", " : "") << name << ":0 (the world)";
     }
   }
-  if (!found) {
-    throw SessionError(SessionError::Code::kNoSuchDevice,
-                       "there is no device " + std::string(interface) + ':' +
-                           std::to_string(index) + " on port " + std::to_string(port) +
-                           "; this world has there: " +
-                           (known.tellp() > 0 ? known.str() : std::string("nothing")) +
-                           (has_others ? "" : where_else(interface)));
-  }
+  return {SessionError::Code::kNoSuchDevice,
+          "there is no device " + std::string(interface) + ':' + std::to_string(index) +
+              " on port " + std::to_string(port) + "; this world has there: " +
+              (known.tellp() > 0 ? known.str() : std::string("nothing")) +
+              (has_others ? "" : where_else(interface))};
+}
+
+}  // namespace
+
+InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
+                                std::string_view interface, int index) {
+  if (is_of_world(interface) && index == 0 && is_open(robots, port)) return {};
+  std::optional<InterfaceBinding> found = look_up(robots, port, interface, index);
+  if (!found) throw no_such_device(robots, port, interface, index);
   for (const DeviceInfo& device : robots[static_cast<std::size_t>(found->robot)].devices) {
     if (device.type == "motion") {
       found->motion = device.id;

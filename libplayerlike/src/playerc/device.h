@@ -96,7 +96,7 @@ template <typename T>
 /// action(device) for the device behind a struct, as reported().
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
-  virtual_time::note_look();
+  virtual_time::note_looks();
   return reported(fun, [&] { return action(device_of<T>(device)); });
 }
 

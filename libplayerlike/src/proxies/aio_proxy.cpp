@@ -13,37 +13,23 @@
 namespace PlayerCc {
 
 AioProxy::AioProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  AioProxy::Subscribe(aIndex);
+  Attach(PLAYER_AIO_CODE, aIndex, "AioProxy::AioProxy");
 }
 
-AioProxy::~AioProxy() { AioProxy::Unsubscribe(); }
-
-void AioProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_AIO_CODE, aIndex, "AioProxy::AioProxy"); }
-
-void AioProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool AioProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_AIO_DATA_STATE) ||
-         (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_AIO_CMD_STATE);
-}
-
-void AioProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::AioReading*>(&aReading.measured);
-  if (reading != nullptr) mInputs = reading->inputs_v;
-}
+AioProxy::~AioProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t AioProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("AioProxy::GetCount"));
-  return static_cast<uint32_t>(mInputs.size());
+  return static_cast<uint32_t>(Look(&sim::AioReading::inputs_v, "AioProxy::GetCount").size());
 }
 
 double AioProxy::GetVoltage(uint32_t aIndex) const {
   const char* fun = "AioProxy::GetVoltage";
   const scoped_lock_t lock(LockData(fun));
-  if (aIndex < mInputs.size()) return mInputs[aIndex];
+  const std::vector<double>& inputs = mLink->newest.as<sim::AioReading>().inputs_v;
+  if (aIndex < inputs.size()) return inputs[aIndex];
   throw PlayerError(fun,
                     "there is no analog input " + std::to_string(aIndex) +
-                        ": the newest reading has " + std::to_string(mInputs.size()) +
+                        ": the newest reading has " + std::to_string(inputs.size()) +
                         ", counted from 0",
                     PlayerError::kBadArgument);
 }

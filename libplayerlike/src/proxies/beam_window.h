@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/sensor_support.h"
+#include "sim/devices/laser.h"
 
 namespace PlayerCc::detail {
 
@@ -72,6 +74,44 @@ inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, dou
   const auto stride = static_cast<std::size_t>(ratio >= 1.0 ? std::min(ratio, last + 1.0) : 1.0);
   return {static_cast<std::size_t>(begin), stride,
           static_cast<std::size_t>(end - begin) / stride + 1};
+}
+
+/// What a laser shows before its first scan: no beams.
+inline sim::SharedReading announced_scan(const ScannerSettings& scanner) {
+  auto scan = std::make_shared<sim::LaserReading>();
+  scan->angle_min_rad = scanner.least_rad;
+  scan->resolution_rad = scanner.native_rad;
+  scan->range_max_m = scanner.range_max_m;
+  return scan;
+}
+
+/// The beams of a window of a scan; none if it has none.
+inline std::shared_ptr<sim::LaserReading> part_of(const sim::LaserReading& scan,
+                                                  const BeamWindow& window) {
+  auto part = std::make_shared<sim::LaserReading>();
+  part->time_ns = scan.time_ns;
+  part->sequence = scan.sequence;
+  part->angle_min_rad =
+      scan.angle_min_rad + static_cast<double>(window.first) * scan.resolution_rad;
+  part->resolution_rad = scan.resolution_rad * static_cast<double>(window.stride);
+  part->range_max_m = scan.range_max_m;
+  if (scan.ranges_m.empty()) return part;
+  part->ranges_m.resize(window.shown);
+  for (std::size_t i = 0; i < window.shown; ++i) {
+    part->ranges_m[i] = scan.ranges_m[window.first + i * window.stride];
+  }
+  return part;
+}
+
+/// The reading that elements are shown of, by its type.
+template <typename Reading>
+const Reading& owner_of(const Elements& elements) {
+  return static_cast<const Reading&>(*static_cast<const sim::Reading*>(elements.Owner()));
+}
+
+/// Angle of a beam that is shown [rad].
+inline double bearing_rad(const sim::LaserReading& scan, std::size_t beam) {
+  return scan.angle_min_rad + static_cast<double>(beam) * scan.resolution_rad;
 }
 
 }  // namespace PlayerCc::detail

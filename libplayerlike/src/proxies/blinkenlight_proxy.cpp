@@ -9,6 +9,9 @@
 #include "sim/devices/blinkenlight.h"
 
 namespace PlayerCc {
+
+using sim::BlinkenlightReading;
+
 namespace {
 
 void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId device,
@@ -20,42 +23,18 @@ void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId de
 
 BlinkenLightProxy::BlinkenLightProxy(PlayerClient* aPc, uint32_t aIndex)
     : ClientProxy(aPc, aIndex) {
-  BlinkenLightProxy::Subscribe(aIndex);
-}
-
-BlinkenLightProxy::~BlinkenLightProxy() { BlinkenLightProxy::Unsubscribe(); }
-
-void BlinkenLightProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_BLINKENLIGHT_CODE, aIndex, "BlinkenLightProxy::BlinkenLightProxy");
 }
 
-void BlinkenLightProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+BlinkenLightProxy::~BlinkenLightProxy() { ClientProxy::Unsubscribe(); }
 
-bool BlinkenLightProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_BLINKENLIGHT_DATA_STATE) ||
-         (aType == PLAYER_MSGTYPE_CMD && aSubtype >= PLAYER_BLINKENLIGHT_CMD_STATE &&
-          aSubtype <= PLAYER_BLINKENLIGHT_CMD_FLASH);
-}
-
-void BlinkenLightProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BlinkenlightReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mState.enabled = reading->enabled;
-  mState.lit = reading->lit;
-  mState.period = reading->period_s;
-  mState.dutyCycle = reading->duty_cycle;
-  mState.red = reading->colour.r;
-  mState.green = reading->colour.g;
-  mState.blue = reading->colour.b;
-}
-
-bool BlinkenLightProxy::GetEnable() const { return GetVar(mState.enabled); }
-bool BlinkenLightProxy::IsLit() const { return GetVar(mState.lit); }
-double BlinkenLightProxy::GetPeriod() const { return GetVar(mState.period); }
-double BlinkenLightProxy::GetDutyCycle() const { return GetVar(mState.dutyCycle); }
-uint8_t BlinkenLightProxy::GetRed() const { return GetVar(mState.red); }
-uint8_t BlinkenLightProxy::GetGreen() const { return GetVar(mState.green); }
-uint8_t BlinkenLightProxy::GetBlue() const { return GetVar(mState.blue); }
+bool BlinkenLightProxy::GetEnable() const { return Look(&BlinkenlightReading::enabled); }
+bool BlinkenLightProxy::IsLit() const { return Look(&BlinkenlightReading::lit); }
+double BlinkenLightProxy::GetPeriod() const { return Look(&BlinkenlightReading::period_s); }
+double BlinkenLightProxy::GetDutyCycle() const { return Look(&BlinkenlightReading::duty_cycle); }
+uint8_t BlinkenLightProxy::GetRed() const { return Look(&BlinkenlightReading::colour).r; }
+uint8_t BlinkenLightProxy::GetGreen() const { return Look(&BlinkenlightReading::colour).g; }
+uint8_t BlinkenLightProxy::GetBlue() const { return Look(&BlinkenlightReading::colour).b; }
 
 void BlinkenLightProxy::SetEnable(bool aSet) {
   const char* fun = "BlinkenLightProxy::SetEnable";

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <memory>
 #include <ostream>
 
 #include "libplayerc++/blobfinderproxy.h"
@@ -9,64 +10,64 @@
 
 namespace PlayerCc {
 
-BlobfinderProxy::BlobfinderProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  BlobfinderProxy::Subscribe(aIndex);
+using sim::BlobfinderReading;
+
+namespace {
+
+playerc_blobfinder_blob_t shown(const BlobfinderReading::Blob& seen) {
+  playerc_blobfinder_blob_t blob = {};
+  blob.color = static_cast<uint32_t>(seen.colour.r << 16 | seen.colour.g << 8 | seen.colour.b);
+  blob.area = static_cast<uint32_t>(seen.area);
+  blob.x = static_cast<uint32_t>(seen.x);
+  blob.y = static_cast<uint32_t>(seen.y);
+  blob.left = static_cast<uint32_t>(seen.left);
+  blob.right = static_cast<uint32_t>(seen.right);
+  blob.top = static_cast<uint32_t>(seen.top);
+  blob.bottom = static_cast<uint32_t>(seen.bottom);
+  blob.range = static_cast<float>(seen.range_m);
+  return blob;
 }
 
-BlobfinderProxy::~BlobfinderProxy() { BlobfinderProxy::Unsubscribe(); }
+}  // namespace
 
-void BlobfinderProxy::Subscribe(uint32_t aIndex) {
+BlobfinderProxy::BlobfinderProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   const char* fun = "BlobfinderProxy::BlobfinderProxy";
   Attach(PLAYER_BLOBFINDER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   const auto pixels = [this](const char* name) {
     constexpr double kMost = 1 << 20U;  // servers may say what they like
-    return static_cast<uint32_t>(std::clamp(mLink->property(name, 0.0), 0.0, kMost));
+    return static_cast<int>(std::clamp(mLink->property(name, 0.0), 0.0, kMost));
   };
-  mWidth = pixels("image_width");
-  mHeight = pixels("image_height");
+  const auto announced = std::make_shared<BlobfinderReading>();
+  announced->width = pixels("image_width");
+  announced->height = pixels("image_height");
+  mLink->show(announced);
 }
 
-void BlobfinderProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void BlobfinderProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BlobfinderReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mWidth = static_cast<uint32_t>(reading->width);
-  mHeight = static_cast<uint32_t>(reading->height);
-  mBlobs.clear();
-  for (const auto& seen : reading->blobs) {
-    playerc_blobfinder_blob_t blob = {};
-    blob.color = static_cast<uint32_t>(seen.colour.r << 16 | seen.colour.g << 8 | seen.colour.b);
-    blob.area = static_cast<uint32_t>(seen.area);
-    blob.x = static_cast<uint32_t>(seen.x);
-    blob.y = static_cast<uint32_t>(seen.y);
-    blob.left = static_cast<uint32_t>(seen.left);
-    blob.right = static_cast<uint32_t>(seen.right);
-    blob.top = static_cast<uint32_t>(seen.top);
-    blob.bottom = static_cast<uint32_t>(seen.bottom);
-    blob.range = static_cast<float>(seen.range_m);
-    mBlobs.push_back(blob);
-  }
-}
-
-bool BlobfinderProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_BLOBFINDER_DATA_BLOBS;
-}
+BlobfinderProxy::~BlobfinderProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t BlobfinderProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("BlobfinderProxy::GetCount"));
-  return static_cast<uint32_t>(mBlobs.size());
+  return Look<BlobfinderReading>(
+      [](const auto& r) { return static_cast<uint32_t>(r.blobs.size()); },
+      "BlobfinderProxy::GetCount");
 }
 
 playerc_blobfinder_blob_t BlobfinderProxy::GetBlob(uint32_t aIndex) const {
   const char* fun = "BlobfinderProxy::GetBlob";
-  const scoped_lock_t lock(LockData(fun));
-  return detail::element_or_zero(fun, "blob", aIndex, mBlobs);
+  return Look<BlobfinderReading>(
+      [&](const auto& r) {
+        return r.blobs.empty() ? playerc_blobfinder_blob_t{}
+                               : shown(detail::element_or_zero(fun, "blob", aIndex, r.blobs));
+      },
+      fun);
 }
 
-uint32_t BlobfinderProxy::GetWidth() const { return GetVar(mWidth); }
-uint32_t BlobfinderProxy::GetHeight() const { return GetVar(mHeight); }
+uint32_t BlobfinderProxy::GetWidth() const {
+  return static_cast<uint32_t>(Look(&BlobfinderReading::width));
+}
+uint32_t BlobfinderProxy::GetHeight() const {
+  return static_cast<uint32_t>(Look(&BlobfinderReading::height));
+}
 
 playerc_blobfinder_blob_t BlobfinderProxy::operator[](uint32_t aIndex) const {
   return GetBlob(aIndex);

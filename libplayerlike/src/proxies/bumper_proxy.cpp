@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "libplayerc++/bumperproxy.h"
 #include "proxies/link.h"
@@ -10,13 +11,9 @@
 
 namespace PlayerCc {
 
+using sim::BumperReading;
+
 BumperProxy::BumperProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  BumperProxy::Subscribe(aIndex);
-}
-
-BumperProxy::~BumperProxy() { BumperProxy::Unsubscribe(); }
-
-void BumperProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "BumperProxy::BumperProxy";
   Attach(PLAYER_BUMPER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
@@ -27,32 +24,22 @@ void BumperProxy::Subscribe(uint32_t aIndex) {
   }
 }
 
-void BumperProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void BumperProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BumperReading*>(&aReading.measured);
-  if (reading != nullptr) mPressed = reading->pressed;
-}
-
-bool BumperProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_BUMPER_DATA_STATE) ||
-         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_BUMPER_REQ_GET_GEOM);
-}
+BumperProxy::~BumperProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t BumperProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("BumperProxy::GetCount"));
-  return static_cast<uint32_t>(mPressed.size());
+  return static_cast<uint32_t>(Look(&BumperReading::pressed, "BumperProxy::GetCount").size());
 }
 
 uint32_t BumperProxy::IsBumped(uint32_t aIndex) const {
   const char* fun = "BumperProxy::IsBumped";
-  const scoped_lock_t lock(LockData(fun));
-  return detail::element_or_zero(fun, "segment", aIndex, mPressed);
+  return Look<BumperReading>(
+      [&](const auto& r) { return detail::element_or_zero(fun, "segment", aIndex, r.pressed); },
+      fun);
 }
 
 bool BumperProxy::IsAnyBumped() {
-  const scoped_lock_t lock(LockData("BumperProxy::IsAnyBumped"));
-  return std::any_of(mPressed.begin(), mPressed.end(), [](uint8_t pressed) { return pressed; });
+  const std::vector<uint8_t> pressed = Look(&BumperReading::pressed, "BumperProxy::IsAnyBumped");
+  return std::find(pressed.begin(), pressed.end(), 1) != pressed.end();
 }
 
 void BumperProxy::RequestBumperConfig() {

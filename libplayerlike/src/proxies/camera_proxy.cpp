@@ -12,38 +12,25 @@
 
 namespace PlayerCc {
 
+using sim::CameraReading;
+
 CameraProxy::CameraProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  CameraProxy::Subscribe(aIndex);
-}
-
-CameraProxy::~CameraProxy() { CameraProxy::Unsubscribe(); }
-
-void CameraProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "CameraProxy::CameraProxy";
   Attach(PLAYER_CAMERA_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   // A server may say anything.
   const auto side = [this](const char* name, int most) {
-    return static_cast<uint32_t>(std::clamp(mLink->property(name, 0.0), 0.0, 1.0 * most));
+    return static_cast<int>(std::clamp(mLink->property(name, 0.0), 0.0, 1.0 * most));
   };
-  mWidth = side("image_width", sim::ViewParams::kMaxWidth);
-  mHeight = side("image_height", sim::ViewParams::kMaxHeight);
-  mPixels.assign(std::size_t{3} * mWidth * mHeight, 0);
+  const auto black = std::make_shared<CameraReading>();
+  black->width = side("image_width", sim::ViewParams::kMaxWidth);
+  black->height = side("image_height", sim::ViewParams::kMaxHeight);
+  black->pixels.resize(std::size_t{3} * static_cast<std::size_t>(black->width) *
+                       static_cast<std::size_t>(black->height));
+  mLink->show(black);
 }
 
-void CameraProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void CameraProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::CameraReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mWidth = static_cast<uint32_t>(reading->width);
-  mHeight = static_cast<uint32_t>(reading->height);
-  mPixels = reading->pixels;
-}
-
-bool CameraProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_CAMERA_DATA_STATE;
-}
+CameraProxy::~CameraProxy() { ClientProxy::Unsubscribe(); }
 
 void CameraProxy::SaveFrame(const std::string aPrefix, uint32_t aWidth) {
   const char* fun = "CameraProxy::SaveFrame";
@@ -53,7 +40,9 @@ void CameraProxy::SaveFrame(const std::string aPrefix, uint32_t aWidth) {
   file.imbue(std::locale::classic());
   file << aPrefix << std::setfill('0') << std::setw(static_cast<int>(std::min(aWidth, kMostDigits)))
        << mFrame << ".ppm";
-  if (!detail::write_ppm(file.str(), mPixels, mWidth, mHeight)) {
+  const auto& picture = mLink->newest.as<CameraReading>();
+  if (!detail::write_ppm(file.str(), picture.pixels, static_cast<uint32_t>(picture.width),
+                         static_cast<uint32_t>(picture.height))) {
     throw PlayerError(fun, "the picture " + file.str() + " cannot be written",
                       PlayerError::kFailed);
   }
@@ -67,8 +56,12 @@ uint32_t CameraProxy::GetDepth() const {
   return 24;
 }
 
-uint32_t CameraProxy::GetWidth() const { return GetVar(mWidth); }
-uint32_t CameraProxy::GetHeight() const { return GetVar(mHeight); }
+uint32_t CameraProxy::GetWidth() const {
+  return static_cast<uint32_t>(Look(&CameraReading::width));
+}
+uint32_t CameraProxy::GetHeight() const {
+  return static_cast<uint32_t>(Look(&CameraReading::height));
+}
 
 uint32_t CameraProxy::GetFormat() const {
   const scoped_lock_t lock(LockData("CameraProxy::GetFormat"));
@@ -76,8 +69,8 @@ uint32_t CameraProxy::GetFormat() const {
 }
 
 uint32_t CameraProxy::GetImageSize() const {
-  const scoped_lock_t lock(LockData("CameraProxy::GetImageSize"));
-  return static_cast<uint32_t>(mPixels.size());
+  return Look<CameraReading>([](const auto& r) { return static_cast<uint32_t>(r.pixels.size()); },
+                             "CameraProxy::GetImageSize");
 }
 
 void CameraProxy::GetImage(uint8_t* aImage) const {
@@ -87,7 +80,8 @@ void CameraProxy::GetImage(uint8_t* aImage) const {
     throw PlayerError(fun, "there is no place for the picture: it is a null pointer",
                       PlayerError::kBadArgument);
   }
-  std::copy(mPixels.begin(), mPixels.end(), aImage);
+  const std::vector<uint8_t>& pixels = mLink->newest.as<CameraReading>().pixels;
+  std::copy(pixels.begin(), pixels.end(), aImage);
 }
 
 uint32_t CameraProxy::GetCompression() const {

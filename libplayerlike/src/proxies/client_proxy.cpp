@@ -14,18 +14,37 @@ using playerlike::translated;
 
 // --- Link
 
-void ClientProxy::Link::on_reading(const sim::Reading& reading) {
-  refresh(sim::to_seconds(reading.time_ns));
-  proxy.HandleReading({reading});
+void ClientProxy::Link::on_reading(const sim::SharedReading& reading) {
+  refresh(sim::to_seconds(reading->time_ns));
+  show(reading);
+  proxy.HandleReading();
   proxy.mFresh = true;
+}
+
+void ClientProxy::Link::show(const sim::SharedReading& reading) {
+  newest.reading = reading;
+  playerlike::show_elements(proxy.mElements, newest);
+}
+
+ClientProxy::scoped_lock_t ClientProxy::Link::lock_anyway(int looks) const {
+  playerlike::virtual_time::note_looks(looks);
+  scoped_lock_t lock(core->mutex());
+  if (has_readings) core->note_looks(looks, newest.valid);
+  return lock;
+}
+
+ClientProxy::scoped_lock_t ClientProxy::Link::lock(const char* fun, int looks) const {
+  scoped_lock_t lock(lock_anyway(looks));
+  translated(fun, [&] { core->require_usable(); });
+  return lock;
 }
 
 void ClientProxy::Link::refresh(double time_s) {
   // The first data have none before them, so no time has elapsed.
-  device.lasttime = valid ? device.datatime : time_s;
+  device.lasttime = newest.valid ? device.datatime : time_s;
   device.datatime = time_s;
   device.fresh = 1;
-  valid = true;
+  newest.valid = true;
 }
 
 void ClientProxy::Link::on_round() { proxy.HandleRound(); }
@@ -37,7 +56,7 @@ std::function<void()> ClientProxy::Link::notification() {
 
 void ClientProxy::Link::on_close() {
   proxy.mPc = nullptr;
-  valid = false;
+  newest.valid = false;
   device.subscribed = 0;
 }
 
@@ -76,7 +95,9 @@ ClientProxy::ClientProxy(const ClientProxy& aOther)
     mLink->binding = other.binding;
     mLink->attached = other.attached;
     mLink->has_readings = other.has_readings;
-    mLink->valid = other.valid;
+    mLink->newest.reading = other.newest.reading;
+    mLink->measured = other.measured;
+    mLink->newest.valid = other.newest.valid;
     mLink->device = other.device;
     mLink->device.id = this;
     mFresh = aOther.mFresh;
@@ -93,7 +114,7 @@ void ClientProxy::Unsubscribe() {
   mReadSignal.disconnect_all_slots();  // none may see a proxy that is half gone
   const scoped_lock_t lock(mLink->core->mutex());
   mLink->attached = false;
-  mLink->valid = false;
+  mLink->newest.valid = false;
   mLink->device.subscribed = 0;
 }
 
@@ -125,34 +146,20 @@ void ClientProxy::Attach(uint32_t aInterface, uint32_t aIndex, const char* aFun,
 }
 
 ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
-  playerlike::virtual_time::note_look();
-  scoped_lock_t lock(mLink->core->mutex());
-  translated(aFun, [&] { mLink->core->require_usable(); });
-  mLink->note_look();
-  return lock;
+  return mLink->lock(aFun);
 }
 
-void ClientProxy::HandleReading(const detail::Reading& aReading) { static_cast<void>(aReading); }
+void ClientProxy::HandleReading() {}
 
 void ClientProxy::HandleRound() {}
 
-bool ClientProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  static_cast<void>(aType);
-  static_cast<void>(aSubtype);
-  return false;
-}
-
 bool ClientProxy::IsValid() const {
-  playerlike::virtual_time::note_look();
-  const scoped_lock_t lock(mLink->core->mutex());
-  mLink->note_look();
-  return mLink->valid;
+  const scoped_lock_t lock(mLink->lock_anyway());
+  return mLink->newest.valid;
 }
 
 bool ClientProxy::IsFresh() const {
-  playerlike::virtual_time::note_look();
-  const scoped_lock_t lock(mLink->core->mutex());
-  mLink->note_look();
+  const scoped_lock_t lock(mLink->lock_anyway());
   return mFresh;
 }
 
@@ -208,7 +215,14 @@ int ClientProxy::HasCapability(uint32_t aType, uint32_t aSubtype) {
       aType == PLAYER_MSGTYPE_REQ &&
       (aSubtype == PLAYER_CAPABILITIES_REQ || aSubtype == PLAYER_GET_BOOLPROP_REQ ||
        aSubtype == PLAYER_GET_INTPROP_REQ || aSubtype == PLAYER_GET_DBLPROP_REQ);
-  return is_property_query || IsCapable(aType, aSubtype) ? 1 : 0;
+  // A robot without motors has positions, too.
+  const bool needs_motors =
+      GetInterface() == PLAYER_POSITION2D_CODE &&
+      (aType == PLAYER_MSGTYPE_CMD ||
+       (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_POSITION2D_REQ_MOTOR_POWER));
+  const bool is_known = has_message(GetInterface(), aType, aSubtype) &&
+                        (!needs_motors || mLink->binding.motion.has_value());
+  return is_property_query || is_known ? 1 : 0;
 }
 
 int ClientProxy::GetDblProp(char* aProperty, double* aValue) {

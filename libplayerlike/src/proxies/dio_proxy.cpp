@@ -10,38 +10,28 @@
 
 namespace PlayerCc {
 
+using sim::DioReading;
+
 DioProxy::DioProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  DioProxy::Subscribe(aIndex);
+  Attach(PLAYER_DIO_CODE, aIndex, "DioProxy::DioProxy");
 }
 
-DioProxy::~DioProxy() { DioProxy::Unsubscribe(); }
+DioProxy::~DioProxy() { ClientProxy::Unsubscribe(); }
 
-void DioProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_DIO_CODE, aIndex, "DioProxy::DioProxy"); }
-
-void DioProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool DioProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_DIO_DATA_VALUES) ||
-         (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_DIO_CMD_VALUES);
+uint32_t DioProxy::GetCount() const {
+  return static_cast<uint32_t>(Look(&DioReading::input_count));
 }
-
-void DioProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::DioReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mCount = static_cast<uint32_t>(reading->input_count);
-  mDigin = reading->inputs;
-}
-
-uint32_t DioProxy::GetCount() const { return GetVar(mCount); }
-uint32_t DioProxy::GetDigin() const { return GetVar(mDigin); }
+uint32_t DioProxy::GetDigin() const { return Look(&DioReading::inputs); }
 
 bool DioProxy::GetInput(uint32_t aIndex) const {
   const char* fun = "DioProxy::GetInput";
   const scoped_lock_t lock(LockData(fun));
-  if (aIndex < mCount) return ((mDigin >> aIndex) & 1U) != 0;
+  const auto& newest = mLink->newest.as<DioReading>();
+  const auto count = static_cast<uint32_t>(newest.input_count);
+  if (aIndex < count) return ((newest.inputs >> aIndex) & 1U) != 0;
   throw PlayerError(fun,
                     "there is no digital input " + std::to_string(aIndex) +
-                        ": the newest reading has " + std::to_string(mCount) + ", counted from 0",
+                        ": the newest reading has " + std::to_string(count) + ", counted from 0",
                     PlayerError::kBadArgument);
 }
 

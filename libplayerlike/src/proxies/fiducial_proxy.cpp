@@ -9,64 +9,49 @@
 
 namespace PlayerCc {
 
+using sim::FiducialReading;
+
 FiducialProxy::FiducialProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  FiducialProxy::Subscribe(aIndex);
+  Attach(PLAYER_FIDUCIAL_CODE, aIndex, "FiducialProxy::FiducialProxy");
 }
 
-FiducialProxy::~FiducialProxy() { FiducialProxy::Unsubscribe(); }
-
-void FiducialProxy::Subscribe(uint32_t aIndex) {
-  const char* fun = "FiducialProxy::FiducialProxy";
-  Attach(PLAYER_FIDUCIAL_CODE, aIndex, fun);
-  const scoped_lock_t lock(LockData(fun));
-  mPose = {mLink->property("mount_x", 0.0),
-           mLink->property("mount_y", 0.0),
-           mLink->property("height", 0.0),
-           0.0,
-           0.0,
-           mLink->property("mount_yaw", 0.0)};
-  mNoise = mLink->property("noise", 0.0);
-  mNoiseBearing = mLink->property("noise_bearing", 0.0);
-  mNoiseYaw = mLink->property("noise_yaw", 0.0);
-}
-
-void FiducialProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void FiducialProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::FiducialReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mItems.clear();
-  for (const auto& mark : reading->marks) {
-    player_fiducial_item_t item = {};
-    item.id = mark.id;
-    item.pose = {mark.X_ST.x_m, mark.X_ST.y_m, 0.0, 0.0, 0.0, mark.X_ST.yaw_rad};
-    // Along the line of sight the distance is uncertain, across it the direction.
-    const double across = mNoiseBearing * std::hypot(mark.X_ST.x_m, mark.X_ST.y_m);
-    const double bearing = std::atan2(mark.X_ST.y_m, mark.X_ST.x_m);
-    item.upose.px = std::hypot(mNoise * std::cos(bearing), across * std::sin(bearing));
-    item.upose.py = std::hypot(mNoise * std::sin(bearing), across * std::cos(bearing));
-    item.upose.pyaw = mNoiseYaw;
-    mItems.push_back(item);
-  }
-}
-
-bool FiducialProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_FIDUCIAL_DATA_SCAN) ||
-         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_FIDUCIAL_REQ_GET_GEOM);
-}
+FiducialProxy::~FiducialProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t FiducialProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("FiducialProxy::GetCount"));
-  return static_cast<uint32_t>(mItems.size());
+  return Look<FiducialReading>([](const auto& r) { return static_cast<uint32_t>(r.marks.size()); },
+                               "FiducialProxy::GetCount");
 }
 
 player_fiducial_item_t FiducialProxy::GetFiducialItem(uint32_t aIndex) const {
   const char* fun = "FiducialProxy::GetFiducialItem";
   const scoped_lock_t lock(LockData(fun));
-  return detail::element_or_zero(fun, "thing in view", aIndex, mItems);
+  player_fiducial_item_t item = {};
+  const auto& marks = mLink->newest.as<FiducialReading>().marks;
+  if (marks.empty()) return item;
+  detail::require_index(fun, "thing in view", aIndex, marks.size());
+  const FiducialReading::Mark& mark = marks[aIndex];
+  item.id = mark.id;
+  item.pose = {mark.X_ST.x_m, mark.X_ST.y_m, 0.0, 0.0, 0.0, mark.X_ST.yaw_rad};
+  // Along the line of sight the distance is uncertain, across it the direction.
+  const double along = mLink->property("noise", 0.0);
+  const double across =
+      mLink->property("noise_bearing", 0.0) * std::hypot(mark.X_ST.x_m, mark.X_ST.y_m);
+  const double bearing = std::atan2(mark.X_ST.y_m, mark.X_ST.x_m);
+  item.upose.px = std::hypot(along * std::cos(bearing), across * std::sin(bearing));
+  item.upose.py = std::hypot(along * std::sin(bearing), across * std::cos(bearing));
+  item.upose.pyaw = mLink->property("noise_yaw", 0.0);
+  return item;
 }
 
-player_pose3d_t FiducialProxy::GetSensorPose() const { return GetVar(mPose); }
+player_pose3d_t FiducialProxy::GetSensorPose() const {
+  const scoped_lock_t lock(LockData());
+  return {mLink->property("mount_x", 0.0),
+          mLink->property("mount_y", 0.0),
+          mLink->property("height", 0.0),
+          0.0,
+          0.0,
+          mLink->property("mount_yaw", 0.0)};
+}
 
 player_bbox3d_t FiducialProxy::GetSensorSize() const {
   const scoped_lock_t lock(LockData("FiducialProxy::GetSensorSize"));

@@ -127,11 +127,6 @@ void Graphics2dProxy::DrawMultiline(player_point_2d_t pts[], int count) {
   for (std::size_t i = 0; i + 1 < points.size(); i += 2) mSheet->line(points[i], points[i + 1]);
 }
 
-bool Graphics2dProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_CMD && aSubtype >= PLAYER_GRAPHICS2D_CMD_CLEAR &&
-         aSubtype <= PLAYER_GRAPHICS2D_CMD_MULTILINE;
-}
-
 }  // namespace PlayerCc
 
 namespace std {

@@ -10,6 +10,9 @@
 #include "sim/devices/gripper.h"
 
 namespace PlayerCc {
+
+using sim::GripperReading;
+
 namespace {
 
 // As Player's drivers for Pioneers have them.
@@ -49,12 +52,6 @@ sim::GripCommand::Action action_of(int code) {
 }  // namespace
 
 GripperProxy::GripperProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  GripperProxy::Subscribe(aIndex);
-}
-
-GripperProxy::~GripperProxy() { GripperProxy::Unsubscribe(); }
-
-void GripperProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "GripperProxy::GripperProxy";
   Attach(PLAYER_GRIPPER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
@@ -69,35 +66,30 @@ void GripperProxy::Subscribe(uint32_t aIndex) {
   mGeom.capacity = static_cast<uint8_t>(std::clamp(mLink->property("capacity", 0.0), 0.0, 255.0));
 }
 
-void GripperProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool GripperProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_GRIPPER_DATA_STATE) ||
-         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_GRIPPER_REQ_GET_GEOM) ||
-         (aType == PLAYER_MSGTYPE_CMD && aSubtype >= PLAYER_GRIPPER_CMD_OPEN &&
-          aSubtype <= PLAYER_GRIPPER_CMD_RETRIEVE);
-}
-
-void GripperProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::GripperReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mState = state_code(reading->state);
-  mBeams = (reading->outer_beam ? kOuterBeam : 0) | (reading->inner_beam ? kInnerBeam : 0);
-  mStored = static_cast<uint32_t>(reading->stored);
-}
+GripperProxy::~GripperProxy() { ClientProxy::Unsubscribe(); }
 
 void GripperProxy::RequestGeometry() {
   const scoped_lock_t lock(LockData("GripperProxy::RequestGeometry"));
 }
 
-uint32_t GripperProxy::GetState() const { return GetVar(mState); }
-uint32_t GripperProxy::GetBeams() const { return GetVar(mBeams); }
+uint32_t GripperProxy::GetState() const {
+  const scoped_lock_t lock(LockData());
+  const auto* reading = mLink->newest.find<GripperReading>();
+  return reading == nullptr ? 0 : state_code(reading->state);
+}
+uint32_t GripperProxy::GetBeams() const {
+  return Look<GripperReading>([](const auto& r) {
+    return (r.outer_beam ? kOuterBeam : 0) | (r.inner_beam ? kInnerBeam : 0);
+  });
+}
 player_pose3d_t GripperProxy::GetPose() const { return GetVar(mGeom.pose); }
 player_bbox3d_t GripperProxy::GetOuterSize() const { return GetVar(mGeom.outer_size); }
 player_bbox3d_t GripperProxy::GetInnerSize() const { return GetVar(mGeom.inner_size); }
 uint32_t GripperProxy::GetNumBeams() const { return GetVar(mGeom.num_beams); }
 uint32_t GripperProxy::GetCapacity() const { return GetVar(mGeom.capacity); }
-uint32_t GripperProxy::GetStored() const { return GetVar(mStored); }
+uint32_t GripperProxy::GetStored() const {
+  return static_cast<uint32_t>(Look(&GripperReading::stored));
+}
 
 void GripperProxy::Grip(const char* aFun, int aAction) {
   const scoped_lock_t lock(LockData(aFun));

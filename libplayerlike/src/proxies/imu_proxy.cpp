@@ -10,54 +10,38 @@
 
 namespace PlayerCc {
 
+using sim::ImuReading;
+
 ImuProxy::ImuProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  ImuProxy::Subscribe(aIndex);
+  Attach(PLAYER_IMU_CODE, aIndex, "ImuProxy::ImuProxy");
 }
 
-ImuProxy::~ImuProxy() { ImuProxy::Unsubscribe(); }
+ImuProxy::~ImuProxy() { ClientProxy::Unsubscribe(); }
 
-void ImuProxy::Subscribe(uint32_t aIndex) { Attach(PLAYER_IMU_CODE, aIndex, "ImuProxy::ImuProxy"); }
-
-void ImuProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void ImuProxy::HandleReading(const detail::Reading& aReading) {
-  if (const auto* compass = dynamic_cast<const sim::CompassReading*>(&aReading.measured)) {
-    mPose.pyaw = compass->heading_rad;
-  }
-  const auto* reading = dynamic_cast<const sim::ImuReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  const auto& a = reading->acceleration_mps2;
-  const auto& w = reading->rate_radps;
-  const auto& b = reading->field_ut;
-  mValues = {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
-             static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
-             static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
-  mPose.pyaw = reading->yaw_rad;
+player_pose3d_t ImuProxy::GetPose() const {
+  // A reading is of one of the two kinds; of the other one there is none, and it counts as 0.
+  const double yaw_rad = Look(&sim::CompassReading::heading_rad) + Look(&sim::ImuReading::yaw_rad);
+  return {0.0, 0.0, 0.0, 0.0, 0.0, yaw_rad};
 }
-
-bool ImuProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  switch (aType) {
-    case PLAYER_MSGTYPE_DATA:
-      return aSubtype == PLAYER_IMU_DATA_STATE || aSubtype == PLAYER_IMU_DATA_CALIB;
-    case PLAYER_MSGTYPE_REQ:
-      return aSubtype == PLAYER_IMU_REQ_SET_DATATYPE ||
-             aSubtype == PLAYER_IMU_REQ_RESET_ORIENTATION || aSubtype == PLAYER_IMU_REQ_RESET_EULER;
-    default:
-      return false;
-  }
+float ImuProxy::GetXAccel() { return GetRawValues().accel_x; }
+float ImuProxy::GetYAccel() { return GetRawValues().accel_y; }
+float ImuProxy::GetZAccel() { return GetRawValues().accel_z; }
+float ImuProxy::GetXGyro() { return GetRawValues().gyro_x; }
+float ImuProxy::GetYGyro() { return GetRawValues().gyro_y; }
+float ImuProxy::GetZGyro() { return GetRawValues().gyro_z; }
+float ImuProxy::GetXMagn() { return GetRawValues().magn_x; }
+float ImuProxy::GetYMagn() { return GetRawValues().magn_y; }
+float ImuProxy::GetZMagn() { return GetRawValues().magn_z; }
+player_imu_data_calib_t ImuProxy::GetRawValues() const {
+  return Look<ImuReading>([](const ImuReading& r) -> player_imu_data_calib_t {
+    const auto& a = r.acceleration_mps2;
+    const auto& w = r.rate_radps;
+    const auto& b = r.field_ut;
+    return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2]),
+            static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2]),
+            static_cast<float>(b[0]), static_cast<float>(b[1]), static_cast<float>(b[2])};
+  });
 }
-
-player_pose3d_t ImuProxy::GetPose() const { return GetVar(mPose); }
-float ImuProxy::GetXAccel() { return GetVar(mValues).accel_x; }
-float ImuProxy::GetYAccel() { return GetVar(mValues).accel_y; }
-float ImuProxy::GetZAccel() { return GetVar(mValues).accel_z; }
-float ImuProxy::GetXGyro() { return GetVar(mValues).gyro_x; }
-float ImuProxy::GetYGyro() { return GetVar(mValues).gyro_y; }
-float ImuProxy::GetZGyro() { return GetVar(mValues).gyro_z; }
-float ImuProxy::GetXMagn() { return GetVar(mValues).magn_x; }
-float ImuProxy::GetYMagn() { return GetVar(mValues).magn_y; }
-float ImuProxy::GetZMagn() { return GetVar(mValues).magn_z; }
-player_imu_data_calib_t ImuProxy::GetRawValues() const { return GetVar(mValues); }
 
 void ImuProxy::SetDatatype(int aDatatype) {
   const char* fun = "ImuProxy::SetDatatype";

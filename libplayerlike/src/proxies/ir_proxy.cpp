@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <iterator>
 #include <ostream>
+#include <vector>
 
 #include "libplayerc++/irproxy.h"
 #include "proxies/link.h"
@@ -10,52 +9,38 @@
 
 namespace PlayerCc {
 
+using detail::count_of_ranges;
+using sim::RangerReading;
+
 IrProxy::IrProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  IrProxy::Subscribe(aIndex);
-}
-
-IrProxy::~IrProxy() { IrProxy::Unsubscribe(); }
-
-void IrProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "IrProxy::IrProxy";
   Attach(PLAYER_IR_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   mPoses = detail::element_poses(mLink->info().properties);
-  mGain = mLink->property("voltage_gain", 0.0);
-  mShift = mLink->property("voltage_shift", 0.0);
 }
 
-void IrProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void IrProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mRanges = reading->ranges_m;
-  mVoltages.clear();
-  std::transform(mRanges.begin(), mRanges.end(), std::back_inserter(mVoltages),
-                 [this](double range) { return sim::infrared_voltage_v(range, mGain, mShift); });
-}
-
-bool IrProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_IR_DATA_RANGES) ||
-         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_IR_REQ_POSE);
-}
+IrProxy::~IrProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t IrProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("IrProxy::GetCount"));
-  return static_cast<uint32_t>(mRanges.size());
+  return Look<RangerReading>(count_of_ranges, "IrProxy::GetCount");
 }
 
 double IrProxy::GetRange(uint32_t aIndex) const {
+  if (const double* range = mElements.Find(aIndex)) return *range;
   const char* fun = "IrProxy::GetRange";
-  const scoped_lock_t lock(LockData(fun));
-  return detail::element_or_zero(fun, "transducer", aIndex, mRanges);
+  const scoped_lock_t lock(mLink->lock_element(fun));
+  return detail::element_or_zero(fun, "transducer", aIndex,
+                                 mLink->newest.as<RangerReading>().ranges_m);
 }
 
 double IrProxy::GetVoltage(uint32_t aIndex) const {
   const char* fun = "IrProxy::GetVoltage";
   const scoped_lock_t lock(LockData(fun));
-  return detail::element_or_zero(fun, "transducer", aIndex, mVoltages);
+  const std::vector<double>& ranges = mLink->newest.as<RangerReading>().ranges_m;
+  const double range = detail::element_or_zero(fun, "transducer", aIndex, ranges);
+  if (ranges.empty()) return 0.0;
+  return sim::infrared_voltage_v(range, mLink->property("voltage_gain", 0.0),
+                                 mLink->property("voltage_shift", 0.0));
 }
 
 uint32_t IrProxy::GetPoseCount() const {

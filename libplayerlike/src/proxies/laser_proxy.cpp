@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -14,113 +15,75 @@
 
 namespace PlayerCc {
 
+using detail::bearing_rad;
+using sim::LaserReading;
+
 namespace {
 
 // What both the S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets.
 constexpr double kRangeResolution_m = 0.001;
 
+uint32_t count(const LaserReading& scan) { return static_cast<uint32_t>(scan.ranges_m.size()); }
+
 }  // namespace
 
 LaserProxy::LaserProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  LaserProxy::Subscribe(aIndex);
-}
-
-LaserProxy::~LaserProxy() { LaserProxy::Unsubscribe(); }
-
-void LaserProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "LaserProxy::LaserProxy";
   Attach(PLAYER_LASER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
-  mNativeCount = mShown = scanner.count;
-  mNativeMin = scanner.least_rad;
-  mNativeRes = scanner.native_rad;
-  mMaxRange = scanner.range_max_m;
-  mFrequency = scanner.frequency_hz;
-  mPose = scanner.pose;
-  mSize = scanner.size;
+  mCount = mShown = scanner.count;
+  mLink->measured = detail::announced_scan(scanner);
+  mLink->show(mLink->measured);
 }
 
-void LaserProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+LaserProxy::~LaserProxy() { ClientProxy::Unsubscribe(); }
 
-void LaserProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::LaserReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  if (reading->ranges_m.size() != mNativeCount) {
+void LaserProxy::HandleReading() {
+  const auto* scan = mLink->newest.find<LaserReading>();
+  if (scan == nullptr) return View();
+  mLink->measured = mLink->newest.reading;
+  if (scan->ranges_m.size() != mCount) {
     // Another geometry than announced: show all of it.
-    mNativeCount = reading->ranges_m.size();
+    mCount = scan->ranges_m.size();
     mFirst = 0;
     mStride = 1;
-    mShown = mNativeCount;
+    mShown = mCount;
   }
-  mNativeMin = reading->angle_min_rad;
-  mNativeRes = reading->resolution_rad;
-  mMaxRange = reading->range_max_m;
-  mScan = reading->ranges_m;
   View();
 }
 
-// Makes the shown ranges from the measured ones.
+// Shows what was measured, or a part of it.
 void LaserProxy::View() {
-  if (mScan.empty()) return;
-  if (mStride == 1 && mShown == mScan.size() && mRangeRes == 0.0) {
-    mRanges = mScan;
-    return;
-  }
-  mRanges.resize(mShown);
-  for (std::size_t i = 0; i < mShown; ++i) {
-    double range = mScan[mFirst + i * mStride];
-    if (mRangeRes > 0.0) range = std::min(std::round(range / mRangeRes) * mRangeRes, mMaxRange);
-    mRanges[i] = range;
-  }
-}
-
-bool LaserProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  switch (aType) {
-    case PLAYER_MSGTYPE_DATA:
-      return aSubtype == PLAYER_LASER_DATA_SCAN;
-    case PLAYER_MSGTYPE_REQ:
-      return aSubtype == PLAYER_LASER_REQ_GET_GEOM || aSubtype == PLAYER_LASER_REQ_SET_CONFIG ||
-             aSubtype == PLAYER_LASER_REQ_GET_CONFIG || aSubtype == PLAYER_LASER_REQ_GET_ID;
-    default:
-      return false;
-  }
-}
-
-// With the client's mutex held, as the next two.
-double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
-  if (mRanges.empty()) return 0.0;
-  if (aIndex >= mRanges.size()) {
-    if (!std::exchange(mHasWarned, true)) {
-      playerlike::warn(std::string(aFun) + ": there is no beam " + std::to_string(aIndex) +
-                       ": the scan has " + std::to_string(mRanges.size()) +
-                       ", counted from 0; beams beyond the last read 0");
+  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return mLink->show(mLink->measured);
+  const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
+  auto shown = detail::part_of(scan, {mFirst, mStride, mShown});
+  for (double& range : shown->ranges_m) {
+    if (mRangeRes > 0.0) {
+      range = std::min(std::round(range / mRangeRes) * mRangeRes, scan.range_max_m);
     }
-    return 0.0;
   }
-  return mRanges[aIndex];
+  mLink->show(shown);
 }
 
-double LaserProxy::Bearing(uint32_t aIndex) const {
-  return mNativeMin + static_cast<double>(mFirst + aIndex * mStride) * mNativeRes;
+// With the client's mutex held.
+double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
+  const std::vector<double>& ranges = mLink->newest.as<LaserReading>().ranges_m;
+  if (aIndex < ranges.size()) return ranges[aIndex];
+  if (!ranges.empty() && !std::exchange(mHasWarned, true)) {
+    playerlike::warn(std::string(aFun) + ": there is no beam " + std::to_string(aIndex) +
+                     ": the scan has " + std::to_string(ranges.size()) +
+                     ", counted from 0; beams beyond the last read 0");
+  }
+  return 0.0;
 }
 
-double LaserProxy::LeastRange(std::size_t aBegin, std::size_t aEnd) const {
-  double least = mMaxRange;
-  for (std::size_t i = aBegin; i < aEnd; ++i) least = std::min(least, mRanges[i]);
-  return least;
-}
+uint32_t LaserProxy::GetCount() const { return Look<LaserReading>(count, "LaserProxy::GetCount"); }
 
-uint32_t LaserProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("LaserProxy::GetCount"));
-  return static_cast<uint32_t>(mRanges.size());
-}
-
-double LaserProxy::GetMaxRange() const { return GetVar(mMaxRange); }
+double LaserProxy::GetMaxRange() const { return Look(&LaserReading::range_max_m); }
 
 double LaserProxy::GetScanRes() const {
-  const scoped_lock_t lock(LockData("LaserProxy::GetScanRes"));
-  return mNativeRes * static_cast<double>(mStride);
+  return Look(&LaserReading::resolution_rad, "LaserProxy::GetScanRes");
 }
 
 double LaserProxy::GetRangeRes() const {
@@ -128,20 +91,23 @@ double LaserProxy::GetRangeRes() const {
   return mRangeRes > 0.0 ? mRangeRes : kRangeResolution_m;
 }
 
-double LaserProxy::GetScanningFrequency() const { return GetVar(mFrequency); }
+double LaserProxy::GetScanningFrequency() const {
+  const scoped_lock_t lock(LockData());
+  return mLink->property("frequency", 0.0);
+}
 
 double LaserProxy::GetMinAngle() const { return GetConfMinAngle(); }
 
 double LaserProxy::GetMaxAngle() const { return GetConfMaxAngle(); }
 
 double LaserProxy::GetConfMinAngle() const {
-  const scoped_lock_t lock(LockData("LaserProxy::GetMinAngle"));
-  return Bearing(0);
+  return Look(&LaserReading::angle_min_rad, "LaserProxy::GetMinAngle");
 }
 
 double LaserProxy::GetConfMaxAngle() const {
-  const scoped_lock_t lock(LockData("LaserProxy::GetMaxAngle"));
-  return mShown > 0 ? Bearing(static_cast<uint32_t>(mShown - 1)) : Bearing(0);
+  return Look<LaserReading>(
+      [this](const auto& scan) { return bearing_rad(scan, mShown > 0 ? mShown - 1 : 0); },
+      "LaserProxy::GetMaxAngle");
 }
 
 bool LaserProxy::IntensityOn() const {
@@ -150,24 +116,32 @@ bool LaserProxy::IntensityOn() const {
 }
 
 player_point_2d_t LaserProxy::GetPoint(uint32_t aIndex) const {
+  const auto point = [aIndex](const LaserReading& scan, double range) -> player_point_2d_t {
+    const double bearing = bearing_rad(scan, aIndex);
+    return {range * std::cos(bearing), range * std::sin(bearing)};
+  };
+  if (const double* range = mElements.Find(aIndex)) {
+    return point(detail::owner_of<LaserReading>(mElements), *range);
+  }
   const char* fun = "LaserProxy::GetPoint";
-  const scoped_lock_t lock(LockData(fun));
-  const double range = CheckedRange(aIndex, fun);
-  const double bearing = Bearing(aIndex);
-  return {range * std::cos(bearing), range * std::sin(bearing)};
+  const scoped_lock_t lock(mLink->lock_element(fun));
+  return point(mLink->newest.as<LaserReading>(), CheckedRange(aIndex, fun));
 }
 
-double LaserProxy::GetRange(uint32_t aIndex) const {
-  const char* fun = "LaserProxy::GetRange";
-  const scoped_lock_t lock(LockData(fun));
-  return CheckedRange(aIndex, fun);
+double LaserProxy::LockedRange(uint32_t aIndex, const char* aFun) const {
+  const scoped_lock_t lock(mLink->lock_element(aFun));
+  return CheckedRange(aIndex, aFun);
 }
 
 double LaserProxy::GetBearing(uint32_t aIndex) const {
+  if (mElements.Find(aIndex) != nullptr) {
+    return bearing_rad(detail::owner_of<LaserReading>(mElements), aIndex);
+  }
   const char* fun = "LaserProxy::GetBearing";
-  const scoped_lock_t lock(LockData(fun));
+  const scoped_lock_t lock(mLink->lock_element(fun));
   static_cast<void>(CheckedRange(aIndex, fun));
-  return aIndex < mRanges.size() ? Bearing(aIndex) : 0.0;
+  const auto& scan = mLink->newest.as<LaserReading>();
+  return aIndex < scan.ranges_m.size() ? bearing_rad(scan, aIndex) : 0.0;
 }
 
 int LaserProxy::GetIntensity(uint32_t aIndex) const {
@@ -190,10 +164,12 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
   playerlike::require_finite(fun,
                              {{"the least angle", aMinAngle}, {"the greatest angle", aMaxAngle}});
   const scoped_lock_t lock(LockData(fun));
+  const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
   // Beams are numbered from the first measured one; a window may reach beyond the scan.
   const detail::BeamWindow window =
-      detail::window_of(fun, aMinAngle, aMaxAngle, aScanRes * 0.01 * M_PI / 180.0, mNativeCount,
-                        mNativeMin, mNativeRes);
+      detail::window_of(fun, aMinAngle, aMaxAngle, aScanRes * 0.01 * M_PI / 180.0, mCount,
+                        scan.angle_min_rad, scan.resolution_rad);
+  mLink->core->begin_change();
   mFirst = window.first;
   mStride = window.stride;
   mShown = window.shown;
@@ -209,7 +185,10 @@ void LaserProxy::RequestID() { const scoped_lock_t lock(LockData("LaserProxy::Re
 
 void LaserProxy::RequestGeom() { const scoped_lock_t lock(LockData("LaserProxy::RequestGeom")); }
 
-player_pose3d_t LaserProxy::GetPose() { return GetVar(mPose); }
+player_pose3d_t LaserProxy::GetPose() {
+  const scoped_lock_t lock(LockData());
+  return detail::scanner_settings(mLink->info().properties).pose;
+}
 
 player_pose3d_t LaserProxy::GetRobotPose() {
   const scoped_lock_t lock(LockData("LaserProxy::GetRobotPose"));
@@ -217,26 +196,28 @@ player_pose3d_t LaserProxy::GetRobotPose() {
   return {pose.x_m, pose.y_m, 0.0, 0.0, 0.0, pose.yaw_rad};
 }
 
-player_bbox3d_t LaserProxy::GetSize() { return GetVar(mSize); }
-
-double LaserProxy::GetMinLeft() const {
-  const scoped_lock_t lock(LockData("LaserProxy::GetMinLeft"));
-  return LeastRange(mRanges.size() / 2, mRanges.size());
+player_bbox3d_t LaserProxy::GetSize() {
+  const scoped_lock_t lock(LockData());
+  return detail::scanner_settings(mLink->info().properties).size;
 }
 
-double LaserProxy::GetMinRight() const {
-  const scoped_lock_t lock(LockData("LaserProxy::GetMinRight"));
-  return LeastRange(0, mRanges.size() / 2);
+double LaserProxy::LeastRange(bool aLeft) const {
+  return Look<LaserReading>(
+      [aLeft](const auto& scan) {
+        const auto middle =
+            scan.ranges_m.begin() + static_cast<std::ptrdiff_t>(scan.ranges_m.size() / 2);
+        const auto begin = aLeft ? middle : scan.ranges_m.begin();
+        const auto end = aLeft ? scan.ranges_m.end() : middle;
+        return std::accumulate(begin, end, scan.range_max_m,
+                               [](double a, double b) { return std::min(a, b); });
+      },
+      aLeft ? "LaserProxy::GetMinLeft" : "LaserProxy::GetMinRight");
 }
 
+double LaserProxy::GetMinLeft() const { return LeastRange(true); }
+double LaserProxy::GetMinRight() const { return LeastRange(false); }
 double LaserProxy::MinLeft() const { return GetMinLeft(); }
 double LaserProxy::MinRight() const { return GetMinRight(); }
-
-double LaserProxy::operator[](uint32_t index) const {
-  const char* fun = "LaserProxy::operator[]";
-  const scoped_lock_t lock(LockData(fun));
-  return CheckedRange(index, fun);
-}
 
 }  // namespace PlayerCc
 

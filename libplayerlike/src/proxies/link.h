@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "devices/client_core.h"
 #include "libplayerc++/clientproxy.h"
@@ -15,17 +16,26 @@ namespace PlayerCc {
 /// it.
 struct ClientProxy::Link final : playerlike::ReadingListener {
   Link(ClientProxy& owner, std::shared_ptr<playerlike::ClientCore> shared)
-      : proxy(owner), core(std::move(shared)) {}
+      : proxy(owner), core(std::move(shared)) {
+    proxy.mElements.Bind(&core->sole_user());
+  }
 
-  void on_reading(const sim::Reading& reading) override;
+  void on_reading(const sim::SharedReading& reading) override;
   void on_round() override;
   std::function<void()> notification() override;
   void on_close() override;
 
-  /// Notes that the program looks at the data; with the client's mutex held.
-  void note_look() const {
-    if (has_readings) core->note_look(valid);
+  /// Locks the client's mutex, and notes that the program looks at the data.
+  /// @throws PlayerError as LockData().
+  [[nodiscard]] scoped_lock_t lock(const char* fun, int looks = 1) const;
+  /// The same without looking whether the client is there.
+  [[nodiscard]] scoped_lock_t lock_anyway(int looks = 1) const;
+  /// Locks for a look that Elements::Find() has not answered.
+  [[nodiscard]] scoped_lock_t lock_element(const char* fun) const {
+    return lock(fun, proxy.mElements.Looks());
   }
+  /// The reading that is shown is another one; with the client's mutex held, after begin_change().
+  void show(const sim::SharedReading& reading);
   /// Notes that there are data of this time [s]; with the client's mutex held.
   void refresh(double time_s);
 
@@ -42,15 +52,24 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   const std::shared_ptr<playerlike::ClientCore> core;
   playerlike::InterfaceBinding binding;
   bool attached = false;
-  bool has_readings = false;  ///< of the device behind it, which it is subscribed to
-  bool valid = false;
+  bool has_readings = false;    ///< of the device behind it, which it is subscribed to
+  playerlike::Newest newest;    ///< as it is shown
+  sim::SharedReading measured;  ///< of rangefinders: what it is a part of
   playerc_device_t device = {};
 };
 
-/// What a device has measured, as the simulator has it; valid as long as that is.
-struct detail::Reading {
-  const sim::Reading& measured;
-};
+template <typename Reading, typename Function>
+auto ClientProxy::Look(Function aLook, const char* aFun) const
+    -> decltype(aLook(std::declval<const Reading&>())) {
+  const scoped_lock_t lock(LockData(aFun));
+  return aLook(mLink->newest.as<Reading>());
+}
+
+template <typename Reading, typename T>
+T ClientProxy::Look(T Reading::*aMember, const char* aFun) const {
+  const scoped_lock_t lock(LockData(aFun));
+  return mLink->newest.as<Reading>().*aMember;
+}
 
 /// What a client's calls go through, for the rest of the library.
 struct detail::CoreAccess {
@@ -67,6 +86,8 @@ struct detail::CoreAccess {
   return binding.driver != nullptr ? "snd" : core.info_of(binding.reading).type;
 }
 
+/// Whether the proxies of an interface understand, or send, such messages.
+[[nodiscard]] bool has_message(uint32_t interface, uint32_t type, uint32_t subtype) noexcept;
 /// Name of an interface by its code; nullptr if there is none.
 [[nodiscard]] const char* interface_name(int code) noexcept;
 /// Code of an interface by its name; nullopt if there is none.

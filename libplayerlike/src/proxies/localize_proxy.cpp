@@ -12,6 +12,10 @@ namespace PlayerCc {
 
 namespace {
 
+player_pose2d_t mean_of(const sim::PoseReading& reading) {
+  return {reading.pose.x_m, reading.pose.y_m, reading.pose.yaw_rad};
+}
+
 // What an index beyond the end is answered with.
 PlayerError no_such(const char* fun, const std::string& what, const std::string& index,
                     std::size_t count, const char* call) {
@@ -24,38 +28,10 @@ PlayerError no_such(const char* fun, const std::string& what, const std::string&
 }  // namespace
 
 LocalizeProxy::LocalizeProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  LocalizeProxy::Subscribe(aIndex);
+  Attach(PLAYER_LOCALIZE_CODE, aIndex, "LocalizeProxy::LocalizeProxy");
 }
 
-LocalizeProxy::~LocalizeProxy() { LocalizeProxy::Unsubscribe(); }
-
-void LocalizeProxy::Subscribe(uint32_t aIndex) {
-  const char* fun = "LocalizeProxy::LocalizeProxy";
-  Attach(PLAYER_LOCALIZE_CODE, aIndex, fun);
-  const scoped_lock_t lock(LockData(fun));
-  mNoise_m = mLink->property("noise", 0.0);
-  mNoiseYaw_rad = mLink->property("noise_yaw", 0.0);
-}
-
-void LocalizeProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void LocalizeProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  player_localize_hypoth_t hypoth = {};
-  hypoth.mean = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};
-  hypoth.cov[0] = mNoise_m * mNoise_m;
-  hypoth.cov[1] = mNoise_m * mNoise_m;
-  hypoth.cov[2] = mNoiseYaw_rad * mNoiseYaw_rad;
-  hypoth.alpha = 1.0;
-  mHypoths.assign(1, hypoth);
-}
-
-bool LocalizeProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  if (aType == PLAYER_MSGTYPE_DATA) return aSubtype == PLAYER_LOCALIZE_DATA_HYPOTHS;
-  return aType == PLAYER_MSGTYPE_REQ && (aSubtype == PLAYER_LOCALIZE_REQ_SET_POSE ||
-                                         aSubtype == PLAYER_LOCALIZE_REQ_GET_PARTICLES);
-}
+LocalizeProxy::~LocalizeProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t LocalizeProxy::GetMapSizeX() const { return GetVar(0U); }
 uint32_t LocalizeProxy::GetMapSizeY() const { return GetVar(0U); }
@@ -66,7 +42,7 @@ uint32_t LocalizeProxy::GetPendingCount() const { return GetVar(0U); }
 
 uint32_t LocalizeProxy::GetHypothCount() const {
   const scoped_lock_t lock(LockData("LocalizeProxy::GetHypothCount"));
-  return static_cast<uint32_t>(mHypoths.size());
+  return mLink->newest.find<sim::PoseReading>() == nullptr ? 0 : 1;
 }
 
 uint32_t LocalizeProxy::GetNumHypoths() const { return GetHypothCount(); }
@@ -74,16 +50,26 @@ uint32_t LocalizeProxy::GetNumHypoths() const { return GetHypothCount(); }
 player_localize_hypoth_t LocalizeProxy::GetHypoth(uint32_t aIndex) const {
   const char* fun = "LocalizeProxy::GetHypoth";
   const scoped_lock_t lock(LockData(fun));
-  if (aIndex >= mHypoths.size()) {
-    throw no_such(fun, "hypothesis", std::to_string(aIndex), mHypoths.size(), "Read()");
+  const auto* reading = mLink->newest.find<sim::PoseReading>();
+  if (reading == nullptr || aIndex > 0) {
+    throw no_such(fun, "hypothesis", std::to_string(aIndex), reading == nullptr ? 0 : 1, "Read()");
   }
-  return mHypoths[aIndex];
+  const double noise_m = mLink->property("noise", 0.0);
+  const double noise_yaw_rad = mLink->property("noise_yaw", 0.0);
+  player_localize_hypoth_t hypoth = {};
+  hypoth.mean = mean_of(*reading);
+  hypoth.cov[0] = noise_m * noise_m;
+  hypoth.cov[1] = noise_m * noise_m;
+  hypoth.cov[2] = noise_yaw_rad * noise_yaw_rad;
+  hypoth.alpha = 1.0;
+  return hypoth;
 }
 
 int LocalizeProxy::GetParticles() {
   const scoped_lock_t lock(LockData("LocalizeProxy::GetParticles"));
-  if (mHypoths.empty()) return -1;
-  mParticles.assign(1, mHypoths.front().mean);
+  const auto* reading = mLink->newest.find<sim::PoseReading>();
+  if (reading == nullptr) return -1;
+  mParticles.assign(1, mean_of(*reading));
   return 0;
 }
 

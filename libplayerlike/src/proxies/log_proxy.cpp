@@ -12,21 +12,10 @@ namespace PlayerCc {
 struct LogProxy::Change : playerlike::LogRequest {};
 
 LogProxy::LogProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  LogProxy::Subscribe(aIndex);
-}
-
-LogProxy::~LogProxy() { LogProxy::Unsubscribe(); }
-
-void LogProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_LOG_CODE, aIndex, "LogProxy::LogProxy", false);
 }
 
-void LogProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool LogProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_REQ && aSubtype >= PLAYER_LOG_REQ_SET_WRITE_STATE &&
-         aSubtype <= PLAYER_LOG_REQ_SET_FILENAME;
-}
+LogProxy::~LogProxy() { ClientProxy::Unsubscribe(); }
 
 void LogProxy::Control(const char* aFun, const Change& aChange) {
   const scoped_lock_t lock(LockData(aFun));

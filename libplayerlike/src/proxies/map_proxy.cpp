@@ -24,21 +24,10 @@ int8_t player_cell(float occupancy) {
 }  // namespace
 
 MapProxy::MapProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  MapProxy::Subscribe(aIndex);
-}
-
-MapProxy::~MapProxy() { MapProxy::Unsubscribe(); }
-
-void MapProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_MAP_CODE, aIndex, "MapProxy::MapProxy", false);
 }
 
-void MapProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool MapProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_REQ &&
-         (aSubtype == PLAYER_MAP_REQ_GET_INFO || aSubtype == PLAYER_MAP_REQ_GET_DATA);
-}
+MapProxy::~MapProxy() { ClientProxy::Unsubscribe(); }
 
 void MapProxy::RequestMap() {
   const char* fun = "MapProxy::RequestMap";

@@ -13,25 +13,13 @@
 namespace PlayerCc {
 
 OpaqueProxy::OpaqueProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  OpaqueProxy::Subscribe(aIndex);
-}
-
-OpaqueProxy::~OpaqueProxy() { OpaqueProxy::Unsubscribe(); }
-
-void OpaqueProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_OPAQUE_CODE, aIndex, "OpaqueProxy::OpaqueProxy");
 }
 
-void OpaqueProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+OpaqueProxy::~OpaqueProxy() { ClientProxy::Unsubscribe(); }
 
-bool OpaqueProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_OPAQUE_DATA_STATE) ||
-         (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_OPAQUE_CMD_DATA) ||
-         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_OPAQUE_REQ_DATA);
-}
-
-void OpaqueProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::OpaqueReading*>(&aReading.measured);
+void OpaqueProxy::HandleReading() {
+  const auto* reading = mLink->newest.find<sim::OpaqueReading>();
   if (reading == nullptr) return;
   if (!mInRound) {
     mInRound = true;

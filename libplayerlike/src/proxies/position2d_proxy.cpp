@@ -14,6 +14,7 @@ namespace PlayerCc {
 using playerlike::require_finite;
 using playerlike::SessionError;
 using playerlike::translated;
+using sim::PoseReading;
 
 struct Position2dProxy::Control {
   // What the motors let the robot do, for drivers.
@@ -50,18 +51,7 @@ struct Position2dProxy::Control {
 };
 
 Position2dProxy::Position2dProxy(PlayerClient* aPc, uint32_t aIndex)
-    : ClientProxy(aPc, aIndex), mData(), mControl(std::make_unique<Control>()) {
-  Position2dProxy::Subscribe(aIndex);
-}
-
-Position2dProxy::Position2dProxy(const Position2dProxy& aOther)
-    : ClientProxy(aOther),
-      mData(aOther.mData),
-      mControl(std::make_unique<Control>(*aOther.mControl)) {}
-
-Position2dProxy::~Position2dProxy() { Position2dProxy::Unsubscribe(); }
-
-void Position2dProxy::Subscribe(uint32_t aIndex) {
+    : ClientProxy(aPc, aIndex), mControl(std::make_unique<Control>()) {
   const char* fun = "Position2dProxy::Position2dProxy";
   Attach(PLAYER_POSITION2D_CODE, aIndex, fun);
   if (mLink->binding.driver != nullptr) {
@@ -83,33 +73,15 @@ void Position2dProxy::Subscribe(uint32_t aIndex) {
   }
 }
 
-void Position2dProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+Position2dProxy::Position2dProxy(const Position2dProxy& aOther)
+    : ClientProxy(aOther), mControl(std::make_unique<Control>(*aOther.mControl)) {}
 
-void Position2dProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::PoseReading*>(&aReading.measured);
+Position2dProxy::~Position2dProxy() { ClientProxy::Unsubscribe(); }
+
+void Position2dProxy::HandleReading() {
+  const auto* reading = mLink->newest.find<PoseReading>();
   if (reading == nullptr) return;
-  mData.pos = {reading->pose.x_m, reading->pose.y_m, reading->pose.yaw_rad};
-  mData.vel = {reading->twist.v_mps, reading->twist.lateral_mps, reading->twist.omega_radps};
-  mData.stall = reading->stalled ? 1 : 0;
   mLink->core->note_pose(mLink->binding.robot, reading->pose, mLink->info().type == "pose");
-}
-
-bool Position2dProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  switch (aType) {
-    case PLAYER_MSGTYPE_DATA:
-      return aSubtype == PLAYER_POSITION2D_DATA_STATE;
-    case PLAYER_MSGTYPE_CMD:
-      return mLink->binding.motion.has_value() &&
-             (aSubtype == PLAYER_POSITION2D_CMD_VEL || aSubtype == PLAYER_POSITION2D_CMD_POS ||
-              aSubtype == PLAYER_POSITION2D_CMD_CAR || aSubtype == PLAYER_POSITION2D_CMD_VEL_HEAD);
-    case PLAYER_MSGTYPE_REQ:
-      return aSubtype == PLAYER_POSITION2D_REQ_GET_GEOM ||
-             aSubtype == PLAYER_POSITION2D_REQ_SET_ODOM ||
-             aSubtype == PLAYER_POSITION2D_REQ_RESET_ODOM ||
-             (aSubtype == PLAYER_POSITION2D_REQ_MOTOR_POWER && mLink->binding.motion.has_value());
-    default:
-      return false;
-  }
 }
 
 void Position2dProxy::SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed) {
@@ -222,13 +194,13 @@ void Position2dProxy::SetOdometry(double aX, double aY, double aYaw) {
   });
 }
 
-double Position2dProxy::GetXPos() const { return GetVar(mData.pos.px); }
-double Position2dProxy::GetYPos() const { return GetVar(mData.pos.py); }
-double Position2dProxy::GetYaw() const { return GetVar(mData.pos.pa); }
-double Position2dProxy::GetXSpeed() const { return GetVar(mData.vel.px); }
-double Position2dProxy::GetYSpeed() const { return GetVar(mData.vel.py); }
-double Position2dProxy::GetYawSpeed() const { return GetVar(mData.vel.pa); }
-bool Position2dProxy::GetStall() const { return GetVar(mData.stall) != 0; }
+double Position2dProxy::GetXPos() const { return Look(&PoseReading::pose).x_m; }
+double Position2dProxy::GetYPos() const { return Look(&PoseReading::pose).y_m; }
+double Position2dProxy::GetYaw() const { return Look(&PoseReading::pose).yaw_rad; }
+double Position2dProxy::GetXSpeed() const { return Look(&PoseReading::twist).v_mps; }
+double Position2dProxy::GetYSpeed() const { return Look(&PoseReading::twist).lateral_mps; }
+double Position2dProxy::GetYawSpeed() const { return Look(&PoseReading::twist).omega_radps; }
+bool Position2dProxy::GetStall() const { return Look(&PoseReading::stalled); }
 
 }  // namespace PlayerCc
 

@@ -7,38 +7,21 @@
 
 namespace PlayerCc {
 
+using sim::BatteryReading;
+
 PowerProxy::PowerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  PowerProxy::Subscribe(aIndex);
-}
-
-PowerProxy::~PowerProxy() { PowerProxy::Unsubscribe(); }
-
-void PowerProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_POWER_CODE, aIndex, "PowerProxy::PowerProxy");
 }
 
-void PowerProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+PowerProxy::~PowerProxy() { ClientProxy::Unsubscribe(); }
 
-void PowerProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::BatteryReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  constexpr double kJoulesPerWh = 3600.0;
-  mVoltage = reading->voltage_v;
-  mPercent = reading->charge_percent;
-  mJoules = reading->energy_wh * kJoulesPerWh;
-  mWatts = reading->power_w;
-  mCharging = reading->status == sim::BatteryStatus::kCharging;
+double PowerProxy::GetCharge() const { return Look(&BatteryReading::voltage_v); }
+double PowerProxy::GetPercent() const { return Look(&BatteryReading::charge_percent); }
+double PowerProxy::GetJoules() const { return Look(&BatteryReading::energy_wh) * 3600.0; }
+double PowerProxy::GetWatts() const { return Look(&BatteryReading::power_w); }
+bool PowerProxy::GetCharging() const {
+  return Look(&BatteryReading::status) == sim::BatteryStatus::kCharging;
 }
-
-bool PowerProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_POWER_DATA_STATE;
-}
-
-double PowerProxy::GetCharge() const { return GetVar(mVoltage); }
-double PowerProxy::GetPercent() const { return GetVar(mPercent); }
-double PowerProxy::GetJoules() const { return GetVar(mJoules); }
-double PowerProxy::GetWatts() const { return GetVar(mWatts); }
-bool PowerProxy::GetCharging() const { return GetVar(mCharging); }
 bool PowerProxy::IsValid() const { return ClientProxy::IsValid(); }
 
 }  // namespace PlayerCc

@@ -8,6 +8,9 @@
 #include "sim/devices/ptz.h"
 
 namespace PlayerCc {
+
+using sim::PtzReading;
+
 namespace {
 
 void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId device,
@@ -18,32 +21,15 @@ void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId de
 }  // namespace
 
 PtzProxy::PtzProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  PtzProxy::Subscribe(aIndex);
-}
-
-PtzProxy::~PtzProxy() { PtzProxy::Unsubscribe(); }
-
-void PtzProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "PtzProxy::PtzProxy";
   Attach(PLAYER_PTZ_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  mState.zoom = mLink->property("field_of_view_max", 0.0);
+  const auto announced = std::make_shared<PtzReading>();
+  announced->view_rad = mLink->property("field_of_view_max", 0.0);
+  mLink->show(announced);
 }
 
-void PtzProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void PtzProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::PtzReading*>(&aReading.measured);
-  if (reading == nullptr) return;
-  mState = {reading->pan_rad, reading->tilt_rad, reading->view_rad, reading->moving};
-}
-
-bool PtzProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_PTZ_DATA_STATE) ||
-         (aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_PTZ_CMD_STATE) ||
-         (aType == PLAYER_MSGTYPE_REQ &&
-          (aSubtype == PLAYER_PTZ_REQ_CONTROL_MODE || aSubtype == PLAYER_PTZ_REQ_STATUS));
-}
+PtzProxy::~PtzProxy() { ClientProxy::Unsubscribe(); }
 
 void PtzProxy::SetCam(double aPan, double aTilt, double aZoom) {
   SetCam(aPan, aTilt, aZoom, 0.0, 0.0);
@@ -75,10 +61,10 @@ void PtzProxy::SelectControlMode(uint32_t aMode) {
                     PlayerError::kBadArgument);
 }
 
-double PtzProxy::GetPan() const { return GetVar(mState.pan); }
-double PtzProxy::GetTilt() const { return GetVar(mState.tilt); }
-double PtzProxy::GetZoom() const { return GetVar(mState.zoom); }
-int PtzProxy::GetStatus() { return GetVar(mState.moving) ? 1 : 0; }
+double PtzProxy::GetPan() const { return Look(&PtzReading::pan_rad); }
+double PtzProxy::GetTilt() const { return Look(&PtzReading::tilt_rad); }
+double PtzProxy::GetZoom() const { return Look(&PtzReading::view_rad); }
+int PtzProxy::GetStatus() { return Look(&PtzReading::moving) ? 1 : 0; }
 
 }  // namespace PlayerCc
 

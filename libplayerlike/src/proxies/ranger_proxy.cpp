@@ -13,135 +13,139 @@
 
 namespace PlayerCc {
 
-RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  RangerProxy::Subscribe(aIndex);
+using sim::LaserReading;
+using sim::RangerReading;
+
+namespace {
+
+const std::vector<double>& ranges_of(const playerlike::Newest& newest) {
+  const auto* scan = newest.find<LaserReading>();
+  return scan != nullptr ? scan->ranges_m : newest.as<RangerReading>().ranges_m;
 }
 
-RangerProxy::~RangerProxy() { RangerProxy::Unsubscribe(); }
+}  // namespace
 
-void RangerProxy::Subscribe(uint32_t aIndex) {
+RangerProxy::RangerProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   const char* fun = "RangerProxy::RangerProxy";
   Attach(PLAYER_RANGER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  mFrequency = mLink->property("frequency", 0.0);
-  mNativeMaxRange = mLink->property("range_max", 0.0);
-  mMaxRange = mNativeMaxRange;
+  mMaxRange = mLink->property("range_max", 0.0);
   mIsLaser = mLink->info().type == "laser";
   if (mIsLaser) {
     const detail::ScannerSettings scanner = detail::scanner_settings(mLink->info().properties);
-    mNativeCount = scanner.count;
-    mNativeMin = scanner.least_rad;
-    mNativeRes = scanner.native_rad;
-    mPose = scanner.pose;
-    mSize = scanner.size;
-    mElements.resize(1);
+    mCount = scanner.count;
+    mPoses.resize(1);
+    mLink->measured = detail::announced_scan(scanner);
   } else {
-    mElements = detail::element_poses(mLink->info().properties);
-    mNativeCount = mElements.size();
-    mFieldOfView = mLink->property("field_of_view", 0.0);
-    mSize = {mLink->robot().width_m, mLink->robot().length_m, mLink->robot().height_m};
+    mPoses = detail::element_poses(mLink->info().properties);
+    mCount = mPoses.size();
+    mLink->measured = std::make_shared<RangerReading>();
   }
-  mShown = mNativeCount;
+  mShown = mCount;
+  mLink->show(mLink->measured);
 }
 
-void RangerProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+RangerProxy::~RangerProxy() { ClientProxy::Unsubscribe(); }
 
-void RangerProxy::HandleReading(const detail::Reading& aReading) {
-  if (const auto* scan = dynamic_cast<const sim::LaserReading*>(&aReading.measured)) {
-    mMeasured = scan->ranges_m;
-    mNativeMin = scan->angle_min_rad;
-    mNativeRes = scan->resolution_rad;
-  } else if (const auto* round = dynamic_cast<const sim::RangerReading*>(&aReading.measured)) {
-    mMeasured = round->ranges_m;
-  } else {
-    return;
+void RangerProxy::HandleReading() {
+  const playerlike::Newest& newest = mLink->newest;
+  if (newest.find<LaserReading>() == nullptr && newest.find<RangerReading>() == nullptr) {
+    return View();
   }
-  if (mMeasured.size() != mNativeCount) {  // another geometry than announced: show all of it
-    mNativeCount = mMeasured.size();
+  mLink->measured = newest.reading;
+  const std::size_t count = ranges_of(newest).size();
+  if (count != mCount) {  // another geometry than announced: show all of it
+    mCount = count;
     mFirst = 0;
     mStride = 1;
-    mShown = mNativeCount;
+    mShown = mCount;
   }
   View();
 }
 
-// Makes the shown ranges from the measured ones.
+// Shows what was measured, or a part of it.
 void RangerProxy::View() {
-  if (mMeasured.empty()) return;
-  mRanges.resize(mShown);
-  for (std::size_t i = 0; i < mShown; ++i) {
-    double range = mMeasured[mFirst + i * mStride];
-    if (mRangeRes > 0.0) range = std::round(range / mRangeRes) * mRangeRes;
-    mRanges[i] = std::min(std::max(range, mMinRange), mMaxRange);
+  mLink->show(mLink->measured);
+  if (mStride == 1 && mShown == mCount && mRangeRes == 0.0 && mMinRange == 0.0 &&
+      mMaxRange == mLink->property("range_max", 0.0)) {
+    return;
   }
-}
-
-bool RangerProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  switch (aType) {
-    case PLAYER_MSGTYPE_DATA:
-      return aSubtype == PLAYER_RANGER_DATA_RANGE;
-    case PLAYER_MSGTYPE_REQ:
-      return aSubtype == PLAYER_RANGER_REQ_GET_GEOM || aSubtype == PLAYER_RANGER_REQ_SET_CONFIG ||
-             aSubtype == PLAYER_RANGER_REQ_GET_CONFIG;
-    default:
-      return false;
+  const auto limit = [this](std::vector<double>& ranges) {
+    for (double& range : ranges) {
+      if (mRangeRes > 0.0) range = std::round(range / mRangeRes) * mRangeRes;
+      range = std::min(std::max(range, mMinRange), mMaxRange);
+    }
+  };
+  if (const auto* scan = mLink->newest.find<LaserReading>()) {
+    const auto shown = detail::part_of(*scan, {mFirst, mStride, mShown});
+    limit(shown->ranges_m);
+    mLink->show(shown);
+  } else {
+    const auto shown = std::make_shared<RangerReading>(mLink->newest.as<RangerReading>());
+    limit(shown->ranges_m);
+    mLink->show(shown);
   }
-}
-
-// With the client's mutex held.
-double RangerProxy::Bearing(std::size_t aShown) const {
-  return mNativeMin + static_cast<double>(mFirst + aShown * mStride) * mNativeRes;
 }
 
 uint32_t RangerProxy::GetElementCount() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetElementCount"));
-  return static_cast<uint32_t>(mElements.size());
+  return static_cast<uint32_t>(mPoses.size());
 }
 
-player_pose3d_t RangerProxy::GetDevicePose() const { return GetVar(mPose); }
+player_pose3d_t RangerProxy::GetDevicePose() const {
+  const scoped_lock_t lock(LockData());
+  if (!mIsLaser) return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  return detail::scanner_settings(mLink->info().properties).pose;
+}
 
-player_bbox3d_t RangerProxy::GetDeviceSize() const { return GetVar(mSize); }
+player_bbox3d_t RangerProxy::GetDeviceSize() const {
+  const scoped_lock_t lock(LockData());
+  if (mIsLaser) return detail::scanner_settings(mLink->info().properties).size;
+  return {mLink->robot().width_m, mLink->robot().length_m, mLink->robot().height_m};
+}
 
 player_pose3d_t RangerProxy::GetElementPose(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetElementPose";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "element", aIndex, mElements.size());
-  return mElements[aIndex];
+  detail::require_index(fun, "element", aIndex, mPoses.size());
+  return mPoses[aIndex];
 }
 
 player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetElementSize";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "element", aIndex, mElements.size());
-  return mIsLaser ? mSize : player_bbox3d_t{0.0, 0.0, 0.0};
+  detail::require_index(fun, "element", aIndex, mPoses.size());
+  if (!mIsLaser) return {0.0, 0.0, 0.0};
+  return detail::scanner_settings(mLink->info().properties).size;
 }
 
 uint32_t RangerProxy::GetRangeCount() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetRangeCount"));
-  return static_cast<uint32_t>(mRanges.size());
+  return static_cast<uint32_t>(ranges_of(mLink->newest).size());
 }
 
-double RangerProxy::GetRange(uint32_t aIndex) const {
+double RangerProxy::LockedRange(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetRange";
-  const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "range", aIndex, mRanges.size());
-  return mRanges[aIndex];
+  const scoped_lock_t lock(mLink->lock_element(fun));
+  const std::vector<double>& ranges = ranges_of(mLink->newest);
+  detail::require_index(fun, "range", aIndex, ranges.size());
+  return ranges[aIndex];
 }
-
-double RangerProxy::operator[](uint32_t aIndex) const { return GetRange(aIndex); }
 
 uint32_t RangerProxy::GetPointCount() const { return GetRangeCount(); }
 
 player_point_3d_t RangerProxy::GetPoint(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetPoint";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "point", aIndex, mRanges.size());
-  const double range = mRanges[aIndex];
+  const std::vector<double>& ranges = ranges_of(mLink->newest);
+  detail::require_index(fun, "point", aIndex, ranges.size());
+  const double range = ranges[aIndex];
   if (mIsLaser) {
-    const double bearing = Bearing(aIndex);
+    const double bearing = detail::bearing_rad(mLink->newest.as<LaserReading>(), aIndex);
     return {range * std::cos(bearing), range * std::sin(bearing), 0.0};
   }
-  const player_pose3d_t element = aIndex < mElements.size() ? mElements[aIndex] : mPose;
+  const player_pose3d_t element =
+      aIndex < mPoses.size() ? mPoses[aIndex] : player_pose3d_t{0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   return {element.px + range * std::cos(element.pyaw), element.py + range * std::sin(element.pyaw),
           element.pz};
 }
@@ -189,13 +193,16 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
   }
   const scoped_lock_t lock(LockData(fun));
   if (mIsLaser) {
-    const detail::BeamWindow window = detail::window_of(fun, aMinAngle, aMaxAngle, aAngularRes,
-                                                        mNativeCount, mNativeMin, mNativeRes);
+    const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
+    const detail::BeamWindow window = detail::window_of(
+        fun, aMinAngle, aMaxAngle, aAngularRes, mCount, scan.angle_min_rad, scan.resolution_rad);
     mFirst = window.first;
     mStride = window.stride;
     mShown = window.shown;
   }
-  mMaxRange = aMaxRange > 0.0 ? std::min(aMaxRange, mNativeMaxRange) : mNativeMaxRange;
+  const double most = mLink->property("range_max", 0.0);
+  mLink->core->begin_change();
+  mMaxRange = aMaxRange > 0.0 ? std::min(aMaxRange, most) : most;
   mMinRange = std::min(aMinRange, mMaxRange);
   mRangeRes = aRangeRes;
   View();
@@ -212,23 +219,31 @@ void RangerProxy::RequestConfigure() {
 
 double RangerProxy::GetMinAngle() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetMinAngle"));
-  return mIsLaser ? Bearing(0) : -0.5 * mFieldOfView;
+  return mIsLaser ? mLink->newest.as<LaserReading>().angle_min_rad
+                  : -0.5 * mLink->property("field_of_view", 0.0);
 }
 
 double RangerProxy::GetMaxAngle() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetMaxAngle"));
-  return mIsLaser ? Bearing(mShown > 0 ? mShown - 1 : 0) : 0.5 * mFieldOfView;
+  return mIsLaser
+             ? detail::bearing_rad(mLink->newest.as<LaserReading>(), mShown > 0 ? mShown - 1 : 0)
+             : 0.5 * mLink->property("field_of_view", 0.0);
 }
 
 double RangerProxy::GetAngularRes() const {
   const scoped_lock_t lock(LockData("RangerProxy::GetAngularRes"));
-  return mIsLaser ? mNativeRes * static_cast<double>(mStride) : mFieldOfView;
+  return mIsLaser ? mLink->newest.as<LaserReading>().resolution_rad
+                  : mLink->property("field_of_view", 0.0);
 }
 
 double RangerProxy::GetMinRange() const { return GetVar(mMinRange); }
 double RangerProxy::GetMaxRange() const { return GetVar(mMaxRange); }
 double RangerProxy::GetRangeRes() const { return GetVar(mRangeRes); }
-double RangerProxy::GetFrequency() const { return GetVar(mFrequency); }
+
+double RangerProxy::GetFrequency() const {
+  const scoped_lock_t lock(LockData());
+  return mLink->property("frequency", 0.0);
+}
 
 }  // namespace PlayerCc
 

@@ -12,6 +12,7 @@
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/link.h"
+#include "sim/devices/rangers.h"
 
 /// What the proxies of sensors with several elements have in common.
 namespace PlayerCc::detail {
@@ -34,6 +35,11 @@ T element_or_zero(const char* fun, const char* what, uint32_t index, const std::
   if (list.empty()) return T{};
   require_index(fun, what, index, list.size());
   return list[index];
+}
+
+/// How many ranges a reading has.
+inline uint32_t count_of_ranges(const sim::RangerReading& reading) {
+  return static_cast<uint32_t>(reading.ranges_m.size());
 }
 
 /// One of a device's settings; 0 if it has none of that name.

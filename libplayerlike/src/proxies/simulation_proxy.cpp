@@ -43,21 +43,10 @@ void require_value(const char* fun, const void* value) {
 }  // namespace
 
 SimulationProxy::SimulationProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  SimulationProxy::Subscribe(aIndex);
-}
-
-SimulationProxy::~SimulationProxy() { SimulationProxy::Unsubscribe(); }
-
-void SimulationProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_SIMULATION_CODE, aIndex, "SimulationProxy::SimulationProxy", false);
 }
 
-void SimulationProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool SimulationProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_REQ && aSubtype >= PLAYER_SIMULATION_REQ_GET_POSE2D &&
-         aSubtype <= PLAYER_SIMULATION_REQ_SET_PROPERTY;
-}
+SimulationProxy::~SimulationProxy() { ClientProxy::Unsubscribe(); }
 
 // With the client's mutex held.
 template <typename Action>

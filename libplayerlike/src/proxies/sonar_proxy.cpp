@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <ostream>
+#include <vector>
 
 #include "libplayerc++/sonarproxy.h"
 #include "proxies/link.h"
@@ -8,39 +9,27 @@
 
 namespace PlayerCc {
 
+using detail::count_of_ranges;
+using sim::RangerReading;
+
 SonarProxy::SonarProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  SonarProxy::Subscribe(aIndex);
-}
-
-SonarProxy::~SonarProxy() { SonarProxy::Unsubscribe(); }
-
-void SonarProxy::Subscribe(uint32_t aIndex) {
   const char* fun = "SonarProxy::SonarProxy";
   Attach(PLAYER_SONAR_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   mPoses = detail::element_poses(mLink->info().properties);
 }
 
-void SonarProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-void SonarProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::RangerReading*>(&aReading.measured);
-  if (reading != nullptr) mRanges = reading->ranges_m;
-}
-
-bool SonarProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return (aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_SONAR_DATA_RANGES) ||
-         (aType == PLAYER_MSGTYPE_REQ && aSubtype == PLAYER_SONAR_REQ_GET_GEOM);
-}
+SonarProxy::~SonarProxy() { ClientProxy::Unsubscribe(); }
 
 uint32_t SonarProxy::GetCount() const {
-  const scoped_lock_t lock(LockData("SonarProxy::GetCount"));
-  return static_cast<uint32_t>(mRanges.size());
+  return Look<RangerReading>(count_of_ranges, "SonarProxy::GetCount");
 }
 
 double SonarProxy::GetScan(uint32_t aIndex) const {
-  const scoped_lock_t lock(LockData("SonarProxy::GetScan"));
-  return aIndex < mRanges.size() ? mRanges[aIndex] : -1.0;
+  if (const double* range = mElements.Find(aIndex)) return *range;
+  const scoped_lock_t lock(mLink->lock_element("SonarProxy::GetScan"));
+  const std::vector<double>& ranges = mLink->newest.as<RangerReading>().ranges_m;
+  return aIndex < ranges.size() ? ranges[aIndex] : -1.0;
 }
 
 double SonarProxy::operator[](uint32_t aIndex) const { return GetScan(aIndex); }

@@ -31,20 +31,10 @@ std::string sayable(std::string_view text) {
 }  // namespace
 
 SpeechProxy::SpeechProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
-  SpeechProxy::Subscribe(aIndex);
-}
-
-SpeechProxy::~SpeechProxy() { SpeechProxy::Unsubscribe(); }
-
-void SpeechProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_SPEECH_CODE, aIndex, "SpeechProxy::SpeechProxy", false);
 }
 
-void SpeechProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
-
-bool SpeechProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_CMD && aSubtype == PLAYER_SPEECH_CMD_SAY;
-}
+SpeechProxy::~SpeechProxy() { ClientProxy::Unsubscribe(); }
 
 void SpeechProxy::Say(std::string aStr) {
   const char* fun = "SpeechProxy::Say";

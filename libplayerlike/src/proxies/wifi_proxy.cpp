@@ -28,19 +28,13 @@ char* text_of(uint8_t (&bytes)[size]) {
 }  // namespace
 
 WiFiProxy::WiFiProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex), mOwnIp() {
-  WiFiProxy::Subscribe(aIndex);
-}
-
-WiFiProxy::~WiFiProxy() { WiFiProxy::Unsubscribe(); }
-
-void WiFiProxy::Subscribe(uint32_t aIndex) {
   Attach(PLAYER_WIFI_CODE, aIndex, "WiFiProxy::WiFiProxy");
 }
 
-void WiFiProxy::Unsubscribe() { ClientProxy::Unsubscribe(); }
+WiFiProxy::~WiFiProxy() { ClientProxy::Unsubscribe(); }
 
-void WiFiProxy::HandleReading(const detail::Reading& aReading) {
-  const auto* reading = dynamic_cast<const sim::WifiReading*>(&aReading.measured);
+void WiFiProxy::HandleReading() {
+  const auto* reading = mLink->newest.find<sim::WifiReading>();
   if (reading == nullptr) return;
   mLinks.clear();
   for (const auto& link : reading->links) {
@@ -58,10 +52,6 @@ void WiFiProxy::HandleReading(const detail::Reading& aReading) {
   const std::size_t length = std::min(reading->own_ip.size(), sizeof mOwnIp - 1);
   std::copy_n(reading->own_ip.begin(), length, mOwnIp);
   mOwnIp[length] = '\0';
-}
-
-bool WiFiProxy::IsCapable(uint32_t aType, uint32_t aSubtype) const {
-  return aType == PLAYER_MSGTYPE_DATA && aSubtype == PLAYER_WIFI_DATA_STATE;
 }
 
 // With the client's mutex held.

@@ -453,10 +453,10 @@ int SocketSession::take(ReadingSink& sink) {
     lock.lock();
   }
   round_ = false;
-  const std::vector<protocol::DecodedReading> readings = std::exchange(readings_, {});
+  std::vector<protocol::DecodedReading> readings = std::exchange(readings_, {});
   lock.unlock();
-  for (const protocol::DecodedReading& reading : readings) {
-    sink.on_reading(reading.device, *reading.reading);
+  for (protocol::DecodedReading& reading : readings) {
+    sink.on_reading(reading.device, std::move(reading.reading));
   }
   return static_cast<int>(readings.size());
 }

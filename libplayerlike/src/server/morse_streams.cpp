@@ -82,10 +82,10 @@ class StreamConnection : public Handler {
 
 /// Keeps readings, to be encoded when the simulation is no longer locked.
 struct ReadingKeeper final : ReadingSink {
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading) override {
-    readings.push_back(reading.clone());
+  void on_reading(DeviceId /*device*/, const sim::SharedReading& reading) override {
+    readings.push_back(reading);
   }
-  std::vector<std::unique_ptr<sim::Reading>> readings;
+  std::vector<sim::SharedReading> readings;
 };
 
 }  // namespace

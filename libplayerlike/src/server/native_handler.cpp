@@ -411,10 +411,10 @@ class NativeHandler::ReadingList final : public ReadingSink {
   ReadingList(const std::vector<RobotInfo>& robots, protocol::Encoding encoding)
       : robots_(robots), encoding_(encoding) {}
 
-  void on_reading(DeviceId device, const sim::Reading& reading) override {
+  void on_reading(DeviceId device, const sim::SharedReading& reading) override {
     const RobotInfo& robot = robots_[static_cast<std::size_t>(device.robot)];
     const DeviceInfo& info = robot.devices[static_cast<std::size_t>(device.device)];
-    list_.push_back(protocol::encode_reading(device, info.type, reading, encoding_));
+    list_.push_back(protocol::encode_reading(device, info.type, *reading, encoding_));
   }
   [[nodiscard]] json take() { return std::move(list_); }
 

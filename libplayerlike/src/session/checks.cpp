@@ -7,8 +7,12 @@
 namespace playerlike {
 
 const DeviceInfo& require_device(const std::vector<RobotInfo>& robots, DeviceId device) {
-  for (const RobotInfo& robot : robots) {
-    for (const DeviceInfo& info : robot.devices) {
+  const auto robot = static_cast<std::size_t>(device.robot);
+  if (robot < robots.size()) {
+    const std::vector<DeviceInfo>& devices = robots[robot].devices;
+    const auto number = static_cast<std::size_t>(device.device);
+    if (number < devices.size() && devices[number].id == device) return devices[number];
+    for (const DeviceInfo& info : devices) {
       if (info.id == device) return info;
     }
   }

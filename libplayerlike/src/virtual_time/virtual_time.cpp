@@ -593,12 +593,13 @@ void note_wait() noexcept {
   state.yields = 0;
 }
 
-void note_look() noexcept {
+void note_looks(int count) noexcept {
   ThreadState& thread = state;
-  ++thread.looks;
+  const bool turn = thread.looks / kLooksATurn != (thread.looks + count) / kLooksATurn;
+  thread.looks += count;
   const bool alone = !background.load(std::memory_order_relaxed);
   const long long free_looks = alone ? kFreeLooksAlone : kFreeLooks;
-  if (thread.looks % kLooksATurn == 0 && thread.inside == 0) let_others_go_on();
+  if (turn && thread.inside == 0) let_others_go_on();
   if (thread.looks < free_looks) return;
   thread.looks = free_looks - (alone ? kLooksAStepAlone : kLooksAStep);
   TurnClock* const clock = attached.load(std::memory_order_acquire);

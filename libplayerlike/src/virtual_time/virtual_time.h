@@ -71,12 +71,12 @@ void set_time_before_ns(long long now_ns) noexcept;
 void remember_thread();
 /// The calling thread waits for simulated time, and so takes part in the lockstep from now on.
 void note_wait() noexcept;
-/// The calling thread has looked at data or given a command. One that does nothing else for very
-/// long lets a step pass now and then: what it waits for may change in the background, and if
-/// nobody reads there, its run is to end all the same.
-/// Not to be called with a lock held that others need.
-void note_look() noexcept;
-/// From now on there are threads that read in the background, see note_look().
+/// The calling thread has looked at data, or given commands, so often. One that does nothing else
+/// for very long lets a step pass now and then: what it waits for may change in the background, and
+/// if nobody reads there, its run is to end all the same. Not to be called with a lock held that
+/// others need.
+void note_looks(int count = 1) noexcept;
+/// From now on there are threads that read in the background, see note_looks().
 void note_background() noexcept;
 /// The calling thread's variables are destroyed. It ends, and nothing is virtual for it any more,
 /// unless it is the whole process that ends.

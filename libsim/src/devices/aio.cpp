@@ -42,7 +42,7 @@ bool has_value(const Device* device, int index) {
 }  // namespace
 
 Aio::Aio(std::string name, const AioParams& params, RandomStream noise)
-    : Sensor(std::move(name), "aio", params.frequency_hz),
+    : SensorOf(std::move(name), "aio", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)),
       wired_(params.inputs.size(), nullptr),
@@ -106,13 +106,13 @@ double Aio::voltage_v(std::size_t input, const StepContext& context) const {
 }
 
 void Aio::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.inputs_v.resize(params_.inputs.size());
+  auto& reading = next(context);
+  reading.inputs_v.resize(params_.inputs.size());
   for (std::size_t i = 0; i < params_.inputs.size(); ++i) {
-    reading_.inputs_v[i] = voltage_v(i, context);
-    reading_.inputs_v[i] += noise_.gaussian(params_.noise_v);
+    reading.inputs_v[i] = voltage_v(i, context);
+    reading.inputs_v[i] += noise_.gaussian(params_.noise_v);
   }
-  reading_.outputs_v = outputs_v_;
+  reading.outputs_v = outputs_v_;
 }
 
 void Aio::hash(StateHash& hash) const {

@@ -37,12 +37,12 @@ bool is_on_dock(const DockDescription& dock, const Vec2& p_W) {
 }
 
 Battery::Battery(std::string name, const BatteryParams& params, double wheel_separation_m)
-    : Sensor(std::move(name), "battery", params.frequency_hz),
+    : SensorOf(std::move(name), "battery", params.frequency_hz),
       params_(params),
       wheel_separation_m_(wheel_separation_m),
       energy_j_(params.capacity_wh * kJoulesPerWh * params.initial_charge_percent / 100.0) {
   SIM_ASSERT(params.capacity_wh > 0.0);
-  reading_.capacity_wh = params.capacity_wh;
+  edit().capacity_wh = params.capacity_wh;
 }
 
 void Battery::integrate(const StepContext& context) {
@@ -63,17 +63,17 @@ void Battery::integrate(const StepContext& context) {
 }
 
 void Battery::measure(const StepContext& context) {
-  stamp(context, reading_);
+  auto& reading = next(context);
   const double capacity_j = params_.capacity_wh * kJoulesPerWh;
   const double charge = energy_j_ / capacity_j;
-  reading_.charge_percent = 100.0 * charge;
-  reading_.voltage_v = battery_voltage_v(params_, charge);
-  reading_.energy_wh = energy_j_ / kJoulesPerWh;
-  reading_.power_w = power_w_;
+  reading.charge_percent = 100.0 * charge;
+  reading.voltage_v = battery_voltage_v(params_, charge);
+  reading.energy_wh = energy_j_ / kJoulesPerWh;
+  reading.power_w = power_w_;
   if (!docked_) {
-    reading_.status = BatteryStatus::kDischarging;
+    reading.status = BatteryStatus::kDischarging;
   } else {
-    reading_.status = energy_j_ >= capacity_j ? BatteryStatus::kCharged : BatteryStatus::kCharging;
+    reading.status = energy_j_ >= capacity_j ? BatteryStatus::kCharged : BatteryStatus::kCharging;
   }
 }
 

@@ -16,7 +16,9 @@ bool is_lit(double period_s, double duty_cycle, SimTime time_ns) {
 }
 
 Blinkenlight::Blinkenlight(std::string name, const BlinkenlightParams& params)
-    : Sensor(std::move(name), "blinkenlight", params.frequency_hz), params_(params), now_(params) {}
+    : SensorOf(std::move(name), "blinkenlight", params.frequency_hz),
+      params_(params),
+      now_(params) {}
 
 std::optional<std::string> Blinkenlight::apply(const Command& command) {
   const auto* change = std::get_if<LightCommand>(&command);
@@ -36,12 +38,12 @@ std::optional<std::string> Blinkenlight::apply(const Command& command) {
 }
 
 void Blinkenlight::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.enabled = now_.enabled;
-  reading_.colour = now_.colour;
-  reading_.period_s = now_.period_s;
-  reading_.duty_cycle = now_.duty_cycle;
-  reading_.lit = lit(context.now_ns);
+  auto& reading = next(context);
+  reading.enabled = now_.enabled;
+  reading.colour = now_.colour;
+  reading.period_s = now_.period_s;
+  reading.duty_cycle = now_.duty_cycle;
+  reading.lit = lit(context.now_ns);
 }
 
 void Blinkenlight::hash(StateHash& hash) const {

@@ -73,7 +73,7 @@ void group(std::vector<Piece>& pieces) {
 }  // namespace
 
 Blobfinder::Blobfinder(std::string name, const BlobfinderParams& params, RandomStream noise)
-    : Sensor(std::move(name), "blobfinder", params.frequency_hz),
+    : SensorOf(std::move(name), "blobfinder", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)),
       view_(std::make_unique<ColumnView>(params)) {}
@@ -86,10 +86,10 @@ std::optional<std::string> Blobfinder::connect(std::string_view robot,
 }
 
 void Blobfinder::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.width = params_.width;
-  reading_.height = params_.height;
-  reading_.blobs.clear();
+  auto& reading = next(context);
+  reading.width = params_.width;
+  reading.height = params_.height;
+  reading.blobs.clear();
   view_->look(context);
 
   std::vector<Piece> pieces;
@@ -140,9 +140,9 @@ void Blobfinder::measure(const StepContext& context) {
     if (params_.noise_m > 0.0) {
       blob.range_m = std::max(0.0, blob.range_m + noise_.gaussian(params_.noise_m));
     }
-    reading_.blobs.push_back(blob);
+    reading.blobs.push_back(blob);
   }
-  std::stable_sort(reading_.blobs.begin(), reading_.blobs.end(),
+  std::stable_sort(reading.blobs.begin(), reading.blobs.end(),
                    [](const auto& a, const auto& b) { return a.right > b.right; });
 }
 
@@ -150,7 +150,7 @@ void Blobfinder::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
   // What colours things have now is told nowhere else.
-  for (const BlobfinderReading::Blob& blob : reading_.blobs) {
+  for (const BlobfinderReading::Blob& blob : reading().blobs) {
     for (const int x : {int{blob.colour.r}, int{blob.colour.g}, int{blob.colour.b}, blob.area,
                         blob.x, blob.y, blob.left, blob.right, blob.top, blob.bottom}) {
       hash.add(x);

@@ -80,10 +80,10 @@ void press_segments(const std::vector<BumperSegment>& segments, double reach_m, 
 }
 
 Bumper::Bumper(std::string name, const BumperParams& params, const Polygon& footprint)
-    : Sensor(std::move(name), "bumper", params.frequency_hz), params_(params) {
+    : SensorOf(std::move(name), "bumper", params.frequency_hz), params_(params) {
   if (params_.segments.empty()) params_.segments = segments_round(footprint);
   pressed_.assign(params_.segments.size(), 0);
-  reading_.pressed = pressed_;
+  edit().pressed = pressed_;
 }
 
 void Bumper::integrate(const StepContext& context) {
@@ -97,8 +97,8 @@ void Bumper::integrate(const StepContext& context) {
 }
 
 void Bumper::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.pressed = pressed_;
+  auto& reading = next(context);
+  reading.pressed = pressed_;
   std::fill(pressed_.begin(), pressed_.end(), std::uint8_t{0});
 }
 

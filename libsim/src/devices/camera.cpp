@@ -62,10 +62,11 @@ double brightness(double depth_m, double range_max_m) {
 }
 
 Camera::Camera(std::string name, const CameraParams& params)
-    : Sensor(std::move(name), "camera", params.frequency_hz),
+    : SensorOf(std::move(name), "camera", params.frequency_hz),
       view_(std::make_unique<ColumnView>(params)) {
-  reading_.width = params.width;
-  reading_.height = params.height;
+  auto& first = edit();
+  first.width = params.width;
+  first.height = params.height;
 }
 
 Camera::~Camera() = default;
@@ -75,7 +76,7 @@ std::optional<std::string> Camera::connect(std::string_view robot, const DeviceD
 }
 
 void Camera::measure(const StepContext& context) {
-  stamp(context, reading_);
+  auto& reading = next(context, Contents::kAnyEarlier);
   view_->look(context);
   const ViewParams& params = view_->params();
   const PinholeView& pinhole = view_->pinhole();
@@ -84,7 +85,7 @@ void Camera::measure(const StepContext& context) {
       pinhole.field_of_view_rad != background_view_rad_) {
     paint_background();
   }
-  reading_.pixels = background_;
+  reading.pixels = background_;
   const double focal_px = pinhole.focal_px();
   for (const ColumnView::Run& run : view_->runs()) {
     const PhysicsWorld::Face& face = view_->faces()[run.face];
@@ -93,7 +94,7 @@ void Camera::measure(const StepContext& context) {
     const double light =
         brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
     const Colour colour = scaled(shown_colour(face, context.world), light);
-    std::uint8_t* pixel = reading_.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
+    std::uint8_t* pixel = reading.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;
     for (int row = run.top; row < run.bottom; ++row) {
       pixel[0] = colour.r;
@@ -126,7 +127,7 @@ void Camera::paint_background() {
 
 void Camera::hash(StateHash& hash) const {
   Sensor::hash(hash);
-  hash.add_bytes(reading_.pixels.data(), reading_.pixels.size());
+  hash.add_bytes(reading().pixels.data(), reading().pixels.size());
 }
 
 namespace {

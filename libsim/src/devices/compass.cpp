@@ -12,14 +12,14 @@ double compass_heading_rad(const Pose& X_WB, double north_rad) {
 }
 
 Compass::Compass(std::string name, const CompassParams& params, RandomStream noise)
-    : Sensor(std::move(name), "compass", params.frequency_hz),
+    : SensorOf(std::move(name), "compass", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)) {}
 
 void Compass::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.heading_rad = normalize_angle(compass_heading_rad(context.body.X_WB, params_.north_rad) +
-                                         noise_.gaussian(params_.noise_rad));
+  next(context).heading_rad =
+      normalize_angle(compass_heading_rad(context.body.X_WB, params_.north_rad) +
+                      noise_.gaussian(params_.noise_rad));
 }
 
 void Compass::hash(StateHash& hash) const {

@@ -10,7 +10,7 @@
 namespace sim {
 
 CollisionSensor::CollisionSensor(std::string name, const CollisionParams& params)
-    : Sensor(std::move(name), "collision", params.frequency_hz) {}
+    : SensorOf(std::move(name), "collision", params.frequency_hz) {}
 
 void CollisionSensor::integrate(const StepContext& context) {
   const auto note = [&](const PhysicsWorld::Contact& contact) {
@@ -28,9 +28,9 @@ void CollisionSensor::integrate(const StepContext& context) {
 }
 
 void CollisionSensor::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.objects.swap(touched_);
-  reading_.collision = !reading_.objects.empty();
+  auto& reading = next(context);
+  reading.objects.swap(touched_);
+  reading.collision = !reading.objects.empty();
   touched_.clear();
 }
 

@@ -36,7 +36,7 @@ bool level(DigitalSignal signal, const StepContext& context) {
 }  // namespace
 
 Dio::Dio(std::string name, const DioParams& params)
-    : Sensor(std::move(name), "dio", params.frequency_hz),
+    : SensorOf(std::move(name), "dio", params.frequency_hz),
       params_(params),
       wired_(params.inputs.size(), nullptr) {
   SIM_ASSERT(params.inputs.size() <= DioParams::kMaxLines);
@@ -70,9 +70,9 @@ std::optional<std::string> Dio::apply(const Command& command) {
 }
 
 void Dio::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.input_count = static_cast<int>(params_.inputs.size());
-  reading_.inputs = 0;
+  auto& reading = next(context);
+  reading.input_count = static_cast<int>(params_.inputs.size());
+  reading.inputs = 0;
   for (std::size_t i = 0; i < params_.inputs.size(); ++i) {
     bool high = false;
     if (const auto* constant = std::get_if<bool>(&params_.inputs[i])) high = *constant;
@@ -82,10 +82,10 @@ void Dio::measure(const StepContext& context) {
     if (const auto* wire = std::get_if<Wire>(&params_.inputs[i])) {
       high = wired_[i] != nullptr && wired_[i]->output(wire->index);
     }
-    if (high) reading_.inputs |= std::uint32_t{1} << i;
+    if (high) reading.inputs |= std::uint32_t{1} << i;
   }
-  reading_.output_count = params_.outputs;
-  reading_.outputs = outputs_;
+  reading.output_count = params_.outputs;
+  reading.outputs = outputs_;
 }
 
 void Dio::hash(StateHash& hash) const {

@@ -17,17 +17,17 @@ double distance2(const FiducialReading::Mark& mark) { return mark.X_ST.position(
 }  // namespace
 
 FiducialFinder::FiducialFinder(std::string name, const FiducialParams& params, RandomStream noise)
-    : Sensor(std::move(name), "fiducial", params.frequency_hz),
+    : SensorOf(std::move(name), "fiducial", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)) {}
 
 void FiducialFinder::measure(const StepContext& context) {
   using Contact = PhysicsWorld::Contact;
-  stamp(context, reading_);
-  reading_.marks.clear();
+  auto& reading = next(context);
+  reading.marks.clear();
   const Pose X_WS = context.body.X_WB * params_.X_BS;
   const Pose X_SW = X_WS.inverse();
-  reading_.X_WS = X_WS;
+  reading.X_WS = X_WS;
   const auto look_at = [&](int id, const Pose& X_WT, double height_m, const Contact& target) {
     if (id == 0 || height_m <= params_.height_m) return;
     if ((X_WT.position() - X_WS.position()).squaredNorm() >
@@ -48,7 +48,7 @@ void FiducialFinder::measure(const StepContext& context) {
     mark.id = distance_m <= params_.range_max_id_m ? id : 0;
     mark.X_ST = {measured_m * std::cos(direction), measured_m * std::sin(direction),
                  normalize_angle(X_ST.yaw_rad + noise_.gaussian(params_.noise_yaw_rad))};
-    reading_.marks.push_back(mark);
+    reading.marks.push_back(mark);
   };
   const auto& robots = context.world.robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -64,7 +64,7 @@ void FiducialFinder::measure(const StepContext& context) {
     look_at(o.fiducial, {o.center.x(), o.center.y(), o.yaw_rad}, o.height_m,
             {-1, Contact::Kind::kObstacle, static_cast<int>(i)});
   }
-  std::stable_sort(reading_.marks.begin(), reading_.marks.end(),
+  std::stable_sort(reading.marks.begin(), reading.marks.end(),
                    [](const auto& a, const auto& b) { return distance2(a) < distance2(b); });
 }
 

@@ -75,16 +75,16 @@ Vec2 utm_m(const GeoPoint& point, int zone) {
 }
 
 Gps::Gps(std::string name, const GpsParams& params, RandomStream noise)
-    : Sensor(std::move(name), "gps", params.frequency_hz),
+    : SensorOf(std::move(name), "gps", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)),
       zone_(utm_zone(params.longitude_rad)) {}
 
 void Gps::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.satellites = params_.satellites;
+  auto& reading = next(context);
+  reading.satellites = params_.satellites;
   if (params_.satellites < kLeastSatellites) return;
-  reading_.quality = 1;
+  reading.quality = 1;
   const Pose& X_WB = context.body.X_WB;
   const double c = std::cos(params_.north_rad);
   const double s = std::sin(params_.north_rad);
@@ -92,20 +92,20 @@ void Gps::measure(const StepContext& context) {
   const double east_m = s * X_WB.x_m - c * X_WB.y_m + noise_.gaussian(params_.noise_m);
   const GeoPoint place =
       shifted({params_.latitude_rad, params_.longitude_rad}, east_m, north_m, params_.altitude_m);
-  reading_.latitude_rad = place.latitude_rad;
-  reading_.longitude_rad = place.longitude_rad;
-  reading_.altitude_m = params_.altitude_m + noise_.gaussian(params_.noise_vertical_m);
+  reading.latitude_rad = place.latitude_rad;
+  reading.longitude_rad = place.longitude_rad;
+  reading.altitude_m = params_.altitude_m + noise_.gaussian(params_.noise_vertical_m);
   const Vec2 utm = utm_m(place, zone_);
-  reading_.utm_easting_m = utm.x();
-  reading_.utm_northing_m = utm.y();
+  reading.utm_easting_m = utm.x();
+  reading.utm_northing_m = utm.y();
 
   const Twist& twist = context.body.twist;
-  reading_.speed_mps = std::hypot(twist.v_mps, twist.lateral_mps);
-  reading_.course_rad = 0.0;
-  if (reading_.speed_mps > 0.0) {
+  reading.speed_mps = std::hypot(twist.v_mps, twist.lateral_mps);
+  reading.course_rad = 0.0;
+  if (reading.speed_mps > 0.0) {
     const double heading = X_WB.yaw_rad + std::atan2(twist.lateral_mps, twist.v_mps);
     const double course = normalize_angle(params_.north_rad - heading);
-    reading_.course_rad = course < 0.0 ? course + 2.0 * std::numbers::pi : course;
+    reading.course_rad = course < 0.0 ? course + 2.0 * std::numbers::pi : course;
   }
 }
 

@@ -56,7 +56,7 @@ std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Ve
 }
 
 Gripper::Gripper(std::string name, const GripperParams& params, const Pose& X_BG)
-    : Sensor(std::move(name), "gripper", params.frequency_hz),
+    : SensorOf(std::move(name), "gripper", params.frequency_hz),
       params_(params),
       X_BG_(X_BG),
       travel_ns_(std::max<SimTime>(1, from_seconds(params.travel_time_s))) {}
@@ -244,13 +244,13 @@ bool Gripper::is_broken(const StepContext& now, double x_m) const {
 
 void Gripper::measure(const StepContext& context) {
   forget_lost(context);
-  stamp(context, reading_);
-  reading_.state = state();
-  reading_.outer_beam = is_broken(context, kOuterBeam * params_.length_m);
-  reading_.inner_beam = is_broken(context, kInnerBeam * params_.length_m);
-  reading_.holding = held_.has_value();
-  reading_.stored = static_cast<int>(stored_.size());
-  reading_.gap_m = gap_m();
+  auto& reading = next(context);
+  reading.state = state();
+  reading.outer_beam = is_broken(context, kOuterBeam * params_.length_m);
+  reading.inner_beam = is_broken(context, kInnerBeam * params_.length_m);
+  reading.holding = held_.has_value();
+  reading.stored = static_cast<int>(stored_.size());
+  reading.gap_m = gap_m();
 }
 
 void Gripper::hash(StateHash& hash) const {

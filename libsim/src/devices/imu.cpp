@@ -16,7 +16,7 @@ std::array<double, 3> field_in_body_ut(const ImuParams& params, double yaw_rad) 
 }
 
 Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream noise)
-    : Sensor(std::move(name), "imu", params.frequency_hz),
+    : SensorOf(std::move(name), "imu", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)),
       yaw_rad_(yaw_rad) {
@@ -48,17 +48,17 @@ void Imu::integrate(const StepContext& context) {
 void Imu::placed(const Pose&) { before_ = {}; }
 
 void Imu::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.acceleration_mps2 = {gained_x_mps_ / time_s_, gained_y_mps_ / time_s_, kGravity_mps2};
-  reading_.rate_radps = {0.0, 0.0, turned_rad_ / time_s_};
-  reading_.field_ut = field_in_body_ut(params_, context.body.X_WB.yaw_rad);
+  auto& reading = next(context);
+  reading.acceleration_mps2 = {gained_x_mps_ / time_s_, gained_y_mps_ / time_s_, kGravity_mps2};
+  reading.rate_radps = {0.0, 0.0, turned_rad_ / time_s_};
+  reading.field_ut = field_in_body_ut(params_, context.body.X_WB.yaw_rad);
   for (std::size_t i = 0; i < 3; ++i) {
-    reading_.acceleration_mps2[i] += bias_mps2_[i] + noise_.gaussian(params_.noise_mps2);
-    reading_.rate_radps[i] += bias_radps_[i] + noise_.gaussian(params_.noise_radps);
-    reading_.field_ut[i] += noise_.gaussian(params_.noise_ut);
+    reading.acceleration_mps2[i] += bias_mps2_[i] + noise_.gaussian(params_.noise_mps2);
+    reading.rate_radps[i] += bias_radps_[i] + noise_.gaussian(params_.noise_radps);
+    reading.field_ut[i] += noise_.gaussian(params_.noise_ut);
   }
-  yaw_rad_ = normalize_angle(yaw_rad_ + reading_.rate_radps[2] * time_s_);
-  reading_.yaw_rad = yaw_rad_;
+  yaw_rad_ = normalize_angle(yaw_rad_ + reading.rate_radps[2] * time_s_);
+  reading.yaw_rad = yaw_rad_;
   gained_x_mps_ = 0.0;
   gained_y_mps_ = 0.0;
   turned_rad_ = 0.0;

@@ -20,36 +20,37 @@ double LaserReading::least_angle_rad() const {
 }
 
 Laser::Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise)
-    : Sensor(std::move(name), "laser", params.frequency_hz),
+    : SensorOf(std::move(name), "laser", params.frequency_hz),
       params_(params),
       may_be_inside_(may_be_inside),
       noise_(std::move(noise)),
       geometry_{params.beam_count, params.resolution_rad, params.range_max_m} {
-  reading_.ranges_m.assign(static_cast<std::size_t>(params.beam_count), 0.0);
-  reading_.angle_min_rad = geometry_.angle_min_rad();
-  reading_.resolution_rad = params.resolution_rad;
-  reading_.range_max_m = params.range_max_m;
+  auto& first = edit();
+  first.ranges_m.assign(static_cast<std::size_t>(params.beam_count), 0.0);
+  first.angle_min_rad = geometry_.angle_min_rad();
+  first.resolution_rad = params.resolution_rad;
+  first.range_max_m = params.range_max_m;
 }
 
 void Laser::measure(const StepContext& context) {
-  stamp(context, reading_);
+  auto& reading = next(context, Contents::kAnyEarlier);
   const Pose X_WL = context.body.X_WB * params_.X_BL;
   context.physics.scan(geometry_, X_WL, params_.height_m, context.robot, may_be_inside_,
-                       reading_.ranges_m);
+                       reading.ranges_m);
   if (params_.noise_m > 0.0) {
-    for (double& range : reading_.ranges_m) {
+    for (double& range : reading.ranges_m) {
       // A beam that met nothing stays at the limit: there is no echo to be uncertain about.
       if (range >= params_.range_max_m) continue;
       range = std::clamp(range + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
   }
-  reading_.X_WB = context.body.X_WB;
+  reading.X_WB = context.body.X_WB;
 }
 
 void Laser::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
-  hash.add_bytes(reading_.ranges_m.data(), reading_.ranges_m.size() * sizeof(double));
+  hash.add_bytes(reading().ranges_m.data(), reading().ranges_m.size() * sizeof(double));
 }
 
 namespace {

@@ -20,7 +20,7 @@ double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
 
 PoseSensor::PoseSensor(std::string name, const PoseParams& params, const Pose& X_WB_start,
                        RandomStream noise)
-    : Sensor(std::move(name), "pose", params.frequency_hz),
+    : SensorOf(std::move(name), "pose", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)),
       X_WB_(X_WB_start) {}
@@ -35,19 +35,19 @@ std::optional<std::string> PoseSensor::apply(const Command& command) {
 void PoseSensor::integrate(const StepContext& context) { X_WB_ = context.body.X_WB; }
 
 void PoseSensor::measure(const StepContext& context) {
-  stamp(context, reading_);
+  auto& reading = next(context);
   // Without a frame of its own the truth passes unchanged, to the bit.
-  reading_.pose = X_FW_ == Pose{} ? X_WB_ : X_FW_ * X_WB_;
+  reading.pose = X_FW_ == Pose{} ? X_WB_ : X_FW_ * X_WB_;
   if (params_.noise_m > 0.0) {
-    reading_.pose.x_m += noise_.gaussian(params_.noise_m);
-    reading_.pose.y_m += noise_.gaussian(params_.noise_m);
+    reading.pose.x_m += noise_.gaussian(params_.noise_m);
+    reading.pose.y_m += noise_.gaussian(params_.noise_m);
   }
   if (params_.noise_yaw_rad > 0.0) {
-    reading_.pose.yaw_rad =
-        normalize_angle(reading_.pose.yaw_rad + noise_.gaussian(params_.noise_yaw_rad));
+    reading.pose.yaw_rad =
+        normalize_angle(reading.pose.yaw_rad + noise_.gaussian(params_.noise_yaw_rad));
   }
-  reading_.twist = context.body.twist;
-  reading_.stalled = context.body.stalled;
+  reading.twist = context.body.twist;
+  reading.stalled = context.body.stalled;
 }
 
 void PoseSensor::hash(StateHash& hash) const {
@@ -58,7 +58,7 @@ void PoseSensor::hash(StateHash& hash) const {
 
 Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
                    bool omnidirectional, RandomStream noise)
-    : Sensor(std::move(name), "odometry", params.frequency_hz),
+    : SensorOf(std::move(name), "odometry", params.frequency_hz),
       params_(params),
       wheel_separation_m_(wheel_separation_m),
       omnidirectional_(omnidirectional),
@@ -100,14 +100,14 @@ void Odometry::integrate(const StepContext& context) {
 }
 
 void Odometry::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.pose = X_SB_;
-  reading_.twist = context.body.twist;
-  if (!omnidirectional_) reading_.twist.lateral_mps = 0.0;  // wheels do not feel it
-  reading_.stalled = context.body.stalled;
+  auto& reading = next(context);
+  reading.pose = X_SB_;
+  reading.twist = context.body.twist;
+  if (!omnidirectional_) reading.twist.lateral_mps = 0.0;  // wheels do not feel it
+  reading.stalled = context.body.stalled;
   // A robot that stands has not moved to the bit.
-  reading_.increment = X_SR_ == X_SB_ ? Pose{} : X_SR_.inverse() * X_SB_;
-  reading_.path_length_m = path_length_m_;
+  reading.increment = X_SR_ == X_SB_ ? Pose{} : X_SR_.inverse() * X_SB_;
+  reading.path_length_m = path_length_m_;
   X_SR_ = X_SB_;
   path_length_m_ = 0.0;
 }

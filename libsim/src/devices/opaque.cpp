@@ -9,7 +9,7 @@
 namespace sim {
 
 Opaque::Opaque(std::string name, const OpaqueParams& params)
-    : Sensor(std::move(name), "opaque", params.frequency_hz), params_(params) {}
+    : SensorOf(std::move(name), "opaque", params.frequency_hz), params_(params) {}
 
 std::optional<std::string> Opaque::connect(std::string_view robot, const DeviceDirectory& devices) {
   lines_.clear();
@@ -65,20 +65,20 @@ void Opaque::integrate(const StepContext&) {
 }
 
 void Opaque::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.data.clear();
+  auto& reading = next(context);
+  reading.data.clear();
   if (!arrived_.empty()) {
-    reading_.data = std::move(arrived_.front());
+    reading.data = std::move(arrived_.front());
     arrived_.pop_front();
-    ++reading_.number;
+    ++reading.number;
   }
-  reading_.lost = lost_;
+  reading.lost = lost_;
 }
 
 void Opaque::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(sent_);
-  hash.add(reading_.number);
+  hash.add(reading().number);
   hash.add(lost_);
   for (const Message& message : arrived_) hash.add_bytes(message.data(), message.size());
 }

@@ -12,11 +12,11 @@
 namespace sim {
 
 Proximity::Proximity(std::string name, const ProximityParams& params)
-    : Sensor(std::move(name), "proximity", params.frequency_hz), params_(params) {}
+    : SensorOf(std::move(name), "proximity", params.frequency_hz), params_(params) {}
 
 void Proximity::measure(const StepContext& context) {
-  stamp(context, reading_);
-  auto& found = reading_.near_objects;
+  auto& reading = next(context);
+  auto& found = reading.near_objects;
   found.clear();
   const Vec2 p_WB = context.body.X_WB.position();
   const auto look_at = [&](const std::string& name, const Vec2& p_W) {

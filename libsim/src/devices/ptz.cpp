@@ -23,7 +23,7 @@ void Ptz::Axis::step(double dt_s) {
 }
 
 Ptz::Ptz(std::string name, const PtzParams& params)
-    : Sensor(std::move(name), "ptz", params.frequency_hz),
+    : SensorOf(std::move(name), "ptz", params.frequency_hz),
       pan_{-params.pan_max_rad, params.pan_max_rad, params.pan_speed_radps, 0.0, 0.0, 0.0},
       tilt_{-params.tilt_max_rad, params.tilt_max_rad, params.tilt_speed_radps, 0.0, 0.0, 0.0},
       view_{params.view_min_rad, params.view_max_rad, params.zoom_speed_radps,
@@ -54,14 +54,14 @@ void Ptz::integrate(const StepContext& context) {
 }
 
 void Ptz::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.pan_rad = pan_.now;
-  reading_.tilt_rad = tilt_.now;
-  reading_.view_rad = view_.now;
-  reading_.pan_speed_radps = pan_.moved;
-  reading_.tilt_speed_radps = tilt_.moved;
-  reading_.zoom_speed_radps = view_.moved;
-  reading_.moving = pan_.now != pan_.goal || tilt_.now != tilt_.goal || view_.now != view_.goal;
+  auto& reading = next(context);
+  reading.pan_rad = pan_.now;
+  reading.tilt_rad = tilt_.now;
+  reading.view_rad = view_.now;
+  reading.pan_speed_radps = pan_.moved;
+  reading.tilt_speed_radps = tilt_.moved;
+  reading.zoom_speed_radps = view_.moved;
+  reading.moving = pan_.now != pan_.goal || tilt_.now != tilt_.goal || view_.now != view_.goal;
 }
 
 void Ptz::hash(StateHash& hash) const {

@@ -59,24 +59,25 @@ SonarParams::SonarParams() {
 
 Ranger::Ranger(std::string name, std::string type, const RangerParams& params, bool may_be_inside,
                RandomStream noise)
-    : Sensor(std::move(name), std::move(type), params.frequency_hz),
+    : SensorOf(std::move(name), std::move(type), params.frequency_hz),
       params_(params),
       may_be_inside_(may_be_inside),
       noise_(std::move(noise)) {
   SIM_ASSERT(!params.X_BS.empty());
   for (const Pose& X_BS : params.X_BS) reach_m_ = std::max(reach_m_, X_BS.position().norm());
-  reading_.ranges_m.assign(params.X_BS.size(), 0.0);
-  reading_.X_BS = params.X_BS;
-  reading_.range_max_m = params.range_max_m;
-  reading_.field_of_view_rad = params.field_of_view_rad;
+  auto& first = edit();
+  first.ranges_m.assign(params.X_BS.size(), 0.0);
+  first.X_BS = params.X_BS;
+  first.range_max_m = params.range_max_m;
+  first.field_of_view_rad = params.field_of_view_rad;
 }
 
 void Ranger::measure(const StepContext& context) {
-  stamp(context, reading_);
+  auto& reading = next(context);
   const Pose& X_WB = context.body.X_WB;
   context.physics.collect_edges(X_WB.position(), params_.range_max_m + reach_m_, params_.height_m,
                                 context.robot, false, edges_);
-  reading_.X_WB = X_WB;
+  reading.X_WB = X_WB;
   for (scan::EdgeColumns& shell : shells_) shell.clear();
   for (const scan::Edge& edge : edges_.edges()) {
     const auto distance2 = distance2_if_seen(edge, reach_m_, params_.range_max_m);
@@ -98,7 +99,7 @@ void Ranger::measure(const StepContext& context) {
     if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {
       range_m = std::clamp(range_m + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
-    reading_.ranges_m[i] = range_m;
+    reading.ranges_m[i] = range_m;
   }
 }
 
@@ -116,7 +117,7 @@ double Ranger::least_range_m(const scan::Cone& cone) {
 void Ranger::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
-  hash.add_bytes(reading_.ranges_m.data(), reading_.ranges_m.size() * sizeof(double));
+  hash.add_bytes(reading().ranges_m.data(), reading().ranges_m.size() * sizeof(double));
 }
 
 namespace {

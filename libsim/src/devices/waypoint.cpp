@@ -22,7 +22,7 @@ Twist waypoint_twist(const Pose& X_WB, const GotoCommand& goal, const WaypointPa
 }
 
 Waypoint::Waypoint(std::string name, const WaypointParams& params, const Pose& X_WB_start)
-    : Sensor(std::move(name), "waypoint", params.frequency_hz),
+    : SensorOf(std::move(name), "waypoint", params.frequency_hz),
       params_(params),
       goal_{X_WB_start.position(), params.tolerance_m, params.speed_mps},
       X_WB_(X_WB_start) {}
@@ -104,12 +104,12 @@ void Waypoint::deactivated(RobotControl& robot) {
 }
 
 void Waypoint::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.status = status_;
-  reading_.goal_number = goal_number_;
-  reading_.goal_m = goal_.goal_m;
-  reading_.position_m = X_WB_.position();
-  reading_.distance_m = distance_m();
+  auto& reading = next(context);
+  reading.status = status_;
+  reading.goal_number = goal_number_;
+  reading.goal_m = goal_.goal_m;
+  reading.position_m = X_WB_.position();
+  reading.distance_m = distance_m();
 }
 
 void Waypoint::hash(StateHash& hash) const {

@@ -54,16 +54,17 @@ std::string ip_of(bool access_point, std::size_t n) {
 }
 
 Wifi::Wifi(std::string name, const WifiParams& params, RandomStream noise)
-    : Sensor(std::move(name), "wifi", params.frequency_hz),
+    : SensorOf(std::move(name), "wifi", params.frequency_hz),
       params_(params),
       noise_(std::move(noise)) {
-  reading_.floor_dbm = params.floor_dbm;
-  reading_.channel_mhz = params.channel_mhz;
+  auto& first = edit();
+  first.floor_dbm = params.floor_dbm;
+  first.channel_mhz = params.channel_mhz;
 }
 
 void Wifi::measure(const StepContext& context) {
-  stamp(context, reading_);
-  reading_.own_ip = ip_of(false, static_cast<std::size_t>(context.robot));
+  auto& reading = next(context);
+  reading.own_ip = ip_of(false, static_cast<std::size_t>(context.robot));
   const std::vector<RobotDescription>& robots = context.world.robots;
   if (!looked_) {
     for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -72,7 +73,7 @@ void Wifi::measure(const StepContext& context) {
     looked_ = true;
   }
   const Vec2 p_WB = context.body.X_WB.position();
-  std::vector<WifiReading::Link>& links = reading_.links;
+  std::vector<WifiReading::Link>& links = reading.links;
   std::size_t count = 0;
   const auto hear = [&](const std::string& name, bool access_point, std::size_t number,
                         const Vec2& p_W) {

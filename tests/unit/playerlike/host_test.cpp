@@ -31,13 +31,17 @@ using testing::HasSubstr;
 
 // Collects the times of the readings of a round, and the newest pose.
 struct Collector : ReadingSink {
-  void on_reading(DeviceId device, const sim::Reading& reading) override {
+  void on_reading(DeviceId device, const sim::SharedReading& reading) override {
     devices.push_back(device);
-    times_ns.push_back(reading.time_ns);
-    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) x_m = pose->pose.x_m;
+    times_ns.push_back(reading->time_ns);
+    readings.push_back(reading);
+    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(reading.get())) {
+      x_m = pose->pose.x_m;
+    }
   }
   std::vector<DeviceId> devices;
   std::vector<sim::SimTime> times_ns;
+  std::vector<sim::SharedReading> readings;
   double x_m = 0.0;
 };
 

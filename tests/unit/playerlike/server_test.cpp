@@ -134,7 +134,7 @@ class WordHandler final : public Handler {
  private:
   void answer_wait() {
     struct Nothing : ReadingSink {
-      void on_reading(DeviceId, const sim::Reading&) override {}
+      void on_reading(DeviceId, const sim::SharedReading&) override {}
     } sink;
     if (client_->outcome() == EventClient::Outcome::kFinished) return peer_.send("finished\n");
     const auto count = client_->session().take(sink);

@@ -67,9 +67,11 @@ SessionError error_of(Action action) {
 }
 
 struct Collector : ReadingSink {
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading) override {
-    times_ns.push_back(reading.time_ns);
-    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(&reading)) x_m = pose->pose.x_m;
+  void on_reading(DeviceId /*device*/, const sim::SharedReading& reading) override {
+    times_ns.push_back(reading->time_ns);
+    if (const auto* pose = dynamic_cast<const sim::PoseReading*>(reading.get())) {
+      x_m = pose->pose.x_m;
+    }
   }
   std::vector<sim::SimTime> times_ns;
   double x_m = 0.0;

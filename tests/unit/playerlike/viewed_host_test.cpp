@@ -31,8 +31,8 @@ constexpr std::uint32_t kDown = 0xff54;
 constexpr std::uint32_t kTab = 0xff09;
 
 struct NewestPose : ReadingSink {
-  void on_reading(DeviceId /*device*/, const sim::Reading& reading) override {
-    if (const auto* p = dynamic_cast<const sim::PoseReading*>(&reading)) pose = p->pose;
+  void on_reading(DeviceId /*device*/, const sim::SharedReading& reading) override {
+    if (const auto* p = dynamic_cast<const sim::PoseReading*>(reading.get())) pose = p->pose;
   }
   sim::Pose pose;
 };

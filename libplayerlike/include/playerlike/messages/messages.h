@@ -133,6 +133,11 @@ void check_interfaces(const sim::WorldDescription& world);
 [[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
                                               double cell_size_m);
 
+/// The robot that has a port of its own; null if none has this one.
+[[nodiscard]] const RobotInfo* robot_at(const std::vector<RobotInfo>& robots, int port);
+/// Whether clients can connect to a port: a robot's, or that of all robots.
+[[nodiscard]] bool is_open(const std::vector<RobotInfo>& robots, int port);
+
 /// Which devices stand behind a Player device address.
 struct InterfaceBinding {
   DeviceId reading{-1, -1};        ///< whose readings the interface carries; none: the world's own

@@ -27,8 +27,8 @@ inline constexpr std::size_t kMaxLayerCells = std::size_t{1} << 26U;
 class ReadingSink {
  public:
   virtual ~ReadingSink() = default;
-  /// `reading` is valid during the call only. Must not call the session back.
-  virtual void on_reading(DeviceId device, const sim::Reading& reading) = 0;
+  /// A reading, which may be kept. Must not call the session back.
+  virtual void on_reading(DeviceId device, const sim::SharedReading& reading) = 0;
 };
 
 /// A client's end of a connection to a simulation: the one seam between the client library and

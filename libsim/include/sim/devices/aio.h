@@ -40,21 +40,16 @@ struct AioParams {
 struct AioReading final : Reading {
   std::vector<double> inputs_v;   ///< [V]
   std::vector<double> outputs_v;  ///< [V]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<AioReading>(*this);
-  }
 };
 
 /// Analog inputs and outputs. Outputs are 0 V at first and keep what AnalogOutputCommand sets;
 /// inputs of any robot may be wired to them. Inputs that follow a sensor show its newest reading
 /// (0 V before the first), and each input adds normal noise of its own.
-class Aio final : public Sensor {
+class Aio final : public SensorOf<AioReading> {
  public:
   Aio(std::string name, const AioParams& params, RandomStream noise);
 
   [[nodiscard]] const AioParams& params() const noexcept { return params_; }
-  [[nodiscard]] const AioReading& reading() const noexcept override { return reading_; }
   /// Voltage of an output now [V]; 0 for one that is not there.
   [[nodiscard]] double output_v(int index) const noexcept {
     return index >= 0 && index < params_.outputs ? outputs_v_[static_cast<std::size_t>(index)]
@@ -76,7 +71,6 @@ class Aio final : public Sensor {
   RandomStream noise_;
   std::vector<const Device*> wired_;  ///< for each input; nullptr: to no device
   std::vector<double> outputs_v_;
-  AioReading reading_;
 };
 
 }  // namespace sim

@@ -41,10 +41,6 @@ struct BatteryReading final : Reading {
   double energy_wh = 0.0;    ///< what is left [W h]
   double capacity_wh = 0.0;  ///< of a full battery, as set [W h]
   double power_w = 0.0;      ///< that goes into the battery; negative: that it gives [W]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<BatteryReading>(*this);
-  }
 };
 
 /// Power that a robot draws: idle + drive (|v_left| + |v_right|) / 2, of its wheels' speeds
@@ -68,13 +64,12 @@ struct BatteryReading final : Reading {
 /// A robot's battery: loses battery_load_w() in each step; while the middle of the axle is on a
 /// dock of the arena the dock feeds the robot, and charging_power_w goes into the battery. The
 /// robot's heading there does not matter. An empty battery only reads so: the robot drives on.
-class Battery final : public Sensor {
+class Battery final : public SensorOf<BatteryReading> {
  public:
   /// @param wheel_separation_m  of the robot's model [m].
   Battery(std::string name, const BatteryParams& params, double wheel_separation_m);
 
   void integrate(const StepContext& context) override;
-  [[nodiscard]] const BatteryReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -86,7 +81,6 @@ class Battery final : public Sensor {
   double energy_j_;
   double power_w_ = 0.0;  ///< in the last step, see BatteryReading
   bool docked_ = false;
-  BatteryReading reading_;
 };
 
 }  // namespace sim

@@ -30,20 +30,15 @@ struct BlinkenlightReading final : Reading {
   double period_s = 0.0;
   double duty_cycle = 0.0;
   bool lit = false;
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<BlinkenlightReading>(*this);
-  }
 };
 
 /// A light on the robot's back, for pictures: other robots' sensors do not see it. Takes
 /// LightCommand.
-class Blinkenlight final : public Sensor {
+class Blinkenlight final : public SensorOf<BlinkenlightReading> {
  public:
   Blinkenlight(std::string name, const BlinkenlightParams& params);
 
   [[nodiscard]] const BlinkenlightParams& params() const noexcept { return params_; }
-  [[nodiscard]] const BlinkenlightReading& reading() const noexcept override { return reading_; }
   [[nodiscard]] Colour colour() const noexcept { return now_.colour; }
   [[nodiscard]] bool lit(SimTime time_ns) const {
     return now_.enabled && is_lit(now_.period_s, now_.duty_cycle, time_ns);
@@ -58,7 +53,6 @@ class Blinkenlight final : public Sensor {
  private:
   BlinkenlightParams params_;
   BlinkenlightParams now_;
-  BlinkenlightReading reading_;
 };
 
 }  // namespace sim

@@ -40,21 +40,16 @@ struct BlobfinderReading final : Reading {
   int width = 0;   ///< of the picture [pixels]
   int height = 0;  ///< [pixels]
   std::vector<Blob> blobs;
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<BlobfinderReading>(*this);
-  }
 };
 
 /// Sees other robots, and those extended obstacles to which the world gave a colour, as blobs in a
 /// picture (PinholeView): Stage's model of that name, with true heights. Of two things in a line
 /// the nearer one hides the other as far as it is high. Colours are told apart exactly.
-class Blobfinder final : public Sensor {
+class Blobfinder final : public SensorOf<BlobfinderReading> {
  public:
   Blobfinder(std::string name, const BlobfinderParams& params, RandomStream noise);
   ~Blobfinder() override;
 
-  [[nodiscard]] const BlobfinderReading& reading() const noexcept override { return reading_; }
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
   void hash(StateHash& hash) const override;
@@ -66,7 +61,6 @@ class Blobfinder final : public Sensor {
   BlobfinderParams params_;
   RandomStream noise_;
   std::unique_ptr<ColumnView> view_;
-  BlobfinderReading reading_;
 };
 
 }  // namespace sim

@@ -36,10 +36,6 @@ struct BumperParams {
 /// Which segments were pressed since the reading before, this moment included.
 struct BumperReading final : Reading {
   std::vector<std::uint8_t> pressed;  ///< one a segment: 1 if it was, else 0
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<BumperReading>(*this);
-  }
 };
 
 /// A straight segment for each side of a footprint, counter-clockwise, the first one being that
@@ -66,13 +62,12 @@ void press_segments(const std::vector<BumperSegment>& segments, double reach_m, 
 /// that a touch which begins and ends between two readings is told in the second. Touching is what
 /// the physics calls so: outlines closer than 2 mm. A flat side that lies on a flat wall touches it
 /// all along the part that both share.
-class Bumper final : public Sensor {
+class Bumper final : public SensorOf<BumperReading> {
  public:
   /// @param footprint  of the robot's model: where the segments are, if params has none.
   Bumper(std::string name, const BumperParams& params, const Polygon& footprint);
 
   void integrate(const StepContext& context) override;
-  [[nodiscard]] const BumperReading& reading() const noexcept override { return reading_; }
   [[nodiscard]] const std::vector<BumperSegment>& segments() const noexcept {
     return params_.segments;
   }
@@ -84,7 +79,6 @@ class Bumper final : public Sensor {
  private:
   BumperParams params_;
   std::vector<std::uint8_t> pressed_;  ///< since the last reading
-  BumperReading reading_;
 };
 
 }  // namespace sim

@@ -25,10 +25,6 @@ struct CameraReading final : Reading {
   int width = 0;                     ///< [pixels]
   int height = 0;                    ///< [pixels]
   std::vector<std::uint8_t> pixels;  ///< width * height * 3
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<CameraReading>(*this);
-  }
 };
 
 /// Brightness of what a camera sees at a depth: 1 - 0.6 depth / range_max, and 0.4 beyond.
@@ -38,12 +34,11 @@ struct CameraReading final : Reading {
 /// in the pictures of a run, darker with brightness(). Sides whose normal points along W's x axis
 /// are lighter than those along its y axis, by 0.85 + 0.15 cos(2 yaw), as by windows on two sides.
 /// What lies on the floor, docks and drawings, is not seen.
-class Camera final : public Sensor {
+class Camera final : public SensorOf<CameraReading> {
  public:
   Camera(std::string name, const CameraParams& params);
   ~Camera() override;
 
-  [[nodiscard]] const CameraReading& reading() const noexcept override { return reading_; }
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
   void hash(StateHash& hash) const override;
@@ -58,7 +53,6 @@ class Camera final : public Sensor {
   std::vector<std::uint8_t> background_;  // for a head that looks like this:
   double background_tilt_rad_ = 0.0;
   double background_view_rad_ = 0.0;
-  CameraReading reading_;
 };
 
 }  // namespace sim

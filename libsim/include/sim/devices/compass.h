@@ -1,7 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
 #include <numbers>
 #include <string>
 
@@ -20,10 +19,6 @@ struct CompassParams {
 /// What a compass tells.
 struct CompassReading final : Reading {
   double heading_rad = 0.0;  ///< of B's x axis from magnetic north, counter-clockwise, (-pi, pi]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<CompassReading>(*this);
-  }
 };
 
 /// Noise-free heading of a robot from magnetic north.
@@ -35,11 +30,10 @@ struct CompassReading final : Reading {
 [[nodiscard]] double compass_heading_rad(const Pose& X_WB, double north_rad);
 
 /// A compass: compass_heading_rad() plus Gaussian noise.
-class Compass final : public Sensor {
+class Compass final : public SensorOf<CompassReading> {
  public:
   Compass(std::string name, const CompassParams& params, RandomStream noise);
 
-  [[nodiscard]] const CompassReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -48,7 +42,6 @@ class Compass final : public Sensor {
  private:
   CompassParams params_;
   RandomStream noise_;
-  CompassReading reading_;
 };
 
 }  // namespace sim

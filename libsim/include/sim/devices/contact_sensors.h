@@ -19,21 +19,16 @@ struct CollisionReading final : Reading {
   bool collision = false;            ///< anything at all
   std::vector<std::string> objects;  ///< names of obstacles, dock separators and robots; "border"
                                      ///< and "wall" (of a map); sorted, each once
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<CollisionReading>(*this);
-  }
 };
 
 /// Bumpers all round the footprint. They are looked at in each step, so that a contact which begins
 /// and ends between two readings is told in the second. Touching is what the physics calls so:
 /// outlines closer than 2 mm.
-class CollisionSensor final : public Sensor {
+class CollisionSensor final : public SensorOf<CollisionReading> {
  public:
   CollisionSensor(std::string name, const CollisionParams& params);
 
   void integrate(const StepContext& context) override;
-  [[nodiscard]] const CollisionReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -41,7 +36,6 @@ class CollisionSensor final : public Sensor {
 
  private:
   std::vector<std::string> touched_;  ///< names, since the last reading; sorted, each once
-  CollisionReading reading_;
 };
 
 }  // namespace sim

@@ -1,11 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,9 +42,10 @@ struct Reading {
   Reading(const Reading&) = default;
   Reading& operator=(const Reading&) = default;
   virtual ~Reading() = default;
-  /// A copy of the whole reading, to be kept.
-  [[nodiscard]] virtual std::unique_ptr<Reading> clone() const = 0;
 };
+
+/// A reading that a device has handed out: it stays as it is, for whoever has it.
+using SharedReading = std::shared_ptr<const Reading>;
 
 /// Drive with this velocity until told otherwise.
 struct TwistCommand {
@@ -303,6 +307,8 @@ class Sensor : public Device {
 
   /// The newest reading; sequence 0 before the first.
   [[nodiscard]] virtual const Reading& reading() const noexcept = 0;
+  /// The same to be kept. It may be let go of by any thread.
+  [[nodiscard]] virtual SharedReading share() const noexcept = 0;
   [[nodiscard]] double frequency_hz() const noexcept { return frequency_hz_; }
   /// When update() will make the next reading, or let it pass.
   [[nodiscard]] SimTime next_due_ns() const noexcept { return next_due_ns_; }
@@ -311,7 +317,7 @@ class Sensor : public Device {
   void hash(StateHash& hash) const override;
 
  protected:
-  /// Fills the reading; time and sequence are given and already set in it by stamp().
+  /// Makes the next reading, which next() of SensorOf gives.
   virtual void measure(const StepContext& context) = 0;
   /// For measure(): sets time and the next sequence number.
   void stamp(const StepContext& context, Reading& reading) const {
@@ -324,6 +330,66 @@ class Sensor : public Device {
   SimTime period_ns_;
   SimTime next_due_ns_;
   std::uint64_t sequence_ = 0;
+};
+
+/// A sensor whose readings are of type R, which can be copied.
+///
+/// A reading that was handed out is never changed: the next one is another object. Objects that
+/// nobody has any more are used again, so a reading costs no memory of its own.
+template <typename R>
+class SensorOf : public Sensor {
+ public:
+  using Sensor::Sensor;
+  [[nodiscard]] const R& reading() const noexcept final { return *newest_; }
+  [[nodiscard]] SharedReading share() const noexcept final {
+    shared_ = true;
+    return newest_;
+  }
+
+ protected:
+  /// What an object holds before it is filled.
+  enum class Contents {
+    kNewest,      ///< what the newest reading holds
+    kAnyEarlier,  ///< what some earlier one holds: for readings that are overwritten in whole
+  };
+
+  /// The object of the next reading.
+  [[nodiscard]] R& edit(Contents contents = Contents::kNewest) {
+    if (!shared_) return *newest_;
+    shared_ = false;
+    std::shared_ptr<R>* const spare = find_spare();
+    if (spare == nullptr) {
+      auto made = std::make_shared<R>(*newest_);
+      spares_[oldest_++ % spares_.size()] = std::exchange(newest_, std::move(made));
+      return *newest_;
+    }
+    if (contents == Contents::kNewest) **spare = *newest_;
+    spare->swap(newest_);
+    return *newest_;
+  }
+  /// The same, with time and sequence number set.
+  [[nodiscard]] R& next(const StepContext& context, Contents contents = Contents::kNewest) {
+    R& reading = edit(contents);
+    stamp(context, reading);
+    return reading;
+  }
+
+ private:
+  [[nodiscard]] std::shared_ptr<R>* find_spare() {
+    for (std::shared_ptr<R>& spare : spares_) {
+      if (spare.use_count() != 1) continue;
+      // Counting up and down makes what other threads did with the object before they let go of it
+      // happen before what follows: use_count() alone does not.
+      const std::shared_ptr<R> last_holder = spare;
+      return &spare;
+    }
+    return nullptr;
+  }
+
+  std::shared_ptr<R> newest_ = std::make_shared<R>();
+  mutable bool shared_ = false;               ///< the newest was handed out
+  std::array<std::shared_ptr<R>, 4> spares_;  ///< objects that were handed out
+  std::size_t oldest_ = 0;                    ///< counts those that were added
 };
 
 /// A device that acts on its robot or on the canvas.

@@ -39,21 +39,16 @@ struct DioReading final : Reading {
   std::uint32_t inputs = 0;  ///< input i is bit i
   int output_count = 0;
   std::uint32_t outputs = 0;  ///< output i is bit i
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<DioReading>(*this);
-  }
 };
 
 /// Digital inputs and outputs. Outputs are low at first and keep what DigitalOutputCommand sets;
 /// inputs of any robot may be wired to them. An output that a command sets before a step is seen at
 /// inputs in that step's readings, whatever the order of the robots.
-class Dio final : public Sensor {
+class Dio final : public SensorOf<DioReading> {
  public:
   Dio(std::string name, const DioParams& params);
 
   [[nodiscard]] const DioParams& params() const noexcept { return params_; }
-  [[nodiscard]] const DioReading& reading() const noexcept override { return reading_; }
   /// Level of an output now; low for one that is not there.
   [[nodiscard]] bool output(int index) const noexcept {
     return index >= 0 && index < params_.outputs && ((outputs_ >> index) & 1U) != 0;
@@ -71,7 +66,6 @@ class Dio final : public Sensor {
   DioParams params_;
   std::vector<const Dio*> wired_;  ///< for each input; nullptr: not a wire
   std::uint32_t outputs_ = 0;
-  DioReading reading_;
 };
 
 }  // namespace sim

@@ -32,21 +32,16 @@ struct FiducialReading final : Reading {
   };
   std::vector<Mark> marks;
   Pose X_WS;  ///< where the sensor was (for pictures; not told to clients)
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<FiducialReading>(*this);
-  }
 };
 
 /// Sees other robots and extended obstacles to which the world gave a `fiducial` number, as Stage's
 /// model of that name: the middle of the thing must be within range and field of view, and nothing
 /// else solid on the straight line to it. The thing itself, and the robot that bears the sensor,
 /// hide nothing.
-class FiducialFinder final : public Sensor {
+class FiducialFinder final : public SensorOf<FiducialReading> {
  public:
   FiducialFinder(std::string name, const FiducialParams& params, RandomStream noise);
 
-  [[nodiscard]] const FiducialReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -55,7 +50,6 @@ class FiducialFinder final : public Sensor {
  private:
   FiducialParams params_;
   RandomStream noise_;
-  FiducialReading reading_;
 };
 
 }  // namespace sim

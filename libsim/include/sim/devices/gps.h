@@ -34,10 +34,6 @@ struct GpsReading final : Reading {
   double utm_northing_m = 0.0;
   int satellites = 0;
   int quality = 0;  ///< 1: a fix, 0: none
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<GpsReading>(*this);
-  }
 };
 
 /// A point on an ellipsoid of revolution.
@@ -78,11 +74,10 @@ struct Ellipsoid {
 
 /// A satellite receiver at the middle of the axle: the truth with Gaussian noise, each reading with
 /// noise of its own (a real one's errors wander). Speed and course have none.
-class Gps final : public Sensor {
+class Gps final : public SensorOf<GpsReading> {
  public:
   Gps(std::string name, const GpsParams& params, RandomStream noise);
 
-  [[nodiscard]] const GpsReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -92,7 +87,6 @@ class Gps final : public Sensor {
   GpsParams params_;
   RandomStream noise_;
   int zone_;
-  GpsReading reading_;
 };
 
 }  // namespace sim

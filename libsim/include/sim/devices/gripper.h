@@ -50,10 +50,6 @@ struct GripperReading final : Reading {
   bool holding = false;     ///< something is between the paddles, and moves with the robot
   int stored = 0;           ///< things in the store
   double gap_m = 0.0;       ///< between the paddles now [m]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<GripperReading>(*this);
-  }
 };
 
 /// The part of a box that lies in a strip across the gripper: how far it reaches.
@@ -75,14 +71,13 @@ struct GripperReading final : Reading {
 /// The outer beam lies at three quarters of the paddles' length, the inner one at a quarter, as
 /// Stage's.
 /// While the robot is suspended, or the device switched off, the paddles stand still.
-class Gripper final : public Sensor {
+class Gripper final : public SensorOf<GripperReading> {
  public:
   /// @param X_BG  where the paddles begin, in place of params.X_BG.
   Gripper(std::string name, const GripperParams& params, const Pose& X_BG);
 
   [[nodiscard]] const GripperParams& params() const noexcept { return params_; }
   [[nodiscard]] const Pose& X_BG() const noexcept { return X_BG_; }
-  [[nodiscard]] const GripperReading& reading() const noexcept override { return reading_; }
   /// Between the paddles now [m].
   [[nodiscard]] double gap_m() const noexcept;
   /// Outlines of both paddles now, left and right, in B [m].
@@ -122,7 +117,6 @@ class Gripper final : public Sensor {
   bool fault_ = false;
   std::optional<Held> held_;
   std::vector<Held> stored_;  // the newest last
-  GripperReading reading_;
 };
 
 }  // namespace sim

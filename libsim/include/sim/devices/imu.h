@@ -31,10 +31,6 @@ struct ImuReading final : Reading {
   std::array<double, 3> field_ut{};           ///< magnetic field [uT]
   double yaw_rad = 0.0;  ///< the measured turning rate added up, from the true heading in W at the
                          ///< start on, or what SetPoseCommand said it was, (-pi, pi]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<ImuReading>(*this);
-  }
 };
 
 /// Standard acceleration of gravity (ISO 80000-3) [m/s^2].
@@ -48,7 +44,7 @@ inline constexpr double kGravity_mps2 = 9.80665;
 /// reading before, so that none is missed: in the body's frame a = dv/dt + omega x v. Then come
 /// biases, drawn once, and white noise. Being placed somewhere is not felt. Of a SetPoseCommand it
 /// takes the heading: the present one is that.
-class Imu final : public Sensor {
+class Imu final : public SensorOf<ImuReading> {
  public:
   /// @param yaw_rad  true heading in W at the start.
   Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream noise);
@@ -56,7 +52,6 @@ class Imu final : public Sensor {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override;
-  [[nodiscard]] const ImuReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -73,7 +68,6 @@ class Imu final : public Sensor {
   double turned_rad_ = 0.0;
   double time_s_ = 0.0;
   double yaw_rad_;
-  ImuReading reading_;
 };
 
 }  // namespace sim

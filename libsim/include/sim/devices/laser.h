@@ -35,20 +35,15 @@ struct LaserReading final : Reading {
   [[nodiscard]] double least_range_m() const;
   /// Angle of the (first of the) beams that have it; 0 before the first scan. Cost as above.
   [[nodiscard]] double least_angle_rad() const;
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<LaserReading>(*this);
-  }
 };
 
 /// The Hokuyo-like laser scanner: LaserParams says what it is, LaserReading what it tells.
-class Laser final : public Sensor {
+class Laser final : public SensorOf<LaserReading> {
  public:
   /// @param may_be_inside  whether the laser may ever stand inside a solid: not if it is mounted
   ///                       well within its robot's footprint, which saves a search a scan.
   Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise);
 
-  [[nodiscard]] const LaserReading& reading() const noexcept override { return reading_; }
   [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
   void hash(StateHash& hash) const override;
 
@@ -60,7 +55,6 @@ class Laser final : public Sensor {
   bool may_be_inside_;
   RandomStream noise_;
   scan::ScanGeometry geometry_;
-  LaserReading reading_;
 };
 
 }  // namespace sim

@@ -47,15 +47,11 @@ struct PoseReading final : Reading {
     return pose.position() - (pose * increment.inverse()).position();
   }
   /// @}
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<PoseReading>(*this);
-  }
 };
 
 /// The arena's localisation: the true pose, with noise if asked for.
 /// SetPoseCommand moves the frame it reports in, so that the robot's present pose reads as given.
-class PoseSensor final : public Sensor {
+class PoseSensor final : public SensorOf<PoseReading> {
  public:
   /// @param X_WB_start  where the robot stands before the first step.
   PoseSensor(std::string name, const PoseParams& params, const Pose& X_WB_start,
@@ -66,7 +62,6 @@ class PoseSensor final : public Sensor {
   void placed(const Pose& X_WB) override { X_WB_ = X_WB; }
   /// The pose without noise, in the frame that is reported in.
   [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_FW_ * X_WB_; }
-  [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -77,7 +72,6 @@ class PoseSensor final : public Sensor {
   RandomStream noise_;
   Pose X_WB_;  ///< true, at the last step
   Pose X_FW_;  ///< of the world in the frame that is reported in; identity until set
-  PoseReading reading_;
 };
 
 /// Wheel odometry: integrates the true motion of the wheels from the robot's start.
@@ -89,7 +83,7 @@ class PoseSensor final : public Sensor {
 /// too, and the chord has a part to the left. With noise, each wheel's path in a step gets Gaussian
 /// noise of variance noise^2 |path| (Chong and Kleeman, "Accurate odometry and error modelling for
 /// a mobile robot", ICRA 1997); of an omnidirectional drive, so does the way to the left.
-class Odometry final : public Sensor {
+class Odometry final : public SensorOf<PoseReading> {
  public:
   /// @param omnidirectional  whether the wheels measure motion to the left as well.
   Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
@@ -98,7 +92,6 @@ class Odometry final : public Sensor {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_SB_; }
-  [[nodiscard]] const PoseReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -112,7 +105,6 @@ class Odometry final : public Sensor {
   double path_length_m_ = 0.0;  ///< since the last reading
   RandomStream noise_;
   Pose X_SR_;  ///< B at the last reading
-  PoseReading reading_;
 };
 
 }  // namespace sim

@@ -26,10 +26,6 @@ struct OpaqueReading final : Reading {
   std::vector<std::uint8_t> data;  ///< empty: none has arrived since the reading before
   std::uint64_t number = 0;        ///< messages that arrived so far, this one included
   std::uint64_t lost = 0;          ///< messages that found no room in the queue so far
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<OpaqueReading>(*this);
-  }
 };
 
 /// Carries messages from robot to robot, or back to the sender, as a cable does: neither distance
@@ -37,13 +33,11 @@ struct OpaqueReading final : Reading {
 /// order of the robots; messages of several senders arrive in the order in which `from` lists
 /// these. Each reading takes one message, oldest first. Up to kMaxQueue wait; of more the oldest
 /// are lost. Refused are messages of more than kMaxOpaque bytes; an empty one is none.
-class Opaque final : public Sensor {
+class Opaque final : public SensorOf<OpaqueReading> {
  public:
   static constexpr std::size_t kMaxQueue = 256;
 
   Opaque(std::string name, const OpaqueParams& params);
-
-  [[nodiscard]] const OpaqueReading& reading() const noexcept override { return reading_; }
 
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
@@ -71,7 +65,6 @@ class Opaque final : public Sensor {
   std::uint64_t sent_before_step_ = 0;
   std::deque<Message> arrived_;
   std::uint64_t lost_ = 0;
-  OpaqueReading reading_;
 };
 
 }  // namespace sim

@@ -27,28 +27,21 @@ struct ProximityReading final : Reading {
   };
   std::vector<Neighbour> near_objects;  ///< in order of name; should a robot and an obstacle have
                                         ///< one name, the nearer one comes first
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<ProximityReading>(*this);
-  }
 };
 
 /// Tells which robots are near, as if each carried a radio beacon: all round, through walls, true.
 /// Distances go from the middle of the axle (origin of B) to that of the other robot, or to the
 /// middle of an obstacle's box; exactly `range` is near. Retracted obstacles are not there, nor is
 /// the robot itself.
-class Proximity final : public Sensor {
+class Proximity final : public SensorOf<ProximityReading> {
  public:
   Proximity(std::string name, const ProximityParams& params);
-
-  [[nodiscard]] const ProximityReading& reading() const noexcept override { return reading_; }
 
  protected:
   void measure(const StepContext& context) override;
 
  private:
   ProximityParams params_;
-  ProximityReading reading_;
 };
 
 }  // namespace sim

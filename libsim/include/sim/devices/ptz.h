@@ -33,20 +33,15 @@ struct PtzReading final : Reading {
   double tilt_speed_radps = 0.0;
   double zoom_speed_radps = 0.0;  ///< how fast the field of view widens
   bool moving = false;
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<PtzReading>(*this);
-  }
 };
 
 /// A head that turns to where it is told at the speed it is told, without inertia, within its
 /// limits. At the start it looks straight ahead, zoomed out. Takes PointCommand and PanCommand.
 /// Blobfinders and cameras of the same robot may sit on it (ViewParams::ptz).
-class Ptz final : public Sensor {
+class Ptz final : public SensorOf<PtzReading> {
  public:
   Ptz(std::string name, const PtzParams& params);
 
-  [[nodiscard]] const PtzReading& reading() const noexcept override { return reading_; }
   [[nodiscard]] double pan_rad() const noexcept { return pan_.now; }
   [[nodiscard]] double tilt_rad() const noexcept { return tilt_.now; }
   [[nodiscard]] double view_rad() const noexcept { return view_.now; }
@@ -77,7 +72,6 @@ class Ptz final : public Sensor {
   Axis pan_;
   Axis tilt_;
   Axis view_;
-  PtzReading reading_;
 };
 
 }  // namespace sim

@@ -56,10 +56,6 @@ struct RangerReading final : Reading {
   double range_max_m = 0.0;        ///< as set
   double field_of_view_rad = 0.0;  ///< full angle of each cone; 0: single rays
   Pose X_WB;                       ///< where the robot was (for pictures; not told to clients)
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<RangerReading>(*this);
-  }
 };
 
 /// Infrared or sonar rangers: RangerParams says what they are, RangerReading what they tell.
@@ -68,14 +64,13 @@ struct RangerReading final : Reading {
 /// from where the first echo comes, or what its ray meets first. Edges are in single precision
 /// about the robot, so the error is below 1e-7 of the greatest range. What is near the robot is
 /// collected once for all transducers.
-class Ranger final : public Sensor {
+class Ranger final : public SensorOf<RangerReading> {
  public:
   /// @param type           "infrared" or "sonar".
   /// @param may_be_inside  whether any transducer may ever stand inside a solid, see Laser.
   Ranger(std::string name, std::string type, const RangerParams& params, bool may_be_inside,
          RandomStream noise);
 
-  [[nodiscard]] const RangerReading& reading() const noexcept override { return reading_; }
   [[nodiscard]] const RangerParams& params() const noexcept { return params_; }
   void hash(StateHash& hash) const override;
 
@@ -97,7 +92,6 @@ class Ranger final : public Sensor {
   /// Scratch: those that any transducer may see, in shells round the robot: an echo from a nearer
   /// one mostly makes it needless to look at the others.
   std::array<scan::EdgeColumns, kShellLimits_m.size() + 1> shells_;
-  RangerReading reading_;
 };
 
 }  // namespace sim

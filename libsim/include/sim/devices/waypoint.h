@@ -56,10 +56,6 @@ struct WaypointReading final : Reading {
   Vec2 goal_m = Vec2::Zero();      ///< in W [m]; before the first goal: where the robot started
   Vec2 position_m = Vec2::Zero();  ///< of the robot, in W [m]
   double distance_m = 0.0;         ///< from the robot to the goal [m]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<WaypointReading>(*this);
-  }
 };
 
 /// Drives its robot to a point of the world through the robot's motors: an actuator that can be
@@ -73,7 +69,7 @@ struct WaypointReading final : Reading {
 /// Who spoke last steers: a TwistCommand for the motors, a PlaceCommand or the like, or a goal for
 /// another waypoint device end the transit with kStop. Motors that are switched off make it wait;
 /// a motion device that is not active does not, as the motors themselves still work.
-class Waypoint final : public Sensor {
+class Waypoint final : public SensorOf<WaypointReading> {
  public:
   /// @param X_WB_start  where the robot stands before the first step.
   Waypoint(std::string name, const WaypointParams& params, const Pose& X_WB_start);
@@ -98,7 +94,6 @@ class Waypoint final : public Sensor {
   /// From the robot to the goal [m].
   [[nodiscard]] double distance_m() const;
 
-  [[nodiscard]] const WaypointReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -113,7 +108,6 @@ class Waypoint final : public Sensor {
   WaypointStatus status_ = WaypointStatus::kArrived;
   bool steers_ = false;  ///< the motors are this device's: they must stand where it does not drive
   Pose X_WB_;            ///< at the last step
-  WaypointReading reading_;
 };
 
 }  // namespace sim

@@ -46,10 +46,6 @@ struct WifiReading final : Reading {
   std::string own_ip;        ///< this robot's own address
   double floor_dbm = 0.0;    ///< noise of the channel [dBm]
   double channel_mhz = 0.0;  ///< carrier [MHz]
-
-  [[nodiscard]] std::unique_ptr<Reading> clone() const override {
-    return std::make_unique<WifiReading>(*this);
-  }
 };
 
 /// Signal at a distance by the log-distance path loss model: level(1 m) - 10 n log10(d / 1 m), with
@@ -70,11 +66,10 @@ struct WifiReading final : Reading {
 
 /// A wireless card: hears every other robot that has a card, and the access points of its settings,
 /// by their distance alone; walls do not weaken a signal.
-class Wifi final : public Sensor {
+class Wifi final : public SensorOf<WifiReading> {
  public:
   Wifi(std::string name, const WifiParams& params, RandomStream noise);
 
-  [[nodiscard]] const WifiReading& reading() const noexcept override { return reading_; }
   void hash(StateHash& hash) const override;
 
  protected:
@@ -85,7 +80,6 @@ class Wifi final : public Sensor {
   RandomStream noise_;
   bool looked_ = false;
   std::vector<std::size_t> peers_;  ///< robots that have a card; found at the first reading
-  WifiReading reading_;
 };
 
 }  // namespace sim

@@ -1,0 +1,44 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <utility>
+
+#include "devices/client_core.h"
+#include "libCCMorse/MorseSensor.h"
+
+namespace CCMorse {
+
+/// The end of a sensor that sessions see.
+struct MorseSensor::Receiver final : playerlike::ReadingListener {
+  explicit Receiver(MorseSensor& owner) : sensor(owner) {
+    sensor.mElements.Bind(&sensor.Core()->sole_user());
+  }
+
+  void on_reading(const sim::SharedReading& reading) override;
+  void on_close() override { newest.valid = false; }
+
+  /// Locks for a look that Elements::Find() has not answered.
+  [[nodiscard]] PlayerCc::mutex_t::scoped_lock lock_element(const char* function) {
+    return sensor.Lock(function, sensor.mElements.Looks());
+  }
+
+  MorseSensor& sensor;
+  playerlike::Newest newest;
+  double time_s = 0.0;
+  bool fresh = false;
+};
+
+template <typename Reading, typename Function>
+auto MorseSensor::Look(const char* aFunction, Function aLook) const
+    -> decltype(aLook(std::declval<const Reading&>())) {
+  const auto lock = Lock(aFunction);
+  return aLook(mReceiver->newest.as<Reading>());
+}
+
+template <typename Reading, typename T>
+T MorseSensor::Look(const char* aFunction, T Reading::*aMember) const {
+  const auto lock = Lock(aFunction);
+  return mReceiver->newest.as<Reading>().*aMember;
+}
+
+}  // namespace CCMorse

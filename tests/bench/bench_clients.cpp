@@ -1,0 +1,259 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What client programs cost beside the simulation: 13 that wander by their lasers, the getter of
+// one beam, and 1000 clients at once.
+#include <benchmark/benchmark.h>
+#include <libplayerc++/playerc++.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "figures.h"
+#include "playerlike/host/host.h"
+#include "realtime.h"
+
+namespace sim::bench {
+namespace {
+
+constexpr int kStepsARound = 10;  // lasers and localisation measure so often
+
+struct Choice {
+  double speed_mps;
+  double turn_rate_radps;
+};
+
+// The rule of wandering: looks at each beam, turns away from what is near, else drives on.
+template <typename Beams>
+Choice choose(const Beams& beams, std::uint32_t count, std::size_t robot) {
+  double least_m = 1e3;
+  std::uint32_t nearest = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double range_m = beams[i];
+    if (range_m < least_m) {
+      least_m = range_m;
+      nearest = i;
+    }
+  }
+  if (least_m < 0.25) return {0.0, nearest > count / 2 ? -1.5 : 1.5};
+  return {0.3, 0.1 * (static_cast<double>(robot % 13) - 6.0)};
+}
+
+// Processor time of a call [us].
+template <typename F>
+double used_us(F f) {
+  const std::clock_t begin = std::clock();
+  f();
+  return static_cast<double>(std::clock() - begin) * 1e6 / CLOCKS_PER_SEC;
+}
+
+// The simulation with the rule in it: no client, no session.
+class Alone {
+ public:
+  explicit Alone(const WorldDescription& world) : simulation_(world) {
+    for (int r = 0; r < simulation_.robot_count(); ++r) {
+      const int laser = simulation_.find_device(r, "laser").value();
+      robots_.push_back({dynamic_cast<const Laser*>(&simulation_.device(r, laser)),
+                         {r, simulation_.find_device(r, "motion").value()}});
+    }
+  }
+
+  // A round of ten steps.
+  void wander() {
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+      const LaserReading& scan = robots_[r].laser->reading();
+      const auto count = static_cast<std::uint32_t>(scan.sequence > 0 ? scan.ranges_m.size() : 0);
+      command(r, choose(scan.ranges_m, count, r));
+    }
+    step();
+  }
+  void drive_on() {
+    for (std::size_t r = 0; r < robots_.size(); ++r)
+      command(r, choose(std::vector<double>(), 0, r));
+    step();
+  }
+
+ private:
+  struct Robot {
+    const Laser* laser;
+    playerlike::DeviceId motion;
+  };
+  void command(std::size_t r, const Choice& choice) {
+    simulation_.apply(robots_[r].motion,
+                      TwistCommand{{choice.speed_mps, choice.turn_rate_radps, 0.0}});
+  }
+  void step() {
+    for (int i = 0; i < kStepsARound; ++i) simulation_.step();
+  }
+
+  Simulation simulation_;
+  std::vector<Robot> robots_;
+};
+
+// The same by client programs of one robot each, in one thread.
+class Clients {
+ public:
+  explicit Clients(const std::shared_ptr<playerlike::Host>& host) {
+    for (const playerlike::RobotInfo& robot : host->robots()) {
+      robots_.push_back(std::make_unique<Robot>(host->connect(robot.port)));
+    }
+  }
+
+  void wander() {
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+      Robot& robot = *robots_[r];
+      robot.client.Read();
+      const Choice choice = choose(robot.laser, robot.laser.GetCount(), r);
+      robot.position.SetSpeed(choice.speed_mps, choice.turn_rate_radps);
+    }
+  }
+  void drive_on() {
+    for (std::size_t r = 0; r < robots_.size(); ++r) {
+      robots_[r]->client.Read();
+      const Choice choice = choose(std::vector<double>(), 0, r);
+      robots_[r]->position.SetSpeed(choice.speed_mps, choice.turn_rate_radps);
+    }
+  }
+  void read() {
+    for (const auto& robot : robots_) robot->client.Read();
+  }
+
+ private:
+  struct Robot {
+    explicit Robot(std::unique_ptr<playerlike::Session> session)
+        : client(std::move(session)), position(&client, 0), laser(&client, 0) {}
+    PlayerCc::PlayerClient client;
+    PlayerCc::Position2dProxy position;
+    PlayerCc::LaserProxy laser;
+  };
+  std::vector<std::unique_ptr<Robot>> robots_;
+};
+
+// Turn by turn, so that a slow moment of the machine meets both; of each the least.
+struct Costs {
+  double alone_us = 1e30;
+  double clients_us = 1e30;
+};
+Costs compare(int turns, int rounds, const std::function<void(int)>& alone,
+              const std::function<void(int)>& clients) {
+  Costs costs;
+  for (int turn = 0; turn < turns; ++turn) {
+    costs.alone_us = std::min(costs.alone_us, used_us([&] { alone(rounds); }));
+    costs.clients_us = std::min(costs.clients_us, used_us([&] { clients(rounds); }));
+  }
+  costs.alone_us /= rounds * kStepsARound;
+  costs.clients_us /= rounds * kStepsARound;
+  return costs;
+}
+
+// 13 robots of the arena, each driven by a client of its own.
+void wander_figures() {
+  const WorldDescription world = endless(kThirteen);
+  Alone alone(world);
+  Clients clients(playerlike::Host::create(world));
+  const auto go = [](auto& robots) {
+    return [&robots](int rounds) {
+      for (int i = 0; i < rounds; ++i) robots.wander();
+    };
+  };
+  constexpr int kTurns = 40;
+  constexpr int kRounds = 200;
+  const Costs costs = compare(kTurns, kRounds, go(alone), go(clients));
+  figure("simulation_step_us_13", costs.alone_us);
+  figure("clients_step_us_13", costs.clients_us);
+  figure("clients_over_simulation_13", costs.clients_us / costs.alone_us);
+}
+
+// The getter of one beam, over whole scans; a Read() every hundred of them.
+void getter_figure() {
+  const auto host = playerlike::Host::create(endless(kOne));
+  PlayerCc::PlayerClient client(host->connect(6665));
+  PlayerCc::LaserProxy laser(&client, 0);
+  constexpr int kScans = 100;
+  double best_s = 1e30;
+  for (int round = 0; round < 100; ++round) {
+    client.Read();
+    const std::uint32_t count = laser.GetCount();
+    const auto scan = [&] {
+      double sum = 0.0;
+      for (std::uint32_t i = 0; i < count; ++i) sum += laser[i];
+      benchmark::DoNotOptimize(sum +
+                               0.0);  // a sum whose address is taken would not be in a register
+    };
+    best_s = std::min(best_s, seconds_per_call(scan, kScans, 1) / count);
+  }
+  figure("beam_getter_ns", best_s * 1e9);
+}
+
+// 1000 robots with laser, localisation and motors, 2 m apart on a plain floor.
+WorldDescription plain_floor() {
+  std::string text = R"({"arena": {"size": [80, 50]}, "canvas": {"cell_size": 0.25}, "robots": [)";
+  for (int i = 0; i < 1000; ++i) {
+    text += std::string(i == 0 ? "" : ", ") + R"({"name": "r)" + std::to_string(i) +
+            R"(", "pose": {"x": )" + std::to_string(2 * (i % 40) + 1) + R"(, "y": )" +
+            std::to_string(2 * (i / 40) + 1) +
+            R"(}, "devices": {"laser": {}, "pose": {}, "motion": {}}})";
+  }
+  return load_world_text(text + "]}");
+}
+
+// A thousand clients in one thread, of a robot each.
+void thousand_figures() {
+  const WorldDescription world = plain_floor();
+  using Clock = std::chrono::steady_clock;
+  double first_read_s = 1e30;
+  for (int round = 0; round < 5; ++round) {
+    const auto host = playerlike::Host::create(world);
+    const auto begin = Clock::now();
+    Clients clients(host);
+    clients.read();
+    first_read_s =
+        std::min(first_read_s, std::chrono::duration<double>(Clock::now() - begin).count());
+  }
+  figure("first_read_ms_1000", first_read_s * 1e3);
+
+  Alone alone(world);
+  Clients clients(playerlike::Host::create(world));
+  const auto go = [](auto& robots) {
+    return [&robots](int rounds) {
+      for (int i = 0; i < rounds; ++i) robots.drive_on();
+    };
+  };
+  constexpr int kTurns = 20;
+  constexpr int kRounds = 3;
+  const Costs costs = compare(kTurns, kRounds, go(alone), go(clients));
+  figure("simulation_step_us_1000", costs.alone_us);
+  figure("clients_step_us_1000", costs.clients_us);
+  figure("clients_over_simulation_1000", costs.clients_us / costs.alone_us);
+}
+
+void BM_BeamGetter(benchmark::State& state) {
+  const auto host = playerlike::Host::create(endless(kOne));
+  PlayerCc::PlayerClient client(host->connect(6665));
+  PlayerCc::LaserProxy laser(&client, 0);
+  client.Read();
+  std::uint32_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(laser[i]);
+    if (++i == laser.GetCount()) {
+      i = 0;
+      client.Read();
+    }
+  }
+}
+BENCHMARK(BM_BeamGetter);
+
+}  // namespace
+}  // namespace sim::bench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  sim::bench::getter_figure();
+  sim::bench::wander_figures();
+  sim::bench::thousand_figures();
+}

@@ -1,0 +1,258 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Readings are shared: what one has stays as it is, all have the same, and any thread may look.
+#include <gtest/gtest.h>
+#include <libCCMorse/CCMorse.h>
+#include <libplayerc++/playerc++.h>
+
+#include <atomic>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "fake_session.h"
+#include "playerlike/host/host.h"
+#include "sim/devices/laser.h"
+#include "sim/simulation/simulation.h"
+
+namespace playerlike {
+namespace {
+
+using PlayerCc::LaserProxy;
+using PlayerCc::PlayerClient;
+using PlayerCc::PlayerError;
+using test::FakeSession;
+using test::FakeWorld;
+
+struct Keeper : ReadingSink {
+  void on_reading(DeviceId /*device*/, const sim::SharedReading& reading) override {
+    readings.push_back(reading);
+  }
+  std::vector<sim::SharedReading> readings;
+};
+
+sim::WorldDescription room() {
+  return sim::load_world_text(
+      R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}}]})");
+}
+
+DeviceId device_of(const Session& session, const char* name) {
+  for (const DeviceInfo& device : session.robots().front().devices) {
+    if (device.name == name) return device.id;
+  }
+  throw std::runtime_error("no such device");
+}
+
+std::vector<sim::SharedReading> next(Session& session) {
+  session.wait();
+  Keeper keeper;
+  static_cast<void>(session.take(keeper));
+  return keeper.readings;
+}
+
+TEST(SharedReading, StaysAsItIsAndIsTheSameForAll) {
+  const auto host = Host::create(room());
+  const auto one = host->connect(6665);
+  const auto other = host->connect(6665);
+  const DeviceId laser = device_of(*one, "laser");
+  one->request(SubscribeRequest{laser});
+  other->request(SubscribeRequest{laser});
+  one->send(device_of(*one, "motion"), sim::TwistCommand{{0.4, 0.0, 0.0}});
+
+  const auto first = next(*one);
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_EQ(next(*other), first);  // the same object
+
+  const auto& scan = dynamic_cast<const sim::LaserReading&>(*first[0]);
+  const std::vector<double> ranges = scan.ranges_m;
+  const auto second = next(*one);
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_NE(second[0], first[0]);
+  EXPECT_EQ(scan.sequence, 1U);
+  EXPECT_EQ(scan.ranges_m, ranges);
+  EXPECT_NE(dynamic_cast<const sim::LaserReading&>(*second[0]).ranges_m, ranges);  // it drives
+}
+
+// A program that reads again and again needs two objects: the one it has, and the next.
+TEST(SharedReading, ObjectsThatNobodyHasAreUsedAgain) {
+  const auto host = Host::create(room());
+  const auto session = host->connect(6665);
+  session->request(SubscribeRequest{device_of(*session, "laser")});
+  std::vector<const sim::Reading*> seen;
+  std::vector<sim::SharedReading> held;
+  for (int i = 0; i < 10; ++i) {
+    held = next(*session);
+    ASSERT_EQ(held.size(), 1U);
+    EXPECT_EQ(held[0]->sequence, static_cast<std::uint64_t>(i + 1));
+    seen.push_back(held[0].get());
+  }
+  for (std::size_t i = 4; i < seen.size(); ++i) EXPECT_EQ(seen[i], seen[i - 2]) << i;
+}
+
+TEST(SharedReading, QueuedOnesAreAllDifferent) {
+  const auto host = Host::create(room());
+  const auto session = host->connect(6665);
+  session->request(ReplaceRequest{std::nullopt, false});
+  session->request(SubscribeRequest{device_of(*session, "pose")});
+  session->request(SleepRequest{1.0});
+  const auto readings = next(*session);
+  ASSERT_EQ(readings.size(), 10U);
+  for (std::size_t i = 0; i < readings.size(); ++i) EXPECT_EQ(readings[i]->sequence, i + 1);
+}
+
+// --- Threads. Under ThreadSanitizer these prove that a look without the mutex races with nothing.
+
+// Scans whose beams all read their number, in order, so that torn ones would be seen.
+class Looks : public testing::Test {
+ protected:
+  void add_scans(int count) {
+    for (int i = 1; i <= count; ++i) {
+      world->add_round({{test::kLaser, test::scan(i, std::vector<double>(5, 0.001 * i))}});
+    }
+  }
+  // Looks at all beams until told to stop; what it sees never goes back.
+  static void look(const LaserProxy& laser, const std::atomic<bool>& stop) {
+    double last = 0.0;
+    while (!stop) {
+      for (std::uint32_t i = 0; i < 5; ++i) {
+        const double seen = laser[i];
+        EXPECT_GE(seen, last);
+        last = seen;
+      }
+    }
+  }
+
+  std::shared_ptr<FakeWorld> world = test::make_fake_world();
+  PlayerClient client{std::make_unique<FakeSession>(world)};
+  LaserProxy laser{&client, 0};
+};
+
+TEST_F(Looks, OneThreadReadsAndAnotherLooks) {
+  constexpr int kScans = 2000;
+  add_scans(kScans);
+  std::atomic<bool> stop{false};
+  std::thread other([&] { look(laser, stop); });
+  for (int i = 1; i <= kScans; ++i) {
+    client.Read();
+    for (std::uint32_t beam = 0; beam < 5; ++beam) EXPECT_EQ(laser[beam], 0.001 * i);
+  }
+  stop = true;
+  other.join();
+}
+
+TEST_F(Looks, TheThreadThatReadChangesInTheMiddle) {
+  constexpr int kScans = 1000;
+  add_scans(2 * kScans);
+  for (int i = 1; i <= kScans; ++i) client.Read();
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    for (int i = 1; i <= kScans; ++i) {
+      client.Read();
+      EXPECT_EQ(laser[0], 0.001 * (kScans + i));
+      EXPECT_EQ(laser.GetRange(4), 0.001 * (kScans + i));
+    }
+    stop = true;
+  });
+  look(laser, stop);  // began without the mutex
+  other.join();
+  EXPECT_EQ(laser[0], 0.001 * 2 * kScans);
+}
+
+TEST_F(Looks, ThreadsReadByTurns) {
+  constexpr int kScans = 1000;
+  add_scans(2 * kScans);
+  const auto read = [this] {
+    double last = 0.0;
+    try {
+      for (int i = 0; i < kScans; ++i) {
+        client.Read();
+        const double seen = laser[2];
+        EXPECT_GE(seen, last);
+        last = seen;
+      }
+    } catch (const PlayerError& error) {  // the other one has taken the last scan
+      EXPECT_EQ(error.GetErrorCode(), PlayerError::kRunIsOver);
+    }
+  };
+  std::thread one(read);
+  std::thread other(read);
+  one.join();
+  other.join();
+  EXPECT_GT(laser[2], 0.001 * kScans);
+}
+
+TEST_F(Looks, AnotherThreadConfigures) {
+  add_scans(1);
+  client.Read();
+  EXPECT_EQ(laser.GetCount(), 5U);
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    laser.Configure(-0.6, 0.6, 0, 0, false, 10.0);
+    stop = true;
+  });
+  while (!stop) EXPECT_EQ(laser[1], 0.001);
+  other.join();
+  EXPECT_EQ(laser.GetCount(), 3U);
+  EXPECT_NEAR(laser.GetBearing(0), -0.5, 1e-12);
+  EXPECT_EQ(laser[4], 0.0);  // beyond the window
+}
+
+TEST_F(Looks, CopiesAndLatecomersHaveTheirOwnSnapshots) {
+  add_scans(3);
+  client.Read();
+  LaserProxy copy(laser);
+  EXPECT_EQ(copy[1], 0.001);
+  LaserProxy late(&client, 0);
+  EXPECT_EQ(late[1], 0.0);
+  client.Read();
+  for (const LaserProxy* proxy : {&laser, &copy, &late}) EXPECT_EQ((*proxy)[1], 0.002);
+  std::thread([&] { client.Read(); }).join();
+  for (const LaserProxy* proxy : {&laser, &copy, &late}) EXPECT_EQ((*proxy)[1], 0.003);
+}
+
+TEST(LooksAtTheEnd, AClientThatIsGoneIsAnError) {
+  const auto world = test::make_fake_world();
+  world->add_round({{test::kLaser, test::scan(1, {1, 2, 3, 4, 5})}});
+  auto client = std::make_unique<PlayerClient>(std::make_unique<FakeSession>(world));
+  const LaserProxy laser(client.get(), 0);
+  client->Read();
+  EXPECT_EQ(laser[3], 4.0);
+  std::thread([&] { client.reset(); }).join();
+  try {
+    static_cast<void>(laser[3]);
+    FAIL() << "a beam of a client that is gone was shown";
+  } catch (const PlayerError& error) {
+    EXPECT_EQ(error.GetErrorCode(), PlayerError::kDisconnected);
+    EXPECT_EQ(error.GetErrorFun(), "LaserProxy::operator[]");
+  }
+}
+
+TEST(MorseLooks, OneThreadReadsAndAnotherLooks) {
+  constexpr int kScans = 1000;
+  const auto world = test::make_fake_world();
+  for (int i = 1; i <= kScans; ++i) {
+    world->add_round({{test::kLaser, test::scan(i, std::vector<double>(5, 0.001 * i))}});
+  }
+  CCMorse::MorseClient client(std::make_unique<FakeSession>(world));
+  const CCMorse::MorseLaser laser(client.GetRobot());
+  client.Read();
+  std::atomic<bool> stop{false};
+  std::thread other([&] {
+    double last = 0.0;
+    while (!stop) {
+      const double seen = laser[2];
+      EXPECT_GE(seen, last);
+      last = seen;
+    }
+  });
+  for (int i = 2; i <= kScans; ++i) {
+    client.Read();
+    EXPECT_EQ(laser[0], 0.001 * i);
+  }
+  stop = true;
+  other.join();
+}
+
+}  // namespace
+}  // namespace playerlike
