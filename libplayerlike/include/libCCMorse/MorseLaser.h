@@ -25,8 +25,8 @@ class MorseLaser : public MorseSensor {
   uint32_t GetCount() const;  ///< beams of the newest scan
   /// [m], in [0, GetMaxRange()]
   double GetRange(uint32_t aIndex) const {
-    const double* const range = mElements.Find(aIndex);
-    return range != nullptr ? *range : LockedRange(aIndex);
+    double range = 0.0;
+    return mElements.Find(aIndex, range) ? range : LockedRange(aIndex);
   }
   double operator[](uint32_t aIndex) const { return GetRange(aIndex); }
   double GetBearing(uint32_t aIndex) const;           ///< angle of the beam [rad]
@@ -47,7 +47,7 @@ class MorseLaser : public MorseSensor {
   player_pose2d_t GetMountPose() const;
 
  private:
-  double LockedRange(uint32_t aIndex) const;
+  [[gnu::cold]] double LockedRange(uint32_t aIndex) const;
   void Check(uint32_t aIndex, uint32_t aCount, const char* aFunction) const;
 };
 

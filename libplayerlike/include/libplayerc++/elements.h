@@ -26,26 +26,28 @@ class Elements {
   /// As sole_user of a client that has none, or several users.
   static constexpr std::uint64_t kNobody = ~std::uint64_t{0};
 
-  /// A number; null if it is to be looked at under the mutex: there may be none, the calling thread
-  /// may not be the sole user, or its looks are to be noted.
+  /// Gives a number. False if it is to be looked at under the mutex: there may be none, the calling
+  /// thread may not be the sole user, or its looks are to be noted.
   ///
   /// To count each look would take longer than the look. Of looks in ascending order those at every
   /// eighth number are counted, for eight; all others count singly. So looks at whole scans are
   /// counted as often as they are made, and any look counts for eight at most.
-  const double* Find(std::uint32_t aIndex) {
-    if (!IsSoleUser() || aIndex >= mCount) return nullptr;
+  bool Find(std::uint32_t aIndex, double& aValue) {
+    if (!IsSoleUser() || aIndex >= mCount) return false;
     if (aIndex <= mLast || aIndex % kCounted == 0) {
       mLooksLeft -= aIndex % kCounted == 0 ? kCounted : 1;
-      if (mLooksLeft < 0) return nullptr;
+      if (mLooksLeft < 0) return false;
     }
     mLast = aIndex;
-    return mValues + aIndex;
+    aValue = mValues[aIndex];
+    return true;
   }
   /// What the numbers are part of, as given to Show().
   const void* Owner() const { return mOwner.get(); }
 
   // The rest is called with the client's mutex locked.
 
+  /// Comes before everything else.
   /// @param aSoleUser  the number of the thread that may look without a lock; outlives this.
   void Bind(const std::atomic<std::uint64_t>* aSoleUser) { mSoleUser = aSoleUser; }
   /// What there is to look at from now on. Does nothing unless the calling thread is the sole user.
@@ -56,7 +58,7 @@ class Elements {
     mValues = aValues;
     mCount = aCount;
   }
-  /// How many looks are to be noted when Find() has returned null.
+  /// How many looks are to be noted when Find() has returned false.
   int Looks() {
     if (!IsSoleUser() || mLooksLeft >= 0) return 1;
     mLooksLeft += kNotedAtOnce;
@@ -67,7 +69,7 @@ class Elements {
   enum { kCounted = 8, kNotedAtOnce = 1024 };
 
   bool IsSoleUser() const {
-    return mSoleUser != nullptr && mSoleUser->load(std::memory_order_relaxed) == thread_number;
+    return mSoleUser->load(std::memory_order_relaxed) == thread_number;
   }
 
   const std::atomic<std::uint64_t>* mSoleUser = nullptr;

@@ -36,8 +36,8 @@ class RangerProxy : public ClientProxy {
   uint32_t GetRangeCount() const;  ///< ranges of the newest reading
   /// [m]
   double GetRange(uint32_t aIndex) const {
-    const double* const range = mElements.Find(aIndex);
-    return range != nullptr ? *range : LockedRange(aIndex);
+    double range = 0.0;
+    return mElements.Find(aIndex, range) ? range : LockedRange(aIndex);
   }
   double operator[](uint32_t aIndex) const { return GetRange(aIndex); }
   uint32_t GetPointCount() const;  ///< as many as there are ranges
@@ -93,7 +93,7 @@ class RangerProxy : public ClientProxy {
 
  private:
   // All of these are guarded by the client's mutex.
-  double LockedRange(uint32_t aIndex) const;  // takes it
+  [[gnu::cold]] double LockedRange(uint32_t aIndex) const;  // takes it
   void View();
 
   bool mIsLaser = false;

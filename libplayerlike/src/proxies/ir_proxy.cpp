@@ -26,7 +26,8 @@ uint32_t IrProxy::GetCount() const {
 }
 
 double IrProxy::GetRange(uint32_t aIndex) const {
-  if (const double* range = mElements.Find(aIndex)) return *range;
+  double range = 0.0;
+  if (mElements.Find(aIndex, range)) return range;
   const char* fun = "IrProxy::GetRange";
   const scoped_lock_t lock(mLink->lock_element(fun));
   return detail::element_or_zero(fun, "transducer", aIndex,

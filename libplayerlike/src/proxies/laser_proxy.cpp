@@ -120,8 +120,9 @@ player_point_2d_t LaserProxy::GetPoint(uint32_t aIndex) const {
     const double bearing = bearing_rad(scan, aIndex);
     return {range * std::cos(bearing), range * std::sin(bearing)};
   };
-  if (const double* range = mElements.Find(aIndex)) {
-    return point(detail::owner_of<LaserReading>(mElements), *range);
+  double range = 0.0;
+  if (mElements.Find(aIndex, range)) {
+    return point(detail::owner_of<LaserReading>(mElements), range);
   }
   const char* fun = "LaserProxy::GetPoint";
   const scoped_lock_t lock(mLink->lock_element(fun));
@@ -134,7 +135,8 @@ double LaserProxy::LockedRange(uint32_t aIndex, const char* aFun) const {
 }
 
 double LaserProxy::GetBearing(uint32_t aIndex) const {
-  if (mElements.Find(aIndex) != nullptr) {
+  double range = 0.0;
+  if (mElements.Find(aIndex, range)) {
     return bearing_rad(detail::owner_of<LaserReading>(mElements), aIndex);
   }
   const char* fun = "LaserProxy::GetBearing";

@@ -26,7 +26,8 @@ uint32_t SonarProxy::GetCount() const {
 }
 
 double SonarProxy::GetScan(uint32_t aIndex) const {
-  if (const double* range = mElements.Find(aIndex)) return *range;
+  double range = 0.0;
+  if (mElements.Find(aIndex, range)) return range;
   const scoped_lock_t lock(mLink->lock_element("SonarProxy::GetScan"));
   const std::vector<double>& ranges = mLink->newest.as<RangerReading>().ranges_m;
   return aIndex < ranges.size() ? ranges[aIndex] : -1.0;
