@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "print_encoding.h"
 #include "protocol/codec.h"
 #include "protocol/framing.h"
 #include "sim/devices/aio.h"
@@ -42,9 +43,6 @@
 #include "sim/devices/wifi.h"
 
 namespace playerlike::protocol {
-
-/// How GoogleTest names an encoding in its output.
-void PrintTo(Encoding encoding, std::ostream* os) { *os << to_string(encoding); }
 
 namespace {
 

@@ -10,18 +10,15 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "print_encoding.h"
 #include "protocol/codec.h"
 
 namespace playerlike::protocol {
-
-/// How GoogleTest names an encoding in its output.
-void PrintTo(Encoding encoding, std::ostream* os) { *os << to_string(encoding); }
 
 namespace {
 
