@@ -45,8 +45,8 @@ class MorseSensor : public MorseDevice {
   T Look(const char* aFunction, T Reading::*aMember) const;
 
   struct Receiver;
+  mutable PlayerCc::detail::Elements mElements;  ///< of rangefinders; mReceiver binds it
   std::unique_ptr<Receiver> mReceiver;
-  mutable PlayerCc::detail::Elements mElements;  ///< of rangefinders
 };
 
 }  // namespace CCMorse
