@@ -46,7 +46,7 @@ ProcessOptions patient() {
 
 int repeats() {
   const char* text = std::getenv("PLAYPEN_REPEATS");
-  return text == nullptr ? 10 : std::max(2, std::atoi(text));
+  return text == nullptr ? 4 : std::max(2, std::atoi(text));
 }
 
 using Command = std::vector<std::string>;
