@@ -67,7 +67,6 @@ inline void take_value(const json& value, Encoding encoding) {
   attempt([&] { static_cast<void>(encode_time(decode_time(value))); });
   attempt([&] { static_cast<void>(encode_layers(decode_layers(value))); });
   attempt([&] { static_cast<void>(encode_map(decode_map(value, encoding), encoding)); });
-  attempt([&] { static_cast<void>(decode_layer_kind(value)); });
 }
 
 /// Does with a message what a server or a client might.
@@ -84,7 +83,6 @@ inline void take_message(const json& message, Encoding encoding) {
     attempt([&] { static_cast<void>(require_bool(message, name)); });
     attempt([&] { static_cast<void>(require_text(message, name)); });
     attempt([&] { static_cast<void>(require_device_id(message, name)); });
-    attempt([&] { static_cast<void>(require_pose(message, name)); });
     attempt([&] { static_cast<void>(require_doubles(message, name, encoding)); });
     attempt([&] {
       const auto data = require_bytes(message, name, encoding);

@@ -30,24 +30,13 @@ void Host::Core::let_others_in() const {
   while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
 }
 
-void Host::Core::keep_own_drawings(const Client& client,
-                                   std::vector<sim::DrawOperation>& operations) const {
-  std::optional<sim::LayerId> layer;
-  bool own = false;
-  std::erase_if(operations, [&](const sim::DrawOperation& o) {
-    if (layer != o.layer) own = layer_book_.may_use(client.number, o.layer);
-    layer = o.layer;
-    return !own;
-  });
-}
-
 bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
   {
     const Lock lock = lock_soon();
-    require_open(client);
+    client.require_open();
     if (!std::exchange(work.begun, true)) {
-      carry_out_drawings(client);
-      keep_own_drawings(client, work.operations);
+      inputs_.apply_drawings(client);
+      inputs_.keep_own_drawings(client, work.operations);
       sim::drop_covered(work.operations);
     }
     work.written += simulation_.layers().draw_some(work.operations, work.progress, cells);
@@ -152,10 +141,10 @@ void Host::Core::resize_canvas(Client& client, int width, int height) {
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (std::size_t i = 0; i < size; ++i) memory.emplace_back(4 * cells, std::uint8_t{0});
   const Lock lock = lock_soon();
-  require_open(client);
+  client.require_open();
   // What others have drawn was meant for the cells as they were numbered then.
-  for (const auto& c : clients_) carry_out_drawings(*c);
-  memory = layer_book_.resize(simulation_.layers(), width, height, std::move(memory));
+  for (const auto& c : clients_) inputs_.apply_drawings(*c);
+  memory = inputs_.book.resize(simulation_.layers(), width, height, std::move(memory));
   canvas_generation_.fetch_add(1, std::memory_order_acq_rel);
 }
 

@@ -53,15 +53,23 @@ struct Host::Core::RequestHandler {
 
   void operator()(const SubscribeRequest& what) const {
     const DeviceInfo& info = require_device(core.robots_, what.device);
-    if (!core.is_sensor(what.device)) {
+    const bool is_sensor = core.locked([&] {
+      return dynamic_cast<const sim::Sensor*>(
+                 &core.simulation_.device(what.device.robot, what.device.device)) != nullptr;
+    });
+    if (!is_sensor) {
       throw SessionError(SessionError::Code::kBadArgument,
                          "device " + info.name + " is no sensor: it has no readings");
     }
     core.subscribe(client, what.device);
   }
-  void operator()(const UnsubscribeRequest& what) const { core.unsubscribe(client, what.device); }
+  void operator()(const UnsubscribeRequest& what) const {
+    core.locked([&] { core.clients_.unsubscribe(client, what.device); });
+  }
   void operator()(const ReplaceRequest& what) const {
-    core.set_replace(client, what.device, what.replace);
+    const Lock lock = core.lock_soon();
+    client.require_open();
+    core.clients_.set_replace(client, what.device, what.replace);
   }
   std::uint32_t operator()(const OverflowRequest&) const {
     const Lock lock = core.lock_soon();
@@ -69,7 +77,9 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const JoinRequest&) const { core.join(client, this_thinker()); }
   void operator()(const SleepRequest& what) const { core.sleep(client, what.seconds); }
-  TimeStatistics operator()(const TimeRequest&) const { return core.time(); }
+  TimeStatistics operator()(const TimeRequest&) const {
+    return core.locked([this] { return core.time_locked(); });
+  }
   void operator()(const PreferRealTimeRequest& what) const { core.prefer_real_time(what.reason); }
   void operator()(const NoteLooksRequest& what) const {
     core.note_looks(client, what.count, what.has_data);
@@ -82,11 +92,10 @@ struct Host::Core::RequestHandler {
 
   void operator()(const FlushDrawingsRequest&) const {
     const Lock lock = core.lock_soon();
-    require_open(client);
-    core.touch(client);
-    core.carry_out_drawings(client);
-    client.drawings.reserve();
-    core.somebody_draws_ = true;
+    client.require_open();
+    client.touch();
+    core.inputs_.apply_drawings(client);
+    core.inputs_.reserve_drawings(client);
   }
   void operator()(const SetCellsRequest& what) const {
     require_cells(what.rect, what.cells.size());
@@ -172,7 +181,7 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const SetViewModeRequest& what) const {
     const Lock lock = core.lock_soon();
-    require_open(client);
+    client.require_open();
     if (const auto refusal = core.simulation_.set_view_mode(what.mode)) {
       throw SessionError(SessionError::Code::kNotAvailable, *refusal);
     }
@@ -216,8 +225,8 @@ struct Host::Core::RequestHandler {
       std::optional<std::string> file;
       {
         const Lock lock = core.lock_soon();
-        require_open(client);
-        RunLog& log = core.logs_
+        client.require_open();
+        RunLog& log = core.results_.logs
                           .try_emplace(client.port, core.settings_.output_folder, client.port,
                                        core.robots_, core.client_files_)
                           .first->second;
@@ -234,7 +243,7 @@ struct Host::Core::RequestHandler {
   /// The host's mutex, for what is kept from programs in a private world.
   [[nodiscard]] Lock lock_readable() const {
     Lock lock = core.lock_soon();
-    require_open(client);
+    client.require_open();
     core.require_readable(client, -1);
     return lock;
   }

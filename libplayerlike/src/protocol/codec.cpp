@@ -18,9 +18,6 @@ static_assert(std::endian::native == std::endian::little,
 
 constexpr std::int64_t kLeastInt = std::numeric_limits<int>::min();
 constexpr std::int64_t kMostInt = std::numeric_limits<int>::max();
-constexpr std::int64_t kMostInt64 = std::numeric_limits<std::int64_t>::max();
-/// The most cells along a side of a canvas or a map.
-constexpr std::int64_t kMostCells = 8192;
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 60;
@@ -45,21 +42,11 @@ std::string described(const json& value) {
   }
 }
 
-const json::array_t& require_list(const json& value, const char* key, const char* expected) {
-  const auto* list = value.get_ptr<const json::array_t*>();
-  if (list == nullptr) refuse_value(key, expected, value);
-  return *list;
-}
-
-int require_int(const json& object, const char* key) {
-  return static_cast<int>(require_integer(object, key, kLeastInt, kMostInt));
-}
-
 /// A whole number that an integer or a float holds; nullopt for anything else.
 std::optional<std::int64_t> whole_number(const json& value) {
   if (value.is_number_unsigned()) {
     const auto number = value.get<std::uint64_t>();
-    if (number > std::uint64_t{kMostInt64}) return std::nullopt;
+    if (std::cmp_greater(number, std::numeric_limits<std::int64_t>::max())) return std::nullopt;
     return static_cast<std::int64_t>(number);
   }
   if (value.is_number_integer()) return value.get<std::int64_t>();
@@ -167,138 +154,6 @@ std::vector<Number> numbers_in(std::span<const std::uint8_t> bytes) {
     std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(Number));
   }
   return numbers;
-}
-
-// --- colours
-
-json encode_colour(sim::Colour colour) { return sim::to_string(colour); }
-
-sim::Colour decode_colour(const json& value, const char* key) {
-  if (const auto* text = value.get_ptr<const std::string*>()) {
-    if (const auto colour = sim::parse_colour(*text)) return *colour;
-  }
-  refuse_value(key, "a colour like \"#34aaff\" or \"#34aaff80\"", value);
-}
-
-// --- robots
-
-json encode_device(const DeviceInfo& device) {
-  return {{"device", encode_device_id(device.id)},
-          {"name", device.name},
-          {"type", device.type},
-          {"properties", device.properties}};
-}
-
-template <typename Value, typename Decode>
-std::map<std::string, Value> decode_table(const json& object, const char* key, Decode decode) {
-  const auto* table = require(object, key).get_ptr<const json::object_t*>();
-  if (table == nullptr) refuse_value(key, "an object", object.at(key));
-  std::map<std::string, Value> decoded;
-  for (const auto& [name, value] : *table) {
-    decoded.emplace(name, decode(object.at(key), name.c_str()));
-  }
-  return decoded;
-}
-
-std::vector<std::string> require_texts(const json& object, const char* key) {
-  std::vector<std::string> texts;
-  for (const json& text : require_list(object.at(key), key, "a list of texts")) {
-    if (!text.is_string()) refuse_value(key, "a list of texts", text);
-    texts.push_back(text.get<std::string>());
-  }
-  return texts;
-}
-
-DeviceInfo decode_device(const json& device) {
-  return {require_device_id(device, "device"), require_text(device, "name"),
-          require_text(device, "type"), decode_table<double>(device, "properties", require_number)};
-}
-
-/// The key of a driver's setting on the wire, where angles are in radians.
-std::string wire_key(const SndSettingRow& row) {
-  std::string_view key = row.key;
-  if (key.ends_with("_deg")) key.remove_suffix(4);
-  return std::string(key);
-}
-
-json encode_snd_driver(const SndDriverDescription& driver) {
-  json encoded = {{"index", driver.index}, {"position", driver.position}, {"laser", driver.laser}};
-  for (const SndSettingRow& row : snd_setting_table()) {
-    encoded[wire_key(row)] = driver.settings.*row.value;
-  }
-  return encoded;
-}
-
-SndDriverDescription decode_snd_driver(const json& driver) {
-  SndDriverDescription decoded;
-  decoded.index = require_int(driver, "index");
-  decoded.position = require_int(driver, "position");
-  decoded.laser = require_int(driver, "laser");
-  for (const SndSettingRow& row : snd_setting_table()) {
-    decoded.settings.*row.value = require_number(driver, wire_key(row).c_str());
-  }
-  if (const std::string fault = fault_of(decoded.settings); !fault.empty()) {
-    throw ProtocolError("protocol/bad-value", fault);
-  }
-  return decoded;
-}
-
-json encode_robot(const RobotInfo& robot) {
-  json drivers = json::array();
-  for (const sim::DriverDescription& driver : robot.drivers) {
-    drivers.push_back({{"type", driver.type}, {"settings", driver.settings}});
-  }
-  json snd_drivers = json::array();
-  for (const SndDriverDescription& driver : robot.snd_drivers) {
-    snd_drivers.push_back(encode_snd_driver(driver));
-  }
-  json devices = json::array();
-  for (const DeviceInfo& device : robot.devices) devices.push_back(encode_device(device));
-  return {{"name", robot.name},
-          {"model", robot.model},
-          {"colour", encode_colour(robot.colour)},
-          {"initial_pose", encode_pose(robot.initial_pose)},
-          {"port", robot.port},
-          {"length", robot.length_m},
-          {"width", robot.width_m},
-          {"height", robot.height_m},
-          {"center_x", robot.center_m.x()},
-          {"center_y", robot.center_m.y()},
-          {"max_speed", robot.max_speed_mps},
-          {"max_turn_rate", robot.max_turn_rate_radps},
-          {"proxies", robot.proxies},
-          {"interfaces", robot.interfaces},
-          {"drivers", std::move(drivers)},
-          {"snd_drivers", std::move(snd_drivers)},
-          {"devices", std::move(devices)}};
-}
-
-RobotInfo decode_robot(const json& robot) {
-  RobotInfo decoded;
-  decoded.name = require_text(robot, "name");
-  decoded.model = require_text(robot, "model");
-  decoded.colour = decode_colour(require(robot, "colour"), "colour");
-  decoded.initial_pose = require_pose(robot, "initial_pose");
-  decoded.port = static_cast<int>(require_integer(robot, "port", 0, 65535));
-  decoded.length_m = require_number(robot, "length");
-  decoded.width_m = require_number(robot, "width");
-  decoded.height_m = require_number(robot, "height");
-  decoded.center_m = {require_number(robot, "center_x"), require_number(robot, "center_y")};
-  decoded.max_speed_mps = require_number(robot, "max_speed");
-  decoded.max_turn_rate_radps = require_number(robot, "max_turn_rate");
-  decoded.proxies = decode_table<int>(robot, "proxies", require_int);
-  decoded.interfaces = decode_table<std::vector<std::string>>(robot, "interfaces", require_texts);
-  for (const json& driver : require_list(require(robot, "drivers"), "drivers", "a list")) {
-    decoded.drivers.push_back({require_text(driver, "type"),
-                               decode_table<std::string>(driver, "settings", require_text)});
-  }
-  for (const json& driver : require_list(require(robot, "snd_drivers"), "snd_drivers", "a list")) {
-    decoded.snd_drivers.push_back(decode_snd_driver(driver));
-  }
-  for (const json& device : require_list(require(robot, "devices"), "devices", "a list")) {
-    decoded.devices.push_back(decode_device(device));
-  }
-  return decoded;
 }
 
 // --- drawings
@@ -411,8 +266,6 @@ constexpr ErrorName kErrorNames[] = {
     {SessionError::Code::kBadArgument, "session/bad-argument"},
 };
 
-constexpr std::string_view kLayerKinds[] = {"colour", "binary", "grey"};
-
 }  // namespace
 
 void refuse_value(std::string_view key, std::string_view expected, const json& found) {
@@ -465,6 +318,12 @@ std::string require_text(const json& object, const char* key) {
   const json& value = require(object, key);
   if (!value.is_string()) refuse_value(key, "a text", value);
   return value.get<std::string>();
+}
+
+const json::array_t& require_list(const json& value, const char* key, const char* expected) {
+  const auto* list = value.get_ptr<const json::array_t*>();
+  if (list == nullptr) refuse_value(key, expected, value);
+  return *list;
 }
 
 void refuse_unknown_keys(const json& object, std::span<const std::string_view> known,
@@ -539,170 +398,8 @@ json encode_pose(const sim::Pose& pose) {
   return {{"x", pose.x_m}, {"y", pose.y_m}, {"yaw", pose.yaw_rad}};
 }
 
-sim::Pose require_pose(const json& object, const char* key) {
-  const json& pose = require(object, key);
+sim::Pose decode_pose(const json& pose) {
   return {require_number(pose, "x"), require_number(pose, "y"), require_number(pose, "yaw")};
-}
-
-json encode_robots(const std::vector<RobotInfo>& robots) {
-  json list = json::array();
-  for (const RobotInfo& robot : robots) list.push_back(encode_robot(robot));
-  return list;
-}
-
-std::vector<RobotInfo> decode_robots(const json& robots) {
-  std::vector<RobotInfo> decoded;
-  for (const json& robot : require_list(robots, "robots", "a list of robots")) {
-    decoded.push_back(decode_robot(robot));
-    const std::vector<DeviceInfo>& devices = decoded.back().devices;
-    for (std::size_t d = 0; d < devices.size(); ++d) {
-      if (devices[d].id.robot != static_cast<int>(decoded.size()) - 1 ||
-          devices[d].id.device != static_cast<int>(d)) {
-        refuse_value("device", "the indices of the robot and of the device in these lists",
-                     encode_device_id(devices[d].id));
-      }
-    }
-  }
-  return decoded;
-}
-
-json encode_canvas(const CanvasInfo& canvas) {
-  return {{"width", canvas.width},
-          {"height", canvas.height},
-          {"cell_size", canvas.cell_size_m},
-          {"x", canvas.origin_x_m},
-          {"y", canvas.origin_y_m}};
-}
-
-CanvasInfo decode_canvas(const json& canvas) {
-  CanvasInfo decoded;
-  decoded.width = static_cast<int>(require_integer(canvas, "width", 1, kMostCells));
-  decoded.height = static_cast<int>(require_integer(canvas, "height", 1, kMostCells));
-  decoded.cell_size_m = require_number(canvas, "cell_size");
-  if (decoded.cell_size_m <= 0.0) {
-    refuse_value("cell_size", "a number greater than 0", decoded.cell_size_m);
-  }
-  decoded.origin_x_m = require_number(canvas, "x");
-  decoded.origin_y_m = require_number(canvas, "y");
-  return decoded;
-}
-
-json encode_time(const TimeStatistics& time) {
-  return {{"t", time.sim_time_ns},
-          {"steps", time.steps},
-          {"step", time.step_s},
-          {"wall_time", time.wall_time_s},
-          {"real_time_factor", time.real_time_factor},
-          {"duration", time.duration_s ? json(*time.duration_s) : json()},
-          {"mode", time.mode == sim::TimeMode::kLockstep ? "lockstep" : "paced"},
-          {"finished", time.finished}};
-}
-
-TimeStatistics decode_time(const json& time) {
-  TimeStatistics decoded;
-  decoded.sim_time_ns = require_integer(time, "t", 0, kMostInt64);
-  decoded.steps = static_cast<std::uint64_t>(require_integer(time, "steps", 0, kMostInt64));
-  decoded.step_s = require_number(time, "step");
-  decoded.wall_time_s = require_number(time, "wall_time");
-  decoded.real_time_factor = require_number(time, "real_time_factor");
-  if (!require(time, "duration").is_null()) {
-    decoded.duration_s = require_number(time, "duration");
-  }
-  const json& mode = require(time, "mode");
-  if (mode != "lockstep" && mode != "paced") {
-    refuse_value("mode", R"("lockstep" or "paced")", mode);
-  }
-  decoded.mode = mode == "lockstep" ? sim::TimeMode::kLockstep : sim::TimeMode::kPaced;
-  decoded.finished = require_bool(time, "finished");
-  return decoded;
-}
-
-json encode_layer_kind(sim::LayerKind kind) { return kLayerKinds[static_cast<std::size_t>(kind)]; }
-
-sim::LayerKind decode_layer_kind(const json& kind) {
-  if (const auto* word = kind.get_ptr<const std::string*>()) {
-    const auto* const found = std::find(std::begin(kLayerKinds), std::end(kLayerKinds), *word);
-    if (found != std::end(kLayerKinds)) {
-      return static_cast<sim::LayerKind>(found - std::begin(kLayerKinds));
-    }
-  }
-  refuse_value("kind", R"("colour", "binary" or "grey")", kind);
-}
-
-json encode_style(const sim::LayerStyle& style) {
-  return {{"name", style.name},
-          {"colour", encode_colour(style.colour)},
-          {"transparency", style.transparency},
-          {"transparent_colour",
-           style.transparent_colour ? encode_colour(*style.transparent_colour) : json()},
-          {"priority", style.priority},
-          {"visible", style.visible}};
-}
-
-sim::LayerStyle decode_style(const json& style) {
-  refuse_unknown_keys(
-      style, {"name", "colour", "transparency", "transparent_colour", "priority", "visible"},
-      "a style");
-  sim::LayerStyle decoded;
-  if (style.contains("name")) decoded.name = require_text(style, "name");
-  if (style.contains("colour")) decoded.colour = decode_colour(style.at("colour"), "colour");
-  if (style.contains("transparency")) decoded.transparency = require_number(style, "transparency");
-  if (style.contains("transparent_colour") && !style.at("transparent_colour").is_null()) {
-    decoded.transparent_colour =
-        decode_colour(style.at("transparent_colour"), "transparent_colour");
-  }
-  if (style.contains("priority")) decoded.priority = require_int(style, "priority");
-  if (style.contains("visible")) decoded.visible = require_bool(style, "visible");
-  return decoded;
-}
-
-json encode_layers(const std::vector<sim::LayerInfo>& layers) {
-  json list = json::array();
-  for (const sim::LayerInfo& layer : layers) {
-    list.push_back({{"layer", layer.id},
-                    {"kind", encode_layer_kind(layer.kind)},
-                    {"owner", layer.owner},
-                    {"style", encode_style(layer.style)}});
-  }
-  return list;
-}
-
-std::vector<sim::LayerInfo> decode_layers(const json& layers) {
-  std::vector<sim::LayerInfo> decoded;
-  for (const json& layer : require_list(layers, "layers", "a list of layers")) {
-    decoded.push_back({require_int(layer, "layer"), decode_layer_kind(require(layer, "kind")),
-                       require_int(layer, "owner"), decode_style(require(layer, "style"))});
-  }
-  return decoded;
-}
-
-json encode_map(const sim::OccupancyMap& map, Encoding encoding) {
-  return {{"width", map.width},
-          {"height", map.height},
-          {"cell_size", map.cell_size_m},
-          {"x", map.origin.x()},
-          {"y", map.origin.y()},
-          {"cells", bytes(memory_of(std::span<const float>(map.cells)), encoding)}};
-}
-
-sim::OccupancyMap decode_map(const json& map, Encoding encoding) {
-  const CanvasInfo grid = decode_canvas(map);
-  sim::OccupancyMap decoded{
-      grid.width, grid.height, grid.cell_size_m, {grid.origin_x_m, grid.origin_y_m}, {}};
-  const json& cells = require(map, "cells");
-  const std::size_t size =
-      static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height) * sizeof(float);
-  with_bytes(cells, "cells", encoding, [&](std::span<const std::uint8_t> bytes) {
-    if (bytes.size() != size) {
-      refuse_value("cells", std::to_string(size) + " bytes, four a cell", cells);
-    }
-    decoded.cells = numbers_in<float>(bytes);
-  });
-  const auto is_occupancy = [](float value) { return value >= 0.0F && value <= 1.0F; };
-  if (!std::all_of(decoded.cells.begin(), decoded.cells.end(), is_occupancy)) {
-    refuse_value("cells", "numbers in 0..1", cells);
-  }
-  return decoded;
 }
 
 json encode_property(const PropertyValue& value) {
@@ -718,14 +415,6 @@ PropertyValue require_property(const json& object, const char* key) {
       std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); });
   if (!numbers) refuse_value(key, "a text or a list of at most 64 numbers", value);
   return value.get<std::vector<double>>();
-}
-
-json encode_log(const LogStatus& log) {
-  return {{"replay", log.replay}, {"running", log.running}, {"file", log.file}};
-}
-
-LogStatus decode_log(const json& log) {
-  return {require_bool(log, "replay"), require_bool(log, "running"), require_text(log, "file")};
 }
 
 json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding) {
@@ -761,6 +450,25 @@ std::vector<sim::DrawOperation> decode_drawings(const json& drawings, Encoding e
       decoded.push_back(from_wire(wire));
     }
   });
+  return decoded;
+}
+
+json encode_occupancy(std::span<const float> cells, Encoding encoding) {
+  return bytes(memory_of(cells), encoding);
+}
+
+std::vector<float> decode_occupancy(const json& cells, std::size_t count, Encoding encoding) {
+  const std::size_t size = count * sizeof(float);
+  auto decoded = with_bytes(cells, "cells", encoding, [&](std::span<const std::uint8_t> bytes) {
+    if (bytes.size() != size) {
+      refuse_value("cells", std::to_string(size) + " bytes, four a cell", cells);
+    }
+    return numbers_in<float>(bytes);
+  });
+  const auto is_occupancy = [](float value) { return value >= 0.0F && value <= 1.0F; };
+  if (!std::all_of(decoded.begin(), decoded.end(), is_occupancy)) {
+    refuse_value("cells", "numbers in 0..1", cells);
+  }
   return decoded;
 }
 

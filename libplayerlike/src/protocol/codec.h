@@ -37,6 +37,9 @@ using nlohmann::json;
                                            std::int64_t most);
 [[nodiscard]] bool require_bool(const json& object, const char* key);
 [[nodiscard]] std::string require_text(const json& object, const char* key);
+/// A list. @param expected  what it is, for the message: "a list of robots".
+[[nodiscard]] const json::array_t& require_list(const json& value, const char* key,
+                                                const char* expected = "a list");
 /// Refuses an object (or anything that is none) with keys that are not among those known.
 /// @param what  the object is, for the message: "a command twist".
 void refuse_unknown_keys(const json& object, std::span<const std::string_view> known,
@@ -67,7 +70,7 @@ inline void refuse_unknown_keys(const json& object, std::initializer_list<std::s
 [[nodiscard]] json encode_device_id(DeviceId device);  ///< [robot, device]
 [[nodiscard]] DeviceId require_device_id(const json& object, const char* key);
 [[nodiscard]] json encode_pose(const sim::Pose& pose);  ///< {"x", "y", "yaw"}
-[[nodiscard]] sim::Pose require_pose(const json& object, const char* key);
+[[nodiscard]] sim::Pose decode_pose(const json& pose);
 
 /// A reading: {"device", "seq", "t" [ns], "type", ...what its type has}.
 /// @param type  of the device, e.g. "laser".
@@ -85,14 +88,14 @@ struct DecodedReading {
 [[nodiscard]] json encode_command(const sim::Command& command);
 [[nodiscard]] sim::Command decode_command(const json& command);
 
+/// @name Structs by their fields; in request_codec.cpp
+/// @{
 [[nodiscard]] json encode_robots(const std::vector<RobotInfo>& robots);
 [[nodiscard]] std::vector<RobotInfo> decode_robots(const json& robots);
 [[nodiscard]] json encode_canvas(const CanvasInfo& canvas);
 [[nodiscard]] CanvasInfo decode_canvas(const json& canvas);
 [[nodiscard]] json encode_time(const TimeStatistics& time);
 [[nodiscard]] TimeStatistics decode_time(const json& time);
-[[nodiscard]] json encode_layer_kind(sim::LayerKind kind);
-[[nodiscard]] sim::LayerKind decode_layer_kind(const json& kind);
 [[nodiscard]] json encode_style(const sim::LayerStyle& style);
 /// Keys that are left out get the defaults of sim::LayerStyle.
 [[nodiscard]] sim::LayerStyle decode_style(const json& style);
@@ -100,12 +103,11 @@ struct DecodedReading {
 [[nodiscard]] std::vector<sim::LayerInfo> decode_layers(const json& layers);
 [[nodiscard]] json encode_map(const sim::OccupancyMap& map, Encoding encoding);
 [[nodiscard]] sim::OccupancyMap decode_map(const json& map, Encoding encoding);
+/// @}
 
 /// A property of an object: a list of numbers, or a text.
 [[nodiscard]] json encode_property(const PropertyValue& value);
 [[nodiscard]] PropertyValue require_property(const json& object, const char* key);
-[[nodiscard]] json encode_log(const LogStatus& log);
-[[nodiscard]] LogStatus decode_log(const json& log);
 
 /// Drawings: in CBOR bytes, 28 a drawing; in JSON a list of lists. What a drawing's kind does not
 /// use is neither looked at nor sent; it comes out as 0.
@@ -115,6 +117,10 @@ struct DecodedReading {
 /// Cells of a rectangle: bytes, four a cell, little-endian (see docs/protocol.md).
 [[nodiscard]] json encode_cells(std::span<const sim::CellValue> cells, Encoding encoding);
 [[nodiscard]] std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding);
+/// Cells of a map: bytes, four a cell, floats in 0..1.
+[[nodiscard]] json encode_occupancy(std::span<const float> cells, Encoding encoding);
+[[nodiscard]] std::vector<float> decode_occupancy(const json& cells, std::size_t count,
+                                                  Encoding encoding);
 
 /// The stable name of an error that a session can throw, e.g. "session/finished"; and back.
 [[nodiscard]] std::string_view error_id(SessionError::Code code) noexcept;

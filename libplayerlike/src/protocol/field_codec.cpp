@@ -112,21 +112,10 @@ void write_in_place(const Field& field, const void* value, json& out) {
 
 sim::Vec2 read_vec2(const json& in) { return {require_number(in, "x"), require_number(in, "y")}; }
 
-sim::Pose read_pose(const json& in) {
-  return {require_number(in, "x"), require_number(in, "y"), require_number(in, "yaw")};
-}
-
 std::array<double, 3> require_vec3(const json& in, const char* key) {
   const json& vector = require(in, key);
   if (!vector.is_object()) refuse_value(key, "an object {\"x\", \"y\", \"z\"}", vector);
   return {require_number(vector, "x"), require_number(vector, "y"), require_number(vector, "z")};
-}
-
-const json::array_t& require_list(const json& in, const char* key) {
-  const json& value = require(in, key);
-  const auto* list = value.get_ptr<const json::array_t*>();
-  if (list == nullptr) refuse_value(key, "a list", value);
-  return *list;
 }
 
 sim::Colour require_colour(const json& in, const char* key) {
@@ -158,7 +147,7 @@ std::vector<std::uint8_t> require_octets(const json& in, const char* key, Encodi
 
 std::vector<std::string> require_names(const json& in, const char* key) {
   std::vector<std::string> texts;
-  for (const json& text : require_list(in, key)) {
+  for (const json& text : require_list(require(in, key), key)) {
     if (!text.is_string()) refuse_value(key, "a list of names", text);
     texts.push_back(text.get<std::string>());
   }
@@ -191,7 +180,7 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       *static_cast<sim::Vec2*>(value) = read_vec2(is_in_place(field) ? in : require(in, key));
       return;
     case FieldType::kPose:
-      *static_cast<sim::Pose*>(value) = read_pose(is_in_place(field) ? in : require(in, key));
+      *static_cast<sim::Pose*>(value) = decode_pose(is_in_place(field) ? in : require(in, key));
       return;
     case FieldType::kVec3:
       *static_cast<std::array<double, 3>*>(value) = require_vec3(in, key);
@@ -210,13 +199,13 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       return;
     case FieldType::kPoses:
       static_cast<std::vector<sim::Pose>*>(value)->clear();
-      for (const json& pose : require_list(in, key)) {
-        static_cast<std::vector<sim::Pose>*>(value)->push_back(read_pose(pose));
+      for (const json& pose : require_list(require(in, key), key)) {
+        static_cast<std::vector<sim::Pose>*>(value)->push_back(decode_pose(pose));
       }
       return;
     case FieldType::kList:
       field.list->clear(value);
-      for (const json& element : require_list(in, key)) {
+      for (const json& element : require_list(require(in, key), key)) {
         read_fields(field.table(), element, encoding, field.list->append(value));
       }
       return;

@@ -36,6 +36,9 @@ struct SocketSettings {
   [[nodiscard]] static SocketSettings from_environment(ServerAddress server, int port);
 };
 
+/// What is said of an answer that makes no sense.
+[[nodiscard]] SessionError misunderstood(const std::string& why);
+
 class SocketLine;
 
 /// A session with a simulation across a network, in Playpen's protocol (docs/protocol.md).

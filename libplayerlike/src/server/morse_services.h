@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -64,15 +65,26 @@ struct MorseService {
     kRobot,    ///< who may command the component's robot
     kAll,      ///< who may command all robots
   };
+  using Run = nlohmann::json (*)(MorseCall& call);
+  using Work = nlohmann::json (*)(const PenCall& call);
+
   std::string_view name;
   std::string_view arguments;  ///< as docs/morse.md has them: "x, y, z, tolerance=0.5"
-  std::size_t least;           ///< number of arguments
-  std::size_t most;
   Right right;
-  bool later;  ///< answered later: `run` has seen to that, its result does not count
-  nlohmann::json (*run)(MorseCall& call);
+  Run run;
   /// What `run` does, if it may take long: for the server's workshop, on a large canvas.
-  nlohmann::json (*work)(const PenCall& call) = nullptr;
+  Work work = nullptr;
+  bool later = false;     ///< answered later: `run` has seen to that, its result does not count
+  bool is_heavy = false;  ///< `work` takes long on any canvas
+
+  /// The number of arguments, and of those that have no default.
+  [[nodiscard]] constexpr std::size_t most() const {
+    return arguments.empty() ? 0 : count_of(',') + 1;
+  }
+  [[nodiscard]] constexpr std::size_t least() const { return most() - count_of('='); }
+  [[nodiscard]] constexpr std::size_t count_of(char sign) const {
+    return static_cast<std::size_t>(std::count(arguments.begin(), arguments.end(), sign));
+  }
 };
 
 /// The services of `simulation` or `time`, or of a kind of component, in the order of
@@ -80,6 +92,16 @@ struct MorseService {
 /// @param kind  "simulation", "time", "motion", "waypoint", "teleport", "pen", "sensor" (what every
 ///              sensor has) or "component" (what all components have).
 [[nodiscard]] std::span<const MorseService> morse_services(std::string_view kind);
+
+[[nodiscard]] std::span<const MorseService> simulation_services();
+[[nodiscard]] std::span<const MorseService> time_services();
+[[nodiscard]] std::span<const MorseService> pen_services();
+
+/// What is shown of a value that a client has sent.
+[[nodiscard]] std::string shown(const nlohmann::json& value);
+/// Throws MorseRefusal unless the connection may command a robot, or all of them.
+void require_command(const MorseCall& call, int robot);
+void require_command_all(const MorseCall& call);
 
 /// The services that a component has.
 [[nodiscard]] std::vector<const MorseService*> services_of(const MorseComponent& component);

@@ -1379,7 +1379,9 @@ TEST(Styles, HaveDefaultsAndRefuseWhatIsUnknown) {
         << wrong;
   }
   for (const json& wrong : {json("red"), json(nullptr), json(0)}) {
-    EXPECT_EQ(error_of([&] { static_cast<void>(decode_layer_kind(wrong)); }), "protocol/bad-value");
+    const json layer = {{"layer", 1}, {"kind", wrong}, {"owner", 0}, {"style", json::object()}};
+    EXPECT_EQ(error_of([&] { static_cast<void>(decode_layers(json::array({layer}))); }),
+              "protocol/bad-value");
   }
 }
 

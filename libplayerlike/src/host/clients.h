@@ -1,0 +1,66 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "host/client.h"
+#include "host/run_log.h"
+#include "sim/simulation/simulation.h"
+
+namespace playerlike {
+
+/// The clients of a run and their subscriptions: who is given which reading.
+///
+/// Clients are in the order in which their inputs are applied: followers first, each kind in order
+/// of number. subscribers_ lists, for each device, exactly the clients that have subscribed to it.
+/// Not thread-safe: guarded by the host's mutex.
+class Clients {
+ public:
+  /// Both must live as long as this.
+  /// @param by_creator  virtual time: of one kind, clients are in the order in which the threads
+  ///                    that connect them were started.
+  Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots, bool by_creator);
+
+  [[nodiscard]] auto begin() const { return clients_.begin(); }
+  [[nodiscard]] auto end() const { return clients_.end(); }
+  [[nodiscard]] bool empty() const { return clients_.empty(); }
+
+  std::shared_ptr<Client> add(int port, bool follower, std::function<void()> notify);
+  void remove(Client& client) noexcept;
+
+  void subscribe(Client& client, DeviceId device);
+  void unsubscribe(Client& client, DeviceId device);
+  /// @param device  one of the client's; nullopt: all of them, and those to come.
+  void set_replace(Client& client, std::optional<DeviceId> device, bool replace);
+
+  /// Gives the readings of a step to those who have subscribed to their devices.
+  /// @param logs  by port; those that are replayed take the place of their port's devices.
+  void distribute(const std::map<int, RunLog>& logs);
+  /// Takes what waits for a client, in order of device.
+  std::vector<std::pair<DeviceId, sim::SharedReading>> take(Client& client);
+
+ private:
+  [[nodiscard]] std::vector<Client*>& subscribers(DeviceId device);
+  /// @return null if the client has none for that device.
+  [[nodiscard]] static Client::Subscription* find(Client& client, DeviceId device);
+  void forget_subscriber(const Client& client, DeviceId device) noexcept;
+  void begin_round(Client& client) const;
+  static void give(const sim::SharedReading& reading, Client::Subscription& subscription,
+                   Client& client);
+  [[nodiscard]] sim::SharedReading reading(DeviceId device) const;
+
+  const sim::Simulation& simulation_;
+  const bool by_creator_;
+  std::vector<std::shared_ptr<Client>> clients_;
+  int next_number_ = 0;
+  std::size_t unsubscribed_ = 0;                                ///< clients without subscriptions
+  std::vector<std::vector<std::vector<Client*>>> subscribers_;  ///< by robot and device
+};
+
+}  // namespace playerlike

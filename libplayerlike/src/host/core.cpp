@@ -1,0 +1,602 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "host/virtual_clock.h"
+#include "host/window.h"
+#include "process/end_of_program.h"
+#include "sim/core/number_text.h"
+
+namespace playerlike {
+namespace {
+
+// A program that ignores the end of the run this often is ended.
+constexpr int kReadsAfterEnd = 1000;
+
+void require_duration(double sleep_s) {
+  if (sleep_s >= 0.0 && sleep_s <= 1e9) return;
+  throw SessionError(SessionError::Code::kBadArgument,
+                     "sleep takes a number of seconds in [0, 1e9]");
+}
+
+}  // namespace
+
+// --- Construction, and the lock
+
+Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log)
+    : settings_(std::move(settings)),
+      log_(std::move(log)),
+      warn_([this](const std::string& text) {
+        if (log_) log_(sim::LogLevel::kWarning, text);
+      }),
+      simulation_((check_drivers(world), check_interfaces(world), settings_.apply_to(world),
+                   std::move(world)),
+                  log_),
+      robots_(describe_robots(simulation_)),
+      step_ns_(simulation_.world().simulation.step_ns),
+      turns_(settings_.virtual_time &&
+             simulation_.world().simulation.time_mode == sim::TimeMode::kLockstep),
+      mutex_(turns_ ? Turns::instance().mutex() : own_mutex_),
+      client_files_(settings_.client_files_limit, settings_.all_files_limit),
+      clients_(simulation_, robots_, turns_),
+      lockstep_(clients_, simulation_.world().simulation.start_gate_clients,
+                settings_.silence_limit_s, warn_),
+      pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
+      inputs_(simulation_, warn_),
+      standing_time_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
+      results_(
+          settings_, simulation_, [this] { return time_locked(); }, warn_),
+      clock_(std::make_unique<VirtualClock>(*this)),
+      mode_chosen_(simulation_.world().simulation.time_mode_given) {}
+
+Host::Core::~Core() { stop(); }
+
+void Host::Core::start() {
+  if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
+  const Lock lock = lock_soon();  // the window's thread may look already
+  if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
+  pace_.follow_wall_clock();
+  pacer_ = std::thread([this] { pace(); });
+}
+
+void Host::Core::stop() noexcept {
+  finish();
+  if (window_) window_->close();
+  if (pacer_.joinable() && pacer_.get_id() != std::this_thread::get_id()) pacer_.join();
+}
+
+Host::Core::Lock Host::Core::lock_soon() const {
+  knocking_.fetch_add(1);
+  Lock lock(mutex_);
+  knocking_.fetch_sub(1);
+  return lock;
+}
+
+Host::Core::Lock Host::Core::lock_politely() const {
+  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+  return Lock(mutex_);
+}
+
+void Host::Core::give_way(Lock& lock) const {
+  if (knocking_.load(std::memory_order_relaxed) == 0) return;
+  lock.unlock();
+  std::this_thread::yield();
+  lock.lock();
+}
+
+// --- Clients
+
+std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
+                                               std::function<void()> notify) {
+  const Lock lock = lock_soon();
+  auto client = clients_.add(port, follower, std::move(notify));
+  changed_.notify_all();  // a paced clock may wait for its first client
+  return client;
+}
+
+void Host::Core::remove_client(Client& client) noexcept {
+  const Lock lock = lock_soon();
+  if (client.closed.exchange(true)) return;
+  // What it asked for last still happens.
+  if (!ended_) inputs_.apply(client);
+  client.drawings.close();
+  inputs_.book.leave(client.number);
+  if (turns_) Turns::instance().let_go(&client);
+  clients_.remove(client);
+  changed_.notify_all();
+}
+
+void Host::Core::thinker_ended(ThinkerId thinker) noexcept {
+  if (turns_ && thinker == this_thinker() && virtual_time::process_ends()) return;
+  const Lock lock = lock_soon();
+  lockstep_.forget(thinker);
+  if (turns_) Turns::instance().remove(thinker);
+  changed_.notify_all();
+}
+
+void Host::Core::adopt(Client& client, ThinkerId thinker) {
+  client.require_open();
+  if (!turns_) client.touch();  // else it is known when the thread's turn began
+  lockstep_.adopt(client, thinker);
+}
+
+void Host::Core::join(Client& client, ThinkerId thinker) {
+  const Lock lock = lock_soon();
+  adopt(client, thinker);
+  if (in_turns()) static_cast<void>(Turns::instance().self());
+  changed_.notify_all();  // the start gate may have waited for it
+}
+
+void Host::Core::subscribe(Client& client, DeviceId device) {
+  const Lock lock = lock_soon();
+  client.require_open();
+  require_readable(client, device.robot);
+  clients_.subscribe(client, device);
+  if (client.is_programs() && standing_time_.note_wish()) set_busy_alarm();
+}
+
+void Host::Core::require_readable(const Client& client, int robot) const {
+  if (!own_sensors_only() || client.served) return;
+  const auto index = static_cast<std::size_t>(robot);
+  if (robot >= 0 && (robots_.size() == 1 || robots_[index].port == client.port)) return;
+  throw SessionError(
+      SessionError::Code::kNotAvailable,
+      robot >= 0
+          ? "this world lets a program read the sensors of its own robot only (\"privacy\" in "
+            "its \"simulation\"): robot " +
+                robots_[index].name + " belongs to another port than " + std::to_string(client.port)
+          : "this world keeps the poses and properties of its objects and its map private "
+            "(\"privacy\" in its \"simulation\"): programs know what their sensors tell");
+}
+
+void Host::Core::send(Client& client, DeviceId device, const sim::Command& command) {
+  client.require_open();
+  client.touch();
+  const bool is_programs = client.is_programs();
+  if (is_programs && standing_time_.note_wish()) locked([this] { set_busy_alarm(); });
+  bool look = false;
+  bool full = false;
+  {
+    const std::lock_guard input(client.input_mutex);
+    look = is_programs && standing_time_.note_command(client, now_ns());
+    full = inputs_.add(client, device, command);
+  }
+  if (look) check_standing_time(client);
+  if (!full) return;
+  const Lock lock = lock_soon();
+  inputs_.apply(client);
+}
+
+// --- Programs that let no time pass
+
+void Host::Core::set_busy_alarm() {
+  if (!paced() && !over() && simulation_.now_ns() == 0) standing_time_.set_alarm();
+}
+
+void Host::Core::note_looks(Client& client, int count, bool has_data) {
+  if (!client.is_programs()) return;
+  bool look = false;
+  {
+    const std::lock_guard input(client.input_mutex);
+    look = StandingTime::note_looks(client, now_ns(), count, has_data);
+  }
+  if (look) check_standing_time(client);
+}
+
+void Host::Core::check_standing_time(Client& client) {
+  const Lock lock = lock_soon();
+  const ThinkerId self = this_thinker();
+  const bool others =
+      in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
+  standing_time_.check(client, simulation_.now_ns(), paced() || over() || others);
+}
+
+void Host::Core::note_program_ends(int status) {
+  const Lock lock = lock_soon();
+  results_.program_status = status;
+  standing_time_.dismiss_alarm();
+  // A program that gives up because of an error knows why.
+  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0) standing_time_.note_end();
+}
+
+// --- Waiting
+
+bool Host::Core::program_takes_part() const {
+  return pace_.limited() || lockstep_.program_takes_part() || alarms_.let_time_pass();
+}
+
+bool Host::Core::may_advance(bool all_wait_still) {
+  return !paced() && !over() && !pace_.used_up() && lockstep_.gate_open() && program_takes_part() &&
+         (all_wait_still || lockstep_.all_wait());
+}
+
+bool Host::Core::wait_is_over(const Client& client) const {
+  return over() || (client.wants_data && client.has_data) ||
+         (client.wake_ns && simulation_.now_ns() >= *client.wake_ns);
+}
+
+void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
+                            std::optional<sim::SimTime> wake_ns) {
+  adopt(client, this_thinker());
+  client.wants_data = wants_data;
+  client.wake_ns = wake_ns;
+  if (in_turns()) clock_->wait_for_turn(lock, client);
+  // Until somebody is let go, nothing changes about who waits while this thread has the mutex.
+  bool all_wait_still = false;
+  while (!wait_is_over(client)) {
+    client.require_open();
+    // Said once: threads that all only tell each other that they wait would never sleep.
+    const bool began = !std::exchange(client.waiting, true);
+    if (paced()) {
+      if (began) changed_.notify_all();
+      changed_.wait(lock);
+    } else if (may_advance(all_wait_still)) {
+      all_wait_still = !advance();
+    } else {
+      if (began) changed_.notify_all();
+      wait_for_others(lock, client);
+      all_wait_still = false;
+    }
+  }
+  client.waiting = false;
+}
+
+// Waits for a change, and no longer than until a client has been silent for too long.
+void Host::Core::wait_for_others(Lock& lock, const Client& client) {
+  // A follower does not mind how long programs take.
+  if (client.follower) return changed_.wait(lock);
+  const auto deadline = lockstep_.silence_deadline(WallClock::now());
+  if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
+    lockstep_.note_silence(WallClock::now());
+  }
+}
+
+void Host::Core::wait(Client& client) {
+  Lock lock = lock_politely();
+  wait_until(lock, client, /*wants_data=*/true, std::nullopt);
+  if (client.has_data) return;
+  end_told_ = true;
+  if (settings_.quiet_end && ++reads_after_end_ > kReadsAfterEnd) {
+    lock.unlock();
+    end_program_quietly();
+  }
+  throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
+}
+
+int Host::Core::take(Client& client, ReadingSink& sink) {
+  std::vector<std::pair<DeviceId, sim::SharedReading>> taken;
+  {
+    const Lock lock(mutex_);
+    client.require_open();
+    taken = clients_.take(client);
+  }
+  for (const auto& [device, reading] : taken) sink.on_reading(device, reading);
+  return static_cast<int>(taken.size());
+}
+
+bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
+  Lock lock = lock_politely();
+  client.require_open();
+  if (client.has_data || over()) return true;
+  if (paced()) {
+    adopt(client, this_thinker());
+    client.wants_data = true;
+    client.wake_ns.reset();
+    client.waiting = true;
+    changed_.wait_for(lock, timeout,
+                      [&] { return client.has_data || over() || client.closed.load(); });
+    client.waiting = false;
+    return client.has_data || over();
+  }
+  if (timeout.count() == 0 && ++client.looks < 2) return false;
+  wait_until(lock, client, /*wants_data=*/true, end_of_peek(timeout));
+  return client.has_data || over();
+}
+
+sim::SimTime Host::Core::end_of_peek(std::chrono::milliseconds timeout) const {
+  return simulation_.now_ns() +
+         std::max<sim::SimTime>(step_ns_, std::chrono::nanoseconds(timeout).count());
+}
+
+void Host::Core::sleep(Client& client, double duration_s) {
+  require_duration(duration_s);
+  Lock lock(mutex_);
+  const sim::SimTime wake_ns = simulation_.now_ns() + sim::from_seconds(duration_s);
+  wait_until(lock, client, /*wants_data=*/false, wake_ns);
+}
+
+// --- Event clients
+
+EventClient::Outcome Host::Core::begin(Client& client, ThinkerId thinker, bool wants_data,
+                                       std::optional<sim::SimTime> wake_ns) {
+  adopt(client, thinker);
+  client.wants_data = wants_data;
+  client.wake_ns = wake_ns;
+  client.waiting = !wait_is_over(client);
+  if (client.waiting) changed_.notify_all();
+  return outcome(client);
+}
+
+EventClient::Outcome Host::Core::begin_wait(Client& client, ThinkerId thinker) {
+  const Lock lock = lock_soon();
+  return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+}
+
+EventClient::Outcome Host::Core::begin_peek(Client& client, ThinkerId thinker,
+                                            std::chrono::milliseconds timeout) {
+  const Lock lock = lock_soon();
+  client.require_open();
+  client.wants_data = true;
+  client.wake_ns = simulation_.now_ns();  // over at once, unless decided otherwise below
+  if (client.has_data || over()) return outcome(client);
+  if (paced()) {
+    if (timeout.count() == 0) {
+      adopt(client, thinker);
+      return outcome(client);
+    }
+    return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+  }
+  if (timeout.count() == 0 && ++client.looks < 2) return outcome(client);
+  return begin(client, thinker, /*wants_data=*/true, end_of_peek(timeout));
+}
+
+EventClient::Outcome Host::Core::begin_sleep(Client& client, ThinkerId thinker, double seconds) {
+  require_duration(seconds);
+  const Lock lock = lock_soon();
+  return begin(client, thinker, /*wants_data=*/false,
+               simulation_.now_ns() + sim::from_seconds(seconds));
+}
+
+EventClient::Outcome Host::Core::outcome(const Client& client) const {
+  using Outcome = EventClient::Outcome;
+  if (client.waiting) return Outcome::kWaiting;
+  if (client.wants_data && client.has_data) return Outcome::kData;
+  if (client.wake_ns && simulation_.now_ns() >= *client.wake_ns && !over()) return Outcome::kTime;
+  if (client.wants_data || client.wake_ns) return over() ? Outcome::kFinished : Outcome::kIdle;
+  return Outcome::kIdle;
+}
+
+EventClient::Outcome Host::Core::outcome_of(const Client& client) const {
+  const Lock lock = lock_soon();
+  return outcome(client);
+}
+
+void Host::Core::cancel_wait(Client& client) {
+  const Lock lock = lock_soon();
+  client.waiting = false;
+  client.wants_data = false;
+  client.wake_ns.reset();
+  client.touch();
+}
+
+bool Host::Core::advance_for(std::chrono::microseconds slice) {
+  Lock lock = lock_soon();
+  if (in_turns() || !may_advance()) return false;
+  const auto end = WallClock::now() + slice;
+  do {
+    advance();
+    if (!may_advance()) return false;
+    // Others want a word.
+    if (knocking_.load(std::memory_order_relaxed) > 0) return true;
+  } while (WallClock::now() < end);
+  return true;
+}
+
+void Host::Core::check_silence() {
+  const Lock lock = lock_soon();
+  // Nobody waits in vain while time goes on by itself, or while there is nobody for whom it would.
+  if (paced() || over()) return;
+  if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
+}
+
+AlarmId Host::Core::set_alarm(Alarm alarm) {
+  const Lock lock = lock_soon();
+  const AlarmId number = alarms_.set(std::move(alarm));
+  alarms_.ring(simulation_, over());
+  changed_.notify_all();  // lockstep time may go on for it
+  return number;
+}
+
+// --- Steps
+
+bool Host::Core::advance() {
+  const auto now = WallClock::now();
+  if (progress_.note_step(now)) standing_time_.dismiss_alarm();
+  inputs_.before_step(clients_);
+  simulation_.step();
+  now_ns_.store(simulation_.now_ns(), std::memory_order_release);
+  pace_.count_step();
+  results_.observe();
+  clients_.distribute(results_.logs);
+  const bool finished = simulation_.finished();
+  if (finished) progress_.note_end();
+  if (settings_.progress && simulation_.steps() % 64 == 0) progress_.show(time_locked(), false);
+  if (finished || (settings_.quiet_end && interrupted() != 0)) {
+    end_run();
+  } else {
+    results_.keep(now);
+  }
+  return release_waiters();
+}
+
+// A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
+bool Host::Core::release_waiters() {
+  if (in_turns()) {
+    clock_->make_ready();
+    return true;
+  }
+  bool anybody = false;
+  bool released = false;
+  for (const auto& client : clients_) {
+    if (!client->waiting || !wait_is_over(*client)) continue;
+    client->waiting = false;
+    anybody = true;
+    client->touch();
+    if (client->notify) {
+      client->notify();
+    } else {
+      released = released || client->owner != this_thinker();
+    }
+  }
+  if (released) changed_.notify_all();
+  alarms_.ring(simulation_, over());
+  return anybody;
+}
+
+// --- Pacing
+
+std::optional<std::string> Host::Core::set_time_factor(double factor) {
+  const Lock lock = lock_soon();
+  if (!paced()) {
+    return "time has no speed in lockstep: it goes on when all clients wait";
+  }
+  if (!(factor > 0.0 && std::isfinite(factor))) {
+    return "expected a factor greater than 0, found " + sim::rounded_text(factor, 6);
+  }
+  pace_.set_factor(factor);
+  changed_.notify_all();
+  return std::nullopt;
+}
+
+void Host::Core::change_step_limit(const std::function<void(Pace&)>& change) {
+  const Lock lock = lock_soon();
+  change(pace_);
+  changed_.notify_all();
+}
+
+void Host::Core::prefer_real_time(const std::string& reason) {
+  const Lock lock = lock_soon();
+  if (in_turns()) {
+    // The caller's sleeps are part of the lockstep, from now on.
+    Turns::instance().self().starts_background = true;
+    virtual_time::note_background();
+    return;
+  }
+  if (mode_chosen_ || ended_ || paced()) return;
+  start_pacing(reason +
+               ": simulated time now follows the wall clock (under `playpen run` the program's "
+               "sleeps move simulated time instead; PLAYPEN_TIME=lockstep, or a time mode in the "
+               "world file's \"simulation\", decides otherwise)");
+}
+
+void Host::Core::start_pacing(const std::string& warning) {
+  pace_.follow_wall_clock();
+  standing_time_.dismiss_alarm();
+  if (turns_) virtual_time::give_up_locked();
+  warn_(warning);
+  pacer_ = std::thread([this] { pace(); });
+  changed_.notify_all();
+}
+
+void Host::Core::pace() {
+  const virtual_time::Inside inside;
+  Lock lock(mutex_);
+  const bool gated = simulation_.world().simulation.start_gate_clients > 1;
+  changed_.wait(lock, [&] {
+    if (stop_pacing_) return true;
+    return gated ? lockstep_.gate_open() : settings_.start_at_once || !clients_.empty();
+  });
+  pace_.begin_at(WallClock::now());
+  while (!stop_pacing_ && !over()) {
+    if (pace_.paused()) {
+      wait_while_paused(lock);
+      pace_.begin_at(WallClock::now());
+      continue;
+    }
+    if (pace_.used_up()) {
+      changed_.wait(
+          lock, [this] { return !pace_.used_up() || pace_.paused() || stop_pacing_ || over(); });
+      // Whoever synchronises the clock may be slow.
+      pace_.forgive(WallClock::now());
+      continue;
+    }
+    const auto due = pace_.due();
+    const auto now = WallClock::now();
+    if (now < due) {
+      const int changes = pace_.changes();
+      changed_.wait_until(lock, due, [&] { return stop_pacing_ || changes != pace_.changes(); });
+      continue;
+    }
+    pace_.begin_step(now);
+    advance();
+    give_way(lock);
+  }
+}
+
+void Host::Core::wait_while_paused(Lock& lock) {
+  while (pace_.paused() && !stop_pacing_ && !over()) {
+    changed_.wait_for(lock, std::chrono::milliseconds(50));
+    // Without a step nobody else would see the signal.
+    if (settings_.quiet_end && interrupted() != 0 && !ended_) {
+      end_run();
+      release_waiters();
+    }
+  }
+}
+
+// --- The end
+
+void Host::Core::finish() noexcept {
+  try {
+    const Lock lock = lock_soon();
+    standing_time_.dismiss_alarm();
+    ended_by_program_ = true;
+    if (!ended_) {
+      for (const auto& client : clients_) inputs_.apply(*client);
+      end_run();
+      release_waiters();
+      if (in_turns()) Turns::instance().kick();
+    }
+    stop_pacing_ = true;
+    changed_.notify_all();
+  } catch (const std::exception& e) {
+    warn_(e.what());
+  }
+}
+
+void Host::Core::end_run() {
+  ended_ = true;
+  results_.begin_end();
+  // Threads that take no part in the lockstep may have drawn since the last step.
+  for (const auto& client : clients_) inputs_.apply_drawings(*client);
+  if (settings_.progress) progress_.show(time_locked(), true);
+  results_.write();
+  if (settings_.quiet_end) end_program_quietly_if_uncaught();
+}
+
+std::vector<std::string> Host::Core::unrepeatable() const {
+  std::vector<std::string> why;
+  if (turns_) why = Turns::instance().unrepeatable();
+  if (paced()) why.emplace_back("simulated time followed the wall clock");
+  if (lockstep_.silence_noted()) {
+    why.emplace_back("simulated time went on without a client that did not read for " +
+                     std::to_string(settings_.silence_limit_s) + " s of wall time");
+  }
+  if (driven_by_hand_) why.emplace_back("a robot was driven by hand");
+  if (!paced() && lockstep_.several_owners() && (!turns_ || !Turns::instance().active())) {
+    why.emplace_back(
+        "the program has several threads or there were several programs, and time was "
+        "not virtual: what they do side by side is chance");
+  }
+  return why;
+}
+
+TimeStatistics Host::Core::time_locked() const {
+  TimeStatistics t;
+  const sim::SimulationDescription& s = simulation_.world().simulation;
+  t.sim_time_ns = simulation_.now_ns();
+  t.steps = simulation_.steps();
+  t.step_s = sim::to_seconds(s.step_ns);
+  if (s.duration_ns) t.duration_s = sim::to_seconds(*s.duration_ns);
+  t.mode = paced() ? sim::TimeMode::kPaced : sim::TimeMode::kLockstep;
+  t.finished = over();
+  t.unrepeatable = unrepeatable();
+  progress_.add_times(t, ended_);
+  return t;
+}
+
+}  // namespace playerlike

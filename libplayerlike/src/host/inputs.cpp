@@ -1,0 +1,92 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/inputs.h"
+
+#include <algorithm>
+#include <span>
+#include <variant>
+
+namespace playerlike {
+namespace {
+
+// A client may command this much ahead of the next step before it is applied, so that one that
+// never reads does not fill memory.
+constexpr std::size_t kCommandLimit = 1 << 12;
+
+template <typename... Kinds>
+bool is_one_of(const sim::Command& command) {
+  return (std::holds_alternative<Kinds>(command) || ...);
+}
+
+// Whether a command undoes an earlier one of its kind that has not been applied yet. Those that
+// move a robot by some way, or are counted, do not.
+bool replaces_earlier_ones(const sim::Command& command) {
+  return is_one_of<sim::TwistCommand, sim::HeadingCommand, sim::PositionCommand, sim::CarCommand,
+                   sim::MotorEnableCommand, sim::SetPoseCommand>(command);
+}
+
+}  // namespace
+
+bool Inputs::add(Client& client, DeviceId device, const sim::Command& command) {
+  auto& all = client.commands;
+  if (replaces_earlier_ones(command) && !all.empty() && all.back().first == device &&
+      all.back().second.index() == command.index()) {
+    all.back().second = command;
+    return false;
+  }
+  all.emplace_back(device, command);
+  commands_wait_.store(true, std::memory_order_relaxed);
+  return all.size() > kCommandLimit;
+}
+
+void Inputs::before_step(const Clients& clients) {
+  const bool commanded = commands_wait_.exchange(false);
+  if (commanded || somebody_draws_) {
+    for (const auto& client : clients) apply(*client);
+  }
+  if (hand) hand->before_step(simulation_);
+}
+
+void Inputs::apply(Client& client) {
+  const std::lock_guard input(client.input_mutex);
+  for (const auto& [device, command] : client.commands) {
+    if (hand) hand->note_command(device, command);
+    if (const auto refusal = simulation_.apply(device, command)) warn_(*refusal);
+  }
+  client.commands.clear();
+  apply_drawings(client);
+}
+
+// Drawings on layers that are not the client's are left out; one look for each run of drawings on
+// the same layer sees to that. Most often all are its own, and are drawn from where they are.
+void Inputs::apply_drawings(Client& client) {
+  client.drawings.drain([&](std::span<const sim::DrawOperation> operations) {
+    std::optional<sim::LayerId> layer;
+    const bool all_own = std::all_of(operations.begin(), operations.end(), [&](const auto& o) {
+      if (layer == o.layer) return true;
+      layer = o.layer;
+      return book.may_use(client.number, o.layer);
+    });
+    if (all_own) return simulation_.layers().draw(operations);
+    std::vector<sim::DrawOperation> own(operations.begin(), operations.end());
+    keep_own_drawings(client, own);
+    simulation_.layers().draw(own);
+  });
+}
+
+void Inputs::reserve_drawings(Client& client) {
+  client.drawings.reserve();
+  somebody_draws_ = true;
+}
+
+void Inputs::keep_own_drawings(const Client& client,
+                               std::vector<sim::DrawOperation>& operations) const {
+  std::optional<sim::LayerId> layer;
+  bool own = false;
+  std::erase_if(operations, [&](const sim::DrawOperation& o) {
+    if (layer != o.layer) own = book.may_use(client.number, o.layer);
+    layer = o.layer;
+    return !own;
+  });
+}
+
+}  // namespace playerlike

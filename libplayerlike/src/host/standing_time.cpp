@@ -1,0 +1,81 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/standing_time.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "host/busy_alarm.h"
+#include "sim/core/number_text.h"
+
+namespace playerlike {
+namespace {
+
+// How often a program may command or look while simulated time stands still before it is told that
+// nobody calls Read(); see IdleCalls. Before the first Read() few have a reason to. Afterwards one
+// may well send a command for each beam of a scan, and look at each beam many times; but
+// virtual_time::note_looks() lets time pass after three million looks.
+constexpr double kCommandsBeforeFirstStep = 1000.0;
+constexpr double kCommandsInAStep = 10'000.0;
+constexpr double kCommandsAfterSleeps = 20.0;  // a robot; the same for the least of the two above
+constexpr double kLooksWithoutData = 1000.0;
+constexpr double kLooksInAStep = 2'000'000.0;
+
+}  // namespace
+
+StandingTime::StandingTime(std::size_t robots, bool sleeps_count, double limit_s, Warn warn)
+    : robots_(static_cast<double>(robots)),
+      sleeps_count_(sleeps_count),
+      limit_s_(limit_s),
+      warn_(std::move(warn)) {}
+
+bool StandingTime::note_command(Client& client, sim::SimTime now_ns) const {
+  const double share = 1.0 / std::max(now_ns == 0 ? kCommandsBeforeFirstStep : kCommandsInAStep,
+                                      kCommandsAfterSleeps * robots_);
+  return sleeps_count_
+             ? client.idle.note(now_ns, share)
+             : client.idle.note_command(now_ns, share, 1.0 / (kCommandsAfterSleeps * robots_));
+}
+
+bool StandingTime::note_looks(Client& client, sim::SimTime now_ns, int count, bool has_data) {
+  return client.idle.note(now_ns, count / (has_data ? kLooksInAStep : kLooksWithoutData));
+}
+
+void StandingTime::check(Client& client, sim::SimTime now_ns, bool hopeful) {
+  {
+    const std::lock_guard input(client.input_mutex);
+    if (told_ || hopeful) return client.idle.postpone();
+    if (!client.idle.look(now_ns)) return;
+  }
+  told_ = true;
+  dismiss_alarm();
+  warn_(
+      "the program goes on commanding robots or looking at their data, but simulated time stands "
+      "still: it does not call Read(). " +
+      cure());
+}
+
+void StandingTime::set_alarm() const {
+  if (!watches_) return;
+  set_busy_alarm(limit_s_, "the program has been busy for " + sim::rounded_text(limit_s_, 6) +
+                               " s of processor time, but no simulated time has passed: it has "
+                               "not called Read(). " +
+                               cure());
+}
+
+void StandingTime::dismiss_alarm() const noexcept {
+  if (watches_) dismiss_busy_alarm();
+}
+
+void StandingTime::note_end() const {
+  if (told_ || busy_alarm_rang() || !wants_time_) return;
+  warn_("nothing was simulated: the program has ended without calling Read(). " + cure());
+}
+
+std::string StandingTime::cure() const {
+  return std::string(
+             "Time passes only while the program waits in Read(): call client.Read() in each turn "
+             "of its loop (in C: playerc_client_read(client))") +
+         (sleeps_count_ ? ", or sleep" : "; its sleeps count only under `playpen run`");
+}
+
+}  // namespace playerlike

@@ -1,0 +1,163 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "host/virtual_clock.h"
+
+#include <algorithm>
+
+#include "process/end_of_program.h"
+
+namespace playerlike {
+namespace {
+
+// A program that sleeps this often after the end of the run is ended, a millisecond each; it may
+// have others to wait for.
+constexpr int kSleepsAfterEnd = 1000;
+
+}  // namespace
+
+void Host::Core::VirtualClock::begin_turns(sim::SimTime before_ns) {
+  const Lock lock = core_.lock_soon();
+  Turns::instance().set_clock(this, before_ns, 0);
+}
+
+void Host::Core::VirtualClock::end_turns(sim::SimTime before_ns) {
+  const Lock lock = core_.lock_soon();
+  Turns::instance().set_clock(nullptr, 0, before_ns);
+}
+
+// One thread at a time: what programs do between two steps, with what their threads share, then
+// does not depend on which of them the system lets run first.
+void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
+  Turns& turns = Turns::instance();
+  TurnThread& self = turns.self();
+  // After the end nobody waits for anything, but each is to have its turn.
+  for (bool waited = false; core_.in_turns(); waited = true) {
+    client.require_open();
+    const bool is_over = core_.wait_is_over(client);
+    if (is_over && self.state != TurnThread::State::kAside && (waited || !core_.over())) return;
+    self.client = &client;
+    self.wake_ns = is_over ? 0 : client.wake_ns;
+    static_cast<void>(turns.wait(lock, self));
+  }
+}
+
+bool Host::Core::VirtualClock::step(Lock& lock) {
+  if (core_.over() || core_.pace_.used_up() || !core_.lockstep_.gate_open() ||
+      !Turns::instance().somebody_waits_for_time()) {
+    return false;
+  }
+  core_.advance();
+  core_.give_way(lock);
+  return true;
+}
+
+// Those who wait for data before those who sleep: a program that sleeps while another of its
+// threads reads finds the data of that moment.
+void Host::Core::VirtualClock::make_ready() {
+  using State = TurnThread::State;
+  Turns& turns = Turns::instance();
+  for (const auto& client : core_.clients_) {
+    for (const auto& thread : turns.threads()) {
+      if (thread->state != State::kWaits || thread->client != client.get()) continue;
+      if (core_.wait_is_over(*client)) turns.make_ready(*thread, TurnThread::Wake::kThere);
+    }
+  }
+  for (const auto& thread : turns.threads()) {
+    if (thread->state != State::kWaits || thread->client != nullptr || !thread->wake_ns) continue;
+    if (has_come(*thread->wake_ns)) turns.make_ready(*thread, TurnThread::Wake::kTime);
+  }
+}
+
+bool Host::Core::VirtualClock::has_come(sim::SimTime wake_ns) const {
+  return core_.over() || core_.simulation_.now_ns() >= wake_ns;
+}
+
+void Host::Core::VirtualClock::look_at_start() {
+  if (!core_.lockstep_.gate_open()) core_.lockstep_.note_silence(WallClock::now());
+}
+
+WallClock::time_point Host::Core::VirtualClock::last_seen(const TurnThread& thread) const {
+  return core_.lockstep_.last_seen(thread.thinker, thread.seen);
+}
+
+WallClock::duration Host::Core::VirtualClock::silence_limit() const {
+  return core_.lockstep_.silence_limit();
+}
+
+void Host::Core::VirtualClock::on_silent(const TurnThread& thread) {
+  core_.lockstep_.note_silent_thread(thread.thinker);
+}
+
+bool Host::Core::VirtualClock::on_blocked(const TurnThread& thread) {
+  if (core_.paced() || core_.over() || !thread.starts_background || core_.mode_chosen_)
+    return false;
+  core_.start_pacing(
+      "the program reads in the background (StartThread) while its own thread waits for "
+      "something else than simulated time, the keyboard maybe: simulated time now follows the "
+      "wall clock (--time lockstep decides otherwise)");
+  return true;
+}
+
+std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime target_ns,
+                                                                bool& interrupted) {
+  interrupted = false;
+  const ThinkerId thinker = this_thinker();
+  Lock lock = core_.lock_politely();
+  if (!core_.in_turns() || core_.ended_by_program_) return std::nullopt;
+  // A program that never reads takes part with the clients it has made.
+  for (const auto& client : core_.clients_) {
+    if (client->creator == thinker && client->owner == 0 && !client->follower) {
+      core_.adopt(*client, thinker);
+    }
+  }
+  const sim::SimTime wake_ns = target_ns - target_ns % core_.step_ns_;
+  Turns& turns = Turns::instance();
+  TurnThread& self = turns.self();
+  self.wake_ns = wake_ns;
+  interrupted = turns.wait(lock, self, /*interruptible=*/true) == TurnThread::Wake::kInterrupted;
+  const sim::SimTime left_ns = target_ns - core_.simulation_.now_ns();
+  if (interrupted) return left_ns;
+  if (!core_.over()) return core_.in_turns() ? std::optional(left_ns) : std::nullopt;
+  if (core_.simulation_.now_ns() < wake_ns) {
+    if (core_.ended_by_program_) return std::nullopt;
+    sleep_after_end(lock, thinker);
+  }
+  return left_ns;
+}
+
+void Host::Core::VirtualClock::note_timed_wait(Lock& lock, sim::SimTime left_ns) {
+  if (!core_.over() || left_ns < core_.step_ns_ || core_.ended_by_program_) return;
+  sleep_after_end(lock, this_thinker());
+}
+
+// Nobody can throw out of a sleep. A program that only sleeps ends here; one that reads as well, or
+// has threads that do, is told by that, and is left some time to end by itself.
+void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThinkerId thinker) {
+  const auto& threads = Turns::instance().threads();
+  const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
+    if (thread->thinker == thinker || thread->state == TurnThread::State::kAside) return false;
+    return thread->state != TurnThread::State::kWaits || thread->waits_for_time();
+  });
+  const RunSettings& settings = core_.settings_;
+  if (settings.quiet_end &&
+      (!(core_.end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+    if (settings.progress && core_.log_) {
+      core_.log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
+    }
+    lock.unlock();
+    end_program_quietly();
+  }
+  lock.unlock();
+  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
+bool Host::Core::VirtualClock::others_take_turns(ThinkerId thinker) {
+  const auto& threads = Turns::instance().threads();
+  return std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
+    using State = TurnThread::State;
+    if (thread->thinker == thinker) return false;
+    return thread->state == State::kReady || thread->state == State::kBeside ||
+           (thread->state == State::kWaits && thread->waits_for_time());
+  });
+}
+
+}  // namespace playerlike

@@ -1,0 +1,104 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Requests with more cells than a message holds: they go in pieces.
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "playerlike/session/layer_book.h"
+#include "remote/socket_line.h"
+#include "remote/socket_session.h"
+#include "sim/core/number_text.h"
+
+namespace playerlike {
+namespace {
+
+// Of a message that sets cells, besides the cells [bytes].
+constexpr std::size_t kMessageOverhead = 512;
+// Longest side of a rectangle in a message.
+constexpr std::size_t kMaxMapSide = 8192;
+// Sides of the tiles in which maps are fetched [cells]: 4 MiB each.
+constexpr int kTileSide = 1024;
+
+}  // namespace
+
+void SocketSession::set_cells(const SetCellsRequest& what) const {
+  const sim::CellRect& rect = what.rect;
+  require_cells(rect, what.cells.size());
+  const std::shared_ptr<Connection> connection = line_->connection();
+  const protocol::Encoding encoding = connection->encoding();
+  // Pieces that fit a message: rows if they do, else parts of rows.
+  const std::size_t most =
+      std::max<std::size_t>((connection->message_limit() - kMessageOverhead) /
+                                (encoding == protocol::Encoding::kCbor ? 4 : 6),
+                            1);
+  const auto width = static_cast<std::size_t>(rect.width);
+  const std::size_t most_columns = std::min({width, most, kMaxMapSide});
+  const auto columns = static_cast<int>(most_columns);
+  const auto rows =
+      static_cast<int>(std::min({most / std::max<std::size_t>(most_columns, 1), kMaxMapSide,
+                                 static_cast<std::size_t>(rect.height)}));
+  if (columns == rect.width && rows == rect.height) {
+    static_cast<void>(ask_for(what));
+    return;
+  }
+  const std::span<const sim::CellValue> values = what.cells;
+  std::vector<sim::CellValue> cells;
+  for (int row = 0; row < rect.height; row += rows) {
+    for (int column = 0; column < rect.width; column += columns) {
+      const sim::CellRect part{rect.column + column, rect.row + row,
+                               std::min(columns, rect.width - column),
+                               std::min(rows, rect.height - row)};
+      cells.clear();
+      for (int i = 0; i < part.height; ++i) {
+        const auto line = values.subspan(
+            static_cast<std::size_t>(row + i) * width + static_cast<std::size_t>(column),
+            static_cast<std::size_t>(part.width));
+        cells.insert(cells.end(), line.begin(), line.end());
+      }
+      static_cast<void>(ask_for(SetCellsRequest{what.layer, part, cells}));
+    }
+  }
+}
+
+WorldMap SocketSession::world_map(double cell_size_m) const {
+  if (!(cell_size_m > 0.0 && std::isfinite(cell_size_m))) {
+    throw SessionError(SessionError::Code::kBadArgument,
+                       "the cell size of a map is a positive number [m], but is " +
+                           sim::rounded_text(cell_size_m, 6));
+  }
+  const auto fetch = [&](int column, int row) {
+    auto tile = std::get<WorldMap>(
+        ask_for(WorldMapRequest{cell_size_m, sim::CellRect{column, row, kTileSide, kTileSide}}));
+    if (tile.width && tile.height && tile.origin) return tile;
+    throw misunderstood("map: not a tile");
+  };
+  WorldMap tile = fetch(0, 0);
+  const int width = *tile.width;
+  const int height = *tile.height;
+  if (tile.map.width == width && tile.map.height == height)
+    return {std::move(tile.map), {}, {}, {}};
+  sim::OccupancyMap map;
+  map.width = width;
+  map.height = height;
+  map.cell_size_m = tile.map.cell_size_m;
+  map.origin = tile.origin->position();
+  map.cells.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  for (int row = 0; row < height; row += kTileSide) {
+    for (int column = 0; column < width; column += kTileSide) {
+      if (row > 0 || column > 0) tile = fetch(column, row);
+      const sim::OccupancyMap& part = tile.map;
+      if (part.width != std::min(kTileSide, width - column) ||
+          part.height != std::min(kTileSide, height - row)) {
+        throw misunderstood("map: not the tile asked for");
+      }
+      for (int y = 0; y < part.height; ++y) {
+        std::copy_n(part.cells.begin() + static_cast<std::ptrdiff_t>(y) * part.width, part.width,
+                    map.cells.begin() + static_cast<std::ptrdiff_t>(row + y) * width + column);
+      }
+    }
+  }
+  return {std::move(map), {}, {}, {}};
+}
+
+}  // namespace playerlike

@@ -1,0 +1,445 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What a host is divided into, each part alone: clients, lockstep, pace, inputs and so on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "host/alarms.h"
+#include "host/clients.h"
+#include "host/inputs.h"
+#include "host/lockstep.h"
+#include "host/pace.h"
+#include "host/progress.h"
+#include "host/results.h"
+#include "host/standing_time.h"
+#include "sim/devices/localization.h"
+#include "temporary_folder.h"
+
+namespace playerlike {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// Two robots side by side in an empty room; poses are measured at 10 Hz.
+class HostPartsTest : public testing::Test {
+ protected:
+  [[nodiscard]] DeviceId device(int robot, const std::string& name) const {
+    return {robot, simulation.find_device(robot, name).value()};
+  }
+  [[nodiscard]] std::vector<int> numbers() const {
+    std::vector<int> all;
+    for (const auto& client : clients) all.push_back(client->number);
+    return all;
+  }
+  void run(double duration_s) {
+    const sim::SimTime end_ns = simulation.now_ns() + sim::from_seconds(duration_s);
+    while (simulation.now_ns() < end_ns) {
+      simulation.step();
+      clients.distribute({});
+    }
+  }
+
+  sim::Simulation simulation{sim::load_world_text(
+      R"({"name": "two", "arena": {"size": [20, 4]}, "robots": [
+          {"name": "r1", "pose": {"x": 1, "y": 1}}, {"name": "r2", "pose": {"x": 1, "y": 3}}]})")};
+  const std::vector<RobotInfo> robots = describe_robots(simulation);
+  Clients clients{simulation, robots, /*by_creator=*/false};
+  const DeviceId pose = device(0, "pose");
+  std::vector<std::string> warnings;
+  const Warn warn = [this](const std::string& text) { warnings.push_back(text); };
+};
+
+// --- Clients
+
+using ClientsTest = HostPartsTest;
+
+TEST_F(ClientsTest, FollowersComeFirstEachKindInOrder) {
+  clients.add(6665, false, {});
+  clients.add(6665, true, {});
+  clients.add(6665, false, {});
+  const auto last = clients.add(6665, true, {});
+  EXPECT_THAT(numbers(), ElementsAre(1, 3, 0, 2));
+  clients.remove(*last);
+  EXPECT_THAT(numbers(), ElementsAre(1, 0, 2));
+}
+
+TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
+  const auto reader = clients.add(6665, false, {});
+  const auto other = clients.add(6666, false, {});
+  clients.subscribe(*reader, pose);
+  clients.subscribe(*other, device(1, "pose"));
+  run(0.25);
+  const auto taken = clients.take(*reader);
+  ASSERT_EQ(taken.size(), 1U) << "the newest replaces the one before";
+  EXPECT_EQ(taken[0].first, pose);
+  EXPECT_THAT(clients.take(*reader), IsEmpty());
+  clients.unsubscribe(*other, device(1, "pose"));
+  EXPECT_FALSE(other->has_data);
+  clients.remove(*reader);
+  run(0.5);  // nobody is offered what the one who left had subscribed to
+  EXPECT_THAT(clients.take(*other), IsEmpty());
+}
+
+TEST_F(ClientsTest, SubscriptionsCount) {
+  const auto client = clients.add(6665, false, {});
+  clients.subscribe(*client, pose);
+  clients.subscribe(*client, pose);
+  clients.unsubscribe(*client, pose);
+  run(0.25);
+  EXPECT_EQ(clients.take(*client).size(), 1U);
+  clients.unsubscribe(*client, pose);
+  EXPECT_TRUE(client->subscriptions.empty());
+}
+
+TEST_F(ClientsTest, RoundsWithoutSubscriptionsTakeATenthOfASecond) {
+  const auto client = clients.add(6665, false, {});
+  run(0.09);
+  EXPECT_FALSE(client->has_data);
+  run(0.01);
+  EXPECT_TRUE(client->has_data);
+  clients.take(*client);
+  run(0.09);
+  EXPECT_FALSE(client->has_data);
+}
+
+TEST_F(ClientsTest, QueuesKeepAThousandReadings) {
+  const auto client = clients.add(6665, false, {});
+  clients.set_replace(*client, std::nullopt, false);
+  clients.subscribe(*client, pose);
+  run(100.35);
+  const std::uint32_t lost = client->overflow;
+  EXPECT_GT(lost, 0U);
+  const auto taken = clients.take(*client);
+  ASSERT_EQ(taken.size(), 1000U);
+  EXPECT_LT(taken[0].second->time_ns, taken[1].second->time_ns);
+}
+
+TEST_F(ClientsTest, WhatWaitsKeepsWaitingUnderAnotherRule) {
+  const auto client = clients.add(6665, false, {});
+  clients.set_replace(*client, std::nullopt, false);
+  clients.subscribe(*client, pose);
+  run(0.35);
+  EXPECT_GT(client->subscriptions.at(0).queue.size(), 1U);
+  clients.set_replace(*client, pose, true);
+  EXPECT_EQ(clients.take(*client).size(), 1U) << "the newest";
+  run(0.15);
+  EXPECT_TRUE(client->subscriptions.at(0).fresh);
+  clients.set_replace(*client, pose, false);
+  EXPECT_EQ(clients.take(*client).size(), 1U);
+}
+
+// --- Lockstep
+
+class LockstepTest : public HostPartsTest {
+ protected:
+  std::shared_ptr<Client> join(ThinkerId thinker) {
+    auto client = clients.add(6665, false, {});
+    lockstep.adopt(*client, thinker);
+    return client;
+  }
+  Lockstep lockstep{clients, /*gate=*/2, /*silence_limit_s=*/5.0, warn};
+};
+
+TEST_F(LockstepTest, TheGateOpensOnce) {
+  const auto first = join(1);
+  EXPECT_FALSE(lockstep.gate_open());
+  EXPECT_EQ(lockstep.silence_limit(), WallClock::duration::max());
+  lockstep.note_silence(WallClock::now() + seconds(6));
+  EXPECT_THAT(warnings, ElementsAre("the start gate waits for 2 clients; 1 have joined so far"));
+  const auto second = join(2);
+  EXPECT_TRUE(lockstep.gate_open());
+  clients.remove(*second);
+  EXPECT_TRUE(lockstep.gate_open());
+  EXPECT_EQ(lockstep.silence_limit(), seconds(5));
+}
+
+TEST_F(LockstepTest, AThreadWaitsIfOneOfItsClientsDoes) {
+  const auto a = join(1);
+  const auto b = join(1);
+  const auto c = join(2);
+  EXPECT_FALSE(lockstep.somebody_waits());
+  a->waiting = true;
+  EXPECT_FALSE(lockstep.all_wait()) << "the thread of c thinks";
+  EXPECT_TRUE(lockstep.several_owners());
+  c->waiting = true;
+  EXPECT_TRUE(lockstep.all_wait());
+  c->waiting = false;
+  lockstep.forget(2);
+  EXPECT_TRUE(lockstep.all_wait()) << "nobody waits for a thread that has ended";
+}
+
+TEST_F(LockstepTest, TimeGoesOnWithoutThoseWhoAreSilent) {
+  const auto waits = join(1);
+  const auto thinks = join(2);
+  ASSERT_TRUE(lockstep.gate_open());
+  waits->waiting = true;
+  EXPECT_EQ(lockstep.silence_deadline(thinks->seen() + seconds(1)), thinks->seen() + seconds(5));
+  lockstep.note_silence(thinks->seen() + milliseconds(4999));
+  EXPECT_FALSE(lockstep.silence_noted());
+  lockstep.note_silence(thinks->seen() + seconds(5));
+  EXPECT_TRUE(lockstep.silence_noted());
+  EXPECT_TRUE(lockstep.all_wait());
+  EXPECT_THAT(warnings,
+              ElementsAre("client 2 (port 6665) has not called Read() for 5 s of wall time; "
+                          "simulated time goes on without it until it does"));
+  lockstep.adopt(*thinks, 2);
+  EXPECT_FALSE(lockstep.all_wait());
+}
+
+TEST_F(LockstepTest, TimeGoesOnForProgramsOnly) {
+  const auto follower = clients.add(6665, true, {});
+  lockstep.adopt(*follower, 1);
+  EXPECT_FALSE(lockstep.program_takes_part());
+  const auto program = join(2);
+  EXPECT_TRUE(lockstep.program_takes_part());
+  EXPECT_FALSE(lockstep.several_owners()) << "followers are Playpen's own";
+}
+
+// --- Pace
+
+TEST(Pace, StepsNeitherDriftNorCatchUp) {
+  Pace pace(0.01, 2.0);  // a step takes 5 ms
+  const Pace::Time t0{seconds(1000)};
+  pace.begin_at(t0);
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_EQ(pace.due(), t0 + i * milliseconds(5));
+    pace.begin_step(t0 + i * milliseconds(5) + milliseconds(2));  // late by 2 ms each time
+  }
+  EXPECT_EQ(pace.due(), t0 + milliseconds(20));
+  // 200 ms late is caught up with, more is not.
+  pace.begin_step(t0 + milliseconds(220));
+  EXPECT_EQ(pace.due(), t0 + milliseconds(25));
+  pace.begin_step(t0 + milliseconds(226));
+  EXPECT_EQ(pace.due(), t0 + milliseconds(226 + 10));
+}
+
+TEST(Pace, AnotherSpeedHoldsFromTheNewestStepOn) {
+  Pace pace(0.01, 1.0);
+  const Pace::Time t0{seconds(1000)};
+  pace.begin_at(t0);
+  pace.begin_step(pace.due());
+  const int changes = pace.changes();
+  pace.set_factor(0.5);
+  EXPECT_NE(pace.changes(), changes);
+  EXPECT_EQ(pace.due(), t0 + milliseconds(10) + milliseconds(20));
+}
+
+TEST(Pace, ALimitIsUsedUpStepByStep) {
+  Pace pace(0.01, 1.0);
+  pace.add_to_limit(3);
+  EXPECT_FALSE(pace.limited()) << "there is none to add to";
+  pace.set_limit(1);
+  pace.add_to_limit(1);
+  pace.count_step();
+  EXPECT_FALSE(pace.used_up());
+  pace.count_step();
+  EXPECT_TRUE(pace.used_up());
+  // A step that was waited for comes at once; one that is not due yet does not.
+  const Pace::Time t0{seconds(1000)};
+  pace.begin_at(t0);
+  pace.forgive(t0 + milliseconds(4));
+  EXPECT_EQ(pace.due(), t0 + milliseconds(10));
+  pace.forgive(t0 + milliseconds(60));
+  EXPECT_EQ(pace.due(), t0 + milliseconds(60));
+}
+
+// --- Inputs
+
+using InputsTest = HostPartsTest;
+
+TEST_F(InputsTest, OfCommandsInARowTheLastIsApplied) {
+  Inputs inputs(simulation, warn);
+  const auto client = clients.add(6665, false, {});
+  const DeviceId motion = device(0, "motion");
+  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.1, 0.0, 0.0}}));
+  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.3, 0.0, 0.0}}));
+  EXPECT_FALSE(inputs.add(*client, motion, sim::MotorEnableCommand{true}));
+  EXPECT_FALSE(inputs.add(*client, motion, sim::TwistCommand{{0.2, 0.0, 0.0}}));
+  EXPECT_EQ(client->commands.size(), 3U);
+  inputs.before_step(clients);
+  EXPECT_TRUE(client->commands.empty());
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+TEST_F(InputsTest, RefusedCommandsAreWarnings) {
+  Inputs inputs(simulation, warn);
+  const auto client = clients.add(6665, false, {});
+  static_cast<void>(inputs.add(*client, pose, sim::TwistCommand{}));
+  inputs.before_step(clients);
+  EXPECT_THAT(warnings, ElementsAre(HasSubstr("pose")));
+}
+
+TEST_F(InputsTest, AQueueOfCommandsHasALimit) {
+  Inputs inputs(simulation, warn);
+  const auto client = clients.add(6665, false, {});
+  const DeviceId motion = device(0, "motion");
+  int added = 0;
+  bool full = false;
+  while (!full) {
+    full = inputs.add(*client, motion, sim::TwistCommand{}) ||
+           inputs.add(*client, motion, sim::MotorEnableCommand{true});
+    added += 2;
+    ASSERT_LE(added, 4100);
+  }
+  inputs.apply(*client);
+  EXPECT_TRUE(client->commands.empty());
+}
+
+TEST_F(InputsTest, DrawingsOnLayersOfOthersAreLeftOut) {
+  Inputs inputs(simulation, warn);
+  const auto owner = clients.add(6665, false, {});
+  const auto other = clients.add(6666, false, {});
+  const sim::LayerId layer = inputs.book.create(simulation.layers(), owner->number, owner->port,
+                                                sim::LayerKind::kBinary, {.name = "own"});
+  inputs.reserve_drawings(*owner);
+  inputs.reserve_drawings(*other);
+  const auto pixel = [&](int column, std::uint32_t value) {
+    sim::DrawOperation drawing;
+    drawing.layer = layer;
+    drawing.x0 = column;
+    drawing.value.bits = value;
+    return drawing;
+  };
+  ASSERT_TRUE(owner->drawings.push(pixel(1, 1)));
+  ASSERT_TRUE(other->drawings.push(pixel(2, 1)));
+  inputs.before_step(clients);
+  EXPECT_EQ(simulation.layers().cell(layer, 1, 0)->bits, 1U);
+  EXPECT_EQ(simulation.layers().cell(layer, 2, 0)->bits, 0U);
+}
+
+// --- Alarms
+
+using AlarmsTest = HostPartsTest;
+
+TEST_F(AlarmsTest, RingOnceInTheirOrder) {
+  Alarms alarms;
+  std::string rung;
+  const auto alarm = [&](char name, sim::SimTime until_ns) {
+    return Alarm{until_ns, {}, false, [&rung, name] { rung += name; }};
+  };
+  alarms.set(alarm('a', sim::from_seconds(0.1)));
+  alarms.set(alarm('b', sim::from_seconds(9.0)));
+  const AlarmId c = alarms.set(alarm('c', 0));
+  alarms.set(Alarm{std::nullopt, [](const sim::Simulation& all) { return all.steps() > 0; },
+                   /*lets_time_pass=*/true, [&] { rung += 'd'; }});
+  EXPECT_TRUE(alarms.cancel(c));
+  EXPECT_FALSE(alarms.cancel(c));
+  alarms.ring(simulation, false);
+  EXPECT_EQ(rung, "");
+  EXPECT_TRUE(alarms.let_time_pass());
+  run(0.1);
+  alarms.ring(simulation, false);
+  EXPECT_EQ(rung, "ad");
+  EXPECT_FALSE(alarms.let_time_pass());
+  alarms.ring(simulation, true);  // the run is over
+  EXPECT_EQ(rung, "adb");
+}
+
+// --- Standing time
+
+using StandingTimeTest = HostPartsTest;
+
+TEST_F(StandingTimeTest, AProgramThatOnlyCommandsIsToldOnce) {
+  StandingTime standing(robots.size(), /*sleeps_count=*/true, 5.0, warn);
+  EXPECT_TRUE(standing.note_wish());
+  EXPECT_FALSE(standing.note_wish());
+  const auto client = clients.add(6665, false, {});
+  int looks = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    if (!standing.note_command(*client, 0)) continue;
+    standing.check(*client, 0, /*hopeful=*/++looks == 1);
+    ASSERT_TRUE(looks > 1 || warnings.empty());
+  }
+  EXPECT_GT(looks, 1);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("it does not call Read()"));
+  EXPECT_THAT(warnings[0], HasSubstr(", or sleep"));
+  standing.note_end();
+  EXPECT_EQ(warnings.size(), 1U) << "it knows";
+}
+
+TEST_F(StandingTimeTest, AProgramThatEndsBeforeItsFirstStepIsTold) {
+  StandingTime standing(robots.size(), /*sleeps_count=*/false, 5.0, warn);
+  standing.note_end();
+  EXPECT_THAT(warnings, IsEmpty()) << "it has not wanted anything";
+  static_cast<void>(standing.note_wish());
+  standing.note_end();
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings[0], HasSubstr("nothing was simulated"));
+}
+
+// --- Progress
+
+TEST(Progress, TellsHowMuchIsLeft) {
+  TimeStatistics time;
+  time.sim_time_ns = sim::from_seconds(2.5);
+  time.real_time_factor = 100.0;
+  EXPECT_EQ(Progress::line(time), "      2.5 s simulated, 100 x real time ");
+  time.duration_s = 10.0;  // a quarter is done; 7.5 s at 100 times real time are 0.075 s
+  EXPECT_EQ(
+      Progress::line(time),
+      "[#######.......................]     2.5 / 10 s simulated, 100 x real time, 1 s left ");
+  time.duration_s = 2.0;
+  EXPECT_THAT(Progress::line(time), HasSubstr("[##############################]"));
+}
+
+TEST(Progress, CountsFromTheFirstStep) {
+  Progress progress;
+  TimeStatistics time;
+  time.sim_time_ns = sim::from_seconds(6.0);
+  progress.add_times(time, true);
+  EXPECT_EQ(time.wall_time_s, 0.0);
+  const WallClock::time_point t0{seconds(1000)};
+  EXPECT_TRUE(progress.note_step(t0));
+  EXPECT_FALSE(progress.note_step(t0 + seconds(3)));
+  progress.add_times(time, true);
+  EXPECT_EQ(time.wall_time_s, 3.0);
+  EXPECT_EQ(time.real_time_factor, 2.0);
+}
+
+// --- Results
+
+using ResultsTest = HostPartsTest;
+
+TEST_F(ResultsTest, TheReportFollowsTheRunAndSaysHowItEnded) {
+  const test_support::TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder / "out";
+  Results results(
+      settings, simulation,
+      [this] {
+        TimeStatistics time;
+        time.sim_time_ns = simulation.now_ns();
+        return time;
+      },
+      warn);
+  const auto report = [&] {
+    std::ifstream in(settings.output_folder + "/report.json");
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const WallClock::time_point t0{seconds(1000)};
+  results.keep(t0);
+  EXPECT_EQ(report(), "") << "it is written once a second of wall time";
+  simulation.step();
+  results.observe();
+  results.keep(t0 + seconds(1));
+  EXPECT_THAT(report(), HasSubstr("\"ended\": null"));
+  results.program_status = 3;
+  results.write();
+  EXPECT_THAT(report(), HasSubstr("\"status\": 3"));
+  EXPECT_TRUE(std::filesystem::exists(settings.output_folder + "/scene.png"));
+  EXPECT_THAT(warnings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace playerlike
