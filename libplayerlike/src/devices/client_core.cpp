@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "devices/errors.h"
 #include "session/checks.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/rangers.h"
@@ -18,6 +19,10 @@ using PlayerCc::detail::thread_number;
 ClientCore::ClientCore(std::unique_ptr<Session> session) : session_(std::move(session)) {}
 
 ClientCore::~ClientCore() { session_->close(); }
+
+void ClientCore::send(const char* fun, DeviceId device, const sim::Command& command) {
+  translated(fun, [&] { session_->send(device, command); });
+}
 
 void ClientCore::add(DeviceId device, ReadingListener& listener, std::optional<bool> replace) {
   require_usable();

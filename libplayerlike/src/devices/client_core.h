@@ -45,6 +45,8 @@ class ClientCore final : private ReadingSink {
   [[nodiscard]] PlayerCc::mutex_t& mutex() noexcept { return mutex_; }
   [[nodiscard]] Session& session() noexcept { return *session_; }
   [[nodiscard]] const std::vector<RobotInfo>& robots() const noexcept { return session_->robots(); }
+  /// Gives a device a command. @throws PlayerCc::PlayerError in the name of `fun`.
+  void send(const char* fun, DeviceId device, const sim::Command& command);
 
   /// Subscribes a listener to a device. The mutex is held by the caller.
   /// @param replace  see ReplaceRequest; nullopt: whatever the session does by itself.

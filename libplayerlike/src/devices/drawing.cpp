@@ -28,11 +28,10 @@ std::uint8_t channel_of_unusual_share(double share) {
 ImageColour_t colour_of_text(const std::string& text) {
   const auto c = sim::parse_colour(text);
   if (!c) {
-    throw PlayerError("Drawing",
-                      "\"" + text +
-                          "\" is no colour; colours are written \"#34AAFF\", \"#3AF\" or, "
-                          "with alpha, \"#34AAFF80\"",
-                      PlayerError::kBadArgument);
+    playerlike::refuse("Drawing",
+                       "\"" + text +
+                           "\" is no colour; colours are written \"#34AAFF\", \"#3AF\" or, "
+                           "with alpha, \"#34AAFF80\"");
   }
   return {c->r, c->g, c->b, c->a};
 }
@@ -76,10 +75,8 @@ std::vector<std::uint8_t> with_channels(const char* fun, std::vector<std::uint8_
                                         int channels) {
   if (channels == 4) return rgba;
   if (channels != 3) {
-    throw PlayerError(fun,
-                      "a picture has 3 (RGB) or 4 (RGBA) channels, but " +
-                          std::to_string(channels) + " were asked for",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "a picture has 3 (RGB) or 4 (RGBA) channels, but " +
+                                std::to_string(channels) + " were asked for");
   }
   const std::size_t cells = rgba.size() / 4;
   for (std::size_t i = 0; i < cells; ++i) {
@@ -322,9 +319,8 @@ void Drawing::FillDisc(double aX, double aY, double aRadius, const ImageColour_t
   const std::string fun = Fun("SetDiscMetres");
   playerlike::require_finite(fun.c_str(), {{"x", aX}, {"y", aY}, {"the radius", aRadius}});
   if (aRadius < 0.0) {
-    throw PlayerError(fun,
-                      "the radius must not be negative, but is " + sim::rounded_text(aRadius, 6),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun,
+                       "the radius must not be negative, but is " + sim::rounded_text(aRadius, 6));
   }
   RequireUsable("SetDiscMetres");
   const int height = GetHeight();
@@ -363,13 +359,12 @@ void Drawing::SetImage(const std::uint8_t* aImage, std::size_t aBytes) {
   const int height = GetHeight();
   const std::size_t cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (aImage == nullptr || (aBytes != 3 * cells && aBytes != 4 * cells)) {
-    throw PlayerError(Fun("SetImage"),
-                      "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                          " cells has " + std::to_string(3 * cells) + " (RGB) or " +
-                          std::to_string(4 * cells) + " (RGBA) bytes, but " +
-                          (aImage == nullptr ? "a null pointer" : std::to_string(aBytes)) +
-                          " was given",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(Fun("SetImage"),
+                       "a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                           " cells has " + std::to_string(3 * cells) + " (RGB) or " +
+                           std::to_string(4 * cells) + " (RGBA) bytes, but " +
+                           (aImage == nullptr ? "a null pointer" : std::to_string(aBytes)) +
+                           " was given");
   }
   std::vector<sim::CellValue> values(cells);
   const std::size_t channels = aBytes / cells;
@@ -418,11 +413,10 @@ std::uint32_t Drawing::CellAt(int aX, int aY, const char* aFunction) const {
     return mCore->session().request(playerlike::CellRequest{mLayer, aX, aY});
   });
   if (!value) {
-    throw PlayerError(Fun(aFunction),
-                      "there is no cell (" + std::to_string(aX) + ", " + std::to_string(aY) +
-                          "): the grid-map has " + std::to_string(GetWidth()) + " x " +
-                          std::to_string(GetHeight()) + ", counted from 0",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(Fun(aFunction), "there is no cell (" + std::to_string(aX) + ", " +
+                                           std::to_string(aY) + "): the grid-map has " +
+                                           std::to_string(GetWidth()) + " x " +
+                                           std::to_string(GetHeight()) + ", counted from 0");
   }
   return value->bits;
 }
@@ -472,8 +466,7 @@ void CanvasDrawing::SetViewMode(ViewMode aMode) {
                [&] { Core()->session().request(playerlike::SetViewModeRequest{wanted}); });
     return;
   }
-  throw PlayerError(fun, "there is no view mode " + std::to_string(static_cast<int>(aMode)),
-                    PlayerError::kBadArgument);
+  playerlike::refuse(fun, "there is no view mode " + std::to_string(static_cast<int>(aMode)));
 }
 
 ViewMode CanvasDrawing::GetViewMode() const {

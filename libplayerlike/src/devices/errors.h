@@ -43,6 +43,11 @@ auto translated_all(const char* fun, Action action) -> decltype(action()) {
   }
 }
 
+/// Throws PlayerError kBadArgument.
+[[noreturn]] inline void refuse(const std::string& fun, const std::string& text) {
+  throw PlayerCc::PlayerError(fun, text, PlayerCc::PlayerError::kBadArgument);
+}
+
 /// Refuses NaN and infinity: throws PlayerError kBadArgument, naming the value.
 struct NamedValue {
   const char* name;

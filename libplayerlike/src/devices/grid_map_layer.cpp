@@ -57,8 +57,7 @@ void require_numbers(const std::string& fun, const T* cells, std::size_t count) 
   if constexpr (std::is_floating_point_v<T>) {
     for (std::size_t i = 0; i < count; ++i) {
       if (!std::isnan(cells[i])) continue;
-      throw PlayerError(fun, "number " + std::to_string(i) + " of the list is NaN",
-                        PlayerError::kBadArgument);
+      playerlike::refuse(fun, "number " + std::to_string(i) + " of the list is NaN");
     }
   }
 }
@@ -173,7 +172,7 @@ void GridMapLayer::SetOwnColour(const ImageColour_t& aColour) {
 
 void GridMapLayer::SetTransparency(double aTransparency) {
   if (std::isnan(aTransparency)) {
-    throw PlayerError(Fun("SetTransparency"), "the transparency is NaN", PlayerError::kBadArgument);
+    playerlike::refuse(Fun("SetTransparency"), "the transparency is NaN");
   }
   ChangeStyle("SetTransparency", [&](sim::LayerStyle& style) {
     style.transparency = std::clamp(aTransparency, 0.0, 1.0);
@@ -257,15 +256,13 @@ void GridMapLayer::PutAll(const T* aCells, std::size_t aCount) {
   const bool fits =
       GetKind() == RGBA ? aCount == 3 * cells || aCount == 4 * cells : aCount == cells;
   if (aCells == nullptr || !fits) {
-    throw PlayerError(fun,
-                      "the grid-map has " + std::to_string(width) + " x " + std::to_string(height) +
-                          " = " + std::to_string(cells) + " cells" +
-                          (GetKind() == RGBA ? " of 3 (RGB) or 4 (RGBA) numbers each" : "") +
-                          ", but " +
-                          (aCells == nullptr ? std::string("a null pointer was")
-                                             : std::to_string(aCount) + " numbers were") +
-                          " given",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "the grid-map has " + std::to_string(width) + " x " +
+                                std::to_string(height) + " = " + std::to_string(cells) + " cells" +
+                                (GetKind() == RGBA ? " of 3 (RGB) or 4 (RGBA) numbers each" : "") +
+                                ", but " +
+                                (aCells == nullptr ? std::string("a null pointer was")
+                                                   : std::to_string(aCount) + " numbers were") +
+                                " given");
   }
   require_numbers(fun, aCells, aCount);
   auto values = values_of(GetKind(), aCells, cells, aCount / cells);
@@ -328,7 +325,7 @@ int GridMapLayer::LoadMap(const std::string& aFile) {
   try {
     map = sim::io::read_map(aFile);
   } catch (const sim::ConfigError& e) {
-    throw PlayerError(fun, e.what(), PlayerError::kBadArgument);
+    playerlike::refuse(fun, e.what());
   }
   // Which cells lie in the map, and where: one place for each column and row, -1 for none.
   const playerlike::CanvasInfo canvas = Core()->session().request(playerlike::CanvasInfoRequest{});

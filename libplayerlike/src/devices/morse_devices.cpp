@@ -188,10 +188,8 @@ void MorseLocalization::SetPose(double aX, double aY, double aYaw) {
   const std::string fun = Fun("SetPose");
   playerlike::require_finite(fun.c_str(), {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
   const auto lock = Lock("SetPose");
-  translated(fun.c_str(), [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()},
-                           sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
-  });
+  Core()->send(fun.c_str(), {RobotIndex(), DeviceIndex()},
+               sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
 }
 
 MorsePose::MorsePose(const MorseRobot& aRobot, const std::string& aName)
@@ -226,10 +224,9 @@ MorseLaser::~MorseLaser() { Detach(); }
 
 void MorseLaser::Check(uint32_t aIndex, uint32_t aCount, const char* aFunction) const {
   if (aIndex < aCount) return;
-  throw PlayerError(Fun(aFunction),
-                    "there is no beam " + std::to_string(aIndex) + ": the scan has " +
-                        std::to_string(aCount) + ", counted from 0",
-                    PlayerError::kBadArgument);
+  playerlike::refuse(Fun(aFunction), "there is no beam " + std::to_string(aIndex) +
+                                         ": the scan has " + std::to_string(aCount) +
+                                         ", counted from 0");
 }
 
 uint32_t MorseLaser::GetCount() const { return Look<LaserReading>("GetCount", count_of); }
@@ -374,9 +371,8 @@ double MorseProximity::GetDistance(const std::string& aName) const {
   if (it != near.end()) return it->second;
   std::string known;
   for (const auto& [name, distance] : near) known += (known.empty() ? "" : ", ") + name;
-  throw PlayerError(Fun("GetDistance"),
-                    "\"" + aName + "\" is not near; near are: " + (known.empty() ? "none" : known),
-                    PlayerError::kBadArgument);
+  playerlike::refuse(Fun("GetDistance"), "\"" + aName + "\" is not near; near are: " +
+                                             (known.empty() ? "none" : known));
 }
 
 double MorseProximity::GetMaxRange() const { return GetProperty("range", 0.0); }
@@ -408,10 +404,9 @@ double MorseRanger::Checked(uint32_t aIndex, const char* aFunction) const {
   const std::vector<double>& ranges = mReceiver->newest.as<RangerReading>().ranges_m;
   const std::size_t count = std::min(ranges.size(), mMounts.size());
   if (aIndex >= count) {
-    throw PlayerError(Fun(aFunction),
-                      "there is no transducer " + std::to_string(aIndex) + ": the device has " +
-                          std::to_string(count) + ", counted from 0",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(Fun(aFunction), "there is no transducer " + std::to_string(aIndex) +
+                                           ": the device has " + std::to_string(count) +
+                                           ", counted from 0");
   }
   return ranges[aIndex];
 }
@@ -478,19 +473,15 @@ void MorseMotionVW::SetSpeed(double aSpeed, double aTurnRate) {
   const char* fun = "MorseMotionVW::SetSpeed";
   playerlike::require_finite(fun, {{"the forward speed", aSpeed}, {"the turn rate", aTurnRate}});
   const auto lock = Lock("SetSpeed");
-  translated(fun, [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()},
-                           sim::TwistCommand{{aSpeed, aTurnRate}});
-  });
+  Core()->send(fun, {RobotIndex(), DeviceIndex()}, sim::TwistCommand{{aSpeed, aTurnRate}});
 }
 
 void MorseMotionVW::Stop() { SetSpeed(0.0, 0.0); }
 
 void MorseMotionVW::SetMotorEnable(bool aEnable) {
   const auto lock = Lock("SetMotorEnable");
-  translated("MorseMotionVW::SetMotorEnable", [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, sim::MotorEnableCommand{aEnable});
-  });
+  Core()->send("MorseMotionVW::SetMotorEnable", {RobotIndex(), DeviceIndex()},
+               sim::MotorEnableCommand{aEnable});
 }
 
 double MorseMotionVW::GetMaxSpeed() const {

@@ -22,9 +22,8 @@ namespace {
 
 void require_positive(const char* fun, const char* what, double value) {
   if (value > 0.0) return;
-  throw PlayerError(
-      fun, std::string(what) + " must be greater than 0, not " + sim::rounded_text(value, 6),
-      PlayerError::kBadArgument);
+  playerlike::refuse(
+      fun, std::string(what) + " must be greater than 0, not " + sim::rounded_text(value, 6));
 }
 
 }  // namespace
@@ -140,28 +139,22 @@ void MorseTeleport::Place(double aX, double aY, double aYaw) {
   const char* fun = "MorseTeleport::Place";
   require_finite(fun, {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
   const auto lock = Lock("Place");
-  translated(fun, [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()},
-                           sim::PlaceCommand{{aX, aY, sim::normalize_angle(aYaw)}});
-  });
+  Core()->send(fun, {RobotIndex(), DeviceIndex()},
+               sim::PlaceCommand{{aX, aY, sim::normalize_angle(aYaw)}});
 }
 
 void MorseTeleport::Translate(double aX, double aY) {
   const char* fun = "MorseTeleport::Translate";
   require_finite(fun, {{"x", aX}, {"y", aY}});
   const auto lock = Lock("Translate");
-  translated(fun, [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, sim::TranslateCommand{{aX, aY}});
-  });
+  Core()->send(fun, {RobotIndex(), DeviceIndex()}, sim::TranslateCommand{{aX, aY}});
 }
 
 void MorseTeleport::Rotate(double aYaw) {
   const char* fun = "MorseTeleport::Rotate";
   require_finite(fun, {{"the turn", aYaw}});
   const auto lock = Lock("Rotate");
-  translated(fun, [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, sim::RotateCommand{aYaw});
-  });
+  Core()->send(fun, {RobotIndex(), DeviceIndex()}, sim::RotateCommand{aYaw});
 }
 
 }  // namespace CCMorse

@@ -9,16 +9,7 @@ namespace CCMorse {
 
 using sim::GripperReading;
 
-namespace {
-
 using Action = sim::GripCommand::Action;
-
-void send(playerlike::ClientCore& core, const char* fun, playerlike::DeviceId device,
-          Action action) {
-  playerlike::translated(fun, [&] { core.session().send(device, sim::GripCommand{action}); });
-}
-
-}  // namespace
 
 MorseGripper::MorseGripper(const MorseRobot& aRobot, const std::string& aName)
     : MorseSensor(aRobot, aName, "gripper", "MorseGripper") {
@@ -29,27 +20,32 @@ MorseGripper::~MorseGripper() { Detach(); }
 
 void MorseGripper::Open() {
   const auto lock = Lock("Open");
-  send(*Core(), "MorseGripper::Open", {RobotIndex(), DeviceIndex()}, Action::kOpen);
+  Core()->send("MorseGripper::Open", {RobotIndex(), DeviceIndex()},
+               sim::GripCommand{Action::kOpen});
 }
 
 void MorseGripper::Close() {
   const auto lock = Lock("Close");
-  send(*Core(), "MorseGripper::Close", {RobotIndex(), DeviceIndex()}, Action::kClose);
+  Core()->send("MorseGripper::Close", {RobotIndex(), DeviceIndex()},
+               sim::GripCommand{Action::kClose});
 }
 
 void MorseGripper::Stop() {
   const auto lock = Lock("Stop");
-  send(*Core(), "MorseGripper::Stop", {RobotIndex(), DeviceIndex()}, Action::kStop);
+  Core()->send("MorseGripper::Stop", {RobotIndex(), DeviceIndex()},
+               sim::GripCommand{Action::kStop});
 }
 
 void MorseGripper::Store() {
   const auto lock = Lock("Store");
-  send(*Core(), "MorseGripper::Store", {RobotIndex(), DeviceIndex()}, Action::kStore);
+  Core()->send("MorseGripper::Store", {RobotIndex(), DeviceIndex()},
+               sim::GripCommand{Action::kStore});
 }
 
 void MorseGripper::Retrieve() {
   const auto lock = Lock("Retrieve");
-  send(*Core(), "MorseGripper::Retrieve", {RobotIndex(), DeviceIndex()}, Action::kRetrieve);
+  Core()->send("MorseGripper::Retrieve", {RobotIndex(), DeviceIndex()},
+               sim::GripCommand{Action::kRetrieve});
 }
 
 std::string MorseGripper::GetStatus() const {

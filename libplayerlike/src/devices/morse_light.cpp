@@ -18,34 +18,28 @@ void MorseLight::SetOn(bool aOn) {
   const auto lock = Lock("SetOn");
   sim::LightCommand command;
   command.enabled = aOn;
-  translated("MorseLight::SetOn", [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, command);
-  });
+  Core()->send("MorseLight::SetOn", {RobotIndex(), DeviceIndex()}, command);
 }
 
 void MorseLight::SetBlinking(double aPeriod, double aDutyCycle) {
   const char* fun = "MorseLight::SetBlinking";
   if (!(aPeriod >= 0.0 && aPeriod <= 1e6 && aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
-    throw PlayerError(fun,
-                      "a light's period is in 0..1e6 s and its duty cycle in 0..1, but they are " +
-                          sim::rounded_text(aPeriod, 6) + " and " +
-                          sim::rounded_text(aDutyCycle, 6),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(
+        fun, "a light's period is in 0..1e6 s and its duty cycle in 0..1, but they are " +
+                 sim::rounded_text(aPeriod, 6) + " and " + sim::rounded_text(aDutyCycle, 6));
   }
   const auto lock = Lock("SetBlinking");
   sim::LightCommand command;
   command.period_s = aPeriod;
   command.duty_cycle = aDutyCycle;
-  translated(fun, [&] { Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, command); });
+  Core()->send(fun, {RobotIndex(), DeviceIndex()}, command);
 }
 
 void MorseLight::SetColour(std::uint8_t aRed, std::uint8_t aGreen, std::uint8_t aBlue) {
   const auto lock = Lock("SetColour");
   sim::LightCommand command;
   command.colour = sim::Colour{aRed, aGreen, aBlue, 255};
-  translated("MorseLight::SetColour", [&] {
-    Core()->session().send(DeviceId{RobotIndex(), DeviceIndex()}, command);
-  });
+  Core()->send("MorseLight::SetColour", {RobotIndex(), DeviceIndex()}, command);
 }
 
 }  // namespace CCMorse

@@ -23,7 +23,7 @@ playerlike::SndSettings checked(const char* fun, const SndSettings& s) {
                                          .goal_angle_rad = s.goal_angle,
                                          .patience_s = s.patience};
   const std::string fault = playerlike::fault_of(settings);
-  if (!fault.empty()) throw PlayerError(fun, fault, PlayerError::kBadArgument);
+  if (!fault.empty()) playerlike::refuse(fun, fault);
   return settings;
 }
 
@@ -34,8 +34,7 @@ SndDriver::SndDriver(PlayerClient* aClient, uint32_t aPosition, uint32_t aLaser,
     : mPosition(aPosition) {
   const char* fun = "SndDriver::SndDriver";
   if (aClient == nullptr) {
-    throw PlayerError(fun, "a driver needs a client, but it is a null pointer",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "a driver needs a client, but it is a null pointer");
   }
   const playerlike::SndSettings settings = checked(fun, aSettings);
   mCore = PlayerCc::detail::CoreAccess::get(*aClient);

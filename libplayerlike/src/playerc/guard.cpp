@@ -1,4 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "devices/errors.h"
 #include "playerc/guard.h"
 
 #include <mutex>
@@ -36,7 +37,7 @@ void report_error(const char* fun, const std::string& why) {
 }
 
 void refuse(const std::string& why) {
-  throw PlayerCc::PlayerError("", why, PlayerCc::PlayerError::kBadArgument);
+  playerlike::refuse("", why);
 }
 
 }  // namespace playerlike::clib

@@ -27,11 +27,9 @@ double AioProxy::GetVoltage(uint32_t aIndex) const {
   const scoped_lock_t lock(LockData(fun));
   const std::vector<double>& inputs = mLink->newest.as<sim::AioReading>().inputs_v;
   if (aIndex < inputs.size()) return inputs[aIndex];
-  throw PlayerError(fun,
-                    "there is no analog input " + std::to_string(aIndex) +
-                        ": the newest reading has " + std::to_string(inputs.size()) +
-                        ", counted from 0",
-                    PlayerError::kBadArgument);
+  playerlike::refuse(fun, "there is no analog input " + std::to_string(aIndex) +
+                              ": the newest reading has " + std::to_string(inputs.size()) +
+                              ", counted from 0");
 }
 
 void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
@@ -40,17 +38,12 @@ void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
   const double count = std::clamp<double>(mLink->property("outputs", sim::AioParams::kMaxLines),
                                           0.0, sim::AioParams::kMaxLines);
   if (!(aIndex < count && std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
-    throw PlayerError(fun,
-                      "output " + std::to_string(aIndex) + " cannot have " +
-                          sim::rounded_text(aVoltage, 6) + " V: there are " +
-                          std::to_string(static_cast<int>(count)) +
-                          " outputs, counted from 0, of at most 1e6 V to either side",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "output " + std::to_string(aIndex) + " cannot have " +
+                                sim::rounded_text(aVoltage, 6) + " V: there are " +
+                                std::to_string(static_cast<int>(count)) +
+                                " outputs, counted from 0, of at most 1e6 V to either side");
   }
-  playerlike::translated(fun, [&] {
-    mLink->core->session().send(mLink->binding.reading,
-                                sim::AnalogOutputCommand{static_cast<int>(aIndex), aVoltage});
-  });
+  mLink->send(fun, sim::AnalogOutputCommand{static_cast<int>(aIndex), aVoltage});
 }
 
 }  // namespace PlayerCc

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "devices/errors.h"
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/sensor_support.h"
@@ -62,12 +63,10 @@ inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, dou
   const double begin = std::max(0.0, std::ceil((min_rad - least_rad) / native_rad - kSameBeam));
   const double end = std::min(last, std::floor((max_rad - least_rad) / native_rad + kSameBeam));
   if (!(begin <= end)) {
-    throw PlayerError(fun,
-                      "no beam lies between " + std::to_string(min_rad) + " and " +
-                          std::to_string(max_rad) + " rad; this laser's lie from " +
-                          std::to_string(least_rad) + " to " +
-                          std::to_string(least_rad + last * native_rad) + " rad",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "no beam lies between " + std::to_string(min_rad) + " and " +
+                                std::to_string(max_rad) + " rad; this laser's lie from " +
+                                std::to_string(least_rad) + " to " +
+                                std::to_string(least_rad + last * native_rad) + " rad");
   }
   // A server may say that neighbouring beams are no angle apart: then all are shown.
   const double ratio = std::round(resolution_rad / native_rad);

@@ -12,15 +12,6 @@ namespace PlayerCc {
 
 using sim::BlinkenlightReading;
 
-namespace {
-
-void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId device,
-          const sim::LightCommand& command) {
-  playerlike::translated(fun, [&] { core.session().send(device, command); });
-}
-
-}  // namespace
-
 BlinkenLightProxy::BlinkenLightProxy(PlayerClient* aPc, uint32_t aIndex)
     : ClientProxy(aPc, aIndex) {
   Attach(PLAYER_BLINKENLIGHT_CODE, aIndex, "BlinkenLightProxy::BlinkenLightProxy");
@@ -41,33 +32,31 @@ void BlinkenLightProxy::SetEnable(bool aSet) {
   const scoped_lock_t lock(LockData(fun));
   sim::LightCommand command;
   command.enabled = aSet;
-  send(fun, *mLink->core, mLink->binding.reading, command);
+  mLink->send(fun, command);
 }
 
 void BlinkenLightProxy::SetPeriod(double aPeriod) {
   const char* fun = "BlinkenLightProxy::SetPeriod";
   const scoped_lock_t lock(LockData(fun));
   if (!(aPeriod >= 0.0 && aPeriod <= 1e6)) {
-    throw PlayerError(fun,
-                      "a light's period is in 0..1e6 s, but is " + sim::rounded_text(aPeriod, 6),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun,
+                       "a light's period is in 0..1e6 s, but is " + sim::rounded_text(aPeriod, 6));
   }
   sim::LightCommand command;
   command.period_s = aPeriod;
-  send(fun, *mLink->core, mLink->binding.reading, command);
+  mLink->send(fun, command);
 }
 
 void BlinkenLightProxy::SetDutyCycle(double aDutyCycle) {
   const char* fun = "BlinkenLightProxy::SetDutyCycle";
   const scoped_lock_t lock(LockData(fun));
   if (!(aDutyCycle >= 0.0 && aDutyCycle <= 1.0)) {
-    throw PlayerError(fun,
-                      "a light's duty cycle is in 0..1, but is " + sim::rounded_text(aDutyCycle, 6),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(
+        fun, "a light's duty cycle is in 0..1, but is " + sim::rounded_text(aDutyCycle, 6));
   }
   sim::LightCommand command;
   command.duty_cycle = aDutyCycle;
-  send(fun, *mLink->core, mLink->binding.reading, command);
+  mLink->send(fun, command);
 }
 
 void BlinkenLightProxy::SetColor(uint8_t aRed, uint8_t aGreen, uint8_t aBlue) {
@@ -75,7 +64,7 @@ void BlinkenLightProxy::SetColor(uint8_t aRed, uint8_t aGreen, uint8_t aBlue) {
   const scoped_lock_t lock(LockData(fun));
   sim::LightCommand command;
   command.colour = sim::Colour{aRed, aGreen, aBlue, 255};
-  send(fun, *mLink->core, mLink->binding.reading, command);
+  mLink->send(fun, command);
 }
 
 }  // namespace PlayerCc

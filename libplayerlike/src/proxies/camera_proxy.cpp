@@ -6,6 +6,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "devices/errors.h"
 #include "libplayerc++/cameraproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/camera.h"
@@ -77,8 +78,7 @@ void CameraProxy::GetImage(uint8_t* aImage) const {
   const char* fun = "CameraProxy::GetImage";
   const scoped_lock_t lock(LockData(fun));
   if (aImage == nullptr) {
-    throw PlayerError(fun, "there is no place for the picture: it is a null pointer",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "there is no place for the picture: it is a null pointer");
   }
   const std::vector<uint8_t>& pixels = mLink->newest.as<CameraReading>().pixels;
   std::copy(pixels.begin(), pixels.end(), aImage);

@@ -71,9 +71,8 @@ double ClientProxy::Link::property(const std::string& name, double otherwise) co
 ClientProxy::ClientProxy(PlayerClient* aPc, uint32_t aIndex)
     : mPc(aPc), mClient(nullptr), mInfo(nullptr), mFresh(false), mIndex(aIndex) {
   if (aPc == nullptr) {
-    throw PlayerError("ClientProxy::ClientProxy",
-                      "a proxy needs a client, but it is a null pointer",
-                      PlayerError::kBadArgument);
+    playerlike::refuse("ClientProxy::ClientProxy",
+                       "a proxy needs a client, but it is a null pointer");
   }
   mLink = std::make_unique<Link>(*this, aPc->mCore);
   mInfo = &mLink->device;

@@ -29,10 +29,9 @@ bool DioProxy::GetInput(uint32_t aIndex) const {
   const auto& newest = mLink->newest.as<DioReading>();
   const auto count = static_cast<uint32_t>(newest.input_count);
   if (aIndex < count) return ((newest.inputs >> aIndex) & 1U) != 0;
-  throw PlayerError(fun,
-                    "there is no digital input " + std::to_string(aIndex) +
-                        ": the newest reading has " + std::to_string(count) + ", counted from 0",
-                    PlayerError::kBadArgument);
+  playerlike::refuse(fun, "there is no digital input " + std::to_string(aIndex) +
+                              ": the newest reading has " + std::to_string(count) +
+                              ", counted from 0");
 }
 
 void DioProxy::SetOutput(uint32_t aCount, uint32_t aDigout) {
@@ -41,15 +40,10 @@ void DioProxy::SetOutput(uint32_t aCount, uint32_t aDigout) {
   const double count = std::clamp<double>(mLink->property("outputs", sim::DioParams::kMaxLines),
                                           0.0, sim::DioParams::kMaxLines);
   if (!(aCount <= count)) {
-    throw PlayerError(fun,
-                      std::to_string(aCount) + " outputs are to be set, but there are " +
-                          std::to_string(static_cast<int>(count)),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, std::to_string(aCount) + " outputs are to be set, but there are " +
+                                std::to_string(static_cast<int>(count)));
   }
-  playerlike::translated(fun, [&] {
-    mLink->core->session().send(mLink->binding.reading,
-                                sim::DigitalOutputCommand{static_cast<int>(aCount), aDigout});
-  });
+  mLink->send(fun, sim::DigitalOutputCommand{static_cast<int>(aCount), aDigout});
 }
 
 }  // namespace PlayerCc

@@ -48,12 +48,10 @@ class Graphics2dProxy::Sheet final : public CCMorse::Drawing {
     RequireUsable(function);
     const std::string fun = Fun(function);
     if (count < 0 || (points == nullptr && count > 0)) {
-      throw PlayerError(fun,
-                        count < 0 ? "the number of points is " + std::to_string(count)
-                                  : std::to_string(count) +
-                                        " points are to be drawn, but the "
-                                        "array is a null pointer",
-                        PlayerError::kBadArgument);
+      playerlike::refuse(fun, count < 0 ? "the number of points is " + std::to_string(count)
+                                        : std::to_string(count) +
+                                              " points are to be drawn, but the "
+                                              "array is a null pointer");
     }
     std::vector<player_point_2d_t> all;
     if (count > 0) all.assign(points, points + count);

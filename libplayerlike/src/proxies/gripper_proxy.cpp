@@ -93,9 +93,7 @@ uint32_t GripperProxy::GetStored() const {
 
 void GripperProxy::Grip(const char* aFun, int aAction) {
   const scoped_lock_t lock(LockData(aFun));
-  playerlike::translated(aFun, [&] {
-    mLink->core->session().send(mLink->binding.reading, sim::GripCommand{action_of(aAction)});
-  });
+  mLink->send(aFun, sim::GripCommand{action_of(aAction)});
 }
 
 void GripperProxy::Open() { Grip("GripperProxy::Open", PLAYER_GRIPPER_CMD_OPEN); }
@@ -141,8 +139,7 @@ void GripperProxy::SetGrip(uint8_t aCmd, uint8_t /*aArg*/) {
       throw PlayerError(fun, "this gripper has no lift, and its pressure cannot be set",
                         PlayerError::kNotAvailable);
     default:
-      throw PlayerError(fun, "there is no command " + std::to_string(aCmd) + " of a gripper",
-                        PlayerError::kBadArgument);
+      playerlike::refuse(fun, "there is no command " + std::to_string(aCmd) + " of a gripper");
   }
 }
 

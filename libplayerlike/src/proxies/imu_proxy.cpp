@@ -47,10 +47,8 @@ void ImuProxy::SetDatatype(int aDatatype) {
   const char* fun = "ImuProxy::SetDatatype";
   const scoped_lock_t lock(LockData(fun));
   if (aDatatype < PLAYER_IMU_DATA_STATE || aDatatype > PLAYER_IMU_DATA_FULLSTATE) {
-    throw PlayerError(fun,
-                      "there is no type of data " + std::to_string(aDatatype) +
-                          "; they are PLAYER_IMU_DATA_STATE (1) to _FULLSTATE (5)",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "there is no type of data " + std::to_string(aDatatype) +
+                                "; they are PLAYER_IMU_DATA_STATE (1) to _FULLSTATE (5)");
   }
 }
 
@@ -65,11 +63,8 @@ void ImuProxy::ResetEuler(float aRoll, float aPitch, float aYaw) {
                                    {"the pitch angle", static_cast<double>(aPitch)},
                                    {"the yaw angle", static_cast<double>(aYaw)}});
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] {
-    mLink->core->session().send(
-        mLink->binding.reading,
-        sim::SetPoseCommand{{0.0, 0.0, sim::normalize_angle(static_cast<double>(aYaw))}});
-  });
+  mLink->send(fun,
+              sim::SetPoseCommand{{0.0, 0.0, sim::normalize_angle(static_cast<double>(aYaw))}});
 }
 
 }  // namespace PlayerCc

@@ -48,6 +48,11 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   /// A setting of the device that readings come from.
   [[nodiscard]] double property(const std::string& name, double otherwise) const;
 
+  /// Gives a command to the device that readings come from; with the client's mutex held.
+  void send(const char* fun, const sim::Command& command) const {
+    core->send(fun, binding.reading, command);
+  }
+
   ClientProxy& proxy;
   const std::shared_ptr<playerlike::ClientCore> core;
   playerlike::InterfaceBinding binding;

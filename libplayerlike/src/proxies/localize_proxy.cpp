@@ -91,7 +91,7 @@ void LocalizeProxy::SetPose(double pose[3], double cov[6]) {
   static_cast<void>(cov);
   const char* fun = "LocalizeProxy::SetPose";
   if (pose == nullptr) {
-    throw PlayerError(fun, "the pose is a null pointer", PlayerError::kBadArgument);
+    playerlike::refuse(fun, "the pose is a null pointer");
   }
   playerlike::require_finite(
       fun, {{"the pose's x", pose[0]}, {"the pose's y", pose[1]}, {"the pose's yaw", pose[2]}});

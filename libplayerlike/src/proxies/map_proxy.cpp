@@ -67,12 +67,11 @@ int8_t MapProxy::GetCell(int x, int y) const {
   const char* fun = "MapProxy::GetCell";
   const scoped_lock_t lock(LockData(fun));
   if (x < 0 || y < 0 || static_cast<uint32_t>(x) >= mWidth || static_cast<uint32_t>(y) >= mHeight) {
-    throw PlayerError(fun,
-                      "there is no cell (" + std::to_string(x) + ", " + std::to_string(y) + "): " +
-                          (mCells.empty() ? std::string("there is no map yet (call RequestMap())")
-                                          : "the map has " + std::to_string(mWidth) + " x " +
-                                                std::to_string(mHeight) + " cells, counted from 0"),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(
+        fun, "there is no cell (" + std::to_string(x) + ", " + std::to_string(y) + "): " +
+                 (mCells.empty() ? std::string("there is no map yet (call RequestMap())")
+                                 : "the map has " + std::to_string(mWidth) + " x " +
+                                       std::to_string(mHeight) + " cells, counted from 0"));
   }
   return mCells[static_cast<std::size_t>(y) * mWidth + static_cast<std::size_t>(x)];
 }
@@ -92,9 +91,8 @@ void MapProxy::GetMap(int8_t* aMap) const {
   const char* fun = "MapProxy::GetMap";
   const scoped_lock_t lock(LockData(fun));
   if (aMap == nullptr && !mCells.empty()) {
-    throw PlayerError(
-        fun, "needs room for " + std::to_string(mCells.size()) + " cells, but got a null pointer",
-        PlayerError::kBadArgument);
+    playerlike::refuse(
+        fun, "needs room for " + std::to_string(mCells.size()) + " cells, but got a null pointer");
   }
   std::copy(mCells.begin(), mCells.end(), aMap);
 }

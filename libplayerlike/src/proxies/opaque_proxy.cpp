@@ -47,9 +47,8 @@ void OpaqueProxy::GetData(uint8_t* aDest) const {
   const scoped_lock_t lock(LockData(fun));
   if (mData.empty()) return;
   if (aDest == nullptr) {
-    throw PlayerError(
-        fun, "needs room for " + std::to_string(mData.size()) + " bytes, but got a null pointer",
-        PlayerError::kBadArgument);
+    playerlike::refuse(
+        fun, "needs room for " + std::to_string(mData.size()) + " bytes, but got a null pointer");
   }
   std::copy(mData.begin(), mData.end(), aDest);
 }
@@ -58,17 +57,13 @@ void OpaqueProxy::Send(const char* aFun, const player_opaque_data_t* aData) {
   const scoped_lock_t lock(LockData(aFun));
   const bool null = aData == nullptr || (aData->data == nullptr && aData->data_count > 0);
   if (null || aData->data_count > sim::kMaxOpaque) {
-    throw PlayerError(aFun,
-                      null ? std::string("got a null pointer")
-                           : "a message has at most " + std::to_string(sim::kMaxOpaque) +
-                                 " bytes, but this has " + std::to_string(aData->data_count),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(aFun, null
+                                 ? std::string("got a null pointer")
+                                 : "a message has at most " + std::to_string(sim::kMaxOpaque) +
+                                       " bytes, but this has " + std::to_string(aData->data_count));
   }
   if (aData->data_count == 0) return;
-  playerlike::translated(aFun, [&] {
-    mLink->core->session().send(mLink->binding.reading,
-                                sim::OpaqueCommand{{aData->data, aData->data + aData->data_count}});
-  });
+  mLink->send(aFun, sim::OpaqueCommand{{aData->data, aData->data + aData->data_count}});
 }
 
 void OpaqueProxy::SendCmd(player_opaque_data_t* aData) { Send("OpaqueProxy::SendCmd", aData); }

@@ -275,10 +275,9 @@ double PlayerClient::GetRetryTime() {
 
 void PlayerClient::SetDataMode(uint32_t aMode) {
   if (aMode == PLAYER_DATAMODE_PULL || aMode == PLAYER_DATAMODE_PUSH) return;
-  throw PlayerError("PlayerClient::SetDataMode",
-                    "the mode must be PLAYER_DATAMODE_PULL or PLAYER_DATAMODE_PUSH, but is " +
-                        std::to_string(aMode),
-                    PlayerError::kBadArgument);
+  playerlike::refuse("PlayerClient::SetDataMode",
+                     "the mode must be PLAYER_DATAMODE_PULL or PLAYER_DATAMODE_PUSH, but is " +
+                         std::to_string(aMode));
 }
 
 void PlayerClient::SetFrequency(uint32_t aFreq) { static_cast<void>(aFreq); }

@@ -188,10 +188,7 @@ void Position2dProxy::SetOdometry(double aX, double aY, double aYaw) {
   const char* fun = "Position2dProxy::SetOdometry";
   require_finite(fun, {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
   const scoped_lock_t lock(LockData(fun));
-  translated(fun, [&] {
-    mLink->core->session().send(mLink->binding.reading,
-                                sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
-  });
+  mLink->send(fun, sim::SetPoseCommand{{aX, aY, sim::normalize_angle(aYaw)}});
 }
 
 double Position2dProxy::GetXPos() const { return Look(&PoseReading::pose).x_m; }

@@ -11,15 +11,6 @@ namespace PlayerCc {
 
 using sim::PtzReading;
 
-namespace {
-
-void send(const char* fun, playerlike::ClientCore& core, playerlike::DeviceId device,
-          const sim::Command& command) {
-  playerlike::translated(fun, [&] { core.session().send(device, command); });
-}
-
-}  // namespace
-
 PtzProxy::PtzProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   const char* fun = "PtzProxy::PtzProxy";
   Attach(PLAYER_PTZ_CODE, aIndex, fun);
@@ -39,26 +30,23 @@ void PtzProxy::SetCam(double aPan, double aTilt, double aZoom, double aPanSpeed,
                       double aTiltSpeed) {
   const char* fun = "PtzProxy::SetCam";
   const scoped_lock_t lock(LockData(fun));
-  send(fun, *mLink->core, mLink->binding.reading,
-       sim::PointCommand{aPan, aTilt, aZoom, aPanSpeed, aTiltSpeed});
+  mLink->send(fun, sim::PointCommand{aPan, aTilt, aZoom, aPanSpeed, aTiltSpeed});
 }
 
 void PtzProxy::SetSpeed(double aPanSpeed, double aTiltSpeed, double aZoomSpeed) {
   const char* fun = "PtzProxy::SetSpeed";
   const scoped_lock_t lock(LockData(fun));
-  send(fun, *mLink->core, mLink->binding.reading,
-       sim::PanCommand{aPanSpeed, aTiltSpeed, aZoomSpeed});
+  mLink->send(fun, sim::PanCommand{aPanSpeed, aTiltSpeed, aZoomSpeed});
 }
 
 void PtzProxy::SelectControlMode(uint32_t aMode) {
   const char* fun = "PtzProxy::SelectControlMode";
   const scoped_lock_t lock(LockData(fun));
   if (aMode == PLAYER_PTZ_POSITION_CONTROL || aMode == PLAYER_PTZ_VELOCITY_CONTROL) return;
-  throw PlayerError(fun,
-                    "a control mode is PLAYER_PTZ_POSITION_CONTROL or PLAYER_PTZ_VELOCITY_CONTROL,"
-                    " but is " +
-                        std::to_string(aMode),
-                    PlayerError::kBadArgument);
+  playerlike::refuse(fun,
+                     "a control mode is PLAYER_PTZ_POSITION_CONTROL or PLAYER_PTZ_VELOCITY_CONTROL,"
+                     " but is " +
+                         std::to_string(aMode));
 }
 
 double PtzProxy::GetPan() const { return Look(&PtzReading::pan_rad); }

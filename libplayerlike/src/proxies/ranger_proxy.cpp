@@ -158,10 +158,8 @@ uint32_t RangerProxy::GetIntensityCount() const {
 double RangerProxy::GetIntensity(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetIntensity";
   const scoped_lock_t lock(LockData(fun));
-  throw PlayerError(fun,
-                    "there is no intensity " + std::to_string(aIndex) +
-                        ": the simulated rangers measure ranges only",
-                    PlayerError::kBadArgument);
+  playerlike::refuse(fun, "there is no intensity " + std::to_string(aIndex) +
+                              ": the simulated rangers measure ranges only");
 }
 
 void RangerProxy::SetPower(bool aEnable) {
@@ -188,8 +186,7 @@ void RangerProxy::Configure(double aMinAngle, double aMaxAngle, double aAngularR
                                    {"the greatest range", aMaxRange},
                                    {"the resolution of ranges", aRangeRes}});
   if (aMinRange < 0.0 || aMaxRange < 0.0 || aRangeRes < 0.0) {
-    throw PlayerError(fun, "a range, or the resolution of ranges, is negative",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "a range, or the resolution of ranges, is negative");
   }
   const scoped_lock_t lock(LockData(fun));
   if (mIsLaser) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "devices/errors.h"
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/link.h"
@@ -21,11 +22,10 @@ namespace PlayerCc::detail {
 /// @param what  one of the things that are counted: "beam".
 inline void require_index(const char* fun, const char* what, uint32_t index, std::size_t count) {
   if (index < count) return;
-  throw PlayerError(fun,
-                    std::string("there is no ") + what + ' ' + std::to_string(index) + ": " +
-                        (count == 0 ? std::string("there are none now (has Read() been called?)")
-                                    : "there are " + std::to_string(count) + ", counted from 0"),
-                    PlayerError::kBadArgument);
+  playerlike::refuse(fun,
+                     std::string("there is no ") + what + ' ' + std::to_string(index) + ": " +
+                         (count == 0 ? std::string("there are none now (has Read() been called?)")
+                                     : "there are " + std::to_string(count) + ", counted from 0"));
 }
 
 /// An element of a list that Player's C library had in an array of zeros before the first reading,

@@ -32,12 +32,12 @@ constexpr std::size_t kMostTold = 20;
 // What a name that must be given says.
 std::string text(const char* fun, const char* what, const char* given) {
   if (given != nullptr) return given;
-  throw PlayerError(fun, std::string(what) + " is a null pointer", PlayerError::kBadArgument);
+  playerlike::refuse(fun, std::string(what) + " is a null pointer");
 }
 
 void require_value(const char* fun, const void* value) {
   if (value != nullptr) return;
-  throw PlayerError(fun, "the value is a null pointer", PlayerError::kBadArgument);
+  playerlike::refuse(fun, "the value is a null pointer");
 }
 
 }  // namespace

@@ -39,9 +39,7 @@ SpeechProxy::~SpeechProxy() { ClientProxy::Unsubscribe(); }
 void SpeechProxy::Say(std::string aStr) {
   const char* fun = "SpeechProxy::Say";
   const scoped_lock_t lock(LockData(fun));
-  playerlike::translated(fun, [&] {
-    mLink->core->session().send(mLink->binding.reading, sim::SayCommand{sayable(aStr)});
-  });
+  mLink->send(fun, sim::SayCommand{sayable(aStr)});
 }
 
 }  // namespace PlayerCc

@@ -57,16 +57,13 @@ PlayerError no_such_layer(const char* fun, const std::string& name,
 WindowProxy& WindowProxy::GetInstance(PlayerClient* aClient, int aWidth, int aHeight) {
   const char* fun = "WindowProxy::GetInstance";
   if (aClient == nullptr) {
-    throw PlayerError(fun, "a window needs a client, but it is a null pointer",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "a window needs a client, but it is a null pointer");
   }
   const std::shared_ptr<ClientCore>& core = PlayerCc::detail::CoreAccess::get(*aClient);
   if (aWidth <= 0 || aHeight <= 0) {
-    throw PlayerError(fun,
-                      "a window has at least one column and one row, but " +
-                          std::to_string(aWidth) + " x " + std::to_string(aHeight) +
-                          " were asked for",
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "a window has at least one column and one row, but " +
+                                std::to_string(aWidth) + " x " + std::to_string(aHeight) +
+                                " were asked for");
   }
   Windows& windows = Windows::instance();
   const std::lock_guard lock(windows.mutex);
@@ -131,8 +128,7 @@ GridMapLayer& WindowProxy::CreateLayer(const std::string& aName, GridMapLayer::K
   const char* fun = "WindowProxy::CreateLayer";
   RequireUsable("CreateLayer");
   if (aKind != GridMapLayer::RGBA && aKind != GridMapLayer::BINARY && aKind != GridMapLayer::GREY) {
-    throw PlayerError(fun, "there is no kind of layer " + std::to_string(static_cast<int>(aKind)),
-                      PlayerError::kBadArgument);
+    playerlike::refuse(fun, "there is no kind of layer " + std::to_string(static_cast<int>(aKind)));
   }
   const std::lock_guard lock(mLayersMutex);
   sim::LayerStyle style;
