@@ -22,9 +22,9 @@
 ///
 /// A request that Playpen's protocol has, also has
 /// - `kName`: its name there; one without never leaves the process;
-/// - `fields()`: its members as messages have them, in the order in which a wrong key is told which
+/// - `kFields`: its members as messages have them, in the order in which a wrong key is told which
 ///   keys there are;
-/// - `kAnswer`: the key of its result in the answer, unless the result has `fields()` itself;
+/// - `kAnswer`: the key of its result in the answer, unless the result has `kFields` itself;
 /// - `kTellsTruth`: a private world (sim::SimulationDescription::own_sensors_only) answers it only
 ///   for those who may command all robots.
 ///
@@ -59,7 +59,7 @@ struct MessageField {
   Presence presence;
   WholeRange range;
 };
-/// A row of `fields()`. @param range  of a whole number.
+/// A row of `kFields`. @param range  of a whole number.
 template <typename Struct, typename Value>
 constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
                                             WholeRange range = {},
@@ -83,7 +83,7 @@ struct SubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "subscribe";
   DeviceId device{-1, -1};
-  static constexpr auto fields() { return std::tuple(field("device", &SubscribeRequest::device)); }
+  static constexpr std::tuple kFields{field("device", &SubscribeRequest::device)};
 };
 
 /// Takes back a SubscribeRequest; readings that wait are gone with the last one.
@@ -91,9 +91,7 @@ struct UnsubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "unsubscribe";
   DeviceId device{-1, -1};
-  static constexpr auto fields() {
-    return std::tuple(field("device", &UnsubscribeRequest::device));
-  }
+  static constexpr std::tuple kFields{field("device", &UnsubscribeRequest::device)};
 };
 
 /// Whether a newer reading replaces an older one that was not taken yet (default), or queues
@@ -104,10 +102,8 @@ struct ReplaceRequest {
   std::optional<DeviceId> device =
       std::nullopt;  ///< none: all devices, also those subscribed to later
   bool replace = true;
-  static constexpr auto fields() {
-    return std::tuple(field("device", &ReplaceRequest::device, Presence::kNullable),
-                      field("replace", &ReplaceRequest::replace));
-  }
+  static constexpr std::tuple kFields{field("device", &ReplaceRequest::device, Presence::kNullable),
+                                      field("replace", &ReplaceRequest::replace)};
 };
 
 /// How many readings were dropped so far.
@@ -142,9 +138,7 @@ struct PreferRealTimeRequest {
   using Result = void;
   static constexpr const char* kName = "prefer_real_time";
   std::string reason;
-  static constexpr auto fields() {
-    return std::tuple(field("reason", &PreferRealTimeRequest::reason));
-  }
+  static constexpr std::tuple kFields{field("reason", &PreferRealTimeRequest::reason)};
 };
 
 /// Notes that the program has looked at readings. A session whose simulated time passes only while
@@ -193,11 +187,9 @@ struct SetCellsRequest {
   sim::LayerId layer = sim::kBaseLayer;
   sim::CellRect rect;
   std::vector<sim::CellValue> cells;
-  static constexpr auto fields() {
-    return std::tuple(field("layer", &SetCellsRequest::layer, kLayerRange),
-                      field("rect", &SetCellsRequest::rect),
-                      field("cells", &SetCellsRequest::cells));
-  }
+  static constexpr std::tuple kFields{field("layer", &SetCellsRequest::layer, kLayerRange),
+                                      field("rect", &SetCellsRequest::rect),
+                                      field("cells", &SetCellsRequest::cells)};
 };
 
 /// Value of a cell; nullopt outside.
@@ -208,11 +200,9 @@ struct CellRequest {
   sim::LayerId layer = sim::kBaseLayer;
   int column = 0;
   int row = 0;
-  static constexpr auto fields() {
-    return std::tuple(field("layer", &CellRequest::layer, kLayerRange),
-                      field("column", &CellRequest::column, kCellRange),
-                      field("row", &CellRequest::row, kCellRange));
-  }
+  static constexpr std::tuple kFields{field("layer", &CellRequest::layer, kLayerRange),
+                                      field("column", &CellRequest::column, kCellRange),
+                                      field("row", &CellRequest::row, kCellRange)};
 };
 
 /// All cells of a layer, row-major from the top.
@@ -221,9 +211,7 @@ struct CellsRequest {
   static constexpr const char* kName = "cells";
   static constexpr const char* kAnswer = "cells";
   sim::LayerId layer = sim::kBaseLayer;
-  static constexpr auto fields() {
-    return std::tuple(field("layer", &CellsRequest::layer, kLayerRange));
-  }
+  static constexpr std::tuple kFields{field("layer", &CellsRequest::layer, kLayerRange)};
 };
 
 /// Makes a layer. One of the same name that an ended session of this port left is taken out.
@@ -237,10 +225,8 @@ struct CreateLayerRequest {
   static constexpr const char* kAnswer = "layer";
   sim::LayerKind kind = sim::LayerKind::kColour;
   sim::LayerStyle style;
-  static constexpr auto fields() {
-    return std::tuple(field("kind", &CreateLayerRequest::kind),
-                      field("style", &CreateLayerRequest::style));
-  }
+  static constexpr std::tuple kFields{field("kind", &CreateLayerRequest::kind),
+                                      field("style", &CreateLayerRequest::style)};
 };
 
 /// Takes one of this session's layers out. @throws SessionError kNotAvailable for the base layer.
@@ -248,9 +234,7 @@ struct RemoveLayerRequest {
   using Result = void;
   static constexpr const char* kName = "remove_layer";
   sim::LayerId layer = sim::kBaseLayer;
-  static constexpr auto fields() {
-    return std::tuple(field("layer", &RemoveLayerRequest::layer, kLayerRange));
-  }
+  static constexpr std::tuple kFields{field("layer", &RemoveLayerRequest::layer, kLayerRange)};
 };
 
 /// Changes how a layer is drawn over others. The base layer's may be changed too (by any session),
@@ -262,10 +246,8 @@ struct SetLayerStyleRequest {
   static constexpr const char* kName = "set_layer_style";
   sim::LayerId layer = sim::kBaseLayer;
   sim::LayerStyle style;
-  static constexpr auto fields() {
-    return std::tuple(field("layer", &SetLayerStyleRequest::layer, kLayerRange),
-                      field("style", &SetLayerStyleRequest::style));
-  }
+  static constexpr std::tuple kFields{field("layer", &SetLayerStyleRequest::layer, kLayerRange),
+                                      field("style", &SetLayerStyleRequest::style)};
 };
 
 /// The base layer and this session's own, lowest first.
@@ -279,9 +261,8 @@ struct LayersRequest {
 struct CanvasImage {
   std::vector<std::uint8_t> rgba;  ///< row-major from the top
   CanvasInfo canvas;
-  static constexpr auto fields() {
-    return std::tuple(field("image", &CanvasImage::rgba), field("canvas", &CanvasImage::canvas));
-  }
+  static constexpr std::tuple kFields{field("image", &CanvasImage::rgba),
+                                      field("canvas", &CanvasImage::canvas)};
 };
 /// All visible layers of all clients over one another.
 struct CanvasImageRequest {
@@ -304,10 +285,8 @@ struct ResizeCanvasRequest {
   static constexpr const char* kAnswer = "canvas";
   int width = 0;
   int height = 0;
-  static constexpr auto fields() {
-    return std::tuple(field("width", &ResizeCanvasRequest::width, kCellRange),
-                      field("height", &ResizeCanvasRequest::height, kCellRange));
-  }
+  static constexpr std::tuple kFields{field("width", &ResizeCanvasRequest::width, kCellRange),
+                                      field("height", &ResizeCanvasRequest::height, kCellRange)};
 };
 
 /// Writes the canvas image as a PNG into the run's output folder.
@@ -320,11 +299,10 @@ struct SaveImageRequest {
   int scale = 1;     ///< scale x scale pixels a cell
   std::optional<sim::LayerId> layer =
       std::nullopt;  ///< this one alone instead, also if it is hidden
-  static constexpr auto fields() {
-    return std::tuple(field("name", &SaveImageRequest::name),
-                      field("scale", &SaveImageRequest::scale, kCellRange, Presence::kOptional),
-                      field("layer", &SaveImageRequest::layer, kLayerRange, Presence::kOptional));
-  }
+  static constexpr std::tuple kFields{
+      field("name", &SaveImageRequest::name),
+      field("scale", &SaveImageRequest::scale, kCellRange, Presence::kOptional),
+      field("layer", &SaveImageRequest::layer, kLayerRange, Presence::kOptional)};
 };
 
 /// Writes a grey layer as the pair of files that ROS's map_server reads, NAME.yaml and NAME.pgm,
@@ -336,11 +314,9 @@ struct SaveMapRequest {
   sim::LayerId layer = sim::kBaseLayer;
   std::string name;  ///< a plain file name, with or without ".yaml"
   sim::io::MapMode mode = sim::io::MapMode::kTrinary;
-  static constexpr auto fields() {
-    return std::tuple(field("layer", &SaveMapRequest::layer, kLayerRange),
-                      field("name", &SaveMapRequest::name),
-                      field("mode", &SaveMapRequest::mode, Presence::kOptional));
-  }
+  static constexpr std::tuple kFields{field("layer", &SaveMapRequest::layer, kLayerRange),
+                                      field("name", &SaveMapRequest::name),
+                                      field("mode", &SaveMapRequest::mode, Presence::kOptional)};
 };
 
 /// How pictures show the canvas now.
@@ -355,7 +331,7 @@ struct SetViewModeRequest {
   using Result = void;
   static constexpr const char* kName = "set_view_mode";
   sim::ViewMode mode = sim::ViewMode::kGround;
-  static constexpr auto fields() { return std::tuple(field("mode", &SetViewModeRequest::mode)); }
+  static constexpr std::tuple kFields{field("mode", &SetViewModeRequest::mode)};
 };
 /// @}
 
@@ -366,12 +342,11 @@ struct WorldMap {
   std::optional<int> width = std::nullopt;         ///< columns
   std::optional<int> height = std::nullopt;        ///< rows
   std::optional<sim::Pose> origin = std::nullopt;  ///< X_WM of the bottom left corner
-  static constexpr auto fields() {
-    return std::tuple(field("map", &WorldMap::map),
-                      field("width", &WorldMap::width, kMapSideRange, Presence::kOptional),
-                      field("height", &WorldMap::height, kMapSideRange, Presence::kOptional),
-                      field("origin", &WorldMap::origin, Presence::kOptional));
-  }
+  static constexpr std::tuple kFields{
+      field("map", &WorldMap::map),
+      field("width", &WorldMap::width, kMapSideRange, Presence::kOptional),
+      field("height", &WorldMap::height, kMapSideRange, Presence::kOptional),
+      field("origin", &WorldMap::origin, Presence::kOptional)};
 };
 /// The true map of the arena's floor with its obstacles as they stand now, see sim::true_map().
 /// Across a network it is fetched in tiles.
@@ -383,10 +358,8 @@ struct WorldMapRequest {
   static constexpr bool kTellsTruth = true;
   double cell_size_m = 0.0;
   std::optional<sim::CellRect> tile = std::nullopt;  ///< what of it lies outside the map is cut off
-  static constexpr auto fields() {
-    return std::tuple(field("cell_size", &WorldMapRequest::cell_size_m),
-                      field("tile", &WorldMapRequest::tile, Presence::kOptional));
-  }
+  static constexpr std::tuple kFields{field("cell_size", &WorldMapRequest::cell_size_m),
+                                      field("tile", &WorldMapRequest::tile, Presence::kOptional)};
 };
 
 /// @name Robots and obstacles by name, and the log
@@ -403,9 +376,8 @@ struct WorldMapRequest {
 struct ObjectPose {
   sim::Pose pose;            ///< X_WB of a robot; the middle of anything else, in W
   sim::SimTime time_ns = 0;  ///< now
-  static constexpr auto fields() {
-    return std::tuple(field("pose", &ObjectPose::pose), field("t", &ObjectPose::time_ns));
-  }
+  static constexpr std::tuple kFields{field("pose", &ObjectPose::pose),
+                                      field("t", &ObjectPose::time_ns)};
 };
 /// Where a robot or an obstacle is. @throws SessionError kBadArgument if there is none of that
 /// name.
@@ -414,7 +386,7 @@ struct ObjectPoseRequest {
   static constexpr const char* kName = "object_pose";
   static constexpr bool kTellsTruth = true;
   std::string name;
-  static constexpr auto fields() { return std::tuple(field("name", &ObjectPoseRequest::name)); }
+  static constexpr std::tuple kFields{field("name", &ObjectPoseRequest::name)};
 };
 
 /// Puts a robot or a block somewhere, see sim::Simulation::place_object().
@@ -424,10 +396,8 @@ struct PlaceObjectRequest {
   static constexpr bool kTellsTruth = true;
   std::string name;
   sim::Pose pose;
-  static constexpr auto fields() {
-    return std::tuple(field("name", &PlaceObjectRequest::name),
-                      field("pose", &PlaceObjectRequest::pose));
-  }
+  static constexpr std::tuple kFields{field("name", &PlaceObjectRequest::name),
+                                      field("pose", &PlaceObjectRequest::pose)};
 };
 
 /// A property, see docs/simulation.md for those there are.
@@ -438,10 +408,8 @@ struct ObjectPropertyRequest {
   static constexpr bool kTellsTruth = true;
   std::string name;
   std::string property;
-  static constexpr auto fields() {
-    return std::tuple(field("name", &ObjectPropertyRequest::name),
-                      field("property", &ObjectPropertyRequest::property));
-  }
+  static constexpr std::tuple kFields{field("name", &ObjectPropertyRequest::name),
+                                      field("property", &ObjectPropertyRequest::property)};
 };
 
 /// Changes a property, see docs/simulation.md for those there are.
@@ -454,11 +422,9 @@ struct SetObjectPropertyRequest {
   std::string name;
   std::string property;
   PropertyValue value;
-  static constexpr auto fields() {
-    return std::tuple(field("name", &SetObjectPropertyRequest::name),
-                      field("property", &SetObjectPropertyRequest::property),
-                      field("value", &SetObjectPropertyRequest::value));
-  }
+  static constexpr std::tuple kFields{field("name", &SetObjectPropertyRequest::name),
+                                      field("property", &SetObjectPropertyRequest::property),
+                                      field("value", &SetObjectPropertyRequest::value)};
 };
 
 /// Changes what the log of this session's port does, in the order of the members, or (without
@@ -476,12 +442,10 @@ struct LogRequest {
   std::optional<bool> replay = std::nullopt;
   std::optional<bool> rewind = std::nullopt;  ///< true: a replay begins anew
   std::optional<bool> running = std::nullopt;
-  static constexpr auto fields() {
-    return std::tuple(field("file", &LogRequest::file, Presence::kOptional),
-                      field("replay", &LogRequest::replay, Presence::kOptional),
-                      field("rewind", &LogRequest::rewind, Presence::kOptional),
-                      field("running", &LogRequest::running, Presence::kOptional));
-  }
+  static constexpr std::tuple kFields{field("file", &LogRequest::file, Presence::kOptional),
+                                      field("replay", &LogRequest::replay, Presence::kOptional),
+                                      field("rewind", &LogRequest::rewind, Presence::kOptional),
+                                      field("running", &LogRequest::running, Presence::kOptional)};
 };
 /// @}
 
