@@ -66,6 +66,10 @@ void Host::Core::start() {
 void Host::Core::stop() noexcept {
   finish();
   if (window_) window_->close();
+  locked([this] {
+    stop_pacing_ = true;
+    changed_.notify_all();
+  });
   if (pacer_.joinable() && pacer_.get_id() != std::this_thread::get_id()) pacer_.join();
 }
 
