@@ -5,6 +5,8 @@
 
 #include "canvas/line.h"
 #include "sim/core/assert.h"
+#include "sim/core/state_archive.h"
+#include "sim/world/description.h"
 
 namespace sim {
 namespace {
@@ -129,6 +131,34 @@ std::vector<std::uint8_t> CellRaster::resize(int width, int height,
   height_ = height;
   tile_stride_ = stride;
   return zeros;
+}
+
+void CellRaster::archive(StateArchive& archive) {
+  int width = width_;
+  int height = height_;
+  archive.index(width, kMaxCanvasSide + 1, 1);
+  archive.index(height, kMaxCanvasSide + 1, 1);
+  const auto tiles = static_cast<std::size_t>(tiles_across(width)) *
+                     static_cast<std::size_t>(tiles_across(height));
+  archive.expect(tiles <= archive.left(), "a flag for each tile");
+  if (archive.reading()) {
+    *this = CellRaster(width, height, blank_);
+    std::fill(tiles_.begin(), tiles_.end(), kChanged | kUnkept);
+  }
+  for (std::size_t tile = 0; tile < tiles; ++tile) {
+    const auto left = static_cast<int>(tile % tile_stride_) << kTileShift;
+    const auto top = static_cast<int>(tile / tile_stride_) << kTileShift;
+    const int bottom = std::min(top + kTileSide, height_);
+    const int right = std::min(left + kTileSide, width_);
+    bool used = (tiles_[tile] & kUsed) != 0;
+    archive(used);
+    if (!used) continue;
+    if (archive.reading()) tiles_[tile] = kWritten;
+    for (int row = top; row < bottom; ++row) {
+      const auto offset = static_cast<std::size_t>(row) * byte_offset(width_) + byte_offset(left);
+      archive.raw(data_.data() + offset, byte_offset(right - left));
+    }
+  }
 }
 
 void CellRaster::mark_seen() noexcept {

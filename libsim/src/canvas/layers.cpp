@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sim/core/assert.h"
+#include "sim/core/state_archive.h"
 
 namespace sim {
 namespace {
@@ -91,7 +92,7 @@ struct Layer {
   LayerKind kind;
   int owner;
   LayerStyle style;
-  Ink ink;
+  Ink ink{LayerKind::kColour, {}};
   std::unique_ptr<CellRaster> own;  // none for the base layer, whose cells are the canvas's
   CellRaster* cells;
 
@@ -476,6 +477,63 @@ std::vector<std::vector<std::uint8_t>> LayerStack::resize(
   old.push_back(std::move(picture));
   std::move(zeros.begin(), zeros.end(), std::back_inserter(old));
   return old;
+}
+
+void LayerStack::archive_base(StateArchive& archive) {
+  CellRaster& base = Impl::cells(impl_->base);
+  archive(base);
+  if (!archive.reading()) return;
+  impl_->description.width = width();
+  impl_->description.height = height();
+  impl_->dirty.assign(base.tiles().size(), 1);
+  impl_->picture.assign(base.data().size(), 0);
+}
+
+void LayerStack::archive_others(StateArchive& archive) {
+  archive(impl_->next_id);
+  archive.expect(impl_->next_id > kBaseLayer, "a number for the next layer");
+  std::vector<Layer> layers;
+  if (!archive.reading()) layers.swap(impl_->layers);
+  archive.list(layers, [&](Layer& layer) {
+    archive.index(layer.id, static_cast<std::size_t>(impl_->next_id));
+    archive.choice(layer.kind, LayerKind::kGrey);
+    LayerStyle& style = layer.style;
+    archive(layer.owner, style.name, style.colour, style.transparency, style.transparent_colour,
+            style.priority, style.visible);
+    if (layer.id == kBaseLayer) {
+      archive.expect(layer.kind == LayerKind::kColour, "a base layer of colours");
+      layer.cells = &Impl::cells(impl_->base);
+    } else {
+      if (archive.reading()) layer.own = std::make_unique<CellRaster>(1, 1, blank_of(layer.kind));
+      archive(*layer.own);
+      archive.expect(layer.own->width() == width() && layer.own->height() == height(),
+                     "layers of one size");
+      layer.cells = layer.own.get();
+    }
+    layer.ink = Ink(layer.kind, style);
+  });
+  std::vector<LayerId> ids;
+  for (const Layer& layer : layers) ids.push_back(layer.id);
+  std::sort(ids.begin(), ids.end());
+  archive.expect(!ids.empty() && ids[0] == kBaseLayer &&
+                     std::adjacent_find(ids.begin(), ids.end()) == ids.end() &&
+                     std::is_sorted(layers.begin(), layers.end(), lies_below),
+                 "each layer once, in order");
+  layers.swap(impl_->layers);
+}
+
+void LayerStack::take_base(LayerStack& from) {
+  resize(from.width(), from.height());
+  CellRaster& base = Impl::cells(impl_->base);
+  std::swap(base, Impl::cells(from.impl_->base));
+  impl_->dirty.assign(base.tiles().size(), 1);
+}
+
+void LayerStack::succeed(const LayerStack& before) {
+  impl_->next_id = std::max(impl_->next_id, before.impl_->next_id);
+  impl_->version = before.impl_->version;
+  impl_->recomposed_cells = before.impl_->recomposed_cells;
+  impl_->revision = before.impl_->revision + 1;
 }
 
 const std::vector<std::uint8_t>& LayerStack::composed() {

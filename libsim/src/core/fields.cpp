@@ -49,73 +49,6 @@ bool is_finite(const Field& field, const void* value) {
   }
 }
 
-void add(StateHash& hash, const Pose& pose) {
-  for (const double x : {pose.x_m, pose.y_m, pose.yaw_rad}) hash.add(x);
-}
-
-void add(StateHash& hash, const Field& field, const void* value) {
-  switch (field.type) {
-    case FieldType::kNumber:
-      return hash.add(as<double>(value));
-    case FieldType::kInt:
-    case FieldType::kInt64:
-    case FieldType::kUint32:
-    case FieldType::kUint64:
-    case FieldType::kChoice:
-      return hash.add(integer_at(field, value));
-    case FieldType::kBool:
-      return hash.add(as<bool>(value));
-    case FieldType::kText:
-      return hash.add(std::string_view(as<std::string>(value)));
-    case FieldType::kColour: {
-      const auto& colour = as<Colour>(value);
-      for (const int channel : {colour.r, colour.g, colour.b, colour.a}) hash.add(channel);
-      return;
-    }
-    case FieldType::kVec2:
-      for (const double x : as<Vec2>(value)) hash.add(x);
-      return;
-    case FieldType::kPose:
-      return add(hash, as<Pose>(value));
-    case FieldType::kVec3:
-      for (const double x : as<std::array<double, 3>>(value)) hash.add(x);
-      return;
-    case FieldType::kBytes:
-    case FieldType::kOctets: {
-      const auto& bytes = as<std::vector<std::uint8_t>>(value);
-      return hash.add_bytes(bytes.data(), bytes.size());
-    }
-    case FieldType::kNumbers: {
-      const auto& numbers = as<std::vector<double>>(value);
-      return hash.add_bytes(numbers.data(), numbers.size() * sizeof(double));
-    }
-    case FieldType::kTexts:
-      hash.add(as<std::vector<std::string>>(value).size());
-      for (const std::string& text : as<std::vector<std::string>>(value)) hash.add(text);
-      return;
-    case FieldType::kPoses:
-      hash.add(as<std::vector<Pose>>(value).size());
-      for (const Pose& pose : as<std::vector<Pose>>(value)) add(hash, pose);
-      return;
-    case FieldType::kList:
-      hash.add(field.list->size(value));
-      for (std::size_t i = 0; i < field.list->size(value); ++i) {
-        const void* element = field.list->at(value, i);
-        if (field.table != nullptr) {
-          hash_fields(hash, field.table(), element);
-        } else {
-          hash.add(field.element->text(element));
-        }
-      }
-      return;
-    case FieldType::kStruct:
-    case FieldType::kInclude:
-      return hash_fields(hash, field.table(), value);
-    case FieldType::kCustom:
-      return hash.add(field.custom->text(value));
-  }
-}
-
 void tell(const Pose& pose, const std::string& prefix, const std::string& suffix,
           std::map<std::string, double>& properties) {
   properties[prefix + "_x" + suffix] = pose.x_m;
@@ -223,14 +156,6 @@ bool all_finite(const FieldTable& table, const void* object) {
     const void* value = field.get(object);
     return value == nullptr || is_finite(field, value);
   });
-}
-
-void hash_fields(StateHash& hash, const FieldTable& table, const void* object) {
-  for (const Field& field : table.fields) {
-    const void* value = field.get(object);
-    if (field.drop != nullptr) hash.add(value != nullptr);
-    if (value != nullptr) add(hash, field, value);
-  }
 }
 
 void tell_fields(const FieldTable& table, const void* object,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/core/hash.h"
+#include "sim/core/state_archive.h"
 
 namespace sim {
 namespace {
@@ -16,6 +17,32 @@ std::uint64_t stream_seed(std::uint64_t world_seed, std::string_view component_p
 }
 
 }  // namespace
+
+MersenneTwister::MersenneTwister(std::uint64_t seed) noexcept : next_(kSize) {
+  words_[0] = seed;
+  for (std::size_t i = 1; i < kSize; ++i) {
+    words_[i] = 6364136223846793005ULL * (words_[i - 1] ^ (words_[i - 1] >> 62)) + i;
+  }
+}
+
+void MersenneTwister::twist() noexcept {
+  constexpr std::size_t kShift = 156;
+  constexpr std::uint64_t kUpper = ~std::uint64_t{0} << 31;
+  const auto mixed = [this](std::size_t i, std::size_t following, std::size_t shifted) {
+    const std::uint64_t y = (words_[i] & kUpper) | (words_[following] & ~kUpper);
+    return words_[shifted] ^ (y >> 1) ^ ((y & 1) != 0 ? 0xb5026f5aa96619e9ULL : 0);
+  };
+  std::size_t i = 0;
+  for (; i < kSize - kShift; ++i) words_[i] = mixed(i, i + 1, i + kShift);
+  for (; i < kSize - 1; ++i) words_[i] = mixed(i, i + 1, i + kShift - kSize);
+  words_[i] = mixed(i, 0, kShift - 1);
+  next_ = 0;
+}
+
+void MersenneTwister::archive(StateArchive& archive) {
+  archive.index(next_, kSize + 1);
+  archive.raw(words_.data(), sizeof words_);
+}
 
 RandomStream::RandomStream(std::uint64_t world_seed, std::string_view component_path)
     : engine_(stream_seed(world_seed, component_path)) {}
@@ -42,6 +69,11 @@ double RandomStream::normal() {
   spare_ = v * factor;
   has_spare_ = true;
   return u * factor;
+}
+
+void RandomStream::archive(StateArchive& archive) {
+  archive(draws_, has_spare_, spare_);
+  if (draws_ > 0) archive(engine_);
 }
 
 }  // namespace sim

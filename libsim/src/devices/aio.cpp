@@ -115,6 +115,13 @@ void Aio::measure(const StepContext& context) {
   reading.outputs_v = outputs_v_;
 }
 
+void Aio::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_, outputs_v_);
+  archive.expect(outputs_v_.size() == static_cast<std::size_t>(params_.outputs),
+                 "a voltage for each output");
+}
+
 void Aio::hash(StateHash& hash) const {
   Sensor::hash(hash);
   for (const double voltage_v : outputs_v_) hash.add(voltage_v);

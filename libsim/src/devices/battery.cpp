@@ -77,6 +77,11 @@ void Battery::measure(const StepContext& context) {
   }
 }
 
+void Battery::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(energy_j_, power_w_, docked_);
+}
+
 void Battery::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(energy_j_);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "sim/devices/robot_snapshot.h"
 
 namespace sim {
 
@@ -44,6 +45,15 @@ void Blinkenlight::measure(const StepContext& context) {
   reading.period_s = now_.period_s;
   reading.duty_cycle = now_.duty_cycle;
   reading.lit = lit(context.now_ns);
+}
+
+void Blinkenlight::show(SimTime now_ns, RobotSnapshot& shot) const {
+  shot.lights.push_back({params_.p_BL, now_.colour, lit(now_ns) && active()});
+}
+
+void Blinkenlight::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(now_.enabled, now_.colour, now_.period_s, now_.duty_cycle);
 }
 
 void Blinkenlight::hash(StateHash& hash) const {

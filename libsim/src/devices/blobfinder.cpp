@@ -146,6 +146,11 @@ void Blobfinder::measure(const StepContext& context) {
                    [](const auto& a, const auto& b) { return a.right > b.right; });
 }
 
+void Blobfinder::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_);
+}
+
 void Blobfinder::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());

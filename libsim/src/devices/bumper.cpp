@@ -9,6 +9,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/devices/robot_snapshot.h"
 
 namespace sim {
 namespace {
@@ -100,6 +101,20 @@ void Bumper::measure(const StepContext& context) {
   auto& reading = next(context);
   reading.pressed = pressed_;
   std::fill(pressed_.begin(), pressed_.end(), std::uint8_t{0});
+}
+
+void Bumper::show(SimTime, RobotSnapshot& shot) const {
+  for (std::size_t i = 0; i < segments().size(); ++i) {
+    shot.bumpers.push_back({line_of(segments()[i]), reading().pressed[i] != 0});
+  }
+}
+
+void Bumper::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(pressed_);
+  archive.expect(
+      pressed_.size() == segments().size() && reading().pressed.size() == pressed_.size(),
+      "a flag for each segment");
 }
 
 void Bumper::hash(StateHash& hash) const {

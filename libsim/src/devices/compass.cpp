@@ -22,6 +22,11 @@ void Compass::measure(const StepContext& context) {
                       noise_.gaussian(params_.noise_rad));
 }
 
+void Compass::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_);
+}
+
 void Compass::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());

@@ -34,6 +34,11 @@ void CollisionSensor::measure(const StepContext& context) {
   touched_.clear();
 }
 
+void CollisionSensor::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(touched_);
+}
+
 void CollisionSensor::hash(StateHash& hash) const {
   Sensor::hash(hash);
   for (const std::string& name : touched_) hash.add(name);

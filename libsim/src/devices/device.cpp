@@ -41,9 +41,15 @@ bool Sensor::update(const StepContext& context) {
   return true;
 }
 
-void Sensor::succeed(const Device& before, SimTime now_ns) {
+void Sensor::succeed(const Device& before, SimTime later_ns) {
   sequence_ = dynamic_cast<const Sensor&>(before).sequence_;
-  next_due_ns_ = now_ns + period_ns_;
+  next_due_ns_ += later_ns;
+}
+
+void Sensor::archive(StateArchive& archive) {
+  Device::archive(archive);
+  archive(sequence_);
+  archive.time(next_due_ns_);
 }
 
 void Sensor::hash(StateHash& hash) const {

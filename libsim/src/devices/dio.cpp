@@ -88,6 +88,11 @@ void Dio::measure(const StepContext& context) {
   reading.outputs = outputs_;
 }
 
+void Dio::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(outputs_);
+}
+
 void Dio::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(outputs_);

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -66,6 +67,17 @@ void FiducialFinder::measure(const StepContext& context) {
   }
   std::stable_sort(reading.marks.begin(), reading.marks.end(),
                    [](const auto& a, const auto& b) { return distance2(a) < distance2(b); });
+}
+
+void FiducialFinder::show(SimTime, RobotSnapshot& shot) const {
+  for (const FiducialReading::Mark& mark : reading().marks) {
+    shot.sights.emplace_back(reading().X_WS.position(), reading().X_WS * mark.X_ST.position());
+  }
+}
+
+void FiducialFinder::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(archived().X_WS, noise_);
 }
 
 void FiducialFinder::hash(StateHash& hash) const {

@@ -109,6 +109,11 @@ void Gps::measure(const StepContext& context) {
   }
 }
 
+void Gps::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_);
+}
+
 void Gps::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());

@@ -9,6 +9,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -151,8 +152,9 @@ std::optional<std::string> Gripper::retrieve(RobotControl& robot) {
 // Somebody else may have put elsewhere what it had.
 void Gripper::forget_lost(const StepContext& now) {
   const auto is_lost = [&](const Held& held) {
-    return now.world.arena.obstacles[static_cast<std::size_t>(held.obstacle)].carried_by !=
-           now.robot;
+    const auto index = static_cast<std::size_t>(held.obstacle);
+    return index >= now.world.arena.obstacles.size() ||
+           now.world.arena.obstacles[index].carried_by != now.robot;
   };
   if (held_ && is_lost(*held_)) held_.reset();
   std::erase_if(stored_, is_lost);
@@ -251,6 +253,20 @@ void Gripper::measure(const StepContext& context) {
   reading.holding = held_.has_value();
   reading.stored = static_cast<int>(stored_.size());
   reading.gap_m = gap_m();
+}
+
+void Gripper::show(SimTime, RobotSnapshot& shot) const {
+  for (Polygon& paddle : paddles()) shot.paddles.push_back(std::move(paddle));
+}
+
+void Gripper::Held::archive(StateArchive& archive) { archive(obstacle, X_BT, closed_ns); }
+
+void Gripper::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(closed_ns_, fault_);
+  archive.choice(motion_, Motion::kClosing);
+  archive.expect(closed_ns_ >= 0 && closed_ns_ <= travel_ns_, "paddles between open and closed");
+  archive(held_, stored_);
 }
 
 void Gripper::hash(StateHash& hash) const {

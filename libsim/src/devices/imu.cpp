@@ -65,6 +65,11 @@ void Imu::measure(const StepContext& context) {
   time_s_ = 0.0;
 }
 
+void Imu::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_, before_, gained_x_mps_, gained_y_mps_, turned_rad_, time_s_, yaw_rad_);
+}
+
 void Imu::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());

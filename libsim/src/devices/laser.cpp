@@ -5,6 +5,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/devices/robot_snapshot.h"
 
 namespace sim {
 
@@ -45,6 +46,25 @@ void Laser::measure(const StepContext& context) {
     }
   }
   reading.X_WB = context.body.X_WB;
+}
+
+void Laser::show(SimTime, RobotSnapshot& shot) const {
+  const LaserReading& scan = reading();
+  if (scan.sequence == 0 || !shot.scan_points.empty()) return;
+  const Pose X_WL = scan.X_WB * params_.X_BL;
+  shot.scan_origin = X_WL.position();
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    const double angle = scan.angle_min_rad + scan.resolution_rad * static_cast<double>(beam);
+    shot.scan_points.push_back(
+        X_WL * Vec2(scan.ranges_m[beam] * std::cos(angle), scan.ranges_m[beam] * std::sin(angle)));
+  }
+}
+
+void Laser::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(archived().X_WB, noise_);
+  archive.expect(reading().ranges_m.size() == static_cast<std::size_t>(params_.beam_count),
+                 "a range for each beam");
 }
 
 void Laser::hash(StateHash& hash) const {

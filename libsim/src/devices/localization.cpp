@@ -50,6 +50,11 @@ void PoseSensor::measure(const StepContext& context) {
   reading.stalled = context.body.stalled;
 }
 
+void PoseSensor::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_, X_WB_, X_FW_);
+}
+
 void PoseSensor::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());
@@ -110,6 +115,11 @@ void Odometry::measure(const StepContext& context) {
   reading.path_length_m = path_length_m_;
   X_SR_ = X_SB_;
   path_length_m_ = 0.0;
+}
+
+void Odometry::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_, X_SB_, X_SR_, path_length_m_);
 }
 
 void Odometry::hash(StateHash& hash) const {

@@ -126,6 +126,15 @@ PositionControl::Step PositionControl::step(const Pose& X_FB) {
   return differential_step(X_FB, distance_m);
 }
 
+void PositionControl::archive(StateArchive& archive, const DriveDescription& drive,
+                              const MotionParams& params) {
+  archive.fields(command_);
+  archive(aligning_, backwards_, leaving_, sought_, given_up_);
+  if (!archive.reading()) return;
+  drive_ = drive;
+  params_ = params;
+}
+
 void PositionControl::hash(StateHash& hash) const {
   for (const double x : {command_.goal.x_m, command_.goal.y_m, command_.goal.yaw_rad,
                          command_.max_speed_mps, command_.max_turn_rate_radps}) {
@@ -290,6 +299,14 @@ Command Motion::present_command() const {
   if (mode_ == Mode::kPosition) return position_.command();
   if (drive_.kind == DriveKind::kCar) return CarCommand{commanded_.v_mps, commanded_steering_rad_};
   return TwistCommand{commanded_};
+}
+
+void Motion::archive(StateArchive& archive) {
+  Actuator::archive(archive);
+  archive.choice(mode_, Mode::kCar);
+  archive(enabled_, commanded_, target_, commanded_steering_rad_, steering_rad_);
+  archive.fields(heading_);
+  position_.archive(archive, drive_, params_);
 }
 
 void Motion::hash(StateHash& hash) const {

@@ -75,6 +75,12 @@ void Opaque::measure(const StepContext& context) {
   reading.lost = lost_;
 }
 
+void Opaque::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  for (Line& line : lines_) archive(line.heard);
+  archive(sent_messages_, sent_, sent_before_step_, arrived_, lost_);
+}
+
 void Opaque::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(sent_);

@@ -23,6 +23,11 @@ void Pen::mark_trail(const Pose& X_WB, Canvas& canvas) {
   last_row_ = row;
 }
 
+void Pen::archive(StateArchive& archive) {
+  Actuator::archive(archive);
+  archive(has_last_, last_column_, last_row_);
+}
+
 void Pen::hash(StateHash& hash) const {
   hash.add(has_last_);
   hash.add(last_column_);

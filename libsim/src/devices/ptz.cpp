@@ -64,6 +64,14 @@ void Ptz::measure(const StepContext& context) {
   reading.moving = pan_.now != pan_.goal || tilt_.now != tilt_.goal || view_.now != view_.goal;
 }
 
+void Ptz::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  for (Axis* axis : {&pan_, &tilt_, &view_}) {
+    archive(axis->now, axis->goal, axis->speed, axis->moved);
+    archive.expect(axis->least <= axis->now && axis->now <= axis->most, "a head within its limits");
+  }
+}
+
 void Ptz::hash(StateHash& hash) const {
   Sensor::hash(hash);
   for (const Axis* axis : {&pan_, &tilt_, &view_}) {

@@ -10,6 +10,7 @@
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/degrees.h"
+#include "sim/devices/robot_snapshot.h"
 
 namespace sim {
 namespace {
@@ -112,6 +113,23 @@ double Ranger::least_range_m(const scan::Cone& cone) {
     if (shells_[i].size() > 0) least_m = shells_[i].least_range_in_cone_m(cone, least_m);
   }
   return least_m;
+}
+
+void Ranger::show(SimTime, RobotSnapshot& shot) const {
+  const RangerReading& round = reading();
+  if (round.sequence == 0) return;
+  for (std::size_t i = 0; i < round.ranges_m.size(); ++i) {
+    shot.cones.push_back({round.X_WB * round.X_BS[i], round.ranges_m[i], round.field_of_view_rad,
+                          round.ranges_m[i] < round.range_max_m});
+  }
+}
+
+void Ranger::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(archived().X_WB, noise_);
+  archive.expect(reading().ranges_m.size() == params_.X_BS.size() &&
+                     reading().X_BS.size() == params_.X_BS.size(),
+                 "a range for each transducer");
 }
 
 void Ranger::hash(StateHash& hash) const {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -31,6 +32,16 @@ void Speech::integrate(const StepContext& context) {
 }
 
 void Speech::deactivated(RobotControl&) { text_.clear(); }
+
+void Speech::show(SimTime, RobotSnapshot& shot) const {
+  if (!text_.empty()) shot.says = text_;
+}
+
+void Speech::archive(StateArchive& archive) {
+  Actuator::archive(archive);
+  archive(text_);
+  archive.time(left_ns_);
+}
 
 void Speech::hash(StateHash& hash) const {
   hash.add(text_);

@@ -91,10 +91,10 @@ void Waypoint::placed(const Pose& X_WB) {
   motors_taken();
 }
 
-void Waypoint::succeed(const Device& before, SimTime now_ns) {
-  Sensor::succeed(before, now_ns);
+void Waypoint::succeed(const Device& before, SimTime later_ns) {
+  Sensor::succeed(before, later_ns);
   const auto& old = dynamic_cast<const Waypoint&>(before);
-  goal_number_ = old.goal_number_ + (old.has_goal_ ? 1 : 0);
+  goal_number_ = old.goal_number_ + (old.has_goal_ || has_goal_ ? 1 : 0);
 }
 
 void Waypoint::deactivated(RobotControl& robot) {
@@ -110,6 +110,13 @@ void Waypoint::measure(const StepContext& context) {
   reading.goal_m = goal_.goal_m;
   reading.position_m = X_WB_.position();
   reading.distance_m = distance_m();
+}
+
+void Waypoint::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive.fields(goal_);
+  archive(goal_number_, has_goal_, steers_, X_WB_);
+  archive.choice(status_, WaypointStatus::kStop);
 }
 
 void Waypoint::hash(StateHash& hash) const {

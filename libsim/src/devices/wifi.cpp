@@ -97,6 +97,11 @@ void Wifi::measure(const StepContext& context) {
   links.resize(count);
 }
 
+void Wifi::archive(StateArchive& archive) {
+  SensorOf::archive(archive);
+  archive(noise_);
+}
+
 void Wifi::hash(StateHash& hash) const {
   Sensor::hash(hash);
   hash.add(noise_.draws());

@@ -46,6 +46,7 @@ Bodies::Bodies(const ArenaDescription& arena)
 
 FixtureInfo* Bodies::new_info(Contact::Kind kind, int index, double height_m) {
   infos_.push_back(std::make_unique<FixtureInfo>(FixtureInfo{kind, index, height_m}));
+  infos_.back()->id = infos_.size() - 1;
   return infos_.back().get();
 }
 

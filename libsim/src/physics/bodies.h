@@ -12,6 +12,7 @@
 
 #include "physics/fixtures.h"
 #include "physics/robot_body.h"
+#include "sim/core/state_archive.h"
 #include "sim/world/description.h"
 
 namespace sim::physics {
@@ -80,6 +81,10 @@ class Bodies {
   }
   [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
   void change_obstacle(int index, const ObstacleDescription& now);
+  /// Writes or reads the state. Obstacles come with their shapes.
+  void archive(StateArchive& archive);
+  /// All that are there now, by FixtureInfo::id; nullptr: not Box2D's.
+  [[nodiscard]] std::vector<b2Fixture*> fixtures();
   /// Whether there are walls of a map, and how far to the right they reach.
   [[nodiscard]] bool has_walls() const noexcept { return has_walls_; }
   [[nodiscard]] double wall_right_m() const noexcept { return wall_right_m_; }
@@ -93,6 +98,7 @@ class Bodies {
   void add_border(const ArenaDescription& arena);
   void add_wall(const WallLoop& loop);
   void put_into_box2d(Robot& r);
+  void archive_obstacle(StateArchive& archive, b2Body& body);
 
   b2World world_;
   b2Body* static_body_ = nullptr;

@@ -18,6 +18,8 @@ class Contacts final : public b2ContactListener {
   explicit Contacts(Bodies& bodies);
 
   void begin_step();
+  /// Writes or reads the state. When reading, Box2D's contacts are there already.
+  void archive(StateArchive& archive);
   /// Those that began in this step.
   [[nodiscard]] const std::vector<Contact>& fresh() const noexcept { return fresh_; }
   /// As PhysicsWorld::contacts_of() and touches_of().

@@ -23,6 +23,7 @@ struct FixtureInfo {
   double height_m;
   std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for robots
   std::size_t edge_count = 0;
+  std::size_t id = 0;  ///< its index in Bodies::infos()
 };
 
 struct Edge {

@@ -18,6 +18,8 @@ class Mover {
   Mover(Bodies& bodies, Neighbours& neighbours) : bodies_(bodies), neighbours_(neighbours) {}
 
   void step(double dt_s);
+  /// Writes or reads the state. When reading, that of the robots is there already.
+  void archive(StateArchive& archive);
   /// How far any robot went in the last step, at most [m].
   [[nodiscard]] double farthest_move_m() const noexcept { return step_gone_m_; }
   /// As PhysicsWorld::bare_step().

@@ -176,7 +176,8 @@ void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m)
   r.details->candidates_reach_m = reach_m;
   r.details->candidates_gone_m = gone_m_;
   visit_fixed(bodies_.world(), grown(box, reach_m), [&](const b2Fixture& fixture) {
-    r.details->candidates.push_back({fixture.GetShape(), -1, fixture.GetAABB(0), {}});
+    r.details->candidates.push_back(
+        {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0), {}});
   });
   const Vec2 p_WB = r.X_WB.position();
   const Vec2 reach(r.radius_m + reach_m, r.radius_m + reach_m);
@@ -191,6 +192,7 @@ Wall Neighbours::wall_of(const b2Fixture& fixture) const {
   Wall wall;
   wall.shape = fixture.GetShape();
   const FixtureInfo& info = info_of(&fixture);
+  wall.fixture = static_cast<int>(info.id);
   if (info.kind != Contact::Kind::kWall) return wall;
   const Edge& edge = bodies_.edges().edges[info.first_edge];
   const Vec2 way(edge.x1 - edge.x0, edge.y1 - edge.y0);

@@ -56,6 +56,9 @@ class Neighbours {
   /// Whether a robot that is shoved might run into something that it does not touch yet.
   [[nodiscard]] bool may_be_shoved_into(std::size_t index) const;
 
+  /// Writes or reads the state. When reading, Box2D's fixtures are there already.
+  void archive(StateArchive& archive);
+
   /// As PhysicsWorld::clearance_m().
   [[nodiscard]] double clearance_m(Robot& r, double limit_m, double exact_below_m);
 
@@ -78,6 +81,7 @@ class Neighbours {
   [[nodiscard]] double wall_reach_m() const;
   [[nodiscard]] Wall wall_of(const b2Fixture& fixture) const;
   [[nodiscard]] double distance_to_walls_m(Robot& r);
+  void archive_robot(StateArchive& archive, Robot& r, const std::vector<b2Fixture*>& fixtures);
   void collect_candidates(Robot& r, const b2AABB& box, double reach_m);
   [[nodiscard]] bool is_near_wall(const Robot& r, const b2Contact& contact) const;
 

@@ -141,6 +141,14 @@ double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range
   return impl_->sight.ray_cast_m(p_WL, angle_rad, range_max_m, own_robot);
 }
 
+void PhysicsWorld::archive(StateArchive& archive) {
+  impl_->bodies.archive(archive);
+  impl_->contacts.archive(archive);
+  impl_->neighbours.archive(archive);
+  impl_->mover.archive(archive);
+  impl_->sight.archive(archive);
+}
+
 void PhysicsWorld::bare_step(double dt_s) { impl_->mover.bare_step(dt_s); }
 
 namespace {

@@ -10,6 +10,7 @@
 #include "sim/core/body_state.h"
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
+#include "sim/core/state_archive.h"
 #include "sim/scan/scan_kernel.h"
 #include "sim/world/description.h"
 #include "sim/world/robot_model.h"
@@ -139,6 +140,9 @@ class PhysicsWorld {
                                   int own_robot, const Contact& target) const;
 
   void hash(StateHash& hash) const;
+  /// Writes the state, or reads one of a world with the same arena and robots. What robots carry is
+  /// left to set_load().
+  void archive(StateArchive& archive);
 
   /// Range along one ray by b2World::RayCast, the slow exact way (reference in tests and
   /// benchmarks); range_max_m if nothing is met. Ignores heights and insides.

@@ -33,6 +33,7 @@ inline constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 /// Something near a robot that does not move.
 struct Wall {
   const b2Shape* shape = nullptr;
+  int fixture = 0;         ///< its FixtureInfo::id
   b2SimplexCache cache{};  ///< of its and the robot's nearest points
   bool is_edge = false;    ///< of a map, whose start, direction and length are:
   Vec2 start = Vec2::Zero();
@@ -43,7 +44,7 @@ struct Wall {
 /// Something solid that may be the nearest to a robot.
 struct Candidate {
   const b2Shape* shape;
-  int robot;             ///< -1: none, but something that does not move
+  int robot;             ///< < 0: none, but what has the FixtureInfo::id -1 - robot
   b2AABB box;            ///< round it, if it does not move
   b2SimplexCache cache;  ///< of its and the robot's nearest points
 };

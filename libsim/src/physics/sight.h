@@ -20,6 +20,9 @@ class Sight {
  public:
   explicit Sight(Bodies& bodies) : bodies_(bodies) { solids_changed(); }
 
+  /// Writes or reads the state but for what robots carry. When reading, that of the solids is there
+  /// already.
+  void archive(StateArchive& archive);
   /// Obstacles were changed, extended or retracted.
   void solids_changed();
   /// Robots have moved, or carry something else.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace sim {
@@ -47,6 +48,14 @@ TEST(RandomStream, NoNoiseDrawsNothing) {
   RandomStream stream(1, "x");
   EXPECT_EQ(stream.gaussian(0.0), 0.0);
   EXPECT_EQ(stream.draws(), 0U);
+}
+
+TEST(MersenneTwister, IsThatOfTheStandard) {
+  for (const std::uint64_t seed : {0ULL, 5489ULL, 0xfedcba9876543210ULL}) {
+    MersenneTwister ours(seed);
+    std::mt19937_64 theirs(seed);
+    for (int i = 0; i < 2000; ++i) ASSERT_EQ(ours(), theirs()) << i;
+  }
 }
 
 }  // namespace

@@ -12,6 +12,8 @@
 
 namespace sim {
 
+class StateArchive;
+
 /// What a cell of a grid-map holds, in four bytes, whatever its layer's kind.
 struct CellValue {
   std::uint32_t bits = 0;
@@ -143,6 +145,9 @@ class CellRaster {
   void mark_kept() noexcept;
 
   /// How many tiles cover so many cells.
+  /// Writes or reads size and cells; blank tiles cost a byte. What was read counts as written.
+  void archive(StateArchive& archive);
+
   [[nodiscard]] static int tiles_across(int cells) noexcept {
     return (cells + kTileSide - 1) >> kTileShift;
   }

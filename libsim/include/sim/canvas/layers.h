@@ -139,6 +139,20 @@ class LayerStack {
   /// @pre contains(layer), 0 <= row, `to` has room for whole rows and for none beyond the last one.
   void copy_rows(LayerId layer, int row, std::span<CellValue> to) const;
 
+  /// @name For snapshots of a simulation
+  /// @{
+  /// Writes or reads the base layer's cells; all layers get their size.
+  void archive_base(StateArchive& archive);
+  /// Writes or reads the other layers, and how all look. When reading, there are none yet, and the
+  /// base layer has been read.
+  void archive_others(StateArchive& archive);
+  /// Takes the cells of another stack's base layer, whose are undefined then; all layers get their
+  /// size.
+  void take_base(LayerStack& from);
+  /// Stands in for another stack from now on: its counts go on, and so do the layers' numbers.
+  void succeed(const LayerStack& before);
+  /// @}
+
   /// Changes the number of columns and rows of all layers. What is drawn stays where it is in the
   /// world: the bottom left corner stays, cells are added or cut off at the top and the right.
   /// @pre sides in 1..kMaxCanvasSide

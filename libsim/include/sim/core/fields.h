@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "sim/core/colour.h"
-#include "sim/core/hash.h"
 #include "sim/core/pose.h"
 
 /// @file
@@ -385,10 +384,6 @@ void set_integer(const Field& field, void* value, std::int64_t number);
 
 /// Whether all numbers of a struct are finite.
 [[nodiscard]] bool all_finite(const FieldTable& table, const void* object);
-
-/// Adds the fields of a struct in the order of its table; of a std::optional, whether it has a
-/// value first.
-void hash_fields(StateHash& hash, const FieldTable& table, const void* object);
 
 /// The numbers of a struct as clients are told of them, in SI units and radians. Of a list their
 /// number, or with tells_elements each element's fields with "_0", "_1", ... at their end.

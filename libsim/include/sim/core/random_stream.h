@@ -1,18 +1,49 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <random>
 #include <string_view>
 
 namespace sim {
 
+class StateArchive;
+
+/// std::mt19937_64, whose output the C++ standard fixes, with a state that can be saved.
+///
+/// M. Matsumoto and T. Nishimura, "Mersenne twister: a 623-dimensionally equidistributed uniform
+/// pseudo-random number generator", ACM TOMACS 8(1), 1998; the 64-bit constants are those of the
+/// standard ([rand.predef]).
+class MersenneTwister {
+ public:
+  explicit MersenneTwister(std::uint64_t seed) noexcept;
+
+  [[nodiscard]] std::uint64_t operator()() noexcept {
+    if (next_ == kSize) twist();
+    std::uint64_t y = words_[next_++];
+    y ^= (y >> 29) & 0x5555555555555555ULL;
+    y ^= (y << 17) & 0x71d67fffeda60000ULL;
+    y ^= (y << 37) & 0xfff7eee000000000ULL;
+    return y ^ (y >> 43);
+  }
+  /// Writes or reads the state.
+  void archive(StateArchive& archive);
+
+ private:
+  void twist() noexcept;
+
+  static constexpr std::size_t kSize = 312;
+
+  std::array<std::uint64_t, kSize> words_{};
+  std::size_t next_;
+};
+
 /// A stream of random numbers of one component, independent of all others.
 ///
 /// Seeded by the world's seed and the component's path (e.g. "r1/laser"), so that adding a
-/// sensor leaves the noise of the others unchanged. The engine is std::mt19937_64, whose output
-/// the C++ standard fixes; distributions are ours, since the standard leaves theirs open.
-/// Not thread-safe; each stream belongs to one component.
+/// sensor leaves the noise of the others unchanged. Distributions are ours, since the standard
+/// leaves theirs open. Not thread-safe; each stream belongs to one component.
 class RandomStream {
  public:
   RandomStream(std::uint64_t world_seed, std::string_view component_path);
@@ -27,11 +58,13 @@ class RandomStream {
   /// Gaussian with mean 0 and the given deviation; exactly 0, and no draw, when sigma is 0.
   [[nodiscard]] double gaussian(double sigma) { return sigma > 0.0 ? sigma * normal() : 0.0; }
 
-  /// How many 64-bit words were drawn: with the seed, the stream's whole state (for hashing).
+  /// How many 64-bit words were drawn.
   [[nodiscard]] std::uint64_t draws() const noexcept { return draws_; }
+  /// Writes or reads the state. One that nothing was drawn from is as its seed made it.
+  void archive(StateArchive& archive);
 
  private:
-  std::mt19937_64 engine_;
+  MersenneTwister engine_;
   std::uint64_t draws_ = 0;
   double spare_ = 0.0;
   bool has_spare_ = false;

@@ -70,6 +70,7 @@ class Battery final : public SensorOf<BatteryReading> {
   Battery(std::string name, const BatteryParams& params, double wheel_separation_m);
 
   void integrate(const StepContext& context) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -52,6 +52,8 @@ class Blobfinder final : public SensorOf<BlobfinderReading> {
 
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
+  [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

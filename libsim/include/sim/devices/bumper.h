@@ -71,6 +71,8 @@ class Bumper final : public SensorOf<BumperReading> {
   [[nodiscard]] const std::vector<BumperSegment>& segments() const noexcept {
     return params_.segments;
   }
+  void show(SimTime now_ns, RobotSnapshot& shot) const override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -41,6 +41,8 @@ class Camera final : public SensorOf<CameraReading> {
 
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
+  [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -34,6 +34,7 @@ class Compass final : public SensorOf<CompassReading> {
  public:
   Compass(std::string name, const CompassParams& params, RandomStream noise);
 
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

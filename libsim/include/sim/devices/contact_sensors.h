@@ -29,6 +29,7 @@ class CollisionSensor final : public SensorOf<CollisionReading> {
   CollisionSensor(std::string name, const CollisionParams& params);
 
   void integrate(const StepContext& context) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -17,11 +17,15 @@
 #include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/core/random_stream.h"
+#include "sim/core/state_archive.h"
 #include "sim/core/time.h"
 
 namespace sim {
 
+class Motion;
+class Pen;
 class PhysicsWorld;
+struct RobotSnapshot;
 struct WorldDescription;
 
 /// What a device may look at when a step has ended.
@@ -162,6 +166,7 @@ using Command =
                  LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand>;
 
 class Device;
+class Sensor;
 
 /// Finds devices of all robots of a world, for those that are wired to others.
 class DeviceDirectory {
@@ -266,18 +271,40 @@ class Device {
   virtual void motors_taken() {}
   /// The robot was put at X_WB without driving there, and is at rest.
   virtual void placed(const Pose& X_WB) { static_cast<void>(X_WB); }
-  /// This device, just made, stands in for one that a reset ended: it goes on with that one's
-  /// counts, and its schedule begins at now_ns.
+  /// This device, just made or restored, stands in for one that a reset or a restore ended: it goes
+  /// on with that one's counts, and its schedule begins so much later.
   /// @pre `before` has the same class.
-  virtual void succeed(const Device& before, SimTime now_ns) {
+  virtual void succeed(const Device& before, SimTime later_ns) {
     static_cast<void>(before);
-    static_cast<void>(now_ns);
+    static_cast<void>(later_ns);
   }
 
   /// Where a localisation device thinks its robot is now, in its own frame, without the noise of
   /// single readings; nullopt for others.
   [[nodiscard]] virtual std::optional<Pose> believed_pose() const { return std::nullopt; }
 
+  /// @name What a simulation does for some devices alone
+  /// @{
+  [[nodiscard]] virtual Sensor* sensor() noexcept { return nullptr; }
+  /// The robot moves by the first of its devices that is one.
+  [[nodiscard]] virtual Motion* motion() noexcept { return nullptr; }
+  /// The first of them leaves the robot's trail.
+  [[nodiscard]] virtual Pen* pen() noexcept { return nullptr; }
+  /// Whether it looks at other devices' readings, or at what they did in the step, and so measures
+  /// after all others.
+  [[nodiscard]] virtual bool measures_after_others() const noexcept { return false; }
+  /// @}
+
+  /// Adds what pictures show of the device, or of its newest reading, to its robot's picture.
+  virtual void show(SimTime now_ns, RobotSnapshot& shot) const {
+    static_cast<void>(now_ns);
+    static_cast<void>(shot);
+  }
+
+  /// Writes the state, or reads one that a device of the same settings has written: all that a step
+  /// or a command changes. Overriders begin with that of their base class.
+  /// @throws SnapshotError if the bytes make no sense; what the device does then is undefined.
+  virtual void archive(StateArchive& archive) { archive(active_); }
   /// Adds all that distinguishes this device's future from another's.
   virtual void hash(StateHash& hash) const = 0;
 
@@ -313,7 +340,10 @@ class Sensor : public Device {
   /// When update() will make the next reading, or let it pass.
   [[nodiscard]] SimTime next_due_ns() const noexcept { return next_due_ns_; }
 
-  void succeed(const Device& before, SimTime now_ns) override;
+  [[nodiscard]] Sensor* sensor() noexcept final { return this; }
+
+  void succeed(const Device& before, SimTime later_ns) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:
@@ -346,7 +376,16 @@ class SensorOf : public Sensor {
     return newest_;
   }
 
+  /// With the newest reading: what its table lists.
+  void archive(StateArchive& archive) override {
+    Sensor::archive(archive);
+    archive(newest_->time_ns, newest_->sequence);
+    archive.fields(*newest_);
+  }
+
  protected:
+  /// The newest reading for archive(), which may have members that its table does not list.
+  [[nodiscard]] R& archived() noexcept { return *newest_; }
   /// What an object holds before it is filled.
   enum class Contents {
     kNewest,      ///< what the newest reading holds

@@ -57,6 +57,7 @@ class Dio final : public SensorOf<DioReading> {
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
   std::optional<std::string> apply(const Command& command) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

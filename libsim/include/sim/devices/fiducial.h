@@ -42,6 +42,8 @@ class FiducialFinder final : public SensorOf<FiducialReading> {
  public:
   FiducialFinder(std::string name, const FiducialParams& params, RandomStream noise);
 
+  void show(SimTime now_ns, RobotSnapshot& shot) const override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

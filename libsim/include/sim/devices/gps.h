@@ -78,6 +78,7 @@ class Gps final : public SensorOf<GpsReading> {
  public:
   Gps(std::string name, const GpsParams& params, RandomStream noise);
 
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

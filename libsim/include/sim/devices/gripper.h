@@ -85,6 +85,8 @@ class Gripper final : public SensorOf<GripperReading> {
 
   std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
   void act(RobotControl& robot) override;
+  void show(SimTime now_ns, RobotSnapshot& shot) const override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:
@@ -97,6 +99,7 @@ class Gripper final : public SensorOf<GripperReading> {
     int obstacle;
     Pose X_BT;
     SimTime closed_ns;
+    void archive(StateArchive& archive);
   };
 
   [[nodiscard]] GripperState state() const noexcept;

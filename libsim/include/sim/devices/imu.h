@@ -52,6 +52,7 @@ class Imu final : public SensorOf<ImuReading> {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -45,6 +45,8 @@ class Laser final : public SensorOf<LaserReading> {
   Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise);
 
   [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
+  void show(SimTime now_ns, RobotSnapshot& shot) const override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

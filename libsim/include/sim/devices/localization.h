@@ -62,6 +62,7 @@ class PoseSensor final : public SensorOf<PoseReading> {
   void placed(const Pose& X_WB) override { X_WB_ = X_WB; }
   /// The pose without noise, in the frame that is reported in.
   [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_FW_ * X_WB_; }
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:
@@ -92,6 +93,7 @@ class Odometry final : public SensorOf<PoseReading> {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_SB_; }
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -61,6 +61,8 @@ class PositionControl {
   [[nodiscard]] Step step(const Pose& X_FB);
 
   [[nodiscard]] const PositionCommand& command() const noexcept { return command_; }
+  /// Writes or reads the state; `drive` and `params` are those it was made with.
+  void archive(StateArchive& archive, const DriveDescription& drive, const MotionParams& params);
   void hash(StateHash& hash) const;
 
  private:
@@ -101,6 +103,8 @@ class Motion final : public Actuator {
   void motors_taken() override;
   void placed(const Pose& X_WB) override;
 
+  [[nodiscard]] Motion* motion() noexcept override { return this; }
+
   /// The twist to strive for during the next step of dt_s, limits applied; advances the ramp.
   [[nodiscard]] Twist next_target(double dt_s);
 
@@ -111,6 +115,7 @@ class Motion final : public Actuator {
   [[nodiscard]] double steering_rad() const noexcept { return steering_rad_; }
   /// A command that, given again, lets it go on with what it does now.
   [[nodiscard]] Command present_command() const;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -43,6 +43,7 @@ class Opaque final : public SensorOf<OpaqueReading> {
                                      const DeviceDirectory& devices) override;
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

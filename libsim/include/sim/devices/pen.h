@@ -22,6 +22,8 @@ class Pen final : public Actuator {
   /// Marks the way from the last position to this one, if the trail is on and the pen active.
   void mark_trail(const Pose& X_WB, Canvas& canvas);
   void placed(const Pose&) override { has_last_ = false; }  // no line to there
+  [[nodiscard]] Pen* pen() noexcept override { return this; }
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

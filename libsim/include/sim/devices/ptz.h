@@ -48,6 +48,7 @@ class Ptz final : public SensorOf<PtzReading> {
 
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

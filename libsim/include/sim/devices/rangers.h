@@ -72,6 +72,8 @@ class Ranger final : public SensorOf<RangerReading> {
          RandomStream noise);
 
   [[nodiscard]] const RangerParams& params() const noexcept { return params_; }
+  void show(SimTime now_ns, RobotSnapshot& shot) const override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -25,6 +25,8 @@ class Speech final : public Actuator {
 
   std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
   void integrate(const StepContext& context) override;
+  void show(SimTime now_ns, RobotSnapshot& shot) const override;
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

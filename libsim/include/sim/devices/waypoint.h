@@ -81,19 +81,21 @@ class Waypoint final : public SensorOf<WaypointReading> {
   void integrate(const StepContext& context) override;
   void motors_taken() override;
   void placed(const Pose& X_WB) override;
-  void succeed(const Device& before, SimTime now_ns) override;
+  void succeed(const Device& before, SimTime later_ns) override;
 
   [[nodiscard]] const WaypointParams& params() const noexcept { return params_; }
   /// After any step: how things stand at its end.
   [[nodiscard]] WaypointStatus status() const noexcept { return status_; }
   /// How many GotoCommands were accepted: while it stays what it was just after one, that goal is
-  /// the current one. A reset that takes a goal away counts as well.
+  /// the current one. A reset or restore that changes the goal
+  /// counts as well.
   [[nodiscard]] std::uint64_t goal_number() const noexcept { return goal_number_; }
   /// The goal that was accepted last, in W [m]; before the first: where the robot started.
   [[nodiscard]] const Vec2& goal() const noexcept { return goal_.goal_m; }
   /// From the robot to the goal [m].
   [[nodiscard]] double distance_m() const;
 
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

@@ -70,6 +70,7 @@ class Wifi final : public SensorOf<WifiReading> {
  public:
   Wifi(std::string name, const WifiParams& params, RandomStream noise);
 
+  void archive(StateArchive& archive) override;
   void hash(StateHash& hash) const override;
 
  protected:

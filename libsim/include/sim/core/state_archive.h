@@ -1,0 +1,213 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "sim/core/colour.h"
+#include "sim/core/fields.h"
+#include "sim/core/pose.h"
+#include "sim/core/time.h"
+
+namespace sim {
+
+/// Why a snapshot is refused; what() is one sentence: "snapshot: expected X, found Y".
+class SnapshotError : public std::runtime_error {
+ public:
+  SnapshotError(const std::string& expected, const std::string& found)
+      : std::runtime_error("snapshot: expected " + expected + ", found " + found) {}
+};
+
+/// Writes a state as bytes, or reads it back.
+///
+/// What has state lists its members once, for both ways:
+///
+///     void Battery::archive(StateArchive& archive) {
+///       SensorOf::archive(archive);
+///       archive(energy_j_, power_w_, docked_);
+///     }
+///
+/// Bytes are those of the machine's own numbers. Whoever reads expects nothing of them: counts
+/// are compared with what is left, floating numbers are finite, and expect() states the rest.
+class StateArchive {
+ public:
+  /// Writes.
+  StateArchive() = default;
+  /// Reads bytes, which stay with the caller.
+  explicit StateArchive(std::span<const std::uint8_t> bytes) : reading_(true), left_(bytes) {}
+
+  [[nodiscard]] bool reading() const noexcept { return reading_; }
+  /// What was written, whose capacity is then gone.
+  [[nodiscard]] std::vector<std::uint8_t> take();
+  /// What was written so far.
+  [[nodiscard]] std::span<const std::uint8_t> written() const noexcept {
+    return {written_.data(), end_};
+  }
+  /// What is left to read.
+  [[nodiscard]] std::size_t left() const noexcept { return left_.size(); }
+
+  /// Writes or reads members in this order. They may be numbers, enumerations (see choice()),
+  /// texts, poses and the like, anything with a function archive(StateArchive&), and std::optional,
+  /// std::vector, std::deque and std::array of such.
+  /// @throws SnapshotError if the bytes make no sense, or end before.
+  template <typename... Members>
+  void operator()(Members&... members) {
+    (member(members), ...);
+  }
+
+  /// A number that may be infinite.
+  void unbounded(double& number) {
+    raw(&number, sizeof number);
+    if (reading_) expect(!std::isnan(number), "a number");
+  }
+  /// A moment or a duration [ns], which can be reckoned with.
+  void time(SimTime& time_ns) {
+    member(time_ns);
+    constexpr SimTime kMost_ns = SimTime{1} << 61;
+    expect(-kMost_ns <= time_ns && time_ns <= kMost_ns, "a time");
+  }
+  /// An enumeration whose values count from 0.
+  template <typename Enum>
+  requires std::is_enum_v<Enum>
+  void choice(Enum& value, Enum last) {
+    auto number = static_cast<std::int32_t>(value);
+    member(number);
+    if (!reading_) return;
+    expect(number >= 0 && number <= static_cast<std::int32_t>(last), "a choice that there is");
+    value = static_cast<Enum>(number);
+  }
+  /// An index: least <= index < end.
+  template <std::integral Number>
+  void index(Number& number, std::size_t end, Number least = 0) {
+    member(number);
+    if (reading_) {
+      expect(number >= least && (number < 0 || static_cast<std::size_t>(number) < end),
+             "an index of something that there is");
+    }
+  }
+  /// A list whose elements one(element) archives.
+  template <typename List, typename One>
+  void list(List& list, One one) {
+    std::uint64_t count = list.size();
+    member(count);
+    if (!reading_) {
+      for (auto& element : list) one(element);
+      return;
+    }
+    expect(count <= left_.size(), "a list that ends");
+    list.clear();
+    for (; count > 0; --count) one(list.emplace_back());
+  }
+  /// The fields of a struct that has a table of them.
+  template <typename Struct>
+  void fields(Struct& object) {
+    table(fields_of<Struct>(), &object);
+  }
+  void table(const FieldTable& table, void* object);
+  /// Bytes as they are.
+  void raw(void* data, std::size_t size) {
+    if (reading_) {
+      expect(size <= left_.size(), "more bytes");
+      std::memcpy(data, left_.data(), size);
+      left_ = left_.subspan(size);
+      return;
+    }
+    if (written_.size() - end_ < size) grow(size);
+    std::memcpy(written_.data() + end_, data, size);
+    end_ += size;
+  }
+
+  /// While reading, refuses the snapshot unless something holds.
+  /// @param what  was expected.
+  void expect(bool holds, const char* what) const {
+    if (reading_ && !holds) refuse(what);
+  }
+
+ private:
+  [[noreturn]] static void refuse(const char* what);
+  void grow(std::size_t by);
+  void value(const Field& field, void* value);
+
+  template <typename Number>
+  requires(std::integral<Number> && !std::same_as<Number, bool>) void member(Number& number) {
+    raw(&number, sizeof number);
+  }
+  template <std::floating_point Number>
+  void member(Number& number) {
+    raw(&number, sizeof number);
+    expect(std::isfinite(number), "a finite number");
+  }
+  void member(bool& flag) {
+    std::uint8_t byte = flag ? 1 : 0;
+    raw(&byte, 1);
+    expect(byte <= 1, "0 or 1");
+    flag = byte != 0;
+  }
+  void member(Vec2& p) { (*this)(p.x(), p.y()); }
+  void member(Pose& pose) { (*this)(pose.x_m, pose.y_m, pose.yaw_rad); }
+  void member(Twist& twist) { (*this)(twist.v_mps, twist.omega_radps, twist.lateral_mps); }
+  void member(Colour& colour) { (*this)(colour.r, colour.g, colour.b, colour.a); }
+  void member(std::string& text) { packed(text); }
+  template <typename T>
+  void member(std::optional<T>& value) {
+    bool there = value.has_value();
+    member(there);
+    if (reading_) value.reset();
+    if (!there) return;
+    if (reading_) value.emplace();
+    member(*value);
+  }
+  template <typename T>
+  void member(std::vector<T>& list) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      packed(list);
+      if constexpr (std::floating_point<T>) {
+        for (const T& number : list) expect(std::isfinite(number), "a finite number");
+      }
+    } else {
+      this->list(list, [this](T& element) { member(element); });
+    }
+  }
+  template <typename T>
+  void member(std::deque<T>& list) {
+    this->list(list, [this](T& element) { member(element); });
+  }
+  template <typename T, std::size_t kSize>
+  void member(std::array<T, kSize>& elements) {
+    for (T& element : elements) member(element);
+  }
+  template <typename T>
+  requires requires(T& object, StateArchive& archive) { object.archive(archive); }
+  void member(T& object) { object.archive(*this); }
+
+  /// A list of numbers, all at once.
+  template <typename List>
+  void packed(List& list) {
+    using Element = typename List::value_type;
+    std::uint64_t count = list.size();
+    member(count);
+    if (reading_) {
+      expect(count <= left_.size() / sizeof(Element), "a list that ends");
+      list.resize(count);
+    }
+    if (count > 0) raw(list.data(), count * sizeof(Element));
+  }
+
+  bool reading_ = false;
+  std::span<const std::uint8_t> left_;
+  std::vector<std::uint8_t> written_;  // whose first end_ bytes are
+  std::size_t end_ = 0;
+};
+
+}  // namespace sim

@@ -1,0 +1,223 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// What of the physics a step changes and the next one depends on, in full: also lower bounds and
+// starting points of searches, which bear on when something is looked at again.
+#include <cmath>
+#include <utility>
+
+#include "physics/bodies.h"
+#include "physics/box2d_state.h"
+#include "physics/contacts.h"
+#include "physics/mover.h"
+#include "physics/neighbours.h"
+#include "physics/sight.h"
+#include "sim/world/limits.h"
+
+namespace sim::physics {
+namespace {
+
+void archive_robot_state(StateArchive& archive, Robot& r) {
+  BodyState& s = *r.state;
+  archive(r.target, r.X_WB, r.gone_m, r.suspended, r.shoving, r.kept_parts, r.stall_clock_s);
+  archive.unbounded(r.wall_until_m);
+  archive.unbounded(r.wall_gone_m);
+  archive(s.X_WB, s.twist, s.commanded, s.travel_m, s.turn_rad, s.stalled, s.side_m);
+  for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.target.v_mps, r.target.lateral_mps,
+                         r.target.omega_radps, r.X_WB.yaw_rad}) {
+    archive.expect(std::abs(x) <= kFarthest_m, "robots within reach");
+  }
+}
+
+// An order of all robots: each of `entries` names its robot.
+template <typename Entry>
+void archive_order(StateArchive& archive, std::vector<Entry>& entries) {
+  std::vector<bool> seen(entries.size());
+  for (Entry& entry : entries) {
+    archive.index(entry.robot, entries.size());
+    const auto robot = static_cast<std::size_t>(entry.robot);
+    archive.expect(!seen[robot], "each robot once");
+    seen[robot] = true;
+  }
+}
+
+// Whether corners make a box that Box2D takes for one.
+bool are_of_box(const std::vector<Vec2>& corners) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec2 side = corners[(i + 1) % 4] - corners[i];
+    const Vec2 next = corners[(i + 2) % 4] - corners[(i + 1) % 4];
+    if (!(corners[i].cwiseAbs().maxCoeff() <= 2.0 * kFarthest_m)) return false;
+    if (!(side.norm() >= 0.9 * kLeastLength_m)) return false;
+    if (!(side.x() * next.y() - side.y() * next.x() >= 0.9 * side.norm() * next.norm()))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<b2Fixture*> Bodies::fixtures() {
+  std::vector<b2Fixture*> fixtures(infos_.size());
+  for (b2Body* body = world_.GetBodyList(); body != nullptr; body = body->GetNext()) {
+    for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr;
+         fixture = fixture->GetNext()) {
+      fixtures[info_of(fixture).id] = fixture;
+    }
+  }
+  return fixtures;
+}
+
+void Bodies::archive_obstacle(StateArchive& archive, b2Body& body) {
+  b2Fixture& fixture = *body.GetFixtureList();
+  auto* info = reinterpret_cast<FixtureInfo*>(fixture.GetUserData().pointer);
+  bool enabled = body.IsEnabled();
+  archive(enabled, info->height_m);
+  std::vector<Vec2> corners;
+  for (std::size_t i = 0; i < info->edge_count; ++i) {
+    const Edge& edge = edges_.edges[info->first_edge + i];
+    corners.emplace_back(edge.x0, edge.y0);
+    archive(corners[i]);
+  }
+  if (!archive.reading()) return;
+  archive.expect(are_of_box(corners), "boxes");
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2& a = corners[i];
+    const Vec2& b = corners[(i + 1) % corners.size()];
+    edges_.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
+    edges_.heights_m[info->first_edge + i] = info->height_m;
+  }
+  edges_.least_height_m = std::min(edges_.least_height_m, info->height_m);
+  body.SetEnabled(false);  // a box of the broad phase is made of the shape when it is switched on
+  *static_cast<b2PolygonShape*>(fixture.GetShape()) = polygon_shape(corners);
+  body.SetEnabled(enabled);
+}
+
+void Bodies::archive(StateArchive& archive) {
+  for (Robot& r : robots_) archive_robot_state(archive, r);
+  archive_order(archive, by_x_);
+  order_fresh_ = order_fresh_ && !archive.reading();
+  for (b2Body* body : obstacles_) archive_obstacle(archive, *body);
+
+  std::vector<std::uint32_t> newest_first;  // robots that Box2D has
+  for (b2Body* body = world_.GetBodyList(); body->GetType() == b2_dynamicBody;
+       body = body->GetNext()) {
+    newest_first.push_back(static_cast<std::uint32_t>(info_of(body->GetFixtureList()).index));
+  }
+  archive(newest_first);
+  if (archive.reading()) {
+    for (Robot& r : robots_) {
+      if (r.body != nullptr) take_out_of_box2d(r);
+    }
+    for (auto robot = newest_first.rbegin(); robot != newest_first.rend(); ++robot) {
+      archive.expect(*robot < robots_.size() && robots_[*robot].body == nullptr, "each robot once");
+      put_into_box2d(robots_[*robot]);
+    }
+  }
+  archive_box2d(archive, world_, fixtures());
+}
+
+void Contacts::archive(StateArchive& archive) {
+  constexpr auto kLastKind = Contact::Kind::kRobot;
+  const std::size_t robots = bodies_.robots().size();
+  archive.list(fresh_, [&](Contact& contact) {
+    archive.index(contact.robot, robots);
+    archive.choice(contact.kind, kLastKind);
+    const std::size_t ends[] = {bodies_.obstacles().size(), bodies_.separator_count(), 0, 0,
+                                robots};
+    archive.index(contact.index, ends[static_cast<std::size_t>(contact.kind)], -1);
+  });
+  archive.list(new_touches_, [&](Touch& touch) {
+    archive.index(touch.robot, robots);
+    archive(touch.p_WA, touch.p_WC);
+    for (const Vec2& p : {touch.p_WA, touch.p_WC}) {
+      archive.expect(p.cwiseAbs().maxCoeff() <= 2.0 * kFarthest_m, "touches within reach");
+    }
+  });
+  if (!archive.reading()) return;
+  for (Robot& r : bodies_.robots()) r.details->touching.clear();
+  const std::vector<Contact> fresh = fresh_;
+  for (b2Contact* c = bodies_.world().GetContactList(); c != nullptr; c = c->GetNext()) {
+    if (!c->IsTouching()) continue;
+    count_contact(c->GetFixtureA(), c->GetFixtureB(), 1);
+    count_contact(c->GetFixtureB(), c->GetFixtureA(), 1);
+  }
+  fresh_ = fresh;
+}
+
+void Neighbours::archive_robot(StateArchive& archive, Robot& r,
+                               const std::vector<b2Fixture*>& fixtures) {
+  RobotDetails& d = *r.details;
+  archive_vector(archive, d.nearest_direction);
+  archive(d.candidates_reach_m, d.candidates_gone_m);
+  archive.unbounded(d.walls_until_m);
+  if (archive.reading()) {
+    d.candidates.clear();
+    d.walls.clear();
+  }
+  // Lists that are out of date may name what is there no more.
+  if (d.candidates_reach_m >= 0.0) {
+    archive.list(d.candidates, [&](Candidate& candidate) {
+      archive(candidate.robot);
+      const int fixture = -1 - candidate.robot;
+      const auto robots = static_cast<int>(bodies_.robots().size());
+      archive.expect(candidate.robot < robots && fixture < static_cast<int>(fixtures.size()),
+                     "candidates that there are");
+      if (archive.reading() && candidate.robot >= 0) {
+        candidate.shape = &bodies_.robot(candidate.robot).details->shape;
+      } else if (archive.reading()) {
+        const b2Fixture* solid = fixtures[static_cast<std::size_t>(fixture)];
+        archive.expect(solid != nullptr && info_of(solid).kind != Contact::Kind::kRobot &&
+                           solid->GetBody()->IsEnabled(),
+                       "candidates that stand");
+        candidate.shape = solid->GetShape();
+        candidate.box = solid->GetAABB(0);
+      }
+      archive_cache(archive, candidate.cache, d.shape, *candidate.shape);
+    });
+  }
+  if (std::isinf(d.walls_until_m)) return;
+  archive.list(d.walls, [&](Wall& wall) {
+    archive.index(wall.fixture, fixtures.size());
+    if (archive.reading()) {
+      const b2Fixture* solid = fixtures[static_cast<std::size_t>(wall.fixture)];
+      archive.expect(solid != nullptr && info_of(solid).kind != Contact::Kind::kRobot, "walls");
+      wall = wall_of(*solid);
+    }
+    archive_cache(archive, wall.cache, d.shape, *wall.shape);
+  });
+}
+
+void Neighbours::archive(StateArchive& archive) {
+  archive(placed_, travel_m_, gone_m_, pairs_until_m_);
+  const std::size_t robots = bodies_.robots().size();
+  archive.list(pairs_, [&](Pair& pair) {
+    archive.index(pair.first, robots);
+    archive.index(pair.second, robots, pair.first + 1);
+    archive(pair.both_gone_m);
+    archive.unbounded(pair.apart_m);
+    archive_vector(archive, pair.direction);
+    archive_cache(archive, pair.cache, bodies_.robot(pair.first).details->shape,
+                  bodies_.robot(pair.second).details->shape);
+  });
+  meet_gone_m_.resize(pairs_.size());
+  for (double& meet_m : meet_gone_m_) archive.unbounded(meet_m);
+  const std::vector<b2Fixture*> fixtures = bodies_.fixtures();
+  for (Robot& r : bodies_.robots()) archive_robot(archive, r, fixtures);
+}
+
+void Mover::archive(StateArchive& archive) {
+  archive(step_gone_m_);
+  if (!archive.reading()) return;
+  shoving_.clear();
+  for (std::size_t i = 0; i < bodies_.robots().size(); ++i) {
+    if (bodies_.robots()[i].shoving) shoving_.push_back(i);
+  }
+}
+
+void Sight::archive(StateArchive& archive) {
+  archive_order(archive, by_place_);
+  for (Spot& spot : by_place_) archive(spot.place, spot.until_m);
+  if (!archive.reading()) return;
+  solids_changed();
+  outlines_fresh_ = false;
+}
+
+}  // namespace sim::physics

@@ -1,0 +1,294 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Things by name, and what robots carry.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "io/check_world.h"
+#include "io/solid_limits.h"
+#include "sim/core/assert.h"
+#include "sim/world/limits.h"
+#include "simulation/simulation_impl.h"
+
+namespace sim {
+namespace {
+
+// Of names in a message.
+constexpr std::size_t kMostNames = 40;
+
+}  // namespace
+
+// Changes a block, unless something is against it: tells what.
+template <typename Edit>
+std::optional<std::string> Simulation::Impl::change_block(const std::string& name, Edit edit) {
+  auto& obstacles = world.arena.obstacles;
+  const auto it = std::find_if(obstacles.begin(), obstacles.end(),
+                               [&](const ObstacleDescription& o) { return o.name == name; });
+  SIM_ASSERT(it != obstacles.end());
+  ObstacleDescription now = *it;
+  edit(now);
+  // A portable one may be put away beyond the floor, as programs for Stage do.
+  const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
+  if (where) return "obstacle " + name + " would " + *where;
+  if (const auto fault = io::box_fault(now)) {
+    return "obstacle " + name + " cannot be so: expected " + fault->expected + ", found " +
+           fault->found;
+  }
+  const int robot = physics->robot_within(now);
+  if (robot >= 0 && now.state == ObstacleState::kExtended) {
+    return "obstacle " + name + " cannot be put there: robot " +
+           world.robots[static_cast<std::size_t>(robot)].name + " stands there";
+  }
+  const int index = static_cast<int>(it - obstacles.begin());
+  *it = std::move(now);
+  if (it->carried_by >= 0) let_go(index);
+  physics->change_obstacle(index, *it);
+  forget_clearances();
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::Impl::pick_up(std::size_t robot, int index) {
+  ObstacleDescription& thing = obstacle(index);
+  if (!thing.portable || thing.state != ObstacleState::kExtended || thing.carried_by >= 0) {
+    return "obstacle " + thing.name + " cannot be taken: it is " +
+           (!thing.portable         ? "not portable"
+            : thing.carried_by >= 0 ? "carried already"
+                                    : "retracted");
+  }
+  thing.carried_by = static_cast<int>(robot);
+  const Pose X_WT{thing.center.x(), thing.center.y(), thing.yaw_rad};
+  loads.push_back({robot, index, body_pose(robot).inverse() * X_WT, false});
+  physics->set_extended(index, false);
+  show_load(robot);
+  forget_clearances();
+  return std::nullopt;
+}
+
+void Simulation::Impl::carry_at(std::size_t robot, int index, const Pose& X_BT, bool inside) {
+  for (Load& load : loads) {
+    if (load.robot != robot || load.obstacle != index) continue;
+    load.X_BT = X_BT;
+    load.inside = inside;
+  }
+  move_loads();
+  show_load(robot);
+}
+
+std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int index) {
+  ObstacleDescription& thing = obstacle(index);
+  if (thing.carried_by != static_cast<int>(robot)) {
+    return "robot " + world.robots[robot].name + " does not carry obstacle " + thing.name;
+  }
+  std::vector<Pose> poses;
+  for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
+  if (const auto what = io::put_down_blocked_by(world, poses, robot, thing)) {
+    return "obstacle " + thing.name + " cannot be put down: " + *what;
+  }
+  let_go(index);
+  physics->change_obstacle(index, thing);
+  forget_clearances();
+  return std::nullopt;
+}
+
+// It stands again where its description says; the physics must still be told where that is.
+void Simulation::Impl::let_go(int index) {
+  const auto robot = static_cast<std::size_t>(std::exchange(obstacle(index).carried_by, -1));
+  std::erase_if(loads, [&](const Load& load) { return load.obstacle == index; });
+  physics->set_extended(index, true);
+  show_load(robot);
+}
+
+// The physics is told what others see of a robot's load.
+void Simulation::Impl::show_load(std::size_t robot) {
+  std::vector<PhysicsWorld::Load> seen;
+  for (const Load& load : loads) {
+    if (load.robot != robot || load.inside) continue;
+    seen.push_back({load.obstacle, obstacle(load.obstacle)});
+    seen.back().box_B.center = load.X_BT.position();
+    seen.back().box_B.yaw_rad = load.X_BT.yaw_rad;
+  }
+  physics->set_load(static_cast<int>(robot), seen);
+}
+
+void Simulation::Impl::move_loads() {
+  for (const Load& load : loads) {
+    const Pose X_WT = body_pose(load.robot) * load.X_BT;
+    obstacle(load.obstacle).center = X_WT.position();
+    obstacle(load.obstacle).yaw_rad = normalize_angle(X_WT.yaw_rad);
+  }
+}
+
+std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_WB) {
+  std::vector<Pose> poses;
+  for (int k = 0; k < physics->robot_count(); ++k) poses.push_back(physics->body(k).X_WB);
+  if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
+    return "robot " + world.robots[i].name + " cannot be put there: " + *what;
+  }
+  if (!io::is_place(X_WB)) {
+    return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
+  }
+  physics->set_pose(static_cast<int>(i), X_WB);
+  robots[i].last_position = X_WB.position();  // the way there does not count
+  move_loads();
+  for (const auto& device : robots[i].devices) device->placed(X_WB);
+  forget_clearances();
+  return std::nullopt;
+}
+
+std::optional<std::string> Simulation::set_object_dynamics(const std::string& name, bool on) {
+  if (const auto robot = find_robot(name)) return set_robot_dynamics(*robot, on);
+  for (const SceneObject& object : scene_objects()) {
+    if (object.name != name) continue;
+    return object.kind + " \"" + name + "\" has no dynamics: it stands fast and moves for nobody" +
+           (object.dynamic ? ", though it can be extended and retracted" : "");
+  }
+  return no_such_object(name);
+}
+
+std::vector<SceneObject> Simulation::scene_objects() const {
+  const ArenaDescription& arena = impl_->world.arena;
+  std::vector<SceneObject> objects;
+  const auto add_box = [&objects](const ObstacleDescription& o, const char* kind) {
+    objects.push_back({o.name,
+                       kind,
+                       {o.center.x(), o.center.y(), o.yaw_rad},
+                       o.size,
+                       o.type == ObstacleType::kDynamic,
+                       o.state == ObstacleState::kExtended});
+  };
+  for (int i = 0; i < robot_count(); ++i) {
+    Eigen::AlignedBox2d box;
+    for (const Vec2& v : model(i).footprint) box.extend(v);
+    objects.push_back({impl_->world.robots[static_cast<std::size_t>(i)].name, "robot", body(i).X_WB,
+                       box.sizes(), true});
+  }
+  for (const ObstacleDescription& o : arena.obstacles) add_box(o, "block");
+  for (const ObstacleDescription& o : arena.dock_separators) add_box(o, "separator");
+  if (arena.border) {
+    const Vec2 middle = arena.origin + 0.5 * arena.size;
+    objects.push_back({"border", "border", {middle.x(), middle.y(), 0.0}, arena.size});
+  }
+  Eigen::AlignedBox2d walls;
+  for (const WallLoop& loop : arena.walls) {
+    for (const Vec2& v : loop.vertices) walls.extend(v);
+  }
+  if (!walls.isEmpty()) {
+    const Vec2 middle = walls.center();
+    objects.push_back({"wall", "wall", {middle.x(), middle.y(), 0.0}, walls.sizes()});
+  }
+  return objects;
+}
+
+std::optional<SceneObject> Simulation::find_object(const std::string& name) const {
+  std::vector<SceneObject> objects = scene_objects();
+  const auto it = std::find_if(objects.begin(), objects.end(),
+                               [&](const SceneObject& object) { return object.name == name; });
+  if (it == objects.end()) return std::nullopt;
+  return std::move(*it);
+}
+
+std::string Simulation::no_such_object(const std::string& name) const {
+  const std::vector<SceneObject> objects = scene_objects();
+  std::string known;
+  for (std::size_t i = 0; i < std::min(objects.size(), kMostNames); ++i) {
+    known += (i == 0 ? "" : ", ") + objects[i].name;
+  }
+  if (objects.size() > kMostNames) {
+    known += " and " + std::to_string(objects.size() - kMostNames) + " more";
+  }
+  return "there is no robot or obstacle named \"" + name +
+         "\"; this world has: " + (known.empty() ? "nothing" : known);
+}
+
+std::optional<std::string> Simulation::place_object(const std::string& name, const Pose& pose) {
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  if (object->kind == "robot") {
+    const auto robot = static_cast<std::size_t>(*find_robot(name));
+    Motion* motion = impl_->robots[robot].motion;
+    const Twist told = motion == nullptr ? Twist{} : motion->commanded();
+    if (auto refusal = impl_->place(robot, pose)) return refusal;
+    if (motion != nullptr && told != Twist{}) {
+      static_cast<void>(motion->apply(TwistCommand{told}));
+    }
+    return std::nullopt;
+  }
+  if (object->kind != "block") return object->kind + " \"" + name + "\" stands fast";
+  return impl_->change_block(name, [&](ObstacleDescription& block) {
+    block.center = pose.position();
+    block.yaw_rad = pose.yaw_rad;
+  });
+}
+
+std::optional<std::string> Simulation::set_block_size(const std::string& name, const Vec2& size_m,
+                                                      double height_m) {
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
+  // As a world's reader has it; Box2D makes nothing of smaller boxes.
+  if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
+    return "the sides and the height of a block are at least 0.001 m";
+  }
+  return impl_->change_block(name, [&](ObstacleDescription& block) {
+    block.size = size_m;
+    block.height_m = height_m;
+  });
+}
+
+std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
+  if (const auto robot = find_robot(name)) {
+    impl_->world.robots[static_cast<std::size_t>(*robot)].colour = colour;
+    return std::nullopt;
+  }
+  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+    if (block.name != name) continue;
+    block.colour = colour;
+    return std::nullopt;
+  }
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  return object->kind + " \"" + name + "\" keeps its colour";
+}
+
+std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
+  if (fiducial < 0) return "the number of a fiducial is at least 0";
+  if (const auto robot = find_robot(name)) {
+    impl_->world.robots[static_cast<std::size_t>(*robot)].fiducial = fiducial;
+    return std::nullopt;
+  }
+  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+    if (block.name != name) continue;
+    block.fiducial = fiducial;
+    return std::nullopt;
+  }
+  const std::optional<SceneObject> object = find_object(name);
+  if (!object) return no_such_object(name);
+  return object->kind + " \"" + name + "\" bears no fiducial";
+}
+
+std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
+                                                          ObstacleState state) {
+  auto& obstacles = impl_->world.arena.obstacles;
+  const auto it = std::find_if(obstacles.begin(), obstacles.end(),
+                               [&](const ObstacleDescription& o) { return o.name == name; });
+  if (it == obstacles.end()) return "there is no obstacle named \"" + name + "\"";
+  if (it->type == ObstacleType::kStatic) {
+    return "obstacle \"" + name + "\" is static: it can be neither extended nor retracted";
+  }
+  if (it->carried_by >= 0) {
+    return "obstacle \"" + name + "\" is carried by robot " +
+           impl_->world.robots[static_cast<std::size_t>(it->carried_by)].name;
+  }
+  const int index = static_cast<int>(it - obstacles.begin());
+  const bool extend = state == ObstacleState::kExtended;
+  if (it->state == state) return std::nullopt;
+  if (extend && impl_->physics->robot_stands_on(index)) {
+    return "obstacle \"" + name + "\" cannot be extended: a robot stands on it";
+  }
+  impl_->physics->set_extended(index, extend);
+  it->state = state;
+  impl_->forget_clearances();
+  return std::nullopt;
+}
+
+}  // namespace sim

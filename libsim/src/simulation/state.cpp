@@ -1,0 +1,252 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// The state of a simulation apart from its world: saved, restored, hashed.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "io/solid_limits.h"
+#include "sim/core/hash.h"
+#include "sim/simulation/world_hash.h"
+#include "sim/world/limits.h"
+#include "sim/world/view_mode.h"
+#include "simulation/simulation_impl.h"
+
+namespace sim {
+namespace {
+
+// What a snapshot begins with.
+struct SnapshotHeader {
+  std::array<char, 8> magic;
+  std::uint64_t version;
+  std::uint64_t world;  // world_hash()
+  std::uint64_t seed;
+  std::uint64_t state;     // bytes of the state
+  std::uint64_t pictures;  // of the clients' layers, after it
+  std::uint64_t hash;      // of both
+};
+constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
+constexpr std::uint64_t kSnapshotVersion = 1;
+
+std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
+  StateHash hash;
+  hash.add_bytes(bytes.data(), bytes.size());
+  return hash.value();
+}
+
+std::string hexadecimal(std::uint64_t number) {
+  std::string text(16, '0');
+  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, number /= 16) {
+    *digit = "0123456789abcdef"[number % 16];
+  }
+  return text;
+}
+
+// The header of a snapshot that is as it was written, for this world.
+// @param own  the hash of the world as it was at the start.
+SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const WorldDescription& world,
+                              std::uint64_t own) {
+  SnapshotHeader header{};
+  const auto bytes = [](std::uint64_t count) { return std::to_string(count) + " bytes"; };
+  const auto expect = [](bool holds, const std::string& expected, const std::string& found) {
+    if (!holds) throw SnapshotError(expected, found);
+  };
+  expect(snapshot.size() >= sizeof header, "at least " + bytes(sizeof header),
+         bytes(snapshot.size()));
+  std::memcpy(&header, snapshot.data(), sizeof header);
+  expect(header.magic == kMagic, "a snapshot of Playpen", "other bytes");
+  expect(header.version == kSnapshotVersion, "version " + std::to_string(kSnapshotVersion),
+         "version " + std::to_string(header.version));
+  expect(header.world == own, "world " + world.name + " (" + hexadecimal(own) + ")",
+         "another world (" + hexadecimal(header.world) + ")");
+  expect(header.seed == world.simulation.seed, "seed " + std::to_string(world.simulation.seed),
+         "seed " + std::to_string(header.seed));
+  const std::uint64_t left = snapshot.size() - sizeof header;
+  expect(header.state <= left && header.pictures == left - header.state,
+         bytes(header.state) + " of state and " + bytes(header.pictures) + " of pictures",
+         bytes(left));
+  const std::uint64_t hash = hash_of(snapshot.subspan(sizeof header));
+  expect(header.hash == hash, "bytes with the hash " + hexadecimal(header.hash),
+         "the hash " + hexadecimal(hash) + ": they were altered");
+  return header;
+}
+
+}  // namespace
+
+WorldDescription Simulation::Impl::start_world() const {
+  WorldDescription start = world;
+  start.arena.obstacles = start_obstacles;
+  for (std::size_t i = 0; i < start_looks.size(); ++i) {
+    start.robots[i].colour = start_looks[i].colour;
+    start.robots[i].fiducial = start_looks[i].fiducial;
+  }
+  return start;
+}
+
+std::uint64_t Simulation::Impl::start_hash() const {
+  if (!known_start_hash) known_start_hash = world_hash(start_world());
+  return *known_start_hash;
+}
+
+void Simulation::Impl::archive_obstacle(StateArchive& archive, ObstacleDescription& thing) {
+  archive(thing.center, thing.size, thing.yaw_rad, thing.height_m, thing.fiducial, thing.colour);
+  archive.choice(thing.state, ObstacleState::kRetracted);
+  archive.index(thing.carried_by, robots.size(), -1);
+  archive.expect(!archive.reading() || !io::box_fault(thing), "obstacles that can be");
+}
+
+void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {
+  RobotParts& robot = robots[i];
+  RobotStatistics& s = robot.statistics;
+  archive(world.robots[i].colour, world.robots[i].fiducial, robot.last_position,
+          robot.clearance_slack_m, s.path_length_m, s.collisions, s.least_clearance_m,
+          s.stalled_time_s);
+  for (const auto& device : robot.devices) device->archive(archive);
+  if (archive.reading()) note_due_times(i);
+}
+
+void Simulation::Impl::archive(StateArchive& archive) {
+  archive.time(now_ns);
+  archive(steps);
+  physics->archive(archive);
+  for (ObstacleDescription& thing : world.arena.obstacles) archive_obstacle(archive, thing);
+  for (std::size_t i = 0; i < robots.size(); ++i) archive_robot(archive, i);
+  archive.list(loads, [&](Load& load) {
+    archive.index(load.robot, robots.size());
+    archive.index(load.obstacle, world.arena.obstacles.size());
+    archive(load.X_BT, load.inside);
+    archive.expect(obstacle(load.obstacle).carried_by == static_cast<int>(load.robot),
+                   "loads of those who carry them");
+  });
+  archive.list(updated, [&](DeviceId& id) {
+    archive.index(id.robot, robots.size());
+    archive.index(id.device, robots[static_cast<std::size_t>(id.robot)].devices.size());
+  });
+  forget_old_collisions();
+  archive.list(collisions, [&](Collision& collision) {
+    archive.time(collision.time_ns);
+    archive.index(collision.robot, robots.size());
+    archive(collision.partner);
+  });
+  archive.list(said, [&](Utterance& utterance) {
+    archive.time(utterance.time_ns);
+    archive.index(utterance.robot, robots.size());
+    archive(utterance.text);
+  });
+  layers.archive_base(archive);
+  if (!archive.reading()) return;
+  for (std::size_t i = 0; i < robots.size(); ++i) show_load(i);
+}
+
+void Simulation::Impl::archive_pictures(StateArchive& archive) {
+  archive.choice(view_mode, ViewMode::kFullScreen);
+  layers.archive_others(archive);
+}
+
+std::uint64_t Simulation::state_hash() const {
+  StateHash hash;
+  hash.add(impl_->now_ns);
+  hash.add(impl_->steps);
+  impl_->physics->hash(hash);
+  for (const RobotParts& robot : impl_->robots) {
+    for (const auto& device : robot.devices) {
+      device->hash(hash);
+      if (!device->active()) hash.add("off " + device->name());
+    }
+    hash.add(robot.statistics.path_length_m);
+    hash.add(robot.statistics.collisions);
+    hash.add(robot.statistics.least_clearance_m);
+    hash.add(robot.statistics.stalled_time_s);
+  }
+  for (std::size_t i = 0; i < impl_->start_looks.size(); ++i) {
+    const int fiducial = impl_->world.robots[i].fiducial;
+    if (fiducial == impl_->start_looks[i].fiducial) continue;
+    hash.add("fiducial of " + impl_->world.robots[i].name);
+    hash.add(fiducial);
+  }
+  // Blocks that are where they were at the start, as nearly always, leave the hash as it was.
+  for (std::size_t i = 0; i < impl_->start_obstacles.size(); ++i) {
+    const ObstacleDescription& start = impl_->start_obstacles[i];
+    const ObstacleDescription& now = impl_->world.arena.obstacles[i];
+    if (now.center == start.center && now.size == start.size && now.yaw_rad == start.yaw_rad &&
+        now.height_m == start.height_m && now.fiducial == start.fiducial) {
+      continue;
+    }
+    for (const double x : {static_cast<double>(i), now.center.x(), now.center.y(), now.size.x(),
+                           now.size.y(), now.yaw_rad, now.height_m}) {
+      hash.add(x);
+    }
+    if (now.fiducial != start.fiducial) hash.add(now.fiducial);
+  }
+  for (const Impl::Load& load : impl_->loads) {
+    for (const double x : {static_cast<double>(load.obstacle), load.X_BT.x_m, load.X_BT.y_m,
+                           load.X_BT.yaw_rad, load.inside ? 1.0 : 0.0}) {
+      hash.add(x);
+    }
+  }
+  impl_->layers.base().hash(hash);
+  return hash.value();
+}
+
+Snapshot Simulation::save() const {
+  SnapshotHeader header{
+      kMagic, kSnapshotVersion, impl_->start_hash(), impl_->world.simulation.seed, 0, 0, 0};
+  StateArchive archive;
+  archive.raw(&header, sizeof header);
+  impl_->archive(archive);
+  header.state = archive.written().size() - sizeof header;
+  impl_->archive_pictures(archive);
+  header.pictures = archive.written().size() - sizeof header - header.state;
+  header.hash = hash_of(archive.written().subspan(sizeof header));
+  Snapshot snapshot = archive.take();
+  std::memcpy(snapshot.data(), &header, sizeof header);
+  return snapshot;
+}
+
+std::unique_ptr<Simulation::Impl> Simulation::Impl::restored(std::span<const std::uint8_t> snapshot,
+                                                             LogHook hook) const {
+  const SnapshotHeader header = checked_header(snapshot, world, start_hash());
+  auto made = std::make_unique<Impl>(start_world(), std::move(hook), true);
+  made->known_start_hash = known_start_hash;
+  StateArchive state(snapshot.subspan(sizeof header, header.state));
+  made->archive(state);
+  state.expect(state.left() == 0, "no more bytes of state");
+  StateArchive pictures(snapshot.subspan(sizeof header + header.state));
+  made->archive_pictures(pictures);
+  pictures.expect(pictures.left() == 0, "no more bytes of pictures");
+  return made;
+}
+
+void Simulation::Impl::succeed(Impl& before) {
+  const SimTime later_ns = before.now_ns - now_ns;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    robots[i].statistics = before.robots[i].statistics;
+    for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
+      robots[i].devices[k]->succeed(*before.robots[i].devices[k], later_ns);
+    }
+    note_due_times(i);
+  }
+  now_ns = before.now_ns;
+  steps = before.steps;
+  collisions = std::move(before.collisions);
+  said = std::move(before.said);
+  updated.clear();
+  forget_clearances();
+  before.layers.take_base(layers);
+  layers = std::move(before.layers);
+  view_mode = before.view_mode;
+}
+
+void Simulation::restore(std::span<const std::uint8_t> snapshot, RestoreScope scope) {
+  std::unique_ptr<Impl> restored = impl_->restored(snapshot, impl_->log);
+  if (scope == RestoreScope::kAll) {
+    restored->layers.succeed(impl_->layers);
+  } else {
+    restored->succeed(*impl_);
+  }
+  impl_ = std::move(restored);
+}
+
+Simulation Simulation::fork() const { return Simulation(impl_->restored(save(), {})); }
+
+}  // namespace sim
