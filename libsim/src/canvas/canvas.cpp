@@ -49,10 +49,4 @@ void Canvas::draw_line(int column0, int row0, int column1, int row1, Colour colo
 
 void Canvas::clear(Colour colour) noexcept { cells_.fill(CellValue::of(colour)); }
 
-void Canvas::hash(StateHash& hash) const noexcept {
-  hash.add(width());
-  hash.add(height());
-  hash.add_bytes(data().data(), data().size());
-}
-
 }  // namespace sim

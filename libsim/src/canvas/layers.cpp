@@ -480,13 +480,12 @@ std::vector<std::vector<std::uint8_t>> LayerStack::resize(
 }
 
 void LayerStack::archive_base(StateArchive& archive) {
-  CellRaster& base = Impl::cells(impl_->base);
-  archive(base);
+  archive(impl_->base);
   if (!archive.reading()) return;
   impl_->description.width = width();
   impl_->description.height = height();
-  impl_->dirty.assign(base.tiles().size(), 1);
-  impl_->picture.assign(base.data().size(), 0);
+  impl_->dirty.assign(Impl::cells(impl_->base).tiles().size(), 1);
+  impl_->picture.assign(impl_->base.data().size(), 0);
 }
 
 void LayerStack::archive_others(StateArchive& archive) {
@@ -523,7 +522,7 @@ void LayerStack::archive_others(StateArchive& archive) {
 }
 
 void LayerStack::take_base(LayerStack& from) {
-  resize(from.width(), from.height());
+  SIM_ASSERT(width() == from.width() && height() == from.height());
   CellRaster& base = Impl::cells(impl_->base);
   std::swap(base, Impl::cells(from.impl_->base));
   impl_->dirty.assign(base.tiles().size(), 1);

@@ -122,12 +122,6 @@ void Aio::archive(StateArchive& archive) {
                  "a voltage for each output");
 }
 
-void Aio::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  for (const double voltage_v : outputs_v_) hash.add(voltage_v);
-  hash.add(noise_.draws());
-}
-
 namespace {
 
 bool read_analog(const io::Reader& value, void* into) {

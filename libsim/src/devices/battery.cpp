@@ -82,11 +82,6 @@ void Battery::archive(StateArchive& archive) {
   archive(energy_j_, power_w_, docked_);
 }
 
-void Battery::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(energy_j_);
-}
-
 namespace {
 
 std::optional<FieldFault> voltage_fault(const void* object) {

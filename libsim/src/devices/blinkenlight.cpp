@@ -56,14 +56,6 @@ void Blinkenlight::archive(StateArchive& archive) {
   archive(now_.enabled, now_.colour, now_.period_s, now_.duty_cycle);
 }
 
-void Blinkenlight::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(now_.enabled);
-  for (const int channel : {now_.colour.r, now_.colour.g, now_.colour.b}) hash.add(channel);
-  hash.add(now_.period_s);
-  hash.add(now_.duty_cycle);
-}
-
 constexpr Field kBlinkenlightSettings[] = {
     frequency_field<&BlinkenlightParams::frequency_hz>(),
     field<&BlinkenlightParams::colour>("colour", "", "`#RGB` or `#RRGGBB`"),

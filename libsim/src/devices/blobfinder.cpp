@@ -151,19 +151,6 @@ void Blobfinder::archive(StateArchive& archive) {
   archive(noise_);
 }
 
-void Blobfinder::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-  // What colours things have now is told nowhere else.
-  for (const BlobfinderReading::Blob& blob : reading().blobs) {
-    for (const int x : {int{blob.colour.r}, int{blob.colour.g}, int{blob.colour.b}, blob.area,
-                        blob.x, blob.y, blob.left, blob.right, blob.top, blob.bottom}) {
-      hash.add(x);
-    }
-    hash.add(blob.range_m);
-  }
-}
-
 namespace {
 
 bool read_colour(const io::Reader& value, void* into) {

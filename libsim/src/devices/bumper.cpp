@@ -117,11 +117,6 @@ void Bumper::archive(StateArchive& archive) {
       "a flag for each segment");
 }
 
-void Bumper::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add_bytes(pressed_.data(), pressed_.size());
-}
-
 namespace {
 
 std::optional<FieldFault> segment_fault(const void* object) {

@@ -128,14 +128,9 @@ void Camera::paint_background() {
 void Camera::archive(StateArchive& archive) {
   SensorOf::archive(archive);
   const std::int64_t size = std::int64_t{3} * reading().width * reading().height;
-  archive.expect(reading().pixels.empty() ||
-                     static_cast<std::int64_t>(reading().pixels.size()) == size,
-                 "three bytes for each pixel");
-}
-
-void Camera::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add_bytes(reading().pixels.data(), reading().pixels.size());
+  archive.expect(
+      reading().pixels.empty() || static_cast<std::int64_t>(reading().pixels.size()) == size,
+      "three bytes for each pixel");
 }
 
 namespace {

@@ -27,11 +27,6 @@ void Compass::archive(StateArchive& archive) {
   archive(noise_);
 }
 
-void Compass::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-}
-
 constexpr Field kCompassSettings[] = {
     frequency_field<&CompassParams::frequency_hz>(),
     field<&CompassParams::noise_rad>("noise_deg", "degrees", "standard deviation of the heading")

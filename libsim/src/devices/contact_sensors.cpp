@@ -39,11 +39,6 @@ void CollisionSensor::archive(StateArchive& archive) {
   archive(touched_);
 }
 
-void CollisionSensor::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  for (const std::string& name : touched_) hash.add(name);
-}
-
 constexpr Field kCollisionSettings[] = {
     frequency_field<&CollisionParams::frequency_hz>(),
 };

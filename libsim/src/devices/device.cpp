@@ -52,11 +52,6 @@ void Sensor::archive(StateArchive& archive) {
   archive.time(next_due_ns_);
 }
 
-void Sensor::hash(StateHash& hash) const {
-  hash.add(sequence_);
-  hash.add(next_due_ns_);
-}
-
 bool well_within(const Polygon& footprint, const Pose& X_BL) {
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Vec2& a = footprint[i];

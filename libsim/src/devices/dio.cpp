@@ -93,11 +93,6 @@ void Dio::archive(StateArchive& archive) {
   archive(outputs_);
 }
 
-void Dio::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(outputs_);
-}
-
 namespace {
 
 constexpr std::array<std::string_view, 3> kSignals = {"contact", "stalled", "dock"};

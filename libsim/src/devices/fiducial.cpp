@@ -80,11 +80,6 @@ void FiducialFinder::archive(StateArchive& archive) {
   archive(archived().X_WS, noise_);
 }
 
-void FiducialFinder::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-}
-
 constexpr Field kFiducialSettings[] = {
     frequency_field<&FiducialParams::frequency_hz>(),
     range_max_field<&FiducialParams::range_max_m>(),

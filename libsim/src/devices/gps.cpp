@@ -114,11 +114,6 @@ void Gps::archive(StateArchive& archive) {
   archive(noise_);
 }
 
-void Gps::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-}
-
 constexpr Field kGpsSettings[] = {
     frequency_field<&GpsParams::frequency_hz>(),
     // Snyder's series are for Mercator's part of the world, as UTM is.

@@ -269,18 +269,6 @@ void Gripper::archive(StateArchive& archive) {
   archive(held_, stored_);
 }
 
-void Gripper::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(closed_ns_);
-  hash.add(static_cast<std::uint64_t>(motion_));
-  hash.add(fault_);
-  hash.add(static_cast<std::uint64_t>(held_ ? held_->obstacle + 1 : 0));
-  for (const Held& held : stored_) {
-    hash.add(static_cast<std::uint64_t>(held.obstacle));
-    hash.add(held.closed_ns);
-  }
-}
-
 namespace {
 
 /// The middle of a robot's front.

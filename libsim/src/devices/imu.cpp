@@ -70,14 +70,6 @@ void Imu::archive(StateArchive& archive) {
   archive(noise_, before_, gained_x_mps_, gained_y_mps_, turned_rad_, time_s_, yaw_rad_);
 }
 
-void Imu::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-  for (const double x : {gained_x_mps_, gained_y_mps_, turned_rad_, time_s_, yaw_rad_}) {
-    hash.add(x);
-  }
-}
-
 constexpr Field kImuSettings[] = {
     frequency_field<&ImuParams::frequency_hz>(),
     field<&ImuParams::noise_mps2>("noise_acceleration", "m/s^2",

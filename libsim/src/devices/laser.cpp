@@ -67,12 +67,6 @@ void Laser::archive(StateArchive& archive) {
                  "a range for each beam");
 }
 
-void Laser::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-  hash.add_bytes(reading().ranges_m.data(), reading().ranges_m.size() * sizeof(double));
-}
-
 namespace {
 
 std::optional<FieldFault> laser_view_fault(const void* object) {

@@ -8,12 +8,6 @@
 namespace sim {
 namespace {
 
-void hash_pose(StateHash& hash, const Pose& pose) {
-  hash.add(pose.x_m);
-  hash.add(pose.y_m);
-  hash.add(pose.yaw_rad);
-}
-
 double sinc(double x) { return std::abs(x) < 1e-8 ? 1.0 : std::sin(x) / x; }
 
 }  // namespace
@@ -53,12 +47,6 @@ void PoseSensor::measure(const StepContext& context) {
 void PoseSensor::archive(StateArchive& archive) {
   SensorOf::archive(archive);
   archive(noise_, X_WB_, X_FW_);
-}
-
-void PoseSensor::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-  hash_pose(hash, X_FW_);
 }
 
 Odometry::Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
@@ -120,14 +108,6 @@ void Odometry::measure(const StepContext& context) {
 void Odometry::archive(StateArchive& archive) {
   SensorOf::archive(archive);
   archive(noise_, X_SB_, X_SR_, path_length_m_);
-}
-
-void Odometry::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-  hash_pose(hash, X_SB_);
-  if (X_SR_ != X_SB_) hash_pose(hash, X_SR_);
-  if (path_length_m_ != 0.0) hash.add(path_length_m_);
 }
 
 constexpr const char* kLevels[] = {"integrated", "differential", "raw"};

@@ -135,19 +135,6 @@ void PositionControl::archive(StateArchive& archive, const DriveDescription& dri
   params_ = params;
 }
 
-void PositionControl::hash(StateHash& hash) const {
-  for (const double x : {command_.goal.x_m, command_.goal.y_m, command_.goal.yaw_rad,
-                         command_.max_speed_mps, command_.max_turn_rate_radps}) {
-    hash.add(x);
-  }
-  hash.add(command_.frame);
-  hash.add(aligning_);
-  hash.add(backwards_);
-  hash.add(leaving_);
-  if (sought_) hash.add("has sought the heading");
-  if (given_up_) hash.add("has given it up");
-}
-
 // --- Motion
 
 Motion::Motion(std::string name, const MotionParams& params, const DriveDescription& drive)
@@ -307,29 +294,6 @@ void Motion::archive(StateArchive& archive) {
   archive(enabled_, commanded_, target_, commanded_steering_rad_, steering_rad_);
   archive.fields(heading_);
   position_.archive(archive, drive_, params_);
-}
-
-void Motion::hash(StateHash& hash) const {
-  hash.add(enabled_);
-  for (const double x :
-       {commanded_.v_mps, commanded_.omega_radps, target_.v_mps, target_.omega_radps}) {
-    hash.add(x);
-  }
-  if (drive_.kind == DriveKind::kOmnidirectional) {
-    hash.add(commanded_.lateral_mps);
-    hash.add(target_.lateral_mps);
-  }
-  if (drive_.kind == DriveKind::kCar) {
-    hash.add(commanded_steering_rad_);
-    hash.add(steering_rad_);
-  }
-  if (mode_ == Mode::kHeading) {
-    hash.add(heading_.v_mps);
-    hash.add(heading_.lateral_mps);
-    hash.add(heading_.yaw_rad);
-    hash.add(heading_.frame);
-  }
-  if (mode_ == Mode::kPosition) position_.hash(hash);
 }
 
 namespace {

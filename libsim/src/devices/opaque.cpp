@@ -81,14 +81,6 @@ void Opaque::archive(StateArchive& archive) {
   archive(sent_messages_, sent_, sent_before_step_, arrived_, lost_);
 }
 
-void Opaque::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(sent_);
-  hash.add(reading().number);
-  hash.add(lost_);
-  for (const Message& message : arrived_) hash.add_bytes(message.data(), message.size());
-}
-
 namespace {
 
 bool read_sender(const io::Reader& value, void* sender) {

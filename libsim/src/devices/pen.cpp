@@ -28,12 +28,6 @@ void Pen::archive(StateArchive& archive) {
   archive(has_last_, last_column_, last_row_);
 }
 
-void Pen::hash(StateHash& hash) const {
-  hash.add(has_last_);
-  hash.add(last_column_);
-  hash.add(last_row_);
-}
-
 constexpr Field kPenSettings[] = {
     field<&PenParams::colour>("colour", "", "of the trail: `#RGB`, `#RRGGBB` or `#RRGGBBAA`"),
     field<&PenParams::trail>("trail", "", "mark the robot's way without being told"),

@@ -72,13 +72,6 @@ void Ptz::archive(StateArchive& archive) {
   }
 }
 
-void Ptz::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  for (const Axis* axis : {&pan_, &tilt_, &view_}) {
-    for (const double x : {axis->now, axis->goal, axis->speed}) hash.add(x);
-  }
-}
-
 namespace {
 
 std::optional<FieldFault> ptz_view_fault(const void* object) {

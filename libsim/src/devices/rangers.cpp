@@ -132,12 +132,6 @@ void Ranger::archive(StateArchive& archive) {
                  "a range for each transducer");
 }
 
-void Ranger::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-  hash.add_bytes(reading().ranges_m.data(), reading().ranges_m.size() * sizeof(double));
-}
-
 namespace {
 
 std::optional<FieldFault> mountings_fault(const void* object) {

@@ -43,11 +43,6 @@ void Speech::archive(StateArchive& archive) {
   archive.time(left_ns_);
 }
 
-void Speech::hash(StateHash& hash) const {
-  hash.add(text_);
-  hash.add(text_.empty() ? SimTime{0} : left_ns_);
-}
-
 constexpr Field kSpeechSettings[] = {
     field<&SpeechParams::shown_s>("shown", "s",
                                   "for so long a text stands over the robot in pictures")

@@ -30,8 +30,6 @@ std::optional<std::string> Teleport::carry_out(const Command& command, RobotCont
   return robot.place(X_WB);
 }
 
-void Teleport::hash(StateHash&) const {}
-
 SIM_FIELDS(TeleportParams, {})
 
 DeviceKind teleport_kind() { return device_kind<Teleport, TeleportParams, void>("teleport", {}); }

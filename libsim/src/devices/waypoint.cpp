@@ -119,17 +119,6 @@ void Waypoint::archive(StateArchive& archive) {
   archive.choice(status_, WaypointStatus::kStop);
 }
 
-void Waypoint::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(static_cast<int>(status_));
-  hash.add(goal_number_);
-  hash.add(has_goal_);
-  hash.add(steers_);
-  for (const double x : {goal_.goal_m.x(), goal_.goal_m.y(), goal_.tolerance_m, goal_.speed_mps}) {
-    hash.add(x);
-  }
-}
-
 constexpr const char* kWaypointWords[] = {"Arrived", "Transit", "Stop"};
 
 constexpr Field kWaypointSettings[] = {

@@ -102,11 +102,6 @@ void Wifi::archive(StateArchive& archive) {
   archive(noise_);
 }
 
-void Wifi::hash(StateHash& hash) const {
-  Sensor::hash(hash);
-  hash.add(noise_.draws());
-}
-
 constexpr Field kAccessPoint[] = {
     field<&AccessPoint::name>("name", "", "name of its network").needed("the name of its network"),
     field<&AccessPoint::p_W>("", "m", "place in the world").within(-kFarthest_m, kFarthest_m),

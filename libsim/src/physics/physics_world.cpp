@@ -151,38 +151,6 @@ void PhysicsWorld::archive(StateArchive& archive) {
 
 void PhysicsWorld::bare_step(double dt_s) { impl_->mover.bare_step(dt_s); }
 
-namespace {
-
-void hash_body(const b2Body& body, StateHash& hash) {
-  for (const float x :
-       {body.GetPosition().x, body.GetPosition().y, body.GetAngle(), body.GetLinearVelocity().x,
-        body.GetLinearVelocity().y, body.GetAngularVelocity()}) {
-    hash.add(static_cast<double>(x));
-  }
-  for (const b2ContactEdge* e = body.GetContactList(); e != nullptr; e = e->next) {
-    hash.add(e->contact->IsTouching());
-    const b2Manifold& manifold = *e->contact->GetManifold();
-    for (int32 i = 0; i < manifold.pointCount; ++i) {
-      hash.add(static_cast<double>(manifold.points[i].normalImpulse));
-    }
-  }
-}
-
-}  // namespace
-
-void PhysicsWorld::hash(StateHash& hash) const {
-  for (const physics::Robot& r : impl_->bodies.robots()) {
-    for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.X_WB.yaw_rad, r.stall_clock_s, r.target.v_mps,
-                           r.target.omega_radps}) {
-      hash.add(x);
-    }
-    if (r.body != nullptr) hash_body(*r.body, hash);
-    if (r.target.lateral_mps != 0.0) hash.add(r.target.lateral_mps);
-    if (r.suspended) hash.add(std::string_view("suspended"));
-  }
-  for (const b2Body* body : impl_->bodies.obstacles()) hash.add(body->IsEnabled());
-}
-
 std::string partner_name(const PhysicsWorld::Contact& contact, const WorldDescription& world) {
   const auto index = static_cast<std::size_t>(contact.index);
   switch (contact.kind) {

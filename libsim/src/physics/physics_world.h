@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "sim/core/body_state.h"
-#include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/core/state_archive.h"
 #include "sim/scan/scan_kernel.h"
@@ -139,7 +138,6 @@ class PhysicsWorld {
   [[nodiscard]] bool is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m,
                                   int own_robot, const Contact& target) const;
 
-  void hash(StateHash& hash) const;
   /// Writes the state, or reads one of a world with the same arena and robots. What robots carry is
   /// left to set_load().
   void archive(StateArchive& archive);

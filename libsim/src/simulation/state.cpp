@@ -144,48 +144,9 @@ void Simulation::Impl::archive_pictures(StateArchive& archive) {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  StateHash hash;
-  hash.add(impl_->now_ns);
-  hash.add(impl_->steps);
-  impl_->physics->hash(hash);
-  for (const RobotParts& robot : impl_->robots) {
-    for (const auto& device : robot.devices) {
-      device->hash(hash);
-      if (!device->active()) hash.add("off " + device->name());
-    }
-    hash.add(robot.statistics.path_length_m);
-    hash.add(robot.statistics.collisions);
-    hash.add(robot.statistics.least_clearance_m);
-    hash.add(robot.statistics.stalled_time_s);
-  }
-  for (std::size_t i = 0; i < impl_->start_looks.size(); ++i) {
-    const int fiducial = impl_->world.robots[i].fiducial;
-    if (fiducial == impl_->start_looks[i].fiducial) continue;
-    hash.add("fiducial of " + impl_->world.robots[i].name);
-    hash.add(fiducial);
-  }
-  // Blocks that are where they were at the start, as nearly always, leave the hash as it was.
-  for (std::size_t i = 0; i < impl_->start_obstacles.size(); ++i) {
-    const ObstacleDescription& start = impl_->start_obstacles[i];
-    const ObstacleDescription& now = impl_->world.arena.obstacles[i];
-    if (now.center == start.center && now.size == start.size && now.yaw_rad == start.yaw_rad &&
-        now.height_m == start.height_m && now.fiducial == start.fiducial) {
-      continue;
-    }
-    for (const double x : {static_cast<double>(i), now.center.x(), now.center.y(), now.size.x(),
-                           now.size.y(), now.yaw_rad, now.height_m}) {
-      hash.add(x);
-    }
-    if (now.fiducial != start.fiducial) hash.add(now.fiducial);
-  }
-  for (const Impl::Load& load : impl_->loads) {
-    for (const double x : {static_cast<double>(load.obstacle), load.X_BT.x_m, load.X_BT.y_m,
-                           load.X_BT.yaw_rad, load.inside ? 1.0 : 0.0}) {
-      hash.add(x);
-    }
-  }
-  impl_->layers.base().hash(hash);
-  return hash.value();
+  StateArchive archive;
+  impl_->archive(archive);
+  return hash_of(archive.written());
 }
 
 Snapshot Simulation::save() const {
@@ -232,6 +193,7 @@ void Simulation::Impl::succeed(Impl& before) {
   said = std::move(before.said);
   updated.clear();
   forget_clearances();
+  layers.resize(before.layers.width(), before.layers.height());  // which clients chose
   before.layers.take_base(layers);
   layers = std::move(before.layers);
   view_mode = before.view_mode;

@@ -9,6 +9,9 @@
 #include <random>
 #include <set>
 #include <utility>
+#include <vector>
+
+#include "sim/core/state_archive.h"
 
 namespace sim {
 namespace {
@@ -217,19 +220,24 @@ TEST(CanvasLine, TakesTheGreatestCoordinatesThereAre) {
   EXPECT_EQ(drawn_cells(upright), (std::set<Cell>{{1, 0}, {1, 1}, {1, 2}}));
 }
 
-TEST(Canvas, HashTellsContentsAndShapesApart) {
-  const auto hash_of = [](const Canvas& canvas) {
-    StateHash hash;
-    canvas.hash(hash);
-    return hash.value();
+TEST(Canvas, StateTellsContentsAndShapesApart) {
+  const auto state_of = [](Canvas canvas) {
+    StateArchive archive;
+    canvas.archive(archive);
+    return archive.take();
   };
   Canvas canvas = canvas_of(6, 4);
-  const std::uint64_t bare = hash_of(canvas);
-  EXPECT_NE(hash_of(canvas_of(4, 6)), bare);
+  const std::vector<std::uint8_t> bare = state_of(canvas);
+  EXPECT_NE(state_of(canvas_of(4, 6)), bare);
   canvas.set_pixel(5, 3, kRed);
-  EXPECT_NE(hash_of(canvas), bare);
+  const std::vector<std::uint8_t> drawn = state_of(canvas);
+  EXPECT_NE(drawn, bare);
+  Canvas other = canvas_of(1, 1);
+  StateArchive reader(drawn);
+  other.archive(reader);
+  EXPECT_EQ(other.data(), canvas.data());
   canvas.clear();
-  EXPECT_EQ(hash_of(canvas), bare);
+  EXPECT_EQ(state_of(canvas), bare);
 }
 
 TEST(ColourText, ReadsThreeForms) {

@@ -11,6 +11,7 @@
 
 #include "physics/physics_world.h"
 #include "sim/core/error.h"
+#include "sim/core/hash.h"
 #include "sim/devices/laser.h"
 #include "sim/devices/localization.h"
 

@@ -8,7 +8,6 @@
 
 #include "sim/canvas/cell_raster.h"
 #include "sim/core/colour.h"
-#include "sim/core/hash.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -56,8 +55,8 @@ class Canvas {
   /// Cells as RGBA bytes, row-major from the top; width * height * 4 of them.
   [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return cells_.data(); }
 
-  /// Adds size and cells to the hash of a simulation's state.
-  void hash(StateHash& hash) const noexcept;
+  /// Writes or reads size and cells.
+  void archive(StateArchive& archive) { cells_.archive(archive); }
 
  private:
   friend class LayerStack;  // resizes it with the other layers, and looks at what has changed

@@ -146,8 +146,8 @@ class LayerStack {
   /// Writes or reads the other layers, and how all look. When reading, there are none yet, and the
   /// base layer has been read.
   void archive_others(StateArchive& archive);
-  /// Takes the cells of another stack's base layer, whose are undefined then; all layers get their
-  /// size.
+  /// Takes the cells of another stack's base layer, whose are undefined then.
+  /// @pre both have the same size.
   void take_base(LayerStack& from);
   /// Stands in for another stack from now on: its counts go on, and so do the layers' numbers.
   void succeed(const LayerStack& before);

@@ -61,7 +61,6 @@ class Aio final : public SensorOf<AioReading> {
   std::optional<std::string> apply(const Command& command) override;
   [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

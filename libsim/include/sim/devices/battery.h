@@ -71,7 +71,6 @@ class Battery final : public SensorOf<BatteryReading> {
 
   void integrate(const StepContext& context) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -47,7 +47,6 @@ class Blinkenlight final : public SensorOf<BlinkenlightReading> {
   std::optional<std::string> apply(const Command& command) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -54,7 +54,6 @@ class Blobfinder final : public SensorOf<BlobfinderReading> {
                                      const DeviceDirectory& devices) override;
   [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -73,7 +73,6 @@ class Bumper final : public SensorOf<BumperReading> {
   }
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

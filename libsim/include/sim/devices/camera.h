@@ -43,7 +43,6 @@ class Camera final : public SensorOf<CameraReading> {
                                      const DeviceDirectory& devices) override;
   [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -35,7 +35,6 @@ class Compass final : public SensorOf<CompassReading> {
   Compass(std::string name, const CompassParams& params, RandomStream noise);
 
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

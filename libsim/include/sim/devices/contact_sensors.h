@@ -30,7 +30,6 @@ class CollisionSensor final : public SensorOf<CollisionReading> {
 
   void integrate(const StepContext& context) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -14,7 +14,6 @@
 
 #include "sim/core/body_state.h"
 #include "sim/core/colour.h"
-#include "sim/core/hash.h"
 #include "sim/core/pose.h"
 #include "sim/core/random_stream.h"
 #include "sim/core/state_archive.h"
@@ -305,8 +304,6 @@ class Device {
   /// or a command changes. Overriders begin with that of their base class.
   /// @throws SnapshotError if the bytes make no sense; what the device does then is undefined.
   virtual void archive(StateArchive& archive) { archive(active_); }
-  /// Adds all that distinguishes this device's future from another's.
-  virtual void hash(StateHash& hash) const = 0;
 
  protected:
   /// Called when active() has become false: the moment to let go of the robot.
@@ -344,7 +341,6 @@ class Sensor : public Device {
 
   void succeed(const Device& before, SimTime later_ns) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   /// Makes the next reading, which next() of SensorOf gives.

@@ -58,7 +58,6 @@ class Dio final : public SensorOf<DioReading> {
                                      const DeviceDirectory& devices) override;
   std::optional<std::string> apply(const Command& command) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -44,7 +44,6 @@ class FiducialFinder final : public SensorOf<FiducialReading> {
 
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

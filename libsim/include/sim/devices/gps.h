@@ -79,7 +79,6 @@ class Gps final : public SensorOf<GpsReading> {
   Gps(std::string name, const GpsParams& params, RandomStream noise);
 
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

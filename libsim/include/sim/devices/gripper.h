@@ -87,7 +87,6 @@ class Gripper final : public SensorOf<GripperReading> {
   void act(RobotControl& robot) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

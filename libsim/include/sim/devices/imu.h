@@ -53,7 +53,6 @@ class Imu final : public SensorOf<ImuReading> {
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -47,7 +47,6 @@ class Laser final : public SensorOf<LaserReading> {
   [[nodiscard]] const LaserParams& params() const noexcept { return params_; }
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -63,7 +63,6 @@ class PoseSensor final : public SensorOf<PoseReading> {
   /// The pose without noise, in the frame that is reported in.
   [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_FW_ * X_WB_; }
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;
@@ -94,7 +93,6 @@ class Odometry final : public SensorOf<PoseReading> {
   void integrate(const StepContext& context) override;
   [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_SB_; }
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

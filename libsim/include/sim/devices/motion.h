@@ -63,7 +63,6 @@ class PositionControl {
   [[nodiscard]] const PositionCommand& command() const noexcept { return command_; }
   /// Writes or reads the state; `drive` and `params` are those it was made with.
   void archive(StateArchive& archive, const DriveDescription& drive, const MotionParams& params);
-  void hash(StateHash& hash) const;
 
  private:
   [[nodiscard]] double speed_for(double distance_m) const;
@@ -116,7 +115,6 @@ class Motion final : public Actuator {
   /// A command that, given again, lets it go on with what it does now.
   [[nodiscard]] Command present_command() const;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void deactivated(RobotControl& robot) override;

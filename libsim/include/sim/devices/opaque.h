@@ -44,7 +44,6 @@ class Opaque final : public SensorOf<OpaqueReading> {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -24,7 +24,6 @@ class Pen final : public Actuator {
   void placed(const Pose&) override { has_last_ = false; }  // no line to there
   [[nodiscard]] Pen* pen() noexcept override { return this; }
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void deactivated(RobotControl&) override { has_last_ = false; }

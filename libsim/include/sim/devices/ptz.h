@@ -49,7 +49,6 @@ class Ptz final : public SensorOf<PtzReading> {
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

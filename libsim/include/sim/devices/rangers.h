@@ -74,7 +74,6 @@ class Ranger final : public SensorOf<RangerReading> {
   [[nodiscard]] const RangerParams& params() const noexcept { return params_; }
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -27,7 +27,6 @@ class Speech final : public Actuator {
   void integrate(const StepContext& context) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void deactivated(RobotControl& robot) override;

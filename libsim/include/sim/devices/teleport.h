@@ -24,7 +24,6 @@ class Teleport final : public Actuator {
   Teleport(std::string name, const TeleportParams& params);
 
   std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
-  void hash(StateHash& hash) const override;
 };
 
 }  // namespace sim

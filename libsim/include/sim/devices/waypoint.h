@@ -96,7 +96,6 @@ class Waypoint final : public SensorOf<WaypointReading> {
   [[nodiscard]] double distance_m() const;
 
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

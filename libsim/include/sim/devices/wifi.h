@@ -71,7 +71,6 @@ class Wifi final : public SensorOf<WifiReading> {
   Wifi(std::string name, const WifiParams& params, RandomStream noise);
 
   void archive(StateArchive& archive) override;
-  void hash(StateHash& hash) const override;
 
  protected:
   void measure(const StepContext& context) override;

@@ -199,9 +199,10 @@ class Simulation {
   /// saved, perhaps in another process: all that follows is the same to the bit.
   /// With RestoreScope::kWorld only the world goes back. What reset() does not put back goes on
   /// here, too: clock and step count, sequence numbers and Waypoint::goal_number(); statistics(),
-  /// collisions() and said(), which tell of the whole run; view mode and the layers of clients.
-  /// Sensors measure as long after now as they would have measured after the moment of the
-  /// snapshot. References to devices and readings from before end here, as with reset().
+  /// collisions() and said(), which tell of the whole run; view mode, the size of the canvas and
+  /// the layers of clients. Sensors measure as long after now as they would have measured after the
+  /// moment of the snapshot. References to devices and readings from before end here, as with
+  /// reset().
   /// @throws SnapshotError if it was cut or altered, or is of another version, world or seed. Then
   ///         nothing has changed.
   void restore(std::span<const std::uint8_t> snapshot, RestoreScope scope = RestoreScope::kAll);
