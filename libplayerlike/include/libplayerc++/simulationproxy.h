@@ -50,6 +50,14 @@ class SimulationProxy : public ClientProxy {
   /// Changes a property; forms as for GetProperty().
   void SetProperty(char* identifier, char* name, void* value, size_t value_len);
 
+  /// Saves the state of the whole simulation under a name, in place of the one that had it: for
+  /// programs that try something and then something else. Player has no such call.
+  /// @param name  1 to 64 printable bytes.
+  void SaveState(const std::string& name);
+  /// Lets the world go back to a saved state, at once and for all clients; time goes on. See
+  /// docs/simulation.md for what that means.
+  void RestoreState(const std::string& name);
+
   // The same for names that are literals.
   void SetPose2d(const char* identifier, double x, double y, double a) {
     SetPose2d(const_cast<char*>(identifier), x, y, a);

@@ -21,6 +21,7 @@
 #include "host/pace.h"
 #include "host/progress.h"
 #include "host/results.h"
+#include "host/saved_states.h"
 #include "host/standing_time.h"
 #include "playerlike/host/event_client.h"
 #include "playerlike/host/host.h"
@@ -197,6 +198,7 @@ class Host::Core {
   std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
   std::atomic<std::uint64_t> canvas_generation_{0};
   ClientFiles client_files_;
+  SavedStates saved_states_;
 
   Clients clients_;
   Lockstep lockstep_;

@@ -218,6 +218,14 @@ struct Host::Core::RequestHandler {
     require_unlocked();
     set_object_property(core.simulation_, what.name, what.property, what.value);
   }
+  void operator()(const SaveStateRequest& what) const {
+    const Lock lock = lock_changeable();
+    core.saved_states_.save(what.name, core.simulation_);
+  }
+  void operator()(const RestoreStateRequest& what) const {
+    const Lock lock = lock_changeable();
+    core.saved_states_.restore(what.name, core.simulation_);
+  }
   LogStatus operator()(const LogRequest& what) const {
     // A file to be replayed is read without the mutex: that may take seconds.
     std::optional<RunLog::Loaded> loaded;
@@ -245,6 +253,14 @@ struct Host::Core::RequestHandler {
     Lock lock = core.lock_soon();
     client.require_open();
     core.require_readable(client, -1);
+    return lock;
+  }
+  /// The same for the state of all, with what the client has drawn so far.
+  [[nodiscard]] Lock lock_changeable() const {
+    Lock lock = lock_readable();
+    require_unlocked();
+    client.touch();
+    core.inputs_.apply_drawings(client);
     return lock;
   }
   void require_unlocked() const {

@@ -152,6 +152,18 @@ void SimulationProxy::SetProperty(char* identifier, char* name, void* value, siz
   });
 }
 
+void SimulationProxy::SaveState(const std::string& name) {
+  const char* fun = "SimulationProxy::SaveState";
+  const scoped_lock_t lock(LockData(fun));
+  Try(fun, [&] { mLink->core->session().request(playerlike::SaveStateRequest{name}); });
+}
+
+void SimulationProxy::RestoreState(const std::string& name) {
+  const char* fun = "SimulationProxy::RestoreState";
+  const scoped_lock_t lock(LockData(fun));
+  Try(fun, [&] { mLink->core->session().request(playerlike::RestoreStateRequest{name}); });
+}
+
 }  // namespace PlayerCc
 
 namespace std {

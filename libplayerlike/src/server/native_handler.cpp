@@ -146,6 +146,8 @@ struct NativeHandler::Guard {
   void check(const SetObjectPropertyRequest& what) const {
     handler.require_rights(handler.robot_named(what.name));
   }
+  void check(const SaveStateRequest&) const { handler.require_rights(-1); }
+  void check(const RestoreStateRequest&) const { handler.require_rights(-1); }
   void check(const WorldMapRequest& what) const {
     if (what.tile) {
       const sim::CellRect& tile = *what.tile;

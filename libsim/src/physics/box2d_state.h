@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <box2d/b2_distance.h>
 #include <box2d/box2d.h>
 
 #include <vector>

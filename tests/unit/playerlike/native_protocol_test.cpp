@@ -422,6 +422,8 @@ TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
       {"place_object", {{"name", "r1"}, {"pose", {{"x", 1}, {"y", 0.3}, {"yaw", 0}}}}},
       {"object_property", {{"name", "r2"}, {"property", "size"}}},
       {"set_object_property", {{"name", "r1"}, {"property", "color"}, {"value", {255, 0, 0}}}},
+      {"save_state", {{"name", "s"}}},
+      {"restore_state", {{"name", "s"}}},
       {"world_map", {{"cell_size", 0.1}}},
       {"watch", {{"rate", 10}}}};
   for (const auto& [name, request] : truths) {

@@ -76,6 +76,8 @@ std::vector<Request> examples() {
           ObjectPropertyRequest{"r1", "size"},
           SetObjectPropertyRequest{"r1", "size", std::vector{0.1, 1e300}},
           SetObjectPropertyRequest{"r1", "colour", "red"},
+          SaveStateRequest{"before the door"},
+          RestoreStateRequest{"s"},
           LogRequest{},
           LogRequest{"f", true, false, true}};
 }

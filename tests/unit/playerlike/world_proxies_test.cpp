@@ -281,6 +281,49 @@ TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
             PlayerError::kBadArgument);
 }
 
+TEST_P(WorldProxies, LetTheWorldGoBackWhileTimeGoesOn) {
+  const auto robot = client();
+  SimulationProxy simulation(robot.get(), 0);
+  PlayerCc::Position2dProxy motors(robot.get(), 0);
+  motors.SetSpeed(0.2, 0.0);
+  for (int i = 0; i < 3; ++i) robot->Read();
+  double x = 0.0;
+  double y = 0.0;
+  double a = 0.0;
+  simulation.GetPose2d("r1", x, y, a);
+  simulation.SaveState("before");
+  std::uint32_t green = 0xff00ff00;
+  simulation.SetProperty("r1", "color", &green, sizeof green);
+  // Twice the same way, from the same place.
+  std::vector<double> ends;
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    for (int i = 0; i < 5; ++i) robot->Read();
+    double end = 0.0;
+    simulation.GetPose2d("r1", end, y, a);
+    EXPECT_GT(end, x + 0.05);
+    ends.push_back(end);
+    const double data_time = motors.GetDataTime();
+    simulation.RestoreState("before");
+    double now = 0.0;
+    simulation.GetPose2d("r1", now, y, a);
+    EXPECT_EQ(now, x);
+    robot->Read();
+    EXPECT_GT(motors.GetDataTime(), data_time);
+    simulation.RestoreState("before");
+  }
+  EXPECT_EQ(ends[0], ends[1]);
+  std::uint32_t colour = 0;
+  simulation.GetProperty("r1", "color", &colour, sizeof colour);
+  EXPECT_NE(colour, green);
+  EXPECT_THAT(warning_of([&] { simulation.RestoreState("later"); }),
+              HasSubstr("no state was saved as \"later\"; there are: before"));
+  EXPECT_THAT(warning_of([&] { simulation.SaveState("two\nlines"); }),
+              HasSubstr("1 to 64 printable bytes"));
+  for (int i = 1; i < 64; ++i) simulation.SaveState(std::to_string(i));
+  simulation.SaveState("before");  // over the one that is there
+  EXPECT_THAT(warning_of([&] { simulation.SaveState("64"); }), HasSubstr("64 states are saved"));
+}
+
 TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
   const test::ReachableHost locked(
       playerlike::Host::create(sim::load_world_text(
@@ -295,6 +338,8 @@ TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
   double now = 0.0;
   simulation.GetPose2d("r1", now, x, x);
   EXPECT_NE(now, 0.9);
+  EXPECT_THAT(warning_of([&] { simulation.SaveState("s"); }), HasSubstr("lock_objects"));
+  EXPECT_THAT(warning_of([&] { simulation.RestoreState("s"); }), HasSubstr("lock_objects"));
   std::int32_t on = 0;
   EXPECT_THAT(warning_of([&] { simulation.SetProperty("d1", "state", &on, 4); }),
               HasSubstr("lock_objects"));
@@ -324,6 +369,8 @@ TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
   simulation.SetPose2d("r1", 0.5, 0.5, 0.0);
   refused([&] { simulation.SetPose2d("r2", 0.5, 1.5, 0.0); });
   refused([&] { simulation.SetPose2d("b", 3.5, 1.0, 0.0); });
+  refused([&] { simulation.SaveState("s"); });
+  refused([&] { simulation.RestoreState("s"); });
   std::int32_t off = 0;
   refused([&] { simulation.SetProperty("d", "state", &off, sizeof off); });
   double x = 0.0;

@@ -427,6 +427,34 @@ struct SetObjectPropertyRequest {
                                       field("value", &SetObjectPropertyRequest::value)};
 };
 
+/// Saves the state of the whole simulation under a name, in place of the one that had it: robots,
+/// obstacles, devices with their noise and commands, and the canvas. All clients have saved states
+/// in common; they end with the simulation. Of this client's commands, those that wait for the next
+/// step are not part of it.
+/// @throws SessionError kBadArgument for a name that is not 1 to 64 printable bytes; kNotAvailable
+///         if objects are locked, 64 states are there, or all together would have more than
+///         256 MiB.
+struct SaveStateRequest {
+  using Result = void;
+  static constexpr const char* kName = "save_state";
+  static constexpr bool kTellsTruth = true;
+  std::string name;
+  static constexpr std::tuple kFields{field("name", &SaveStateRequest::name)};
+};
+
+/// Lets the world go back to a saved state, at once and for all clients. Time does not: clock,
+/// duration, report, film and log go on, as sim::RestoreScope::kWorld has it. Readings that wait
+/// are still handed out, commands that wait are carried out in the next step.
+/// @throws SessionError kBadArgument if no state was saved under that name; kNotAvailable if
+///         objects are locked.
+struct RestoreStateRequest {
+  using Result = void;
+  static constexpr const char* kName = "restore_state";
+  static constexpr bool kTellsTruth = true;
+  std::string name;
+  static constexpr std::tuple kFields{field("name", &RestoreStateRequest::name)};
+};
+
 /// Changes what the log of this session's port does, in the order of the members, or (without
 /// changes) only tells it. The log has the readings of that port's robots, see docs/log.md. All
 /// sessions of a port have it in common.
@@ -458,7 +486,8 @@ using Request =
                  SetLayerStyleRequest, LayersRequest, CanvasImageRequest, CanvasInfoRequest,
                  ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
                  SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
-                 ObjectPropertyRequest, SetObjectPropertyRequest, LogRequest>;
+                 ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
+                 RestoreStateRequest, LogRequest>;
 
 /// The result of any request; std::monostate for those without.
 using Answer =

@@ -190,9 +190,10 @@ class Simulation {
   /// with their readings, noise and commands, what robots carry, obstacles, statistics, collisions,
   /// what was said, clock, canvas and layers.
   ///
-  /// A snapshot says of which world it is, and of which seed; the world itself is not in it. It
-  /// ends with the hash of its bytes, so that damage is found. Cost: about 1 KB and 1 us a
-  /// robot, 2.5 KB for each device with noise, and the readings.
+  /// A snapshot says of which world it is, and of which seed; the world itself is not in it. It has
+  /// the hash of its bytes, so that damage is found.
+  /// Cost: about 1 KB a robot, 2.5 KB for each device with noise, and the readings; some 0.5 ms for
+  /// each megabyte.
   [[nodiscard]] Snapshot save() const;
 
   /// Goes on from a snapshot, which this simulation or another one of the same world and seed has
