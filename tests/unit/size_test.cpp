@@ -83,7 +83,9 @@ std::vector<Function> functions_of(const std::vector<std::string>& lines) {
   const std::vector<int> braces = braces_of(lines);
   std::vector<Function> found;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!lines[i].ends_with(" {") || lines[i].find(')') == std::string::npos) continue;
+    const bool is_comment = lines[i].find_first_not_of(' ') == lines[i].find("//");
+    if (is_comment || !lines[i].ends_with(" {") || lines[i].find(')') == std::string::npos)
+      continue;
     std::size_t end = i;
     int open = 1;  // also if the line closes another one
     while (open > 0 && end + 1 < lines.size()) open += braces[++end];
