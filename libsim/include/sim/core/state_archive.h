@@ -31,13 +31,13 @@ class SnapshotError : public std::runtime_error {
 
 /// Writes a state as bytes, or reads it back.
 ///
-/// What has state lists its members once, for both ways:
+/// What has state lists its members once, for both ways, in a function archive(StateArchive&). That
+/// of a Battery is:
 ///
-///     void Battery::archive(StateArchive& archive) {
-///       SensorOf::archive(archive);
-///       archive(energy_j_, power_w_, docked_);
-///     }
+///     SensorOf::archive(archive);  // the newest reading, and what all sensors have
+///     archive(energy_j_, power_w_, docked_);
 ///
+/// An object that is read has been made by the same settings.
 /// Bytes are those of the machine's own numbers. Whoever reads expects nothing of them: counts
 /// are compared with what is left, floating numbers are finite, and expect() states the rest.
 class StateArchive {
