@@ -11,7 +11,6 @@
 
 namespace CCMorse {
 
-using PlayerCc::PlayerError;
 using playerlike::DeviceId;
 using playerlike::require_finite;
 using playerlike::translated;

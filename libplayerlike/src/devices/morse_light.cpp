@@ -6,9 +6,7 @@
 
 namespace CCMorse {
 
-using PlayerCc::PlayerError;
 using playerlike::DeviceId;
-using playerlike::translated;
 
 MorseLight::MorseLight(const MorseRobot& aRobot, const std::string& aName)
     : MorseActuator(aRobot, aName, "blinkenlight", "MorseLight") {}

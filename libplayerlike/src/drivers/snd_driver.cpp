@@ -8,7 +8,6 @@
 
 namespace CCMorse {
 
-using PlayerCc::PlayerError;
 using playerlike::SndState;
 using playerlike::translated;
 
