@@ -68,9 +68,7 @@ class Elements {
  private:
   enum { kCounted = 8, kNotedAtOnce = 1024 };
 
-  bool IsSoleUser() const {
-    return mSoleUser->load(std::memory_order_relaxed) == thread_number;
-  }
+  bool IsSoleUser() const { return mSoleUser->load(std::memory_order_relaxed) == thread_number; }
 
   const std::atomic<std::uint64_t>* mSoleUser = nullptr;
   const double* mValues = nullptr;

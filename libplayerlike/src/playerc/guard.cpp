@@ -1,10 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "devices/errors.h"
 #include "playerc/guard.h"
 
 #include <mutex>
 #include <set>
 
+#include "devices/errors.h"
 #include "devices/warnings.h"
 #include "libplayerc/playerc.h"
 
@@ -36,9 +36,7 @@ void report_error(const char* fun, const std::string& why) {
   warn(last_error());
 }
 
-void refuse(const std::string& why) {
-  playerlike::refuse("", why);
-}
+void refuse(const std::string& why) { playerlike::refuse("", why); }
 
 }  // namespace playerlike::clib
 
