@@ -107,6 +107,28 @@ def cave():
     return plan
 
 
+# The clearing in metres, the middle of the floor at (0, 0): tongues of rock from the walls, and rocks.
+TONGUES = [(-8.0, 1.5, -4.6, 1.0, 0.4), (1.5, -8.0, 1.0, -4.4, 0.45), (8.0, -1.0, 4.4, -1.6, 0.4),
+           (-1.0, 8.0, -1.6, 4.4, 0.45)]
+CLEARING_ROCKS = [(0.4, 0.2, 0.9), (5.0, 4.6, 0.7), (-4.6, 5.2, 0.5), (5.4, -5.6, 0.6)]
+
+
+def clearing():
+    """One large room with rocks, free round (-7, -7); 320 x 320 pixels: 16 x 16 m."""
+    plan = Plan(320, 320)
+    for row in range(320):
+        for column in range(320):
+            x, y = (column + 0.5) * 0.05 - 8.0, (row + 0.5) * 0.05 - 8.0
+            depth = 0.3 + 0.5 * wobble(x, y) - (8.0 - max(abs(x), abs(y)))
+            for ax, ay, bx, by, half_width in TONGUES:
+                depth = max(depth, half_width + wobble(x, y) - to_segment(x, y, ax, ay, bx, by))
+            for cx, cy, radius in CLEARING_ROCKS:
+                depth = max(depth, radius - math.hypot(x - cx, y - cy) + wobble(x, y))
+            if depth > 0.0 or max(abs(x), abs(y)) > 7.9:
+                plan.box(column, row, 1, 1)
+    return plan
+
+
 def office():
     """A corridor, rooms on both sides, desks; 600 x 360 pixels: 30 x 18 m at 0.05 m a pixel."""
     plan = Plan(600, 360)
@@ -151,5 +173,5 @@ def office():
 
 if __name__ == "__main__":
     here = pathlib.Path(__file__).resolve().parent
-    for draw in (flat, cave, office):
+    for draw in (flat, cave, clearing, office):
         draw().save_png(here / f"{draw.__name__}.png")

@@ -68,18 +68,21 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
     EXPECT_EQ(model.name, shipped.name);
     EXPECT_FALSE(model.description.empty());
     EXPECT_TRUE(lies_within(model.footprint, Vec2::Zero()));
-    // Programs written for Player take index 0 for odometry.
-    EXPECT_THAT(world.robots[0].interfaces.at("position2d"), ElementsAre("odometry", "pose"));
+    // Programs written for Player take index 0 for odometry; the S1R's is the arena's localisation.
+    if (!model.name.starts_with("s1r")) {
+      EXPECT_THAT(world.robots[0].interfaces.at("position2d"), ElementsAre("odometry", "pose"));
+    }
     Simulation simulation(world);
     for (int i = 0; i < 100; ++i) simulation.step();
     EXPECT_EQ(simulation.body(0).X_WB, (Pose{3.0, 3.0, 0.0}));
   }
-  EXPECT_THAT(names, ElementsAre("bigbob", "car", "epuck", "omni", "pioneer2dx", "pioneer3dx"));
+  EXPECT_THAT(names, ElementsAre("bigbob", "car", "epuck", "omni", "pioneer2dx", "pioneer3dx",
+                                 "roomba", "s1r_full", "s1r_sonar"));
 }
 
 // Robots turn about their axles, which need not be the middle of their bodies.
 TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
-  for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni"}) {
+  for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni", "roomba"}) {
     SCOPED_TRACE(name);
     Simulation simulation(world_with(name));
     const int motion = simulation.find_device(0, "motion").value();
@@ -146,6 +149,56 @@ TEST(Pioneers, TakeThe361BeamsOfTheLasersFineMode) {
   EXPECT_EQ(laser.beam_count, 361);
   EXPECT_NEAR(laser.resolution_rad * 360.0, M_PI, 1e-9);
   EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);  // the model's, not the type's
+}
+
+/// Which of a Roomba's two bumpers a wall presses that it drives against, looking there.
+std::vector<std::uint8_t> pressed_by_wall_ahead(const std::string& yaw_deg) {
+  Simulation simulation(load_world_text(
+      R"({"arena": {"size": [2, 6], "border_height": 1}, "robots": [
+          {"model": "roomba", "pose": {"x": 1.5, "y": 3, "yaw_deg": )" +
+      yaw_deg + "}}]}"));
+  static_cast<void>(
+      simulation.apply({0, simulation.find_device(0, "motion").value()}, TwistCommand{{0.5, 0.0}}));
+  const int bumper = simulation.find_device(0, "bumper").value();
+  for (int i = 0; i < 300; ++i) {
+    simulation.step();
+    const auto& reading = dynamic_cast<const Bumper&>(simulation.device(0, bumper)).reading();
+    if (reading.pressed != std::vector<std::uint8_t>{0, 0}) return reading.pressed;
+  }
+  return {};
+}
+
+TEST(Roomba, FeelsAWallAheadWithBothBumpersAndOneAsideWithThatOne) {
+  EXPECT_THAT(pressed_by_wall_ahead("0"), ElementsAre(1, 1));
+  EXPECT_THAT(pressed_by_wall_ahead("15"), ElementsAre(0, 1));  // the wall is on its right
+  EXPECT_THAT(pressed_by_wall_ahead("-15"), ElementsAre(1, 0));
+  EXPECT_THAT(pressed_by_wall_ahead("60"), ElementsAre(0, 1));
+  EXPECT_THAT(pressed_by_wall_ahead("-60"), ElementsAre(1, 0));
+}
+
+TEST(Roomba, HasALaserOf361BeamsAcrossAHalfCircle) {
+  const auto laser = settings_of<LaserParams>(world_with("roomba"), "laser");
+  EXPECT_EQ(laser.beam_count, 361);
+  EXPECT_NEAR(laser.resolution_rad * 360.0, M_PI, 1e-9);
+}
+
+// Files cannot say "as s1r, but": what they repeat must stay equal.
+TEST(S1rModels, DifferFromTheS1rInWhatTheyCarryOnly) {
+  const RobotModel s1r = s1r_model();
+  for (const char* name : {"s1r_full", "s1r_sonar"}) {
+    SCOPED_TRACE(name);
+    const WorldDescription world = world_with(name);
+    const RobotModel& model = model_of(world);
+    EXPECT_EQ(model.footprint, s1r.footprint);
+    EXPECT_EQ(model.height_m, s1r.height_m);
+    EXPECT_EQ(model.mass_kg, s1r.mass_kg);
+    EXPECT_EQ(model.drive.kind, s1r.drive.kind);
+    EXPECT_EQ(model.drive.wheel_radius_m, s1r.drive.wheel_radius_m);
+    EXPECT_EQ(model.drive.wheel_separation_m, s1r.drive.wheel_separation_m);
+    EXPECT_EQ(model.max_speed_mps, s1r.max_speed_mps);
+    EXPECT_NEAR(model.max_turn_rate_radps, s1r.max_turn_rate_radps, 1e-4);
+    EXPECT_TRUE(world.robots[0].interfaces.empty());
+  }
 }
 
 constexpr const char* kModel = R"({
