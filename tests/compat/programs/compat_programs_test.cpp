@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client programs in the styles of those out there, unchanged, each for up to 60 simulated seconds
-// in a world that suits it: they end, and the robots have done what the programs meant.
+// Client programs in the styles of those out there, unchanged, each in a world that suits it: they
+// end, and the robots have done what the programs meant and stood against nothing for long.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,6 +39,7 @@ struct Case {
   int most_collisions = 0;               ///< of all robots
   int moving_robots = 1;                 ///< so many have driven at least 0.1 m
   std::vector<std::string> arguments{};  ///< of the program
+  std::string duration_s = "60";         ///< simulated
 };
 
 // For the names of the tests.
@@ -47,6 +48,7 @@ void PrintTo(const Case& c, std::ostream* os) { *os << c.program << " in " << c.
 const std::string kPioneer = "examples/pioneer.json";
 const std::string kCave = "cave.json";
 const std::string kOffice = "office.json";
+const std::string kMaze = "examples/roomba_maze.json";
 
 std::vector<Case> cases() {
   return {
@@ -57,13 +59,16 @@ std::vector<Case> cases() {
        5.0},
       {"blob_chase", kPioneer, {"of 80x60 reached", "#2040e0"}, 0.5, 3.0},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
+      {"can_collector", "examples/pioneer_gripper.json", {"can 1", "2 cans in the store"}, 4.0},
       {"carlike", "examples/car.json", {"turned"}, 4.5, 5.0},
+      {"epuck_lights", "examples/epuck.json", {"5 of 8 lights shone"}, 1.5},
       {"exceptions", kCave, {"robot on port 6665", "no arm", "ended:"}, 5.0, 6.1},
       {"fiducial_chase", kPioneer, {"reached fiducial"}, 0.2},
       {"four_ports", kCave, {"robot 3"}, 1.0, kAny, 0, 4},
       {"globals", kCave, {"after main"}, 1.0},
       {"goto_goal", kPioneer, {"3 goals reached"}, 2.5, 5.0},
       {"infrared", "examples/epuck.json", {"8 sensors", "highest voltage"}, 0.5},
+      {"infrared", "examples/s1r_full.json", {"8 sensors", "highest voltage"}, 2.0},
       {"instruments", kOffice, {"charge"}, 1.8, 2.2},
       {"logger", kPioneer, {"position2d:0", "laser:0"}, 1.8, 2.2, 0, 1, {"log.txt"}},
       {"map_reader", kOffice, {"occupied", "#"}, 0.0, 0.01, 0, 0},
@@ -74,17 +79,36 @@ std::vector<Case> cases() {
       {"posix_threads", kCave, {"nearest"}, 0.5},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
+      {"roomba_goal",
+       "examples/roomba_room.json",
+       {"361 beams; I am at (-5.", "odometry says (0.0", "at the goal"},
+       11.0,
+       13.0},
+      {"roomba_maze", kMaze, {"out of the maze", "straight ahead"}, 60.0, 110.0, 60, 1, {}, "400"},
       {"simulation", kPioneer, {"moved by 0.3", "nobody is at 42"}, 0.1, kAny, 0, 1, {"pioneer1"}},
       {"speaking", kPioneer, {"inputs"}, 1.8, 2.2},
+      {"sonar_ranger",
+       "examples/stage_simple.json",
+       {"16 sonars, 361 beams, start at -7 -7"},
+       10.0},
       {"square_by_odometry", kPioneer, {"closed within 0.0"}, 3.9, 4.4},
       {"square_counting_turns", kPioneer, {"at "}, 3.8, 4.2},
+      {"square_of_two_metres",
+       "examples/open_field.json",
+       {"straight on: 5 m", "square closed"},
+       17.9,
+       18.1},
       {"square_sleeping", kPioneer, {}, 3.9, 4.1},
       {"standard_threads", kCave, {}, 0.5, kAny, 0, 2},
+      {"three_sonars", "examples/s1r_sonar.json", {"3 sonars"}, 6.0},
       {"two_clients_one_port", kCave, {"way "}, 1.0},
+      {"urg_wander", "examples/pioneer_urg.json", {"667 beams from -120 to 120"}, 12.0},
+      {"urg_wander", "examples/s1r_full.json", {"682 beams from -134.8"}, 4.0},
       {"wall_clock", kPioneer, {"took 1.0"}, 0.8, 1.1},
       {"wall_follow", kOffice, {}, 8.0},
       {"wander_laser", kCave, {"#PlayerClient"}, 4.0},
       {"wander_ranger", kCave, {"ranges: ", "max 8"}, 8.0},
+      {"wander_ranger", "examples/pioneer_laser.json", {"ranges: 361 from -90 to 90"}, 8.0},
       {"wander_sonar", kCave, {}, 2.0},
   };
 }
@@ -97,7 +121,7 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   const std::string out = folder / "out";
   std::vector<std::string> call = {"run",        PLAYPEN_SOURCE_DIR "/worlds/" + c.world,
                                    "--out",      out,
-                                   "--duration", "60",
+                                   "--duration", c.duration_s,
                                    "--",         PROGRAMS + c.program};
   call.insert(call.end(), c.arguments.begin(), c.arguments.end());
   test_support::ProcessOptions options;
@@ -121,6 +145,9 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   for (const json& robot : robots) {
     collisions += robot.at("collisions").get<int>();
     if (robot.at("path_length") >= 0.1) ++moving;
+    EXPECT_LE(robot.at("stalled_time"), 0.1 * report.at("run").at("sim_time").get<double>())
+        << robot.at("name") << " stood against something\n"
+        << result.out << result.err;
   }
   EXPECT_LE(collisions, c.most_collisions) << result.out << result.err;
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
@@ -136,7 +163,8 @@ TEST(PlainClient, LoadsAtMost15LibrariesAndNoneThatDraws) {
   EXPECT_LE(std::stoi(result.out.substr(at + 10)), 15) << result.out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, CompatPrograms, testing::ValuesIn(cases()),
-                         [](const auto& one) { return one.param.program; });
+INSTANTIATE_TEST_SUITE_P(Programs, CompatPrograms, testing::ValuesIn(cases()), [](const auto& one) {
+  return one.param.program + "_in_" + fs::path(one.param.world).stem().string();
+});
 
 }  // namespace
