@@ -20,7 +20,7 @@ else
   cmake --preset dev >/dev/null
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
-    compat_four_ports \
+    compat_four_ports compat_roomba_maze \
     par_intro_solution_wall par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest
   bin=build/dev/bin
@@ -76,6 +76,9 @@ done
 
 run worlds/cave.json cave -- "$bin/../tests/compat/programs/bin/compat_four_ports"
 take cave/scene.png cave
+
+run worlds/examples/roomba_maze.json roomba_maze --duration 400 -- "$bin/../tests/compat/programs/bin/compat_roomba_maze"
+take roomba_maze/scene.png roomba_maze
 
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd

@@ -116,6 +116,18 @@ TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
   }
 }
 
+// Each row of the table runs the world that it links to.
+TEST(Documentation, NamesTheWorldThatItRuns) {
+  static const std::regex kRow(R"(\| \[(\w+)\]\(\.\./worlds/(\S+)\) \| `playpen run (\w+) )");
+  const std::string page = read_bytes(kRoot / "docs/which_world.md");
+  int rows = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), kRow), end; it != end; ++it, ++rows) {
+    EXPECT_EQ((*it)[1], (*it)[3]);
+    EXPECT_EQ(fs::path((*it)[2].str()).stem().string(), (*it)[3].str());
+  }
+  EXPECT_GT(rows, 15);
+}
+
 /// The names of all tests, "Suite.Name".
 std::set<std::string> names_of_tests() {
   static const std::regex kTest(R"(\bTEST(_F|_P)?\(\s*(\w+),\s*(\w+)\))");
