@@ -81,7 +81,7 @@ class StateArchive {
   template <typename Enum>
   requires std::is_enum_v<Enum>
   void choice(Enum& value, Enum last) {
-    auto number = static_cast<std::int32_t>(value);
+    auto number = reading_ ? 0 : static_cast<std::int32_t>(value);
     member(number);
     if (!reading_) return;
     expect(number >= 0 && number <= static_cast<std::int32_t>(last), "a choice that there is");
@@ -149,7 +149,7 @@ class StateArchive {
     expect(std::isfinite(number), "a finite number");
   }
   void member(bool& flag) {
-    std::uint8_t byte = flag ? 1 : 0;
+    std::uint8_t byte = !reading_ && flag ? 1 : 0;
     raw(&byte, 1);
     expect(byte <= 1, "0 or 1");
     flag = byte != 0;
