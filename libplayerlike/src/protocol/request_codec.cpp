@@ -55,9 +55,8 @@ sim::CellRect require_rect(const json& object, const char* key) {
 constexpr WholeRange kAnyInt{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
 template <typename Struct>
-constexpr auto fields_of(std::type_identity<Struct> /*type*/) -> decltype(Struct::kFields) {
-  return Struct::kFields;
-}
+requires requires { Struct::kFields; }
+constexpr auto fields_of(std::type_identity<Struct> /*type*/) { return Struct::kFields; }
 
 constexpr auto fields_of(std::type_identity<CanvasInfo> /*type*/) {
   using T = CanvasInfo;
