@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <ctime>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -132,39 +131,32 @@ class Clients {
   std::vector<std::unique_ptr<Robot>> robots_;
 };
 
-// Turn by turn, so that a slow moment of the machine meets both; of each the least.
-struct Costs {
+// The same robots without and with clients, turn by turn, so that a slow moment of the machine
+// meets both; of each the least. The figures' names end with the number of robots.
+void compare(const WorldDescription& world, int turns, int rounds, const auto& go,
+             const std::string& robots) {
+  Alone alone(world);
+  Clients clients(playerlike::Host::create(world));
   double alone_us = 1e30;
   double clients_us = 1e30;
-};
-Costs compare(int turns, int rounds, const std::function<void(int)>& alone,
-              const std::function<void(int)>& clients) {
-  Costs costs;
   for (int turn = 0; turn < turns; ++turn) {
-    costs.alone_us = std::min(costs.alone_us, used_us([&] { alone(rounds); }));
-    costs.clients_us = std::min(costs.clients_us, used_us([&] { clients(rounds); }));
+    alone_us = std::min(alone_us, used_us([&] {
+                          for (int i = 0; i < rounds; ++i) go(alone);
+                        }));
+    clients_us = std::min(clients_us, used_us([&] {
+                            for (int i = 0; i < rounds; ++i) go(clients);
+                          }));
   }
-  costs.alone_us /= rounds * kStepsARound;
-  costs.clients_us /= rounds * kStepsARound;
-  return costs;
+  const int steps = rounds * kStepsARound;
+  figure(("simulation_step_us_" + robots).c_str(), alone_us / steps);
+  figure(("clients_step_us_" + robots).c_str(), clients_us / steps);
+  figure(("clients_over_simulation_" + robots).c_str(), clients_us / alone_us);
 }
 
 // 13 robots of the arena, each driven by a client of its own.
 void wander_figures() {
-  const WorldDescription world = endless(kThirteen);
-  Alone alone(world);
-  Clients clients(playerlike::Host::create(world));
-  const auto go = [](auto& robots) {
-    return [&robots](int rounds) {
-      for (int i = 0; i < rounds; ++i) robots.wander();
-    };
-  };
-  constexpr int kTurns = 40;
-  constexpr int kRounds = 200;
-  const Costs costs = compare(kTurns, kRounds, go(alone), go(clients));
-  figure("simulation_step_us_13", costs.alone_us);
-  figure("clients_step_us_13", costs.clients_us);
-  figure("clients_over_simulation_13", costs.clients_us / costs.alone_us);
+  compare(
+      endless(kThirteen), 40, 200, [](auto& robots) { robots.wander(); }, "13");
 }
 
 // A function of its own, as programs have it.
@@ -218,19 +210,8 @@ void thousand_figures() {
   }
   figure("first_read_ms_1000", first_read_s * 1e3);
 
-  Alone alone(world);
-  Clients clients(playerlike::Host::create(world));
-  const auto go = [](auto& robots) {
-    return [&robots](int rounds) {
-      for (int i = 0; i < rounds; ++i) robots.drive_on();
-    };
-  };
-  constexpr int kTurns = 20;
-  constexpr int kRounds = 3;
-  const Costs costs = compare(kTurns, kRounds, go(alone), go(clients));
-  figure("simulation_step_us_1000", costs.alone_us);
-  figure("clients_step_us_1000", costs.clients_us);
-  figure("clients_over_simulation_1000", costs.clients_us / costs.alone_us);
+  compare(
+      world, 20, 3, [](auto& robots) { robots.drive_on(); }, "1000");
 }
 
 void BM_BeamGetter(benchmark::State& state) {
