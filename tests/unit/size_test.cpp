@@ -24,13 +24,7 @@ struct Excuse {
   const char* reason;
 };
 
-// These lists may only shrink. No file is longer than it may be.
-const std::map<std::string, Excuse>& excused_files() {
-  static const std::map<std::string, Excuse> excused;
-  return excused;
-}
-
-// Functions by file and the line that their brace is on.
+// Functions by file and the line that their brace is on. This list may only shrink.
 const std::map<std::string, Excuse>& excused_functions() {
   static const std::map<std::string, Excuse> excused = {
       {"apps/playpen/completion.cpp: std::string bash_script(const CommandLine& line) {",
@@ -117,11 +111,7 @@ std::map<std::string, std::vector<std::string>> sources() {
 
 TEST(Size, FilesHave700LinesAtMost) {
   for (const auto& [path, lines] : sources()) {
-    const auto excuse = excused_files().find(path);
-    const std::size_t most = excuse == excused_files().end() ? kFileLines : excuse->second.lines;
-    EXPECT_LE(lines.size(), most) << path << ": divide it along what its parts own";
-    EXPECT_TRUE(excuse == excused_files().end() || lines.size() > kFileLines)
-        << path << " needs no excuse any more: take it off the list";
+    EXPECT_LE(lines.size(), kFileLines) << path << ": divide it along what its parts own";
   }
 }
 
@@ -141,9 +131,6 @@ TEST(Size, FunctionsHave80LinesAtMost) {
 
 TEST(Size, ExcusesAreForWhatIsThere) {
   const auto all = sources();
-  for (const auto& [path, excuse] : excused_files()) {
-    EXPECT_TRUE(all.contains(path)) << path << " (" << excuse.reason << ")";
-  }
   for (const auto& [name, excuse] : excused_functions()) {
     const auto source = all.find(name.substr(0, name.find(": ")));
     ASSERT_TRUE(source != all.end()) << name << " (" << excuse.reason << ")";
