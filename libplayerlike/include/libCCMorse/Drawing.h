@@ -139,11 +139,10 @@ T channel_value(std::uint8_t value, std::false_type) {
 /// a text "#34AAFF" (also "#3AF", and "#34AAFF80" with alpha). Numbers outside are clamped. Without
 /// alpha a colour is opaque and replaces what is there, else it is blended over it.
 ///
-/// Drawings are carried out in order: this client sees them at once, others from the next step on
+/// Drawings are executed in order: this client sees them at once, others from the next step on
 /// at the latest. Errors: PlayerError kBadArgument for what is not finite and for texts that are no
 /// colours, kDisconnected when the client is gone. Threads: all members may be called from any
-/// thread. Cost: about 20 ns a cell; thousands of drawings wait in a buffer before they are carried
-/// out.
+/// thread. Cost: about 20 ns a cell; a buffer holds thousands of drawings before they are executed.
 class Drawing {
  public:
   Drawing(const Drawing&) = delete;

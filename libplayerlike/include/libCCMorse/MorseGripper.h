@@ -8,7 +8,7 @@
 namespace CCMorse {
 
 /// Two paddles before the robot that take obstacles, carry them and put them down
-/// (docs/devices/gripper.md). Orders are carried out from the next step on. All values are of the
+/// (docs/devices/gripper.md). Orders are executed from the next step on. All values are of the
 /// newest reading; before the first the status is "", nothing is held, and no beam is broken.
 class MorseGripper : public MorseSensor {
  public:

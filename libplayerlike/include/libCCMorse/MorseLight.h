@@ -8,7 +8,7 @@
 
 namespace CCMorse {
 
-/// A light on the robot, for pictures (docs/devices/blinkenlight.md). Orders are carried out from
+/// A light on the robot, for pictures (docs/devices/blinkenlight.md). Orders are executed from
 /// the next step on.
 class MorseLight : public MorseActuator {
  public:

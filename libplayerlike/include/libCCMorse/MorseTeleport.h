@@ -9,7 +9,7 @@ namespace CCMorse {
 
 /// Puts its robot somewhere else at once, at rest (docs/devices/teleport.md).
 ///
-/// Orders are carried out from the next step on. A place that is taken is refused: a warning says
+/// Orders are executed from the next step on. A place that is taken is refused: a warning says
 /// by what, and the robot goes on as before.
 class MorseTeleport : public MorseActuator {
  public:

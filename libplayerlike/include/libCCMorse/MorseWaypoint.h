@@ -11,7 +11,7 @@ namespace CCMorse {
 
 /// Drives its robot to a point of the world, straight on, round nothing (docs/devices/waypoint.md).
 ///
-/// Orders are carried out from the next step on, and return at once; Read() lets the robot drive
+/// Orders are executed from the next step on, and return at once; Read() lets the robot drive
 /// and brings how it goes. What was ordered is told as done until a reading shows what came of it.
 /// Whoever spoke last steers: SetSpeed() of the motors, or another program, ends the transit with
 /// "Stop".

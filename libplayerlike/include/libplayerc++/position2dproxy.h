@@ -18,7 +18,7 @@ namespace PlayerCc {
 /// models the odometry, so the pose B had at the start, then the localisation. Yaw is
 /// counter-clockwise in (-pi, pi].
 ///
-/// Commands are carried out from the next step on and hold until the next one, which ends them;
+/// Commands are executed from the next step on and hold until the next one, which ends them;
 /// they need no Read(). Values beyond the robot's limits are clamped to them; NaN and infinity are
 /// refused with PlayerError kBadArgument. Speeds to the left are for omnidirectional drives; others
 /// ignore them. The control behind SetVelHead() and GoTo() runs in the simulation, once a step

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
@@ -17,7 +17,7 @@ namespace playerlike {
 class Host;
 struct Client;
 
-/// Drawings that are carried out piece by piece, see EventClient::draw_some().
+/// Drawings that are executed piece by piece, see EventClient::draw_some().
 struct DrawWork {
   std::vector<sim::DrawOperation> operations;
   sim::DrawProgress progress;
@@ -51,15 +51,15 @@ class EventClient final {
 
   /// As Session::wait(): over with kData or kFinished.
   /// @return the outcome, kWaiting if it is not over yet; so for the calls below.
-  Outcome begin_wait(ThinkerId thinker);
+  Outcome begin_wait(ThreadId thread_id);
   /// As Session::peek(): over with kData, kTime or kFinished. In a paced simulation it does not end
   /// by time: who began it cancels it.
-  Outcome begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout);
+  Outcome begin_peek(ThreadId thread_id, std::chrono::milliseconds timeout);
   /// As SleepRequest: over with kTime or kFinished.
   /// @throws SessionError kBadArgument.
-  Outcome begin_sleep(ThinkerId thinker, double seconds);
+  Outcome begin_sleep(ThreadId thread_id, double seconds);
   /// As JoinRequest.
-  void join(ThinkerId thinker);
+  void join(ThreadId thread_id);
 
   /// Carries on with drawings as Session::draw() does, until about so many cells have been written
   /// (a row of tiles or a line more at most); the simulation is locked for that long only. What the

@@ -65,8 +65,8 @@ class Host : public std::enable_shared_from_this<Host> {
   /// A signal has asked for the end of the run, for the report; finish() is to follow.
   void note_end_request(int signal);
 
-  /// A thinker takes no more part, see EventClient.
-  void thinker_ended(ThinkerId thinker) noexcept;
+  /// A thread takes no more part, see EventClient.
+  void thread_ended(ThreadId thread_id) noexcept;
 
   /// Asks to be told of a moment; at once (before this returns) if it has come or the run is over.
   AlarmId set_alarm(Alarm alarm);

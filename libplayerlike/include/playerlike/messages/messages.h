@@ -89,7 +89,7 @@ struct LogStatus {
   std::string file;      ///< in the run's output folder
 };
 
-/// A call that could not be carried out. Player's layer turns it into PlayerCc::PlayerError.
+/// A call that could not be executed. Player's layer turns it into PlayerCc::PlayerError.
 class SessionError : public std::runtime_error {
  public:
   enum class Code {

@@ -168,7 +168,7 @@ struct RetriesRequest {
 
 /// @name The canvas and its layers
 ///
-/// The session's drawings that wait in its queue are carried out first, see Session.
+/// The session's drawings that wait in its queue are executed first, see Session.
 /// A layer belongs to the session that made it; only this one may name it. It stays when the
 /// session ends, until one on the same port makes a layer of the same name. Who names a layer that
 /// is not the base layer or its own gets SessionError kBadArgument.
@@ -444,7 +444,7 @@ struct SaveStateRequest {
 
 /// Lets the world go back to a saved state, at once and for all clients. Time does not: clock,
 /// duration, report, film and log go on, as sim::RestoreScope::kWorld has it. Readings that wait
-/// are still handed out, commands that wait are carried out in the next step.
+/// are still handed out, commands that wait are executed in the next step.
 /// @throws SessionError kBadArgument if no state was saved under that name; kNotAvailable if
 ///         objects are locked.
 struct RestoreStateRequest {

@@ -98,7 +98,7 @@ class Session {
   /// Opens a further session of the same simulation and port, for a driver that a program runs in
   /// a thread of its own. In lockstep such a follower holds simulated time while its thread thinks,
   /// as any session, but never lets it go on by itself: time stands while no other session takes
-  /// part. It does not count for the start gate, and its commands are carried out before those
+  /// part. It does not count for the start gate, and its commands are executed before those
   /// of other sessions, so that a program has the last word.
   [[nodiscard]] virtual std::unique_ptr<Session> open_follower() = 0;
   /// The same for all sessions of one simulation, and different for others that exist now.
