@@ -175,8 +175,7 @@ void Clients::give(const sim::SharedReading& reading, Client::Subscription& subs
 }
 
 sim::SharedReading Clients::reading(DeviceId device) const {
-  // Only sensors can be subscribed to; to ask for the type costs as much as the rest of this.
-  return static_cast<const sim::Sensor&>(simulation_.device(device.robot, device.device)).share();
+  return simulation_.device(device.robot, device.device).sensor()->share();  // checked before
 }
 
 }  // namespace playerlike

@@ -54,8 +54,7 @@ struct Host::Core::RequestHandler {
   void operator()(const SubscribeRequest& what) const {
     const DeviceInfo& info = require_device(core.robots_, what.device);
     const bool is_sensor = core.locked([&] {
-      return dynamic_cast<const sim::Sensor*>(
-                 &core.simulation_.device(what.device.robot, what.device.device)) != nullptr;
+      return core.simulation_.device(what.device.robot, what.device.device).sensor() != nullptr;
     });
     if (!is_sensor) {
       throw SessionError(SessionError::Code::kBadArgument,

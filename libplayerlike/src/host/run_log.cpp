@@ -233,7 +233,7 @@ void RunLog::write(const sim::Simulation& simulation) {
     const RobotInfo& robot = (*robots_)[static_cast<std::size_t>(id.robot)];
     if (port_ != kMorsePort && robot.port != port_) continue;
     const DeviceInfo& device = robot.devices[static_cast<std::size_t>(id.device)];
-    const auto& sensor = dynamic_cast<const sim::Sensor&>(simulation.device(id.robot, id.device));
+    const auto& sensor = *simulation.device(id.robot, id.device).sensor();
     json line = protocol::encode_reading(id, device.type, sensor.reading(), Encoding::kJson);
     line["robot"] = robot.name;
     line["device"] = device.name;

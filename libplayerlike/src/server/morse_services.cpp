@@ -154,8 +154,7 @@ json get_local_data(MorseCall& call) {
   }
   const DeviceId device = device_of(call);
   return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& sensor =
-        dynamic_cast<const sim::Sensor&>(simulation.device(device.robot, device.device));
+    const sim::Sensor& sensor = *simulation.device(device.robot, device.device).sensor();
     if (sensor.reading().sequence == 0) {
       throw MorseRefusal(call.component->name +
                          " has no reading yet: simulated time has not come so far");

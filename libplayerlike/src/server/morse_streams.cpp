@@ -180,7 +180,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   }
 
   static const sim::Sensor& sensor(const sim::Simulation& simulation, DeviceId device) {
-    return dynamic_cast<const sim::Sensor&>(simulation.device(device.robot, device.device));
+    return *simulation.device(device.robot, device.device).sensor();
   }
 
   MorseState& state_;

@@ -2,10 +2,10 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <random>
 
 #include "playerlike/server/server_settings.h"
+#include "sim/core/number_text.h"
 #include "sim/io/settings_file.h"
 
 namespace playerlike {
@@ -56,13 +56,9 @@ void warn_if_shared(const std::string& file, const sim::LogHook& log) {
 }  // namespace
 
 std::string make_token() {
-  constexpr const char* kDigits = "0123456789abcdef";
   std::random_device device;
   std::string text;
-  for (int i = 0; i < 4; ++i) {
-    auto bits = static_cast<std::uint32_t>(device());
-    for (int digit = 0; digit < 8; ++digit, bits >>= 4U) text += kDigits[bits & 15U];
-  }
+  for (int i = 0; i < 4; ++i) text += sim::hexadecimal_text(device(), 8);
   return text;
 }
 

@@ -30,4 +30,13 @@ std::string rounded_text(double value, int digits) {
   return text_of(value, std::chars_format::general, digits);
 }
 
+std::string hexadecimal_text(std::uint64_t value, int digits) {
+  SIM_ASSERT(digits >= 0 && digits <= 16);
+  std::string text(static_cast<std::size_t>(digits), '0');
+  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, value >>= 4U) {
+    *digit = "0123456789abcdef"[value & 15U];
+  }
+  return text;
+}
+
 }  // namespace sim

@@ -16,7 +16,7 @@ namespace sim {
 namespace {
 
 const Reading* newest(const Device* device) {
-  const auto* sensor = dynamic_cast<const Sensor*>(device);
+  const Sensor* sensor = device == nullptr ? nullptr : device->sensor();
   return sensor == nullptr ? nullptr : &sensor->reading();
 }
 

@@ -42,7 +42,7 @@ bool Sensor::update(const StepContext& context) {
 }
 
 void Sensor::succeed(const Device& before, SimTime later_ns) {
-  sequence_ = dynamic_cast<const Sensor&>(before).sequence_;
+  sequence_ = before.sensor()->sequence_;
   next_due_ns_ += later_ns;
 }
 

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/number_text.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -37,13 +38,10 @@ std::string mac_of(std::string_view name) {
     hash ^= static_cast<unsigned char>(c);
     hash *= 0x100000001b3U;
   }
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string mac = "02";
   for (int byte = 0; byte < 5; ++byte) {
-    const auto value = static_cast<std::size_t>((hash >> (8 * byte)) & 0xffU);
     mac += ':';
-    mac += kDigits[value / 16];
-    mac += kDigits[value % 16];
+    mac += hexadecimal_text(hash >> (8 * byte), 2);
   }
   return mac;
 }

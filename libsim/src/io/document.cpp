@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sim/core/file.h"
+#include "sim/core/number_text.h"
 #include "sim/core/utf8.h"
 
 namespace sim::io {
@@ -488,14 +489,12 @@ bool begins_as_object(std::string_view text) {
 
 bool parse_document(std::string_view text, Reader::Document& document) {
   if (const std::size_t bad = find_invalid_utf8(text); bad != std::string_view::npos) {
-    constexpr const char* kDigits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(text[bad]);
     ConfigIssue issue{"json/invalid-utf8",
                       document.file,
                       "",
                       "text in UTF-8",
-                      std::string("the byte 0x") + kDigits[byte >> 4U] + kDigits[byte & 15U] +
-                          ", which begins no character",
+                      "the byte 0x" + hexadecimal_text(byte, 2) + ", which begins no character",
                       "save the file with the encoding UTF-8"};
     std::tie(issue.line, issue.column) = line_and_column(text, bad);
     document.add(std::move(issue));

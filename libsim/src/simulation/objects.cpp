@@ -235,35 +235,33 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   });
 }
 
-std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
-  if (const auto robot = find_robot(name)) {
-    impl_->world.robots[static_cast<std::size_t>(*robot)].colour = colour;
+template <typename Edit>
+std::optional<std::string> Simulation::Impl::change_look(const Simulation& simulation,
+                                                         const std::string& name,
+                                                         const char* refusal, Edit edit) {
+  if (const auto robot = simulation.find_robot(name)) {
+    edit(world.robots[static_cast<std::size_t>(*robot)]);
     return std::nullopt;
   }
-  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+  for (ObstacleDescription& block : world.arena.obstacles) {
     if (block.name != name) continue;
-    block.colour = colour;
+    edit(block);
     return std::nullopt;
   }
-  const std::optional<SceneObject> object = find_object(name);
-  if (!object) return no_such_object(name);
-  return object->kind + " \"" + name + "\" keeps its colour";
+  const std::optional<SceneObject> object = simulation.find_object(name);
+  if (!object) return simulation.no_such_object(name);
+  return object->kind + " \"" + name + "\" " + refusal;
+}
+
+std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
+  return impl_->change_look(*this, name, "keeps its colour",
+                            [&](auto& object) { object.colour = colour; });
 }
 
 std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
   if (fiducial < 0) return "the number of a fiducial is at least 0";
-  if (const auto robot = find_robot(name)) {
-    impl_->world.robots[static_cast<std::size_t>(*robot)].fiducial = fiducial;
-    return std::nullopt;
-  }
-  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
-    if (block.name != name) continue;
-    block.fiducial = fiducial;
-    return std::nullopt;
-  }
-  const std::optional<SceneObject> object = find_object(name);
-  if (!object) return no_such_object(name);
-  return object->kind + " \"" + name + "\" bears no fiducial";
+  return impl_->change_look(*this, name, "bears no fiducial",
+                            [&](auto& object) { object.fiducial = fiducial; });
 }
 
 std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,

@@ -104,6 +104,11 @@ struct Simulation::Impl {
   // Changes a block, unless something is against it: tells what.
   template <typename Edit>
   std::optional<std::string> change_block(const std::string& name, Edit edit);
+  // Calls edit() with the description of a robot or block. Returns why it cannot.
+  // @param refusal  what other objects do instead.
+  template <typename Edit>
+  std::optional<std::string> change_look(const Simulation& simulation, const std::string& name,
+                                         const char* refusal, Edit edit);
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));

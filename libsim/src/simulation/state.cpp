@@ -7,6 +7,7 @@
 
 #include "io/solid_limits.h"
 #include "sim/core/hash.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/world_hash.h"
 #include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
@@ -34,14 +35,6 @@ std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   return hash.value();
 }
 
-std::string hexadecimal(std::uint64_t number) {
-  std::string text(16, '0');
-  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, number /= 16) {
-    *digit = "0123456789abcdef"[number % 16];
-  }
-  return text;
-}
-
 // The header of a snapshot that is as it was written, for this world.
 // @param own  the hash of the world as it was at the start.
 SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const WorldDescription& world,
@@ -57,8 +50,8 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
   expect(header.magic == kMagic, "a snapshot of Playpen", "other bytes");
   expect(header.version == kSnapshotVersion, "version " + std::to_string(kSnapshotVersion),
          "version " + std::to_string(header.version));
-  expect(header.world == own, "world " + world.name + " (" + hexadecimal(own) + ")",
-         "another world (" + hexadecimal(header.world) + ")");
+  expect(header.world == own, "world " + world.name + " (" + hexadecimal_text(own, 16) + ")",
+         "another world (" + hexadecimal_text(header.world, 16) + ")");
   expect(header.seed == world.simulation.seed, "seed " + std::to_string(world.simulation.seed),
          "seed " + std::to_string(header.seed));
   const std::uint64_t left = snapshot.size() - sizeof header;
@@ -66,8 +59,8 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
          bytes(header.state) + " of state and " + bytes(header.pictures) + " of pictures",
          bytes(left));
   const std::uint64_t hash = hash_of(snapshot.subspan(sizeof header));
-  expect(header.hash == hash, "bytes with the hash " + hexadecimal(header.hash),
-         "the hash " + hexadecimal(hash) + ": they were altered");
+  expect(header.hash == hash, "bytes with the hash " + hexadecimal_text(header.hash, 16),
+         "the hash " + hexadecimal_text(hash, 16) + ": they were altered");
   return header;
 }
 

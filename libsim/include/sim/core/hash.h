@@ -13,7 +13,8 @@ namespace sim {
 /// Running 64-bit FNV-1a hash of a simulation's state, over 8-byte words
 /// (http://www.isthe.com/chongo/tech/comp/fnv/, with words in place of bytes).
 ///
-/// For comparing runs, not against an adversary. -0.0 and 0.0 hash alike; NaNs do not occur.
+/// For comparing runs, not against an adversary. add(double) treats -0.0 as 0.0; add_bytes() tells
+/// them apart.
 class StateHash {
  public:
   void add(std::uint64_t word) noexcept {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace sim {
@@ -18,5 +19,9 @@ namespace sim {
 /// A number rounded to so many digits that count, without zeros at its end: "0.333333".
 /// @param digits  1..60.
 [[nodiscard]] std::string rounded_text(double value, int digits);
+
+/// Returns the lowest `digits` hexadecimal digits of a number, in lower case, with leading zeros.
+/// @param digits  0..16.
+[[nodiscard]] std::string hexadecimal_text(std::uint64_t value, int digits);
 
 }  // namespace sim

@@ -284,7 +284,11 @@ class Device {
 
   /// @name What a simulation does for some devices alone
   /// @{
-  [[nodiscard]] virtual Sensor* sensor() noexcept { return nullptr; }
+  /// The device as a sensor; null if it is none.
+  [[nodiscard]] virtual const Sensor* sensor() const noexcept { return nullptr; }
+  [[nodiscard]] Sensor* sensor() noexcept {
+    return const_cast<Sensor*>(std::as_const(*this).sensor());
+  }
   /// The robot moves by the first of its devices that is one.
   [[nodiscard]] virtual Motion* motion() noexcept { return nullptr; }
   /// The first of them leaves the robot's trail.
@@ -337,7 +341,7 @@ class Sensor : public Device {
   /// When update() will make the next reading, or let it pass.
   [[nodiscard]] SimTime next_due_ns() const noexcept { return next_due_ns_; }
 
-  [[nodiscard]] Sensor* sensor() noexcept final { return this; }
+  [[nodiscard]] const Sensor* sensor() const noexcept final { return this; }
 
   void succeed(const Device& before, SimTime later_ns) override;
   void archive(StateArchive& archive) override;
