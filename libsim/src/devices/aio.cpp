@@ -164,14 +164,13 @@ constexpr Field kAioSettings[] = {
     frequency_field<&AioParams::frequency_hz>(),
     field<&AioParams::noise_v>("noise", "V", "standard deviation of each input")
         .within(0.0, 1000.0),
-    field<&AioParams::inputs>("inputs", "", "what input 0, 1, ... shows; at most 8")
+    field<&AioParams::inputs>("inputs", "", "sources of input 0, 1, ...; at most 8")
         .of(kAnalogSource)
         .counting(0, AioParams::kMaxLines)
         .or_fault("device/input",
                   "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's "
                   "name), or a wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\""),
-    field<&AioParams::outputs>("outputs", "", "how many outputs there are")
-        .within(0, AioParams::kMaxLines),
+    field<&AioParams::outputs>("outputs", "", "number of outputs").within(0, AioParams::kMaxLines),
 };
 SIM_FIELDS(AioParams, kAioSettings)
 

@@ -104,15 +104,16 @@ constexpr Field kBatterySettings[] = {
     field<&BatteryParams::initial_charge_percent>("initial_charge", "percent",
                                                   "of the capacity, at the start")
         .within(0.0, 100.0),
-    field<&BatteryParams::idle_power_w>("idle_power", "W", "drawn at all times")
+    field<&BatteryParams::idle_power_w>("idle_power", "W", "power that is drawn at all times")
         .within(0.0, 10000.0),
     field<&BatteryParams::drive_power_ws_per_m>(
-        "drive_power", "W for each m/s", "drawn besides for each m/s that the wheels are driven at")
+        "drive_power", "W for each m/s", "additional power for each m/s of the wheels' speed")
         .within(0.0, 10000.0),
     field<&BatteryParams::charging_power_w>("charging_power", "W",
-                                            "what a dock puts into the battery")
+                                            "power from a dock into the battery")
         .within(0.0, 10000.0),
-    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "at full charge").above(0.0, 1000.0),
+    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "voltage at full charge")
+        .above(0.0, 1000.0),
     field<&BatteryParams::empty_voltage_v>("empty_voltage", "V",
                                            "when empty; at most `full_voltage`")
         .above(0.0, 1000.0),

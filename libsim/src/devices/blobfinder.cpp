@@ -180,7 +180,7 @@ constexpr Field kBlobfinderSettings[] = {
     include<BlobfinderParams, ViewParams>(),
     noise_field<&BlobfinderParams::noise_m>("standard deviation of a blob's range"),
     field<&BlobfinderParams::colours>(
-        "colours", "", "list of the colours that it sees, like `\"#ff8800\"`, exactly; none: all")
+        "colours", "", "list of the exact colours that it sees, like `\"#ff8800\"`; none: all")
         .of(kColour)
         .counting(0, BlobfinderParams::kMaxColours)
         .or_fault("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),

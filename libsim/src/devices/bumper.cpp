@@ -152,12 +152,11 @@ SIM_FIELDS(BumperSegment, kSegment, segment_fault)
 constexpr Field kBumperSettings[] = {
     frequency_field<&BumperParams::frequency_hz>(),
     field<&BumperParams::reach_m>("reach", "m",
-                                  "a touch farther than this from all segments presses none")
+                                  "a contact farther than this from all segments presses none")
         .above(0.0, 1.0),
-    field<&BumperParams::segments>(
-        "segments", "m, degrees",
-        "list of at most 64 segments, in the order in which programs count them; none: a straight "
-        "one for each side of the footprint")
+    field<&BumperParams::segments>("segments", "m, degrees",
+                                   "list of at most 64 segments, in the order of their indexes; "
+                                   "none: a straight one for each side of the footprint")
         .counting(0, BumperParams::kMaxSegments)
         .telling_each(),
 };

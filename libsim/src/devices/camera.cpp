@@ -145,7 +145,7 @@ std::optional<FieldFault> pixels_fault(const void* object) {
 }  // namespace
 
 constexpr Field kCameraSettings[] = {
-    frequency_field<&CameraParams::frequency_hz>("pictures a simulated second"),
+    frequency_field<&CameraParams::frequency_hz>("pictures per simulated second"),
     include<CameraParams, ViewParams>(),
 };
 SIM_FIELDS(CameraParams, kCameraSettings)

@@ -214,10 +214,10 @@ constexpr Field kViewSettings[] = {
     custom("image", kImage, "pixels", "`[columns, rows]` of the picture, at most 640 x 480"),
     field<&ViewParams::field_of_view_rad>(
         "field_of_view_deg", "degrees",
-        "from its left to its right side; on a head, that of the head")
+        "horizontal angle of view; on a head, the head's value is used")
         .within(0.01, 170.0),
     range_max_field<&ViewParams::range_max_m>(),
-    mount_field<&ViewParams::X_BS>("where the lens sits on the body and looks, X_BS"),
+    mount_field<&ViewParams::X_BS>("pose of the lens on the body, X_BS"),
     height_field<&ViewParams::height_m>("of the lens above the floor"),
     field<&ViewParams::ptz>("ptz", "", "name of the robot's ptz device that turns and zooms it"),
 };

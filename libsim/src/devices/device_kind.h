@@ -101,7 +101,8 @@ template <typename Params, typename Complete>
 /// @name Fields that many devices have
 /// @{
 template <auto kMember>
-[[nodiscard]] constexpr Field frequency_field(const char* meaning = "readings a simulated second") {
+[[nodiscard]] constexpr Field frequency_field(
+    const char* meaning = "readings per simulated second") {
   return field<kMember>("frequency", "Hz", meaning).above(0.0, 1000.0);
 }
 template <auto kMember>
@@ -109,7 +110,8 @@ template <auto kMember>
   return field<kMember>("noise", "m", meaning).within(0.0, 100.0);
 }
 template <auto kMember>
-[[nodiscard]] constexpr Field range_max_field(const char* meaning = "farther things are not seen") {
+[[nodiscard]] constexpr Field range_max_field(
+    const char* meaning = "farther objects are not seen") {
   return field<kMember>("range_max", "m", meaning).within(kLeastLength_m, 1000.0);
 }
 template <auto kMember>

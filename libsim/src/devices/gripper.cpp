@@ -285,17 +285,17 @@ constexpr const char* kStateWords[] = {"open", "closed", "moving", "error"};
 constexpr Field kGripperSettings[] = {
     frequency_field<&GripperParams::frequency_hz>(),
     mount_field<&GripperParams::X_BG>(
-        "where the paddles begin, half-way between them, on the body; they point along its x axis. "
-        "None: the middle of the robot's front"),
+        "pose on the body of the point half-way between the paddles' bases; they point along its x "
+        "axis. None: the middle of the robot's front"),
     field<&GripperParams::length_m>("length", "m", "of a paddle").within(kLeastLength_m, 10.0),
     field<&GripperParams::thickness_m>("thickness", "m", "of a paddle").within(0.0, 10.0),
-    field<&GripperParams::opening_m>("opening", "m", "between the open paddles")
+    field<&GripperParams::opening_m>("opening", "m", "distance between the open paddles")
         .within(kLeastLength_m, 10.0),
-    height_field<&GripperParams::height_m>(
-        "of paddles and beams above the floor; what is not higher is neither felt nor taken"),
-    field<&GripperParams::travel_time_s>("travel_time", "s", "from open to closed, and back")
+    height_field<&GripperParams::height_m>("of paddles and beams above the floor; objects that are "
+                                           "not higher are neither detected nor taken"),
+    field<&GripperParams::travel_time_s>("travel_time", "s", "time from open to closed, and back")
         .above(0.0, 3600.0),
-    field<&GripperParams::capacity>("capacity", "", "how many things the store holds")
+    field<&GripperParams::capacity>("capacity", "", "number of objects that the store can hold")
         .within(0, GripperParams::kMaxStored),
 };
 SIM_FIELDS(GripperParams, kGripperSettings)

@@ -75,18 +75,21 @@ constexpr Field kImuSettings[] = {
     field<&ImuParams::noise_mps2>("noise_acceleration", "m/s^2",
                                   "standard deviation of an acceleration")
         .within(0.0, 1000.0),
-    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s", "of a turning rate")
+    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s",
+                                   "standard deviation of a turn rate")
         .within(0.0, 3600.0),
-    field<&ImuParams::noise_ut>("noise_field", "uT", "of the magnetic field").within(0.0, 1000.0),
+    field<&ImuParams::noise_ut>("noise_field", "uT", "standard deviation of the magnetic field")
+        .within(0.0, 1000.0),
     field<&ImuParams::bias_mps2>("bias_acceleration", "m/s^2",
                                  "standard deviation of each axis's constant error")
         .within(0.0, 1000.0),
-    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s", "the same of the turning rates")
+    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s",
+                                  "standard deviation of each turn rate's constant error")
         .within(0.0, 3600.0),
     field<&ImuParams::field_horizontal_ut>("field_horizontal", "uT",
-                                           "of the Earth's magnetic field, to the north")
+                                           "northward component of the Earth's magnetic field")
         .within(0.0, 1000.0),
-    field<&ImuParams::field_down_ut>("field_down", "uT", "of that field, downwards")
+    field<&ImuParams::field_down_ut>("field_down", "uT", "downward component of that field")
         .within(-1000.0, 1000.0),
     north_field<&ImuParams::north_rad>(),
 };

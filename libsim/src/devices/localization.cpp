@@ -123,14 +123,14 @@ SIM_FIELDS(PoseParams, kPoseSettings)
 
 constexpr Field kOdometrySettings[] = {
     frequency_field<&OdometryParams::frequency_hz>(
-        "readings a simulated second; the wheels are integrated each step"),
+        "readings per simulated second; the wheels are integrated in each step"),
     field<&OdometryParams::noise>(
         "noise", "m after 1 m",
         "standard deviation of a wheel's path after 1 m of it; grows with the root of the path")
         .within(0.0, 10.0),
-    field<&OdometryParams::level>("level", "",
-                                  "what clients of MORSE's protocol are shown: `\"integrated\"`, "
-                                  "`\"differential\"` or `\"raw\"`, see below")
+    field<&OdometryParams::level>(
+        "level", "",
+        "form of MORSE's stream: `\"integrated\"`, `\"differential\"` or `\"raw\"`, see below")
         .one_of(kLevels),
 };
 SIM_FIELDS(OdometryParams, kOdometrySettings)

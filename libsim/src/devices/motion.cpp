@@ -320,8 +320,9 @@ constexpr Field kMotionSettings[] = {
     field<&MotionParams::max_speed_mps>("max_speed", "m/s",
                                         "commands beyond it are clamped, either way")
         .above(0.0, 20.0),
-    field<&MotionParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
-                                              "the same for turning; default 3 rad/s")
+    field<&MotionParams::max_turn_rate_radps>(
+        "max_turn_rate_deg", "degrees/s",
+        "commands beyond it are clamped, either way; default 3 rad/s")
         .above(0.0, 3600.0),
     field<&MotionParams::max_acceleration_mps2>("max_acceleration", "m/s^2",
                                                 "0: no limit, the speed changes within a step")
@@ -329,21 +330,20 @@ constexpr Field kMotionSettings[] = {
     field<&MotionParams::max_turn_acceleration_radps2>("max_turn_acceleration_deg", "degrees/s^2",
                                                        "0: no limit")
         .within(0.0, 1e6),
-    field<&MotionParams::enabled_at_start>("enabled", "",
-                                           "whether the motors are on before a program says so")
+    field<&MotionParams::enabled_at_start>("enabled", "", "whether the motors are on at the start")
         .untold(),
     field<&MotionParams::approach_gain>("approach_gain", "1/s",
-                                        "position control: speed for each metre that is missing")
+                                        "position control: speed per metre of error")
         .above(0.0, 50.0),
     field<&MotionParams::turn_gain>(
-        "turn_gain", "1/s",
-        "control of position and heading: turn rate for each radian that is missing")
+        "turn_gain", "1/s", "control of position and heading: turn rate per radian of error")
         .above(0.0, 50.0),
-    field<&MotionParams::tolerance_m>("tolerance", "m",
-                                      "position control: so near to its goal the robot is there")
+    field<&MotionParams::tolerance_m>(
+        "tolerance", "m", "position control: distance from the goal at which it is reached")
         .above(0.0, 1000.0),
-    field<&MotionParams::heading_tolerance_rad>("heading_tolerance_deg", "degrees",
-                                                "the same for its heading; default 0.01 rad")
+    field<&MotionParams::heading_tolerance_rad>(
+        "heading_tolerance_deg", "degrees",
+        "position control: heading error at which the heading is reached; default 0.01 rad")
         .above(0.0, 180.0),
 };
 SIM_FIELDS(MotionParams, kMotionSettings)

@@ -100,10 +100,10 @@ constexpr ElementType kSender{read_sender, sender_text, R"({"type": "string"})"}
 
 constexpr Field kOpaqueSettings[] = {
     frequency_field<&OpaqueParams::frequency_hz>(
-        "readings a simulated second, each of which takes one message at most"),
+        "readings per simulated second; each takes at most one message"),
     field<&OpaqueParams::from>("from", "",
-                               "whose messages arrive here, at most 64: `\"ROBOT\"`, for its "
-                               "device `opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
+                               "senders of the messages, at most 64: `\"ROBOT\"`, for its device "
+                               "`opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
         .of(kSender)
         .counting(0, OpaqueParams::kMaxSenders)
         .or_fault("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),

@@ -152,12 +152,10 @@ std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams
 constexpr Field kRangerSettings[] = {
     frequency_field<&RangerParams::frequency_hz>(),
     noise_field<&RangerParams::noise_m>("standard deviation of a range"),
-    range_max_field<&RangerParams::range_max_m>(
-        "greatest range, and what a transducer reads that meets nothing"),
+    range_max_field<&RangerParams::range_max_m>("maximum range, and the reading if nothing is hit"),
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",
-                               "where each transducer sits on the body and looks, X_BS; 1 to 64 "
-                               "of them")
+                               "poses of the transducers on the body, X_BS; 1 to 64 of them")
         .counting(1, RangerParams::kMaxTransducers)
         .or_fault("device/ranger-mounts",
                   "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")

@@ -45,7 +45,7 @@ void Speech::archive(StateArchive& archive) {
 
 constexpr Field kSpeechSettings[] = {
     field<&SpeechParams::shown_s>("shown", "s",
-                                  "for so long a text stands over the robot in pictures")
+                                  "time for which pictures show a text over the robot")
         .above(0.0, 1000.0),
 };
 SIM_FIELDS(SpeechParams, kSpeechSettings)

@@ -111,7 +111,7 @@ constexpr Field kWifiSettings[] = {
     field<&WifiParams::level_1m_dbm>("level_1m", "dBm", "signal 1 m from a sender")
         .within(-200.0, 100.0),
     field<&WifiParams::exponent>("exponent", "",
-                                 "path loss exponent: 2 in free space, 3 or so in a building")
+                                 "path loss exponent: 2 in free space, about 3 in a building")
         .above(0.0, 10.0),
     field<&WifiParams::noise_db>("noise", "dB", "standard deviation of a level (shadowing)")
         .within(0.0, 100.0),
