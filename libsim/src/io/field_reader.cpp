@@ -14,7 +14,8 @@ double read_number(Reader& settings, const Field& field, double fallback) {
   if (!field.is_angle) return settings.number(field.name, fallback, field.range);
   const bool is_bounded = field.range.min > NumberRange{}.min;
   if (is_bounded) return settings.angle_deg(field.name, fallback, field.range);
-  return normalize_angle(settings.angle_deg(field.name, fallback));  // a direction
+  return normalize_angle(settings.angle_deg(field.name, fallback));  // an angle without bounds is a
+                                                                     // direction
 }
 
 void read_choice(Reader& settings, const Field& field, void* value) {
@@ -56,7 +57,7 @@ void read_element(Reader& element, const Field& field, void* list) {
   }
 }
 
-/// A list that is there takes the place of the default as a whole.
+/// A list in the file replaces the default list as a whole.
 void read_list(Reader& settings, const Field& field, void* list) {
   std::optional<Reader> place = settings.child(field.name);
   if (!place) return;
@@ -114,7 +115,7 @@ void read_field(Reader& settings, const Field& field, void* object) {
     case FieldType::kCustom:
       return field.custom->read(settings, field, value);
     default:
-      SIM_ASSERT(false);  // of messages only
+      SIM_ASSERT(false);  // other types occur in messages only
   }
 }
 
