@@ -51,7 +51,7 @@ std::uint8_t grey(std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32
   return static_cast<std::uint8_t>((luma * alpha + 255 * (255 - alpha) + 127) / 255);
 }
 
-// The upper 8 bits of a sample with 8 or 16 bits, rounded.
+// A sample of 8 or 16 bits, scaled to 8 bits.
 std::uint8_t to_8_bits(const std::uint8_t* sample, int bytes) {
   if (bytes == 1) return *sample;
   return static_cast<std::uint8_t>((sample[0] * 256u + sample[1] + 128u) / 257u);

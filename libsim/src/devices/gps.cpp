@@ -23,8 +23,7 @@ GeoPoint shifted(const GeoPoint& from, double east_m, double north_m, double alt
   const double e2 = ellipsoid.flattening * (2.0 - ellipsoid.flattening);
   const double s = std::sin(from.latitude_rad);
   const double w2 = 1.0 - e2 * s * s;
-  const double across_m = a / std::sqrt(w2);                     // N, radius of curvature along the
-                                                                 // parallel
+  const double across_m = a / std::sqrt(w2);                     // N, radius along the parallel
   const double along_m = a * (1.0 - e2) / (w2 * std::sqrt(w2));  // M, along the meridian
   return {from.latitude_rad + north_m / (along_m + altitude_m),
           normalize_angle(from.longitude_rad +

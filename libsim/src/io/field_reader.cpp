@@ -14,8 +14,7 @@ double read_number(Reader& settings, const Field& field, double fallback) {
   if (!field.is_angle) return settings.number(field.name, fallback, field.range);
   const bool is_bounded = field.range.min > NumberRange{}.min;
   if (is_bounded) return settings.angle_deg(field.name, fallback, field.range);
-  return normalize_angle(settings.angle_deg(field.name, fallback));  // an angle without bounds is a
-                                                                     // direction
+  return normalize_angle(settings.angle_deg(field.name, fallback));  // a direction
 }
 
 void read_choice(Reader& settings, const Field& field, void* value) {

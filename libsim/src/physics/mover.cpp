@@ -106,8 +106,7 @@ inline void finish_step(Robot& r, double dt_s) {
 inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
   r.state->turn_rad += turn_rad;
   if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
-  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // upper bound for any of its
-                                                                  // points
+  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // bound for all its points
   r.gone_m += most_m;
   r.moved_m += most_m;
   farthest_m_ = std::max(farthest_m_, r.moved_m);

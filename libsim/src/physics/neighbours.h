@@ -92,8 +92,7 @@ class Neighbours {
   double travel_m_ = 0.0;
   double gone_m_ = 0.0;
   std::vector<Pair> pairs_;  // all that may come near before gone_m_ is pairs_until_m_, in order
-  std::vector<double> meet_gone_m_;  // by pair: the robots cannot meet before any robot's travel
-                                     // has this value
+  std::vector<double> meet_gone_m_;  // by pair: gone_m_ from which on they may meet
   std::vector<Pair> pairs_before_;   // previous `pairs_`
   std::vector<double> meet_before_;
   std::vector<std::size_t> may_meet_;  // those pairs that may meet in this part of a step

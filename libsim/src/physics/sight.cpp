@@ -150,8 +150,7 @@ void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visit
       p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Bodies::Circle& circle) {
         if (!more) return;
         const Vec2 p_AB = Vec2(circle.x, circle.y) - p_WA;
-        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // distance from the line,
-                                                                         // times the line's length
+        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // distance * |line|
         if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
         if (!may(circle.robot)) return;
         const Robot& r = bodies_.robot(circle.robot);

@@ -71,8 +71,7 @@ struct TextStyle {
 /// Change of a pixel: each channel becomes (below * keep + add) >> 16.
 struct Blend {
   std::uint32_t keep = 1U << 16;                                   ///< 0..2^16
-  std::array<std::uint32_t, 3> add = {1 << 15, 1 << 15, 1 << 15};  ///< including one half for
-                                                                   ///< rounding
+  std::array<std::uint32_t, 3> add = {1 << 15, 1 << 15, 1 << 15};  ///< with 1/2 for rounding
 
   /// @param kept   weight of the pixel below, in [0, 1].
   /// @param added  value to add, 0..255 * (1 - kept).

@@ -99,8 +99,7 @@ struct ScanSteps {
   void (*clear)(const ScanJob&);
   void (*sweep)(const ScanJob&);
   Located (*locate)(const ScanJob&);
-  std::int32_t (*find_visible)(const ScanJob&, std::int32_t groups);  ///< returns the length of
-                                                                      ///< ScanJob::visible
+  std::int32_t (*find_visible)(const ScanJob&, std::int32_t groups);  ///< returns their number
   void (*finish)(const ScanJob&);
 };
 

@@ -458,8 +458,7 @@ class Sight {
     const Float aside = V::abs(middle - V::broadcast(job_.beam_offset));
     const Float nearest = distance - radius - relative_slack * distance;
 
-    // No lane is outside if the sensor may be within the disc. A lane with NaN is outside of
-    // nothing.
+    // Set if the sensor is certainly outside of the disc; not set for NaN.
     const unsigned outside = V::bits(V::less(zero, nearest));
     const unsigned in_view =
         V::bits(V::less(aside - spread, half_fan_)) & V::bits(V::less(nearest, range_max_));

@@ -46,9 +46,8 @@ struct MotionParams {
 /// Speeds are bounded by the command's limits. With an acceleration limit a (or alpha), they are
 /// also bounded by sqrt(a d) (or sqrt(alpha e)), so that the robot can brake before the goal.
 /// Proportional position control with bounded speeds is described in Siegwart, Nourbakhsh,
-/// Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd ed., sec. 3.6.2; their robot drives
-/// curves.
-/// Introduction to Autonomous Mobile Robots, 2nd ed., sec. 3.6.2, though theirs goes by curves.
+/// Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd ed., sec. 3.6.2; their controller
+/// drives curves.
 class PositionControl {
  public:
   /// Output of the controller for the next step.

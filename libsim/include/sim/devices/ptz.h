@@ -21,8 +21,7 @@ struct PtzParams {
   double view_max_rad = std::numbers::pi / 3.0;               ///< field of view, zoomed out
   double pan_speed_radps = 80.0 / 180.0 * std::numbers::pi;   ///< maximum, > 0
   double tilt_speed_radps = 50.0 / 180.0 * std::numbers::pi;  ///< maximum, > 0
-  double zoom_speed_radps = 30.0 / 180.0 * std::numbers::pi;  ///< of the field of view, maximum, >
-                                                              ///< 0
+  double zoom_speed_radps = 30.0 / 180.0 * std::numbers::pi;  ///< of the view, maximum, > 0
 };
 
 /// Direction of a head.

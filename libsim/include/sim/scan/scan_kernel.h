@@ -70,7 +70,7 @@ class DiscBuffer {
  public:
   /// Forgets all discs; keeps the memory.
   void clear() noexcept { size_ = group_count_ = 0; }
-  /// Adds a disc round (x, y), in W [m].
+  /// Adds a disc around (x, y), in W [m].
   void add(float x_m, float y_m, float radius_m) {
     if (size_ + kPadding >= x_.size()) grow();
     x_[size_] = x_m;

@@ -21,10 +21,10 @@ namespace sim {
 /// Outline of a solid: a polygon in the solid's own frame, counter-clockwise [m].
 using Polygon = std::vector<Vec2>;
 
-/// Whether an obstacle can be moved out of the way.
+/// Whether an obstacle can be retracted into the floor.
 enum class ObstacleType {
   kStatic,   ///< always there (light grey in pictures)
-  kDynamic,  ///< can be extended from the floor and retracted into it while running (red)
+  kDynamic,  ///< can be extended and retracted while running (red)
 };
 
 /// Whether a dynamic obstacle is extended or retracted now.
@@ -77,7 +77,7 @@ struct MapDescription {
   std::string image;                ///< file, relative to the world file
   double resolution_m = 0.05;       ///< side of a pixel [m]
   Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
-  double occupied_threshold = 0.5;  ///< pixels darker than this share of white are walls, (0, 1)
+  double occupied_threshold = 0.5;  ///< pixels darker than this fraction of white are walls, (0, 1)
   double simplify_m = 0.0;  ///< tolerance for straightening outlines [m]; 0: outlines follow the
                             ///< pixels
 };
@@ -87,7 +87,7 @@ struct ArenaDescription {
   std::string preset;             ///< "syrotek", or "" for an arena described in full
   Vec2 origin = Vec2::Zero();     ///< bottom left corner of the floor in W [m]
   Vec2 size = {3.42, 3.72};       ///< [m]
-  bool border = true;             ///< walls round the floor
+  bool border = true;             ///< walls around the floor
   double border_height_m = 0.16;  ///< [m]
   std::vector<ObstacleDescription> obstacles;
   std::vector<DockDescription> docks;
