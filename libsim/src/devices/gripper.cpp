@@ -174,8 +174,7 @@ void Gripper::act(RobotControl& robot) {
 
 void Gripper::close_further(RobotControl& robot, const StepContext& now) {
   const SimTime next_ns = std::min(travel_ns_, closed_ns_ + now.world.simulation.step_ns);
-  const double before_m = 0.5 * gap_m() + kFits_m;  // from the centre line to the paddles' inner
-                                                    // sides
+  const double before_m = 0.5 * gap_m() + kFits_m;  // from the centre line
   const double after_m = 0.5 * gap_at(next_ns);
   const Pose X_GW = (now.body.X_WB * X_BG_).inverse();
   // Of all objects that a paddle touches in this step, the one that extends farthest from the

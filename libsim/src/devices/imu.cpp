@@ -36,7 +36,7 @@ std::optional<std::string> Imu::apply(const Command& command) {
 void Imu::integrate(const StepContext& context) {
   const double dt_s = to_seconds(context.world.simulation.step_ns);
   const Twist& now = context.body.twist;
-  // The step's rotation is multiplied by the mean of the speeds at its begin and end.
+  // The step's rotation is multiplied by the mean of the speeds at its start and end.
   const double lateral = 0.5 * (before_.lateral_mps + now.lateral_mps);
   const double forward = 0.5 * (before_.v_mps + now.v_mps);
   gained_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;

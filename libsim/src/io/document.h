@@ -28,9 +28,8 @@ struct Reader::Value {
   Kind kind = Kind::kNull;
   NumberKind number_kind = NumberKind::kReal;
   bool boolean = false;
-  int line = 0;                 ///< line of its end (scalars) or its opening bracket (objects,
-                                ///< arrays)
-  int key_line = 0;             ///< line of its key, if it is a member
+  int line = 0;                 ///< of its end (scalars) or opening bracket (objects, arrays)
+  int key_line = 0;             ///< of its key, if it is a member
   double real = 0.0;            ///< of every number
   std::int64_t integer = 0;     ///< of a number of kind kSigned
   std::uint64_t natural = 0;    ///< of a number of kind kUnsigned

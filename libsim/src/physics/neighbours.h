@@ -22,7 +22,7 @@ class Neighbours {
   /// Two robots that may hinder each other.
   struct NearPair {
     int first, second;
-    double apart_m;    ///< lower bound at the begin of this part of a step,
+    double apart_m;    ///< lower bound at the start of this part of a step,
     b2Vec2 direction;  ///< along this direction, from the first to the second
   };
 

@@ -59,8 +59,7 @@ class Canvas {
   void archive(StateArchive& archive) { cells_.archive(archive); }
 
  private:
-  friend class LayerStack;  // resizes it with the other layers, and reads the marks of changed
-                            // tiles
+  friend class LayerStack;  // resizes it with the other layers, and reads its marks
 
   static_assert(sizeof(Colour) == sizeof(CellValue), "a cell is copied as one Colour");
 

@@ -28,8 +28,7 @@ enum class LayerKind : std::uint8_t {
 /// How a layer is drawn over those below it.
 struct LayerStyle {
   std::string name = {};
-  Colour colour{0, 0, 0, 255};  ///< of the set cells of a binary layer; of any layer's entry in
-                                ///< legends
+  Colour colour{0, 0, 0, 255};  ///< of a binary layer's set cells; of a layer's legend entry
   double transparency = 0.0;    ///< 0 (opaque) to 1 (invisible), clamped; a cell's alpha a becomes
                                 ///< round(a round(255 (1 - transparency)) / 255)
   std::optional<Colour> transparent_colour = {};  ///< cells with this RGB (whatever the alpha) are

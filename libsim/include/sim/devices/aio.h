@@ -26,8 +26,7 @@ using AnalogSource = std::variant<double, AnalogSignal, BatteryTap, Wire>;
 
 /// Settings of analog inputs and outputs.
 struct AioParams {
-  static constexpr int kMaxLines = 8;       ///< maximum number of inputs, and of outputs (Player's
-                                            ///< limit)
+  static constexpr int kMaxLines = 8;  ///< maximum number of inputs or outputs (Player's limit)
   static constexpr double kMaxVolts = 1e6;  ///< maximum magnitude of an output voltage
 
   double frequency_hz = 10.0;  ///< (0, 1000]

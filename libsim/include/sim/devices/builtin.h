@@ -32,8 +32,7 @@ struct ReadingKind {
 /// An interface (named as in Player) under which clients find devices of a kind.
 struct CarriedInterface {
   const char* name;
-  int rank = 0;  ///< if several kinds provide the interface, the one with the least rank has index
-                 ///< 0
+  int rank = 0;  ///< among the kinds with this interface, the least rank has index 0
 };
 
 /// A row of the table of device kinds: its settings, its readings, and its factory function.

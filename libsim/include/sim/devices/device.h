@@ -97,10 +97,8 @@ struct HeadingCommand {
 /// Drive to a pose and stop there, under the motors' position control (motion).
 struct PositionCommand {
   Pose goal;                         ///< of B in `frame`
-  double max_speed_mps = 0.0;        ///< maximum on the way [m/s]; 0: the motors' limit. The sign
-                                     ///< is ignored
-  double max_turn_rate_radps = 0.0;  ///< maximum on the way [rad/s]; 0: the motors' limit. The sign
-                                     ///< is ignored
+  double max_speed_mps = 0.0;        ///< maximum [m/s]; 0: the motors' limit; the sign is ignored
+  double max_turn_rate_radps = 0.0;  ///< maximum [rad/s]; 0: the motors' limit; the sign is ignored
   int frame = -1;                    ///< as in HeadingCommand
 };
 /// Drive like a car, until another command (motion).
@@ -149,10 +147,8 @@ struct PointCommand {
   double pan_rad = 0.0;           ///< to the left [rad]
   double tilt_rad = 0.0;          ///< upwards [rad]
   double view_rad = 0.0;          ///< horizontal field of view [rad]; 0 or less: unchanged
-  double pan_speed_radps = 0.0;   ///< maximum on the way [rad/s]; 0: the head's limit. The sign is
-                                  ///< ignored
-  double tilt_speed_radps = 0.0;  ///< maximum on the way [rad/s]; 0: the head's limit. The sign is
-                                  ///< ignored
+  double pan_speed_radps = 0.0;   ///< maximum [rad/s]; 0: the head's limit; the sign is ignored
+  double tilt_speed_radps = 0.0;  ///< maximum [rad/s]; 0: the head's limit; the sign is ignored
 };
 /// Pan, tilt and zoom a camera at these speeds, until another command or a limit (ptz).
 struct PanCommand {

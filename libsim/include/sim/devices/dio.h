@@ -23,7 +23,7 @@ using DigitalSource = std::variant<bool, DigitalSignal, Wire>;
 
 /// Settings of digital inputs and outputs.
 struct DioParams {
-  static constexpr int kMaxLines = 32;  ///< maximum number of inputs, and of outputs
+  static constexpr int kMaxLines = 32;  ///< maximum number of inputs or outputs
 
   double frequency_hz = 10.0;  ///< (0, 1000]
   /// Sources of inputs 0, 1, ...; at most kMaxLines.

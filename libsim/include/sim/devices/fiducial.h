@@ -14,8 +14,7 @@ namespace sim {
 struct FiducialParams {
   double frequency_hz = 10.0;                   ///< (0, 1000]
   double range_max_m = 8.0;                     ///< (0, 1000] [m]
-  double range_max_id_m = 5.0;                  ///< marks beyond are seen, but not read, [0, 1000]
-                                                ///< [m]
+  double range_max_id_m = 5.0;                  ///< marks beyond are seen, not read, [0, 1000] [m]
   double field_of_view_rad = std::numbers::pi;  ///< full angle, (0, 2 pi]
   Pose X_BS;                                    ///< mounting on the body
   double height_m = 0.1;  ///< above the floor [m]; objects that are not higher are neither seen nor

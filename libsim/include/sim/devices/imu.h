@@ -21,10 +21,8 @@ struct ImuParams {
                                ///< [m/s^2], >= 0
   double bias_radps = 0.0;     ///< standard deviation of the constant bias of each turning rate
                                ///< [rad/s], >= 0
-  double field_horizontal_ut = 20.0;  ///< the Earth's magnetic field, horizontal component [uT], >=
-                                      ///< 0
-  double field_down_ut = 45.0;        ///< downward component [uT]; the defaults approximate the
-                                      ///< field in Prague
+  double field_horizontal_ut = 20.0;  ///< horizontal magnetic field of the Earth [uT], >= 0
+  double field_down_ut = 45.0;        ///< downward component [uT]; by default about that in Prague
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of north in W, counter-clockwise from x
 };
 

@@ -41,8 +41,7 @@ struct PoseReading final : Reading {
 
   /// @name Since the previous reading, or since the start for the first; zero except for odometry
   /// @{
-  double path_length_m = 0.0;  ///< path of the wheels' midpoint; motion forth and back both add to
-                               ///< it [m]
+  double path_length_m = 0.0;  ///< path length of the wheels' midpoint, either direction [m]
   Pose increment;  ///< X_RB, with R the frame B at the previous reading; SetPoseCommand does not
                    ///< affect it
   /// The same displacement along S's axes, as in MORSE's dx and dy [m].

@@ -13,13 +13,10 @@ struct MotionParams {
   double max_acceleration_mps2 = 0.0;         ///< >= 0; 0: no limit, the speed changes at once
   double max_turn_acceleration_radps2 = 0.0;  ///< >= 0; 0: no limit
   bool enabled_at_start = true;               ///< whether the motors are initially on
-  double approach_gain = 2.0;                 ///< speed per metre of remaining distance [1/s], > 0
-  double turn_gain = 2.0;                     ///< turn rate per radian of remaining angle [1/s], >
-                                              ///< 0
-  double tolerance_m = 0.01;                  ///< distance to the goal at which a robot has arrived
-                                              ///< [m], > 0
-  double heading_tolerance_rad = 0.01;        ///< heading error at which a robot has arrived [rad],
-                                              ///< > 0
+  double approach_gain = 2.0;                 ///< speed per remaining metre [1/s], > 0
+  double turn_gain = 2.0;                     ///< turn rate per remaining radian [1/s], > 0
+  double tolerance_m = 0.01;                  ///< distance to the goal on arrival [m], > 0
+  double heading_tolerance_rad = 0.01;        ///< heading error on arrival [rad], > 0
 };
 
 /// Position control: drives a robot to a pose, step by step.

@@ -23,8 +23,7 @@ struct ConeSnapshot {
   Pose X_WS;                       ///< pose of the transducer, which looks along its x axis
   double range_m = 0.0;            ///< [m]
   double field_of_view_rad = 0.0;  ///< full angle; 0: a ray
-  bool met = false;                ///< whether anything was met; otherwise the range is the maximum
-                                   ///< range
+  bool met = false;                ///< whether anything was met; if not, the range is the maximum
 };
 
 /// A segment of a bumper.

@@ -23,8 +23,7 @@ enum class WaypointStatus {
 
 /// Settings of the waypoint driver.
 struct WaypointParams {
-  double frequency_hz = 10.0;        ///< of the readings, (0, 1000]; steering is updated in each
-                                     ///< step
+  double frequency_hz = 10.0;        ///< of readings, (0, 1000]; each step updates the steering
   double tolerance_m = 0.5;          ///< default for clients that name no tolerance [m], > 0
   double speed_mps = 1.0;            ///< default for clients that name no speed [m/s], > 0
   double turn_gain = 4.0;            ///< turn rate per bearing, see waypoint_twist() [1/s], > 0
@@ -108,8 +107,7 @@ class Waypoint final : public SensorOf<WaypointReading> {
   std::uint64_t goal_number_ = 0;
   bool has_goal_ = false;  ///< since the start or the last reset
   WaypointStatus status_ = WaypointStatus::kArrived;
-  bool steers_ = false;  ///< this device drives the motors, so it must stop them when it is not in
-                         ///< transit
+  bool steers_ = false;  ///< drives the motors, and must stop them when not in transit
   Pose X_WB_;            ///< pose at the last step
 };
 

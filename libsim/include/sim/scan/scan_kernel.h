@@ -186,8 +186,7 @@ class ScanKernel {
   /// Adds edges to the current scan. `edges.inside` says whether the sensor is inside a solid.
   void add(const EdgeBuffer& edges);
 
-  /// Discs whose centres are nearer than this should be added directly, without a visibility test
-  /// [m].
+  /// Discs whose centres are nearer than this should be added without a visibility test [m].
   static constexpr float kNear_m = 2.0F;
   /// Locates discs relative to the current scan. (x, y) is the sensor's position in W [m]; the
   /// method allows for single-precision errors. The discs must not change before the last

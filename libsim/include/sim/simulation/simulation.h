@@ -29,7 +29,7 @@ struct RobotStatistics {
   double stalled_time_s = 0.0;     ///< [s]
 };
 
-/// The begin of a contact.
+/// The start of a contact.
 struct Collision {
   SimTime time_ns = 0;
   int robot = 0;        ///< index
@@ -45,8 +45,7 @@ struct Utterance {
 
 /// An object of the scene: its place and its size.
 struct SceneObject {
-  std::string name;  ///< as in the world; the border and all walls of a map are named "border" and
-                     ///< "wall"
+  std::string name;  ///< as in the world; "border" and "wall" for the border and a map's walls
   std::string kind;  ///< "robot", "block", "separator", "border" or "wall"
   Pose pose;         ///< of its bounding box in W; for a robot the pose X_WB of its body
   Vec2 size = Vec2::Zero();  ///< of the bounding box along its own axes [m]

@@ -78,8 +78,7 @@ struct MapDescription {
   double resolution_m = 0.05;       ///< side of a pixel [m]
   Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
   double occupied_threshold = 0.5;  ///< pixels darker than this fraction of white are walls, (0, 1)
-  double simplify_m = 0.0;  ///< tolerance for straightening outlines [m]; 0: outlines follow the
-                            ///< pixels
+  double simplify_m = 0.0;          ///< tolerance for straightening outlines [m]; 0: none
 };
 
 /// The room: floor from `origin` to `origin + size`, with borders around it unless turned off.

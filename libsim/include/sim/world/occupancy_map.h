@@ -18,8 +18,7 @@ struct OccupancyMap {
   int height = 0;              ///< rows
   double cell_size_m = 0.02;   ///< [m], > 0
   Vec2 origin = Vec2::Zero();  ///< [m]
-  std::vector<float> cells;    ///< width * height values from 0 (free) to 1 (occupied); 0.5:
-                               ///< unknown
+  std::vector<float> cells;    ///< width * height values: 0 free .. 1 occupied; 0.5: unknown
 
   [[nodiscard]] float at(int column, int row) const {
     return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +

@@ -13,8 +13,7 @@ namespace sim {
 enum class DriveKind {
   kDifferential,     ///< forward and turning, also on the spot; never sideways
   kOmnidirectional,  ///< in any direction and turning, independently
-  kCar,              ///< along the arcs that its steering allows; B is at the middle of the rear
-                     ///< axle
+  kCar,              ///< along the arcs of its steering; B is at the middle of the rear axle
 };
 
 /// The drive of a robot.
