@@ -7,7 +7,7 @@
 namespace sim::physics {
 namespace {
 
-// A robot that nothing hinders any more keeps its Box2D body for this many parts of a step.
+// A robot that nothing hinders any more keeps its Box2D body for this many substeps.
 constexpr std::uint8_t kKeptParts = 5;
 
 // Makes the body rotate around B, the axle's centre, as its wheels do: Box2D defines a body's

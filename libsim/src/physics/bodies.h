@@ -47,7 +47,7 @@ class Bodies {
   /// The first robot whose footprint overlaps a shape; -1 if there is none.
   [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
 
-  /// Gives a robot a Box2D body for the next parts of a step.
+  /// Gives a robot a Box2D body for the next substeps.
   void keep_in_box2d(Robot& r);
   void take_out_of_box2d(Robot& r);
   /// Whether any robot has a Box2D body.

@@ -87,7 +87,7 @@ std::vector<Touch> Contacts::touches_of(int robot) const {
   for (const b2ContactEdge* e = contact_list(body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) add_touch(*e->contact, robot, touches);
   }
-  // A step may consist of several parts: a contact that began in one may have ended in another.
+  // A step may have several substeps: a contact that began in one may have ended in another.
   for (const Touch& touch : new_touches_) {
     if (touch.robot == robot) touches.push_back(touch);
   }

@@ -19,7 +19,7 @@ struct LaserParams {
   double range_max_m = 5.0;                                    ///< (0, 1000] [m]
   Pose X_BL{0.035, 0.0, 0.0};                                  ///< mounting on the body
   double height_m = 0.125;      ///< of its case along L's axes, for clients, >= 0
-  Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, as clients are told, >= 0
+  Vec2 size_m{0.05, 0.05};      ///< of its case along L's axes, for clients, >= 0
   double size_height_m = 0.07;  ///< height of its case, for clients, >= 0
 };
 

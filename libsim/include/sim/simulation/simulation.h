@@ -107,7 +107,7 @@ class Simulation {
   /// Identifiers of the sensors that measured in the last step, in a fixed order.
   [[nodiscard]] const std::vector<DeviceId>& updated() const noexcept;
 
-  /// Carries a command out now, between two steps.
+  /// Executes a command now, between two steps.
   /// @return nothing on success, otherwise the reason, e.g. that the device is not active.
   std::optional<std::string> apply(DeviceId id, const Command& command);
 
