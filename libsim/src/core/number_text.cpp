@@ -11,7 +11,7 @@ namespace {
 
 template <typename... Arguments>
 std::string text_of(Arguments... arguments) {
-  std::array<char, 400> text{};  // the greatest double has 309 digits before its point
+  std::array<char, 400> text{};  // the largest double has 309 digits before the point
   const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), arguments...);
   SIM_ASSERT(error == std::errc());
   return {text.data(), end};

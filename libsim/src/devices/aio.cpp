@@ -27,7 +27,7 @@ const std::vector<double>* ranges_of(const Device* device) {
   return nullptr;
 }
 
-// Whether an input may be wired to that output or value of a device.
+// Whether the device has an output or a value of that index for an input to be wired to.
 bool has_value(const Device* device, int index) {
   if (const auto* aio = dynamic_cast<const Aio*>(device)) return index < aio->params().outputs;
   if (const auto* laser = dynamic_cast<const Laser*>(device)) {

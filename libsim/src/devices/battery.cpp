@@ -30,7 +30,7 @@ double battery_voltage_v(const BatteryParams& params, double charge) {
 }
 
 bool is_on_dock(const DockDescription& dock, const Vec2& p_W) {
-  // Most docks are far away: no need to turn into their frames.
+  // Most docks are far away and need no transformation into their frame.
   if ((p_W - dock.pose.position()).squaredNorm() > 0.25 * dock.size.squaredNorm()) return false;
   const Vec2 p_D = dock.pose.inverse() * p_W;
   return std::abs(p_D.x()) <= 0.5 * dock.size.x() && std::abs(p_D.y()) <= 0.5 * dock.size.y();

@@ -11,7 +11,7 @@ namespace sim {
 
 bool is_lit(double period_s, double duty_cycle, SimTime time_ns) {
   if (period_s <= 0.0) return true;
-  // Whole numbers: no rounding moves an edge to another step.
+  // Integers, so that rounding cannot move a transition to another step.
   const SimTime period_ns = std::max<SimTime>(from_seconds(period_s), 1);
   return static_cast<double>(time_ns % period_ns) < duty_cycle * static_cast<double>(period_ns);
 }

@@ -32,8 +32,8 @@ Sensor::Sensor(std::string name, std::string type, double frequency_hz)
 
 bool Sensor::update(const StepContext& context) {
   if (context.now_ns < next_due_ns_) return false;
-  // A sensor faster than the simulation's step measures once a step; readings it could not make
-  // are not caught up on.
+  // A sensor faster than the simulation's step measures once per step; skipped readings are not
+  // made up for.
   next_due_ns_ += period_ns_ * ((context.now_ns - next_due_ns_) / period_ns_ + 1);
   if (!active()) return false;
   ++sequence_;

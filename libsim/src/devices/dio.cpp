@@ -13,7 +13,7 @@
 namespace sim {
 namespace {
 
-// Bits 0 .. count - 1.
+// Bit mask with bits 0 to count - 1 set.
 std::uint32_t mask(int count) {
   return count >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << static_cast<unsigned>(count)) - 1U;
 }

@@ -27,7 +27,8 @@ Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream
 std::optional<std::string> Imu::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
-  // The next reading adds what it has turned since the last one, also before now.
+  // The next reading adds the rotation since the last reading, including the part before this
+  // command.
   yaw_rad_ = normalize_angle(set->pose.yaw_rad - turned_rad_);
   return std::nullopt;
 }
@@ -35,7 +36,7 @@ std::optional<std::string> Imu::apply(const Command& command) {
 void Imu::integrate(const StepContext& context) {
   const double dt_s = to_seconds(context.world.simulation.step_ns);
   const Twist& now = context.body.twist;
-  // The mean of both ends' speeds goes with the step's turn.
+  // The step's rotation is multiplied by the mean of the speeds at its start and end.
   const double lateral = 0.5 * (before_.lateral_mps + now.lateral_mps);
   const double forward = 0.5 * (before_.v_mps + now.v_mps);
   gained_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;

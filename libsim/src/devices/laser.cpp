@@ -40,7 +40,7 @@ void Laser::measure(const StepContext& context) {
                        reading.ranges_m);
   if (params_.noise_m > 0.0) {
     for (double& range : reading.ranges_m) {
-      // A beam that met nothing stays at the limit: there is no echo to be uncertain about.
+      // A beam that met nothing stays at the maximum range: without an echo there is no noise.
       if (range >= params_.range_max_m) continue;
       range = std::clamp(range + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }

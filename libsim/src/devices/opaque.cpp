@@ -37,7 +37,7 @@ std::optional<std::string> Opaque::apply(const Command& command) {
   if (message->data.empty()) return std::nullopt;
   sent_messages_.push_back(message->data);
   ++sent_;
-  // Nobody would have room for more.
+  // No receiver's queue holds more.
   if (sent_messages_.size() > kMaxQueue) sent_messages_.pop_front();
   return std::nullopt;
 }
@@ -58,7 +58,7 @@ void Opaque::hear(Line& line) {
 
 void Opaque::integrate(const StepContext&) {
   for (Line& line : lines_) hear(line);
-  // All that were sent before the last step have been heard by everybody.
+  // All receivers have received the messages sent before the last step.
   const std::uint64_t since = sent_ - sent_before_step_;
   while (sent_messages_.size() > since) sent_messages_.pop_front();
   sent_before_step_ = sent_;

@@ -37,7 +37,7 @@ std::optional<std::string> Ptz::apply(const Command& command) {
     return std::nullopt;
   }
   if (const auto* pan = std::get_if<PanCommand>(&command)) {
-    // A speed is a way to the limit; none is one to where the head is.
+    // A speed command moves the axis to its limit; speed 0 makes it stop at its current angle.
     for (const auto& [axis, speed] :
          {std::pair(&pan_, pan->pan_speed_radps), std::pair(&tilt_, pan->tilt_speed_radps),
           std::pair(&view_, pan->zoom_speed_radps)}) {

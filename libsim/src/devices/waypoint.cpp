@@ -83,7 +83,7 @@ void Waypoint::integrate(const StepContext& context) {
 
 void Waypoint::motors_taken() {
   if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
-  steers_ = false;  // what they do now is the other's
+  steers_ = false;  // another device drives the motors now
 }
 
 void Waypoint::placed(const Pose& X_WB) {

@@ -32,7 +32,7 @@ int link_quality(double level_dbm) {
 }
 
 std::string mac_of(std::string_view name) {
-  // http://www.isthe.com/chongo/tech/comp/fnv/: FNV-1a, 64 bits.
+  // FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : name) {
     hash ^= static_cast<unsigned char>(c);
@@ -79,7 +79,7 @@ void Wifi::measure(const StepContext& context) {
         level_at_dbm(params_, (p_W - p_WB).norm()) + noise_.gaussian(params_.noise_db);
     if (level < params_.least_dbm) return;
     if (count == links.size()) links.emplace_back();
-    // Mostly the same are heard as last time: then all but the level is there.
+    // Usually the same stations are received as last time; then only the level changes.
     WifiReading::Link& link = links[count++];
     if (link.name != name || link.access_point != access_point) {
       link = {name, mac_of(name), ip_of(access_point, number), access_point, level};

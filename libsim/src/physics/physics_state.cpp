@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What of the physics a step changes and the next one depends on, in full: also lower bounds and
-// starting points of searches, which bear on when something is looked at again.
+// The complete state of the physics that a step changes and the next one depends on. This includes
+// lower bounds and starting points of searches, which determine when distances are measured again.
 #include <cmath>
 #include <utility>
 
@@ -28,7 +28,7 @@ void archive_robot_state(StateArchive& archive, Robot& r) {
   }
 }
 
-// An order of all robots: each of `entries` names its robot.
+// A permutation of all robots: each of `entries` names its robot.
 template <typename Entry>
 void archive_order(StateArchive& archive, std::vector<Entry>& entries) {
   std::vector<bool> seen(entries.size());
@@ -40,7 +40,7 @@ void archive_order(StateArchive& archive, std::vector<Entry>& entries) {
   }
 }
 
-// Whether corners make a box that Box2D takes for one.
+// Whether Box2D recognises the corners as a box.
 bool are_of_box(const std::vector<Vec2>& corners) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 side = corners[(i + 1) % 4] - corners[i];
@@ -86,7 +86,7 @@ void Bodies::archive_obstacle(StateArchive& archive, b2Body& body) {
     edges_.heights_m[info->first_edge + i] = info->height_m;
   }
   edges_.least_height_m = std::min(edges_.least_height_m, info->height_m);
-  body.SetEnabled(false);  // a box of the broad phase is made of the shape when it is switched on
+  body.SetEnabled(false);  // enabling it creates a broad-phase proxy from the new shape
   *static_cast<b2PolygonShape*>(fixture.GetShape()) = polygon_shape(corners);
   body.SetEnabled(enabled);
 }
@@ -97,7 +97,7 @@ void Bodies::archive(StateArchive& archive) {
   order_fresh_ = order_fresh_ && !archive.reading();
   for (b2Body* body : obstacles_) archive_obstacle(archive, *body);
 
-  std::vector<std::uint32_t> newest_first;  // robots that Box2D has
+  std::vector<std::uint32_t> newest_first;  // robots with a Box2D body
   for (b2Body* body = world_.GetBodyList(); body->GetType() == b2_dynamicBody;
        body = body->GetNext()) {
     newest_first.push_back(static_cast<std::uint32_t>(info_of(body->GetFixtureList()).index));
@@ -153,7 +153,7 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
     d.candidates.clear();
     d.walls.clear();
   }
-  // Lists that are out of date may name what is there no more.
+  // Outdated lists may name things that no longer exist.
   if (d.candidates_reach_m >= 0.0) {
     archive.list(d.candidates, [&](Candidate& candidate) {
       archive(candidate.robot);

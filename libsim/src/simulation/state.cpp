@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The state of a simulation apart from its world: saved, restored, hashed.
+// The state of a simulation without its world: saving, restoring, hashing.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -16,14 +16,14 @@
 namespace sim {
 namespace {
 
-// What a snapshot begins with.
+// The beginning of a snapshot.
 struct SnapshotHeader {
   std::array<char, 8> magic;
   std::uint64_t version;
   std::uint64_t world;  // world_hash()
   std::uint64_t seed;
-  std::uint64_t state;     // bytes of the state
-  std::uint64_t pictures;  // of the clients' layers, after it
+  std::uint64_t state;     // size of the state [bytes]
+  std::uint64_t pictures;  // size of the clients' layers, which follow [bytes]
   std::uint64_t hash;      // of both
 };
 constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
@@ -35,8 +35,8 @@ std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   return hash.value();
 }
 
-// The header of a snapshot that is as it was written, for this world.
-// @param own  the hash of the world as it was at the start.
+// The header of a snapshot; throws if the snapshot is damaged or belongs to another world.
+// @param own  the hash of the world in its initial state.
 SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const WorldDescription& world,
                               std::uint64_t own) {
   SnapshotHeader header{};
@@ -186,7 +186,7 @@ void Simulation::Impl::succeed(Impl& before) {
   said = std::move(before.said);
   updated.clear();
   forget_clearances();
-  layers.resize(before.layers.width(), before.layers.height());  // which clients chose
+  layers.resize(before.layers.width(), before.layers.height());  // keep the size that clients chose
   before.layers.take_base(layers);
   layers = std::move(before.layers);
   view_mode = before.view_mode;
