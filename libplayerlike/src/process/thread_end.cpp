@@ -4,7 +4,8 @@
 namespace playerlike {
 namespace {
 
-constinit thread_local bool ended = false;  // outlives the other
+constinit thread_local bool ended = false;  // has no destructor, so it stays valid during thread
+                                            // exit
 thread_local ThreadEnd own_end;
 
 }  // namespace
