@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Devices that no world has: their structs can be made, and all that is asked of them is refused.
+// Devices that no world provides: programs can create their structs, but all their functions fail.
 #include <string>
 #include <type_traits>
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Sensors of place, motion and what is near: gps, imu, localize, fiducial, wifi.
+// Sensors of position, motion and neighbourhood: gps, imu, localize, fiducial, wifi.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

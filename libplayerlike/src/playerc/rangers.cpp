@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Sensors of distance and touch: ranger, sonar, infrared, bumper.
+// Sensors of distance and contact: ranger, sonar, infrared, bumper.
 #include <vector>
 
 #include "libplayerc++/bumperproxy.h"

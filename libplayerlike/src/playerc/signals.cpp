@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Inputs and outputs of all sorts: aio, dio, blinkenlight, speech, opaque.
+// Other inputs and outputs: aio, dio, blinkenlight, speech, opaque.
 #include <algorithm>
 #include <limits>
 #include <vector>

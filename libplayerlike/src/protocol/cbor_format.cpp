@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// CBOR (RFC 8949). Written by nlohmann's library, read by a reader of our own: nlohmann's takes
-// bytes one by one, calls itself without bound, and lets NaN and duplicate keys pass.
+// CBOR (RFC 8949). nlohmann's library writes it. The parser is our own, because nlohmann's reads
+// single bytes, recurses without limit, and accepts NaN and duplicate keys.
 #include <bit>
 #include <cmath>
 #include <cstdint>

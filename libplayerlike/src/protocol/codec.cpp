@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// All messages but readings and commands, which are in field_codec.cpp.
+// All messages except readings and commands, which are in field_codec.cpp.
 #include "protocol/codec.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Readings and commands, by the tables of their fields.
+// Readings and commands, encoded by their field tables.
 #include "protocol/field_codec.h"
 
 #include <array>

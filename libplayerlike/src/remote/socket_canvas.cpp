@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Requests with more cells than a message holds: they go in pieces.
+// Requests whose cells do not fit one message, and are sent in pieces.
 #include <algorithm>
 #include <cmath>
 #include <span>
