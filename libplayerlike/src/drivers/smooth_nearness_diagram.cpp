@@ -27,11 +27,11 @@ constexpr double kHorizon_m = 3.0;
 constexpr double kMargin_m = 0.01;
 // Cost of turning by one radian, as a path length.
 constexpr double kTurnCost_m = 0.1;
-// Cost bonus of the gap chosen last: another gap must be cheaper by more than this.
+// How much longer a way through another gap may be than through the one chosen last.
 constexpr double kLoyalty_m = 1.0;
-// Decay of that bonus per metre by which the path through the gap has grown.
+// How much of that goes for each metre by which the way through it has become longer since.
 constexpr double kDisappointment = 2.0;
-// A gap within this distance of the one chosen last counts as the same gap.
+// A gap this near to where the one chosen last was is the same.
 constexpr double kSameGap_m = 0.3;
 // Minimum approach to the goal that counts as progress.
 constexpr double kProgress_m = 0.02;
@@ -264,8 +264,8 @@ double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::V
   for (const Gap& gap : gaps) {
     const double way_m = (gap.p_WG - X_WB.position()).norm() + (goal_.position - gap.p_WG).norm();
     double cost_m = way_m + kTurnCost_m * std::abs(gap.bearing_rad);
-    // Hysteresis in favour of the gap chosen last. It decays as the path through that gap grows,
-    // since the edge of a round obstacle recedes for ever.
+    // Loyal to the gap chosen last, but not as it leads further and further away: the side of a
+    // round thing recedes for ever.
     const bool same = p_WG_ && (gap.p_WG - *p_WG_).norm() < kSameGap_m;
     if (same) cost_m -= std::max(0.0, kLoyalty_m - kDisappointment * (way_m - least_way_m_));
     if (cost_m >= best_cost_m) continue;
