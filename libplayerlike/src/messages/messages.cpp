@@ -35,8 +35,8 @@ const std::vector<InterfaceRow>& interface_table() {
   return *table;
 }
 
-// The robot's devices that implement the interface: first the ones that the robot names, then the
-// others in the table's order.
+// The robot's devices that carry the interface: those that the robot names, then the others in the
+// table's order.
 std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
   std::vector<const DeviceInfo*> found;
   for (const InterfaceRow& row : interface_table()) {
@@ -72,7 +72,7 @@ std::vector<std::string_view> interface_names() {
   return names;
 }
 
-// The last part of an error message about an interface that a port does not have.
+// The end of a message about an interface that a port does not have.
 std::string where_else(std::string_view interface) {
   const std::string world = example_world(interface);
   return world.empty()
@@ -80,7 +80,7 @@ std::string where_else(std::string_view interface) {
              : "; of the worlds that come with Playpen, worlds/" + world + " has one";
 }
 
-// The index on port 4000 of a robot's first device of an interface.
+// The index that a robot's first device of an interface has on port 4000.
 int shared_index(const RobotInfo& robot, std::size_t number, std::string_view interface) {
   const auto given = robot.proxies.find(std::string(interface));
   return given != robot.proxies.end() ? given->second : static_cast<int>(number);

@@ -16,7 +16,7 @@
 
 namespace PlayerCc::detail {
 
-/// A laser's settings, known before its first scan.
+/// What a laser's settings say before its first scan.
 struct ScannerSettings {
   std::size_t count = 0;    ///< number of beams
   double least_rad = 0.0;   ///< angle of the first beam

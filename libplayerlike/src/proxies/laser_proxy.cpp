@@ -20,7 +20,7 @@ using sim::LaserReading;
 
 namespace {
 
-// Resolution in the data sheets of both the S1R's Hokuyo URG-04LX and the SICK LMS200.
+// What both the S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets.
 constexpr double kRangeResolution_m = 0.001;
 
 uint32_t count(const LaserReading& scan) { return static_cast<uint32_t>(scan.ranges_m.size()); }

@@ -12,7 +12,8 @@
 
 namespace PlayerCc {
 
-/// The session side of a proxy: receives readings and knows the devices behind the proxy.
+/// The end of a proxy that sessions see: receives readings, and knows which devices stand behind
+/// it.
 struct ClientProxy::Link final : playerlike::ReadingListener {
   Link(ClientProxy& owner, std::shared_ptr<playerlike::ClientCore> shared)
       : proxy(owner), core(std::move(shared)) {
@@ -47,7 +48,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   /// A property of the device that makes the readings.
   [[nodiscard]] double property(const std::string& name, double otherwise) const;
 
-  /// Sends a command to the device that makes the readings. The client's mutex is held.
+  /// Gives a command to the device that readings come from; with the client's mutex held.
   void send(const char* fun, const sim::Command& command) const {
     core->send(fun, binding.reading, command);
   }

@@ -16,7 +16,7 @@ player_pose2d_t mean_of(const sim::PoseReading& reading) {
   return {reading.pose.x_m, reading.pose.y_m, reading.pose.yaw_rad};
 }
 
-// The error for an index beyond the end.
+// What an index beyond the end is answered with.
 PlayerError no_such(const char* fun, const std::string& what, const std::string& index,
                     std::size_t count, const char* call) {
   return {fun,

@@ -18,8 +18,8 @@
 /// Shared helpers of the proxies of sensors with several elements.
 namespace PlayerCc::detail {
 
-/// Throws for an index that is not below `count`.
-/// @param what  names one of the counted things: "beam".
+/// Refuses an index that is not below `count`.
+/// @param what  one of the things that are counted: "beam".
 inline void require_index(const char* fun, const char* what, uint32_t index, std::size_t count) {
   if (index < count) return;
   playerlike::refuse(fun,
@@ -28,8 +28,8 @@ inline void require_index(const char* fun, const char* what, uint32_t index, std
                                      : "there are " + std::to_string(count) + ", counted from 0"));
 }
 
-/// An element of a list. Player's C library had an array of zeros before the first reading, so this
-/// returns zero while the list is empty; an index beyond a list with elements is an error.
+/// An element of a list that Player's C library had in an array of zeros before the first reading,
+/// and so does this one: a zero while there are none, then an element or an error.
 template <typename T>
 T element_or_zero(const char* fun, const char* what, uint32_t index, const std::vector<T>& list) {
   if (list.empty()) return T{};
