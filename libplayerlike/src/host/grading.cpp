@@ -23,7 +23,7 @@ std::string hash_text(std::uint64_t value) {
   return text;
 }
 
-/// Of a report with its entry "graded", which has no signature yet.
+/// The signature of a report that has its entry "graded", but no signature yet.
 std::string signature_of(const ordered_json& report, const std::string& nonce) {
   sim::StateHash hash;
   hash.add(nonce);
