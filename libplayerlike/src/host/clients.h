@@ -59,8 +59,7 @@ class Clients {
   const bool by_creator_;
   std::vector<std::shared_ptr<Client>> clients_;
   int next_number_ = 0;
-  std::size_t unsubscribed_ = 0;                                ///< number of clients without
-                                                                ///< subscriptions
+  std::size_t unsubscribed_ = 0;                                ///< clients without subscriptions
   std::vector<std::vector<std::vector<Client*>>> subscribers_;  ///< by robot and device
 };
 

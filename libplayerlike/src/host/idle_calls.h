@@ -35,8 +35,7 @@ class IdleCalls {
   [[nodiscard]] bool look(sim::SimTime now_ns);
 
  private:
-  using Sleepers = std::map<pid_t, std::uint64_t>;  ///< threads with their numbers of voluntary
-                                                    ///< context switches
+  using Sleepers = std::map<pid_t, std::uint64_t>;  ///< voluntary context switches by thread
 
   /// The other threads; nullopt if one of them is awake.
   [[nodiscard]] static std::optional<Sleepers> sleepers();

@@ -29,8 +29,7 @@ struct KeptHeader {
   // The following is valid if robots > 0. Places are offsets from the beginning of the memory
   // [bytes].
   std::atomic<std::uint32_t> robots{0};
-  std::array<std::uint64_t, 2> steps{};  ///< places of two KeptStep, each followed by its
-                                         ///< KeptRobots
+  std::array<std::uint64_t, 2> steps{};  ///< two KeptStep, each with its KeptRobots
   std::atomic<std::uint32_t> step{0};    ///< index of the newest one
   std::uint64_t trails = 0;              ///< kMostTrailPoints pairs of x, y for each robot
   std::uint64_t scans = 0;               ///< two KeptScan for each robot

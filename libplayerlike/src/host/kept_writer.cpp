@@ -135,8 +135,7 @@ void KeptWriter::begin(const sim::Simulation& simulation) {
       at<KeptRobot>(place + sizeof(KeptStep))[i] = KeptRobot{};
     }
   }
-  revision_ = simulation.layers().revision() + 1;  // differs, so that the layers are stored in the
-                                                   // first step
+  revision_ = simulation.layers().revision() + 1;  // so that the first step stores the layers
   header_->robots = static_cast<std::uint32_t>(robots);
 }
 

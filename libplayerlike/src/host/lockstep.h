@@ -62,8 +62,7 @@ class Lockstep {
   const double silence_limit_s_;
   const Warn warn_;
   bool gate_opened_ = false;
-  WallClock::time_point gate_told_ = WallClock::now();  ///< time of the last message about missing
-                                                        ///< clients
+  WallClock::time_point gate_told_ = WallClock::now();  ///< when missing clients were last reported
   bool silence_noted_ = false;
   ThinkerId first_owner_ = 0;               ///< who waited first, and ...
   bool several_owners_ = false;             ///< ... whether another one has

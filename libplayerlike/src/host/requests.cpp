@@ -214,10 +214,7 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const SetObjectPropertyRequest& what) const {
     const Lock lock = lock_readable();
-    static_cast<void>(object_property(core.simulation_, what.name, what.property));  // throws if
-                                                                                     // there is no
-                                                                                     // such
-                                                                                     // property
+    static_cast<void>(object_property(core.simulation_, what.name, what.property));  // must exist
     require_unlocked();
     set_object_property(core.simulation_, what.name, what.property, what.value);
   }

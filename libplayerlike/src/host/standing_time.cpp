@@ -16,8 +16,7 @@ namespace {
 // million accesses after which virtual_time::note_looks() lets time advance.
 constexpr double kCommandsBeforeFirstStep = 1000.0;
 constexpr double kCommandsInAStep = 10'000.0;
-constexpr double kCommandsAfterSleeps = 20.0;  // per robot; also the minimum of the two limits
-                                               // above
+constexpr double kCommandsAfterSleeps = 20.0;  // per robot; also the least of the limits above
 constexpr double kLooksWithoutData = 1000.0;
 constexpr double kLooksInAStep = 2'000'000.0;
 

@@ -4,8 +4,7 @@
 namespace playerlike {
 namespace {
 
-constinit thread_local bool ended = false;  // has no destructor, so it stays valid during thread
-                                            // exit
+constinit thread_local bool ended = false;  // no destructor: valid during thread exit
 thread_local ThreadEnd own_end;
 
 }  // namespace

@@ -151,8 +151,7 @@ class Builder {
   std::size_t next_ = 0;   ///< next element of taken_out_
   std::size_t lists_ = 0;  ///< lists begun so far; counting stops when taken_out_ is used up
   json root_;
-  std::vector<json*> open_;  ///< from the outermost; a list gets no element while its last one is
-                             ///< open, so pointers stay valid
+  std::vector<json*> open_;  ///< outermost first; their lists do not grow, so pointers stay valid
   json* member_ = nullptr;   ///< member of the innermost object that waits for its value
   std::optional<ProtocolError> error_;
 };

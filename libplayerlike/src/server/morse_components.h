@@ -26,8 +26,7 @@ enum class StreamDirection {
 struct MorseComponent {
   std::string name;             ///< "r1.pose"
   std::string type;             ///< of the device, "pose"; or "robot_properties"
-  std::string_view class_name;  ///< the type in answers to `details`: MORSE's own class if there is
-                                ///< one, "Pose"
+  std::string_view class_name;  ///< in answers to `details`: MORSE's own, if any, such as "Pose"
   StreamDirection stream = StreamDirection::kNone;
   int robot = 0;                   ///< index
   std::optional<DeviceId> device;  ///< none: this is robot_properties

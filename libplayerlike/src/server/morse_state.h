@@ -186,8 +186,7 @@ class MorseConnection final : public Handler {
   Peer& peer_;
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
-  std::shared_ptr<MorseConnection*> self_;  ///< expires with the connection; jobs of the workshop
-                                            ///< check it
+  std::shared_ptr<MorseConnection*> self_;  ///< expires with the connection; jobs check it
   std::vector<std::string> tokens_;
   Rights rights_;
   int wrong_tokens_ = 0;

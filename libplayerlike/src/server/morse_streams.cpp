@@ -75,8 +75,7 @@ class StreamConnection : public Handler {
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
   Rights rights_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< expires with the connection;
-                                                                ///< timers check it
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< for timers; expires with this
   bool first_line_ = true;
   bool complained_ = false;
 };
@@ -328,8 +327,7 @@ class SyncConnection final : public Handler {
   Peer& peer_;
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< expires with the connection;
-                                                                ///< timers check it
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< for timers; expires with this
   bool allowed_ = false;
 };
 

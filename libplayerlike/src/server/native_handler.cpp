@@ -63,8 +63,7 @@ struct NativeHandler::OwnRequest {
   using Carry = json (NativeHandler::*)(const json&);
   std::string_view name;
   std::initializer_list<std::string_view> keys;  ///< all allowed keys
-  Carry carry;                                   ///< null: `read` and `draw`, which are handled
-                                                 ///< separately
+  Carry carry;                                   ///< null: `read` and `draw`, handled separately
   bool for_watchers = false;                     ///< allowed without a session
 };
 

@@ -47,21 +47,17 @@ struct TurnThread {
   const void* client = nullptr;                      ///< data for this client, or ...
   /// ... this time: simulated time, or time since the program's start if there is no simulation.
   std::optional<sim::SimTime> wake_ns;
-  bool takes_mutex = false;    ///< the object is a mutex, to be locked when the thread gets its
-                               ///< turn
+  bool takes_mutex = false;    ///< the object is a mutex, to be locked in its turn
   bool counted = false;        ///< included in the number of waits for objects
   bool interruptible = false;  ///< signals end the wait
   Wake wake = Wake::kNone;
 
   // For the rules of the wall clock.
   std::chrono::steady_clock::time_point seen{};  ///< when it last began to run
-  std::uint64_t blocked_switches = 0;  ///< its context switches when it was first found asleep, and
-                                       ///< ...
-  std::optional<std::chrono::steady_clock::time_point> blocked_since;  ///< ... the time of that
-                                                                       ///< check
+  std::uint64_t blocked_switches = 0;  ///< context switches at the first check that found it asleep
+  std::optional<std::chrono::steady_clock::time_point> blocked_since;  ///< time of that check
   std::chrono::steady_clock::time_point blocked_last{};                ///< time of the latest check
-  int blocked_looks = 0;                                               ///< number of checks since
-                                                                       ///< then
+  int blocked_looks = 0;                                               ///< checks since then
 
   std::atomic<unsigned> bell{0};  ///< counts events for this thread; a futex
 

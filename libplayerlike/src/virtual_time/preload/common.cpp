@@ -76,8 +76,7 @@ bool virtual_now(long long& elapsed_ns, bool ask, const void* caller) {
 }
 
 bool is_duration(const timespec& time) {
-  constexpr time_t kMost_s = 4'000'000'000;  // seconds that fit into 64 bits of nanoseconds; 126
-                                             // years
+  constexpr time_t kMost_s = 4'000'000'000;  // 126 years; more seconds overflow 64 bits [ns]
   return time.tv_sec >= 0 && time.tv_sec < kMost_s && time.tv_nsec >= 0 &&
          time.tv_nsec < kSecond_ns;
 }
