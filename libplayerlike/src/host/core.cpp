@@ -14,7 +14,7 @@
 namespace playerlike {
 namespace {
 
-// A program that ignores the end of the run this often is ended.
+// The program is ended after so many reads beyond the end of the run.
 constexpr int kReadsAfterEnd = 1000;
 
 void require_duration(double sleep_s) {
@@ -25,7 +25,7 @@ void require_duration(double sleep_s) {
 
 }  // namespace
 
-// --- Construction, and the lock
+// --- Construction and the mutex
 
 Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log)
     : settings_(std::move(settings)),
@@ -175,7 +175,7 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   inputs_.apply(client);
 }
 
-// --- Programs that let no time pass
+// --- Programs that do not advance time
 
 void Host::Core::set_busy_alarm() {
   if (!paced() && !over() && simulation_.now_ns() == 0) standing_time_.set_alarm();
@@ -203,7 +203,7 @@ void Host::Core::note_program_ends(int status) {
   const Lock lock = lock_with_priority();
   results_.program_status = status;
   standing_time_.dismiss_alarm();
-  // A program that gives up because of an error knows why.
+  // A program that ends with an error status needs no advice.
   if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0) standing_time_.note_end();
 }
 
@@ -229,11 +229,12 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   if (in_turns()) clock_->wait_for_turn(lock, client);
-  // Until somebody is let go, nothing changes about who waits while this thread has the mutex.
+  // While this thread holds the mutex, the set of waiting clients changes only when
+  // release_waiters() ends a wait.
   bool all_wait_still = false;
   while (!wait_is_over(client)) {
     client.require_open();
-    // Said once: threads that all only tell each other that they wait would never sleep.
+    // Notified once: otherwise threads would keep waking each other and never sleep.
     const bool began = !std::exchange(client.waiting, true);
     if (paced()) {
       if (began) changed_.notify_all();
@@ -249,9 +250,9 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   client.waiting = false;
 }
 
-// Waits for a change, and no longer than until a client has been silent for too long.
+// Waits for a change, at most until the silence limit of a client.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
-  // A follower does not mind how long programs take.
+  // A follower waits for programs without a time limit.
   if (client.follower) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
@@ -335,7 +336,7 @@ EventClient::Outcome Host::Core::begin_peek(Client& client, ThreadId thread_id,
   const Lock lock = lock_with_priority();
   client.require_open();
   client.wants_data = true;
-  client.wake_ns = simulation_.now_ns();  // over at once, unless decided otherwise below
+  client.wake_ns = simulation_.now_ns();  // over at once, unless it is set below
   if (client.has_data || over()) return outcome(client);
   if (paced()) {
     if (timeout.count() == 0) {
@@ -401,7 +402,7 @@ AlarmId Host::Core::set_alarm(Alarm alarm) {
   const Lock lock = lock_with_priority();
   const AlarmId number = alarms_.set(std::move(alarm));
   alarms_.ring(simulation_, over());
-  changed_.notify_all();  // lockstep time may go on for it
+  changed_.notify_all();  // lockstep time may advance for it
   return number;
 }
 
@@ -427,7 +428,7 @@ bool Host::Core::advance() {
   return release_waiters();
 }
 
-// A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
+// A thread whose wait is over no longer counts as waiting, even before it wakes up.
 bool Host::Core::release_waiters() {
   if (in_turns()) {
     clock_->make_ready();
@@ -514,7 +515,7 @@ void Host::Core::pace() {
     if (pace_.used_up()) {
       changed_.wait(
           lock, [this] { return !pace_.used_up() || pace_.paused() || stop_pacing_ || over(); });
-      // Whoever synchronises the clock may be slow.
+      // The client that synchronises the clock may be slow.
       pace_.forgive(WallClock::now());
       continue;
     }
@@ -534,7 +535,7 @@ void Host::Core::pace() {
 void Host::Core::wait_while_paused(Lock& lock) {
   while (pace_.paused() && !stop_pacing_ && !over()) {
     changed_.wait_for(lock, std::chrono::milliseconds(50));
-    // Without a step nobody else would see the signal.
+    // No step follows that would notice the signal.
     if (settings_.quiet_end && interrupted() != 0 && !ended_) {
       end_run();
       release_waiters();
@@ -542,7 +543,7 @@ void Host::Core::wait_while_paused(Lock& lock) {
   }
 }
 
-// --- The end
+// --- End of the run
 
 void Host::Core::finish() noexcept {
   try {
@@ -565,7 +566,7 @@ void Host::Core::finish() noexcept {
 void Host::Core::end_run() {
   ended_ = true;
   results_.begin_end();
-  // Threads that take no part in the lockstep may have drawn since the last step.
+  // Threads outside of the lockstep may have drawn since the last step.
   for (const auto& client : clients_) inputs_.apply_drawings(*client);
   if (settings_.progress) progress_.show(time_locked(), true);
   results_.write();

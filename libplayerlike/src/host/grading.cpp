@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 constexpr const char* kEntry = "graded";
 constexpr const char* kSignature = "signature";
 
-/// Of a report with its entry "graded", which has no signature yet.
+/// The signature of a report that has its entry "graded", but no signature yet.
 std::string signature_of(const ordered_json& report, const std::string& nonce) {
   sim::StateHash hash;
   hash.add(nonce);

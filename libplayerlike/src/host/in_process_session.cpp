@@ -16,7 +16,7 @@ InProcessSession::~InProcessSession() { close(); }
 InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->core_); }
 
 void InProcessSession::note_wait() const {
-  // Nobody is to wait for a thread that has ended.
+  // When this thread ends, the host must not wait for it.
   if (ThreadEnd* const end = ThreadEnd::mine()) {
     end->say_goodbye(host_,
                      [](void* host) { static_cast<Host*>(host)->thread_ended(this_thread_id()); });

@@ -46,7 +46,7 @@ bool Lockstep::somebody_waits() const {
   return std::any_of(clients_.begin(), clients_.end(), [](const auto& c) { return c->waiting; });
 }
 
-// One thread may read many clients: it waits if one of them does.
+// One thread may own many clients: it waits if one of them does.
 bool Lockstep::all_wait() const {
   waiting_.clear();
   for (const auto& c : clients_) {

@@ -8,8 +8,8 @@
 namespace playerlike {
 namespace {
 
-// A program that sleeps this often after the end of the run is ended, a millisecond each; it may
-// have others to wait for.
+// The program is ended after so many sleeps beyond the end of the run. Each takes a millisecond,
+// since other threads may still be working.
 constexpr int kSleepsAfterEnd = 1000;
 
 }  // namespace
@@ -24,12 +24,12 @@ void Host::Core::VirtualClock::end_turns(sim::SimTime before_ns) {
   Turns::instance().set_clock(nullptr, 0, before_ns);
 }
 
-// One thread at a time: what programs do between two steps, with what their threads share, then
-// does not depend on which of them the system lets run first.
+// One thread runs at a time, so the effects of threads on shared data between two steps do not
+// depend on the system's scheduling.
 void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
   Turns& turns = Turns::instance();
   TurnThread& self = turns.self();
-  // After the end nobody waits for anything, but each is to have its turn.
+  // After the end no wait takes time, but each thread gets its turn.
   for (bool waited = false; core_.in_turns(); waited = true) {
     client.require_open();
     const bool is_over = core_.wait_is_over(client);
@@ -50,8 +50,8 @@ bool Host::Core::VirtualClock::step(Lock& lock) {
   return true;
 }
 
-// Those who wait for data before those who sleep: a program that sleeps while another of its
-// threads reads finds the data of that moment.
+// Threads that wait for data become ready before threads that sleep: a program that sleeps in one
+// thread and reads in another finds the data of that time.
 void Host::Core::VirtualClock::make_ready() {
   using State = TurnThread::State;
   Turns& turns = Turns::instance();

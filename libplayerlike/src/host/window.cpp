@@ -48,7 +48,7 @@ ViewScene Host::Core::Window::view_scene() {
 }
 
 std::string Host::Core::Window::on_key(std::uint32_t keysym, bool pressed, bool control) {
-  // A key that went down without Ctrl may come up with it.
+  // Ctrl may be pressed between the press and the release of a key.
   const auto action = view_action(keysym, control && pressed);
   if (!action) return "";
   if (*action == ViewAction::kEnd) {
@@ -86,7 +86,7 @@ void Host::Core::Window::act(ViewAction action) {
       help_ = !help_;
       return;
     default:
-      return;  // driving, saving and ending are done by on_key
+      return;  // on_key() handles driving, saving and ending
   }
 }
 
@@ -123,7 +123,7 @@ std::string Host::Core::Window::next_picture_file() {
   }
   std::array<char, 32> name{};
   std::filesystem::path file;
-  std::error_code ignored;  // in a folder that cannot be looked at writing fails, and says why
+  std::error_code ignored;  // if the folder cannot be checked, writing fails with the reason
   do {
     std::snprintf(name.data(), name.size(), "view_%06d.png", ++pictures_);
     file = std::filesystem::path(core_.settings_.output_folder) / name.data();

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// CBOR (RFC 8949). Written by nlohmann's library, read by a reader of our own: nlohmann's takes
-// bytes one by one, calls itself without bound, and lets NaN and duplicate keys pass.
+// CBOR (RFC 8949). nlohmann's library writes it. The parser is our own, because nlohmann's reads
+// single bytes, recurses without limit, and accepts NaN and duplicate keys.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -57,7 +57,7 @@ json with_valid_utf8(const json& value) {
   return value;
 }
 
-/// Half precision (IEEE 754 binary16), finite, as RFC 8949, appendix D has it.
+/// Decodes a finite half-precision number (IEEE 754 binary16), as in RFC 8949, appendix D.
 double half(std::uint64_t bits) {
   const int exponent = static_cast<int>(bits >> 10U & 0x1fU);
   const double mantissa = static_cast<double>(bits & 0x3ffU);
@@ -67,7 +67,7 @@ double half(std::uint64_t bits) {
   return (bits & 0x8000U) != 0 ? -value : value;
 }
 
-/// Reads one message. Calls itself once a level, and levels are bounded.
+/// Parses one message. It recurses once per level; the number of levels is limited.
 class CborReader {
  public:
   explicit CborReader(std::string_view bytes) : rest_(bytes) {}
@@ -89,7 +89,7 @@ class CborReader {
     kTag,
     kSimple,
   };
-  /// How an item begins (RFC 8949, section 3).
+  /// The head of an item (RFC 8949, section 3).
   struct Head {
     Major major;
     std::uint8_t info;       ///< low five bits of the first byte
@@ -159,7 +159,8 @@ class CborReader {
     return read_simple(head);
   }
 
-  // Counts may be lies: each element takes a byte at least, so the message's end is the bound.
+  // The count may be false. Each element takes at least one byte, so the end of the message bounds
+  // the loop.
   json read_list(std::uint64_t count, int depth) {
     require_depth(depth);
     json::array_t list;
@@ -196,7 +197,8 @@ class CborReader {
       refuse("a typed array that is no byte string of whole doubles");
     }
     std::vector<std::uint8_t> bytes = read_bytes(head.argument);
-    // Little-endian: sign and exponent are the last two bytes. All ones: infinite or no number.
+    // Little-endian: the last two bytes hold sign and exponent. An exponent of all ones means
+    // infinity or NaN.
     for (std::size_t i = 6; i < bytes.size(); i += sizeof(double)) {
       if ((bytes[i] & 0xf0U) == 0xf0U && (bytes[i + 1] & 0x7fU) == 0x7fU) refuse_number();
     }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kTokenExpected = "16 to 256 English letters, digits or signs, without blanks";
 
-/// The token of a key, "" if there is none or it is not sound.
+/// The token of a key, "" if there is none or it is not valid.
 std::string read_token(sim::io::Reader& object, const std::string& key) {
   const auto child = object.child(key);
   if (!child) return "";
@@ -22,7 +22,7 @@ std::string read_token(sim::io::Reader& object, const std::string& key) {
     return "";
   }
   std::string token = child->scalar_text().value_or("");
-  // What is wrong is told without showing the token: messages end up in logs.
+  // The error does not show the token, since errors end up in logs.
   const bool printable =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c <= '~'; });
   if (token.size() >= kMinToken && token.size() <= kMaxToken && printable) return token;
