@@ -24,9 +24,9 @@
 
 namespace test {
 
-/// What stands behind a FakeSession: a world without physics, whose readings a test writes down
-/// beforehand, and which remembers what it was told. Outlives the session, so that a test can look
-/// at what a client left behind.
+/// The backend of a FakeSession: a world without physics. A test defines its readings beforehand,
+/// and it records the commands it receives. It outlives the session, so that a test can check what
+/// a client left behind.
 struct FakeWorld {
   using Round = std::vector<std::pair<playerlike::DeviceId, std::shared_ptr<sim::Reading>>>;
   using Sent = std::pair<playerlike::DeviceId, sim::Command>;
@@ -47,7 +47,7 @@ struct FakeWorld {
   int flushes = 0;
   sim::LayerStack layers{sim::CanvasDescription{}};
   playerlike::LayerBook book;
-  int clients = 0;  ///< sessions so far
+  int clients = 0;  ///< number of sessions so far
   std::atomic<std::uint64_t> resizes{0};
   sim::ViewMode view_mode = sim::ViewMode::kGround;
   bool view_mode_locked = false;
@@ -64,7 +64,7 @@ struct FakeWorld {
   }
 };
 
-// Numbers of the devices of the fake robot.
+// Device numbers of the fake robot.
 inline constexpr playerlike::DeviceId kLaser{0, 0};
 inline constexpr playerlike::DeviceId kMotion{0, 1};
 inline constexpr playerlike::DeviceId kOdometry{0, 2};
@@ -112,7 +112,7 @@ inline std::shared_ptr<FakeWorld> make_fake_world() {
   return world;
 }
 
-/// A reading of a localisation device at a time.
+/// A reading of a localisation device at the given time.
 inline std::shared_ptr<sim::Reading> pose_reading(double time_s, sim::Pose pose,
                                                   sim::Twist twist = {}, bool stalled = false) {
   auto reading = std::make_shared<sim::PoseReading>();
@@ -124,7 +124,7 @@ inline std::shared_ptr<sim::Reading> pose_reading(double time_s, sim::Pose pose,
   return reading;
 }
 
-/// A scan of the fake laser: beam i looks at -1 + 0.5 i [rad].
+/// A scan of the fake laser: beam i points to -1 + 0.5 i [rad].
 inline std::shared_ptr<sim::Reading> scan(double time_s, std::vector<double> ranges_m) {
   auto reading = std::make_shared<sim::LaserReading>();
   reading->time_ns = sim::from_seconds(time_s);
@@ -136,7 +136,7 @@ inline std::shared_ptr<sim::Reading> scan(double time_s, std::vector<double> ran
   return reading;
 }
 
-/// A session that hands out a FakeWorld's readings, one round a wait().
+/// A session that returns a FakeWorld's readings, one round per wait().
 class FakeSession final : public playerlike::Session {
  public:
   explicit FakeSession(std::shared_ptr<FakeWorld> world)
@@ -331,7 +331,7 @@ class FakeSession final : public playerlike::Session {
     }
     world_->view_mode = what.mode;
   }
-  /// Of a room of one square metre without anything in it.
+  /// The map of an empty room of one square metre.
   playerlike::WorldMap operator()(const playerlike::WorldMapRequest& what) const {
     if (!(what.cell_size_m > 1e-3)) {
       throw playerlike::SessionError(playerlike::SessionError::Code::kBadArgument,
@@ -363,7 +363,7 @@ class FakeSession final : public playerlike::Session {
     }
   }
 
-  // With the world's mutex held.
+  // The caller holds the world's mutex.
   void execute_drawings() {
     queue_.drain([this](std::span<const sim::DrawOperation> operations) {
       world_->drawn += operations.size();

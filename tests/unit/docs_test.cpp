@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Links of the documentation lead somewhere.
+// Links of the documentation point to existing files and headings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ using testing::IsEmpty;
 
 const fs::path kRoot(PLAYPEN_SOURCE_DIR);
 
-/// The text without fenced blocks and code in backticks, lines kept.
+/// The text without fenced blocks and code in backticks; line breaks are kept.
 std::string prose_of(const std::string& text) {
   std::string prose;
   std::istringstream lines(text);
@@ -40,7 +40,7 @@ std::string prose_of(const std::string& text) {
   return prose;
 }
 
-/// Targets of links and pictures, those in the web left out.
+/// Targets of links and pictures, except links to the web.
 std::vector<std::string> links_of(const std::string& text) {
   static const std::regex kLink(R"(\]\(([^()\s]+(\([^()\s]*\))?)\))");
   const std::string prose = prose_of(text);
@@ -52,7 +52,7 @@ std::vector<std::string> links_of(const std::string& text) {
   return links;
 }
 
-/// The anchor that a heading gets: lower case, blanks to hyphens, other signs dropped.
+/// The anchor of a heading: lower case, blanks become hyphens, other characters are dropped.
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
   for (const char c : heading) {
@@ -79,7 +79,7 @@ std::set<std::string> anchors_of(const std::string& text) {
   return anchors;
 }
 
-/// What is wrong with the links of a page; `file` is where it lies.
+/// The broken links of a page in `file`.
 std::vector<std::string> dead_links(const fs::path& file, const std::string& text) {
   std::vector<std::string> dead;
   for (const std::string& link : links_of(text)) {
@@ -166,7 +166,7 @@ std::set<std::string> names_of_tests() {
   return names;
 }
 
-/// The tests that a page names in the last columns of its tables; '*' stands for anything.
+/// The tests that a page names in the last columns of its tables; '*' is a wildcard.
 std::vector<std::string> tests_named_in(const std::string& page) {
   static const std::regex kName("`([A-Z][A-Za-z0-9]*\\.[A-Za-z0-9*]+)`");
   std::vector<std::string> names;
@@ -197,7 +197,7 @@ TEST(Documentation, PromisesNameTestsThatExist) {
   for (const std::string& name : named) EXPECT_TRUE(is_test(name, tests)) << name;
 }
 
-// The checks themselves, so that one that lets all pass is noticed.
+// Tests of the checks themselves: a check that accepts everything must fail here.
 TEST(DocumentationLinks, AreFoundInProseOnly) {
   EXPECT_THAT(links_of("[a](b.md) and ![c](d/e.png)\n`[f](g)`\n```\n[h](i)\n```\n[j](#k)\n"
                        "[web](https://example.org/x)\n"),

@@ -25,7 +25,7 @@ constexpr NumberRange kLength{0.0, 1e6, false, "m"};
 constexpr NumberRange kTime{0.0, 1e9, true, "s"};
 constexpr NumberRange kShare{0.0, 1.0, false, ""};
 
-/// A number that may be left out.
+/// An optional number.
 std::optional<double> optional_number(Reader& reader, const char* key, const NumberRange& range) {
   if (!reader.has(key)) return std::nullopt;
   return reader.number(key, 0.0, range);
@@ -71,7 +71,7 @@ class TaskReader {
         root.issue("world/out-of-range", "at least one world", list->described(), "", "worlds");
       }
     }
-    std::map<std::string, std::string> places;  // of names
+    std::map<std::string, std::string> places;  // JSON pointers of the names
     for (Reader& element : elements) {
       TaskWorld world;
       std::string name;
@@ -89,7 +89,7 @@ class TaskReader {
                       "the name of a world file in double quotes, or an object {...}",
                       element.described());
       }
-      if (name.empty() && !element.is_string()) continue;  // reported already
+      if (name.empty() && !element.is_string()) continue;  // already reported
       world.file = (fs::path(task_.file).parent_path() / name).string();
       std::error_code error;
       if (name.empty() || !fs::is_regular_file(world.file, error)) {

@@ -91,8 +91,8 @@ class Neighbours {
   bool placed_ = true;
   double travel_m_ = 0.0;
   double cumulative_max_travel_m_ = 0.0;
-  std::vector<Pair>
-      pairs_;  // all that may come near before cumulative_max_travel_m_ is pairs_until_m_, in order
+  // all that may come near before cumulative_max_travel_m_ is pairs_until_m_, in order
+  std::vector<Pair> pairs_;
   std::vector<double>
       meet_at_travel_m_;            // by pair: cumulative_max_travel_m_ from which on they may meet
   std::vector<Pair> pairs_before_;  // previous `pairs_`

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What a host is divided into, each part alone: clients, lockstep, pace, inputs and so on.
+// The parts of a host, each tested alone: clients, lockstep, pace, inputs and so on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,7 +86,7 @@ TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
   clients.unsubscribe(*other, device(1, "pose"));
   EXPECT_FALSE(other->has_data);
   clients.remove(*reader);
-  run(0.5);  // nobody is offered what the one who left had subscribed to
+  run(0.5);  // the subscriptions of the session that has left have no effect
   EXPECT_THAT(clients.take(*other), IsEmpty());
 }
 
@@ -216,7 +216,7 @@ TEST(Pace, StepsNeitherDriftNorCatchUp) {
     pace.begin_step(t0 + i * milliseconds(5) + milliseconds(2));  // late by 2 ms each time
   }
   EXPECT_EQ(pace.due(), t0 + milliseconds(20));
-  // 200 ms late is caught up with, more is not.
+  // 200 ms of lateness are caught up, more are not.
   pace.begin_step(t0 + milliseconds(220));
   EXPECT_EQ(pace.due(), t0 + milliseconds(25));
   pace.begin_step(t0 + milliseconds(226));
@@ -244,7 +244,7 @@ TEST(Pace, ALimitIsUsedUpStepByStep) {
   EXPECT_FALSE(pace.used_up());
   pace.count_step();
   EXPECT_TRUE(pace.used_up());
-  // A step that was waited for comes at once; one that is not due yet does not.
+  // A step that was waited for is run at once; one that is not due yet is not.
   const Pace::Time t0{seconds(1000)};
   pace.begin_at(t0);
   pace.forgive(t0 + milliseconds(4));
