@@ -29,7 +29,7 @@ std::string_view without_blanks_behind(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// An id that can be sent back as it is.
+/// Whether an id can be echoed unchanged.
 bool is_valid_id(std::string_view id) {
   return id.size() <= kMaxId &&
          std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
@@ -95,7 +95,7 @@ std::string MorseConnection::farewell(const protocol::ProtocolError& error) {
 void MorseConnection::on_message(std::string_view line) {
   std::string_view rest = without_blanks_behind(line);
   const std::string_view word = take_word(rest);
-  if (word.empty()) return;  // an empty line has no id to answer to
+  if (word.empty()) return;  // an empty line has no id for an answer
   if (!is_valid_id(word)) {
     return answer("-", "FAILED", "Malformed request: an id is 1 to 80 printable ASCII characters");
   }

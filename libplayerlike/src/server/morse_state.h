@@ -23,7 +23,7 @@ class MorseConnection;
 class MorseStreams;
 struct MorseService;
 
-/// A request that cannot be executed: what MORSE's client is told after FAILED.
+/// A request that cannot be executed; the text is sent to MORSE's client after FAILED.
 class MorseRefusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -164,8 +164,8 @@ class MorseConnection final : public Handler {
   /// Adds a token, which may add rights.
   void present(std::string token);
 
-  /// Has the server's workshop execute a request about the canvas, and answers it then. Nothing
-  /// more is read from the connection before. @param list  its arguments.
+  /// Has the server's workshop execute a request about the canvas, then answers it. Reading from
+  /// the connection pauses until then. @param list  its arguments.
   void work(const std::string& id, const MorseService& service, const nlohmann::json& list);
 
   /// Sends an answer. @param result  null: none.
@@ -174,7 +174,7 @@ class MorseConnection final : public Handler {
  private:
   void execute(const std::string& id, std::string_view component, std::string_view service,
                std::string_view arguments);
-  /// Does something for a request; what that throws is answered.
+  /// Runs an action for a request; answers its exceptions.
   template <typename Action>
   void guarded(const std::string& id, Action action);
   /// Runs an action that presents tokens: at once if all tokens are known, after a growing delay if

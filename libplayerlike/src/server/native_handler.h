@@ -17,10 +17,10 @@
 
 namespace playerlike::server {
 
-/// Answers one connection in Playpen's own protocol (docs/protocol.md).
+/// Handles one connection in Playpen's own protocol (docs/protocol.md).
 ///
-/// Requests are executed as they come; a `read` that waits is answered when its wait is over,
-/// the others at once. A request that fails has done nothing. Used by the server's thread only.
+/// Requests are executed in order. A `read` that waits is answered at the end of its wait, others
+/// at once. A request that fails has no effect. Used by the server's thread only.
 class NativeHandler final : public Handler {
  public:
   /// The terms that `hello` has negotiated.
@@ -30,7 +30,7 @@ class NativeHandler final : public Handler {
     bool session = true;  ///< false: only watches, without a client in the simulation
     int port = kMorsePort;
     std::string process;  ///< see Hub::thread_id(); not empty
-    std::string key;      ///< names the session for its followers; not empty
+    std::string key;      ///< identifies the session for its followers; not empty
     bool follower = false;
   };
 
@@ -61,7 +61,7 @@ class NativeHandler final : public Handler {
   };
 
   void execute(const json& message, const json& id, std::string& name);
-  /// Does something for a request; what that throws is answered.
+  /// Runs an action for a request; answers its exceptions.
   template <typename Action>
   void guarded(const json& id, const std::string& name, Action action);
   /// Has the workshop run piece(), then calls then(). If piece() throws, the request fails. Reading
@@ -70,9 +70,9 @@ class NativeHandler final : public Handler {
             std::function<void()> then);
   /// Has the workshop answer a request that takes long, see native_work.h.
   void answer_elsewhere(Request request, const json& id, const std::string& name);
-  /// Takes drawings that are little work, to be executed as those of programs are.
-  /// @return false if they are more: then they are for draw_elsewhere(). Those that are covered by
-  ///         others are taken out.
+  /// Queues drawings that are little work, like those of embedded programs. Removes drawings that
+  /// others cover.
+  /// @return false if they are too much work: then draw_elsewhere() must draw them.
   [[nodiscard]] bool draw_here(std::vector<sim::DrawOperation>& drawings);
   /// Has the workshop draw, and calls then() afterwards.
   void draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
@@ -120,8 +120,8 @@ class NativeHandler final : public Handler {
   std::shared_ptr<EventClient> client_;   ///< null: only watches; shared with jobs of the workshop
   std::optional<Waiting> waiting_;
   bool ending_ = false;                  ///< the client has sent bye
-  std::uint64_t canvas_generation_ = 0;  ///< of which the client knows
-  std::size_t light_cells_ = 0;  ///< written by drawings that may not have been executed yet
+  std::uint64_t canvas_generation_ = 0;  ///< the generation that the client knows
+  std::size_t light_cells_ = 0;  ///< cells of queued drawings that may not have been drawn yet
 };
 
 }  // namespace playerlike::server

@@ -182,12 +182,13 @@ class Hub {
   /// Ends the server on a client's request.
   virtual void quit() = 0;
 
-  /// Returns the id of a thread of a client's process, see EventClient.
-  /// @param process  what the process calls itself in its hellos; @param thread  its number there.
+  /// The id of a thread in a client's process, see EventClient.
+  /// @param process  the name of the process in its hellos.
+  /// @param thread   the thread's number there.
   [[nodiscard]] virtual ThreadId thread_id(const std::string& process, std::uint64_t thread) = 0;
 
-  /// What the connections in MORSE's protocol share; made for the first one. To be dropped while
-  /// post() can still be called.
+  /// State of the connections in MORSE's protocol, created for the first one. Must be destroyed
+  /// while post() can still be called.
   std::shared_ptr<MorseState> morse_state;
   /// State of the connections in Playpen's own protocol, created for the first one.
   std::shared_ptr<NativeState> native_state;
