@@ -471,7 +471,7 @@ void Turns::look(Lock& lock) {
   std::vector<Seen> seen_threads;
   for (const auto& t : threads_) {
     if (t->state != State::kThinks && t->state != State::kBeside) continue;
-    if (t->number == 0) continue;  // only just being started
+    if (t->number == 0) continue;  // not begun yet
     seen_threads.push_back({t->thread_id, t->number, t->seen, std::nullopt});
   }
   lock.unlock();
@@ -483,7 +483,7 @@ void Turns::look(Lock& lock) {
   std::vector<TurnThread*> thinking;
   for (const Seen& seen : seen_threads) {
     TurnThread* const t = find(seen.thread_id);
-    if (t == nullptr || t->seen != seen.since) return;  // it has waited meanwhile
+    if (t == nullptr || t->seen != seen.since) return;  // it has waited in the meantime
     if (t->state != State::kThinks && t->state != State::kBeside) return;
     thinking.push_back(t);
     if (!seen.switches || !t->blocked_since || *seen.switches != t->blocked_switches) {

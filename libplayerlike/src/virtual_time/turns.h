@@ -33,7 +33,7 @@ struct TurnThread {
   explicit TurnThread(ThreadId id) : thread_id(id) {}
 
   const ThreadId thread_id;
-  pid_t number = 0;              ///< the system's; 0: it has not begun yet
+  pid_t number = 0;              ///< the system's thread id; 0: not begun yet
   const void* handle = nullptr;  ///< its pthread_t
   State state = State::kReady;
   std::uint64_t place =
@@ -152,15 +152,15 @@ class Turns {
   TurnThread& self();
   /// The calling thread's entry, null if it is unknown.
   [[nodiscard]] static TurnThread* known_self() noexcept;
-  /// The calling thread starts one, which goes on when it is its turn.
+  /// The calling thread starts another one, which runs when it gets its turn.
   void add(ThreadId thread_id);
-  /// @param handle  its pthread_t
+  /// @param handle  its pthread_t.
   void note_handle(ThreadId thread_id, const void* handle);
-  /// The calling thread is that one. Returns when it is its turn.
+  /// The calling thread begins as this one. Returns when it gets its turn.
   void enter(Lock& lock, ThreadId thread_id);
-  /// A thread has ended, or could not be started.
+  /// A thread has ended or could not be started.
   void remove(ThreadId thread_id);
-  /// Whether a thread of the program with this pthread_t lives.
+  /// Whether a thread of the program with this pthread_t exists.
   [[nodiscard]] bool lives(const void* handle) const;
   /// Whether the thread with this system id waits, for its turn or for something else.
   [[nodiscard]] bool is_parked(pid_t number) const;

@@ -49,8 +49,8 @@ constexpr long long kLooksAStepAlone = 1'000;
 // How far a read of the clock advances time before there is a simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
-/// In place of a thread's number: a thread that a library starts on Playpen's behalf, as encoders
-/// of films do. It is Playpen's own.
+/// Used as a thread id: a thread that a library starts for Playpen, such as a film encoder's. It is
+/// not part of virtual time.
 constexpr unsigned long long kLibraryThread = ~0ULL;
 
 /// State of a thread. Trivially constructed and destroyed, so it is valid at any time.
@@ -527,7 +527,7 @@ int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
 __attribute__((constructor(101))) void register_hooks() {
   void* const found = dlsym(RTLD_DEFAULT, PLAYPEN_VIRTUAL_TIME_REGISTER);
   if (found == nullptr) return;
-  static_cast<void>(this_thread_id());  // the main thread is the first
+  static_cast<void>(this_thread_id());  // the main thread gets the first id
   dl_iterate_phdr(note_program, nullptr);
   const Inside inside;
   registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(hooks()) != 0;
