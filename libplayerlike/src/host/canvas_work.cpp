@@ -143,7 +143,7 @@ void Host::Core::resize_canvas(Client& client, int width, int height) {
   for (std::size_t i = 0; i < size; ++i) memory.emplace_back(4 * cells, std::uint8_t{0});
   const Lock lock = lock_with_priority();
   client.require_open();
-  // What others have drawn was meant for the cells as they were numbered then.
+  // Pending drawings of all clients refer to the old size.
   for (const auto& c : clients_) inputs_.apply_drawings(*c);
   memory = inputs_.book.resize(simulation_.layers(), width, height, std::move(memory));
   canvas_generation_.fetch_add(1, std::memory_order_acq_rel);

@@ -44,7 +44,7 @@ struct Client {
   bool follower = false;  ///< see Session::open_follower()
   /// Belongs to a server, which checks itself what its clients may read.
   bool served = false;
-  ThreadId creator = 0;                     ///< who connected it
+  ThreadId creator = 0;                     ///< the thread that connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -52,9 +52,9 @@ struct Client {
   sim::SimTime empty_round_ns = 0;  ///< without subscriptions: end of the present round
   int looks = 0;                    ///< consecutive calls of peek(0)
 
-  ThreadId owner = 0;       ///< who last waited; 0: nobody
+  ThreadId owner = 0;       ///< the thread that waited last; 0: none
   bool joined = false;      ///< takes part in the lockstep
-  bool silent = false;      ///< thought for too long: does not count until it waits again
+  bool silent = false;      ///< exceeded the silence limit: not counted until it waits again
   bool waiting = false;     ///< its owner waits, and the wait is not over
   bool wants_data = false;  ///< data end the wait
   std::optional<sim::SimTime> wake_ns;  ///< if set, this time ends the wait

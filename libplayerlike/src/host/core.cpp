@@ -57,7 +57,7 @@ Host::Core::~Core() { stop(); }
 
 void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
-  const Lock lock = lock_with_priority();  // the window's thread may look already
+  const Lock lock = lock_with_priority();  // the window's thread may be running already
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -105,7 +105,7 @@ std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
 void Host::Core::remove_client(Client& client) noexcept {
   const Lock lock = lock_with_priority();
   if (client.closed.exchange(true)) return;
-  // What it asked for last still happens.
+  // Its last commands are still applied.
   if (!ended_) inputs_.apply(client);
   client.drawings.close();
   inputs_.book.leave(client.number);
@@ -124,7 +124,7 @@ void Host::Core::thread_ended(ThreadId thread_id) noexcept {
 
 void Host::Core::adopt(Client& client, ThreadId thread_id) {
   client.require_open();
-  if (!turns_) client.touch();  // else it is known when the thread's turn began
+  if (!turns_) client.touch();  // in virtual time, Turns knows when the thread began to run
   lockstep_.adopt(client, thread_id);
 }
 
@@ -385,7 +385,7 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
   do {
     advance();
     if (!may_advance()) return false;
-    // Others want a word.
+    // Another thread waits in lock_with_priority().
     if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
   } while (WallClock::now() < end);
   return true;
@@ -393,7 +393,7 @@ bool Host::Core::advance_for(std::chrono::microseconds slice) {
 
 void Host::Core::check_silence() {
   const Lock lock = lock_with_priority();
-  // Nobody waits in vain while time goes on by itself, or while there is nobody for whom it would.
+  // Silence matters only if clients wait for lockstep time that could advance.
   if (paced() || over()) return;
   if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
 }
@@ -476,7 +476,7 @@ void Host::Core::change_step_limit(const std::function<void(Pace&)>& change) {
 void Host::Core::prefer_real_time(const std::string& reason) {
   const Lock lock = lock_with_priority();
   if (in_turns()) {
-    // The caller's sleeps are part of the lockstep, from now on.
+    // The caller's sleeps are part of the lockstep from now on.
     Turns::instance().self().starts_background = true;
     virtual_time::note_background();
     return;

@@ -58,7 +58,7 @@ class Host::Core {
   void thread_ended(ThreadId thread_id) noexcept;
   void join(Client& client, ThreadId thread_id);
 
-  /// What a client asks for; in requests.cpp.
+  /// Answers a client's request; see requests.cpp.
   Answer answer(Client& client, const Request& request);
   void send(Client& client, DeviceId device, const sim::Command& command);
 
@@ -67,7 +67,7 @@ class Host::Core {
   bool peek(Client& client, std::chrono::milliseconds timeout);
   void sleep(Client& client, double seconds);
 
-  // The same for event clients; see EventClient and Host.
+  // The counterparts for event clients, see EventClient and Host.
   EventClient::Outcome begin_wait(Client& client, ThreadId thread_id);
   EventClient::Outcome begin_peek(Client& client, ThreadId thread_id,
                                   std::chrono::milliseconds timeout);
@@ -161,7 +161,7 @@ class Host::Core {
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
-  /// When a peek of lockstep that begins now is over.
+  /// The end of a peek that begins now in lockstep.
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
 
   /// Makes a step. @return the result of release_waiters().
@@ -189,10 +189,10 @@ class Host::Core {
   const sim::SimTime step_ns_;
   const bool turns_;  ///< virtual time: threads take turns in a fixed order
   mutable std::mutex own_mutex_;
-  std::mutex& mutex_;                             ///< its own, or that of those who take turns
+  std::mutex& mutex_;                             ///< its own, or that of Turns
   mutable std::atomic<int> priority_waiters_{0};  ///< threads in lock_with_priority()
   std::condition_variable changed_;
-  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
+  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's time; needs no mutex
   std::atomic<std::uint64_t> canvas_generation_{0};
   ClientFiles client_files_;
   SavedStates saved_states_;

@@ -21,7 +21,7 @@ void InProcessSession::note_wait() const {
     end->say_goodbye(host_,
                      [](void* host) { static_cast<Host*>(host)->thread_ended(this_thread_id()); });
   }
-  // Drivers are Playpen's own.
+  // Drivers are not threads of the program.
   if (client_->follower || !virtual_time::active()) return;
   virtual_time::remember_thread();
   virtual_time::note_wait();

@@ -20,7 +20,7 @@ class Lockstep {
   /// @param gate     how many programs' clients must have joined before time begins.
   Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn);
 
-  /// The client waits, by this thread; from now on it takes part.
+  /// This thread waits with the client, which takes part from now on.
   void adopt(Client& client, ThreadId thread_id);
   /// A thread has ended: nobody waits for its clients.
   void forget(ThreadId thread_id) noexcept;
@@ -31,19 +31,19 @@ class Lockstep {
   [[nodiscard]] bool somebody_waits() const;
   /// Whether all clients that take part wait.
   [[nodiscard]] bool all_wait() const;
-  /// Whether a client of another thread than this one may come to let time pass.
+  /// Whether a client of another thread may still let time advance.
   [[nodiscard]] bool others_may_wait(ThreadId thread_id);
 
-  /// When it is to be looked whether a client has been silent for too long, if nothing changes.
+  /// When note_silence() must be called if nothing changes before.
   [[nodiscard]] WallClock::time_point silence_deadline(WallClock::time_point now) const;
   /// Warns about clients that hold up the others, and stops waiting for those that have exceeded
   /// the silence limit.
   void note_silence(WallClock::time_point now);
-  /// In virtual time: a thread has been silent for too long.
+  /// In virtual time: a thread has exceeded the silence limit.
   void note_silent_thread(ThreadId thread_id) const;
-  /// How long a thread may think.
+  /// How long a thread may run without waiting.
   [[nodiscard]] WallClock::duration silence_limit() const;
-  /// When a thread was last seen by its clients, or `seen` if that is later.
+  /// When a client of a thread was last active, or `seen` if that is later.
   [[nodiscard]] WallClock::time_point last_seen(ThreadId thread_id,
                                                 WallClock::time_point seen) const;
 
@@ -64,9 +64,9 @@ class Lockstep {
   bool gate_opened_ = false;
   WallClock::time_point gate_told_ = WallClock::now();  ///< when missing clients were last reported
   bool silence_noted_ = false;
-  ThreadId first_owner_ = 0;               ///< who waited first, and ...
-  bool several_owners_ = false;            ///< ... whether another one has
-  mutable std::vector<ThreadId> waiting_;  ///< of all_wait()
+  ThreadId first_owner_ = 0;               ///< the first thread that waited, and ...
+  bool several_owners_ = false;            ///< ... whether another one has waited
+  mutable std::vector<ThreadId> waiting_;  ///< scratch memory of all_wait()
 };
 
 }  // namespace playerlike

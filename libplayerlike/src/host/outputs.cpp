@@ -261,7 +261,7 @@ std::string report_text(const sim::Simulation& simulation, const TimeStatistics&
                         const RunEnd& end) {
   nlohmann::ordered_json whole = report(simulation, time);
   whole["ended"] = to_json(end);
-  // What robots said may be any bytes.
+  // Texts of robots may be invalid UTF-8.
   return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 

@@ -103,7 +103,7 @@ std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime tar
   const ThreadId thread_id = this_thread_id();
   Lock lock = core_.lock_for_stepping();
   if (!core_.in_turns() || core_.ended_by_program_) return std::nullopt;
-  // A program that never reads takes part with the clients it has made.
+  // A program that never reads takes part with the clients that it has created.
   for (const auto& client : core_.clients_) {
     if (client->creator == thread_id && client->owner == 0 && !client->follower) {
       core_.adopt(*client, thread_id);
@@ -129,8 +129,8 @@ void Host::Core::VirtualClock::note_timed_wait(Lock& lock, sim::SimTime left_ns)
   sleep_after_end(lock, this_thread_id());
 }
 
-// Nobody can throw out of a sleep. A program that only sleeps ends here; one that reads as well, or
-// has threads that do, is told by that, and is left some time to end by itself.
+// A sleep cannot throw. A program that only sleeps is ended here. If it also reads, or has threads
+// that do, they get the error, and it has some time to end by itself.
 void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
   const auto& threads = Turns::instance().threads();
   const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {

@@ -33,7 +33,7 @@ class Host::Core::VirtualClock final : public TurnClock {
   void note_timed_wait(Lock& lock, sim::SimTime left_ns) override;
   [[nodiscard]] WallClock::duration silence_limit() const override;
 
-  /// Whether threads besides this one may go on without a step.
+  /// Whether other threads can run without a step.
   [[nodiscard]] static bool others_take_turns(ThreadId thread_id);
 
  private:
