@@ -31,7 +31,7 @@ constexpr double kTurnCost_m = 0.1;
 constexpr double kGapHysteresis_m = 1.0;
 // The hysteresis shrinks by this for each metre by which the chosen path has become longer.
 constexpr double kDetourPenalty = 2.0;
-// A gap this near to where the one chosen last was is the same.
+// A gap within this distance of the one chosen last counts as the same gap.
 constexpr double kSameGap_m = 0.3;
 // Minimum approach to the goal that counts as progress.
 constexpr double kProgress_m = 0.02;
@@ -264,8 +264,8 @@ double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::V
   for (const Gap& gap : gaps) {
     const double way_m = (gap.p_WG - X_WB.position()).norm() + (goal_.position - gap.p_WG).norm();
     double cost_m = way_m + kTurnCost_m * std::abs(gap.bearing_rad);
-    // Hysteresis keeps the gap chosen last. It shrinks while that gap recedes: the side of a round
-    // obstacle recedes for ever.
+    // Hysteresis keeps the gap chosen last. It shrinks as the path through that gap grows, since
+    // the edge of a round obstacle recedes for ever.
     const bool same = p_WG_ && (gap.p_WG - *p_WG_).norm() < kSameGap_m;
     if (same) cost_m -= std::max(0.0, kGapHysteresis_m - kDetourPenalty * (way_m - least_way_m_));
     if (cost_m >= best_cost_m) continue;

@@ -21,7 +21,7 @@ bool is_utf8(std::string_view text) noexcept {
   return sim::find_invalid_utf8(text) == std::string_view::npos;
 }
 
-/// Whether all texts of a value are UTF-8.
+/// Whether all texts of a value are valid UTF-8.
 bool is_valid_utf8(const json& value) {
   if (const auto* text = value.get_ptr<const std::string*>()) return is_utf8(*text);
   if (const auto* object = value.get_ptr<const json::object_t*>()) {
@@ -41,7 +41,7 @@ std::string with_valid_utf8(const std::string& text) {
       .get<std::string>();
 }
 
-/// The value with U+FFFD in place of what is no UTF-8.
+/// Replaces invalid UTF-8 in a value's texts by U+FFFD.
 json with_valid_utf8(const json& value) {
   if (const auto* text = value.get_ptr<const std::string*>()) return with_valid_utf8(*text);
   if (const auto* object = value.get_ptr<const json::object_t*>()) {
