@@ -119,8 +119,8 @@ int check(const std::vector<std::string>& names) {
     }
     for (const NamedFile& file : files) {
       try {
-        const std::string what =
-            checked(file);  // everything that may throw comes before the output line
+        // everything that may throw comes before the output line
+        const std::string what = checked(file);
         std::cout << name << ": ok (" << what << ")\n";
       } catch (const sim::ConfigError& error) {
         std::cerr << error.what() << '\n'

@@ -28,8 +28,8 @@ struct CommandLine {
 
   CLI::App app;
   std::string invocation;
-  std::vector<std::string>
-      program;       ///< the client program and its arguments: everything after "--"
+  /// the client program and its arguments: everything after "--"
+  std::vector<std::string> program;
   int status = kOk;  ///< exit status of the command that has run
 
   std::set<const CLI::App*> with_program;  ///< commands that are followed by "-- PROGRAM"

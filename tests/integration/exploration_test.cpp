@@ -36,10 +36,10 @@ std::string world_file(const std::string& name) {
 
 /// Agreement between a map and the arena.
 struct Quality {
-  double coverage =
-      0.0;  ///< share of the cells reachable from the start (4 neighbours) that the map calls free
-  double correctness =
-      0.0;  ///< share of the known cells that are right; occupied beside solid counts as right
+  /// share of the cells reachable from the start (4 neighbours) that the map calls free
+  double coverage = 0.0;
+  /// share of the known cells that are right; occupied beside solid counts as right
+  double correctness = 0.0;
 };
 
 Quality judge(const sim::OccupancyMap& map, const std::string& world_name) {
@@ -268,8 +268,8 @@ TEST_F(Exploration, EndsAtItsTimeLimit) {
       run(world_file("par_exploration"), {}, {NEAREST_PROGRAM, "--time-limit", "5"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("the time limit is over"));
-  EXPECT_NEAR(report().at("run").at("sim_time").get<double>(), 5.3,
-              0.31);  // includes the first Reads
+  // includes the first Reads
+  EXPECT_NEAR(report().at("run").at("sim_time").get<double>(), 5.3, 0.31);
 }
 
 TEST_F(Exploration, EndsWellWithPicturesOfItsWay) {

@@ -126,8 +126,8 @@ struct Case {
   Vec2 goal = Vec2::Zero();
   double straight_m = 0.0;
   double path_m = 0.0;
-  bool clear_line =
-      false;  ///< the robot fits along the whole straight line, with 5 cm of clearance
+  /// the robot fits along the whole straight line, with 5 cm of clearance
+  bool clear_line = false;
   [[nodiscard]] bool open() const { return clear_line || path_m <= kOpenRoom * straight_m; }
 };
 

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test_support::read_bytes;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -114,6 +115,29 @@ TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
   for (const fs::path& page : all) {
     EXPECT_THAT(dead_links(page, read_bytes(page)), IsEmpty()) << page;
   }
+}
+
+TEST(Documentation, IndexListsEveryPage) {
+  const fs::path docs = kRoot / "docs";
+  const std::vector<std::string> listed = links_of(read_bytes(docs / "index.md"));
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(docs)) {
+    const std::string page = fs::relative(entry.path(), docs).generic_string();
+    if (entry.path().extension() != ".md" || page == "index.md") continue;
+    EXPECT_THAT(listed, Contains(page));
+  }
+}
+
+TEST(Documentation, GlossaryIsAlphabetical) {
+  static const std::regex kRow("\n\\| ([^|]+) \\|");
+  const std::string page = read_bytes(kRoot / "docs/glossary.md");
+  std::vector<std::string> terms;
+  for (std::sregex_iterator it(page.begin(), page.end(), kRow), end; it != end; ++it) {
+    std::string term = (*it)[1];
+    for (char& c : term) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    terms.push_back(term);
+  }
+  ASSERT_GT(terms.size(), 50U);
+  EXPECT_TRUE(std::is_sorted(terms.begin() + 1, terms.end()));  // after the heading "term"
 }
 
 // Each row of the table runs the world that it links to.

@@ -30,14 +30,14 @@ const double PART = 40.0;  // longer frontiers are split into parts of about thi
 const std::size_t PROMISE = 30;
 const double PROMISE_RANGE = 0.3;  // [m]
 const double VIEW = 0.6;           // the robot can observe a frontier from this far away [m]
-const double IN_VIEW =
-    0.8;                   // a frontier is in view if it is within this angle of the heading [rad]
+// a frontier is in view if it is within this angle of the heading [rad]
+const double IN_VIEW = 0.8;
 const double LOOK = 0.5;   // and observed after it has been in view for this long [s]
 const int MOST_TRIES = 5;  // how often a cell may be part of a target
 
 const double PLAN_PERIOD = 0.5;  // [s]
-const double WAY_PERIOD =
-    2.0;                    // replan the path after this time, because more of the map is known [s]
+// replan the path after this time, because more of the map is known [s]
+const double WAY_PERIOD = 2.0;
 const double SETTLE = 0.3;  // collect data for this long before the first plan [s]
 const int SURE = 3;         // end after this many plans in a row without a target
 const int SHUT_IN = 20;     // or after this many plans without a free cell near the robot

@@ -33,8 +33,8 @@ class CRobot : public imr::concurrent::CThread {
   struct View {
     double freeAhead;  // distance that the robot can drive straight ahead before it touches
                        // something [m]
-    double
-        wallRange;  // distance from the robot's centre to the nearest point on the wall's side [m]
+    // distance from the robot's centre to the nearest point on the wall's side [m]
+    double wallRange;
     double wallAngle;  // direction of that point: 0 ahead, pi/2 to the side [rad]
   };
 

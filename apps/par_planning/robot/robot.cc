@@ -268,8 +268,8 @@ void CRobot::drawGoal() const {
 void CRobot::drawWay(const std::string& layer, const par::Path& way, int margin) const {
   CCMorse::GridMapLayer& drawing = window.GetLayer(layer);
   drawing.Clear();
-  const int half =
-      pixelsPerCell / 2;  // offset to the middle of a cell that is drawn as a square of pixels
+  // offset to the middle of a cell that is drawn as a square of pixels
+  const int half = pixelsPerCell / 2;
   for (std::size_t i = 1; i < way.cells.size(); i++) {
     const CCMorse::ImagePoint_t from = pixelOf(way.cells[i - 1]);
     const CCMorse::ImagePoint_t to = pixelOf(way.cells[i]);

@@ -18,6 +18,7 @@
 #include "playerlike/host/results.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 
 namespace playpen::grade {
@@ -44,10 +45,9 @@ bool same_world(const std::string& a, const std::string& b) {
 
 /// A number that is unique to the run.
 std::string new_nonce() {
-  constexpr const char* kDigits = "0123456789abcdef";
   std::random_device random;
   std::string nonce;
-  while (nonce.size() < 32) nonce += kDigits[random() & 15U];
+  for (int i = 0; i < 4; ++i) nonce += sim::hexadecimal_text(random(), 8);
   return nonce;
 }
 

@@ -38,8 +38,8 @@ struct Thresholds {
 /// A world of a task, and its own settings.
 struct TaskWorld {
   std::string file;  ///< path of the file; "": the default world
-  std::vector<std::string>
-      arguments;             ///< additional arguments for the program, after those of the task
+  /// additional arguments for the program, after those of the task
+  std::vector<std::string> arguments;
   std::optional<Goal> goal;  ///< instead of the task's
 };
 

@@ -56,7 +56,7 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
   try {
     session_->request(UnsubscribeRequest{device});
   } catch (const std::exception&) {
-    // The session has ended meanwhile, and with it all subscriptions.
+    // The session has ended, and with it all its subscriptions.
   }
 }
 
@@ -68,8 +68,8 @@ void ClientCore::read(const std::atomic<bool>* stop) {
     const std::lock_guard lock(mutex_);
     if (stop != nullptr && *stop) return;
     const int count = hand_out(notifications);
-    // Another thread of this client may have taken the round: then there is one more to wait for,
-    // but not for ever, as that thread may always be first. The data are new all the same.
+    // Another thread of this client may have taken the round; then wait for the next one. Limited,
+    // since the other thread may win every time. The data are new in any case.
     constexpr int kMostRounds = 3;
     done = count > 0 || entries_.empty() || ++rounds == kMostRounds;
   }

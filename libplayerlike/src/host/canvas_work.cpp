@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What may take long on a large canvas. It is done in pieces: the mutex is released after each, so
-// that steps and other clients wait for a piece at most.
+// Work that may take long on a large canvas. It is done in pieces; the mutex is unlocked after each
+// piece, so steps and other clients wait for one piece at most.
 #include <algorithm>
 #include <thread>
 #include <utility>
@@ -10,8 +10,8 @@
 namespace playerlike {
 namespace {
 
-// Cells that are copied or composed while others wait: a millisecond or two. Nearly all canvases
-// are smaller, so what is copied of them is of one moment.
+// Cells that are copied or composed while the mutex is held, which takes a millisecond or two.
+// Nearly all canvases are smaller, so their copies are consistent.
 constexpr std::size_t kPiece = std::size_t{1} << 20U;
 
 std::size_t cells_of(const sim::CanvasDescription& canvas) {
@@ -24,15 +24,16 @@ bool same_size(const sim::CanvasDescription& a, const sim::CanvasDescription& b)
 
 }  // namespace
 
-// A thread that takes the mutex again at once would keep it from those who sleep in wait for it.
+// A thread that locked the mutex again at once would starve the threads that sleep while they wait
+// for it.
 void Host::Core::let_others_in() const {
   std::this_thread::sleep_for(std::chrono::microseconds(50));
-  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+  while (priority_waiters_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
 }
 
 bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
   {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     client.require_open();
     if (!std::exchange(work.begun, true)) {
       inputs_.apply_drawings(client);
@@ -46,9 +47,9 @@ bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
   return done;
 }
 
-/// Calls copy(layers, book, row, rows) under the mutex for all rows of the canvas, from the top,
-/// some at a time; from row 0 again if the canvas gets another size meanwhile. Before that, once a
-/// size and without the mutex, copy.make_room(canvas).
+/// Calls copy(layers, book, row, rows) under the mutex for all rows of the canvas, from the top, in
+/// pieces; starts again at row 0 if the canvas is resized meanwhile. Before, it calls
+/// copy.make_room(canvas) without the mutex, once for each size.
 template <typename Copy>
 sim::CanvasDescription Host::Core::copy_in_pieces(Client& client, const Copy& copy) {
   sim::CanvasDescription canvas = with_layers(
@@ -114,7 +115,7 @@ std::vector<std::uint8_t> Host::Core::picture(Client& client, std::optional<sim:
     }
   };
   if (!layer) {
-    // Others may draw meanwhile: what is left after one time round is done with the copying.
+    // Other clients may draw meanwhile. What is left after one pass is composed by the copying.
     std::size_t composed = 0;
     bool more = true;
     while (more) {
@@ -131,7 +132,7 @@ std::vector<std::uint8_t> Host::Core::picture(Client& client, std::optional<sim:
 }
 
 void Host::Core::resize_canvas(Client& client, int width, int height) {
-  // Memory is got and given back without the mutex.
+  // Memory is allocated and freed without the mutex.
   std::vector<std::vector<std::uint8_t>> memory;
   const auto size = with_layers(client, [&](const sim::LayerStack& layers, const LayerBook& book) {
     book.require_size(layers, width, height);
@@ -140,7 +141,7 @@ void Host::Core::resize_canvas(Client& client, int width, int height) {
   });
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (std::size_t i = 0; i < size; ++i) memory.emplace_back(4 * cells, std::uint8_t{0});
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.require_open();
   // What others have drawn was meant for the cells as they were numbered then.
   for (const auto& c : clients_) inputs_.apply_drawings(*c);

@@ -13,7 +13,7 @@
 namespace playerlike {
 namespace {
 
-// How often the calling thread has gone to sleep by itself.
+// Number of voluntary context switches of the calling thread.
 long own_sleeps() {
   rusage usage{};
   return getrusage(RUSAGE_THREAD, &usage) == 0 ? usage.ru_nvcsw : 0;
@@ -34,7 +34,7 @@ bool IdleCalls::note(sim::SimTime now_ns, double share) {
 
 bool IdleCalls::note_command(sim::SimTime now_ns, double share, double share_after_sleep) {
   if (now_ns != since_ns_) begin_at(now_ns);
-  // Not of the first one: most programs send one command and read.
+  // The first command does not count as one after a sleep: most programs send one command and read.
   if (used_ > 0.0) {
     const long sleeps = own_sleeps();
     const long before = std::exchange(own_sleeps_, sleeps);

@@ -8,8 +8,8 @@
 namespace playerlike {
 namespace {
 
-// A client may command this much ahead of the next step before it is applied, so that one that
-// never reads does not fill memory.
+// Maximum number of a client's commands per step. Further ones are applied early, so that a client
+// that never reads does not use up memory.
 constexpr std::size_t kCommandLimit = 1 << 12;
 
 template <typename... Kinds>
@@ -17,8 +17,8 @@ bool is_one_of(const sim::Command& command) {
   return (std::holds_alternative<Kinds>(command) || ...);
 }
 
-// Whether a command undoes an earlier one of its kind that has not been applied yet. Those that
-// move a robot by some way, or are counted, do not.
+// Whether a command replaces an earlier one of its kind that has not been applied yet. Relative
+// movements and counted commands do not.
 bool replaces_earlier_ones(const sim::Command& command) {
   return is_one_of<sim::TwistCommand, sim::HeadingCommand, sim::PositionCommand, sim::CarCommand,
                    sim::MotorEnableCommand, sim::SetPoseCommand>(command);
@@ -56,8 +56,8 @@ void Inputs::apply(Client& client) {
   apply_drawings(client);
 }
 
-// Drawings on layers that are not the client's are left out; one look for each run of drawings on
-// the same layer sees to that. Most often all are its own, and are drawn from where they are.
+// Drops drawings on layers of other clients, with one check for each run of drawings on one layer.
+// Usually all drawings are on the client's own layers and are drawn without a copy.
 void Inputs::apply_drawings(Client& client) {
   client.drawings.drain([&](std::span<const sim::DrawOperation> operations) {
     std::optional<sim::LayerId> layer;

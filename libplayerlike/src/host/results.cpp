@@ -10,9 +10,9 @@
 namespace playerlike {
 namespace {
 
-// How often the files of the results follow the run, at most.
+// Minimum period of writing the result files during the run.
 constexpr std::chrono::seconds kKeepingPeriod(1);
-// The same for what `playpen run` is left beside the state of each step.
+// Minimum period of KeptWriter::keep_looks(); the state is stored after each step.
 constexpr std::chrono::milliseconds kLooksPeriod(50);
 
 }  // namespace
@@ -63,7 +63,7 @@ void Results::keep_report(WallClock::time_point now) {
   }
 }
 
-// What matters most comes first, and what fails keeps back nothing else.
+// The most important result comes first, and a failure does not prevent the others.
 void Results::write() {
   const FileLimitErrors limit_errors;
   const auto attempt = [this](const char* problem, const auto& write) {

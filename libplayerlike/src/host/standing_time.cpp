@@ -10,13 +10,13 @@
 namespace playerlike {
 namespace {
 
-// How often a program may command or look while simulated time stands still before it is told that
-// nobody calls Read(); see IdleCalls. Before the first Read() few have a reason to. Afterwards one
-// may well send a command for each beam of a scan, and look at each beam many times; but
-// virtual_time::note_looks() lets time pass after three million looks.
+// Limits of commands and of accesses to data, while simulated time stands still, before the
+// warning; see IdleCalls. Before the first Read() few programs need many. Later a program may send
+// a command for each beam of a scan and read each beam many times. kLooksInAStep is below the three
+// million accesses after which virtual_time::note_looks() lets time advance.
 constexpr double kCommandsBeforeFirstStep = 1000.0;
 constexpr double kCommandsInAStep = 10'000.0;
-constexpr double kCommandsAfterSleeps = 20.0;  // a robot; the same for the least of the two above
+constexpr double kCommandsAfterSleeps = 20.0;  // per robot; also the least of the limits above
 constexpr double kLooksWithoutData = 1000.0;
 constexpr double kLooksInAStep = 2'000'000.0;
 

@@ -9,35 +9,36 @@
 
 namespace playerlike {
 
-/// Tells the user of a program, as warnings, that it lets no simulated time pass: it commands and
-/// looks, but does not call Read(). Says so once. See IdleCalls for how that is found.
-/// Guarded by the host's mutex, but for what says otherwise.
+/// Warns the user, once, that the program does not let simulated time advance: it commands and
+/// reads data, but does not call Read(). IdleCalls detects this. The host's mutex guards it unless
+/// stated otherwise.
 class StandingTime {
  public:
-  /// @param sleeps_count  virtual time: sleeps let time pass.
+  /// @param sleeps_count  virtual time: sleeps let time advance.
   /// @param limit_s       processor time that a watched program may use before its first step.
   StandingTime(std::size_t robots, bool sleeps_count, double limit_s, Warn warn);
 
-  /// The program has subscribed to something or commanded, so it is to let time pass. Any thread.
-  /// @return whether that is news.
+  /// The program has subscribed or commanded, so it needs simulated time. Any thread. @return
+  /// whether this is the first call.
   [[nodiscard]] bool note_wish() noexcept {
     return !wants_time_.load(std::memory_order_relaxed) && !wants_time_.exchange(true);
   }
-  /// Notes a command, or looks at data, of a program at a moment of simulated time; with the
-  /// client's input mutex, without the host's. @return whether check() is to be called.
+  /// note_command() counts a program's command, note_looks() its accesses to data, at a simulated
+  /// time. The caller holds the client's input mutex, not the host's. @return whether check() must
+  /// be called.
   [[nodiscard]] bool note_command(Client& client, sim::SimTime now_ns) const;
   [[nodiscard]] static bool note_looks(Client& client, sim::SimTime now_ns, int count,
                                        bool has_data);
-  /// Looks whether nobody will let time pass, and if so says it.
-  /// @param hopeful  somebody may still do so.
+  /// Warns if no thread will let time advance.
+  /// @param hopeful  a thread may still do so.
   void check(Client& client, sim::SimTime now_ns, bool hopeful);
 
   /// See Host::watch_program().
   void watch() noexcept { watches_ = true; }
   void set_alarm() const;
-  /// Time passes now, or the program is told by other means.
+  /// Time advances now, or the program gets a warning elsewhere.
   void dismiss_alarm() const noexcept;
-  /// The program ends, and has let no time pass.
+  /// The program ends without having let time advance.
   void note_end() const;
 
  private:

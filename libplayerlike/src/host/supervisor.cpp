@@ -30,21 +30,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// From the polite signal to those that a program has left behind to the one that cannot be refused.
+// Time between SIGTERM and SIGKILL for processes that the program has left behind.
 constexpr std::chrono::milliseconds kLeftoversGrace(1000);
-// The same for all, when the process that wanted the program is gone.
+// The same grace period for all processes, when the process that started the program is gone.
 constexpr std::chrono::milliseconds kOrphansGrace(2000);
-// How long to try to get rid of processes that the system does not end.
+// How long to try to end processes that the system does not end.
 constexpr std::chrono::seconds kPatience(10);
 
-/// What the supervisor tells.
+/// A message from the supervisor.
 struct News {
   enum Kind { kStarted, kFailed, kStopped, kEnded };
   int kind = kStarted;
-  int value = 0;  ///< the program's number, an errno, or a wait state
+  int value = 0;  ///< the program's process id, an errno, or a wait status
 };
 
-/// What the supervisor is told.
+/// A message to the supervisor.
 struct Order {
   enum Kind { kSignal, kKill, kRelease };
   int kind = kSignal;
@@ -63,7 +63,7 @@ ProgramEnd program_end(int wait_state) {
   return end;
 }
 
-/// "NAME=value" of this process's environment with the changes made.
+/// The environment of this process with changes, as "NAME=value".
 std::vector<std::string> changed_environment(const EnvironmentChanges& changes) {
   std::vector<std::string> result;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -76,7 +76,7 @@ std::vector<std::string> changed_environment(const EnvironmentChanges& changes) 
   return result;
 }
 
-/// Pointers to the texts, ended by a null pointer, as exec wants them.
+/// Pointers to the texts with a null pointer at the end, for exec.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -85,7 +85,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
-/// The living processes, each with its parent.
+/// The parents of all living processes.
 std::map<pid_t, pid_t> parents_of_processes() {
   std::map<pid_t, pid_t> parents;
   DIR* const folder = opendir("/proc");
@@ -95,7 +95,7 @@ std::map<pid_t, pid_t> parents_of_processes() {
     if (number <= 0) continue;
     std::ifstream file("/proc/" + std::to_string(number) + "/stat");
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    // "NUMBER (NAME) STATE PARENT ..."; the name may hold anything.
+    // "PID (NAME) STATE PARENT ..."; the name may contain any characters.
     const std::size_t name_end = text.rfind(')');
     if (name_end == std::string::npos || text.size() < name_end + 5) continue;
     if (text[name_end + 2] == 'Z') continue;
@@ -106,7 +106,7 @@ std::map<pid_t, pid_t> parents_of_processes() {
   return parents;
 }
 
-/// The living processes below this one, but for some of its children and what is below them.
+/// The living descendants of this process, except for the spared children and their descendants.
 std::vector<pid_t> descendants(const std::set<pid_t>& spared) {
   const std::map<pid_t, pid_t> parents = parents_of_processes();
   std::vector<pid_t> found = {getpid()};
@@ -119,8 +119,8 @@ std::vector<pid_t> descendants(const std::set<pid_t>& spared) {
   return found;
 }
 
-/// Ends all processes below this one, but for some children: politely, and after the grace by
-/// force. @pre SIGCHLD is blocked.
+/// Ends all descendants except for the spared children and theirs: with SIGTERM, and after the
+/// grace period with SIGKILL. @pre SIGCHLD is blocked.
 void end_descendants(const std::set<pid_t>& spared, Clock::duration grace) {
   const Clock::time_point begin = Clock::now();
   bool told = grace <= Clock::duration::zero();
@@ -144,7 +144,7 @@ void end_descendants(const std::set<pid_t>& spared, Clock::duration grace) {
     const timespec moment{0, 10'000'000};
     sigtimedwait(&children, nullptr, &moment);
   }
-  if (!spared.empty()) return;  // they are waited for by those who know them
+  if (!spared.empty()) return;  // other code waits for the spared children
   while (waitpid(-1, nullptr, WNOHANG) > 0) {
   }
 }
@@ -161,7 +161,7 @@ void close_all_but(std::vector<int> kept) {
   syscall(SYS_close_range, next, ~0U, 0);
 }
 
-/// Copies what comes out of a pipe into a file, up to a limit.
+/// Copies a pipe to a file, up to a limit.
 class LimitedLog {
  public:
   LimitedLog(int from, int file, std::uint64_t limit) : from_(from), file_(file), limit_(limit) {
@@ -170,7 +170,7 @@ class LimitedLog {
 
   [[nodiscard]] int descriptor() const noexcept { return from_; }
 
-  /// Takes what is there.
+  /// Copies the available bytes.
   void copy() {
     std::array<char, 1 << 16> bytes{};
     while (from_ >= 0) {
@@ -186,11 +186,11 @@ class LimitedLog {
       const std::uint64_t fitting = std::min(size, limit_ - std::min(limit_, taken_));
       put({bytes.data(), static_cast<std::size_t>(fitting)});
       taken_ += size;
-      if (taken_ % (1 << 22) < size) return;  // lets others have a word
+      if (taken_ % (1 << 22) < size) return;  // now and then, to handle other events
     }
   }
 
-  /// Takes the rest, and says what was dropped.
+  /// Copies the rest, and appends how much was dropped.
   void finish() {
     for (int i = 0; i < 1000 && from_ >= 0; ++i) {
       const std::uint64_t before = taken_;
@@ -207,7 +207,7 @@ class LimitedLog {
     while (!text.empty()) {
       const ssize_t written = write(file_, text.data(), text.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return;  // a full disk is no reason to hold up the program
+      if (written <= 0) return;  // a full disk must not block the program
       text.remove_prefix(static_cast<std::size_t>(written));
     }
   }
@@ -218,7 +218,7 @@ class LimitedLog {
   std::uint64_t taken_ = 0;
 };
 
-/// The supervisor's side.
+/// Runs in the supervisor's process.
 class Supervisor {
  public:
   Supervisor(const SupervisedStart& start, int channel, int output_file)
@@ -229,7 +229,7 @@ class Supervisor {
     sigset_t all;
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, nullptr);
-    // Its writes to a file that has reached a limit are to fail, and not to end it.
+    // Writes beyond a file size limit must fail and not end the supervisor.
     old_limit_action_ = signal(SIGXFSZ, SIG_IGN);
     sigset_t children;
     sigemptyset(&children);
@@ -242,7 +242,8 @@ class Supervisor {
     LimitedLog log(pipe_, output_file_, start_.output_limit);
     while (!end_) wait(log);
     const bool orphaned = channel_ < 0;
-    // Those that the program has left behind are this process's children by now, if there are any.
+    // As a subreaper, this process is now the parent of all processes that the program has left
+    // behind.
     if (waitpid(-1, nullptr, WNOHANG) >= 0) {
       end_descendants({}, killed_ || orphaned ? Clock::duration::zero() : kLeftoversGrace);
     }
@@ -260,7 +261,8 @@ class Supervisor {
     static_cast<void>(::send(channel_, &news, sizeof news, MSG_NOSIGNAL));
   }
 
-  /// Waits for what comes of the end. @return whether the other process has taken it.
+  /// Waits for the other process's release() after the program's end. @return false if that process
+  /// is gone.
   [[nodiscard]] bool is_released() const {
     for (;;) {
       Order order;
@@ -289,7 +291,7 @@ class Supervisor {
     if (program_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != supervisor) _exit(127);
-      // It must not end its group before the supervisor has left that.
+      // The program must not end its process group before the supervisor has left that group.
       close(go[1]);
       char byte = 0;
       static_cast<void>(!read(go[0], &byte, 1));
@@ -308,7 +310,7 @@ class Supervisor {
       _exit(127);
     }
     const int fork_error = errno;
-    setpgid(0, 0);  // not before: the program is to be in the group that this process was in
+    setpgid(0, 0);  // not before: the program must join the group in which this process was
     close(go[0]);
     close(go[1]);
     close(failure[1]);
@@ -330,7 +332,7 @@ class Supervisor {
     return false;
   }
 
-  /// Waits for something to do, and does it.
+  /// Waits for an event and handles it.
   void wait(LimitedLog& log) {
     std::array<pollfd, 3> polls{
         {{children_, POLLIN, 0}, {channel_, POLLIN, 0}, {log.descriptor(), POLLIN, 0}}};
@@ -363,7 +365,7 @@ class Supervisor {
         if (WSTOPSIG(state) == SIGSTOP) send(News::kStopped, 0);
         continue;
       }
-      // Before its number is given to others.
+      // Before the pid is released for reuse.
       end_state_ = state;
       end_ = program_end(state);
       return;
@@ -379,7 +381,7 @@ class Supervisor {
       return;
     }
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
-    // Whoever wanted the program is gone.
+    // The process that started the program is gone.
     close(channel_);
     channel_ = -1;
     for (const pid_t process : descendants({})) {
@@ -435,7 +437,7 @@ std::set<pid_t> children() {
   return found;
 }
 
-/// The supervisors that this process has. For one thread.
+/// The supervisors of this process. For one thread.
 std::set<pid_t>& supervisors() {
   static std::set<pid_t> all;
   return all;
@@ -466,7 +468,7 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   supervisor_ = fork();
   if (supervisor_ == 0) {
-    // No destructors: what they would end is the other process's.
+    // No destructors: they would end what belongs to the parent process.
     try {
       Supervisor supervisor(start, ends[1], output);
       close(ends[0]);
@@ -489,7 +491,7 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
   do {
     size = recv(channel_, &news, sizeof news, 0);
   } while (size < 0 && errno == EINTR);
-  // Without a word it was killed, maybe by the program: poll() tells.
+  // Without a message the supervisor was killed, perhaps by the program; poll() reports it.
   if (size != static_cast<ssize_t>(sizeof news) || news.kind == News::kStarted) {
     if (size == static_cast<ssize_t>(sizeof news)) program_ = news.value;
     supervisors().insert(supervisor_);
@@ -563,7 +565,7 @@ std::optional<ProgramEnd> SupervisedProgram::poll() {
       end_ = program_end(news.value);
       continue;
     }
-    // The supervisor was killed: what it would have ended has come to this process.
+    // The supervisor was killed. This process ends what the supervisor would have ended.
     close(std::exchange(channel_, -1));
     reap_supervisor();
     std::set<pid_t> spared = supervisors();

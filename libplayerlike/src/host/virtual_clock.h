@@ -7,15 +7,16 @@
 
 namespace playerlike {
 
-/// The simulation as the clock of threads that take turns (virtual time, see Turns): they let its
-/// steps pass, and sleep in its time.
+/// The simulation as the clock of virtual time (see Turns): threads that take turns make its steps
+/// and sleep in its time.
 class Host::Core::VirtualClock final : public TurnClock {
  public:
   explicit VirtualClock(Core& core) : core_(core) {}
 
-  /// As Core::wait_until(), for a thread that takes turns. Returns as well when it no longer does.
+  /// As Core::wait_until(), for a thread that takes turns. Also returns when virtual time has
+  /// ended.
   void wait_for_turn(Lock& lock, Client& client);
-  /// Makes ready those threads whose wait is over, in their order.
+  /// Makes the threads ready whose wait is over, in their order.
   void make_ready();
 
   bool step(Lock& lock) override;
@@ -33,10 +34,10 @@ class Host::Core::VirtualClock final : public TurnClock {
   [[nodiscard]] WallClock::duration silence_limit() const override;
 
   /// Whether threads besides this one may go on without a step.
-  [[nodiscard]] static bool others_take_turns(ThinkerId thinker);
+  [[nodiscard]] static bool others_take_turns(ThreadId thread_id);
 
  private:
-  void sleep_after_end(Lock& lock, ThinkerId thinker);
+  void sleep_after_end(Lock& lock, ThreadId thread_id);
 
   Core& core_;
   int sleeps_after_end_ = 0;

@@ -16,7 +16,7 @@ using playerlike::clib::with_device;
 
 class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::LaserProxy> {
  public:
-  // What is known without a scan, and with each one.
+  // Fields that are known without a scan, refreshed with each one.
   void refresh_settings() {
     intensity_on = used().IntensityOn() ? 1 : 0;
     scan_start = used().GetMinAngle();
@@ -68,7 +68,7 @@ class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::L
   std::vector<int> intensities_;
 };
 
-// What LaserProxy::Configure() counts in.
+// Units of LaserProxy::Configure().
 constexpr double kHundredthsOfDegree = 100.0 * 180.0 / std::numbers::pi;
 constexpr double kMillimetres = 1000.0;
 

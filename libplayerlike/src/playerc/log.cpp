@@ -14,7 +14,7 @@ class Log final : public playerlike::clib::Backed<playerc_log_t, PlayerCc::LogPr
   }
 };
 
-// A call that changes the log, after which its state is known.
+// Changes the log, then refreshes the struct's state.
 template <typename Action>
 int change(const char* fun, playerc_log_t* device, Action action) {
   return with_device<Log>(fun, device, [&](Log& self) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Sensors of place, motion and what is near: gps, imu, localize, fiducial, wifi.
+// Sensors of position, motion and neighbourhood: gps, imu, localize, fiducial, wifi.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -65,8 +65,8 @@ class Imu final : public Backed<playerc_imu_t, PlayerCc::ImuProxy> {
     vel.proll = used().GetXGyro();
     vel.ppitch = used().GetYGyro();
     vel.pyaw = used().GetZGyro();
-    // Turns about z, then y, then x, as quaternions (Diebel, Representing Attitude, 2006,
-    // sec. 8.10).
+    // Quaternion of rotations about z, then y, then x (Diebel, Representing Attitude, 2006, sec.
+    // 8.10).
     const double cr = std::cos(0.5 * pose.proll);
     const double sr = std::sin(0.5 * pose.proll);
     const double cp = std::cos(0.5 * pose.ppitch);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Sensors of distance and touch: ranger, sonar, infrared, bumper.
+// Sensors of distance and contact: ranger, sonar, infrared, bumper.
 #include <vector>
 
 #include "libplayerc++/bumperproxy.h"
@@ -43,7 +43,7 @@ class Ranger final : public Backed<playerc_ranger_t, PlayerCc::RangerProxy> {
     intensities_count = used().GetIntensityCount();
     intensities = copied(intensities_, intensities_count,
                          [this](uint32_t i) { return used().GetIntensity(i); });
-    // A laser sweeps one element over its ranges; else each element has one.
+    // A laser measures many ranges with one element; other rangers measure one range per element.
     const bool sweeps = ranges_count > used().GetElementCount();
     const double first_rad = used().GetMinAngle();
     const double step_rad = used().GetAngularRes();
@@ -63,7 +63,8 @@ class Ranger final : public Backed<playerc_ranger_t, PlayerCc::RangerProxy> {
   std::vector<player_point_3d_t> points_;
 };
 
-// Player's C library counts poses of sonars and bumpers in an int, unlike those of other sensors.
+// Player's C library counts the poses of sonars and bumpers in an int, those of other sensors in a
+// uint32_t.
 template <typename Used, typename Pose>
 void refresh_poses(Used& used, std::vector<Pose>& kept, Pose*& poses, int& pose_count) {
   const uint32_t count = used.GetPoseCount();

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Inputs and outputs of all sorts: aio, dio, blinkenlight, speech, opaque.
+// Other inputs and outputs: aio, dio, blinkenlight, speech, opaque.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -51,7 +51,7 @@ class Blinkenlight final : public Backed<playerc_blinkenlight_t, PlayerCc::Blink
 class Speech final : public Backed<playerc_speech_t, PlayerCc::SpeechProxy> {};
 
 class Opaque final : public Backed<playerc_opaque_t, PlayerCc::OpaqueProxy> {
-  // Readings without a message are no news.
+  // A reading without a message is not delivered.
   [[nodiscard]] bool has_news() override { return used().IsFresh(); }
   void refresh() override {
     bytes_.resize(used().GetCount());
@@ -64,7 +64,7 @@ class Opaque final : public Backed<playerc_opaque_t, PlayerCc::OpaqueProxy> {
   std::vector<uint8_t> bytes_;
 };
 
-// This world's lights have one lamp each.
+// Lights of this library have one lamp each.
 void require_lamp(uint32_t id) {
   if (id != 0) refuse("there is one lamp, with the number 0, but not " + std::to_string(id));
 }

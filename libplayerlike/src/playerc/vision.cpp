@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What looks: blobfinder, camera, and the head that turns them.
+// Vision: blobfinder, camera, and the pan-tilt-zoom head.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -42,7 +42,7 @@ class Graphics2dProxy::Sheet final : public CCMorse::Drawing {
     FillPolygon(all.data(), all.size(), colour);
   }
 
-  /// A checked copy of an array of points.
+  /// Checks an array of points and copies it.
   std::vector<player_point_2d_t> checked(const char* function, const player_point_2d_t* points,
                                          int count) const {
     RequireUsable(function);

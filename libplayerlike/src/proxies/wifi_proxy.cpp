@@ -12,7 +12,7 @@
 namespace PlayerCc {
 namespace {
 
-// Copies a text into an array of bytes, with a zero at its end.
+// Copies a text into an array of bytes and terminates it with a zero.
 template <std::size_t size>
 void put(const std::string& text, uint8_t (&into)[size]) {
   const std::size_t length = std::min(text.size(), size - 1);
@@ -54,7 +54,7 @@ void WiFiProxy::HandleReading() {
   mOwnIp[length] = '\0';
 }
 
-// With the client's mutex held.
+// The caller holds the client's mutex.
 playerc_wifi_link_t& WiFiProxy::Link(int aIndex, const char* aFun) const {
   detail::require_index(aFun, "link", static_cast<uint32_t>(aIndex), mLinks.size());
   return mLinks[static_cast<std::size_t>(aIndex)];

@@ -14,11 +14,11 @@ using nlohmann::json;
 using protocol::Encoding;
 using std::chrono::milliseconds;
 
-// Drawings in a paced simulation wait no longer than this for being sent, twice over.
+// Period of the flusher: in a paced simulation a drawing waits at most twice this long.
 constexpr milliseconds kFlushPeriod(20);
-// A server that does not say good-bye in return is left without.
+// How long to wait for the server's good-bye.
 constexpr milliseconds kGoodBye(1000);
-// What a message is besides its drawings, and the most that one takes [bytes].
+// Maximum size of a `draw` message without its drawings, and of one drawing [bytes].
 constexpr std::size_t kCallOverhead = 256;
 constexpr std::size_t drawing_bytes(Encoding encoding) {
   return encoding == Encoding::kCbor ? 28 : 96;
@@ -122,7 +122,7 @@ void SocketLine::flush() {
   }
   const std::shared_ptr<Connection> connection = this->connection();
   const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
-  connection->tell(bytes);  // also if there is nothing to send: it says whether it is lost
+  connection->tell(bytes);  // even without drawings, since it throws if the connection is lost
 }
 
 json SocketLine::ask(json& request, Connection::Patience patience, bool waits,
@@ -136,7 +136,7 @@ json SocketLine::ask(json& request, Connection::Patience patience, bool waits,
     std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
     id = connection->ask(request, std::move(drawings));
     said = said_;
-    // Time stands still until the server has read that this client waits.
+    // Time stands still until the server has read this request, and so the messages before it.
     if (waits && joined_) settled_ = said;
   }
   json answer = connection->answer(id, patience);
@@ -172,7 +172,7 @@ void SocketLine::settle() noexcept {
     json question = {{"do", "time"}};
     ask(question);
   } catch (const std::exception&) {
-    // Its own session will meet the trouble.
+    // Its own session will report the error.
   }
 }
 
@@ -186,7 +186,7 @@ void SocketLine::set_paced(bool paced) {
   start_flusher();
 }
 
-// With `say_mutex_` held.
+// The caller holds `say_mutex_`.
 void SocketLine::start_flusher() {
   if (!paced_ || !has_room_) return;
   const Lock lock(flusher_mutex_);
@@ -203,7 +203,7 @@ void SocketLine::flush_now_and_then() {
     try {
       flush();
     } catch (const std::exception&) {
-      // The program's next call will meet the trouble.
+      // The program's next call will report the error.
     }
     lock.lock();
   }
@@ -230,7 +230,7 @@ void SocketLine::close() noexcept {
       static_cast<void>(connection->answer(id, Connection::Patience::kTimeout, kGoodBye));
     }
   } catch (const std::exception&) {
-    // It is gone already.
+    // The connection is lost already.
   }
   {
     const Lock lock(say_mutex_);

@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "process/end_of_program.h"
 #include "process/thread_end.h"
 #include "protocol/request_codec.h"
@@ -26,7 +26,7 @@ using protocol::Encoding;
 using std::chrono::milliseconds;
 using Seconds = std::chrono::duration<double>;
 
-// A program that ignores the end of the run this often is ended, as in an embedded simulation.
+// The program is ended after so many reads beyond the end of the run, as in an embedded simulation.
 constexpr int kReadsAfterEnd = 1000;
 constexpr double kLongest_s = 1e9;  // 30 years
 Connection::Clock::duration wall(double seconds) {
@@ -34,25 +34,26 @@ Connection::Clock::duration wall(double seconds) {
       Seconds(std::clamp(seconds, 0.0, kLongest_s)));
 }
 
-// Nobody is to wait for a thread that has ended.
+// Tells the server that a thread has ended, so that nobody waits for it.
 void say_goodbye(void* line) {
   try {
-    static_cast<SocketLine*>(line)->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+    static_cast<SocketLine*>(line)->tell(
+        json{{"do", "thread_ended"}, {"thread", this_thread_id()}});
   } catch (const std::exception&) {
-    // The server notices that it has lost the connection.
+    // The server notices the lost connection itself.
   }
 }
 
-/// What no other process calls itself.
+/// A name that no other process has.
 std::string process_name() {
   static const std::string random = [] {
     std::random_device device;
     return std::to_string(device()) + '-' + std::to_string(device());
   }();
-  return random + '-' + std::to_string(getpid());  // not that of a process that this one forked
+  return random + '-' + std::to_string(getpid());  // the pid tells a forked child from its parent
 }
 
-/// The name of this program, as a server takes it.
+/// The program's name in the form that servers accept.
 std::string program_name() {
   constexpr std::size_t kMost = 64;
   std::string name;
@@ -63,7 +64,7 @@ std::string program_name() {
   return name.substr(0, kMost);
 }
 
-/// Reads an answer: what it should hold and does not is the server's fault.
+/// Decodes an answer; an error in it is the server's fault.
 template <typename Read>
 auto understood(Read read) -> decltype(read()) {
   try {
@@ -74,7 +75,7 @@ auto understood(Read read) -> decltype(read()) {
 }
 
 json read_request(const char* wait) {
-  return {{"do", "read"}, {"wait", wait}, {"thread", this_thinker()}};
+  return {{"do", "read"}, {"wait", wait}, {"thread", this_thread_id()}};
 }
 
 json read_request(const char* wait, double timeout_s) {
@@ -91,7 +92,7 @@ bool same(const CanvasInfo& a, const CanvasInfo& b) {
          a.origin_x_m == b.origin_x_m && a.origin_y_m == b.origin_y_m;
 }
 
-/// Whether clients could not tell two worlds from one another by their devices.
+/// Whether two worlds have equal devices, so that clients cannot tell them apart.
 bool same(const std::vector<RobotInfo>& a, const std::vector<RobotInfo>& b) {
   const auto same_device = [](const DeviceInfo& x, const DeviceInfo& y) {
     return x.id == y.id && x.name == y.name && x.type == y.type;
@@ -204,7 +205,7 @@ auto SocketSession::with_connection(Use use) const {
 
 bool SocketSession::pause(double seconds) const {
   Lock lock(mutex_);
-  // Not at once in any case: a server that refuses is not to be asked without pause.
+  // Always wait a little, so that a server that refuses is not asked in a tight loop.
   changed_.wait_for(lock, std::max(wall(seconds), wall(0.01)), [&] { return closed_.load(); });
   return !closed_;
 }
@@ -261,7 +262,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
                          " to connect again failed: " + reason);
 }
 
-// --- Saying and asking
+// --- Messages and requests
 
 json SocketSession::ask(json request) const {
   json answer = with_connection([&] { return line_->ask(request); });
@@ -309,8 +310,8 @@ void SocketSession::request_for_good(const Request& request, Note note_it) {
     note(answer);
     throw_complaint();
     const Lock lock(mutex_);
-    // Another thread may have made another connection since the answer, and told it of all but
-    // this.
+    // After the answer another thread may have made a new connection, and resumed on it without
+    // this request.
     if (resumed_ != answered_by) continue;
     note_it();
     return;
@@ -348,11 +349,11 @@ void SocketSession::unsubscribe(DeviceId device) {
       newest = resumed_ == answered_by;
     }
     if (newest) {
-      // Not worth another connection: that will not have the subscription.
+      // No new connection is needed: it would not have the subscription.
       if (lost) throw *lost;
       return;
     }
-    // Another thread is making a connection, which was told of the subscription before.
+    // Another thread is making a connection; it copied the subscriptions before this change.
     { const Lock made(recover_mutex_); }
     if (line_->connection() != subscribed) return;
   }
@@ -360,10 +361,10 @@ void SocketSession::unsubscribe(DeviceId device) {
 
 // --- Time
 
-/// The right to send a `read`, which one thread has at a time.
+/// The right to send a `read`; one thread has it at a time.
 class SocketSession::ReadTurn {
  public:
-  /// @param lock  of `mutex_`, held.
+  /// @param lock  of `mutex_`, locked.
   ReadTurn(SocketSession& session, Lock& lock) : session_(session) {
     session_.reading_ = true;
     lock.unlock();
@@ -456,7 +457,7 @@ bool SocketSession::peek(milliseconds timeout) {
   Lock lock(mutex_);
   require_open();
   if (reading_ && !round_) {
-    // What the other thread waits for will do.
+    // The round that the other thread waits for serves this one as well.
     changed_.wait_for(lock, std::min<milliseconds>(timeout, std::chrono::hours(1)),
                       [&] { return closed_ || round_ || !reading_; });
     require_open();
@@ -501,18 +502,19 @@ void SocketSession::sleep(double seconds) {
   }
 }
 
-// Another thread may read this session meanwhile, so the server is not asked to wait.
+// Another thread may read in this session meanwhile, so the sleep happens here and not at the
+// server.
 void SocketSession::sleep_by_the_wall_clock(double seconds) {
   {
     Lock lock(mutex_);
     const bool other_reads = reading_;
     lock.unlock();
-    if (!other_reads) join();  // the start gate may wait for it
+    if (!other_reads) join();  // the start gate may wait for this client
   }
   TimeStatistics now = time();
   const sim::SimTime end_ns = now.sim_time_ns + sim::from_seconds(seconds);
   while (now.sim_time_ns < end_ns && !now.finished) {
-    // A little less than what is left, and not for long: the factor may change.
+    // A little less than the time left, and not for long, since the real-time factor may change.
     const double left_s =
         sim::to_seconds(end_ns - now.sim_time_ns) / std::max(now.real_time_factor, 0.01);
     Lock lock(mutex_);
@@ -530,7 +532,7 @@ TimeStatistics SocketSession::time() const {
   return time;
 }
 
-// --- Commands, and other sessions
+// --- Commands and other sessions
 
 void SocketSession::send(DeviceId device, const sim::Command& command) {
   require_open();
@@ -560,9 +562,9 @@ std::uint64_t SocketSession::canvas_generation() const noexcept {
   return canvas_generation_.load(std::memory_order_acquire);
 }
 
-// --- Requests; those with cells in pieces are in socket_canvas.cpp
+// --- Requests; socket_canvas.cpp has those that send cells in pieces
 
-/// Those that are more than a message and its answer.
+/// Handles the requests that need more than one message and its answer.
 struct SocketSession::RequestHandler {
   SocketSession& session;
 
@@ -589,7 +591,7 @@ struct SocketSession::RequestHandler {
     static_cast<void>(session.ask_for(what));
     static_cast<void>(session.time());
   }
-  void operator()(const NoteLooksRequest&) const {}  // time may pass at the server
+  void operator()(const NoteLooksRequest&) const {}  // the server may let time pass
   void operator()(const AnswerTimeoutRequest& what) const {
     session.request_timeout_s_ = what.seconds;
     session.line_->connection()->set_request_timeout(wall(what.seconds));
@@ -607,7 +609,7 @@ struct SocketSession::RequestHandler {
     return session.canvas_;
   }
   CanvasInfo operator()(const ResizeCanvasRequest& what) const {
-    session.line_->settle_others();  // what they drew is meant for the size before
+    session.line_->settle_others();  // earlier drawings of other sessions belong to the old size
     return std::get<CanvasInfo>(session.ask_for(what));
   }
   WorldMap operator()(const WorldMapRequest& what) const {
@@ -615,7 +617,7 @@ struct SocketSession::RequestHandler {
     return session.world_map(what.cell_size_m);
   }
 
-  // JSON has only finite numbers.
+  // JSON has finite numbers only.
   static void check(const CreateLayerRequest& what) { require_style(what.style); }
   static void check(const SetLayerStyleRequest& what) { require_style(what.style); }
   static void check(const PlaceObjectRequest& what) {

@@ -53,7 +53,7 @@ void MorseState::command(DeviceId device, const sim::Command& command) {
   if (refusal) throw MorseRefusal(*refusal);
 }
 
-// --- Requests that are answered later
+// --- Requests with a later answer
 
 void MorseState::wait_for(Pending pending, Alarm alarm) {
   const Number number = ++last_number_;
@@ -158,7 +158,7 @@ void MorseState::cancel(MorseConnection& from, const std::string& id) {
     it = end(it, "PREEMPTED", nullptr);
   }
   for (const DeviceId device : stopped) {
-    // It may be off or the run be over: then the robot does not move anyway.
+    // A refusal means that the device is off or the run is over; the robot does not move then.
     with([&](sim::Simulation& simulation) {
       return simulation.apply(device, sim::StopCommand{}).has_value();
     });
@@ -182,7 +182,7 @@ std::size_t MorseState::waiting(const MorseConnection& from) const noexcept {
                     [&](const auto& entry) { return entry.second.from == &from; }));
 }
 
-// --- The rest
+// --- Other members
 
 void MorseState::set_verbose(const std::string& component, bool verbose) {
   if (verbose) {

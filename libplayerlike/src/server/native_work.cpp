@@ -35,7 +35,7 @@ struct WorkCells {
       cells = std::min(cells, static_cast<double>(what.tile->width) * what.tile->height);
     return static_cast<std::size_t>(std::clamp(cells, 0.0, kMaxMapCells));
   }
-  // A log that begins may have to be read first, and be long.
+  // A new log may have to read an existing, long file first.
   std::size_t operator()(const LogRequest& what) const {
     return what.running ? kLightCells + 1 : 0;
   }

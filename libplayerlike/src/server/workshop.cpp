@@ -20,7 +20,7 @@ bool Job::work() {
   } catch (...) {
     error = std::current_exception();
   }
-  piece = nullptr;  // what it holds goes before anybody is told
+  piece = nullptr;  // releases its captures before `done` is called
   std::exchange(done, nullptr)(error);
   return false;
 }
@@ -47,7 +47,7 @@ void Workshop::close() noexcept {
 }
 
 void Workshop::work() {
-  // Signals are for the program's own threads.
+  // Signals are left to the program's own threads.
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);

@@ -13,34 +13,33 @@
 
 namespace playerlike::server {
 
-/// Cells of canvases or maps that one request may write or make in the server's thread; what is
-/// more is for the workshop.
+/// Maximum number of cells that a request may write or make on the server's thread; larger requests
+/// go to the workshop.
 inline constexpr std::size_t kLightCells = std::size_t{1} << 16U;
-/// Cells that the workshop draws for a client before it is another one's turn.
+/// Cells that the workshop draws for a client before the next client's turn.
 inline constexpr std::size_t kPieceCells = std::size_t{1} << 20U;
 
-/// Cells of a canvas.
+/// Number of cells of a canvas.
 [[nodiscard]] std::size_t canvas_cells(Session& session);
 
 /// A job for a Workshop.
 struct Job {
-  /// Does a piece of the job, some ms of work. Called again and again, by one thread at a time.
-  /// @return whether more is left. What it throws ends the job.
+  /// Does a piece of the job, some ms of work. Called repeatedly, by one thread at a time. @return
+  /// whether pieces are left. An exception ends the job.
   std::function<bool()> piece;
-  /// Called once after the last piece, with what that has thrown. Not called if the workshop is
-  /// closed before.
+  /// Called once after the last piece, with its exception. Not called if the workshop is closed
+  /// before.
   std::function<void(std::exception_ptr)> done;
 
-  /// Does a piece, and after the last one calls `done`. @return whether more is left.
+  /// Does one piece, and calls `done` after the last one. @return whether pieces are left.
   bool work();
 };
 
-/// Does what would keep a server's thread for too long: draws on large canvases, makes large
-/// answers and pictures.
+/// Does work that would block a server's thread for too long: drawing on large canvases, large
+/// answers, pictures.
 ///
-/// One thread of its own, started with the first job. Jobs take turns: a piece of the oldest one,
-/// then a piece of the next. So a job with many pieces delays others by a piece each, and never
-/// those who give none.
+/// It has one thread, which starts with the first job. Jobs take turns piece by piece (round
+/// robin), so a job with many pieces delays every other job by only one piece per turn.
 class Workshop {
  public:
   Workshop() = default;
@@ -48,9 +47,9 @@ class Workshop {
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
 
-  /// Takes a job. From any thread; job.done is called by the workshop's.
+  /// Adds a job. May be called from any thread; the workshop's thread calls job.done.
   void add(Job job);
-  /// Drops all jobs, waits for the end of the piece that is being done, and takes no more.
+  /// Drops all jobs, waits for the end of the current piece, and accepts no more jobs.
   void close() noexcept;
 
  private:

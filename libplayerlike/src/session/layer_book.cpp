@@ -57,7 +57,7 @@ void LayerBook::require_name(const sim::LayerStack& stack, int client, sim::Laye
   }
 }
 
-// Takes layers that nobody owns out, oldest first, until one more fits.
+// Evicts layers without an owner, oldest first, until one more fits.
 void LayerBook::make_room(sim::LayerStack& stack, int client) {
   const auto own = static_cast<std::size_t>(std::count_if(
       entries_.begin(), entries_.end(), [&](const Entry& e) { return e.client == client; }));

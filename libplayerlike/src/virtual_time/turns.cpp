@@ -21,19 +21,19 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// How often it is looked whether a thread is blocked, and when it is.
+// How often to check for blocked threads, and after which time asleep a thread is blocked.
 constexpr std::chrono::milliseconds kLook(20);
 constexpr std::chrono::milliseconds kBlocked(100);
-// It has been seen so at least as often: who looks may not have run for long itself.
+// Minimum number of such checks, since the checking thread itself may have been preempted.
 constexpr int kBlockedLooks = 4;
-// Before there is a simulation, which knows the limit of the run.
+// Silence limit while there is no simulation, which knows the limit of the run.
 constexpr std::chrono::seconds kSilence(5);
 
 constinit thread_local TurnThread* own = nullptr;
 
 enum class Rung { kYes, kTimeOut, kSignal };
 
-// The kernel does not restart a wait with a limit after a signal, whatever the handler asks for.
+// The kernel does not restart a FUTEX_WAIT with a timeout after a signal, even with SA_RESTART.
 Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
                    std::chrono::nanoseconds limit) {
   const auto whole = std::chrono::duration_cast<std::chrono::seconds>(limit);
@@ -45,15 +45,16 @@ Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
   return errno == ETIMEDOUT ? Rung::kTimeOut : Rung::kYes;
 }
 
-/// A thread that thinks, as it was when it was looked at.
+/// State of a running thread at the time of a check.
 struct Seen {
-  ThinkerId thinker;
+  ThreadId thread_id;
   pid_t number;
   SteadyClock::time_point since;
   std::optional<std::uint64_t> switches;
 };
 
-/// Finds signals that come while a thread lets time pass itself. They are held back meanwhile.
+/// Detects signals that arrive while a parked thread steps the simulation. They are blocked in the
+/// meantime.
 class SignalWatch {
  public:
   SignalWatch() = default;
@@ -61,13 +62,14 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
   ~SignalWatch() { let_through(); }
 
-  /// To be called after each step. @return whether it is time for handle().
+  /// Must be called after each step. @return whether handle() is due.
   [[nodiscard]] bool is_due() {
     if (++steps_ % kSteps != 0) return false;
     if (!holds_) {
       sigset_t all;
       sigfillset(&all);
-      // Faults are the thread's own; and whoever sleeps for real uses no processor time.
+      // Fault signals must stay enabled, since the thread itself causes them. The timers of
+      // processor time do not run during a real sleep.
       for (const int signal :
            {SIGPROF, SIGVTALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
         sigdelset(&all, signal);
@@ -89,7 +91,7 @@ class SignalWatch {
     }
     return any;
   }
-  /// Without locks: lets the handlers run. @return whether there were any.
+  /// Lets the signal handlers run; no mutex may be held. @return whether there were any.
   [[nodiscard]] bool handle() {
     let_through();
     return has_handler_;
@@ -114,8 +116,7 @@ Turns& Turns::instance() {
   return *turns;
 }
 
-// --- The threads
-// ----------------------------------------------------------------------------------
+// --- Threads
 
 void Turns::ring(TurnThread& thread) {
   thread.bell.fetch_add(1);
@@ -137,14 +138,14 @@ void Turns::move(TurnThread& thread, State state) {
   }
 }
 
-TurnThread* Turns::find(ThinkerId thinker) const {
+TurnThread* Turns::find(ThreadId thread_id) const {
   const auto found = std::find_if(threads_.begin(), threads_.end(),
-                                  [&](const auto& t) { return t->thinker == thinker; });
+                                  [&](const auto& t) { return t->thread_id == thread_id; });
   return found == threads_.end() ? nullptr : found->get();
 }
 
-TurnThread& Turns::insert(ThinkerId thinker, State state) {
-  threads_.push_back(std::make_unique<TurnThread>(thinker));
+TurnThread& Turns::insert(ThreadId thread_id, State state) {
+  threads_.push_back(std::make_unique<TurnThread>(thread_id));
   TurnThread& thread = *threads_.back();
   thread.state = State::kAside;
   thread.place = ++last_place_;
@@ -156,7 +157,7 @@ TurnThread* Turns::known_self() noexcept { return own; }
 
 TurnThread& Turns::self() {
   if (own == nullptr) {
-    own = &insert(this_thinker(), State::kBeside);
+    own = &insert(this_thread_id(), State::kBeside);
     own->number = this_thread();
     own->handle = reinterpret_cast<const void*>(pthread_self());
   }
@@ -181,14 +182,14 @@ void Turns::set_clock(TurnClock* clock, sim::SimTime before_ns, sim::SimTime now
   kick();
 }
 
-void Turns::add(ThinkerId thinker) { insert(thinker, State::kReady); }
+void Turns::add(ThreadId thread_id) { insert(thread_id, State::kReady); }
 
-void Turns::note_handle(ThinkerId thinker, const void* handle) {
-  if (TurnThread* const thread = find(thinker)) thread->handle = handle;
+void Turns::note_handle(ThreadId thread_id, const void* handle) {
+  if (TurnThread* const thread = find(thread_id)) thread->handle = handle;
 }
 
-void Turns::enter(Lock& lock, ThinkerId thinker) {
-  own = find(thinker);
+void Turns::enter(Lock& lock, ThreadId thread_id) {
+  own = find(thread_id);
   if (own == nullptr) return;
   own->number = this_thread();
   own->handle = reinterpret_cast<const void*>(pthread_self());
@@ -196,8 +197,8 @@ void Turns::enter(Lock& lock, ThinkerId thinker) {
   park(lock, *own);
 }
 
-void Turns::remove(ThinkerId thinker) {
-  TurnThread* const thread = find(thinker);
+void Turns::remove(ThreadId thread_id) {
+  TurnThread* const thread = find(thread_id);
   if (thread == nullptr) return;
   end_wait(*thread);
   move(*thread, State::kAside);
@@ -226,7 +227,6 @@ bool Turns::is_wanted(const void* mutex) const {
 }
 
 // --- Waiting
-// ----------------------------------------------------------------------------------
 
 void Turns::begin_wait(TurnThread& self, const void* object, bool takes_mutex) {
   end_wait(self);
@@ -275,7 +275,7 @@ bool Turns::yield(Lock& lock, TurnThread& self) {
 void Turns::make_ready(TurnThread& thread, Wake wake) {
   thread.wake = wake;
   if (!thread.takes_mutex) thread.object = nullptr;
-  if (thread.state != State::kWaits) return;  // it is about to wait, and will find it there
+  if (thread.state != State::kWaits) return;  // about to wait: wait() will see `wake`
   move(thread, State::kReady);
   thread.place = ++last_place_;
 }
@@ -286,7 +286,7 @@ int Turns::wake(const void* object, int most) {
     TurnThread* first = nullptr;
     for (const auto& thread : threads_) {
       if (thread->object != object || !thread->counted) continue;
-      // Who is about to take a mutex is told so once.
+      // A thread that is about to lock the mutex is not woken twice.
       if (thread->takes_mutex && thread->wake != Wake::kNone) return woken;
       if (first == nullptr || thread->place < first->place) first = thread.get();
     }
@@ -343,7 +343,6 @@ void Turns::let_go(const void* client) {
 }
 
 // --- Turns
-// ------------------------------------------------------------------------------------
 
 TurnThread* Turns::first_ready() const {
   TurnThread* first = nullptr;
@@ -412,7 +411,7 @@ bool Turns::has_come(sim::SimTime wake_ns) const {
   return clock_ != nullptr ? clock_->has_come(wake_ns) : virtual_time::time_before_ns() >= wake_ns;
 }
 
-// What somebody else wakes is found so, too: another process, a handler of a signal.
+// Also detects changes that come from elsewhere: another process or a signal handler.
 bool Turns::ask_waiting() {
   if (object_waits_.load() == 0) return false;
   bool any = false;
@@ -461,20 +460,19 @@ bool Turns::somebody_waits_for_time() const {
   });
 }
 
-// --- The rules of the wall clock
-// ---------------------------------------------------------------------------------
+// --- Rules of the wall clock
 
-// A thread that the system has put to sleep for something else than simulated time, a file or a
-// key, holds up nobody meanwhile. One that computes, or waits for a processor, does.
+// A thread that sleeps in the system for something other than simulated time, such as a file or a
+// key, does not hold up the others. A thread that computes or waits for a processor does.
 void Turns::look(Lock& lock) {
   if (clock_ != nullptr) clock_->look_at_start();
-  if (ready_ == 0 && !somebody_waits_for_time()) return;  // it holds up nobody
-  // The system is asked without the lock, for which they may be waiting themselves.
+  if (ready_ == 0 && !somebody_waits_for_time()) return;  // nobody waits for the running thread
+  // /proc is read without the mutex, because these threads may be waiting for it.
   std::vector<Seen> seen_threads;
   for (const auto& t : threads_) {
     if (t->state != State::kThinks && t->state != State::kBeside) continue;
     if (t->number == 0) continue;  // only just being started
-    seen_threads.push_back({t->thinker, t->number, t->seen, std::nullopt});
+    seen_threads.push_back({t->thread_id, t->number, t->seen, std::nullopt});
   }
   lock.unlock();
   for (Seen& seen : seen_threads) seen.switches = sleeps_since(seen.number);
@@ -484,7 +482,7 @@ void Turns::look(Lock& lock) {
   std::vector<TurnThread*> blocked;
   std::vector<TurnThread*> thinking;
   for (const Seen& seen : seen_threads) {
-    TurnThread* const t = find(seen.thinker);
+    TurnThread* const t = find(seen.thread_id);
     if (t == nullptr || t->seen != seen.since) return;  // it has waited meanwhile
     if (t->state != State::kThinks && t->state != State::kBeside) return;
     thinking.push_back(t);
@@ -498,11 +496,11 @@ void Turns::look(Lock& lock) {
         blocked.push_back(t);
       }
     } else {
-      continue;  // another one has just looked
+      continue;  // another thread has just checked it
     }
     t->blocked_last = now;
   }
-  // One that thinks may be whom the blocked ones wait for.
+  // A thread that still runs may be the one that the blocked threads wait for.
   if (!blocked.empty() && blocked.size() == thinking.size()) {
     for (TurnThread* const t : blocked) {
       if (clock_ != nullptr && clock_->on_blocked(*t)) return;

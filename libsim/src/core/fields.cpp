@@ -109,7 +109,7 @@ void tell(const Field& field, const void* value, std::map<std::string, double>& 
     case FieldType::kCustom:
       return field.custom->tell(value, properties);
     default:
-      return;  // no numbers
+      return;  // has no numbers
   }
 }
 

@@ -56,7 +56,7 @@ int replace_file(const std::string& path, std::string_view bytes) noexcept {
       return write_to(path.c_str(), 0, bytes);
     }
     const std::string part = part_name(path);
-    // Left by a process that was killed; or a link, which must not be followed.
+    // It may be left from a process that was killed, or be a link, which must not be followed.
     unlink(part.c_str());
     int error = write_to(part.c_str(), O_EXCL | O_NOFOLLOW, bytes);
     if (error == 0) error = adopt_part(path);

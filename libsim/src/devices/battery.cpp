@@ -30,7 +30,7 @@ double battery_voltage_v(const BatteryParams& params, double charge) {
 }
 
 bool is_on_dock(const DockDescription& dock, const Vec2& p_W) {
-  // Most docks are far away: no need to turn into their frames.
+  // Most docks are far away and need no transformation into their frame.
   if ((p_W - dock.pose.position()).squaredNorm() > 0.25 * dock.size.squaredNorm()) return false;
   const Vec2 p_D = dock.pose.inverse() * p_W;
   return std::abs(p_D.x()) <= 0.5 * dock.size.x() && std::abs(p_D.y()) <= 0.5 * dock.size.y();
@@ -104,15 +104,16 @@ constexpr Field kBatterySettings[] = {
     field<&BatteryParams::initial_charge_percent>("initial_charge", "percent",
                                                   "of the capacity, at the start")
         .within(0.0, 100.0),
-    field<&BatteryParams::idle_power_w>("idle_power", "W", "drawn at all times")
+    field<&BatteryParams::idle_power_w>("idle_power", "W", "power that is drawn at all times")
         .within(0.0, 10000.0),
     field<&BatteryParams::drive_power_ws_per_m>(
-        "drive_power", "W for each m/s", "drawn besides for each m/s that the wheels are driven at")
+        "drive_power", "W for each m/s", "additional power for each m/s of the wheels' speed")
         .within(0.0, 10000.0),
     field<&BatteryParams::charging_power_w>("charging_power", "W",
-                                            "what a dock puts into the battery")
+                                            "power from a dock into the battery")
         .within(0.0, 10000.0),
-    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "at full charge").above(0.0, 1000.0),
+    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "voltage at full charge")
+        .above(0.0, 1000.0),
     field<&BatteryParams::empty_voltage_v>("empty_voltage", "V",
                                            "when empty; at most `full_voltage`")
         .above(0.0, 1000.0),

@@ -4,8 +4,8 @@
 #include <map>
 #include <string_view>
 
-// The names of all kinds: NAME_kind() stands in the device's own source. The list is written by
-// hand, as static libraries drop objects that would register themselves.
+// The names of all kinds; NAME_kind() is defined in the device's own source file. The list is
+// written by hand, since linkers drop self-registering objects from static libraries.
 // clang-format off
 #define SIM_DEVICE_KINDS(KIND) \
   KIND(aio) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \

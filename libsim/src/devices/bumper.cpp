@@ -14,8 +14,9 @@
 namespace sim {
 namespace {
 
-constexpr double kStep_m = 0.005;   // between the points of a touch that are looked at
-constexpr double kJoint_m = 0.001;  // segments this much farther than the nearest feel it, too
+constexpr double kStep_m = 0.005;   // distance of the samples along a touch
+constexpr double kJoint_m = 0.001;  // segments at most this much farther than the nearest are
+                                    // pressed too
 
 }  // namespace
 
@@ -26,7 +27,7 @@ std::vector<BumperSegment> segments_round(const Polygon& footprint) {
     const Vec2& b = footprint[(i + 1) % footprint.size()];
     const Vec2 along = b - a;
     const Vec2 middle = 0.5 * (a + b);
-    // Counter-clockwise, so the outside is on the right.
+    // The outline is counter-clockwise, so its outside is on the right.
     segments.push_back(
         {{middle.x(), middle.y(), std::atan2(-along.x(), along.y())}, along.norm(), 0.0});
   }
@@ -152,12 +153,11 @@ SIM_FIELDS(BumperSegment, kSegment, segment_fault)
 constexpr Field kBumperSettings[] = {
     frequency_field<&BumperParams::frequency_hz>(),
     field<&BumperParams::reach_m>("reach", "m",
-                                  "a touch farther than this from all segments presses none")
+                                  "a contact farther than this from all segments presses none")
         .above(0.0, 1.0),
-    field<&BumperParams::segments>(
-        "segments", "m, degrees",
-        "list of at most 64 segments, in the order in which programs count them; none: a straight "
-        "one for each side of the footprint")
+    field<&BumperParams::segments>("segments", "m, degrees",
+                                   "list of at most 64 segments, in the order of their indexes; "
+                                   "none: a straight one for each side of the footprint")
         .counting(0, BumperParams::kMaxSegments)
         .telling_each(),
 };

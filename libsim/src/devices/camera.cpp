@@ -12,13 +12,13 @@
 namespace sim {
 namespace {
 
-// As in the pictures of a run.
+// The colours of the run's pictures.
 constexpr Colour kFloor{0xfc, 0xfb, 0xf8};
 constexpr Colour kBorder{0x8c, 0x5e, 0x3c};
 constexpr Colour kStatic{0xcd, 0xd1, 0xd6};
 constexpr Colour kDynamic{0xd6, 0x45, 0x41};
 constexpr Colour kWall{0x45, 0x4b, 0x54};
-// Above all that.
+// Colour of everything above the solids.
 constexpr Colour kAir{0xdc, 0xe8, 0xf2};
 
 Colour shown_colour(const PhysicsWorld::Face& face, const WorldDescription& world) {
@@ -47,10 +47,10 @@ Colour scaled(const Colour& colour, double factor) {
   return {channel(colour.r), channel(colour.g), channel(colour.b), 255};
 }
 
-// Light that falls on an upright face.
+// Relative brightness of an upright face.
 double side_light(const PhysicsWorld::Face& face) {
   const Vec2 e = face.p_WC - face.p_WA;
-  // cos(2 yaw) of the normal, which is a quarter turn from e.
+  // cos(2 yaw) of the normal, which is e rotated by a quarter turn.
   const double cos2 = (e.y() * e.y() - e.x() * e.x()) / e.squaredNorm();
   return 0.85 + 0.15 * cos2;
 }
@@ -105,7 +105,7 @@ void Camera::measure(const StepContext& context) {
   }
 }
 
-// Floor and air, which stay the same while the head does not move.
+// Floor and air, which change only when the head moves.
 void Camera::paint_background() {
   const ViewParams& params = view_->params();
   const PinholeView& pinhole = view_->pinhole();
@@ -145,7 +145,7 @@ std::optional<FieldFault> pixels_fault(const void* object) {
 }  // namespace
 
 constexpr Field kCameraSettings[] = {
-    frequency_field<&CameraParams::frequency_hz>("pictures a simulated second"),
+    frequency_field<&CameraParams::frequency_hz>("pictures per simulated second"),
     include<CameraParams, ViewParams>(),
 };
 SIM_FIELDS(CameraParams, kCameraSettings)

@@ -11,7 +11,7 @@ std::optional<std::string> Device::apply(const Command& command) {
   return "a device of type \"" + type_ + "\" takes no such command";
 }
 
-std::optional<std::string> Device::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Device::execute(const Command& command, RobotControl& robot) {
   static_cast<void>(robot);
   return apply(command);
 }
@@ -32,8 +32,8 @@ Sensor::Sensor(std::string name, std::string type, double frequency_hz)
 
 bool Sensor::update(const StepContext& context) {
   if (context.now_ns < next_due_ns_) return false;
-  // A sensor faster than the simulation's step measures once a step; readings it could not make
-  // are not caught up on.
+  // A sensor faster than the simulation's step measures once per step; skipped readings are not
+  // made up for.
   next_due_ns_ += period_ns_ * ((context.now_ns - next_due_ns_) / period_ns_ + 1);
   if (!active()) return false;
   ++sequence_;
@@ -42,7 +42,7 @@ bool Sensor::update(const StepContext& context) {
 }
 
 void Sensor::succeed(const Device& before, SimTime later_ns) {
-  sequence_ = dynamic_cast<const Sensor&>(before).sequence_;
+  sequence_ = before.sensor()->sequence_;
   next_due_ns_ += later_ns;
 }
 

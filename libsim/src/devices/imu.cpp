@@ -27,7 +27,8 @@ Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream
 std::optional<std::string> Imu::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
-  // The next reading adds what it has turned since the last one, also before now.
+  // The next reading adds the rotation since the last reading, including the part before this
+  // command.
   yaw_rad_ = normalize_angle(set->pose.yaw_rad - turned_rad_);
   return std::nullopt;
 }
@@ -35,7 +36,7 @@ std::optional<std::string> Imu::apply(const Command& command) {
 void Imu::integrate(const StepContext& context) {
   const double dt_s = to_seconds(context.world.simulation.step_ns);
   const Twist& now = context.body.twist;
-  // The mean of both ends' speeds goes with the step's turn.
+  // The step's rotation is multiplied by the mean of the speeds at its start and end.
   const double lateral = 0.5 * (before_.lateral_mps + now.lateral_mps);
   const double forward = 0.5 * (before_.v_mps + now.v_mps);
   gained_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;
@@ -75,18 +76,21 @@ constexpr Field kImuSettings[] = {
     field<&ImuParams::noise_mps2>("noise_acceleration", "m/s^2",
                                   "standard deviation of an acceleration")
         .within(0.0, 1000.0),
-    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s", "of a turning rate")
+    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s",
+                                   "standard deviation of a turn rate")
         .within(0.0, 3600.0),
-    field<&ImuParams::noise_ut>("noise_field", "uT", "of the magnetic field").within(0.0, 1000.0),
+    field<&ImuParams::noise_ut>("noise_field", "uT", "standard deviation of the magnetic field")
+        .within(0.0, 1000.0),
     field<&ImuParams::bias_mps2>("bias_acceleration", "m/s^2",
                                  "standard deviation of each axis's constant error")
         .within(0.0, 1000.0),
-    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s", "the same of the turning rates")
+    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s",
+                                  "standard deviation of each turn rate's constant error")
         .within(0.0, 3600.0),
     field<&ImuParams::field_horizontal_ut>("field_horizontal", "uT",
-                                           "of the Earth's magnetic field, to the north")
+                                           "northward component of the Earth's magnetic field")
         .within(0.0, 1000.0),
-    field<&ImuParams::field_down_ut>("field_down", "uT", "of that field, downwards")
+    field<&ImuParams::field_down_ut>("field_down", "uT", "downward component of that field")
         .within(-1000.0, 1000.0),
     north_field<&ImuParams::north_rad>(),
 };

@@ -40,7 +40,7 @@ void Laser::measure(const StepContext& context) {
                        reading.ranges_m);
   if (params_.noise_m > 0.0) {
     for (double& range : reading.ranges_m) {
-      // A beam that met nothing stays at the limit: there is no echo to be uncertain about.
+      // A beam that met nothing stays at the maximum range: without an echo there is no noise.
       if (range >= params_.range_max_m) continue;
       range = std::clamp(range + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
@@ -81,7 +81,7 @@ std::optional<FieldFault> laser_view_fault(const void* object) {
 }  // namespace
 
 constexpr Field kLaserSettings[] = {
-    frequency_field<&LaserParams::frequency_hz>("scans a simulated second"),
+    frequency_field<&LaserParams::frequency_hz>("scans per simulated second"),
     noise_field<&LaserParams::noise_m>("standard deviation of a range"),
     field<&LaserParams::beam_count>("beams", "", "number of beams").within(1, 8192),
     field<&LaserParams::resolution_rad>(
@@ -89,13 +89,15 @@ constexpr Field kLaserSettings[] = {
         "angle between neighbouring beams; all beams together span at most 360")
         .within(1e-4, 360.0),
     range_max_field<&LaserParams::range_max_m>(
-        "greatest range, and what a beam reads that meets nothing"),
+        "maximum range, and the reading of a beam that hits nothing"),
     mount_field<&LaserParams::X_BL>("mounting on the body, X_BL"),
     height_field<&LaserParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&LaserParams::size_m>(
-        "size", "m", "of its case along its own x and y, [0, 100] each; only told to programs")
+        "size", "m", "of its case along its own x and y, [0, 100] each; only for programs that ask")
         .within(0.0, 100.0),
-    field<&LaserParams::size_height_m>("size_height", "m", "the same upwards").within(0.0, 100.0),
+    field<&LaserParams::size_height_m>("size_height", "m",
+                                       "height of its case; only for programs that ask")
+        .within(0.0, 100.0),
 };
 SIM_FIELDS(LaserParams, kLaserSettings, laser_view_fault)
 

@@ -37,7 +37,7 @@ std::optional<std::string> Opaque::apply(const Command& command) {
   if (message->data.empty()) return std::nullopt;
   sent_messages_.push_back(message->data);
   ++sent_;
-  // Nobody would have room for more.
+  // No receiver's queue holds more.
   if (sent_messages_.size() > kMaxQueue) sent_messages_.pop_front();
   return std::nullopt;
 }
@@ -58,7 +58,7 @@ void Opaque::hear(Line& line) {
 
 void Opaque::integrate(const StepContext&) {
   for (Line& line : lines_) hear(line);
-  // All that were sent before the last step have been heard by everybody.
+  // All receivers have received the messages sent before the last step.
   const std::uint64_t since = sent_ - sent_before_step_;
   while (sent_messages_.size() > since) sent_messages_.pop_front();
   sent_before_step_ = sent_;
@@ -100,10 +100,10 @@ constexpr ElementType kSender{read_sender, sender_text, R"({"type": "string"})"}
 
 constexpr Field kOpaqueSettings[] = {
     frequency_field<&OpaqueParams::frequency_hz>(
-        "readings a simulated second, each of which takes one message at most"),
+        "readings per simulated second; each takes at most one message"),
     field<&OpaqueParams::from>("from", "",
-                               "whose messages arrive here, at most 64: `\"ROBOT\"`, for its "
-                               "device `opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
+                               "senders of the messages, at most 64: `\"ROBOT\"`, for its device "
+                               "`opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
         .of(kSender)
         .counting(0, OpaqueParams::kMaxSenders)
         .or_fault("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),

@@ -15,8 +15,8 @@
 namespace sim {
 namespace {
 
-// The square of how near an edge comes to the origin [m2]; nothing if no point within reach_m of it
-// sees the edge within range_m.
+// Square of the distance of an edge from the origin [m2]; nullopt if no point within reach_m of the
+// origin sees the edge within range_m.
 std::optional<double> distance2_if_seen(const scan::Edge& edge, double reach_m, double range_m) {
   const Vec2 a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
   const Vec2 along = Vec2(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m)) - a;
@@ -36,8 +36,8 @@ double infrared_voltage_v(double range_m, double gain_vm, double shift_m) {
   return gain_vm / (range_m + shift_m);
 }
 
-// Mountings are 6 mm and more within the S1R's shell, which no solid reaches: then there is no need
-// to ask whether they are inside one.
+// The mountings are at least 6 mm inside the S1R's shell, where no solid reaches, so the test for
+// being inside a solid is not needed.
 InfraredParams::InfraredParams() {
   range_max_m = 0.8;
   height_m = 0.05;
@@ -96,7 +96,7 @@ void Ranger::measure(const StepContext& context) {
         !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
       range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad});
     }
-    // As with the laser: without an echo there is nothing to be uncertain about.
+    // As for the laser: without an echo there is no noise.
     if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {
       range_m = std::clamp(range_m + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
@@ -105,7 +105,7 @@ void Ranger::measure(const StepContext& context) {
 }
 
 double Ranger::least_range_m(const scan::Cone& cone) {
-  // Rounding, by far.
+  // Far above rounding errors.
   constexpr double kSlack_m = 1e-6;
   double least_m = params_.range_max_m;
   for (std::size_t i = 0; i < shells_.size(); ++i) {
@@ -152,12 +152,10 @@ std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams
 constexpr Field kRangerSettings[] = {
     frequency_field<&RangerParams::frequency_hz>(),
     noise_field<&RangerParams::noise_m>("standard deviation of a range"),
-    range_max_field<&RangerParams::range_max_m>(
-        "greatest range, and what a transducer reads that meets nothing"),
+    range_max_field<&RangerParams::range_max_m>("maximum range, and the reading if nothing is hit"),
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",
-                               "where each transducer sits on the body and looks, X_BS; 1 to 64 "
-                               "of them")
+                               "poses of the transducers on the body, X_BS; 1 to 64 of them")
         .counting(1, RangerParams::kMaxTransducers)
         .or_fault("device/ranger-mounts",
                   "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")

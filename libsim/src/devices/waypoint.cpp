@@ -31,7 +31,7 @@ double Waypoint::distance_m() const {
   return std::hypot(goal_.goal_m.x() - X_WB_.x_m, goal_.goal_m.y() - X_WB_.y_m);
 }
 
-std::optional<std::string> Waypoint::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Waypoint::execute(const Command& command, RobotControl& robot) {
   if (const auto* go = std::get_if<GotoCommand>(&command)) {
     if (!go->goal_m.allFinite()) return "a goal must be a point of finite coordinates";
     if (!(go->tolerance_m > 0.0) || !std::isfinite(go->tolerance_m)) {
@@ -83,7 +83,7 @@ void Waypoint::integrate(const StepContext& context) {
 
 void Waypoint::motors_taken() {
   if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
-  steers_ = false;  // what they do now is the other's
+  steers_ = false;  // another device drives the motors now
 }
 
 void Waypoint::placed(const Pose& X_WB) {
@@ -123,20 +123,20 @@ constexpr const char* kWaypointWords[] = {"Arrived", "Transit", "Stop"};
 
 constexpr Field kWaypointSettings[] = {
     frequency_field<&WaypointParams::frequency_hz>(
-        "readings a simulated second; steering is done each step"),
+        "readings per simulated second; the controller runs in each step"),
     field<&WaypointParams::tolerance_m>(
-        "tolerance", "m",
-        "so near to a goal the robot has arrived, where a program names no tolerance")
+        "tolerance", "m", "default distance from a goal at which the robot has arrived")
         .above(0.0, 1000.0),
-    field<&WaypointParams::speed_mps>(
-        "speed", "m/s", "at most, where a program names none; the motors' limits hold too")
+    field<&WaypointParams::speed_mps>("speed", "m/s",
+                                      "default maximum speed; the motors' limits also hold")
         .above(0.0, 20.0),
-    field<&WaypointParams::turn_gain>("turn_gain", "1/s", "turn rate a bearing of the goal")
+    field<&WaypointParams::turn_gain>("turn_gain", "1/s", "turn rate divided by the goal's bearing")
         .above(0.0, 50.0),
-    field<&WaypointParams::approach_gain>("approach_gain", "1/s", "speed a distance of the goal")
+    field<&WaypointParams::approach_gain>("approach_gain", "1/s",
+                                          "speed divided by the goal's distance")
         .above(0.0, 50.0),
     field<&WaypointParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
-                                                "on the way to a goal; default 2 rad/s")
+                                                "maximum on the way to a goal; default 2 rad/s")
         .above(0.0, 3600.0),
 };
 SIM_FIELDS(WaypointParams, kWaypointSettings)

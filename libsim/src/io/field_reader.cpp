@@ -56,7 +56,7 @@ void read_element(Reader& element, const Field& field, void* list) {
   }
 }
 
-/// A list that is there takes the place of the default as a whole.
+/// A list in the file replaces the default list as a whole.
 void read_list(Reader& settings, const Field& field, void* list) {
   std::optional<Reader> place = settings.child(field.name);
   if (!place) return;
@@ -114,7 +114,7 @@ void read_field(Reader& settings, const Field& field, void* object) {
     case FieldType::kCustom:
       return field.custom->read(settings, field, value);
     default:
-      SIM_ASSERT(false);  // of messages only
+      SIM_ASSERT(false);  // other types occur in messages only
   }
 }
 

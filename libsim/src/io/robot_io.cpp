@@ -120,7 +120,7 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   return model;
 }
 
-/// Reads a model's text. Issues are added to `document`; the model counts only if there are none.
+/// Reads a model's text. Issues are added to `document`; the model is valid only if there are none.
 RobotModel read_model_text(std::string_view text, Reader::Document& document,
                            const std::vector<DeviceType>& types) {
   if (text.size() > kMaxFileBytes) {
@@ -200,7 +200,7 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
     const std::map<std::string, std::vector<std::string>>& base) {
   std::vector<std::string> known;
   for (const DeviceDescription& device : devices) known.push_back(device.name);
-  // A model's order holds for those of its devices that the robot has kept.
+  // A model's order of interfaces applies to those of its devices that the robot still has.
   std::map<std::string, std::vector<std::string>> interfaces = base;
   for (auto& [interface, names] : interfaces) {
     std::erase_if(names, [&](const std::string& name) {

@@ -15,16 +15,16 @@
 namespace sim::io {
 namespace {
 
-// Box2D's polygons have no more.
+// Box2D's limit for polygons.
 constexpr std::size_t kMostVertices = 8;
-// A robot of less than this across is lost between the tolerances of the contact solver.
+// A smaller robot is within the tolerances of the contact solver.
 constexpr double kLeastArea_m2 = 1e-4;
-// Of a vertex from the middle of the axle.
+// Distance of a vertex from the centre of the axle.
 constexpr double kFarthestVertex_m = 100.0;
 
 constexpr const char* kTooThin = "the physics cannot build anything thinner";
 
-// So written that NaN is outside.
+// The form of this condition makes it refuse NaN.
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
 double greatest_coordinate(const Vec2& p) { return p.cwiseAbs().maxCoeff(); }
@@ -39,8 +39,8 @@ std::optional<SolidFault> length_fault(const char* key, double value, double mos
                     value < kLeastLength_m ? kTooThin : ""};
 }
 
-// Whether a counter-clockwise outline turns left at each vertex, once round: no straight angles,
-// which the physics would drop.
+// Whether a counter-clockwise outline turns left at each vertex, once around. Straight angles are
+// not allowed, since the physics would drop their vertices.
 bool is_convex(const Polygon& outline) {
   const std::size_t n = outline.size();
   double turned_rad = 0.0;
@@ -54,8 +54,8 @@ bool is_convex(const Polygon& outline) {
   return turned_rad < 2.0 * std::numbers::pi + 1e-6;
 }
 
-// The shortest side of a convex outline, or the distance of two parallels that enclose it,
-// whichever is less.
+// The smaller of the shortest side of a convex outline and the least distance of two parallel lines
+// that enclose it.
 double least_extent_m(const Polygon& outline) {
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -94,7 +94,7 @@ std::optional<SolidFault> box_fault(const ObstacleDescription& box) {
                           number_text(far_m) + " m)",
                       number_text(box.size.minCoeff()) + " m", kTooThin};
   }
-  if (std::isinf(box.height_m) && box.height_m > 0.0) return std::nullopt;  // up to the sky
+  if (std::isinf(box.height_m) && box.height_m > 0.0) return std::nullopt;  // height without limit
   return length_fault("/height", box.height_m, kGreatestLength_m);
 }
 
@@ -120,7 +120,7 @@ std::optional<SolidFault> floor_fault(const ArenaDescription& arena) {
 }
 
 std::optional<SolidFault> walls_fault(const ArenaDescription& arena) {
-  constexpr double kRounding = 1.0 - 1e-3;  // of places far from the origin
+  constexpr double kRounding = 1.0 - 1e-3;  // of positions far from the origin
   for (const WallLoop& loop : arena.walls) {
     if (loop.vertices.size() < 3) {
       return SolidFault{"/map", "walls of at least 3 vertices",

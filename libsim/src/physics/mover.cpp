@@ -9,41 +9,43 @@
 namespace sim::physics {
 namespace {
 
-// By so much a gap may be less after a part of a step than the constraints say, as they are linear.
+// A gap may decrease by this much more than the linear constraints allow in a part of a step.
 constexpr double kSecondOrder_m = 0.0003;
 
-// Farther than this a point of a robot must not move while robots touch: where one is shoved is up
-// to Box2D, which sees a contact only once hulls are closer than their skins of 2 mm together.
+// Maximum travel of any point of a robot in one Box2D step while robots push each other. Box2D
+// decides where a pushed robot goes, and it detects a contact only if hulls are closer than the sum
+// of their skins, 2 mm.
 constexpr double kMaxShove_m = 0.002;
 
-// The same while those that touch have nothing else within reach.
+// The same limit while the robots that touch have nothing else within reach.
 constexpr double kMaxLoneShove_m = 0.003;
 
-// A twist counts as achieved within these.
+// Tolerances within which a twist counts as achieved.
 constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
 constexpr double kStallDelay_s = 0.2;
 
-// How far round a robot whose pace is slow things are looked for as if it were this [m a part of a
-// step]: enough for all that touches.
+// Lower limit of the travel in a part of a step that determines the search range around slow robots
+// [m]. It suffices to find everything that touches.
 constexpr double kLeastTravel_m = 0.25 * kMaxTravel_m;
 
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
-// sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
+// sin(x) / x. For small x (half the rotation of a step is small) the series is exact to the last
+// bit.
 inline double sinc(double x) {
   if (std::abs(x) > 0.05) return std::sin(x) / x;
   const double x2 = x * x;
   return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
 }
 
-// How far any corner of a robot gets in a direction of W, at most, by a twist as if it were
-// straight.
+// Upper bound of how far any corner of a robot moves along a direction in W, if the twist were a
+// straight motion.
 double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
                  double dt_s) {
   const b2Vec2 n = b2MulT(xf.q, direction);
-  float lever = -b2_maxFloat;  // about B, in the sense of the turn
+  float lever = -b2_maxFloat;  // about B, in the direction of the rotation
   const float sense = twist.omega_radps < 0.0 ? -1.0F : 1.0F;
   for (int32 i = 0; i < r.details->shape.m_count; ++i) {
     lever = std::max(lever, sense * b2Cross(r.details->shape.m_vertices[i], n));
@@ -53,8 +55,8 @@ double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction,
          dt_s;
 }
 
-// Where an unhindered robot gets to: along the exact arc of the twist (the exponential map of
-// SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
+// The pose of an unhindered robot after dt_s: along the exact arc of the twist (the exponential map
+// of SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
 inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
   const double half_turn = 0.5 * twist.omega_radps * dt_s;
   const double chord = twist.v_mps * dt_s * sinc(half_turn);
@@ -65,7 +67,7 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
           X_WB.yaw_rad + twist.omega_radps * dt_s};
 }
 
-// Takes back what Box2D's solver may have done to a body that is not to move.
+// Reverts changes that Box2D's solver made to a body that must not move.
 inline void hold(Robot& r) {
   const b2Vec2 p = to_box2d(r.X_WB.position());
   const float angle = static_cast<float>(r.X_WB.yaw_rad);
@@ -75,7 +77,7 @@ inline void hold(Robot& r) {
   r.body->SetAngularVelocity(0.0F);
 }
 
-// Keeps angles small, where single precision is fine.
+// Keeps angles small, where single precision suffices.
 inline void unwind(Robot& r) {
   r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
   if (r.body == nullptr) return;
@@ -98,19 +100,19 @@ inline void finish_step(Robot& r, double dt_s) {
 
 }  // namespace
 
-// Inline, as they are called for every robot in every step.
+// These functions are inline because they are called for every robot in every step.
 
-// Books that a robot went so far and turned so much.
+// Records that a robot has travelled and turned this much.
 inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
   r.state->turn_rad += turn_rad;
   if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
-  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
-  r.gone_m += most_m;
+  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // bound for all its points
+  r.cumulative_max_travel_m += most_m;
   r.moved_m += most_m;
   farthest_m_ = std::max(farthest_m_, r.moved_m);
 }
 
-// The robot is where its twist took it.
+// Moves a robot to the end of its arc.
 inline void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
   r.X_WB = goal;
   const double travel = twist.v_mps * dt_s;
@@ -120,7 +122,7 @@ inline void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double
   moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
 }
 
-// To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
+// For Box2D, a free robot that still has a body is at rest and is placed at a new pose.
 inline void Mover::move_freely(Robot& r, double dt_s) {
   if (r.body != nullptr) {
     if (--r.kept_parts == 0) {
@@ -143,18 +145,18 @@ void Mover::step(double dt_s) {
   const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
   neighbours_.begin_step(std::max(travel_m / parts, kLeastTravel_m));
   step_s_ = dt_s;
-  const double gone_m = neighbours_.gone_m();
+  const double cumulative_max_travel_m = neighbours_.cumulative_max_travel_m();
   for (int i = 0; i < parts; ++i) advance(dt_s / parts, i == 0, i + 1 == parts);
-  step_gone_m_ = neighbours_.gone_m() - gone_m;
+  step_max_travel_m_ = neighbours_.cumulative_max_travel_m() - cumulative_max_travel_m;
 }
 
-// Moves all for a time in which no robot travels farther than kMaxTravel_m. Robots that are free,
-// or stay clear of all that is near, are done with at once, without Box2D; those that shove one
-// another take several parts.
+// Moves all robots for a time in which no robot travels farther than kMaxTravel_m. Robots that are
+// free, or stay clear of everything near, are moved at once, without Box2D. Robots that push each
+// other are moved in several Box2D steps.
 void Mover::advance(double dt_s, bool first, bool last) {
   neighbours_.find(dt_s);
   if (neighbours_.something_was_placed()) {
-    // Lets Box2D find the contacts of what was put somewhere since the last step.
+    // Lets Box2D find the contacts of everything that was placed since the last step.
     bodies_.world().Step(0.0F, 1, 1);
     neighbours_.note_contacts_found();
   }
@@ -203,8 +205,8 @@ void Mover::advance(double dt_s, bool first, bool last) {
   bodies_.note_moved();
 }
 
-// Puts the closing-speed limits that a pair of shapes gives robot `r` into constraints_.
-// `share` is the part of the gap that r may close in this step.
+// Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
+// `share` is the fraction of the gap that r may close in this step.
 void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
   const b2Transform xf = transform_of(r);
@@ -237,7 +239,7 @@ void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transf
   }
 }
 
-// Whether a robot that gets its target stays clear of a wall: of the line through its edge.
+// Whether a robot that follows its target stays clear of a wall, or of the line through its edge.
 bool Mover::keeps_off(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
   const OffLine off = off_line(r, wall, xf);
   return off.apart_m > 0.0 && advance_m(r, xf, off.direction, r.target, dt_s) + kSecondOrder_m <=
@@ -249,10 +251,10 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   constraints_.clear();
   if (r.target == Twist{}) return r.target;
   const double way_m = most_travel_m(r, dt_s);
-  // What is farther away, or not that way, leaves the robot its target, and clear of it.
+  // Obstacles farther away, or in another direction, do not limit the robot.
   const b2Transform xf = transform_of(r);
   const double reach_m = way_m + kTouchingGap_m + kSecondOrder_m;
-  if (r.wall_until_m - r.gone_m <= reach_m) {
+  if (r.wall_until_m - r.cumulative_max_travel_m <= reach_m) {
     for (const Wall& wall : r.details->walls) {
       if (!may_reach(r, wall, reach_m)) continue;
       if (wall.is_edge && keeps_off(r, wall, xf, dt_s)) continue;
@@ -261,7 +263,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   }
   for (const Neighbours::Neighbour& near : neighbours_.near_to(index)) {
     const Robot& other = bodies_.robot(near.robot);
-    const double share = other.suspended ? 1.0 : 0.5;  // as good as a wall
+    const double share = other.suspended ? 1.0 : 0.5;  // a suspended robot is like a wall
     const double apart_m = near.apart_m - r.moved_m - other.moved_m;
     const double mine_m = share * (apart_m - kTouchingGap_m);
     if (mine_m > way_m) continue;
@@ -269,7 +271,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
         advance_m(r, xf, near.direction, r.target, dt_s) + kSecondOrder_m <= mine_m) {
       continue;
     }
-    // Pushing: Box2D's solver shares the momentum.
+    // The robots push each other: Box2D's solver distributes the momentum.
     if (!other.suspended && touches(r.body, other.body)) continue;
     add_constraints(r, other.details->shape, transform_of(other), share, dt_s);
   }
@@ -286,8 +288,8 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   return feasible_twist(r.target, r.details->mass_kg, r.details->inertia_kgm2, constraints_);
 }
 
-// Whether a robot that is not free has its way after all: it touches nothing, and by the
-// constraints that were just found for it, it will not either.
+// Whether a robot that is not free can follow its target after all: it touches nothing, and the
+// constraints just computed show that it will touch nothing.
 bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const {
   if (allowed != r.target || r.target == Twist{}) return false;
   for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
@@ -299,7 +301,7 @@ bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const
   });
 }
 
-// Robots that touch others, with those near them, and those near these, and so on.
+// Collects the robots that touch others, those near them, those near these, and so on.
 void Mover::find_shoving() {
   for (const std::size_t i : shoving_) bodies_.robots()[i].shoving = false;
   shoving_.clear();
@@ -321,8 +323,9 @@ void Mover::find_shoving() {
   }
 }
 
-// Moves the robots that are hindered: those that shove by dt_s, the others by others_dt_s, in one
-// step of Box2D. In the first part that is all the time there is; then it is 0, and they rest.
+// Moves the hindered robots in one Box2D step: robots in contact groups by dt_s, the others by
+// others_dt_s. The first call moves the others by the whole time; in further calls others_dt_s is
+// 0, and they rest.
 void Mover::substep(double dt_s, double others_dt_s) {
   if (!bodies_.has_robots_in_box2d()) return;
   const float inv_dt = static_cast<float>(1.0 / dt_s);
@@ -336,8 +339,8 @@ void Mover::substep(double dt_s, double others_dt_s) {
     if (others_dt_s > 0.0 && r.shoving) twists_[i] = allowed_twist(i, others_dt_s);
     goals_[i] = arc_end(r.X_WB, twists_[i], own_dt_s);
     if (goals_[i] == r.X_WB && !r.body->IsAwake()) continue;
-    // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
-    // does not pile up.
+    // This velocity takes Box2D's single-precision body to the exact goal, so that rounding errors
+    // do not accumulate.
     const b2Vec2 goal = to_box2d(goals_[i].position());
     r.body->SetLinearVelocity(inv_dt * (goal - r.body->GetPosition()));
     r.body->SetAngularVelocity(inv_dt *
@@ -350,7 +353,7 @@ void Mover::substep(double dt_s, double others_dt_s) {
   }
 }
 
-// Takes over where Box2D put the robot: the exact goal if nothing hindered it.
+// Updates the robot from its Box2D body; it gets the exact goal if nothing hindered it.
 void Mover::follow_body(std::size_t index, double dt_s) {
   Robot& r = bodies_.robots()[index];
   if (r.suspended) {
@@ -361,7 +364,7 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const b2Vec2 p = r.body->GetPosition();
   const b2Vec2 wanted = to_box2d(goal.position());
   const float angle = r.body->GetAngle();
-  // Rounding of position and angle, a few units in the last place.
+  // Bound of the rounding of position and angle, a few units in the last place.
   const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
   if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
       std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
@@ -374,7 +377,7 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const double heading = before.yaw_rad + 0.5 * turn;
   const double dx = r.X_WB.x_m - before.x_m;
   const double dy = r.X_WB.y_m - before.y_m;
-  // The wheels' path is the arc whose chord this is.
+  // The wheels' path is the arc with this chord.
   r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
   r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
   moved(r, std::hypot(dx, dy), turn);

@@ -12,17 +12,17 @@
 
 namespace sim::physics {
 
-/// Moves the robots: those that are free along the arcs of their twists, the others by Box2D.
+/// Moves the robots: free robots along the arcs of their twists, the others with Box2D.
 class Mover {
  public:
   Mover(Bodies& bodies, Neighbours& neighbours) : bodies_(bodies), neighbours_(neighbours) {}
 
   void step(double dt_s);
-  /// Writes or reads the state. When reading, that of the robots is there already.
+  /// Writes or reads the state. When reading, the robots' state must have been read before.
   void archive(StateArchive& archive);
-  /// How far any robot went in the last step, at most [m].
-  [[nodiscard]] double farthest_move_m() const noexcept { return step_gone_m_; }
-  /// As PhysicsWorld::bare_step().
+  /// Upper bound of how far any robot moved in the last step [m].
+  [[nodiscard]] double farthest_move_m() const noexcept { return step_max_travel_m_; }
+  /// See PhysicsWorld::bare_step().
   void bare_step(double dt_s);
 
  private:
@@ -42,14 +42,14 @@ class Mover {
 
   Bodies& bodies_;
   Neighbours& neighbours_;
-  double step_s_ = 0.0;                // the whole step under way
-  double step_gone_m_ = 0.0;           // how far any robot went in the last one, at most
-  double farthest_m_ = 0.0;            // that any robot has moved in this part of a step
+  double step_s_ = 0.0;                // length of the current step
+  double step_max_travel_m_ = 0.0;     // upper bound of how far any robot moved in the last step
+  double farthest_m_ = 0.0;            // maximum travel of any robot in the current part of a step
   std::vector<std::size_t> hindered_;  // robots that are not free
   double most_shove_m_ = 0.0;
-  std::vector<std::size_t> shoving_;  // robots that touch others or are near such
-  std::vector<Pose> goals_;           // where hindered robots get to if nothing stops them
-  std::vector<Twist> twists_;         // by which twist
+  std::vector<std::size_t> shoving_;  // robots that touch others, or are near such robots
+  std::vector<Pose> goals_;           // poses of hindered robots if nothing stops them
+  std::vector<Twist> twists_;         // twists towards `goals_`
   std::vector<TwistConstraint> constraints_;
 };
 

@@ -10,15 +10,14 @@
 namespace sim::physics {
 namespace {
 
-// More static edges than this are searched by Box2D's tree instead of swept.
+// Larger numbers of static edges are searched with Box2D's tree instead of a sweep.
 constexpr std::size_t kSweepLimit = 512;
 
-// Edges are many, so they are handled as one vector each.
+// One vector per edge, since there are many edges.
 using Four = double __attribute__((vector_size(4 * sizeof(double))));
 using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
 
-// Writes the edge between two points of W, which follow one another in memory, relative to
-// `origin`.
+// Writes the edge between two points in W, relative to `origin`. The points are adjacent in memory.
 void put_edge(scan::Edge* to, const double* points, const Four& origin) {
   static_assert(sizeof(scan::Edge) == sizeof(FourFloats));
   Four both;
@@ -27,7 +26,7 @@ void put_edge(scan::Edge* to, const double* points, const Four& origin) {
   std::memcpy(&to->x0_m, &edge, sizeof edge);
 }
 
-// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
+// Appends the edges of list[first, last) that are higher than the sensor, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
   static_assert(sizeof(Edge) == sizeof(Four));
@@ -83,16 +82,15 @@ void Sight::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
   outlines_fresh_ = false;
 }
 
-// Puts the robots in the order in which a Hilbert curve meets them, so that those that follow one
-// another are near each other. Which way a robot went since it was put somewhere in it matters
-// little for a while.
+// Sorts the robots by their position on a Hilbert curve, so that consecutive robots are near each
+// other. A position is kept until the robot has moved by kWhile_m, since small moves hardly matter.
 void Sight::sort_by_place() {
   constexpr double kWhile_m = 0.1;
   for (Spot& spot : by_place_) {
     const Robot& r = bodies_.robot(spot.robot);
-    if (r.gone_m < spot.until_m) continue;
+    if (r.cumulative_max_travel_m < spot.until_m) continue;
     spot.place = along_hilbert_curve(r.X_WB.position());
-    spot.until_m = r.gone_m + kWhile_m;
+    spot.until_m = r.cumulative_max_travel_m + kWhile_m;
   }
   for (std::size_t i = 1; i < by_place_.size(); ++i) {  // insertion sort: nearly sorted already
     const Spot moving = by_place_[i];
@@ -138,8 +136,8 @@ void Sight::rebuild_outlines() {
   outlines_fresh_ = true;
 }
 
-// Casts a ray from A to C at the robots that may(robot) lets: calls visit(fraction of the line)
-// for each that it meets from outside, until that returns false.
+// Casts a ray from A to C at the robots for which may(robot) is true. Calls visit(fraction of the
+// line) for each robot that it hits from outside, until visit returns false.
 template <typename Filter, typename Visitor>
 void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
   const Vec2 line = p_WC - p_WA;
@@ -152,7 +150,7 @@ void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visit
       p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Bodies::Circle& circle) {
         if (!more) return;
         const Vec2 p_AB = Vec2(circle.x, circle.y) - p_WA;
-        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // times the line's length
+        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // distance * |line|
         if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
         if (!may(circle.robot)) return;
         const Robot& r = bodies_.robot(circle.robot);
@@ -287,9 +285,9 @@ bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, in
   callback.height_m = height_m;
   callback.target_kind = target.kind;
   callback.target_index = target.index;
-  // Box2D takes no line without a length.
+  // Box2D does not accept a line of length 0.
   if ((p_WC - p_WA).squaredNorm() <= 0.0) return true;
-  // Robots first, which cost less to ask.
+  // Robots first, since their test is cheaper.
   const int target_robot = target.kind == Contact::Kind::kRobot ? target.index : -1;
   bool blocked = false;
   cast_at_robots(
@@ -319,8 +317,8 @@ bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
     inside = r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
   });
   if (inside || !bodies_.has_walls()) return inside;
-  // Walls of a map are closed outlines: inside where a ray to the far right crosses an odd number
-  // of them (half-open rule at vertices).
+  // Walls of a map are closed outlines. A point is inside if a ray to the far right crosses an odd
+  // number of edges (half-open rule at vertices).
   int crossings = 0;
   visit_fixed(bodies_.world(), p_W, {bodies_.wall_right_m(), p_W.y()},
               [&](const b2Fixture& fixture) {

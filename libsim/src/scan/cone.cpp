@@ -7,7 +7,7 @@
 namespace sim::scan {
 namespace {
 
-// The sides of a cone, along which its half-planes end. Those of a ray are the ray itself.
+// The two boundary lines of a cone. For a single ray, both are the ray itself.
 struct Sides {
   explicit Sides(const Cone& cone)
       : lx(std::cos(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
@@ -19,17 +19,17 @@ struct Sides {
   double rx, ry;
 };
 
-// The ends of an edge seen from a cone's apex: a, then b.
+// The ends of an edge relative to a cone's apex: a, then b.
 struct Sight {
   double ax, ay, bx, by;
 
-  // Twice the area of the triangle with the apex; < 0 if the edge faces it, and then a is on the
-  // left of b.
+  // Twice the signed area of the triangle with the apex. It is < 0 if the edge faces the apex; a is
+  // then to the left of b.
   [[nodiscard]] double cross() const { return ax * by - ay * bx; }
 };
 
-// Whether an edge that faces the apex may be within the half-planes: not negative if so. Negative
-// for one that does not face it.
+// Not negative if an edge that faces the apex may be within the half-planes. Negative for edges
+// that do not face it.
 double within(const Sight& e, const Sides& sides) {
   const double a_in_left = e.ax * sides.ly - e.ay * sides.lx;  // >= 0: right of the left side
   const double b_in_left = e.bx * sides.ly - e.by * sides.lx;
@@ -41,8 +41,8 @@ double within(const Sight& e, const Sides& sides) {
   return e.cross() < 0.0 ? in_both : -1.0;
 }
 
-// Keeps of [t0, t1] the part of an edge where a linear function that is f0 at its begin and f1 at
-// its end is not negative.
+// Clips [t0, t1] to the part of an edge where a linear function is not negative. f0 and f1 are its
+// values at the ends of the edge.
 void clip(double f0, double f1, double& t0, double& t1) {
   if (f0 < 0.0) t0 = std::max(t0, f0 / (f0 - f1));
   if (f1 < 0.0) t1 = std::min(t1, f0 / (f0 - f1));
@@ -64,7 +64,7 @@ double nearer_m2(const Sight& e, const Sides& sides, double least_m2) {
   return std::min(least_m2, x * x + y * y);
 }
 
-// The same for a ray: along it, if it passes between the ends.
+// Distance along a ray to an edge, if the ray passes between its ends; at most `least_m`.
 double nearer_on_ray_m(const Sight& e, const Sides& ray, double least_m) {
   const double left_of_ray = ray.rx * e.ay - ray.ry * e.ax;
   const double right_of_ray = ray.ry * e.bx - ray.rx * e.by;
@@ -103,7 +103,7 @@ double EdgeColumns::least_range_in_cone_m(const Cone& cone, double range_max_m) 
   const auto sight = [&](std::size_t i) {
     return Sight{x0[i] - cone.x_m, y0[i] - cone.y_m, x1[i] - cone.x_m, y1[i] - cone.y_m};
   };
-  // Most edges are elsewhere. A loop without branches, which compilers make vector instructions of.
+  // Most edges are outside the cone. This loop has no branches, so compilers can vectorise it.
   for (std::size_t i = 0; i < count; ++i) kept[i] = within(sight(i), sides);
 
   if (cone.field_of_view_rad <= 0.0) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Things by name, and what robots carry.
+// Objects by name, and objects that robots carry.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
@@ -13,12 +13,12 @@
 namespace sim {
 namespace {
 
-// Of names in a message.
+// Maximum number of names in a message.
 constexpr std::size_t kMostNames = 40;
 
 }  // namespace
 
-// Changes a block, unless something is against it: tells what.
+// Edits a block, unless the result is invalid; returns the reason then.
 template <typename Edit>
 std::optional<std::string> Simulation::Impl::change_block(const std::string& name, Edit edit) {
   auto& obstacles = world.arena.obstacles;
@@ -27,7 +27,7 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   SIM_ASSERT(it != obstacles.end());
   ObstacleDescription now = *it;
   edit(now);
-  // A portable one may be put away beyond the floor, as programs for Stage do.
+  // A portable block may be placed beyond the floor, as programs for Stage do.
   const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
   if (where) return "obstacle " + name + " would " + *where;
   if (const auto fault = io::box_fault(now)) {
@@ -90,7 +90,7 @@ std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int ind
   return std::nullopt;
 }
 
-// It stands again where its description says; the physics must still be told where that is.
+// The obstacle stands in the pose of its description again; the caller must update the physics.
 void Simulation::Impl::let_go(int index) {
   const auto robot = static_cast<std::size_t>(std::exchange(obstacle(index).carried_by, -1));
   std::erase_if(loads, [&](const Load& load) { return load.obstacle == index; });
@@ -98,7 +98,7 @@ void Simulation::Impl::let_go(int index) {
   show_load(robot);
 }
 
-// The physics is told what others see of a robot's load.
+// Updates what the sensors of others see of a robot's load.
 void Simulation::Impl::show_load(std::size_t robot) {
   std::vector<PhysicsWorld::Load> seen;
   for (const Load& load : loads) {
@@ -128,7 +128,7 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
     return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
   }
   physics->set_pose(static_cast<int>(i), X_WB);
-  robots[i].last_position = X_WB.position();  // the way there does not count
+  robots[i].last_position = X_WB.position();  // the jump adds no path length
   move_loads();
   for (const auto& device : robots[i].devices) device->placed(X_WB);
   forget_clearances();
@@ -225,7 +225,7 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   const std::optional<SceneObject> object = find_object(name);
   if (!object) return no_such_object(name);
   if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
-  // As a world's reader has it; Box2D makes nothing of smaller boxes.
+  // The limits of the world's reader; Box2D cannot represent smaller boxes.
   if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
     return "the sides and the height of a block are at least 0.001 m";
   }
@@ -235,35 +235,33 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   });
 }
 
-std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
-  if (const auto robot = find_robot(name)) {
-    impl_->world.robots[static_cast<std::size_t>(*robot)].colour = colour;
+template <typename Edit>
+std::optional<std::string> Simulation::Impl::change_look(const Simulation& simulation,
+                                                         const std::string& name,
+                                                         const char* refusal, Edit edit) {
+  if (const auto robot = simulation.find_robot(name)) {
+    edit(world.robots[static_cast<std::size_t>(*robot)]);
     return std::nullopt;
   }
-  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+  for (ObstacleDescription& block : world.arena.obstacles) {
     if (block.name != name) continue;
-    block.colour = colour;
+    edit(block);
     return std::nullopt;
   }
-  const std::optional<SceneObject> object = find_object(name);
-  if (!object) return no_such_object(name);
-  return object->kind + " \"" + name + "\" keeps its colour";
+  const std::optional<SceneObject> object = simulation.find_object(name);
+  if (!object) return simulation.no_such_object(name);
+  return object->kind + " \"" + name + "\" " + refusal;
+}
+
+std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
+  return impl_->change_look(*this, name, "keeps its colour",
+                            [&](auto& object) { object.colour = colour; });
 }
 
 std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
   if (fiducial < 0) return "the number of a fiducial is at least 0";
-  if (const auto robot = find_robot(name)) {
-    impl_->world.robots[static_cast<std::size_t>(*robot)].fiducial = fiducial;
-    return std::nullopt;
-  }
-  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
-    if (block.name != name) continue;
-    block.fiducial = fiducial;
-    return std::nullopt;
-  }
-  const std::optional<SceneObject> object = find_object(name);
-  if (!object) return no_such_object(name);
-  return object->kind + " \"" + name + "\" bears no fiducial";
+  return impl_->change_look(*this, name, "bears no fiducial",
+                            [&](auto& object) { object.fiducial = fiducial; });
 }
 
 std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,

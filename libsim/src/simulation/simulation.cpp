@@ -18,19 +18,19 @@ namespace {
 
 constexpr std::size_t kKeptCollisions = 1024;
 constexpr std::size_t kKeptUtterances = 1024;
-// Clearances beyond this are told as this; it bounds the search round a robot.
+// Maximum reported clearance; it limits the search around a robot.
 constexpr double kClearanceLimit_m = 10.0;
 
-// A look at a robot's clearance sees this much farther than the least so far: the farther, the more
-// it costs, and the longer until the next one.
+// Margin of a clearance measurement beyond the least clearance so far. A larger margin costs more,
+// but delays the next measurement.
 constexpr double kClearanceLookahead_m = 0.1;
-// Up to so much beyond the least so far it is looked at exactly: a lower bound would be used up
-// sooner.
+// Up to this margin the clearance is measured exactly, since a lower bound would require the next
+// measurement sooner.
 constexpr double kClearanceExact_m = 0.05;
 
 }  // namespace
 
-// What the devices of one robot may do to it.
+// The actions that the devices of one robot may perform on it.
 class Simulation::Impl::Control final : public RobotControl {
  public:
   Control(Impl& owner, std::size_t robot) : impl_(owner), robot_(robot) {}
@@ -192,7 +192,7 @@ void Simulation::Impl::reset() {
   }
   updated.clear();
   forget_clearances();
-  // As at the start, so that the next measurement begins where it did then.
+  // As at the start, so that the next measurement starts from the same state.
   for (std::size_t i = 0; i < robots.size(); ++i) {
     static_cast<void>(
         physics->clearance_m(static_cast<int>(i), kClearanceLimit_m, kClearanceLimit_m));
@@ -205,7 +205,7 @@ void Simulation::Impl::note_due_times(std::size_t i) {
   }
 }
 
-// --- A step: inline is what each robot does in it.
+// --- A step. Functions that each robot needs in every step are inline.
 
 void Simulation::Impl::record_collisions() {
   for (const PhysicsWorld::Contact& contact : physics->new_contacts()) {
@@ -284,7 +284,7 @@ inline void Simulation::Impl::act(double dt_s) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const auto begin = actor;
     while (actor != actors.end() && actor->robot == i) ++actor;
-    // The command of a suspended robot's motors waits.
+    // The motors of a suspended robot keep their command.
     if (physics->suspended(static_cast<int>(i))) continue;
     Control control(*this, i);
     for (auto own = begin; own != actor; ++own) {
@@ -393,7 +393,7 @@ std::optional<std::string> Simulation::apply(DeviceId id, const Command& command
            device.name() + " is switched off: it takes no commands until it is on again";
   }
   Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
-  return device.carry_out(command, control);
+  return device.execute(command, control);
 }
 
 void Simulation::reset() { impl_->reset(); }

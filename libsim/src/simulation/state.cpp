@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The state of a simulation apart from its world: saved, restored, hashed.
+// The state of a simulation without its world: saving, restoring, hashing.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -7,6 +7,7 @@
 
 #include "io/solid_limits.h"
 #include "sim/core/hash.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/world_hash.h"
 #include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
@@ -15,14 +16,14 @@
 namespace sim {
 namespace {
 
-// What a snapshot begins with.
+// The beginning of a snapshot.
 struct SnapshotHeader {
   std::array<char, 8> magic;
   std::uint64_t version;
   std::uint64_t world;  // world_hash()
   std::uint64_t seed;
-  std::uint64_t state;     // bytes of the state
-  std::uint64_t pictures;  // of the clients' layers, after it
+  std::uint64_t state;     // size of the state [bytes]
+  std::uint64_t pictures;  // size of the clients' layers, which follow [bytes]
   std::uint64_t hash;      // of both
 };
 constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
@@ -34,16 +35,8 @@ std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   return hash.value();
 }
 
-std::string hexadecimal(std::uint64_t number) {
-  std::string text(16, '0');
-  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, number /= 16) {
-    *digit = "0123456789abcdef"[number % 16];
-  }
-  return text;
-}
-
-// The header of a snapshot that is as it was written, for this world.
-// @param own  the hash of the world as it was at the start.
+// The header of a snapshot; throws if the snapshot is damaged or belongs to another world.
+// @param own  the hash of the world in its initial state.
 SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const WorldDescription& world,
                               std::uint64_t own) {
   SnapshotHeader header{};
@@ -57,8 +50,8 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
   expect(header.magic == kMagic, "a snapshot of Playpen", "other bytes");
   expect(header.version == kSnapshotVersion, "version " + std::to_string(kSnapshotVersion),
          "version " + std::to_string(header.version));
-  expect(header.world == own, "world " + world.name + " (" + hexadecimal(own) + ")",
-         "another world (" + hexadecimal(header.world) + ")");
+  expect(header.world == own, "world " + world.name + " (" + hexadecimal_text(own, 16) + ")",
+         "another world (" + hexadecimal_text(header.world, 16) + ")");
   expect(header.seed == world.simulation.seed, "seed " + std::to_string(world.simulation.seed),
          "seed " + std::to_string(header.seed));
   const std::uint64_t left = snapshot.size() - sizeof header;
@@ -66,8 +59,8 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
          bytes(header.state) + " of state and " + bytes(header.pictures) + " of pictures",
          bytes(left));
   const std::uint64_t hash = hash_of(snapshot.subspan(sizeof header));
-  expect(header.hash == hash, "bytes with the hash " + hexadecimal(header.hash),
-         "the hash " + hexadecimal(hash) + ": they were altered");
+  expect(header.hash == hash, "bytes with the hash " + hexadecimal_text(header.hash, 16),
+         "the hash " + hexadecimal_text(hash, 16) + ": they were altered");
   return header;
 }
 
@@ -193,7 +186,7 @@ void Simulation::Impl::succeed(Impl& before) {
   said = std::move(before.said);
   updated.clear();
   forget_clearances();
-  layers.resize(before.layers.width(), before.layers.height());  // which clients chose
+  layers.resize(before.layers.width(), before.layers.height());  // keep the size that clients chose
   before.layers.take_base(layers);
   layers = std::move(before.layers);
   view_mode = before.view_mode;

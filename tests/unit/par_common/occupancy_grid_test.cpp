@@ -60,8 +60,8 @@ TEST(OccupancyGrid, ConvergesToItsLimitsAndCanChangeItsMind) {
 TEST(OccupancyGrid, CountsACellOnceAScanAndHitsBeforeMisses) {
   OccupancyGrid map(corridor());
   Scan scan = one_beam(0.5);
-  scan.ranges_m = {0.7, 0.5, 0.7, 0.5,
-                   0.5};  // all along the row: two beams pass through the cell that three hit
+  // all along the row: two beams pass through the cell that three hit
+  scan.ranges_m = {0.7, 0.5, 0.7, 0.5, 0.5};
   map.update(scan);
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({5, 0})), 0.85F);
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({1, 0})), -0.40F);

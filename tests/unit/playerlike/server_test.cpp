@@ -110,8 +110,8 @@ class WordHandler final : public Handler {
           find_interface(client_->session().robots(), 6665, "position2d", 0).reading});
       peer_.send("joined\n");
     } else if (word == "read") {
-      const auto thinker = hub_.thinker("test", static_cast<std::uint64_t>(number));
-      if (client_->begin_wait(thinker) != EventClient::Outcome::kWaiting) return answer_wait();
+      const auto thread_id = hub_.thread_id("test", static_cast<std::uint64_t>(number));
+      if (client_->begin_wait(thread_id) != EventClient::Outcome::kWaiting) return answer_wait();
       hub_.pump();
     } else if (word == "quit") {
       hub_.quit();
@@ -584,8 +584,8 @@ TEST_F(ServerTest, HandlersMayAllowSilence) {
   }
   RawClient stream("127.0.0.1", std::stoi(opened.substr(5)));
   RawClient silent = connect();
-  EXPECT_EQ(silent.rest(),
-            "closed: server/first-request\n");  // the time has also passed for all others
+  // the time has also passed for all others
+  EXPECT_EQ(silent.rest(), "closed: server/first-request\n");
   stream.send("echo 1\n");
   EXPECT_EQ(stream.line(), "echo 1");
 }

@@ -178,8 +178,8 @@ TEST(CarDrive, GetsTheTurnRateThatItIsToldByItsSteering) {
   command(simulation, TwistCommand{{0.0, 0.8, 0.0}});  // it cannot turn on the spot either
   run(simulation, 1.0);
   EXPECT_EQ(simulation.body(0).twist, Twist{});
-  command(simulation,
-          TwistCommand{{0.1, 3.0, 0.0}});  // the maximum turn rate is 0.1 tan(0.5) / 0.5
+  // the maximum turn rate is 0.1 tan(0.5) / 0.5
+  command(simulation, TwistCommand{{0.1, 3.0, 0.0}});
   run(simulation, 1.0);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.1 * std::tan(0.5) / 0.5, 1e-9);
 }

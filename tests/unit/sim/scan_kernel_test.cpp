@@ -245,8 +245,8 @@ TEST(ScanKernelTest, TellsTheSideOfACornerBeyondSinglePrecision) {
   for (int i = 0; i < 1000; ++i) {
     const double yaw_rad = random.uniform(-kPi, kPi);
     const double corner_rad = kHokuyo.angle_rad(static_cast<int>(random.uniform(0, 682))) + yaw_rad;
-    const double other_rad =
-        corner_rad + (i % 2 == 0 ? 0.004 : -0.004);  // closer than the next beam
+    // closer than the next beam
+    const double other_rad = corner_rad + (i % 2 == 0 ? 0.004 : -0.004);
     const float x = static_cast<float>(2.0 * std::cos(corner_rad));
     const float y = static_cast<float>(2.0 * std::sin(corner_rad));
     const float other_x = static_cast<float>(2.0 * std::cos(other_rad));

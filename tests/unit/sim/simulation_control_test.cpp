@@ -169,8 +169,8 @@ TEST(Waypoint, HasArrivedAtOnceWhereTheGoalIsNearEnough) {
   simulation.step();
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kArrived);
   EXPECT_EQ(waypoint(simulation).goal_number(), 1U);
-  EXPECT_EQ(simulation.body(0).X_WB,
-            (Pose{1.0, 2.0, 0.0}));  // the goal has replaced the command, too
+  // the goal has replaced the command, too
+  EXPECT_EQ(simulation.body(0).X_WB, (Pose{1.0, 2.0, 0.0}));
 }
 
 TEST(Waypoint, StopsAndGoesOn) {

@@ -401,8 +401,8 @@ std::uint64_t hash_after_random_drive(WorldDescription world, int steps) {
   for (int i = 0; i < steps; ++i) {
     if (i % 37 == 0) {
       for (int r = 0; r < simulation.robot_count(); ++r) {
-        const double v =
-            0.5 * uniform();  // in this order, because the order of arguments is unspecified
+        // in this order, because the order of arguments is unspecified
+        const double v = 0.5 * uniform();
         drive(simulation, v, 3.0 * uniform(), r);
       }
     }

@@ -323,8 +323,8 @@ TEST(Ptz, StopsAtItsLimits) {
   EXPECT_NEAR(reading.pan_rad, 30.0 * kDegrees, 1e-12);
   EXPECT_NEAR(reading.tilt_rad, 25.0 * kDegrees, 1e-12);
   EXPECT_NEAR(reading.view_rad, 20.0 * kDegrees, 1e-12);
-  command(simulation,
-          PointCommand{0.0, 0.0, 0.0, 0.1});  // a field of view of 0 is invalid: it stays unchanged
+  // a field of view of 0 is invalid: it stays unchanged
+  command(simulation, PointCommand{0.0, 0.0, 0.0, 0.1});
   run(simulation, 100);
   EXPECT_NEAR(reading.pan_rad, 30.0 * kDegrees - 0.1, 1e-9);  // at 0.1 rad/s
   EXPECT_NEAR(reading.view_rad, 20.0 * kDegrees, 1e-12);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Waits for time to pass, and for what others send: sleeps, descriptors, signals, queues.
+// Waits for time and for input from elsewhere: sleeps, descriptors, signals, queues.
 #include <fcntl.h>
 #include <limits.h>
 #include <mqueue.h>
@@ -15,12 +15,12 @@
 
 #include "virtual_time/preload/common.h"
 
-// What stands in for the C library's functions has to lie in the global namespace.
+// Functions that replace the C library's must be in the global namespace.
 using namespace playerlike::preload;  // NOLINT(google-build-using-namespace)
 
 namespace {
 
-// How long a wait for what no thread of the program brings sleeps before it looks again.
+// Polling period of waits for events from outside of the program.
 constexpr long long kSlice_ns = 10'000'000;
 
 NEXT(sleep);
@@ -49,11 +49,11 @@ bool no_descriptors(int count, const fd_set* read, const fd_set* write, const fd
   return true;
 }
 
-/// For what no thread of the program brings: looks every so often, in simulated time.
-/// @param left_ns  how long.
-/// @param look     >= 0: the result.
-/// @return the result; -1: there was none in this time; -2: the rest is to be waited for real;
-///         -3: a signal came.
+/// Polls, in simulated time, for an event from outside of the program.
+/// @param left_ns  time limit.
+/// @param look     polls; >= 0: the result.
+/// @return the result; -1: time limit; -2: the rest must be waited in real time; -3: a signal
+/// arrived.
 template <typename Look>
 int wait_by_looking(long long& left_ns, const void* caller, Look look) {
   for (;;) {
@@ -68,7 +68,7 @@ int wait_by_looking(long long& left_ns, const void* caller, Look look) {
   }
 }
 
-/// @return as nanosleep(), in `result`; false: it is to be done for real.
+/// Sleeps like nanosleep(). @return false if the sleep must be real; otherwise `result` is set.
 bool sleep_with_rest(long long duration_ns, timespec* rest, const void* caller, int& result) {
   long long left_ns = 0;
   const Slept slept = sleep_cancellably(duration_ns, caller, left_ns);
@@ -78,8 +78,8 @@ bool sleep_with_rest(long long duration_ns, timespec* rest, const void* caller, 
   return true;
 }
 
-/// Whether a program that waits for these waits for a key: all are its standard input or a
-/// terminal. Its wait is simulated time then. What others send takes the time it takes.
+/// Tells whether a program waits for a key: all descriptors are standard input or terminals. Such a
+/// wait takes simulated time. Input from elsewhere takes real time.
 class Keys {
  public:
   void add(int descriptor) {
@@ -97,8 +97,8 @@ class Keys {
   bool only_ = true;
 };
 
-/// poll() by another name.
-/// @param again  with another time-out [ns], < 0: for ever.
+/// Implements the variants of poll().
+/// @param again  the real function, with another timeout [ns]; < 0: none.
 template <typename Again>
 int poll_from(const pollfd* descriptors, nfds_t count, long long timeout_ns, const void* caller,
               Again again) {
@@ -131,7 +131,8 @@ int poll_ms(long long timeout_ns) {
   return whole_ms > INT_MAX ? INT_MAX : static_cast<int>(whole_ms);
 }
 
-/// select() by another name; the same.
+/// Implements the variants of select().
+/// @param again  the real function, with another timeout [ns]; < 0: none.
 template <typename Again>
 int select_from(int count, fd_set* read, fd_set* write, fd_set* except, long long timeout_ns,
                 const void* caller, Again again) {
@@ -213,7 +214,7 @@ EXPORTED unsigned sleep(unsigned seconds) {
     case Slept::kYes:
       return 0;
     default:
-      // Rounded, but never to nothing: it was interrupted.
+      // Rounded, but at least 1, since the sleep was interrupted.
       return left_ns < kSecond_ns ? 1U
                                   : static_cast<unsigned>((left_ns + kSecond_ns / 2) / kSecond_ns);
   }
@@ -239,7 +240,7 @@ EXPORTED int select(int count, fd_set* read, fd_set* write, fd_set* except, time
     return next_select(count, read, write, except, timeout);
   }
   const long long timeout_ns = timeout->tv_sec * kSecond_ns + timeout->tv_usec * 1'000LL;
-  // What is left of it, as Linux has it.
+  // Linux stores the remaining time in `timeout`.
   return select_from(count, read, write, except, timeout_ns, CALLER, [&](long long again_ns) {
     *timeout = {again_ns / kSecond_ns, again_ns % kSecond_ns / 1'000};
     return next_select(count, read, write, except, timeout);
@@ -275,7 +276,7 @@ EXPORTED int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout,
   });
 }
 
-// What poll and ppoll are in programs built with _FORTIFY_SOURCE.
+// poll and ppoll of programs that were built with _FORTIFY_SOURCE.
 // NOLINTBEGIN(readability-identifier-naming): the C library's names
 EXPORTED int __poll_chk(pollfd* descriptors, nfds_t count, int timeout_ms, std::size_t size) {
   return poll_from(descriptors, count, timeout_ms * 1'000'000LL, CALLER, [&](long long again_ns) {
@@ -297,7 +298,7 @@ EXPORTED int __ppoll_chk(pollfd* descriptors, nfds_t count, const timespec* time
 
 namespace {
 
-/// Whether nothing is registered with an epoll: waiting for it is sleeping.
+/// Whether an epoll has no descriptors, so that waiting for it is a sleep.
 bool watches_nothing(int epoll) {
   char path[] = "/proc/self/fdinfo/0000000000";
   char* end = path + sizeof "/proc/self/fdinfo/" - 1;
@@ -363,7 +364,7 @@ EXPORTED int sigtimedwait(const sigset_t* __restrict set, siginfo_t* __restrict 
 
 namespace {
 
-/// @param attempt  a call with a deadline that has passed, or with another one.
+/// @param attempt  the call, with a deadline that has passed or with another one.
 template <typename Result, typename Attempt>
 Result wait_for_queue(const timespec* deadline, const void* caller, Attempt attempt) {
   const Deadline end = deadline_of(deadline, CLOCK_REALTIME, caller);
