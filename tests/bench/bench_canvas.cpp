@@ -162,7 +162,7 @@ void print_window_figures() {
   CCMorse::WindowProxy& window = CCMorse::WindowProxy::GetInstance(&client, kWidth, kHeight);
   CCMorse::GridMapLayer& layer = window.CreateLayer("layer");
   CCMorse::GridMapLayer& grey = window.CreateLayer("grey", CCMorse::GridMapLayer::GREY);
-  // Every cell once, and a look, so that all drawings are carried out.
+  // Every cell once, and a look, so that all drawings are executed.
   const auto draw_all = [](CCMorse::Drawing& drawing) {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) drawing.SetPixel(x, y, x, y, 80);

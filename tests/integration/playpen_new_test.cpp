@@ -47,7 +47,7 @@ std::vector<std::string> commands_of(const std::string& text) {
   return commands;
 }
 
-/// Makes a project in "my robot" of a folder and carries out what it prints, but for grading.
+/// Makes a project in "my robot" of a folder and runs the commands that it prints, except grading.
 void build_and_run(const std::string& kind, const std::string& result) {
   const TemporaryFolder folder;
   const ProcessOptions options = in(folder / ".");

@@ -42,7 +42,7 @@ struct FakeWorld {
   std::map<int, bool> replace;       ///< device number (-1: all) -> rule
   std::vector<std::string> real_time_reasons;
   bool closed = false;
-  std::size_t drawn = 0;  ///< drawings carried out
+  std::size_t drawn = 0;  ///< drawings executed
   int cell_calls = 0;     ///< of draw_cells()
   int flushes = 0;
   sim::LayerStack layers{sim::CanvasDescription{}};
@@ -208,7 +208,7 @@ class FakeSession final : public playerlike::Session {
   void close() noexcept override {
     const std::lock_guard lock(world_->mutex);
     world_->closed = true;
-    carry_out_drawings();
+    execute_drawings();
     queue_.close();
     world_->book.leave(number_);
     world_->changed.notify_all();
@@ -364,7 +364,7 @@ class FakeSession final : public playerlike::Session {
   }
 
   // With the world's mutex held.
-  void carry_out_drawings() {
+  void execute_drawings() {
     queue_.drain([this](std::span<const sim::DrawOperation> operations) {
       world_->drawn += operations.size();
       world_->layers.draw(operations);
@@ -375,7 +375,7 @@ class FakeSession final : public playerlike::Session {
       Action action) {
     const std::lock_guard lock(world_->mutex);
     require_open();
-    carry_out_drawings();
+    execute_drawings();
     return action(world_->layers, world_->book);
   }
 

@@ -80,7 +80,7 @@ class FakeViewer {
     std::string bytes;
     if (!read(sizeof frame.header, bytes)) return std::nullopt;
     std::memcpy(&frame.header, bytes.data(), sizeof frame.header);
-    if (!playerlike::view::is_sound(frame.header)) throw std::runtime_error("an unsound frame");
+    if (!playerlike::view::is_valid(frame.header)) throw std::runtime_error("an invalid frame");
     if (!read(playerlike::view::body_bytes(frame.header), bytes)) return std::nullopt;
     frame.text = bytes.substr(bytes.size() - frame.header.text_bytes);
     bytes.resize(bytes.size() - frame.header.text_bytes);

@@ -94,7 +94,7 @@ std::vector<par::Point> within(double reach, const std::vector<par::Point>& poin
 
 double clamp(double value, double low, double high) { return std::max(low, std::min(high, value)); }
 
-bool stirs(const par::Velocity& command) {
+bool is_moving(const par::Velocity& command) {
   return command.forward_mps != 0.0 || command.turn_radps != 0.0;
 }
 
@@ -138,7 +138,7 @@ par::Velocity mostLike(const par::Velocity& wanted, double now, const Surroundin
     const par::Velocity command = {v, clamp(w, -MAX_TURN, MAX_TURN)};
     const double price = std::fabs(v - forward) / MAX_SPEED +
                          0.5 * std::fabs(command.turn_radps - wanted.turn_radps) / MAX_TURN;
-    if (stirs(command)) choices.push_back({command, price});
+    if (is_moving(command)) choices.push_back({command, price});
   };
   for (const double v : {forward, 0.6 * forward, 0.3 * forward, 0.0, std::min(limit, 0.08)}) {
     for (const double off : {0.0, 0.4, -0.4, 0.9, -0.9, 1.6, -1.6}) {
@@ -179,13 +179,13 @@ par::Velocity CGuard::check(const par::Velocity& wanted, const Surroundings& aro
   gettingOut = now < (gettingOut ? ENOUGH : TIGHT);
   if (gettingOut) {
     const par::Velocity out = getOut(now, near);
-    if (stirs(out)) return out;
+    if (is_moving(out)) return out;
     gettingOut = false;
   }
   const par::Velocity most = mostLike(wanted, now, near);
-  if (stirs(most) || now >= ENOUGH) return most;
+  if (is_moving(most) || now >= ENOUGH) return most;
   // There is a little room, but not enough for what it wants, such as to turn on the spot.
   const par::Velocity out = getOut(now, near);
-  gettingOut = stirs(out);
+  gettingOut = is_moving(out);
   return out;
 }

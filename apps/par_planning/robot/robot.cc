@@ -120,7 +120,7 @@ bool CRobot::navigation() {
                     << " m with " << smoothed.cells.size() << " turning points");
   if (!isOfWorld) {
     INFO("The map is not one of this world, so the robot stays where it is");
-    client->Read();  // lets the drawings be carried out
+    client->Read();  // executes the drawings
     return true;
   }
   return drive(smoothed);

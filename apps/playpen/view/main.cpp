@@ -60,7 +60,7 @@ class FrameReader {
       if (count <= 0) throw EndOfRun{};
       got_ += static_cast<std::size_t>(count);
       if (in_header && got_ == sizeof header_) {
-        if (!view::is_sound(header_)) throw EndOfRun{};
+        if (!view::is_valid(header_)) throw EndOfRun{};
         body_.resize(view::body_bytes(header_));
       }
     }

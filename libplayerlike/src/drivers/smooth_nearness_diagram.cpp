@@ -28,10 +28,10 @@ constexpr double kHorizon_m = 3.0;
 constexpr double kMargin_m = 0.01;
 // A turn by a radian counts as so much of a way.
 constexpr double kTurnCost_m = 0.1;
-// How much longer a way through another gap may be than through the one chosen last.
-constexpr double kLoyalty_m = 1.0;
-// How much of that goes for each metre by which the way through it has become longer since.
-constexpr double kDisappointment = 2.0;
+// Hysteresis: another gap is chosen only if the path through it is shorter by this.
+constexpr double kGapHysteresis_m = 1.0;
+// The hysteresis shrinks by this for each metre by which the chosen path has become longer.
+constexpr double kDetourPenalty = 2.0;
 // A gap this near to where the one chosen last was is the same.
 constexpr double kSameGap_m = 0.3;
 // Coming nearer by less than this is no progress.
@@ -265,10 +265,10 @@ double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::V
   for (const Gap& gap : gaps) {
     const double way_m = (gap.p_WG - X_WB.position()).norm() + (goal_.position - gap.p_WG).norm();
     double cost_m = way_m + kTurnCost_m * std::abs(gap.bearing_rad);
-    // Loyal to the gap chosen last, but not as it leads further and further away: the side of a
-    // round thing recedes for ever.
+    // Hysteresis keeps the gap chosen last. It shrinks while that gap recedes: the side of a round
+    // obstacle recedes for ever.
     const bool same = p_WG_ && (gap.p_WG - *p_WG_).norm() < kSameGap_m;
-    if (same) cost_m -= std::max(0.0, kLoyalty_m - kDisappointment * (way_m - least_way_m_));
+    if (same) cost_m -= std::max(0.0, kGapHysteresis_m - kDetourPenalty * (way_m - least_way_m_));
     if (cost_m >= best_cost_m) continue;
     best = &gap;
     best_cost_m = cost_m;

@@ -27,12 +27,12 @@ bool same_size(const sim::CanvasDescription& a, const sim::CanvasDescription& b)
 // A thread that takes the mutex again at once would keep it from those who sleep in wait for it.
 void Host::Core::let_others_in() const {
   std::this_thread::sleep_for(std::chrono::microseconds(50));
-  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+  while (priority_waiters_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
 }
 
 bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
   {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     client.require_open();
     if (!std::exchange(work.begun, true)) {
       inputs_.apply_drawings(client);
@@ -140,7 +140,7 @@ void Host::Core::resize_canvas(Client& client, int width, int height) {
   });
   const auto cells = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   for (std::size_t i = 0; i < size; ++i) memory.emplace_back(4 * cells, std::uint8_t{0});
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.require_open();
   // What others have drawn was meant for the cells as they were numbered then.
   for (const auto& c : clients_) inputs_.apply_drawings(*c);

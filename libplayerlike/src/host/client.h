@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "host/idle_calls.h"
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "playerlike/session/draw_queue.h"
 #include "playerlike/session/session.h"
 #include "sim/core/time.h"
@@ -44,7 +44,7 @@ struct Client {
   bool follower = false;  ///< see Session::open_follower()
   /// Of a server, which sees itself to what its clients may read.
   bool served = false;
-  ThinkerId creator = 0;                    ///< who connected it
+  ThreadId creator = 0;                     ///< who connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
@@ -52,7 +52,7 @@ struct Client {
   sim::SimTime empty_round_ns = 0;  ///< without subscriptions: when the next round is over
   int looks = 0;                    ///< peek(0) calls in a row
 
-  ThinkerId owner = 0;      ///< who last waited; 0: nobody
+  ThreadId owner = 0;       ///< who last waited; 0: nobody
   bool joined = false;      ///< takes part in the lockstep
   bool silent = false;      ///< thought for too long: does not count until it waits again
   bool waiting = false;     ///< its owner waits, and nothing has ended that yet

@@ -27,7 +27,7 @@ std::shared_ptr<Client> Clients::add(int port, bool follower, std::function<void
   client->number = next_number_++;
   client->port = port;
   client->follower = follower;
-  client->creator = this_thinker();
+  client->creator = this_thread_id();
   client->touch();
   begin_round(*client);
   // Most often it is the last, so the search begins there. In virtual time threads may begin at the

@@ -57,7 +57,7 @@ Host::Core::~Core() { stop(); }
 
 void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
-  const Lock lock = lock_soon();  // the window's thread may look already
+  const Lock lock = lock_with_priority();  // the window's thread may look already
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -73,20 +73,20 @@ void Host::Core::stop() noexcept {
   if (pacer_.joinable() && pacer_.get_id() != std::this_thread::get_id()) pacer_.join();
 }
 
-Host::Core::Lock Host::Core::lock_soon() const {
-  knocking_.fetch_add(1);
+Host::Core::Lock Host::Core::lock_with_priority() const {
+  priority_waiters_.fetch_add(1);
   Lock lock(mutex_);
-  knocking_.fetch_sub(1);
+  priority_waiters_.fetch_sub(1);
   return lock;
 }
 
-Host::Core::Lock Host::Core::lock_politely() const {
-  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+Host::Core::Lock Host::Core::lock_for_stepping() const {
+  while (priority_waiters_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
   return Lock(mutex_);
 }
 
 void Host::Core::give_way(Lock& lock) const {
-  if (knocking_.load(std::memory_order_relaxed) == 0) return;
+  if (priority_waiters_.load(std::memory_order_relaxed) == 0) return;
   lock.unlock();
   std::this_thread::yield();
   lock.lock();
@@ -96,14 +96,14 @@ void Host::Core::give_way(Lock& lock) const {
 
 std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
                                                std::function<void()> notify) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   auto client = clients_.add(port, follower, std::move(notify));
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
 
 void Host::Core::remove_client(Client& client) noexcept {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   if (client.closed.exchange(true)) return;
   // What it asked for last still happens.
   if (!ended_) inputs_.apply(client);
@@ -114,29 +114,29 @@ void Host::Core::remove_client(Client& client) noexcept {
   changed_.notify_all();
 }
 
-void Host::Core::thinker_ended(ThinkerId thinker) noexcept {
-  if (turns_ && thinker == this_thinker() && virtual_time::process_ends()) return;
-  const Lock lock = lock_soon();
-  lockstep_.forget(thinker);
-  if (turns_) Turns::instance().remove(thinker);
+void Host::Core::thread_ended(ThreadId thread_id) noexcept {
+  if (turns_ && thread_id == this_thread_id() && virtual_time::process_ends()) return;
+  const Lock lock = lock_with_priority();
+  lockstep_.forget(thread_id);
+  if (turns_) Turns::instance().remove(thread_id);
   changed_.notify_all();
 }
 
-void Host::Core::adopt(Client& client, ThinkerId thinker) {
+void Host::Core::adopt(Client& client, ThreadId thread_id) {
   client.require_open();
   if (!turns_) client.touch();  // else it is known when the thread's turn began
-  lockstep_.adopt(client, thinker);
+  lockstep_.adopt(client, thread_id);
 }
 
-void Host::Core::join(Client& client, ThinkerId thinker) {
-  const Lock lock = lock_soon();
-  adopt(client, thinker);
+void Host::Core::join(Client& client, ThreadId thread_id) {
+  const Lock lock = lock_with_priority();
+  adopt(client, thread_id);
   if (in_turns()) static_cast<void>(Turns::instance().self());
   changed_.notify_all();  // the start gate may have waited for it
 }
 
 void Host::Core::subscribe(Client& client, DeviceId device) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.require_open();
   require_readable(client, device.robot);
   clients_.subscribe(client, device);
@@ -171,7 +171,7 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   }
   if (look) check_standing_time(client);
   if (!full) return;
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   inputs_.apply(client);
 }
 
@@ -192,15 +192,15 @@ void Host::Core::note_looks(Client& client, int count, bool has_data) {
 }
 
 void Host::Core::check_standing_time(Client& client) {
-  const Lock lock = lock_soon();
-  const ThinkerId self = this_thinker();
+  const Lock lock = lock_with_priority();
+  const ThreadId self = this_thread_id();
   const bool others =
       in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
   standing_time_.check(client, simulation_.now_ns(), paced() || over() || others);
 }
 
 void Host::Core::note_program_ends(int status) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   results_.program_status = status;
   standing_time_.dismiss_alarm();
   // A program that gives up because of an error knows why.
@@ -225,7 +225,7 @@ bool Host::Core::wait_is_over(const Client& client) const {
 
 void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
                             std::optional<sim::SimTime> wake_ns) {
-  adopt(client, this_thinker());
+  adopt(client, this_thread_id());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   if (in_turns()) clock_->wait_for_turn(lock, client);
@@ -260,7 +260,7 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
 }
 
 void Host::Core::wait(Client& client) {
-  Lock lock = lock_politely();
+  Lock lock = lock_for_stepping();
   wait_until(lock, client, /*wants_data=*/true, std::nullopt);
   if (client.has_data) return;
   end_told_ = true;
@@ -283,11 +283,11 @@ int Host::Core::take(Client& client, ReadingSink& sink) {
 }
 
 bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
-  Lock lock = lock_politely();
+  Lock lock = lock_for_stepping();
   client.require_open();
   if (client.has_data || over()) return true;
   if (paced()) {
-    adopt(client, this_thinker());
+    adopt(client, this_thread_id());
     client.wants_data = true;
     client.wake_ns.reset();
     client.waiting = true;
@@ -315,9 +315,9 @@ void Host::Core::sleep(Client& client, double duration_s) {
 
 // --- Event clients
 
-EventClient::Outcome Host::Core::begin(Client& client, ThinkerId thinker, bool wants_data,
+EventClient::Outcome Host::Core::begin(Client& client, ThreadId thread_id, bool wants_data,
                                        std::optional<sim::SimTime> wake_ns) {
-  adopt(client, thinker);
+  adopt(client, thread_id);
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   client.waiting = !wait_is_over(client);
@@ -325,33 +325,33 @@ EventClient::Outcome Host::Core::begin(Client& client, ThinkerId thinker, bool w
   return outcome(client);
 }
 
-EventClient::Outcome Host::Core::begin_wait(Client& client, ThinkerId thinker) {
-  const Lock lock = lock_soon();
-  return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+EventClient::Outcome Host::Core::begin_wait(Client& client, ThreadId thread_id) {
+  const Lock lock = lock_with_priority();
+  return begin(client, thread_id, /*wants_data=*/true, std::nullopt);
 }
 
-EventClient::Outcome Host::Core::begin_peek(Client& client, ThinkerId thinker,
+EventClient::Outcome Host::Core::begin_peek(Client& client, ThreadId thread_id,
                                             std::chrono::milliseconds timeout) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.require_open();
   client.wants_data = true;
   client.wake_ns = simulation_.now_ns();  // over at once, unless decided otherwise below
   if (client.has_data || over()) return outcome(client);
   if (paced()) {
     if (timeout.count() == 0) {
-      adopt(client, thinker);
+      adopt(client, thread_id);
       return outcome(client);
     }
-    return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+    return begin(client, thread_id, /*wants_data=*/true, std::nullopt);
   }
   if (timeout.count() == 0 && ++client.looks < 2) return outcome(client);
-  return begin(client, thinker, /*wants_data=*/true, end_of_peek(timeout));
+  return begin(client, thread_id, /*wants_data=*/true, end_of_peek(timeout));
 }
 
-EventClient::Outcome Host::Core::begin_sleep(Client& client, ThinkerId thinker, double seconds) {
+EventClient::Outcome Host::Core::begin_sleep(Client& client, ThreadId thread_id, double seconds) {
   require_duration(seconds);
-  const Lock lock = lock_soon();
-  return begin(client, thinker, /*wants_data=*/false,
+  const Lock lock = lock_with_priority();
+  return begin(client, thread_id, /*wants_data=*/false,
                simulation_.now_ns() + sim::from_seconds(seconds));
 }
 
@@ -365,12 +365,12 @@ EventClient::Outcome Host::Core::outcome(const Client& client) const {
 }
 
 EventClient::Outcome Host::Core::outcome_of(const Client& client) const {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   return outcome(client);
 }
 
 void Host::Core::cancel_wait(Client& client) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.waiting = false;
   client.wants_data = false;
   client.wake_ns.reset();
@@ -378,27 +378,27 @@ void Host::Core::cancel_wait(Client& client) {
 }
 
 bool Host::Core::advance_for(std::chrono::microseconds slice) {
-  Lock lock = lock_soon();
+  Lock lock = lock_with_priority();
   if (in_turns() || !may_advance()) return false;
   const auto end = WallClock::now() + slice;
   do {
     advance();
     if (!may_advance()) return false;
     // Others want a word.
-    if (knocking_.load(std::memory_order_relaxed) > 0) return true;
+    if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
   } while (WallClock::now() < end);
   return true;
 }
 
 void Host::Core::check_silence() {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   // Nobody waits in vain while time goes on by itself, or while there is nobody for whom it would.
   if (paced() || over()) return;
   if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
 }
 
 AlarmId Host::Core::set_alarm(Alarm alarm) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   const AlarmId number = alarms_.set(std::move(alarm));
   alarms_.ring(simulation_, over());
   changed_.notify_all();  // lockstep time may go on for it
@@ -443,7 +443,7 @@ bool Host::Core::release_waiters() {
     if (client->notify) {
       client->notify();
     } else {
-      released = released || client->owner != this_thinker();
+      released = released || client->owner != this_thread_id();
     }
   }
   if (released) changed_.notify_all();
@@ -454,7 +454,7 @@ bool Host::Core::release_waiters() {
 // --- Pacing
 
 std::optional<std::string> Host::Core::set_time_factor(double factor) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   if (!paced()) {
     return "time has no speed in lockstep: it goes on when all clients wait";
   }
@@ -467,13 +467,13 @@ std::optional<std::string> Host::Core::set_time_factor(double factor) {
 }
 
 void Host::Core::change_step_limit(const std::function<void(Pace&)>& change) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   change(pace_);
   changed_.notify_all();
 }
 
 void Host::Core::prefer_real_time(const std::string& reason) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   if (in_turns()) {
     // The caller's sleeps are part of the lockstep, from now on.
     Turns::instance().self().starts_background = true;
@@ -546,7 +546,7 @@ void Host::Core::wait_while_paused(Lock& lock) {
 
 void Host::Core::finish() noexcept {
   try {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     standing_time_.dismiss_alarm();
     ended_by_program_ = true;
     if (!ended_) {

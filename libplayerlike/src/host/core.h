@@ -57,8 +57,8 @@ class Host::Core {
   std::shared_ptr<Client> add_client(int port, bool follower = false,
                                      std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
-  void thinker_ended(ThinkerId thinker) noexcept;
-  void join(Client& client, ThinkerId thinker);
+  void thread_ended(ThreadId thread_id) noexcept;
+  void join(Client& client, ThreadId thread_id);
 
   /// What a client asks for; in requests.cpp.
   Answer answer(Client& client, const Request& request);
@@ -70,10 +70,10 @@ class Host::Core {
   void sleep(Client& client, double seconds);
 
   // The same for event clients; see EventClient and Host.
-  EventClient::Outcome begin_wait(Client& client, ThinkerId thinker);
-  EventClient::Outcome begin_peek(Client& client, ThinkerId thinker,
+  EventClient::Outcome begin_wait(Client& client, ThreadId thread_id);
+  EventClient::Outcome begin_peek(Client& client, ThreadId thread_id,
                                   std::chrono::milliseconds timeout);
-  EventClient::Outcome begin_sleep(Client& client, ThinkerId thinker, double seconds);
+  EventClient::Outcome begin_sleep(Client& client, ThreadId thread_id, double seconds);
   EventClient::Outcome outcome_of(const Client& client) const;
   void cancel_wait(Client& client);
   bool advance_for(std::chrono::microseconds slice);
@@ -82,7 +82,7 @@ class Host::Core {
   /// Calls action() with the lock held.
   template <typename Action>
   auto locked(Action action) const {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     return action();
   }
   void change_step_limit(const std::function<void(Pace&)>& change);
@@ -93,7 +93,7 @@ class Host::Core {
   /// action(layers, book) under the mutex.
   template <typename Action>
   auto with_layers(Client& client, Action action) {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     client.require_open();
     inputs_.apply_drawings(client);
     return action(simulation_.layers(), inputs_.book);
@@ -124,14 +124,14 @@ class Host::Core {
   friend class Host;
   struct RequestHandler;
 
-  /// A lock for calls that must not starve behind a thread that steps without pause.
-  [[nodiscard]] Lock lock_soon() const;
-  /// A lock for calls that let time pass: threads that only want a quick word go first.
-  [[nodiscard]] Lock lock_politely() const;
-  /// Lets those in that want a quick word.
+  /// Locks the mutex for a short call; a thread that steps the simulation lets it in first.
+  [[nodiscard]] Lock lock_with_priority() const;
+  /// Locks the mutex for a call that steps the simulation; callers with priority go first.
+  [[nodiscard]] Lock lock_for_stepping() const;
+  /// Releases the mutex until all callers with priority have had it.
   void give_way(Lock& lock) const;
   void let_others_in() const;
-  void adopt(Client& client, ThinkerId thinker);
+  void adopt(Client& client, ThreadId thread_id);
   [[nodiscard]] bool over() const { return ended_ || simulation_.finished(); }
   [[nodiscard]] bool paced() const { return pace_.by_wall_clock(); }
   [[nodiscard]] bool in_turns() const noexcept {
@@ -162,7 +162,7 @@ class Host::Core {
   [[nodiscard]] bool may_advance(bool all_wait_still = false);
   void wait_for_others(Lock& lock, const Client& client);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
-  EventClient::Outcome begin(Client& client, ThinkerId thinker, bool wants_data,
+  EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
   /// When a peek of lockstep that begins now is over.
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
@@ -192,8 +192,8 @@ class Host::Core {
   const sim::SimTime step_ns_;
   const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
   mutable std::mutex own_mutex_;
-  std::mutex& mutex_;                     ///< its own, or that of those who take turns
-  mutable std::atomic<int> knocking_{0};  ///< threads in lock_soon()
+  std::mutex& mutex_;                             ///< its own, or that of those who take turns
+  mutable std::atomic<int> priority_waiters_{0};  ///< threads in lock_with_priority()
   std::condition_variable changed_;
   std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
   std::atomic<std::uint64_t> canvas_generation_{0};

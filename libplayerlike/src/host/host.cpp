@@ -58,7 +58,9 @@ void Host::note_end_request(int signal) {
     if (request == 0) request = signal;
   });
 }
-void Host::thinker_ended(ThinkerId thinker) noexcept { InsideCore(*core_)->thinker_ended(thinker); }
+void Host::thread_ended(ThreadId thread_id) noexcept {
+  InsideCore(*core_)->thread_ended(thread_id);
+}
 AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm)); }
 bool Host::cancel_alarm(AlarmId alarm) {
   return core_->locked([&] { return core_->alarms_.cancel(alarm); });

@@ -19,7 +19,7 @@ void InProcessSession::note_wait() const {
   // Nobody is to wait for a thread that has ended.
   if (ThreadEnd* const end = ThreadEnd::mine()) {
     end->say_goodbye(host_,
-                     [](void* host) { static_cast<Host*>(host)->thinker_ended(this_thinker()); });
+                     [](void* host) { static_cast<Host*>(host)->thread_ended(this_thread_id()); });
   }
   // Drivers are Playpen's own.
   if (client_->follower || !virtual_time::active()) return;

@@ -21,9 +21,9 @@ class Lockstep {
   Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn);
 
   /// The client waits, by this thread; from now on it takes part.
-  void adopt(Client& client, ThinkerId thinker);
+  void adopt(Client& client, ThreadId thread_id);
   /// A thread has ended: nobody waits for its clients.
-  void forget(ThinkerId thinker) noexcept;
+  void forget(ThreadId thread_id) noexcept;
 
   [[nodiscard]] bool gate_open();
   /// Whether a program is there for which time may go on.
@@ -32,18 +32,18 @@ class Lockstep {
   /// Whether all who take part wait.
   [[nodiscard]] bool all_wait() const;
   /// Whether a client of another thread than this one may come to let time pass.
-  [[nodiscard]] bool others_may_wait(ThinkerId thinker);
+  [[nodiscard]] bool others_may_wait(ThreadId thread_id);
 
   /// When it is to be looked whether a client has been silent for too long, if nothing changes.
   [[nodiscard]] WallClock::time_point silence_deadline(WallClock::time_point now) const;
   /// Says for whom the others wait, and no longer waits for those who have been silent too long.
   void note_silence(WallClock::time_point now);
   /// In virtual time: a thread has been silent for too long.
-  void note_silent_thread(ThinkerId thinker) const;
+  void note_silent_thread(ThreadId thread_id) const;
   /// How long a thread may think.
   [[nodiscard]] WallClock::duration silence_limit() const;
   /// When a thread was last seen by its clients, or `seen` if that is later.
-  [[nodiscard]] WallClock::time_point last_seen(ThinkerId thinker,
+  [[nodiscard]] WallClock::time_point last_seen(ThreadId thread_id,
                                                 WallClock::time_point seen) const;
 
   /// Whether the others have gone on without a client.
@@ -63,9 +63,9 @@ class Lockstep {
   bool gate_opened_ = false;
   WallClock::time_point gate_told_ = WallClock::now();  ///< when it was last said who is missing
   bool silence_noted_ = false;
-  ThinkerId first_owner_ = 0;               ///< who waited first, and ...
-  bool several_owners_ = false;             ///< ... whether another one has
-  mutable std::vector<ThinkerId> waiting_;  ///< of all_wait()
+  ThreadId first_owner_ = 0;               ///< who waited first, and ...
+  bool several_owners_ = false;            ///< ... whether another one has
+  mutable std::vector<ThreadId> waiting_;  ///< of all_wait()
 };
 
 }  // namespace playerlike

@@ -67,15 +67,15 @@ struct Host::Core::RequestHandler {
     core.locked([&] { core.clients_.unsubscribe(client, what.device); });
   }
   void operator()(const ReplaceRequest& what) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     client.require_open();
     core.clients_.set_replace(client, what.device, what.replace);
   }
   std::uint32_t operator()(const OverflowRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     return client.overflow;
   }
-  void operator()(const JoinRequest&) const { core.join(client, this_thinker()); }
+  void operator()(const JoinRequest&) const { core.join(client, this_thread_id()); }
   void operator()(const SleepRequest& what) const { core.sleep(client, what.seconds); }
   TimeStatistics operator()(const TimeRequest&) const {
     return core.locked([this] { return core.time_locked(); });
@@ -91,7 +91,7 @@ struct Host::Core::RequestHandler {
   // --- The canvas
 
   void operator()(const FlushDrawingsRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     client.require_open();
     client.touch();
     core.inputs_.apply_drawings(client);
@@ -139,7 +139,7 @@ struct Host::Core::RequestHandler {
     return {std::move(rgba), info_of(canvas)};
   }
   CanvasInfo operator()(const CanvasInfoRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     return info_of(core.simulation_.layers().description());
   }
   CanvasInfo operator()(const ResizeCanvasRequest& what) const {
@@ -176,11 +176,11 @@ struct Host::Core::RequestHandler {
   }
 
   sim::ViewMode operator()(const ViewModeRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     return core.simulation_.view_mode();
   }
   void operator()(const SetViewModeRequest& what) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     client.require_open();
     if (const auto refusal = core.simulation_.set_view_mode(what.mode)) {
       throw SessionError(SessionError::Code::kNotAvailable, *refusal);
@@ -190,7 +190,7 @@ struct Host::Core::RequestHandler {
     core.require_readable(client, -1);
     // A map of many cells takes a while: it is made of a copy, without the mutex.
     const sim::ArenaDescription arena = [&] {
-      const Lock lock = core.lock_soon();
+      const Lock lock = core.lock_with_priority();
       return core.simulation_.world().arena;
     }();
     return map_of(arena, what);
@@ -232,7 +232,7 @@ struct Host::Core::RequestHandler {
     for (;;) {
       std::optional<std::string> file;
       {
-        const Lock lock = core.lock_soon();
+        const Lock lock = core.lock_with_priority();
         client.require_open();
         RunLog& log = core.results_.logs
                           .try_emplace(client.port, core.settings_.output_folder, client.port,
@@ -250,7 +250,7 @@ struct Host::Core::RequestHandler {
  private:
   /// The host's mutex, for what is kept from programs in a private world.
   [[nodiscard]] Lock lock_readable() const {
-    Lock lock = core.lock_soon();
+    Lock lock = core.lock_with_priority();
     client.require_open();
     core.require_readable(client, -1);
     return lock;

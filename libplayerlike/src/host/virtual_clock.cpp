@@ -15,12 +15,12 @@ constexpr int kSleepsAfterEnd = 1000;
 }  // namespace
 
 void Host::Core::VirtualClock::begin_turns(sim::SimTime before_ns) {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   Turns::instance().set_clock(this, before_ns, 0);
 }
 
 void Host::Core::VirtualClock::end_turns(sim::SimTime before_ns) {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   Turns::instance().set_clock(nullptr, 0, before_ns);
 }
 
@@ -76,7 +76,7 @@ void Host::Core::VirtualClock::look_at_start() {
 }
 
 WallClock::time_point Host::Core::VirtualClock::last_seen(const TurnThread& thread) const {
-  return core_.lockstep_.last_seen(thread.thinker, thread.seen);
+  return core_.lockstep_.last_seen(thread.thread_id, thread.seen);
 }
 
 WallClock::duration Host::Core::VirtualClock::silence_limit() const {
@@ -84,7 +84,7 @@ WallClock::duration Host::Core::VirtualClock::silence_limit() const {
 }
 
 void Host::Core::VirtualClock::on_silent(const TurnThread& thread) {
-  core_.lockstep_.note_silent_thread(thread.thinker);
+  core_.lockstep_.note_silent_thread(thread.thread_id);
 }
 
 bool Host::Core::VirtualClock::on_blocked(const TurnThread& thread) {
@@ -100,13 +100,13 @@ bool Host::Core::VirtualClock::on_blocked(const TurnThread& thread) {
 std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime target_ns,
                                                                 bool& interrupted) {
   interrupted = false;
-  const ThinkerId thinker = this_thinker();
-  Lock lock = core_.lock_politely();
+  const ThreadId thread_id = this_thread_id();
+  Lock lock = core_.lock_for_stepping();
   if (!core_.in_turns() || core_.ended_by_program_) return std::nullopt;
   // A program that never reads takes part with the clients it has made.
   for (const auto& client : core_.clients_) {
-    if (client->creator == thinker && client->owner == 0 && !client->follower) {
-      core_.adopt(*client, thinker);
+    if (client->creator == thread_id && client->owner == 0 && !client->follower) {
+      core_.adopt(*client, thread_id);
     }
   }
   const sim::SimTime wake_ns = target_ns - target_ns % core_.step_ns_;
@@ -119,22 +119,22 @@ std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime tar
   if (!core_.over()) return core_.in_turns() ? std::optional(left_ns) : std::nullopt;
   if (core_.simulation_.now_ns() < wake_ns) {
     if (core_.ended_by_program_) return std::nullopt;
-    sleep_after_end(lock, thinker);
+    sleep_after_end(lock, thread_id);
   }
   return left_ns;
 }
 
 void Host::Core::VirtualClock::note_timed_wait(Lock& lock, sim::SimTime left_ns) {
   if (!core_.over() || left_ns < core_.step_ns_ || core_.ended_by_program_) return;
-  sleep_after_end(lock, this_thinker());
+  sleep_after_end(lock, this_thread_id());
 }
 
 // Nobody can throw out of a sleep. A program that only sleeps ends here; one that reads as well, or
 // has threads that do, is told by that, and is left some time to end by itself.
-void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThinkerId thinker) {
+void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
   const auto& threads = Turns::instance().threads();
   const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
-    if (thread->thinker == thinker || thread->state == TurnThread::State::kAside) return false;
+    if (thread->thread_id == thread_id || thread->state == TurnThread::State::kAside) return false;
     return thread->state != TurnThread::State::kWaits || thread->waits_for_time();
   });
   const RunSettings& settings = core_.settings_;
@@ -150,11 +150,11 @@ void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThinkerId thinker) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-bool Host::Core::VirtualClock::others_take_turns(ThinkerId thinker) {
+bool Host::Core::VirtualClock::others_take_turns(ThreadId thread_id) {
   const auto& threads = Turns::instance().threads();
   return std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
     using State = TurnThread::State;
-    if (thread->thinker == thinker) return false;
+    if (thread->thread_id == thread_id) return false;
     return thread->state == State::kReady || thread->state == State::kBeside ||
            (thread->state == State::kWaits && thread->waits_for_time());
   });

@@ -33,10 +33,10 @@ class Host::Core::VirtualClock final : public TurnClock {
   [[nodiscard]] WallClock::duration silence_limit() const override;
 
   /// Whether threads besides this one may go on without a step.
-  [[nodiscard]] static bool others_take_turns(ThinkerId thinker);
+  [[nodiscard]] static bool others_take_turns(ThreadId thread_id);
 
  private:
-  void sleep_after_end(Lock& lock, ThinkerId thinker);
+  void sleep_after_end(Lock& lock, ThreadId thread_id);
 
   Core& core_;
   int sleeps_after_end_ = 0;

@@ -22,36 +22,36 @@ bool is_utf8(std::string_view text) noexcept {
 }
 
 /// Whether all texts of a value are UTF-8.
-bool is_sound(const json& value) {
+bool is_valid_utf8(const json& value) {
   if (const auto* text = value.get_ptr<const std::string*>()) return is_utf8(*text);
   if (const auto* object = value.get_ptr<const json::object_t*>()) {
     for (const auto& [key, member] : *object) {
-      if (!is_utf8(key) || !is_sound(member)) return false;
+      if (!is_utf8(key) || !is_valid_utf8(member)) return false;
     }
   } else if (const auto* list = value.get_ptr<const json::array_t*>()) {
     for (const json& element : *list) {
-      if (!is_sound(element)) return false;
+      if (!is_valid_utf8(element)) return false;
     }
   }
   return true;
 }
 
-std::string mended(const std::string& text) {
+std::string with_valid_utf8(const std::string& text) {
   return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
       .get<std::string>();
 }
 
 /// The value with U+FFFD in place of what is no UTF-8.
-json mended(const json& value) {
-  if (const auto* text = value.get_ptr<const std::string*>()) return mended(*text);
+json with_valid_utf8(const json& value) {
+  if (const auto* text = value.get_ptr<const std::string*>()) return with_valid_utf8(*text);
   if (const auto* object = value.get_ptr<const json::object_t*>()) {
     json copy = json::object();
-    for (const auto& [key, member] : *object) copy[mended(key)] = mended(member);
+    for (const auto& [key, member] : *object) copy[with_valid_utf8(key)] = with_valid_utf8(member);
     return copy;
   }
   if (const auto* list = value.get_ptr<const json::array_t*>()) {
     json copy = json::array();
-    for (const json& element : *list) copy.push_back(mended(element));
+    for (const json& element : *list) copy.push_back(with_valid_utf8(element));
     return copy;
   }
   return value;
@@ -238,10 +238,10 @@ class CborReader {
 }  // namespace
 
 void append_cbor(const json& value, std::string& out) {
-  if (is_sound(value)) {
+  if (is_valid_utf8(value)) {
     json::to_cbor(value, out);
   } else {
-    json::to_cbor(mended(value), out);
+    json::to_cbor(with_valid_utf8(value), out);
   }
 }
 

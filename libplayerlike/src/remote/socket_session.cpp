@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "process/end_of_program.h"
 #include "process/thread_end.h"
 #include "protocol/request_codec.h"
@@ -37,7 +37,8 @@ Connection::Clock::duration wall(double seconds) {
 // Nobody is to wait for a thread that has ended.
 void say_goodbye(void* line) {
   try {
-    static_cast<SocketLine*>(line)->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+    static_cast<SocketLine*>(line)->tell(
+        json{{"do", "thread_ended"}, {"thread", this_thread_id()}});
   } catch (const std::exception&) {
     // The server notices that it has lost the connection.
   }
@@ -74,7 +75,7 @@ auto understood(Read read) -> decltype(read()) {
 }
 
 json read_request(const char* wait) {
-  return {{"do", "read"}, {"wait", wait}, {"thread", this_thinker()}};
+  return {{"do", "read"}, {"wait", wait}, {"thread", this_thread_id()}};
 }
 
 json read_request(const char* wait, double timeout_s) {

@@ -30,7 +30,7 @@ std::string_view without_blanks_behind(std::string_view text) {
 }
 
 /// An id that can be sent back as it is.
-bool is_sound_id(std::string_view id) {
+bool is_valid_id(std::string_view id) {
   return id.size() <= kMaxId &&
          std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
@@ -96,7 +96,7 @@ void MorseConnection::on_message(std::string_view line) {
   std::string_view rest = without_blanks_behind(line);
   const std::string_view word = take_word(rest);
   if (word.empty()) return;  // an empty line has no id to answer to
-  if (!is_sound_id(word)) {
+  if (!is_valid_id(word)) {
     return answer("-", "FAILED", "Malformed request: an id is 1 to 80 printable ASCII characters");
   }
   const std::string id(word);
@@ -108,11 +108,11 @@ void MorseConnection::on_message(std::string_view line) {
                   "Malformed request: expected id, component, service and maybe a JSON list of "
                   "arguments, or id and cancel");
   }
-  carry_out(id, component, service, rest);
+  execute(id, component, service, rest);
 }
 
-void MorseConnection::carry_out(const std::string& id, std::string_view component,
-                                std::string_view service, std::string_view arguments) {
+void MorseConnection::execute(const std::string& id, std::string_view component,
+                              std::string_view service, std::string_view arguments) {
   guarded(id, [&] {
     const json list = arguments_of(arguments);
     if (component == "playpen") return playpen(id, service, list);

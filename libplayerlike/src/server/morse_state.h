@@ -23,7 +23,7 @@ class MorseConnection;
 class MorseStreams;
 struct MorseService;
 
-/// A request that cannot be carried out: what MORSE's client is told after FAILED.
+/// A request that cannot be executed: what MORSE's client is told after FAILED.
 class MorseRefusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -163,7 +163,7 @@ class MorseConnection final : public Handler {
   /// Adds a token, which may give more rights.
   void present(std::string token);
 
-  /// Has the server's workshop carry out a request about the canvas, and answers it then. Nothing
+  /// Has the server's workshop execute a request about the canvas, and answers it then. Nothing
   /// more is read from the connection before. @param list  its arguments.
   void work(const std::string& id, const MorseService& service, const nlohmann::json& list);
 
@@ -171,8 +171,8 @@ class MorseConnection final : public Handler {
   void answer(const std::string& id, std::string_view status, const nlohmann::json& result);
 
  private:
-  void carry_out(const std::string& id, std::string_view component, std::string_view service,
-                 std::string_view arguments);
+  void execute(const std::string& id, std::string_view component, std::string_view service,
+               std::string_view arguments);
   /// Does something for a request; what that throws is answered.
   template <typename Action>
   void guarded(const std::string& id, Action action);

@@ -230,7 +230,7 @@ void NativeHandler::on_message(std::string_view bytes) {
   guarded(id, name, [&] {
     const json message = protocol::decode(bytes, terms_.encoding);
     if (message.contains("id")) id = protocol::require_integer(message, "id", 0, kMaxInteger);
-    carry_out(message, id, name);
+    execute(message, id, name);
   });
 }
 
@@ -248,7 +248,7 @@ void NativeHandler::guarded(const json& id, const std::string& name, Action acti
   }
 }
 
-void NativeHandler::carry_out(const json& message, const json& id, std::string& name) {
+void NativeHandler::execute(const json& message, const json& id, std::string& name) {
   name = protocol::require_text(message, "do");
   const OwnRequest* own = find_own_request(name);
   const auto type = own == nullptr ? protocol::find_request(name) : std::nullopt;
@@ -426,9 +426,9 @@ class NativeHandler::ReadingList final : public ReadingSink {
   json list_ = json::array();
 };
 
-ThinkerId NativeHandler::thinker(const json& request) {
+ThreadId NativeHandler::thread_id(const json& request) {
   const std::int64_t thread = integer_or(request, "thread", 0, 0, kMaxInteger);
-  return hub_.thinker(terms_.process, static_cast<std::uint64_t>(thread));
+  return hub_.thread_id(terms_.process, static_cast<std::uint64_t>(thread));
 }
 
 void NativeHandler::read(const json& request, const json& id) {
@@ -467,7 +467,7 @@ void NativeHandler::read(const json& request, const json& id) {
   require_drawing(drawings);
   const auto go_on = [this, id, wait](const auto& list, const json& what) {
     for (const auto& [device, command] : list) session().send(device, command);
-    if (wait == Wait::kJoin) client_->join(thinker(what));
+    if (wait == Wait::kJoin) client_->join(thread_id(what));
     if (wait == Wait::kJoin || wait == Wait::kNone) return answer(id, round(wait, Outcome::kData));
     begin_to_wait(what, id, wait);
   };
@@ -482,7 +482,7 @@ void NativeHandler::read(const json& request, const json& id) {
 }
 
 NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
-  const ThinkerId who = thinker(request);
+  const ThreadId who = thread_id(request);
   if (wait == Wait::kData) return client_->begin_wait(who);
   if (wait == Wait::kSleep) return client_->begin_sleep(who, require_timeout(request));
   const double timeout_s = request.contains("timeout") ? require_timeout(request) : 0.0;
@@ -600,7 +600,7 @@ json NativeHandler::time(const json& /*request*/) {
 
 json NativeHandler::thread_ended(const json& request) {
   static_cast<void>(protocol::require_integer(request, "thread", 0, kMaxInteger));
-  hub_.host().thinker_ended(thinker(request));
+  hub_.host().thread_ended(thread_id(request));
   hub_.pump();
   return json::object();
 }

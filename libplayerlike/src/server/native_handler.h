@@ -19,7 +19,7 @@ namespace playerlike::server {
 
 /// Answers one connection in Playpen's own protocol (docs/protocol.md).
 ///
-/// Requests are carried out as they come; a `read` that waits is answered when its wait is over,
+/// Requests are executed as they come; a `read` that waits is answered when its wait is over,
 /// the others at once. A request that fails has done nothing. Used by the server's thread only.
 class NativeHandler final : public Handler {
  public:
@@ -29,7 +29,7 @@ class NativeHandler final : public Handler {
     Rights rights;
     bool session = true;  ///< false: only watches, and takes no part in the simulation
     int port = kMorsePort;
-    std::string process;  ///< see Hub::thinker(); not empty
+    std::string process;  ///< see Hub::thread_id(); not empty
     std::string key;      ///< names the session for its followers; not empty
     bool follower = false;
   };
@@ -60,7 +60,7 @@ class NativeHandler final : public Handler {
     std::uint64_t timer = 0;  ///< 0: none
   };
 
-  void carry_out(const json& message, const json& id, std::string& name);
+  void execute(const json& message, const json& id, std::string& name);
   /// Does something for a request; what that throws is answered.
   template <typename Action>
   void guarded(const json& id, const std::string& name, Action action);
@@ -70,7 +70,7 @@ class NativeHandler final : public Handler {
             std::function<void()> then);
   /// Has a request answered that takes long: see native_work.h.
   void answer_elsewhere(Request request, const json& id, const std::string& name);
-  /// Takes drawings that are little work, to be carried out as those of programs are.
+  /// Takes drawings that are little work, to be executed as those of programs are.
   /// @return false if they are more: then they are for draw_elsewhere(). Those that are covered by
   ///         others are taken out.
   [[nodiscard]] bool draw_here(std::vector<sim::DrawOperation>& drawings);
@@ -95,7 +95,7 @@ class NativeHandler final : public Handler {
   json readings();
 
   [[nodiscard]] Session& session() { return client_->session(); }
-  [[nodiscard]] ThinkerId thinker(const json& request);
+  [[nodiscard]] ThreadId thread_id(const json& request);
   /// @throws ProtocolError access/denied.
   void require_command(DeviceId device) const;
   /// @param robot  index; -1: all robots. @throws ProtocolError access/denied.
@@ -121,7 +121,7 @@ class NativeHandler final : public Handler {
   std::optional<Waiting> waiting_;
   bool ending_ = false;                  ///< has said bye
   std::uint64_t canvas_generation_ = 0;  ///< of which the client knows
-  std::size_t light_cells_ = 0;  ///< written by drawings that may not have been carried out yet
+  std::size_t light_cells_ = 0;  ///< written by drawings that may not have been executed yet
 };
 
 }  // namespace playerlike::server

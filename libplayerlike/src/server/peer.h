@@ -178,9 +178,9 @@ class Hub {
   /// A client has asked for the end of the server.
   virtual void quit() = 0;
 
-  /// Names the thinker of a thread of a client's process, see EventClient.
+  /// Returns the id of a thread of a client's process, see EventClient.
   /// @param process  what the process calls itself in its hellos; @param thread  its number there.
-  [[nodiscard]] virtual ThinkerId thinker(const std::string& process, std::uint64_t thread) = 0;
+  [[nodiscard]] virtual ThreadId thread_id(const std::string& process, std::uint64_t thread) = 0;
 
   /// What the connections in MORSE's protocol share; made for the first one. To be dropped while
   /// post() can still be called.

@@ -242,7 +242,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
     static_cast<Connection&>(peer).hand_over(std::move(handler));
   }
   void quit() override { quit_ = true; }
-  [[nodiscard]] ThinkerId thinker(const std::string& process, std::uint64_t thread) override;
+  [[nodiscard]] ThreadId thread_id(const std::string& process, std::uint64_t thread) override;
 
  private:
   // ConnectionOwner
@@ -298,7 +298,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
 
   /// What is known of a process that has clients here.
   struct Process {
-    std::map<std::uint64_t, ThinkerId> threads;
+    std::map<std::uint64_t, ThreadId> threads;
     std::uint64_t last_use = 0;
   };
   std::map<std::string, Process> processes_;
@@ -558,7 +558,7 @@ std::shared_ptr<void> ServerHub::Body::claim_room(std::size_t bytes) {
   return {nullptr, [this, bytes](void*) { claimed_bytes_ -= bytes; }};
 }
 
-ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thread) {
+ThreadId ServerHub::Body::thread_id(const std::string& process, std::uint64_t thread) {
   if (process.size() > kProcessName) {
     throw protocol::ProtocolError(
         "protocol/bad-value",
@@ -575,8 +575,8 @@ ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thr
   if (known.threads.size() >= kThreadsOfAProcess && !known.threads.contains(thread)) {
     known.threads.clear();
   }
-  ThinkerId& id = known.threads[thread];
-  if (id == 0) id = new_thinker();
+  ThreadId& id = known.threads[thread];
+  if (id == 0) id = new_thread_id();
   return id;
 }
 

@@ -47,7 +47,7 @@ Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
 
 /// A thread that thinks, as it was when it was looked at.
 struct Seen {
-  ThinkerId thinker;
+  ThreadId thread_id;
   pid_t number;
   SteadyClock::time_point since;
   std::optional<std::uint64_t> switches;
@@ -137,14 +137,14 @@ void Turns::move(TurnThread& thread, State state) {
   }
 }
 
-TurnThread* Turns::find(ThinkerId thinker) const {
+TurnThread* Turns::find(ThreadId thread_id) const {
   const auto found = std::find_if(threads_.begin(), threads_.end(),
-                                  [&](const auto& t) { return t->thinker == thinker; });
+                                  [&](const auto& t) { return t->thread_id == thread_id; });
   return found == threads_.end() ? nullptr : found->get();
 }
 
-TurnThread& Turns::insert(ThinkerId thinker, State state) {
-  threads_.push_back(std::make_unique<TurnThread>(thinker));
+TurnThread& Turns::insert(ThreadId thread_id, State state) {
+  threads_.push_back(std::make_unique<TurnThread>(thread_id));
   TurnThread& thread = *threads_.back();
   thread.state = State::kAside;
   thread.place = ++last_place_;
@@ -156,7 +156,7 @@ TurnThread* Turns::known_self() noexcept { return own; }
 
 TurnThread& Turns::self() {
   if (own == nullptr) {
-    own = &insert(this_thinker(), State::kBeside);
+    own = &insert(this_thread_id(), State::kBeside);
     own->number = this_thread();
     own->handle = reinterpret_cast<const void*>(pthread_self());
   }
@@ -181,14 +181,14 @@ void Turns::set_clock(TurnClock* clock, sim::SimTime before_ns, sim::SimTime now
   kick();
 }
 
-void Turns::add(ThinkerId thinker) { insert(thinker, State::kReady); }
+void Turns::add(ThreadId thread_id) { insert(thread_id, State::kReady); }
 
-void Turns::note_handle(ThinkerId thinker, const void* handle) {
-  if (TurnThread* const thread = find(thinker)) thread->handle = handle;
+void Turns::note_handle(ThreadId thread_id, const void* handle) {
+  if (TurnThread* const thread = find(thread_id)) thread->handle = handle;
 }
 
-void Turns::enter(Lock& lock, ThinkerId thinker) {
-  own = find(thinker);
+void Turns::enter(Lock& lock, ThreadId thread_id) {
+  own = find(thread_id);
   if (own == nullptr) return;
   own->number = this_thread();
   own->handle = reinterpret_cast<const void*>(pthread_self());
@@ -196,8 +196,8 @@ void Turns::enter(Lock& lock, ThinkerId thinker) {
   park(lock, *own);
 }
 
-void Turns::remove(ThinkerId thinker) {
-  TurnThread* const thread = find(thinker);
+void Turns::remove(ThreadId thread_id) {
+  TurnThread* const thread = find(thread_id);
   if (thread == nullptr) return;
   end_wait(*thread);
   move(*thread, State::kAside);
@@ -474,7 +474,7 @@ void Turns::look(Lock& lock) {
   for (const auto& t : threads_) {
     if (t->state != State::kThinks && t->state != State::kBeside) continue;
     if (t->number == 0) continue;  // only just being started
-    seen_threads.push_back({t->thinker, t->number, t->seen, std::nullopt});
+    seen_threads.push_back({t->thread_id, t->number, t->seen, std::nullopt});
   }
   lock.unlock();
   for (Seen& seen : seen_threads) seen.switches = sleeps_since(seen.number);
@@ -484,7 +484,7 @@ void Turns::look(Lock& lock) {
   std::vector<TurnThread*> blocked;
   std::vector<TurnThread*> thinking;
   for (const Seen& seen : seen_threads) {
-    TurnThread* const t = find(seen.thinker);
+    TurnThread* const t = find(seen.thread_id);
     if (t == nullptr || t->seen != seen.since) return;  // it has waited meanwhile
     if (t->state != State::kThinks && t->state != State::kBeside) return;
     thinking.push_back(t);

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "sim/core/time.h"
 
 namespace playerlike {
@@ -30,9 +30,9 @@ struct TurnThread {
   /// What ended a wait.
   enum class Wake { kNone, kThere, kTime, kInterrupted };
 
-  explicit TurnThread(ThinkerId id) : thinker(id) {}
+  explicit TurnThread(ThreadId id) : thread_id(id) {}
 
-  const ThinkerId thinker;
+  const ThreadId thread_id;
   pid_t number = 0;              ///< the system's; 0: it has not begun yet
   const void* handle = nullptr;  ///< its pthread_t
   State state = State::kReady;
@@ -152,13 +152,13 @@ class Turns {
   /// The same, if it is known.
   [[nodiscard]] static TurnThread* known_self() noexcept;
   /// The calling thread starts one, which goes on when it is its turn.
-  void add(ThinkerId thinker);
+  void add(ThreadId thread_id);
   /// @param handle  its pthread_t
-  void note_handle(ThinkerId thinker, const void* handle);
+  void note_handle(ThreadId thread_id, const void* handle);
   /// The calling thread is that one. Returns when it is its turn.
-  void enter(Lock& lock, ThinkerId thinker);
+  void enter(Lock& lock, ThreadId thread_id);
   /// A thread has ended, or could not be started.
-  void remove(ThinkerId thinker);
+  void remove(ThreadId thread_id);
   /// Whether a thread of the program with this pthread_t lives.
   [[nodiscard]] bool lives(const void* handle) const;
   /// Whether that thread, by the system's number, is one that waits for its turn.
@@ -203,8 +203,8 @@ class Turns {
 
   /// Waits until it is the thread's turn, or all are released.
   void park(Lock& lock, TurnThread& self);
-  TurnThread& insert(ThinkerId thinker, State state);
-  [[nodiscard]] TurnThread* find(ThinkerId thinker) const;
+  TurnThread& insert(ThreadId thread_id, State state);
+  [[nodiscard]] TurnThread* find(ThreadId thread_id) const;
   void move(TurnThread& thread, State state);
   static void ring(TurnThread& thread);
   [[nodiscard]] TurnThread* first_ready() const;

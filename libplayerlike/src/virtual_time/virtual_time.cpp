@@ -47,7 +47,7 @@ constexpr long long kLooksAStepAlone = 1'000;
 // How far a look at the clock moves it while there is no simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
-/// In place of a thinker's number: a thread that a library starts on Playpen's behalf, as encoders
+/// In place of a thread's number: a thread that a library starts on Playpen's behalf, as encoders
 /// of films do. It is Playpen's own.
 constexpr unsigned long long kLibraryThread = ~0ULL;
 
@@ -249,7 +249,7 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
 /// The lock over those who take turns. A thread that is none of them does not wait for it.
 Turns::Lock lock_turns() {
   Turns& turns = Turns::instance();
-  if (is_thinker()) return Turns::Lock(turns.mutex());
+  if (has_thread_id()) return Turns::Lock(turns.mutex());
   return Turns::Lock(turns.mutex(), std::try_to_lock);
 }
 
@@ -264,15 +264,15 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
         !is_programs_code(code_of_thread(caller, start, argument))) {
       return 0;
     }
-    const ThinkerId thinker = new_thinker();
+    const ThreadId thread_id = new_thread_id();
     remember_thread();
     Turns& turns = Turns::instance();
     const Turns::Lock lock(turns.mutex());
     if (!turns.active()) return 0;
     // The one that starts it, too, or it would be chance how far the new one gets meanwhile.
     static_cast<void>(turns.self());
-    turns.add(thinker);
-    return thinker;
+    turns.add(thread_id);
+    return thread_id;
   } catch (const std::exception&) {
     return 0;
   }
@@ -303,7 +303,7 @@ void on_thread_begun(unsigned long long number) {
   }
   state.programs = true;
   const Inside inside;
-  set_this_thinker(number);
+  set_this_thread_id(number);
   remember_thread();
   Turns& turns = Turns::instance();
   Turns::Lock lock(turns.mutex());
@@ -524,7 +524,7 @@ int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
 __attribute__((constructor(101))) void register_hooks() {
   void* const found = dlsym(RTLD_DEFAULT, PLAYPEN_VIRTUAL_TIME_REGISTER);
   if (found == nullptr) return;
-  static_cast<void>(this_thinker());  // the main thread is the first
+  static_cast<void>(this_thread_id());  // the main thread is the first
   dl_iterate_phdr(note_program, nullptr);
   const Inside inside;
   registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(hooks()) != 0;
@@ -622,7 +622,7 @@ void note_thread_ends() noexcept {
   const Inside inside;
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
-  turns.remove(this_thinker());
+  turns.remove(this_thread_id());
 }
 
 bool wait_until(const void* simulation, const std::function<bool()>& condition) {

@@ -11,7 +11,7 @@ std::optional<std::string> Device::apply(const Command& command) {
   return "a device of type \"" + type_ + "\" takes no such command";
 }
 
-std::optional<std::string> Device::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Device::execute(const Command& command, RobotControl& robot) {
   static_cast<void>(robot);
   return apply(command);
 }

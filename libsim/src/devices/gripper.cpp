@@ -88,7 +88,7 @@ GripperState Gripper::state() const noexcept {
   return closed ? GripperState::kClosed : GripperState::kOpen;
 }
 
-std::optional<std::string> Gripper::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Gripper::execute(const Command& command, RobotControl& robot) {
   const auto* grip = std::get_if<GripCommand>(&command);
   if (grip == nullptr) return apply(command);
   forget_lost(robot.context());

@@ -221,7 +221,7 @@ std::optional<std::string> Motion::apply(const Command& command) {
   return Device::apply(command);
 }
 
-std::optional<std::string> Motion::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Motion::execute(const Command& command, RobotControl& robot) {
   const auto* heading = std::get_if<HeadingCommand>(&command);
   const auto* position = std::get_if<PositionCommand>(&command);
   if (heading != nullptr || position != nullptr) {

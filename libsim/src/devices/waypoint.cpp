@@ -31,7 +31,7 @@ double Waypoint::distance_m() const {
   return std::hypot(goal_.goal_m.x() - X_WB_.x_m, goal_.goal_m.y() - X_WB_.y_m);
 }
 
-std::optional<std::string> Waypoint::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Waypoint::execute(const Command& command, RobotControl& robot) {
   if (const auto* go = std::get_if<GotoCommand>(&command)) {
     if (!go->goal_m.allFinite()) return "a goal must be a point of finite coordinates";
     if (!(go->tolerance_m > 0.0) || !std::isfinite(go->tolerance_m)) {

@@ -452,8 +452,8 @@ class WorldReader {
   void read_robot(Reader& reader, RobotDescription& robot) {
     robot.name = reader.name("name", "");
     robot.model = reader.string("model", robot.model);
-    const bool model_is_sound = load_model(reader, robot.model);
-    if (!model_is_sound) robot.model = default_robot_model().name;
+    const bool model_is_valid = load_model(reader, robot.model);
+    if (!model_is_valid) robot.model = default_robot_model().name;
     robot.pose = reader.pose("pose", robot.pose);
     robot.colour = reader.colour("colour", robot.colour);
     if (reader.has("port")) {
@@ -466,7 +466,7 @@ class WorldReader {
         robot.port = 0;
       }
     }
-    if (!model_is_sound) return;  // of what depends on the model nothing can be said
+    if (!model_is_valid) return;  // of what depends on the model nothing can be said
     const RobotModel& model = *find_robot_model(world_, robot.model);
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
     if (std::optional<Reader> proxies = reader.object("proxies")) {

@@ -105,7 +105,7 @@ inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
   r.state->turn_rad += turn_rad;
   if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
   const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
-  r.gone_m += most_m;
+  r.cumulative_max_travel_m += most_m;
   r.moved_m += most_m;
   farthest_m_ = std::max(farthest_m_, r.moved_m);
 }
@@ -143,9 +143,9 @@ void Mover::step(double dt_s) {
   const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
   neighbours_.begin_step(std::max(travel_m / parts, kLeastTravel_m));
   step_s_ = dt_s;
-  const double gone_m = neighbours_.gone_m();
+  const double cumulative_max_travel_m = neighbours_.cumulative_max_travel_m();
   for (int i = 0; i < parts; ++i) advance(dt_s / parts, i == 0, i + 1 == parts);
-  step_gone_m_ = neighbours_.gone_m() - gone_m;
+  step_max_travel_m_ = neighbours_.cumulative_max_travel_m() - cumulative_max_travel_m;
 }
 
 // Moves all for a time in which no robot travels farther than kMaxTravel_m. Robots that are free,
@@ -252,7 +252,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   // What is farther away, or not that way, leaves the robot its target, and clear of it.
   const b2Transform xf = transform_of(r);
   const double reach_m = way_m + kTouchingGap_m + kSecondOrder_m;
-  if (r.wall_until_m - r.gone_m <= reach_m) {
+  if (r.wall_until_m - r.cumulative_max_travel_m <= reach_m) {
     for (const Wall& wall : r.details->walls) {
       if (!may_reach(r, wall, reach_m)) continue;
       if (wall.is_edge && keeps_off(r, wall, xf, dt_s)) continue;

@@ -21,7 +21,7 @@ class Mover {
   /// Writes or reads the state. When reading, that of the robots is there already.
   void archive(StateArchive& archive);
   /// How far any robot went in the last step, at most [m].
-  [[nodiscard]] double farthest_move_m() const noexcept { return step_gone_m_; }
+  [[nodiscard]] double farthest_move_m() const noexcept { return step_max_travel_m_; }
   /// As PhysicsWorld::bare_step().
   void bare_step(double dt_s);
 
@@ -43,7 +43,7 @@ class Mover {
   Bodies& bodies_;
   Neighbours& neighbours_;
   double step_s_ = 0.0;                // the whole step under way
-  double step_gone_m_ = 0.0;           // how far any robot went in the last one, at most
+  double step_max_travel_m_ = 0.0;     // how far any robot went in the last one, at most
   double farthest_m_ = 0.0;            // that any robot has moved in this part of a step
   std::vector<std::size_t> hindered_;  // robots that are not free
   double most_shove_m_ = 0.0;

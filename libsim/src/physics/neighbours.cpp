@@ -24,10 +24,10 @@ constexpr double kRoughWall_m = 0.05;
 
 void Neighbours::forget() {
   placed_ = true;
-  pairs_until_m_ = gone_m_;
+  pairs_until_m_ = cumulative_max_travel_m_;
   for (Robot& r : bodies_.robots()) {
     r.wall_until_m = kUnknown;
-    r.wall_gone_m = kUnknown;
+    r.wall_at_travel_m = kUnknown;
     r.details->walls_until_m = kUnknown;
     r.details->candidates_reach_m = -1.0;
   }
@@ -42,7 +42,7 @@ bool Neighbours::comes_before(const Pair& a, const Pair& b) {
 void Neighbours::list_pairs() {
   pairs_before_.swap(pairs_);
   pairs_.clear();
-  pairs_until_m_ = gone_m_ + 0.5 * (kPairReach_m - 3.0 * kMaxTravel_m);
+  pairs_until_m_ = cumulative_max_travel_m_ + 0.5 * (kPairReach_m - 3.0 * kMaxTravel_m);
   const std::vector<Bodies::Circle>& by_x = bodies_.by_x();
   for (std::size_t i = 0; i < by_x.size(); ++i) {
     const Bodies::Circle& a = by_x[i];
@@ -62,8 +62,8 @@ void Neighbours::list_pairs() {
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), comes_before);
-  meet_before_.swap(meet_gone_m_);
-  meet_gone_m_.assign(pairs_.size(), kUnknown);
+  meet_before_.swap(meet_at_travel_m_);
+  meet_at_travel_m_.assign(pairs_.size(), kUnknown);
   if (placed_) return;
   // What is known of those that were listed before still holds.
   std::size_t before = 0;
@@ -73,7 +73,7 @@ void Neighbours::list_pairs() {
     }
     if (before == pairs_before_.size() || comes_before(pairs_[i], pairs_before_[before])) continue;
     pairs_[i] = pairs_before_[before];
-    meet_gone_m_[i] = meet_before_[before];
+    meet_at_travel_m_[i] = meet_before_[before];
   }
 }
 
@@ -102,7 +102,7 @@ double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, P
 }
 
 void Neighbours::find(double dt_s) {
-  if (gone_m_ >= pairs_until_m_) list_pairs();
+  if (cumulative_max_travel_m_ >= pairs_until_m_) list_pairs();
   near_to_.resize(bodies_.robots().size());
   for (const NearPair& pair : near_pairs_) {
     near_to_[static_cast<std::size_t>(pair.first)].clear();
@@ -127,13 +127,14 @@ void Neighbours::find_near_pairs(double dt_s) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     may_meet_[count] = i;
-    count += meet_gone_m_[i] - gone_m_ <= 0.5 * in_the_way_m ? 1 : 0;
+    count += meet_at_travel_m_[i] - cumulative_max_travel_m_ <= 0.5 * in_the_way_m ? 1 : 0;
   }
   for (const std::size_t i : std::span(may_meet_).first(count)) {
     Pair& pair = pairs_[i];
     Robot& a = bodies_.robot(pair.first);
     Robot& b = bodies_.robot(pair.second);
-    double apart_m = pair.apart_m - (a.gone_m + b.gone_m - pair.both_gone_m);
+    double apart_m = pair.apart_m - (a.cumulative_max_travel_m + b.cumulative_max_travel_m -
+                                     pair.pair_at_travel_m);
     if (apart_m > in_the_way_m) continue;
     // How near exactly need not be known while both can have their way.
     const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
@@ -141,8 +142,8 @@ void Neighbours::find_near_pairs(double dt_s) {
     if (pair.apart_m > in_the_way_m || a.shoving || b.shoving || apart_m <= touch_m) {
       apart_m = distance_m(a, b, pair.apart_m > in_the_way_m ? in_the_way_m : touch_m, pair);
       pair.apart_m = apart_m;
-      meet_gone_m_[i] = gone_m_ + 0.5 * apart_m;
-      pair.both_gone_m = a.gone_m + b.gone_m;
+      meet_at_travel_m_[i] = cumulative_max_travel_m_ + 0.5 * apart_m;
+      pair.pair_at_travel_m = a.cumulative_max_travel_m + b.cumulative_max_travel_m;
       if (apart_m > in_the_way_m) continue;
     }
     if (placed_) bodies_.keep_in_box2d(a);
@@ -154,15 +155,15 @@ void Neighbours::find_near_pairs(double dt_s) {
 // Finds out whether something that does not move is near a robot.
 void Neighbours::look_for_walls(Robot& r, double dt_s) {
   const double reach_m = wall_reach_m();
-  double apart_m = r.wall_until_m - r.gone_m;
+  double apart_m = r.wall_until_m - r.cumulative_max_travel_m;
   if (apart_m > reach_m) return;
-  const bool was_near = r.wall_until_m - r.wall_gone_m <= reach_m;
+  const bool was_near = r.wall_until_m - r.wall_at_travel_m <= reach_m;
   // How near exactly need not be known while the robot can have its way.
   const double way_m = most_travel_m(r, dt_s) + kTouchingGap_m;
-  if (apart_m <= (was_near ? way_m : reach_m) && r.gone_m != r.wall_gone_m) {
+  if (apart_m <= (was_near ? way_m : reach_m) && r.cumulative_max_travel_m != r.wall_at_travel_m) {
     apart_m = distance_to_walls_m(r);
-    r.wall_until_m = r.gone_m + apart_m;
-    r.wall_gone_m = r.gone_m;
+    r.wall_until_m = r.cumulative_max_travel_m + apart_m;
+    r.wall_at_travel_m = r.cumulative_max_travel_m;
   }
   if (placed_ && apart_m <= reach_m) bodies_.keep_in_box2d(r);
 }
@@ -174,7 +175,7 @@ double Neighbours::wall_reach_m() const { return 1.5 * travel_m_ + kRestingGap_m
 void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m) {
   r.details->candidates.clear();
   r.details->candidates_reach_m = reach_m;
-  r.details->candidates_gone_m = gone_m_;
+  r.details->candidates_at_travel_m = cumulative_max_travel_m_;
   visit_fixed(bodies_.world(), grown(box, reach_m), [&](const b2Fixture& fixture) {
     r.details->candidates.push_back(
         {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0), {}});
@@ -208,11 +209,11 @@ Wall Neighbours::wall_of(const b2Fixture& fixture) const {
 // matters; at most kWallSearch_m [m].
 double Neighbours::distance_to_walls_m(Robot& r) {
   const b2Transform xf = transform_of(r);
-  if (!(r.gone_m < r.details->walls_until_m)) {
+  if (!(r.cumulative_max_travel_m < r.details->walls_until_m)) {
     b2AABB box;
     r.details->shape.ComputeAABB(&box, xf, 0);
     r.details->walls.clear();
-    r.details->walls_until_m = r.gone_m + kWallSearch_m;
+    r.details->walls_until_m = r.cumulative_max_travel_m + kWallSearch_m;
     visit_fixed(bodies_.world(), grown(box, 2.0 * kWallSearch_m),
                 [&](const b2Fixture& fixture) { r.details->walls.push_back(wall_of(fixture)); });
   }
@@ -242,7 +243,7 @@ double Neighbours::distance_to_walls_m(Robot& r) {
 bool Neighbours::is_free(std::size_t index, double dt_s) const {
   const Robot& r = bodies_.robots()[index];
   const double way_m = most_travel_m(r, dt_s);
-  if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) return false;
+  if (r.wall_until_m - r.cumulative_max_travel_m <= way_m + kTouchingGap_m) return false;
   return std::all_of(near_to_[index].begin(), near_to_[index].end(), [&](const Neighbour& near) {
     const double share = bodies_.robot(near.robot).suspended ? 1.0 : 0.5;
     return share * (near.apart_m - kTouchingGap_m) > way_m;
@@ -278,8 +279,8 @@ double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
   // What may be nearest is kept in a list that is good for some way (as Verlet's neighbour lists
   // are, Phys. Rev. 159, 98, 1967), most often the first of it. A list for a far greater limit is
   // too long.
-  const double reach_m =
-      r.details->candidates_reach_m - 2.0 * (gone_m_ - r.details->candidates_gone_m);
+  const double reach_m = r.details->candidates_reach_m -
+                         2.0 * (cumulative_max_travel_m_ - r.details->candidates_at_travel_m);
   if (limit_m > reach_m || reach_m > limit_m + 2.0 * kCandidateMargin_m) {
     collect_candidates(r, box, limit_m + kCandidateMargin_m);
   }

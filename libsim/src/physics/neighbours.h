@@ -36,14 +36,14 @@ class Neighbours {
   void note_contacts_found() noexcept { placed_ = false; }
 
   /// Begins a step.
-  /// @param travel_m  how far a robot that gets its target travels in a part of it, at most [m].
+  /// @param travel_m  upper bound of a robot's travel in one substep at its target twist [m].
   void begin_step(double travel_m) noexcept { travel_m_ = travel_m; }
   /// Finds the robots so close that they may reach one another, and how near walls are.
   void find(double dt_s);
-  /// Ends a part of a step, in which no robot moved farther than so.
-  void note_moved(double farthest_m) noexcept { gone_m_ += farthest_m; }
-  /// So far any robot has gone in all, at most [m].
-  [[nodiscard]] double gone_m() const noexcept { return gone_m_; }
+  /// Ends a substep in which no robot moved farther than `farthest_m` [m].
+  void note_moved(double farthest_m) noexcept { cumulative_max_travel_m_ += farthest_m; }
+  /// Upper bound of the cumulative travel of any robot [m].
+  [[nodiscard]] double cumulative_max_travel_m() const noexcept { return cumulative_max_travel_m_; }
 
   [[nodiscard]] const std::vector<NearPair>& near_pairs() const noexcept { return near_pairs_; }
   /// Those near to a robot, in the order of near_pairs().
@@ -66,10 +66,10 @@ class Neighbours {
   // Two robots that may come near one another.
   struct Pair {
     int first, second;
-    double both_gone_m;    // when these two had gone so far together,
-    double apart_m;        // so far apart they were, at least
-    b2Vec2 direction;      // from the first to the second, between their nearest points
-    b2SimplexCache cache;  // of these points
+    double pair_at_travel_m;  // sum of both cumulative travels at the last measurement
+    double apart_m;           // lower bound of their distance then
+    b2Vec2 direction;         // from the first to the second, between their nearest points
+    b2SimplexCache cache;     // of these points
   };
 
   static bool comes_before(const Pair& a, const Pair& b);
@@ -88,10 +88,12 @@ class Neighbours {
   Bodies& bodies_;
   bool placed_ = true;
   double travel_m_ = 0.0;
-  double gone_m_ = 0.0;
-  std::vector<Pair> pairs_;  // all that may come near before gone_m_ is pairs_until_m_, in order
-  std::vector<double> meet_gone_m_;  // when any robot has gone so far, each of them may meet
-  std::vector<Pair> pairs_before_;   // the same as they were listed before
+  double cumulative_max_travel_m_ = 0.0;
+  // All pairs that may come near before cumulative_max_travel_m_ reaches pairs_until_m_, sorted.
+  std::vector<Pair> pairs_;
+  // For each pair: they may meet once cumulative_max_travel_m_ has reached this.
+  std::vector<double> meet_at_travel_m_;
+  std::vector<Pair> pairs_before_;  // the previous list
   std::vector<double> meet_before_;
   std::vector<std::size_t> may_meet_;  // those of them that may meet in this part of a step
   double pairs_until_m_ = 0.0;

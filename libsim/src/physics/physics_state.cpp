@@ -17,9 +17,10 @@ namespace {
 
 void archive_robot_state(StateArchive& archive, Robot& r) {
   BodyState& s = *r.state;
-  archive(r.target, r.X_WB, r.gone_m, r.suspended, r.shoving, r.kept_parts, r.stall_clock_s);
+  archive(r.target, r.X_WB, r.cumulative_max_travel_m, r.suspended, r.shoving, r.kept_parts,
+          r.stall_clock_s);
   archive.unbounded(r.wall_until_m);
-  archive.unbounded(r.wall_gone_m);
+  archive.unbounded(r.wall_at_travel_m);
   archive(s.X_WB, s.twist, s.commanded, s.travel_m, s.turn_rad, s.stalled, s.side_m);
   for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.target.v_mps, r.target.lateral_mps,
                          r.target.omega_radps, r.X_WB.yaw_rad}) {
@@ -146,7 +147,7 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
                                const std::vector<b2Fixture*>& fixtures) {
   RobotDetails& d = *r.details;
   archive_vector(archive, d.nearest_direction);
-  archive(d.candidates_reach_m, d.candidates_gone_m);
+  archive(d.candidates_reach_m, d.candidates_at_travel_m);
   archive.unbounded(d.walls_until_m);
   if (archive.reading()) {
     d.candidates.clear();
@@ -186,25 +187,25 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
 }
 
 void Neighbours::archive(StateArchive& archive) {
-  archive(placed_, travel_m_, gone_m_, pairs_until_m_);
+  archive(placed_, travel_m_, cumulative_max_travel_m_, pairs_until_m_);
   const std::size_t robots = bodies_.robots().size();
   archive.list(pairs_, [&](Pair& pair) {
     archive.index(pair.first, robots);
     archive.index(pair.second, robots, pair.first + 1);
-    archive(pair.both_gone_m);
+    archive(pair.pair_at_travel_m);
     archive.unbounded(pair.apart_m);
     archive_vector(archive, pair.direction);
     archive_cache(archive, pair.cache, bodies_.robot(pair.first).details->shape,
                   bodies_.robot(pair.second).details->shape);
   });
-  meet_gone_m_.resize(pairs_.size());
-  for (double& meet_m : meet_gone_m_) archive.unbounded(meet_m);
+  meet_at_travel_m_.resize(pairs_.size());
+  for (double& meet_m : meet_at_travel_m_) archive.unbounded(meet_m);
   const std::vector<b2Fixture*> fixtures = bodies_.fixtures();
   for (Robot& r : bodies_.robots()) archive_robot(archive, r, fixtures);
 }
 
 void Mover::archive(StateArchive& archive) {
-  archive(step_gone_m_);
+  archive(step_max_travel_m_);
   if (!archive.reading()) return;
   shoving_.clear();
   for (std::size_t i = 0; i < bodies_.robots().size(); ++i) {

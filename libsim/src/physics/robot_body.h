@@ -60,9 +60,9 @@ struct RobotDetails {
   // Neighbours':
   std::vector<Candidate> candidates;  ///< all that is nearer than candidates_reach_m
   b2Vec2 nearest_direction{1.0F, 0.0F};
-  double candidates_reach_m = -1.0;  ///< when all had gone candidates_gone_m; see clearance_m
-  double candidates_gone_m = 0.0;
-  std::vector<Wall> walls;  ///< all that it may be near to before it has gone so far:
+  double candidates_reach_m = -1.0;  ///< valid at candidates_at_travel_m; see clearance_m
+  double candidates_at_travel_m = 0.0;
+  std::vector<Wall> walls;  ///< complete until its cumulative travel reaches:
   double walls_until_m = kUnknown;
   // Contacts':
   std::vector<int> touching;  ///< contacts per partner, see count_contact
@@ -77,19 +77,19 @@ struct alignas(64) Robot {
   // What is asked for most often comes first: one line of the cache, then some others.
   b2Body* body = nullptr;  ///< none while nothing hinders it
   Twist target;
-  double radius_m = 0.0;  ///< of the footprint about B
-  double gone_m = 0.0;    ///< in all: any point of it, at most
+  double radius_m = 0.0;                 ///< of the footprint about B
+  double cumulative_max_travel_m = 0.0;  ///< upper bound of any of its points' path length
   double wall_until_m =
-      kUnknown;  ///< nothing solid but robots is reached before it has gone so far
+      kUnknown;  ///< it reaches no wall or block before its cumulative travel is this
   bool suspended = false;
   bool shoving = false;         ///< touches another, or one that does is near
   std::uint8_t kept_parts = 0;  ///< of a step, for which Box2D keeps the body
   DriveKind drive = DriveKind::kDifferential;
 
   Pose X_WB;             ///< exact; yaw not wrapped, in step with the body's angle
-  double moved_m = 0.0;  ///< in this part of a step: any point of it, at most
+  double moved_m = 0.0;  ///< upper bound of any of its points' travel in this substep
   double stall_clock_s = 0.0;
-  double wall_gone_m = kUnknown;  ///< what it had gone when it looked for walls
+  double wall_at_travel_m = kUnknown;  ///< its cumulative travel at its last search for walls
   BodyState* state = nullptr;
   RobotDetails* details = nullptr;
 };

@@ -90,9 +90,9 @@ void Sight::sort_by_place() {
   constexpr double kWhile_m = 0.1;
   for (Spot& spot : by_place_) {
     const Robot& r = bodies_.robot(spot.robot);
-    if (r.gone_m < spot.until_m) continue;
+    if (r.cumulative_max_travel_m < spot.until_m) continue;
     spot.place = along_hilbert_curve(r.X_WB.position());
-    spot.until_m = r.gone_m + kWhile_m;
+    spot.until_m = r.cumulative_max_travel_m + kWhile_m;
   }
   for (std::size_t i = 1; i < by_place_.size(); ++i) {  // insertion sort: nearly sorted already
     const Spot moving = by_place_[i];

@@ -393,7 +393,7 @@ std::optional<std::string> Simulation::apply(DeviceId id, const Command& command
            device.name() + " is switched off: it takes no commands until it is on again";
   }
   Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
-  return device.carry_out(command, control);
+  return device.execute(command, control);
 }
 
 void Simulation::reset() { impl_->reset(); }

@@ -204,7 +204,7 @@ TEST_P(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
     for (const auto& session : {one.get(), two.get()}) {
       const LayerId layer = session->request(CreateLayerRequest{LayerKind::kColour, named("map")});
       dot(*session, 3, 3, session->port() == 6665 ? kRed : kBlue, layer);
-      EXPECT_TRUE(session->request(CellRequest{layer, 3, 3})) << "it was carried out";
+      EXPECT_TRUE(session->request(CellRequest{layer, 3, 3})) << "it was executed";
     }
     EXPECT_EQ(composed_at(*one, 3, 3), kBlue) << swapped;
   }

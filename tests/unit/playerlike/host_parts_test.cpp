@@ -142,9 +142,9 @@ TEST_F(ClientsTest, WhatWaitsKeepsWaitingUnderAnotherRule) {
 
 class LockstepTest : public HostPartsTest {
  protected:
-  std::shared_ptr<Client> join(ThinkerId thinker) {
+  std::shared_ptr<Client> join(ThreadId thread_id) {
     auto client = clients.add(6665, false, {});
-    lockstep.adopt(*client, thinker);
+    lockstep.adopt(*client, thread_id);
     return client;
   }
   Lockstep lockstep{clients, /*gate=*/2, /*silence_limit_s=*/5.0, warn};

@@ -401,7 +401,7 @@ struct Looped {
 
   std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   std::unique_ptr<EventClient> client;
-  ThinkerId thinker = new_thinker();
+  ThreadId thread_id = new_thread_id();
 };
 
 TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
@@ -410,7 +410,7 @@ TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
   const InterfaceBinding binding = subscribe_position(loop.session());
   drive(loop.session(), binding, 0.5);
   for (int i = 1; i <= 20; ++i) {
-    EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kWaiting);
+    EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kWaiting);
     EXPECT_EQ(*loop.calls, i - 1);
     EXPECT_FALSE(host->advance(kLong));
     EXPECT_EQ(*loop.calls, i);
@@ -428,37 +428,38 @@ TEST_F(HostTest, AnEventLoopPeeksSleepsAndHearsOfTheEnd) {
   Looped loop(*host, 6665);
   subscribe_position(loop.session());
   EXPECT_EQ(loop.client->outcome(), Outcome::kIdle);
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(0)), Outcome::kTime) << "only looks";
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(0)), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(0)), Outcome::kTime)
+      << "only looks";
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(0)), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
   EXPECT_EQ(host->time().steps, 1U);
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(50)), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(50)), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
   EXPECT_EQ(host->time().steps, 6U);
-  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 0.1), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 0.1), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
   EXPECT_EQ(host->time().steps, 16U);
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kData) << "of 0.1 s, not taken yet";
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kData) << "of 0.1 s, not taken yet";
   Collector round;
   loop.session().take(round);
-  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 10.0), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 10.0), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kFinished);
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kData);
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kData);
   loop.session().take(round);
   EXPECT_THAT(round.times_ns, testing::ElementsAre(100'000'000, 300'000'000));
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kFinished);
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(5)), Outcome::kFinished);
-  EXPECT_THROW(loop.client->begin_sleep(loop.thinker, -1.0), SessionError);
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kFinished);
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(5)), Outcome::kFinished);
+  EXPECT_THROW(loop.client->begin_sleep(loop.thread_id, -1.0), SessionError);
 }
 
 TEST_F(HostTest, AdvanceStopsNowAndThen) {
   start(two_robots());
   Looped loop(*host, 6665);
-  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 3600.0), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 3600.0), Outcome::kWaiting);
   EXPECT_TRUE(host->advance(std::chrono::microseconds(0)));
   EXPECT_EQ(host->time().steps, 1U);
   loop.client->cancel();
@@ -467,32 +468,32 @@ TEST_F(HostTest, AdvanceStopsNowAndThen) {
   EXPECT_EQ(host->time().steps, 1U);
 }
 
-TEST_F(HostTest, AThinkersClientsDoNotHoldOneAnotherUp) {
+TEST_F(HostTest, AThreadsClientsDoNotHoldOneAnotherUp) {
   start(two_robots());
   Looped a(*host, 6665);
   Looped b(*host, 6666);
   subscribe_position(a.session());
   subscribe_position(b.session());
-  a.client->begin_wait(a.thinker);
-  b.client->begin_wait(b.thinker);
+  a.client->begin_wait(a.thread_id);
+  b.client->begin_wait(b.thread_id);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
   EXPECT_EQ(b.client->outcome(), Outcome::kData);
   Collector round;
   a.session().take(round);
-  EXPECT_EQ(a.client->begin_wait(a.thinker), Outcome::kWaiting);
+  EXPECT_EQ(a.client->begin_wait(a.thread_id), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kWaiting) << "b thinks";
-  // b's client comes to a's thinker, which waits already.
-  b.client->join(a.thinker);
+  // Thread a takes over b's client while it waits.
+  b.client->join(a.thread_id);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
   EXPECT_EQ(host->time().steps, 20U);
-  // A thinker that has ended takes no part.
-  b.client->join(b.thinker);
+  // A thread that has ended takes no part.
+  b.client->join(b.thread_id);
   a.session().take(round);
-  a.client->begin_wait(a.thinker);
-  host->thinker_ended(b.thinker);
+  a.client->begin_wait(a.thread_id);
+  host->thread_ended(b.thread_id);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
 }
@@ -507,7 +508,7 @@ TEST_F(HostTest, AnEventLoopAndAThreadShareTheLockstep) {
     for (int i = 1; i <= 5; ++i) EXPECT_EQ(read(*session).times_ns.back(), i * 100'000'000);
   });
   for (int i = 1; i <= 5; ++i) {
-    loop.client->begin_wait(loop.thinker);
+    loop.client->begin_wait(loop.thread_id);
     while (loop.client->outcome() == Outcome::kWaiting) {
       host->advance(std::chrono::microseconds(100));
       std::this_thread::yield();
@@ -528,8 +529,8 @@ TEST_F(HostTest, ASilentEventClientIsNamedAndLeftBehind) {
   Looped waiting(*host, 6665);
   Looped silent(*host, 6666);
   subscribe_position(waiting.session());
-  silent.client->join(silent.thinker);
-  waiting.client->begin_wait(waiting.thinker);
+  silent.client->join(silent.thread_id);
+  waiting.client->begin_wait(waiting.thread_id);
   while (waiting.client->outcome() == Outcome::kWaiting) {
     host->advance(std::chrono::microseconds(100));
     host->check_silence();
@@ -588,7 +589,7 @@ TEST_F(HostTest, StepCreditLimitsLockstepTime) {
   EXPECT_EQ(host->time().steps, 3U);
   Looped loop(*host, 6665);
   subscribe_position(loop.session());
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kWaiting);
   host->add_step_credit(2);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kWaiting);

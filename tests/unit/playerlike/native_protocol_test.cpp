@@ -130,9 +130,9 @@ class FakeHub final : public Hub {
     handlers[&peer] = std::move(handler);
   }
   void quit() override {}
-  ThinkerId thinker(const std::string& process, std::uint64_t thread) override {
-    ThinkerId& id = thinkers_[{process, thread}];
-    if (id == 0) id = new_thinker();
+  ThreadId thread_id(const std::string& process, std::uint64_t thread) override {
+    ThreadId& id = thread_ids_[{process, thread}];
+    if (id == 0) id = new_thread_id();
     return id;
   }
 
@@ -162,7 +162,7 @@ class FakeHub final : public Hub {
   std::mutex mutex_;
   std::deque<std::function<void()>> tasks_;
   std::uint64_t last_timer_ = 0;
-  std::map<std::pair<std::string, std::uint64_t>, ThinkerId> thinkers_;
+  std::map<std::pair<std::string, std::uint64_t>, ThreadId> thread_ids_;
 };
 
 /// What a client program sees.

@@ -110,8 +110,8 @@ class WordHandler final : public Handler {
           find_interface(client_->session().robots(), 6665, "position2d", 0).reading});
       peer_.send("joined\n");
     } else if (word == "read") {
-      const auto thinker = hub_.thinker("test", static_cast<std::uint64_t>(number));
-      if (client_->begin_wait(thinker) != EventClient::Outcome::kWaiting) return answer_wait();
+      const auto thread_id = hub_.thread_id("test", static_cast<std::uint64_t>(number));
+      if (client_->begin_wait(thread_id) != EventClient::Outcome::kWaiting) return answer_wait();
       hub_.pump();
     } else if (word == "quit") {
       hub_.quit();

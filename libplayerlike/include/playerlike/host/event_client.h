@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
@@ -52,15 +52,15 @@ class EventClient final {
   /// Begins a wait like Session::wait(). It ends with kData or kFinished.
   /// @return the outcome, or kWaiting if the wait is not over. The same applies to the functions
   ///         below.
-  Outcome begin_wait(ThinkerId thinker);
+  Outcome begin_wait(ThreadId thread_id);
   /// Begins a wait like Session::peek(). It ends with kData, kTime or kFinished. In a paced
   /// simulation the timeout does not end it: the caller must cancel it.
-  Outcome begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout);
+  Outcome begin_peek(ThreadId thread_id, std::chrono::milliseconds timeout);
   /// Begins a wait like SleepRequest. It ends with kTime or kFinished.
   /// @throws SessionError kBadArgument.
-  Outcome begin_sleep(ThinkerId thinker, double seconds);
+  Outcome begin_sleep(ThreadId thread_id, double seconds);
   /// Joins the lockstep like JoinRequest.
-  void join(ThinkerId thinker);
+  void join(ThreadId thread_id);
 
   /// Continues drawings like Session::draw(), until about this number of cells has been written (at
   /// most a row of tiles or a line more). The simulation is locked only for this time. Earlier

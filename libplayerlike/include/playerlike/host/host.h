@@ -68,7 +68,7 @@ class Host : public std::enable_shared_from_this<Host> {
   void note_end_request(int signal);
 
   /// Notes that a thread no longer takes part; see EventClient.
-  void thinker_ended(ThinkerId thinker) noexcept;
+  void thread_ended(ThreadId thread_id) noexcept;
 
   /// Sets an alarm. If it is already due or the run is over, it is notified before this function
   /// returns.

@@ -68,7 +68,7 @@ struct FrameHeader {
 static_assert(sizeof(FrameHeader) == 28);
 
 /// Whether a header is valid.
-[[nodiscard]] inline bool is_sound(const FrameHeader& header) noexcept {
+[[nodiscard]] inline bool is_valid(const FrameHeader& header) noexcept {
   return header.magic == kMagic && header.width > 0 && header.width <= kGreatestSide_px &&
          header.height > 0 && header.height <= kGreatestSide_px &&
          header.text_bytes <= kGreatestText && header.paused <= 1;

@@ -67,7 +67,7 @@ struct DrawOperation {
   CellValue value;
 };
 
-/// How far a list of drawings has been carried out, see LayerStack::draw_some().
+/// How far a list of drawings has been executed, see LayerStack::draw_some().
 struct DrawProgress {
   std::size_t operation = 0;  ///< drawings that are done
   int row = 0;                ///< rows of the next one that are done, if it is a fill

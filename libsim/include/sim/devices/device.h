@@ -248,7 +248,7 @@ class Device {
   /// @return nothing if done; else why not, e.g. that the device does not take such commands.
   virtual std::optional<std::string> apply(const Command& command);
   /// The same for a device that does something to its robot; calls apply() by default.
-  virtual std::optional<std::string> carry_out(const Command& command, RobotControl& robot);
+  virtual std::optional<std::string> execute(const Command& command, RobotControl& robot);
 
   /// Called before each step in which the device is active and its robot may move, in order of
   /// device: the moment to steer. By default it does nothing, and is not called again.

@@ -83,7 +83,7 @@ class Gripper final : public SensorOf<GripperReading> {
   /// Outlines of both paddles now, left and right, in B [m].
   [[nodiscard]] std::vector<std::vector<Vec2>> paddles() const;
 
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   void act(RobotControl& robot) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;

@@ -96,7 +96,7 @@ class Motion final : public Actuator {
   /// CarCommand and MotorEnableCommand.
   std::optional<std::string> apply(const Command& command) override;
   /// As apply(); what drives also takes the motors from whatever else steers, unless they are off.
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   /// Holds the heading, or goes on to the position, if that was commanded.
   void act(RobotControl& robot) override;
   void motors_taken() override;

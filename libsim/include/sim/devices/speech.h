@@ -23,7 +23,7 @@ class Speech final : public Actuator {
   /// What stands over the robot now; empty: nothing.
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   void integrate(const StepContext& context) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;

@@ -23,7 +23,7 @@ class Teleport final : public Actuator {
  public:
   Teleport(std::string name, const TeleportParams& params);
 
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
 };
 
 }  // namespace sim

@@ -76,7 +76,7 @@ class Waypoint final : public SensorOf<WaypointReading> {
 
   /// Refuses a goal with numbers that are not finite, a tolerance or speed that is not positive, a
   /// robot without motors, and to resume before the first goal.
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   void act(RobotControl& robot) override;
   void integrate(const StepContext& context) override;
   void motors_taken() override;
