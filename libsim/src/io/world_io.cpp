@@ -466,7 +466,7 @@ class WorldReader {
         robot.port = 0;
       }
     }
-    if (!model_is_valid) return;  // of what depends on the model nothing can be said
+    if (!model_is_valid) return;  // the rest depends on the model
     const RobotModel& model = *find_robot_model(world_, robot.model);
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
     if (std::optional<Reader> proxies = reader.object("proxies")) {
@@ -482,9 +482,9 @@ class WorldReader {
     reader.finish();
   }
 
-  /// Sees to it that find_robot_model() knows a model that a robot names. Issues of a model's file
-  /// are told once.
-  /// @return false if it is not sound.
+  /// Adds the model that a robot names to the world, if it is not there yet. Issues of a model's
+  /// file are reported once.
+  /// @return false if the model is invalid.
   bool load_model(Reader& robot_reader, const std::string& name) {
     if (find_robot_model(world_, name) != nullptr) return true;
     if (bad_models_.contains(name)) return false;

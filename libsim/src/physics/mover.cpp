@@ -9,7 +9,7 @@
 namespace sim::physics {
 namespace {
 
-// A gap may decrease by this much more than the linear constraints allow in a part of a step.
+// A gap may decrease by this much more than the linear constraints allow in a substep.
 constexpr double kSecondOrder_m = 0.0003;
 
 // Maximum travel of any point of a robot in one Box2D step while robots push each other. Box2D
@@ -25,7 +25,7 @@ constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
 constexpr double kStallDelay_s = 0.2;
 
-// Lower limit of the travel in a part of a step that determines the search range around slow robots
+// Lower limit of the travel in a substep that determines the search range around slow robots
 // [m]. It suffices to find everything that touches.
 constexpr double kLeastTravel_m = 0.25 * kMaxTravel_m;
 

@@ -22,7 +22,7 @@ class Neighbours {
   /// Two robots that may hinder each other.
   struct NearPair {
     int first, second;
-    double apart_m;    ///< lower bound at the start of this part of a step,
+    double apart_m;    ///< lower bound at the start of this substep,
     b2Vec2 direction;  ///< along this direction, from the first to the second
   };
 
@@ -52,7 +52,7 @@ class Neighbours {
   [[nodiscard]] const std::vector<Neighbour>& near_to(std::size_t robot) const {
     return near_to_[robot];
   }
-  /// Whether a robot can follow its target in this part of a step: it reaches no solid, and no more
+  /// Whether a robot can follow its target in this substep: it reaches no solid, and no more
   /// than half of the gap to any other robot. Must not be called for robots that may be pushed.
   [[nodiscard]] bool is_free(std::size_t index, double dt_s) const;
   /// Whether a pushed robot might hit something that it does not touch yet.
@@ -97,10 +97,10 @@ class Neighbours {
       meet_at_travel_m_;            // by pair: cumulative_max_travel_m_ from which on they may meet
   std::vector<Pair> pairs_before_;  // previous `pairs_`
   std::vector<double> meet_before_;
-  std::vector<std::size_t> may_meet_;  // those pairs that may meet in this part of a step
+  std::vector<std::size_t> may_meet_;  // indices of pairs that may meet in this substep
   double pairs_until_m_ = 0.0;
-  std::vector<NearPair> near_pairs_;             // those pairs that may hinder each other
-  std::vector<std::vector<Neighbour>> near_to_;  // the same by robot
+  std::vector<NearPair> near_pairs_;             // those that may hinder each other
+  std::vector<std::vector<Neighbour>> near_to_;  // the same pairs, by robot
 };
 
 }  // namespace sim::physics

@@ -84,7 +84,7 @@ struct alignas(64) Robot {
       kUnknown;  ///< it reaches no wall or block before its cumulative travel is this
   bool suspended = false;
   bool shoving = false;         ///< touches another robot, or is near one that does
-  std::uint8_t kept_parts = 0;  ///< remaining parts of a step with a Box2D body
+  std::uint8_t kept_parts = 0;  ///< number of further substeps with a Box2D body
   DriveKind drive = DriveKind::kDifferential;
 
   Pose X_WB;             ///< exact; yaw is not wrapped, and matches the body's angle

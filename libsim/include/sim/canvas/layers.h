@@ -67,10 +67,10 @@ struct DrawOperation {
   CellValue value;
 };
 
-/// How far a list of drawings has been executed, see LayerStack::draw_some().
+/// Progress in a list of drawings, see LayerStack::draw_some().
 struct DrawProgress {
-  std::size_t operation = 0;  ///< drawings that are done
-  int row = 0;                ///< rows of the next one that are done, if it is a fill
+  std::size_t operation = 0;  ///< number of finished drawings
+  int row = 0;                ///< finished rows of the next drawing if it is a fill
 };
 
 /// Removes drawings that a later fill of the same layer covers, since they do not affect the
@@ -118,11 +118,11 @@ class LayerStack {
   /// All layers in drawing order, lowest first.
   [[nodiscard]] std::vector<LayerInfo> layers() const;
 
-  /// Carries drawings out, in order; those on layers that are gone do nothing, and those that a
-  /// later fill of the same layer covers are left out.
+  /// Executes drawings in order. Drawings on removed layers have no effect, and those that a later
+  /// fill of the same layer covers are skipped.
   void draw(std::span<const DrawOperation> operations);
-  /// Carries on with drawings, in order, until a number of cells has been written (cells_written();
-  /// a line is not divided, a fill is divided between rows) or all are done.
+  /// Continues drawings in order, until this many cells have been written (cells_written()) or all
+  /// drawings are finished. Lines are not divided; fills are divided between rows.
   /// @param progress  where to continue; advanced by this call. All is done when it is at the end
   ///     of the list.
   /// @param cells     >= 1.

@@ -246,10 +246,11 @@ class Device {
     return std::nullopt;
   }
 
-  /// Carries out a command at the step boundary.
-  /// @return nothing if done; else why not, e.g. that the device does not take such commands.
+  /// Executes a command between two steps.
+  /// @return nothing on success; otherwise the reason, e.g. that the device does not take such
+  ///     commands.
   virtual std::optional<std::string> apply(const Command& command);
-  /// The same for a device that does something to its robot; calls apply() by default.
+  /// Executes a command that acts on the robot. The default calls apply().
   virtual std::optional<std::string> execute(const Command& command, RobotControl& robot);
 
   /// Called before each step in which the device is active and its robot may move, in the order of

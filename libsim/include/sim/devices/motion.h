@@ -98,7 +98,8 @@ class Motion final : public Actuator {
   /// Takes TwistCommand (clamped to the limits), HeadingCommand, PositionCommand, CarCommand and
   /// MotorEnableCommand.
   std::optional<std::string> apply(const Command& command) override;
-  /// As apply(); what drives also takes the motors from whatever else steers, unless they are off.
+  /// Like apply(). A command to drive also takes the motors from other devices, unless they are
+  /// off.
   std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   /// Continues to hold a heading or to drive to a position, if commanded.
   void act(RobotControl& robot) override;
