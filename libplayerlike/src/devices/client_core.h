@@ -92,7 +92,7 @@ class ClientCore final : private ReadingSink {
 
   /// Counts the program's accesses to a sensor's data; see NoteLooksRequest. The caller holds the
   /// mutex.
-  void note_looks(int count, bool has_data) {
+  void count_data_reads(int count, bool has_data) {
     constexpr int kAtOnce = 1024;
     looks_ += count;
     if (looks_ < kAtOnce) return;

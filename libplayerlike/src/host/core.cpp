@@ -109,7 +109,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   if (!ended_) inputs_.apply(client);
   client.drawings.close();
   inputs_.book.leave(client.number);
-  if (turns_) Turns::instance().let_go(&client);
+  if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
   changed_.notify_all();
 }
@@ -181,12 +181,12 @@ void Host::Core::set_busy_alarm() {
   if (!paced() && !over() && simulation_.now_ns() == 0) standing_time_.set_alarm();
 }
 
-void Host::Core::note_looks(Client& client, int count, bool has_data) {
+void Host::Core::count_data_reads(Client& client, int count, bool has_data) {
   if (!client.is_programs()) return;
   bool look = false;
   {
     const std::lock_guard input(client.input_mutex);
-    look = StandingTime::note_looks(client, now_ns(), count, has_data);
+    look = StandingTime::count_data_reads(client, now_ns(), count, has_data);
   }
   if (look) check_standing_time(client);
 }
@@ -554,7 +554,7 @@ void Host::Core::finish() noexcept {
       for (const auto& client : clients_) inputs_.apply(*client);
       end_run();
       release_waiters();
-      if (in_turns()) Turns::instance().kick();
+      if (in_turns()) Turns::instance().schedule_next();
     }
     stop_pacing_ = true;
     changed_.notify_all();

@@ -143,7 +143,7 @@ class Host::Core {
   /// Throws SessionError kNotAvailable if the world hides something from this client.
   /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;
-  void note_looks(Client& client, int count, bool has_data);
+  void count_data_reads(Client& client, int count, bool has_data);
   void check_standing_time(Client& client);
   void set_busy_alarm();
   void prefer_real_time(const std::string& reason);

@@ -81,7 +81,7 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const PreferRealTimeRequest& what) const { core.prefer_real_time(what.reason); }
   void operator()(const NoteLooksRequest& what) const {
-    core.note_looks(client, what.count, what.has_data);
+    core.count_data_reads(client, what.count, what.has_data);
   }
   // An embedded simulation has no connection that could be slow or lost.
   void operator()(const AnswerTimeoutRequest&) const {}

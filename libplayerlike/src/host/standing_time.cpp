@@ -13,7 +13,7 @@ namespace {
 // Limits of commands and of accesses to data, while simulated time stands still, before the
 // warning; see IdleCalls. Before the first Read() few programs need many. Later a program may send
 // a command for each beam of a scan and read each beam many times. kLooksInAStep is below the three
-// million accesses after which virtual_time::note_looks() lets time advance.
+// million accesses after which virtual_time::count_data_reads() lets time advance.
 constexpr double kCommandsBeforeFirstStep = 1000.0;
 constexpr double kCommandsInAStep = 10'000.0;
 constexpr double kCommandsAfterSleeps = 20.0;  // per robot; also the least of the limits above
@@ -36,7 +36,7 @@ bool StandingTime::note_command(Client& client, sim::SimTime now_ns) const {
              : client.idle.note_command(now_ns, share, 1.0 / (kCommandsAfterSleeps * robots_));
 }
 
-bool StandingTime::note_looks(Client& client, sim::SimTime now_ns, int count, bool has_data) {
+bool StandingTime::count_data_reads(Client& client, sim::SimTime now_ns, int count, bool has_data) {
   return client.idle.note(now_ns, count / (has_data ? kLooksInAStep : kLooksWithoutData));
 }
 

@@ -23,12 +23,12 @@ class StandingTime {
   [[nodiscard]] bool note_wish() noexcept {
     return !wants_time_.load(std::memory_order_relaxed) && !wants_time_.exchange(true);
   }
-  /// note_command() counts a program's command, note_looks() its accesses to data, at a simulated
-  /// time. The caller holds the client's input mutex, not the host's. @return whether check() must
-  /// be called.
+  /// note_command() counts a program's command, count_data_reads() its accesses to data, at a
+  /// simulated time. The caller holds the client's input mutex, not the host's. @return whether
+  /// check() must be called.
   [[nodiscard]] bool note_command(Client& client, sim::SimTime now_ns) const;
-  [[nodiscard]] static bool note_looks(Client& client, sim::SimTime now_ns, int count,
-                                       bool has_data);
+  [[nodiscard]] static bool count_data_reads(Client& client, sim::SimTime now_ns, int count,
+                                             bool has_data);
   /// Warns if no thread will let time advance.
   /// @param hopeful  a thread may still do so.
   void check(Client& client, sim::SimTime now_ns, bool hopeful);

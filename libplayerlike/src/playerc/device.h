@@ -96,7 +96,7 @@ template <typename T>
 /// Runs action(device) with the device behind a struct; handles errors like reported().
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
-  virtual_time::note_looks();
+  virtual_time::count_data_reads();
   return reported(fun, [&] { return action(device_of<T>(device)); });
 }
 
