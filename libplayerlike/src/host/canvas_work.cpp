@@ -26,7 +26,7 @@ bool same_size(const sim::CanvasDescription& a, const sim::CanvasDescription& b)
 
 // A thread that locked the mutex again at once would starve the threads that sleep while they wait
 // for it.
-void Host::Core::let_others_in() const {
+void Host::Core::yield_to_priority_waiters() const {
   std::this_thread::sleep_for(std::chrono::microseconds(50));
   while (priority_waiters_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
 }
@@ -43,7 +43,7 @@ bool Host::Core::draw_some(Client& client, DrawWork& work, std::size_t cells) {
     work.written += simulation_.layers().draw_some(work.operations, work.progress, cells);
   }
   const bool done = work.progress.operation == work.operations.size();
-  if (!done) let_others_in();
+  if (!done) yield_to_priority_waiters();
   return done;
 }
 
@@ -70,7 +70,7 @@ sim::CanvasDescription Host::Core::copy_in_pieces(Client& client, const Copy& co
       row = 0;
       copy.make_room(canvas);
     }
-    if (row < canvas.height) let_others_in();
+    if (row < canvas.height) yield_to_priority_waiters();
   }
   return canvas;
 }
@@ -123,7 +123,7 @@ std::vector<std::uint8_t> Host::Core::picture(Client& client, std::optional<sim:
         composed += kPiece;
         return !layers.compose_some(kPiece) && composed < cells_of(layers.description()) + kPiece;
       });
-      if (more) let_others_in();
+      if (more) yield_to_priority_waiters();
     }
   }
   std::vector<std::uint8_t> rgba;

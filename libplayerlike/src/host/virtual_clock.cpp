@@ -41,7 +41,7 @@ void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
 }
 
 bool Host::Core::VirtualClock::step(Lock& lock) {
-  if (core_.over() || core_.pace_.used_up() || !core_.lockstep_.gate_open() ||
+  if (core_.over() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
       !Turns::instance().somebody_waits_for_time()) {
     return false;
   }
@@ -140,7 +140,7 @@ void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
   });
   const RunSettings& settings = core_.settings_;
   if (settings.quiet_end &&
-      (!(core_.end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+      (!(core_.end_reported_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
     if (settings.progress && core_.log_) {
       core_.log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     }

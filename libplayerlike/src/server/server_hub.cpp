@@ -428,7 +428,7 @@ void ServerHub::Body::tick() {
     const Clock::time_point now = Clock::now();
     // A copy, since connections that end are removed.
     const std::vector<std::shared_ptr<Connection>> all(connections_.begin(), connections_.end());
-    for (const auto& connection : all) connection->look_after(now);
+    for (const auto& connection : all) connection->enforce_limits(now);
     if (stopping_ && now >= stop_deadline_) {
       for (const auto& connection : all) connection->end("the server ended");
     }

@@ -36,8 +36,8 @@ struct TurnThread {
   pid_t number = 0;              ///< the system's thread id; 0: not begun yet
   const void* handle = nullptr;  ///< its pthread_t
   State state = State::kReady;
-  std::uint64_t queue_order =
-      0;  ///< order among ready threads and among threads that wait for one object: lowest first
+  /// Order among ready threads and among threads that wait for one object: lowest first.
+  std::uint64_t queue_order = 0;
   bool starts_background = false;  ///< it has called StartThread()
 
   // What it waits for; any of these ends the wait.
