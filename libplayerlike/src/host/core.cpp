@@ -108,7 +108,7 @@ void Host::Core::remove_client(Client& client) noexcept {
   // Its last commands are still applied.
   if (!ended_) inputs_.apply(client);
   client.drawings.close();
-  inputs_.book.leave(client.number);
+  inputs_.registry.leave(client.number);
   if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
   changed_.notify_all();

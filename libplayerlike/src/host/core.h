@@ -87,13 +87,14 @@ class Host::Core {
   std::optional<std::string> set_time_factor(double factor);
   void note_program_ends(int status);
 
-  /// Applies the client's pending drawings, then calls action(layers, book); all under the mutex.
+  /// Applies the client's pending drawings, then calls action(layers, registry); all under the
+  /// mutex.
   template <typename Action>
   auto with_layers(Client& client, Action action) {
     const Lock lock = lock_with_priority();
     client.require_open();
     inputs_.apply_drawings(client);
-    return action(simulation_.layers(), inputs_.book);
+    return action(simulation_.layers(), inputs_.registry);
   }
   // In canvas_work.cpp: work that takes long on a large canvas. It is done in pieces, between which
   // other threads can lock the mutex.

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "playerlike/session/layer_book.h"
+#include "playerlike/session/layer_registry.h"
 #include "remote/message_sender.h"
 #include "remote/socket_session.h"
 #include "sim/core/number_text.h"
