@@ -16,7 +16,7 @@
 
 #include "libplayerc++/playererror.h"
 #include "player_errors.h"
-#include "playerlike/session/layer_book.h"
+#include "playerlike/session/layer_registry.h"
 #include "playerlike/session/session.h"
 #include "sim/canvas/layers.h"
 #include "sim/devices/laser.h"
@@ -46,7 +46,7 @@ struct FakeWorld {
   int cell_calls = 0;     ///< of draw_cells()
   int flushes = 0;
   sim::LayerStack layers{sim::CanvasDescription{}};
-  playerlike::LayerBook book;
+  playerlike::LayerRegistry registry;
   int clients = 0;  ///< number of sessions so far
   std::atomic<std::uint64_t> resizes{0};
   sim::ViewMode view_mode = sim::ViewMode::kGround;
@@ -210,7 +210,7 @@ class FakeSession final : public playerlike::Session {
     world_->closed = true;
     execute_drawings();
     queue_.close();
-    world_->book.leave(number_);
+    world_->registry.leave(number_);
     world_->changed.notify_all();
   }
 
@@ -249,59 +249,59 @@ class FakeSession final : public playerlike::Session {
   void operator()(const playerlike::AnswerTimeoutRequest&) {}
   void operator()(const playerlike::RetriesRequest&) {}
   void operator()(const playerlike::FlushDrawingsRequest&) {
-    with_layers([this](sim::LayerStack&, playerlike::LayerBook&) {
+    with_layers([this](sim::LayerStack&, playerlike::LayerRegistry&) {
       ++world_->flushes;
       queue_.reserve();
     });
   }
   void operator()(const playerlike::SetCellsRequest& what) {
     playerlike::require_cells(what.rect, what.cells.size());
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, what.layer);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.require(number_, what.layer);
       ++world_->cell_calls;
       layers.set_cells(what.layer, what.rect, what.cells);
     });
   }
   std::optional<sim::CellValue> operator()(const playerlike::CellRequest& what) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, what.layer);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.require(number_, what.layer);
       return layers.cell(what.layer, what.column, what.row);
     });
   }
   std::vector<sim::CellValue> operator()(const playerlike::CellsRequest& what) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, what.layer);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.require(number_, what.layer);
       return layers.cells(what.layer);
     });
   }
   sim::LayerId operator()(const playerlike::CreateLayerRequest& what) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      return book.create(layers, number_, world_->port, what.kind, what.style);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      return registry.create(layers, number_, world_->port, what.kind, what.style);
     });
   }
   void operator()(const playerlike::RemoveLayerRequest& what) {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.remove(layers, number_, what.layer);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.remove(layers, number_, what.layer);
     });
   }
   void operator()(const playerlike::SetLayerStyleRequest& what) {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.set_style(layers, number_, what.layer, what.style);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.set_style(layers, number_, what.layer, what.style);
     });
   }
   std::vector<sim::LayerInfo> operator()(const playerlike::LayersRequest&) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      return book.list(layers, number_);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      return registry.list(layers, number_);
     });
   }
   playerlike::CanvasImage operator()(const playerlike::CanvasImageRequest&) {
-    return with_layers([](sim::LayerStack& layers, playerlike::LayerBook&) {
+    return with_layers([](sim::LayerStack& layers, playerlike::LayerRegistry&) {
       return playerlike::CanvasImage{layers.composed(), {}};
     });
   }
   playerlike::CanvasInfo operator()(const playerlike::ResizeCanvasRequest& what) {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.resize(layers, what.width, what.height);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.resize(layers, what.width, what.height);
       ++world_->resizes;
     });
     return (*this)(playerlike::CanvasInfoRequest{});
@@ -371,12 +371,12 @@ class FakeSession final : public playerlike::Session {
     });
   }
   template <typename Action>
-  std::invoke_result_t<Action, sim::LayerStack&, playerlike::LayerBook&> with_layers(
+  std::invoke_result_t<Action, sim::LayerStack&, playerlike::LayerRegistry&> with_layers(
       Action action) {
     const std::lock_guard lock(world_->mutex);
     require_open();
     execute_drawings();
-    return action(world_->layers, world_->book);
+    return action(world_->layers, world_->registry);
   }
 
   std::shared_ptr<FakeWorld> world_;

@@ -76,7 +76,7 @@ void ClientCore::read(const std::atomic<bool>* stop) {
   for (const auto& call : notifications) call();
 }
 
-bool ClientCore::read_what_waits() {
+bool ClientCore::read_pending() {
   Notifications notifications;
   int count = 0;
   {
@@ -155,7 +155,7 @@ std::optional<sim::Pose> ClientCore::last_pose(int robot) const {
   return it->second.pose;
 }
 
-sim::LayerId ClientCore::take_sheet() {
+sim::LayerId ClientCore::acquire_layer() {
   constexpr int kPriority = 100;
   require_usable();
   const std::vector<sim::LayerInfo> layers = session_->request(LayersRequest{});
@@ -183,7 +183,7 @@ sim::LayerId ClientCore::take_sheet() {
   }
 }
 
-void ClientCore::give_back_sheet(sim::LayerId layer) noexcept {
+void ClientCore::release_layer(sim::LayerId layer) noexcept {
   const std::lock_guard lock(mutex_);
   const auto sheet = sheets_.find(layer);
   if (sheet != sheets_.end()) sheet->second = false;

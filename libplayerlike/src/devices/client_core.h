@@ -61,7 +61,7 @@ class ClientCore final : private ReadingSink {
   void read(const std::atomic<bool>* stop = nullptr);
   /// Delivers the readings that have arrived, without waiting and without letting simulated time
   /// advance. @return whether there were any.
-  bool read_what_waits();
+  bool read_pending();
   [[nodiscard]] bool peek(std::chrono::milliseconds timeout) { return session_->peek(timeout); }
 
   /// Ends the session. Listeners stay registered, but get no more readings. Locks the mutex.
@@ -92,7 +92,7 @@ class ClientCore final : private ReadingSink {
 
   /// Counts the program's accesses to a sensor's data; see NoteLooksRequest. The caller holds the
   /// mutex.
-  void note_looks(int count, bool has_data) {
+  void count_data_reads(int count, bool has_data) {
     constexpr int kAtOnce = 1024;
     looks_ += count;
     if (looks_ < kAtOnce) return;
@@ -107,9 +107,9 @@ class ClientCore final : private ReadingSink {
   /// A layer for a Graphics2dProxy: one that an earlier proxy gave back, or a new one. A new layer
   /// takes the first of the names "graphics2d", "graphics2d_1", ... that neither a proxy nor
   /// another layer uses. The caller holds the mutex.
-  [[nodiscard]] sim::LayerId take_sheet();
-  /// Gives a layer of take_sheet() back; its contents stay. Locks the mutex; never throws.
-  void give_back_sheet(sim::LayerId layer) noexcept;
+  [[nodiscard]] sim::LayerId acquire_layer();
+  /// Gives a layer of acquire_layer() back; its contents stay. Locks the mutex; never throws.
+  void release_layer(sim::LayerId layer) noexcept;
 
   /// Replace rules for interfaces whose devices are subscribed to later. The caller holds the
   /// mutex.

@@ -72,7 +72,7 @@ PlayerCc::mutex_t::scoped_lock MorseDevice::Lock(const char* aFunction, int aLoo
   PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
   // Builds the function's name only for an error.
   if (!Core()->usable()) translated(Fun(aFunction).c_str(), [&] { Core()->require_usable(); });
-  Core()->note_looks(aLooks, /*has_data=*/true);
+  Core()->count_data_reads(aLooks, /*has_data=*/true);
   return lock;
 }
 
@@ -124,13 +124,13 @@ void MorseSensor::Detach() { Core()->remove(*mReceiver); }
 
 bool MorseSensor::IsValid() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  Core()->note_looks(1, mReceiver->newest.valid);
+  Core()->count_data_reads(1, mReceiver->newest.valid);
   return mReceiver->newest.valid;
 }
 
 bool MorseSensor::IsFresh() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  Core()->note_looks(1, mReceiver->newest.valid);
+  Core()->count_data_reads(1, mReceiver->newest.valid);
   return mReceiver->fresh;
 }
 

@@ -96,7 +96,7 @@ sim::Twist SmoothNearnessDiagram::step(double time_s, const sim::Pose& X_WB, con
     return {0.0, std::clamp(gain_per_s * error_rad, -settings_.max_turn_rate_radps,
                             settings_.max_turn_rate_radps)};
   }
-  see(time_s, X_WB, scan);
+  update_obstacles(time_s, X_WB, scan);
   measure_depths(time_s, X_WB);
   return drive(choose_heading(X_WB, p_BG), goal_m, period_s);
 }
@@ -108,7 +108,8 @@ bool SmoothNearnessDiagram::View::covers(double bearing_rad) const {
 // Collects the points that the laser sees, relative to the body's centre, and remembered points
 // outside of its view. Without memory, a laser with a limited field of view would lose the wall
 // behind the robot in a turn, and the goal would draw the robot back to the wall.
-void SmoothNearnessDiagram::see(double time_s, const sim::Pose& X_WB, const SndScan& scan) {
+void SmoothNearnessDiagram::update_obstacles(double time_s, const sim::Pose& X_WB,
+                                             const SndScan& scan) {
   const double span_rad = scan.resolution_rad * static_cast<double>(scan.ranges_m.size());
   view_ = {scan.angle_min_rad + 0.5 * (span_rad - scan.resolution_rad) + scan.X_BL.yaw_rad,
            std::min(0.5 * span_rad, kPi)};
@@ -145,10 +146,10 @@ void SmoothNearnessDiagram::see(double time_s, const sim::Pose& X_WB, const SndS
   std::stable_sort(obstacles_.begin(), obstacles_.end(), [](const Obstacle& a, const Obstacle& b) {
     return a.bearing_rad < b.bearing_rad;
   });
-  looked_s_.resize(kSectors, -kMemory_s);
+  last_seen_s_.resize(kSectors, -kMemory_s);
   for (int s = 0; s < kSectors; ++s) {
     if (!view_.covers(bearing_of(s))) continue;
-    looked_s_[static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad))] = time_s;
+    last_seen_s_[static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad))] = time_s;
   }
 }
 
@@ -157,8 +158,8 @@ void SmoothNearnessDiagram::see(double time_s, const sim::Pose& X_WB, const SndS
 // the perpendicular.
 void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB) {
   const double radius_m = settings_.robot_radius_m + kMargin_m;
-  depths_m_.assign(kSectors, kHorizon_m);
-  blockers_.assign(kSectors, kNobody);
+  free_depths_m_.assign(kSectors, kHorizon_m);
+  blocking_obstacles_.assign(kSectors, kNobody);
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const Obstacle& o = obstacles_[i];
     if (o.distance_m > kHorizon_m + radius_m) continue;
@@ -168,7 +169,7 @@ void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB)
     const int middle = sector_of(o.bearing_rad);
     const int reach = static_cast<int>(half_rad / kSector_rad) + 1;
     for (int s = middle - reach; s <= middle + reach; ++s) {
-      double& depth_m = depths_m_[static_cast<std::size_t>(wrapped(s))];
+      double& depth_m = free_depths_m_[static_cast<std::size_t>(wrapped(s))];
       const double off_rad = bearing_of(s) - o.bearing_rad;
       const double across_m = o.distance_m * std::sin(off_rad);
       const double along_m = o.distance_m * std::cos(off_rad);
@@ -176,17 +177,18 @@ void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB)
       const double free_m = along_m - std::sqrt(radius_m * radius_m - across_m * across_m);
       if (free_m >= depth_m) continue;
       depth_m = std::max(0.0, free_m);
-      blockers_[static_cast<std::size_t>(wrapped(s))] = i;
+      blocking_obstacles_[static_cast<std::size_t>(wrapped(s))] = i;
     }
   }
   for (int s = 0; s < kSectors; ++s) {
     const auto in_world = static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad));
-    if (time_s - looked_s_[in_world] > kMemory_s) depths_m_[static_cast<std::size_t>(s)] = kUnseen;
+    if (time_s - last_seen_s_[in_world] > kMemory_s)
+      free_depths_m_[static_cast<std::size_t>(s)] = kUnseen;
   }
 }
 
 double SmoothNearnessDiagram::depth_at(double bearing_rad) const {
-  return depths_m_[static_cast<std::size_t>(sector_of(bearing_rad))];
+  return free_depths_m_[static_cast<std::size_t>(sector_of(bearing_rad))];
 }
 
 // Finds rising gaps: sectors where the free depth rises by more than the robot's radius, towards
@@ -195,7 +197,7 @@ std::vector<SmoothNearnessDiagram::Gap> SmoothNearnessDiagram::find_gaps(
     const sim::Pose& X_WB) const {
   const double jump_m = 1.0 * settings_.robot_radius_m;
   const auto depth = [this](int sector) {
-    return depths_m_[static_cast<std::size_t>(wrapped(sector))];
+    return free_depths_m_[static_cast<std::size_t>(wrapped(sector))];
   };
   const auto is_gap = [&](int sector) {
     return depth(sector) != kUnseen && depth(sector + 1) != kUnseen &&
@@ -232,8 +234,8 @@ bool SmoothNearnessDiagram::sees(const sim::Vec2& p_BQ) const {
 // Whether a gap may lead to free space. It does not if near and far obstacle belong to one surface,
 // seen at a flat angle, whose points are too close together for the robot to pass.
 bool SmoothNearnessDiagram::hides_something(int near_sector, int far_sector, int side) const {
-  const std::size_t near = blockers_[static_cast<std::size_t>(near_sector)];
-  const std::size_t far = blockers_[static_cast<std::size_t>(far_sector)];
+  const std::size_t near = blocking_obstacles_[static_cast<std::size_t>(near_sector)];
+  const std::size_t far = blocking_obstacles_[static_cast<std::size_t>(far_sector)];
   if (near == kNobody || far == kNobody) return true;
   const std::size_t count = obstacles_.size();
   std::size_t at = near;

@@ -96,7 +96,7 @@ class SmoothNearnessDiagram {
     [[nodiscard]] bool covers(double bearing_rad) const;
   };
 
-  void see(double time_s, const sim::Pose& X_WB, const SndScan& scan);
+  void update_obstacles(double time_s, const sim::Pose& X_WB, const SndScan& scan);
   void measure_depths(double time_s, const sim::Pose& X_WB);
   [[nodiscard]] std::vector<Gap> find_gaps(const sim::Pose& X_WB) const;
   [[nodiscard]] bool sees(const sim::Vec2& p_BQ) const;
@@ -121,9 +121,9 @@ class SmoothNearnessDiagram {
   std::vector<Obstacle> obstacles_;  ///< seen now or remembered, sorted by bearing
   std::vector<Memory> last_scan_;
   std::vector<Memory> memory_;         ///< points outside of the laser's current view
-  std::vector<double> looked_s_;       ///< by bearing in W: when the laser last looked there
-  std::vector<double> depths_m_;       ///< by sector, see the source file; negative: not seen
-  std::vector<std::size_t> blockers_;  ///< by sector: the obstacle that limits its depth
+  std::vector<double> last_seen_s_;    ///< by bearing in W: when the laser last looked there
+  std::vector<double> free_depths_m_;  ///< by sector, see the source file; negative: not seen
+  std::vector<std::size_t> blocking_obstacles_;  ///< by sector: the obstacle that limits its depth
 };
 
 }  // namespace playerlike

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "host/idle_calls.h"
+#include "host/polling_detector.h"
 #include "playerlike/process/thread_id.h"
 #include "playerlike/session/draw_queue.h"
 #include "playerlike/session/session.h"
@@ -50,7 +50,7 @@ struct Client {
   std::uint32_t overflow = 0;
   bool has_data = false;
   sim::SimTime empty_round_ns = 0;  ///< without subscriptions: end of the present round
-  int looks = 0;                    ///< consecutive calls of peek(0)
+  int zero_peeks = 0;               ///< consecutive calls of peek(0)
 
   ThreadId owner = 0;       ///< the thread that waited last; 0: none
   bool joined = false;      ///< takes part in the lockstep
@@ -64,9 +64,10 @@ struct Client {
   std::atomic<bool> closed{false};
   std::atomic<WallClock::rep> last_seen{0};
 
-  std::mutex input_mutex;  ///< guards the commands and idle; locked after the host's mutex
+  /// Guards the commands and the detector; locked after the host's mutex.
+  std::mutex input_mutex;
   std::vector<std::pair<DeviceId, sim::Command>> commands;
-  IdleCalls idle;
+  PollingDetector polling_detector;
   DrawQueue drawings;  ///< any thread may push; the host's mutex guards the rest
 
   /// Whether it belongs to this process's program, not to a driver or a server.

@@ -129,7 +129,7 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
 
 std::vector<std::pair<DeviceId, sim::SharedReading>> Clients::take(Client& client) {
   std::vector<std::pair<DeviceId, sim::SharedReading>> taken;
-  client.looks = 0;
+  client.zero_peeks = 0;
   if (!client.has_data) return taken;
   client.has_data = false;
   begin_round(client);

@@ -47,7 +47,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
                 settings_.silence_limit_s, warn_),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
       inputs_(simulation_, warn_),
-      standing_time_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
+      stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
       results_(
           settings_, simulation_, [this] { return time_locked(); }, warn_),
       clock_(std::make_unique<VirtualClock>(*this)),
@@ -108,8 +108,8 @@ void Host::Core::remove_client(Client& client) noexcept {
   // Its last commands are still applied.
   if (!ended_) inputs_.apply(client);
   client.drawings.close();
-  inputs_.book.leave(client.number);
-  if (turns_) Turns::instance().let_go(&client);
+  inputs_.registry.leave(client.number);
+  if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
   changed_.notify_all();
 }
@@ -140,7 +140,7 @@ void Host::Core::subscribe(Client& client, DeviceId device) {
   client.require_open();
   require_readable(client, device.robot);
   clients_.subscribe(client, device);
-  if (client.is_programs() && standing_time_.note_wish()) set_busy_alarm();
+  if (client.is_programs() && stalled_time_warning_.note_needs_time()) set_busy_alarm();
 }
 
 void Host::Core::require_readable(const Client& client, int robot) const {
@@ -161,15 +161,15 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   client.require_open();
   client.touch();
   const bool is_programs = client.is_programs();
-  if (is_programs && standing_time_.note_wish()) locked([this] { set_busy_alarm(); });
-  bool look = false;
+  if (is_programs && stalled_time_warning_.note_needs_time()) locked([this] { set_busy_alarm(); });
+  bool must_check = false;
   bool full = false;
   {
     const std::lock_guard input(client.input_mutex);
-    look = is_programs && standing_time_.note_command(client, now_ns());
+    must_check = is_programs && stalled_time_warning_.note_command(client, now_ns());
     full = inputs_.add(client, device, command);
   }
-  if (look) check_standing_time(client);
+  if (must_check) check_stalled_time(client);
   if (!full) return;
   const Lock lock = lock_with_priority();
   inputs_.apply(client);
@@ -178,33 +178,34 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
 // --- Programs that do not advance time
 
 void Host::Core::set_busy_alarm() {
-  if (!paced() && !over() && simulation_.now_ns() == 0) standing_time_.set_alarm();
+  if (!paced() && !over() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
 }
 
-void Host::Core::note_looks(Client& client, int count, bool has_data) {
+void Host::Core::count_data_reads(Client& client, int count, bool has_data) {
   if (!client.is_programs()) return;
-  bool look = false;
+  bool must_check = false;
   {
     const std::lock_guard input(client.input_mutex);
-    look = StandingTime::note_looks(client, now_ns(), count, has_data);
+    must_check = StalledTimeWarning::count_data_reads(client, now_ns(), count, has_data);
   }
-  if (look) check_standing_time(client);
+  if (must_check) check_stalled_time(client);
 }
 
-void Host::Core::check_standing_time(Client& client) {
+void Host::Core::check_stalled_time(Client& client) {
   const Lock lock = lock_with_priority();
   const ThreadId self = this_thread_id();
   const bool others =
       in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
-  standing_time_.check(client, simulation_.now_ns(), paced() || over() || others);
+  stalled_time_warning_.check(client, simulation_.now_ns(), paced() || over() || others);
 }
 
 void Host::Core::note_program_ends(int status) {
   const Lock lock = lock_with_priority();
   results_.program_status = status;
-  standing_time_.dismiss_alarm();
+  stalled_time_warning_.dismiss_alarm();
   // A program that ends with an error status needs no advice.
-  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0) standing_time_.note_end();
+  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0)
+    stalled_time_warning_.note_end();
 }
 
 // --- Waiting
@@ -213,9 +214,9 @@ bool Host::Core::program_takes_part() const {
   return pace_.limited() || lockstep_.program_takes_part() || alarms_.let_time_pass();
 }
 
-bool Host::Core::may_advance(bool all_wait_still) {
-  return !paced() && !over() && !pace_.used_up() && lockstep_.gate_open() && program_takes_part() &&
-         (all_wait_still || lockstep_.all_wait());
+bool Host::Core::may_advance(bool all_known_waiting) {
+  return !paced() && !over() && !pace_.step_limit_reached() && lockstep_.gate_open() &&
+         program_takes_part() && (all_known_waiting || lockstep_.all_wait());
 }
 
 bool Host::Core::wait_is_over(const Client& client) const {
@@ -231,7 +232,7 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
   if (in_turns()) clock_->wait_for_turn(lock, client);
   // While this thread holds the mutex, the set of waiting clients changes only when
   // release_waiters() ends a wait.
-  bool all_wait_still = false;
+  bool all_known_waiting = false;
   while (!wait_is_over(client)) {
     client.require_open();
     // Notified once: otherwise threads would keep waking each other and never sleep.
@@ -239,12 +240,12 @@ void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
     if (paced()) {
       if (began) changed_.notify_all();
       changed_.wait(lock);
-    } else if (may_advance(all_wait_still)) {
-      all_wait_still = !advance();
+    } else if (may_advance(all_known_waiting)) {
+      all_known_waiting = !advance();
     } else {
       if (began) changed_.notify_all();
       wait_for_others(lock, client);
-      all_wait_still = false;
+      all_known_waiting = false;
     }
   }
   client.waiting = false;
@@ -264,7 +265,7 @@ void Host::Core::wait(Client& client) {
   Lock lock = lock_for_stepping();
   wait_until(lock, client, /*wants_data=*/true, std::nullopt);
   if (client.has_data) return;
-  end_told_ = true;
+  end_reported_ = true;
   if (settings_.quiet_end && ++reads_after_end_ > kReadsAfterEnd) {
     lock.unlock();
     end_program_quietly();
@@ -297,7 +298,7 @@ bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
     client.waiting = false;
     return client.has_data || over();
   }
-  if (timeout.count() == 0 && ++client.looks < 2) return false;
+  if (timeout.count() == 0 && ++client.zero_peeks < 2) return false;
   wait_until(lock, client, /*wants_data=*/true, end_of_peek(timeout));
   return client.has_data || over();
 }
@@ -345,7 +346,7 @@ EventClient::Outcome Host::Core::begin_peek(Client& client, ThreadId thread_id,
     }
     return begin(client, thread_id, /*wants_data=*/true, std::nullopt);
   }
-  if (timeout.count() == 0 && ++client.looks < 2) return outcome(client);
+  if (timeout.count() == 0 && ++client.zero_peeks < 2) return outcome(client);
   return begin(client, thread_id, /*wants_data=*/true, end_of_peek(timeout));
 }
 
@@ -410,7 +411,7 @@ AlarmId Host::Core::set_alarm(Alarm alarm) {
 
 bool Host::Core::advance() {
   const auto now = WallClock::now();
-  if (progress_.note_step(now)) standing_time_.dismiss_alarm();
+  if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
   inputs_.before_step(clients_);
   simulation_.step();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
@@ -490,7 +491,7 @@ void Host::Core::prefer_real_time(const std::string& reason) {
 
 void Host::Core::start_pacing(const std::string& warning) {
   pace_.follow_wall_clock();
-  standing_time_.dismiss_alarm();
+  stalled_time_warning_.dismiss_alarm();
   if (turns_) virtual_time::give_up_locked();
   warn_(warning);
   pacer_ = std::thread([this] { pace(); });
@@ -512,11 +513,12 @@ void Host::Core::pace() {
       pace_.begin_at(WallClock::now());
       continue;
     }
-    if (pace_.used_up()) {
-      changed_.wait(
-          lock, [this] { return !pace_.used_up() || pace_.paused() || stop_pacing_ || over(); });
+    if (pace_.step_limit_reached()) {
+      changed_.wait(lock, [this] {
+        return !pace_.step_limit_reached() || pace_.paused() || stop_pacing_ || over();
+      });
       // The client that synchronises the clock may be slow.
-      pace_.forgive(WallClock::now());
+      pace_.skip_lost_time(WallClock::now());
       continue;
     }
     const auto due = pace_.due();
@@ -548,13 +550,13 @@ void Host::Core::wait_while_paused(Lock& lock) {
 void Host::Core::finish() noexcept {
   try {
     const Lock lock = lock_with_priority();
-    standing_time_.dismiss_alarm();
+    stalled_time_warning_.dismiss_alarm();
     ended_by_program_ = true;
     if (!ended_) {
       for (const auto& client : clients_) inputs_.apply(*client);
       end_run();
       release_waiters();
-      if (in_turns()) Turns::instance().kick();
+      if (in_turns()) Turns::instance().schedule_next();
     }
     stop_pacing_ = true;
     changed_.notify_all();

@@ -22,7 +22,7 @@
 #include "host/progress.h"
 #include "host/results.h"
 #include "host/saved_states.h"
-#include "host/standing_time.h"
+#include "host/stalled_time_warning.h"
 #include "playerlike/host/event_client.h"
 #include "playerlike/host/host.h"
 #include "virtual_time/turns.h"
@@ -87,13 +87,14 @@ class Host::Core {
   std::optional<std::string> set_time_factor(double factor);
   void note_program_ends(int status);
 
-  /// Applies the client's pending drawings, then calls action(layers, book); all under the mutex.
+  /// Applies the client's pending drawings, then calls action(layers, registry); all under the
+  /// mutex.
   template <typename Action>
   auto with_layers(Client& client, Action action) {
     const Lock lock = lock_with_priority();
     client.require_open();
     inputs_.apply_drawings(client);
-    return action(simulation_.layers(), inputs_.book);
+    return action(simulation_.layers(), inputs_.registry);
   }
   // In canvas_work.cpp: work that takes long on a large canvas. It is done in pieces, between which
   // other threads can lock the mutex.
@@ -127,7 +128,7 @@ class Host::Core {
   [[nodiscard]] Lock lock_for_stepping() const;
   /// Releases the mutex until all callers with priority have had it.
   void give_way(Lock& lock) const;
-  void let_others_in() const;
+  void yield_to_priority_waiters() const;
   void adopt(Client& client, ThreadId thread_id);
   [[nodiscard]] bool over() const { return ended_ || simulation_.finished(); }
   [[nodiscard]] bool paced() const { return pace_.by_wall_clock(); }
@@ -143,8 +144,8 @@ class Host::Core {
   /// Throws SessionError kNotAvailable if the world hides something from this client.
   /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;
-  void note_looks(Client& client, int count, bool has_data);
-  void check_standing_time(Client& client);
+  void count_data_reads(Client& client, int count, bool has_data);
+  void check_stalled_time(Client& client);
   void set_busy_alarm();
   void prefer_real_time(const std::string& reason);
 
@@ -155,8 +156,8 @@ class Host::Core {
   [[nodiscard]] bool wait_is_over(const Client& client) const;
   [[nodiscard]] bool program_takes_part() const;
   /// Whether lockstep time may advance by a step now.
-  /// @param all_wait_still  the caller knows that all clients wait.
-  [[nodiscard]] bool may_advance(bool all_wait_still = false);
+  /// @param all_known_waiting  the caller knows that all clients wait.
+  [[nodiscard]] bool may_advance(bool all_known_waiting = false);
   void wait_for_others(Lock& lock, const Client& client);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
   EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
@@ -202,7 +203,7 @@ class Host::Core {
   Pace pace_;
   Inputs inputs_;
   Alarms alarms_;
-  StandingTime standing_time_;
+  StalledTimeWarning stalled_time_warning_;
   Progress progress_;
   Results results_;
   std::unique_ptr<VirtualClock> clock_;
@@ -213,7 +214,7 @@ class Host::Core {
   bool stop_pacing_ = false;
   bool ended_ = false;
   bool ended_by_program_ = false;
-  bool end_told_ = false;  ///< a session has thrown because the run is over
+  bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;
   bool driven_by_hand_ = false;  ///< a user has driven a robot in the window
 };

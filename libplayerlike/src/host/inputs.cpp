@@ -64,7 +64,7 @@ void Inputs::apply_drawings(Client& client) {
     const bool all_own = std::all_of(operations.begin(), operations.end(), [&](const auto& o) {
       if (layer == o.layer) return true;
       layer = o.layer;
-      return book.may_use(client.number, o.layer);
+      return registry.may_use(client.number, o.layer);
     });
     if (all_own) return simulation_.layers().draw(operations);
     std::vector<sim::DrawOperation> own(operations.begin(), operations.end());
@@ -83,7 +83,7 @@ void Inputs::keep_own_drawings(const Client& client,
   std::optional<sim::LayerId> layer;
   bool own = false;
   std::erase_if(operations, [&](const sim::DrawOperation& o) {
-    if (layer != o.layer) own = book.may_use(client.number, o.layer);
+    if (layer != o.layer) own = registry.may_use(client.number, o.layer);
     layer = o.layer;
     return !own;
   });

@@ -7,7 +7,7 @@
 
 #include "host/clients.h"
 #include "host/view_controls.h"
-#include "playerlike/session/layer_book.h"
+#include "playerlike/session/layer_registry.h"
 
 namespace playerlike {
 
@@ -34,7 +34,7 @@ class Inputs {
   void keep_own_drawings(const Client& client, std::vector<sim::DrawOperation>& operations) const;
 
   /// The owners of the layers.
-  LayerBook book;
+  LayerRegistry registry;
   /// Steering by hand; only in a run with a window.
   std::optional<HandDrive> hand;
 

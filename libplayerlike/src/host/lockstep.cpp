@@ -84,8 +84,8 @@ WallClock::time_point Lockstep::silence_deadline(WallClock::time_point now) cons
 void Lockstep::note_silence(WallClock::time_point now) {
   const auto limit = wall(silence_limit_s_);
   if (!gate_opened_) {
-    if (now - gate_told_ < limit) return;
-    gate_told_ = now;
+    if (now - gate_warned_at_ < limit) return;
+    gate_warned_at_ = now;
     return warn_("the start gate waits for " + std::to_string(gate_) + " clients; " +
                  std::to_string(joined_programs()) + " have joined so far");
   }

@@ -62,7 +62,8 @@ class Lockstep {
   const double silence_limit_s_;
   const Warn warn_;
   bool gate_opened_ = false;
-  WallClock::time_point gate_told_ = WallClock::now();  ///< when missing clients were last reported
+  /// When missing clients were last reported.
+  WallClock::time_point gate_warned_at_ = WallClock::now();
   bool silence_noted_ = false;
   ThreadId first_owner_ = 0;               ///< the first thread that waited, and ...
   bool several_owners_ = false;            ///< ... whether another one has waited

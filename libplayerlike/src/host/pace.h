@@ -22,9 +22,10 @@ class Pace {
   [[nodiscard]] bool by_wall_clock() const noexcept { return by_wall_clock_; }
   [[nodiscard]] double factor() const noexcept { return factor_; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }
-  /// limited: whether the number of further steps is limited; used_up: whether none is left.
+  /// limited: whether the number of further steps is limited; step_limit_reached: whether none is
+  /// left.
   [[nodiscard]] bool limited() const noexcept { return credit_.has_value(); }
-  [[nodiscard]] bool used_up() const noexcept { return credit_ == 0U; }
+  [[nodiscard]] bool step_limit_reached() const noexcept { return credit_ == 0U; }
   /// Number of changes of factor, pause and limit.
   [[nodiscard]] int changes() const noexcept { return changes_; }
 
@@ -55,7 +56,7 @@ class Pace {
   [[nodiscard]] Time due() const { return base_ + after(done_ + 1); }
   /// The run has waited for the limit. The lost time is not made up for, but a step that is late is
   /// due at once.
-  void forgive(Time now) {
+  void skip_lost_time(Time now) {
     if (now > due()) begin_at(now - after(1));
   }
   /// A step begins now. If the run is far behind (after a suspension, or with a factor that the

@@ -53,8 +53,8 @@ using Clock = std::chrono::steady_clock;
 // How long a program may continue after a request to end, or after its results are complete, before
 // it is killed. The documented limit is two seconds; the rest is for writing the results.
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
-constexpr std::chrono::milliseconds kLook(20);
-constexpr std::chrono::milliseconds kSeldomLook(200);
+constexpr std::chrono::milliseconds kPollPeriod(20);
+constexpr std::chrono::milliseconds kSlowPollPeriod(200);
 
 /// Blocks the relevant signals in this thread while a program runs, so that they can be read one by
 /// one from a descriptor. Signals that this process ignores, as under nohup, stay ignored.
@@ -122,7 +122,7 @@ class HeldSignals {
 /// Tells copies of a request to end from further requests.
 class EndRequests {
  public:
-  enum class Meaning { kFirst, kCopy, kAgain };
+  enum class Meaning { kFirst, kCopy, kRepeated };
 
   Meaning note(int signal) {
     const Clock::time_point now = Clock::now();
@@ -131,7 +131,7 @@ class EndRequests {
       time_ = now;
       return Meaning::kFirst;
     }
-    return is_same_request(*first_, signal, now - time_) ? Meaning::kCopy : Meaning::kAgain;
+    return is_same_request(*first_, signal, now - time_) ? Meaning::kCopy : Meaning::kRepeated;
   }
   [[nodiscard]] std::optional<int> first() const noexcept { return first_; }
   [[nodiscard]] Clock::duration age() const {
@@ -199,18 +199,18 @@ class GroupedProgram {
   /// Applies the time limits.
   /// @param timeout  how long the program may run.
   /// @return when to call this again.
-  Clock::time_point look_after(Clock::duration timeout, Clock::duration grace) {
+  Clock::time_point enforce_limits(Clock::duration timeout, Clock::duration grace) {
     const Clock::time_point now = Clock::now();
     if (now - start_ >= timeout) ask_to_end(JobEnd::Kind::kTimedOut, grace);
-    if (!folder_.empty() && !kill_time_ && now >= next_look_) {
-      next_look_ = now + kSeldomLook;
+    if (!folder_.empty() && !kill_time_ && now >= next_check_) {
+      next_check_ = now + kSlowPollPeriod;
       if (size_of(folder_, folder_limit_) > folder_limit_) {
         ask_to_end(JobEnd::Kind::kTooMuchOutput, Clock::duration::zero());
       }
     }
     if (kill_time_ && now >= *kill_time_ && !std::exchange(killed_, true)) program_.kill_all();
     if (kill_time_) return killed_ ? Clock::time_point::max() : *kill_time_;
-    return folder_.empty() ? start_ + timeout : std::min(start_ + timeout, next_look_);
+    return folder_.empty() ? start_ + timeout : std::min(start_ + timeout, next_check_);
   }
 
   void end_grace() { kill_time_ = Clock::now(); }
@@ -229,7 +229,7 @@ class GroupedProgram {
   std::size_t index_;
   std::string folder_;
   std::uint64_t folder_limit_;
-  Clock::time_point next_look_ = Clock::now() + kSeldomLook;
+  Clock::time_point next_check_ = Clock::now() + kSlowPollPeriod;
   SupervisedProgram program_;
   Clock::time_point start_ = Clock::now();
   JobEnd::Kind kind_ = JobEnd::Kind::kEnded;
@@ -347,7 +347,7 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     while (const std::optional<HeldSignals::Signal> signal = signals.take()) {
       const EndRequests::Meaning meaning = requests.note(signal->number);
       if (meaning == EndRequests::Meaning::kCopy) continue;
-      if (meaning == EndRequests::Meaning::kAgain && noted != 0) {
+      if (meaning == EndRequests::Meaning::kRepeated && noted != 0) {
         program.kill_all();
         killed = true;
       } else {
@@ -368,8 +368,8 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       program.kill_all();
     }
     signals.wait({program.descriptor()}, requests.first() && !killed
-                                             ? Clock::duration(kLook)
-                                             : Clock::duration(kSeldomLook));
+                                             ? Clock::duration(kPollPeriod)
+                                             : Clock::duration(kSlowPollPeriod));
   }
 }
 
@@ -399,7 +399,7 @@ std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobL
     Clock::time_point wake = Clock::now() + std::chrono::minutes(1);
     std::vector<int> descriptors;
     for (GroupedProgram& program : running) {
-      wake = std::min(wake, program.look_after(timeout, grace));
+      wake = std::min(wake, program.enforce_limits(timeout, grace));
       descriptors.push_back(program.descriptor());
     }
     signals.wait(descriptors, wake - Clock::now());
@@ -407,7 +407,7 @@ std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobL
       const EndRequests::Meaning meaning = requests.note(signal->number);
       for (GroupedProgram& program : running) {
         program.ask_to_end(JobEnd::Kind::kInterrupted, grace);
-        if (meaning == EndRequests::Meaning::kAgain) program.end_grace();
+        if (meaning == EndRequests::Meaning::kRepeated) program.end_grace();
       }
     }
     for (auto program = running.begin(); program != running.end();) {

@@ -53,8 +53,8 @@ std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
   // The tolerance covers rounding errors; it is far smaller than a step.
   const double periods = sim::to_seconds(now_ns) / period_s_ * (1.0 + 1e-12) + 1e-9;
   const std::uint64_t past = static_cast<std::uint64_t>(periods) + 1;
-  const std::uint64_t count = past - std::min(told_, past);
-  told_ = past;
+  const std::uint64_t count = past - std::min(reported_, past);
+  reported_ = past;
   return count;
 }
 

@@ -62,7 +62,7 @@ class Recorder {
 
    private:
     double period_s_ = 0.0;  // 0: never due
-    std::uint64_t told_ = 0;
+    std::uint64_t reported_ = 0;
   };
   [[nodiscard]] std::string picture_file(sim::SimTime now_ns) const;
 

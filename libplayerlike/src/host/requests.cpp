@@ -81,7 +81,7 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const PreferRealTimeRequest& what) const { core.prefer_real_time(what.reason); }
   void operator()(const NoteLooksRequest& what) const {
-    core.note_looks(client, what.count, what.has_data);
+    core.count_data_reads(client, what.count, what.has_data);
   }
   // An embedded simulation has no connection that could be slow or lost.
   void operator()(const AnswerTimeoutRequest&) const {}
@@ -98,14 +98,14 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const SetCellsRequest& what) const {
     require_cells(what.rect, what.cells.size());
-    core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-      book.require(client.number, what.layer);
+    core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+      registry.require(client.number, what.layer);
       layers.set_cells(what.layer, what.rect, what.cells);
     });
   }
   std::optional<sim::CellValue> operator()(const CellRequest& what) const {
-    return core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-      book.require(client.number, what.layer);
+    return core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+      registry.require(client.number, what.layer);
       return layers.cell(what.layer, what.column, what.row);
     });
   }
@@ -113,24 +113,25 @@ struct Host::Core::RequestHandler {
     return core.cells(client, what.layer);
   }
   sim::LayerId operator()(const CreateLayerRequest& what) const {
-    return core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
-      return book.create(layers, client.number, client.port, what.kind, what.style);
+    return core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
+      return registry.create(layers, client.number, client.port, what.kind, what.style);
     });
   }
   void operator()(const RemoveLayerRequest& what) const {
-    core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
-      book.remove(layers, client.number, what.layer);
+    core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
+      registry.remove(layers, client.number, what.layer);
     });
   }
   void operator()(const SetLayerStyleRequest& what) const {
-    core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
-      book.set_style(layers, client.number, what.layer, what.style);
+    core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
+      registry.set_style(layers, client.number, what.layer, what.style);
     });
   }
   std::vector<sim::LayerInfo> operator()(const LayersRequest&) const {
-    return core.with_layers(client, [&](const sim::LayerStack& layers, const LayerBook& book) {
-      return book.list(layers, client.number);
-    });
+    return core.with_layers(client,
+                            [&](const sim::LayerStack& layers, const LayerRegistry& registry) {
+                              return registry.list(layers, client.number);
+                            });
   }
   CanvasImage operator()(const CanvasImageRequest&) const {
     sim::CanvasDescription canvas;
@@ -159,8 +160,8 @@ struct Host::Core::RequestHandler {
     const std::string stem = map_stem(core.settings_.output_folder, what.name);
     core.client_files_.require_room(client.number);
     sim::OccupancyMap map;
-    core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-      book.require(client.number, what.layer);
+    core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+      registry.require(client.number, what.layer);
       if (layers.kind(what.layer) != sim::LayerKind::kGrey) {
         throw SessionError(SessionError::Code::kBadArgument,
                            "only grey layers can be saved as maps, but \"" +

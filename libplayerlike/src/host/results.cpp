@@ -57,7 +57,7 @@ void Results::keep_report(WallClock::time_point now) {
     const FileLimitErrors limit_errors;
     write_report(settings_.output_folder, signed_report(report_now(), settings_.grading));
   } catch (const std::exception& e) {
-    if (!std::exchange(keeping_told_, true)) {
+    if (!std::exchange(write_failure_warned_, true)) {
       warn_(std::string("results of the run cannot be written at present: ") + e.what());
     }
   }

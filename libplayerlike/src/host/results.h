@@ -57,7 +57,7 @@ class Results {
   std::unique_ptr<KeptWriter> kept_;                ///< null unless the settings name a file
   WallClock::time_point last_looks_{};              ///< when keep_looks() was last called
   std::optional<WallClock::time_point> last_kept_;  ///< when the report was last written
-  bool keeping_told_ = false;                       ///< about files that cannot be written
+  bool write_failure_warned_ = false;               ///< about files that cannot be written
 };
 
 }  // namespace playerlike

@@ -38,14 +38,14 @@ constexpr std::chrono::milliseconds kOrphansGrace(2000);
 constexpr std::chrono::seconds kPatience(10);
 
 /// A message from the supervisor.
-struct News {
+struct SupervisorEvent {
   enum Kind { kStarted, kFailed, kStopped, kEnded };
   int kind = kStarted;
   int value = 0;  ///< the program's process id, an errno, or a wait status
 };
 
 /// A message to the supervisor.
-struct Order {
+struct SupervisorCommand {
   enum Kind { kSignal, kKill, kRelease };
   int kind = kSignal;
   int value = 0;
@@ -249,7 +249,7 @@ class Supervisor {
     }
     log.finish();
     if (!orphaned) {
-      send(News::kEnded, end_state_);
+      send(SupervisorEvent::kEnded, end_state_);
       if (is_released()) return;
     }
     if (start_.on_orphaned) start_.on_orphaned(*end_);
@@ -257,19 +257,19 @@ class Supervisor {
 
  private:
   void send(int kind, int value) const {
-    const News news{kind, value};
-    static_cast<void>(::send(channel_, &news, sizeof news, MSG_NOSIGNAL));
+    const SupervisorEvent event{kind, value};
+    static_cast<void>(::send(channel_, &event, sizeof event, MSG_NOSIGNAL));
   }
 
   /// Waits for the other process's release() after the program's end. @return false if that process
   /// is gone.
   [[nodiscard]] bool is_released() const {
     for (;;) {
-      Order order;
-      const ssize_t size = recv(channel_, &order, sizeof order, 0);
+      SupervisorCommand command;
+      const ssize_t size = recv(channel_, &command, sizeof command, 0);
       if (size < 0 && errno == EINTR) continue;
-      if (size != static_cast<ssize_t>(sizeof order)) return false;
-      if (order.kind == Order::kRelease) return true;
+      if (size != static_cast<ssize_t>(sizeof command)) return false;
+      if (command.kind == SupervisorCommand::kRelease) return true;
     }
   }
 
@@ -283,7 +283,7 @@ class Supervisor {
     std::array<int, 2> go{-1, -1};
     if (pipe2(failure.data(), O_CLOEXEC) != 0 || pipe2(go.data(), O_CLOEXEC) != 0 ||
         (start_.output_file && pipe2(output.data(), O_CLOEXEC) != 0)) {
-      send(News::kFailed, errno);
+      send(SupervisorEvent::kFailed, errno);
       return false;
     }
     const pid_t supervisor = getpid();
@@ -324,11 +324,11 @@ class Supervisor {
     }
     close(failure[0]);
     if (error == 0) {
-      send(News::kStarted, program_);
+      send(SupervisorEvent::kStarted, program_);
       return true;
     }
     if (program_ > 0) waitpid(program_, nullptr, 0);
-    send(News::kFailed, error);
+    send(SupervisorEvent::kFailed, error);
     return false;
   }
 
@@ -362,7 +362,7 @@ class Supervisor {
       if (child <= 0) return;
       if (child != program_) continue;
       if (WIFSTOPPED(state)) {
-        if (WSTOPSIG(state) == SIGSTOP) send(News::kStopped, 0);
+        if (WSTOPSIG(state) == SIGSTOP) send(SupervisorEvent::kStopped, 0);
         continue;
       }
       // Before the pid is released for reuse.
@@ -373,11 +373,11 @@ class Supervisor {
   }
 
   void take_order() {
-    Order order;
-    const ssize_t size = recv(channel_, &order, sizeof order, MSG_DONTWAIT);
-    if (size == static_cast<ssize_t>(sizeof order)) {
-      if (order.kind == Order::kKill) return kill_all();
-      pass_on(order.value);
+    SupervisorCommand command;
+    const ssize_t size = recv(channel_, &command, sizeof command, MSG_DONTWAIT);
+    if (size == static_cast<ssize_t>(sizeof command)) {
+      if (command.kind == SupervisorCommand::kKill) return kill_all();
+      forward_signal(command.value);
       return;
     }
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
@@ -391,14 +391,14 @@ class Supervisor {
     kill_time_ = Clock::now() + kOrphansGrace;
   }
 
-  void pass_on(int signal) const {
+  void forward_signal(int signal) const {
     if (start_.output_file) {
       kill(-program_, signal);
       kill(-program_, SIGCONT);
       return;
     }
     sigval mark{};
-    mark.sival_int = kPassedOn;
+    mark.sival_int = kForwarded;
     if (signal != SIGCONT && sigqueue(program_, signal, mark) != 0) kill(program_, signal);
     kill(program_, SIGCONT);
   }
@@ -486,20 +486,20 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
     close(channel_);
     refuse(fork_error);
   }
-  News news{News::kFailed, ECHILD};
+  SupervisorEvent event{SupervisorEvent::kFailed, ECHILD};
   ssize_t size = 0;
   do {
-    size = recv(channel_, &news, sizeof news, 0);
+    size = recv(channel_, &event, sizeof event, 0);
   } while (size < 0 && errno == EINTR);
   // Without a message the supervisor was killed, perhaps by the program; poll() reports it.
-  if (size != static_cast<ssize_t>(sizeof news) || news.kind == News::kStarted) {
-    if (size == static_cast<ssize_t>(sizeof news)) program_ = news.value;
+  if (size != static_cast<ssize_t>(sizeof event) || event.kind == SupervisorEvent::kStarted) {
+    if (size == static_cast<ssize_t>(sizeof event)) program_ = event.value;
     supervisors().insert(supervisor_);
     return;
   }
   close(channel_);
   reap_supervisor();
-  refuse(news.value);
+  refuse(event.value);
 }
 
 SupervisedProgram::SupervisedProgram(SupervisedProgram&& other) noexcept
@@ -524,26 +524,26 @@ SupervisedProgram::~SupervisedProgram() {
   if (channel_ < 0) return;
   if (!end_) kill_all();
   while (!poll()) {
-    pollfd news{channel_, POLLIN, 0};
-    static_cast<void>(::poll(&news, 1, -1));
+    pollfd event{channel_, POLLIN, 0};
+    static_cast<void>(::poll(&event, 1, -1));
   }
   release();
 }
 
 void SupervisedProgram::release() {
   if (channel_ < 0) return;
-  send(Order::kRelease, 0);
+  send(SupervisorCommand::kRelease, 0);
   close(std::exchange(channel_, -1));
   reap_supervisor();
 }
 
 void SupervisedProgram::send(int kind, int value) {
-  const Order order{kind, value};
-  static_cast<void>(::send(channel_, &order, sizeof order, MSG_NOSIGNAL));
+  const SupervisorCommand command{kind, value};
+  static_cast<void>(::send(channel_, &command, sizeof command, MSG_NOSIGNAL));
 }
 
-void SupervisedProgram::send_signal(int signal) { send(Order::kSignal, signal); }
-void SupervisedProgram::kill_all() { send(Order::kKill, 0); }
+void SupervisedProgram::send_signal(int signal) { send(SupervisorCommand::kSignal, signal); }
+void SupervisedProgram::kill_all() { send(SupervisorCommand::kKill, 0); }
 
 void SupervisedProgram::reap_supervisor() {
   while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
@@ -555,14 +555,14 @@ bool SupervisedProgram::take_stopped() noexcept { return std::exchange(stopped_,
 
 std::optional<ProgramEnd> SupervisedProgram::poll() {
   while (!end_) {
-    News news;
-    const ssize_t size = recv(channel_, &news, sizeof news, MSG_DONTWAIT);
+    SupervisorEvent event;
+    const ssize_t size = recv(channel_, &event, sizeof event, MSG_DONTWAIT);
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && errno == EAGAIN) return std::nullopt;
-    if (size == static_cast<ssize_t>(sizeof news)) {
-      if (news.kind == News::kStopped) stopped_ = true;
-      if (news.kind != News::kEnded) continue;
-      end_ = program_end(news.value);
+    if (size == static_cast<ssize_t>(sizeof event)) {
+      if (event.kind == SupervisorEvent::kStopped) stopped_ = true;
+      if (event.kind != SupervisorEvent::kEnded) continue;
+      end_ = program_end(event.value);
       continue;
     }
     // The supervisor was killed. This process ends what the supervisor would have ended.

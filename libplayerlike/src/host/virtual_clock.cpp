@@ -33,7 +33,7 @@ void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
   for (bool waited = false; core_.in_turns(); waited = true) {
     client.require_open();
     const bool is_over = core_.wait_is_over(client);
-    if (is_over && self.state != TurnThread::State::kAside && (waited || !core_.over())) return;
+    if (is_over && self.state != TurnThread::State::kDetached && (waited || !core_.over())) return;
     self.client = &client;
     self.wake_ns = is_over ? 0 : client.wake_ns;
     static_cast<void>(turns.wait(lock, self));
@@ -41,7 +41,7 @@ void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
 }
 
 bool Host::Core::VirtualClock::step(Lock& lock) {
-  if (core_.over() || core_.pace_.used_up() || !core_.lockstep_.gate_open() ||
+  if (core_.over() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
       !Turns::instance().somebody_waits_for_time()) {
     return false;
   }
@@ -58,7 +58,7 @@ void Host::Core::VirtualClock::make_ready() {
   for (const auto& client : core_.clients_) {
     for (const auto& thread : turns.threads()) {
       if (thread->state != State::kWaits || thread->client != client.get()) continue;
-      if (core_.wait_is_over(*client)) turns.make_ready(*thread, TurnThread::Wake::kThere);
+      if (core_.wait_is_over(*client)) turns.make_ready(*thread, TurnThread::Wake::kObjectReady);
     }
   }
   for (const auto& thread : turns.threads()) {
@@ -71,7 +71,7 @@ bool Host::Core::VirtualClock::has_come(sim::SimTime wake_ns) const {
   return core_.over() || core_.simulation_.now_ns() >= wake_ns;
 }
 
-void Host::Core::VirtualClock::look_at_start() {
+void Host::Core::VirtualClock::check_silent_clients() {
   if (!core_.lockstep_.gate_open()) core_.lockstep_.note_silence(WallClock::now());
 }
 
@@ -134,12 +134,13 @@ void Host::Core::VirtualClock::note_timed_wait(Lock& lock, sim::SimTime left_ns)
 void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
   const auto& threads = Turns::instance().threads();
   const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
-    if (thread->thread_id == thread_id || thread->state == TurnThread::State::kAside) return false;
+    if (thread->thread_id == thread_id || thread->state == TurnThread::State::kDetached)
+      return false;
     return thread->state != TurnThread::State::kWaits || thread->waits_for_time();
   });
   const RunSettings& settings = core_.settings_;
   if (settings.quiet_end &&
-      (!(core_.end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+      (!(core_.end_reported_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
     if (settings.progress && core_.log_) {
       core_.log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     }
@@ -155,7 +156,7 @@ bool Host::Core::VirtualClock::others_take_turns(ThreadId thread_id) {
   return std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
     using State = TurnThread::State;
     if (thread->thread_id == thread_id) return false;
-    return thread->state == State::kReady || thread->state == State::kBeside ||
+    return thread->state == State::kReady || thread->state == State::kConcurrent ||
            (thread->state == State::kWaits && thread->waits_for_time());
   });
 }

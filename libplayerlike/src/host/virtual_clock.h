@@ -21,7 +21,7 @@ class Host::Core::VirtualClock final : public TurnClock {
 
   bool step(Lock& lock) override;
   [[nodiscard]] bool has_come(sim::SimTime wake_ns) const override;
-  void look_at_start() override;
+  void check_silent_clients() override;
   [[nodiscard]] WallClock::time_point last_seen(const TurnThread& thread) const override;
   void on_silent(const TurnThread& thread) override;
   bool on_blocked(const TurnThread& thread) override;

@@ -78,7 +78,7 @@ void Client::connect() {
 void Client::disconnect() noexcept {
   for (Device* entry : devices_) entry->unsubscribe();
   player_.reset();
-  arrived_.clear();
+  pending_.clear();
   qlen = 0;
   connected = 0;
 }
@@ -91,15 +91,15 @@ PlayerClient& Client::player() const {
   return *player_;
 }
 
-bool Client::look() {
-  if (!arrived_.empty()) return true;
+bool Client::poll() {
+  if (!pending_.empty()) return true;
   const std::shared_ptr<ClientCore>& core = PlayerCc::detail::CoreAccess::get(player());
-  if (translated("", [&] { return core->read_what_waits(); })) end_round();
-  return !arrived_.empty();
+  if (translated("", [&] { return core->read_pending(); })) end_round();
+  return !pending_.empty();
 }
 
 bool Client::peek(milliseconds timeout) {
-  if (!arrived_.empty()) return true;
+  if (!pending_.empty()) return true;
   if (timeout.count() >= 0) return player().Peek(static_cast<uint32_t>(timeout.count()));
   while (!player().Peek(static_cast<uint32_t>(kLong.count()))) {
   }
@@ -114,16 +114,16 @@ void Client::read_round() {
 void Client::end_round() {
   // Even a round without data is delivered (as the client's own struct): the client has no
   // subscriptions then.
-  if (mode == PLAYERC_DATAMODE_PULL || arrived_.empty()) arrived_.push_back(nullptr);
+  if (mode == PLAYERC_DATAMODE_PULL || pending_.empty()) pending_.push_back(nullptr);
   overflow_count = player().GetOverflowCount();
-  qlen = static_cast<int>(arrived_.size());
+  qlen = static_cast<int>(pending_.size());
 }
 
 void* Client::deliver() {
-  if (arrived_.empty()) return nullptr;
-  Device* const entry = arrived_.front();
-  arrived_.pop_front();
-  qlen = static_cast<int>(arrived_.size());
+  if (pending_.empty()) return nullptr;
+  Device* const entry = pending_.front();
+  pending_.pop_front();
+  qlen = static_cast<int>(pending_.size());
   return entry == nullptr ? id : entry->deliver();
 }
 
@@ -134,11 +134,11 @@ void Client::remove(Device& entry) noexcept {
   forget_arrival(entry);
 }
 
-void Client::note_arrival(Device& entry) { arrived_.push_back(&entry); }
+void Client::note_arrival(Device& entry) { pending_.push_back(&entry); }
 
 void Client::forget_arrival(const Device& entry) noexcept {
-  arrived_.erase(std::remove(arrived_.begin(), arrived_.end(), &entry), arrived_.end());
-  qlen = static_cast<int>(arrived_.size());
+  pending_.erase(std::remove(pending_.begin(), pending_.end(), &entry), pending_.end());
+  qlen = static_cast<int>(pending_.size());
 }
 
 Device* Client::find(const playerc_device_t* common) const noexcept {
@@ -195,7 +195,7 @@ std::vector<Client*> wait_for_any(const playerc_mclient_t& group, int timeout_ms
   for (std::size_t turn = 0;; ++turn) {
     std::vector<Client*> ready;
     std::copy_if(clients.begin(), clients.end(), std::back_inserter(ready),
-                 [](Client* client) { return client->look(); });
+                 [](Client* client) { return client->poll(); });
     if (!ready.empty()) return ready;
     if (timeout_ms >= 0 && left.count() <= 0) return {};
     // When one client of a thread waits, all of its clients count as waiting, so peeking at any of
@@ -203,7 +203,7 @@ std::vector<Client*> wait_for_any(const playerc_mclient_t& group, int timeout_ms
     // takes turns.
     Client* const client = clients[turn % clients.size()];
     const milliseconds wait = timeout_ms < 0 ? kShort : std::min(kShort, left);
-    if (client->peek(wait) && !client->look()) return {client};  // the run is over
+    if (client->peek(wait) && !client->poll()) return {client};  // the run is over
     left -= wait;
   }
 }
@@ -295,7 +295,7 @@ int playerc_mclient_read(playerc_mclient_t* mclient, int timeout) {
     for (Client* client : playerlike::clib::wait_for_any(group, timeout)) {
       // A callback of one client may have destroyed the next client, its own client or the list.
       if (!reading.has(client)) continue;
-      if (client->look()) {
+      if (client->poll()) {
         client->deliver();
       } else {
         client->read_round();  // throws the reason why there is no more data

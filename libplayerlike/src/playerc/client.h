@@ -17,7 +17,7 @@ class Device;
 /// proxies do the work of its devices.
 ///
 /// A round of data updates all proxies at once, but programs get one device at a time. Devices that
-/// are not delivered yet wait in `arrived_`; a device copies the data of its proxy when it is
+/// are not delivered yet wait in `pending_`; a device copies the data of its proxy when it is
 /// delivered.
 class Client final : public playerc_client_t {
  public:
@@ -35,8 +35,8 @@ class Client final : public playerc_client_t {
   [[nodiscard]] PlayerCc::PlayerClient& player() const;
 
   /// Whether something can be delivered; does not let simulated time advance.
-  [[nodiscard]] bool look();
-  /// As look(), but waits for up to `timeout`; a negative timeout waits until there is something to
+  [[nodiscard]] bool poll();
+  /// As poll(), but waits for up to `timeout`; a negative timeout waits until there is something to
   /// deliver or the run is over.
   [[nodiscard]] bool peek(std::chrono::milliseconds timeout);
   /// Waits for a round of data. @throws PlayerError also at the end of the run.
@@ -75,7 +75,7 @@ class Client final : public playerc_client_t {
 
   std::unique_ptr<PlayerCc::PlayerClient> player_;
   std::vector<Device*> devices_;  // in order of creation
-  std::deque<Device*> arrived_;   // null: the client itself
+  std::deque<Device*> pending_;   // null: the client itself
   std::vector<ReplaceRule> replace_rules_;
   std::vector<playerc_mclient_t*> groups_;
 };

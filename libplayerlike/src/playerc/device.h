@@ -58,15 +58,15 @@ class Device {
 
 /// A struct of the C library, backed by a proxy of libplayerc++.
 template <typename CStruct, typename Proxy>
-class Backed : public CStruct, public Device {
+class ProxyBacked : public CStruct, public Device {
  public:
   using Struct = CStruct;
 
-  Backed() : CStruct(), Device(static_cast<CStruct*>(this)->info) {}
+  ProxyBacked() : CStruct(), Device(static_cast<CStruct*>(this)->info) {}
 
   [[nodiscard]] Proxy* proxy() noexcept override { return proxy_.get(); }
   /// @throws PlayerError if the device is not subscribed to.
-  [[nodiscard]] Proxy& used() const {
+  [[nodiscard]] Proxy& proxy_or_throw() const {
     if (proxy_ == nullptr) refuse("the device is not subscribed to");
     return *proxy_;
   }
@@ -96,7 +96,7 @@ template <typename T>
 /// Runs action(device) with the device behind a struct; handles errors like reported().
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
-  virtual_time::note_looks();
+  virtual_time::count_data_reads();
   return reported(fun, [&] { return action(device_of<T>(device)); });
 }
 
@@ -119,7 +119,7 @@ template <typename T, typename Element>
 
 /// Stores a result unless the caller passed a null pointer.
 template <typename T, typename Value>
-void tell(T* where, Value value) {
+void store_result(T* where, Value value) {
   if (where != nullptr) *where = static_cast<T>(value);
 }
 

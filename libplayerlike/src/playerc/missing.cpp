@@ -14,7 +14,7 @@ class NoProxy final : public PlayerCc::ClientProxy {
 };
 
 template <typename CStruct>
-class Missing final : public playerlike::clib::Backed<CStruct, NoProxy> {
+class Missing final : public playerlike::clib::ProxyBacked<CStruct, NoProxy> {
   void attach(PlayerCc::PlayerClient& player) override {
     const player_devaddr_t& addr = this->info.addr;
     // The error names the kind of device at this address.

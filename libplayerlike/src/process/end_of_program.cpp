@@ -44,10 +44,10 @@ extern "C" void on_interrupt(int signal, siginfo_t* info, void* /*context*/) {
       *place = static_cast<std::uint32_t>(signal);
     }
   } else {
-    const bool passed_on = info->si_code == SI_QUEUE && info->si_value.sival_int == kPassedOn;
-    const bool hung_up_again = signal == SIGHUP && first_interrupt == SIGHUP;
+    const bool forwarded = info->si_code == SI_QUEUE && info->si_value.sival_int == kForwarded;
+    const bool repeated_sighup = signal == SIGHUP && first_interrupt == SIGHUP;
     const bool copy = machine_time_ns() - first_time_ns < kOneRequest_ns;
-    if (!passed_on && !hung_up_again && !copy) {
+    if (!forwarded && !repeated_sighup && !copy) {
       ::signal(signal, SIG_DFL);
       raise(signal);  // delivered when this handler returns
     }

@@ -17,7 +17,7 @@ void end_program_quietly_if_uncaught() noexcept;
 
 /// The value (si_value) of a signal that `playpen run` forwards. It tells a forwarded signal from
 /// one that the program got from elsewhere.
-inline constexpr int kPassedOn = 0x706c6179;
+inline constexpr int kForwarded = 0x706c6179;
 
 /// Installs handlers for SIGINT, SIGTERM and SIGHUP. The first of these signals only sets a flag,
 /// so that the run can end in an orderly way. A later one ends the process, except if it comes

@@ -52,7 +52,7 @@ void append_integer(Integer value, std::string& out) {
 // --- reading
 
 /// A long list of numbers that was removed from a text; "[]" remains in its place.
-struct TakenOut {
+struct ExtractedList {
   std::size_t index;  ///< among all lists of the text, in the order of their '['
   json array;
 };
@@ -62,7 +62,8 @@ struct TakenOut {
 /// parser.
 class Builder {
  public:
-  explicit Builder(std::vector<TakenOut> taken_out) : taken_out_(std::move(taken_out)) {}
+  explicit Builder(std::vector<ExtractedList> extracted_lists)
+      : extracted_lists_(std::move(extracted_lists)) {}
 
   bool null() { return put(nullptr); }
   bool boolean(bool value) { return put(value); }
@@ -74,10 +75,10 @@ class Builder {
   bool start_object(std::size_t) { return open(json::object()); }
   bool end_object() { return close(); }
   bool start_array(std::size_t) {
-    if (next_ == taken_out_.size() || taken_out_[next_].index != lists_++) {
+    if (next_ == extracted_lists_.size() || extracted_lists_[next_].index != lists_++) {
       return open(json::array());
     }
-    return open(std::move(taken_out_[next_++].array));
+    return open(std::move(extracted_lists_[next_++].array));
   }
   bool end_array() { return close(); }
 
@@ -147,9 +148,9 @@ class Builder {
     return true;
   }
 
-  std::vector<TakenOut> taken_out_;
-  std::size_t next_ = 0;   ///< next element of taken_out_
-  std::size_t lists_ = 0;  ///< lists begun so far; counting stops when taken_out_ is used up
+  std::vector<ExtractedList> extracted_lists_;
+  std::size_t next_ = 0;   ///< next element of extracted_lists_
+  std::size_t lists_ = 0;  ///< lists begun so far; counting stops when extracted_lists_ is used up
   json root_;
   std::vector<json*> open_;  ///< outermost first; their lists do not grow, so pointers stay valid
   json* member_ = nullptr;   ///< member of the innermost object that waits for its value
@@ -203,14 +204,14 @@ json typed_array(const std::vector<double>& values) {
   return json::binary(std::move(bytes), kDoublesTag);
 }
 
-struct Spliced {
+struct ExtractedText {
   std::string text;
-  std::vector<TakenOut> taken_out;
+  std::vector<ExtractedList> extracted_lists;
 };
 
 /// Removes long lists of numbers from a text, which need not be valid JSON.
-Spliced splice(std::string_view text) {
-  Spliced spliced;
+ExtractedText extract_lists(std::string_view text) {
+  ExtractedText extracted;
   std::vector<double> values;
   std::size_t lists = 0;
   const char* const end = text.data() + text.size();
@@ -225,14 +226,14 @@ Spliced splice(std::string_view text) {
       const std::size_t index = lists++;
       const char* const behind = read_numbers(at + 1, end, values);
       if (behind == nullptr || values.size() < kLongList) continue;
-      spliced.taken_out.push_back({index, typed_array(values)});
-      spliced.text.append(copied, at + 1);
+      extracted.extracted_lists.push_back({index, typed_array(values)});
+      extracted.text.append(copied, at + 1);
       copied = behind - 1;
       at = behind - 1;
     }
   }
-  spliced.text.append(copied, end);
-  return spliced;
+  extracted.text.append(copied, end);
+  return extracted;
 }
 
 }  // namespace
@@ -276,10 +277,10 @@ void append_json(const json& value, std::string& out) {
 
 json parse_json(std::string_view text, bool splice_lists) {
   if (splice_lists) {
-    Spliced spliced = splice(text);
-    if (!spliced.taken_out.empty()) {
+    ExtractedText extracted = extract_lists(text);
+    if (!extracted.extracted_lists.empty()) {
       try {
-        return parse_by(Builder(std::move(spliced.taken_out)), spliced.text);
+        return parse_by(Builder(std::move(extracted.extracted_lists)), extracted.text);
       } catch (const ProtocolError&) {
         // Parses the original text again, so that the error gives the position in that text.
       }

@@ -27,9 +27,9 @@ void ClientProxy::Link::show(const sim::SharedReading& reading) {
 }
 
 ClientProxy::scoped_lock_t ClientProxy::Link::lock_anyway(int looks) const {
-  playerlike::virtual_time::note_looks(looks);
+  playerlike::virtual_time::count_data_reads(looks);
   scoped_lock_t lock(core->mutex());
-  if (has_readings) core->note_looks(looks, newest.valid);
+  if (has_readings) core->count_data_reads(looks, newest.valid);
   return lock;
 }
 

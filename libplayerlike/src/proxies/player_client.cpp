@@ -25,7 +25,7 @@ using playerlike::translated_all;
 namespace {
 
 // How long the background thread waits for data before it checks whether to stop.
-constexpr std::chrono::milliseconds kLook(10);
+constexpr std::chrono::milliseconds kPollPeriod(10);
 // How long StopThread() waits for the thread. It takes longer only in a lockstep simulation that
 // waits for the caller of StopThread(). In that case the thread ends later by itself and touches
 // nothing.
@@ -64,7 +64,7 @@ void read_in_background(const std::shared_ptr<ClientCore>& core,
                         const std::shared_ptr<Reader>& reader) {
   bool over = false;
   try {
-    read_until_stopped(*core, reader->stop, kLook);
+    read_until_stopped(*core, reader->stop, kPollPeriod);
   } catch (const SessionError& e) {
     over = e.code() == SessionError::Code::kFinished;
   } catch (const PlayerError& e) {

@@ -190,8 +190,8 @@ struct Connection::Impl {
   int followers = 0;  // threads that wait for the leader
   Clock::time_point heard{};
   Clock::time_point asked{};  // when the server was last asked for a sign of life
-  std::optional<SessionError> complaint;
-  std::string farewell;  // the server's last message
+  std::optional<SessionError> async_error;
+  std::string bye_message;  // the server's last message
   bool lost = false;
   std::string reason;
 
@@ -202,8 +202,9 @@ struct Connection::Impl {
       const std::lock_guard lock(mutex);
       if (lost) return;
       lost = true;
-      reason =
-          farewell.empty() ? why : "the server at " + address.text() + " has ended: " + farewell;
+      reason = bye_message.empty()
+                   ? why
+                   : "the server at " + address.text() + " has ended: " + bye_message;
     }
     // Not closed: another thread may be polling it.
     ::shutdown(socket.native_handle(), SHUT_RDWR);
@@ -310,8 +311,8 @@ struct Connection::Impl {
       return;
     }
     const std::string event = text_or(message, "event", "");
-    if (event == "error" && !complaint) complaint = error_of(message);
-    if (event == "bye") farewell = text_or(message, "message", "good-bye");
+    if (event == "error" && !async_error) async_error = error_of(message);
+    if (event == "bye") bye_message = text_or(message, "message", "good-bye");
   }
 
   /// Sends hello on the new connection and checks the answer. @throws SessionError.
@@ -415,7 +416,7 @@ std::uint64_t Connection::ask(json& request, std::string before) {
   return id;
 }
 
-json Connection::answer(std::uint64_t id, Patience patience,
+json Connection::answer(std::uint64_t id, WaitPolicy policy,
                         std::optional<Clock::duration> at_most) {
   Impl& c = *impl_;
   std::unique_lock lock(c.mutex);
@@ -435,7 +436,7 @@ json Connection::answer(std::uint64_t id, Patience patience,
       throw ConnectionLost(c.reason);
     }
     const auto timeout = std::min(c.request_timeout(), at_most.value_or(Clock::duration::max()));
-    const bool living = patience == Patience::kLiving;
+    const bool living = policy == WaitPolicy::kWhileAlive;
     const auto limit = (living ? c.heard : began) + timeout;
     const auto now = Clock::now();
     // Data that arrived in time count, even if this thread was scheduled late.
@@ -493,9 +494,9 @@ void Connection::tell(std::string_view bytes) {
   impl_->send(bytes);
 }
 
-std::optional<SessionError> Connection::complaint() {
+std::optional<SessionError> Connection::async_error() {
   const std::lock_guard lock(impl_->mutex);
-  return std::exchange(impl_->complaint, std::nullopt);
+  return std::exchange(impl_->async_error, std::nullopt);
 }
 
 bool Connection::lost() const noexcept {
@@ -508,6 +509,6 @@ bool Connection::lost() const noexcept {
   return count == 0;
 }
 
-void Connection::shut(const std::string& reason) noexcept { impl_->lose(reason); }
+void Connection::close(const std::string& reason) noexcept { impl_->lose(reason); }
 
 }  // namespace playerlike

@@ -59,10 +59,10 @@ class Connection {
   void set_request_timeout(Clock::duration timeout) noexcept;
 
   /// How long to wait for the answer to a request.
-  enum class Patience {
-    kTimeout,  ///< the request timeout
-    kLiving,   ///< as long as the server is alive: after half of a request timeout without data it
-               ///< is asked for the time; a whole timeout without data ends the connection
+  enum class WaitPolicy {
+    kTimeout,     ///< the request timeout
+    kWhileAlive,  ///< as long as the server is alive: after half of a request timeout without data
+                  ///< it is asked for the time; a whole timeout without data ends the connection
   };
   /// Sends `before` (encoded messages) and a request in one piece. Sets the `id` of the request.
   /// @return the id for answer(), which must be called. @throws ConnectionLost.
@@ -70,17 +70,17 @@ class Connection {
   /// Waits for an answer.
   /// @param at_most  replaces the request timeout if it is shorter.
   /// @throws ConnectionLost; SessionError for an error answer.
-  [[nodiscard]] nlohmann::json answer(std::uint64_t id, Patience patience = Patience::kTimeout,
+  [[nodiscard]] nlohmann::json answer(std::uint64_t id, WaitPolicy policy = WaitPolicy::kTimeout,
                                       std::optional<Clock::duration> at_most = std::nullopt);
   /// Sends one or more messages that have no answers. @throws ConnectionLost.
   void tell(std::string_view bytes);
   /// The first error of such messages since the last call.
-  [[nodiscard]] std::optional<SessionError> complaint();
+  [[nodiscard]] std::optional<SessionError> async_error();
 
   /// Whether the connection is lost; checks the socket too.
   [[nodiscard]] bool lost() const noexcept;
   /// Ends the connection and wakes all threads that wait.
-  void shut(const std::string& reason) noexcept;
+  void close(const std::string& reason) noexcept;
 
  private:
   struct Impl;

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "playerlike/session/layer_book.h"
-#include "remote/socket_line.h"
+#include "playerlike/session/layer_registry.h"
+#include "remote/message_sender.h"
 #include "remote/socket_session.h"
 #include "sim/core/number_text.h"
 
@@ -25,7 +25,7 @@ constexpr int kTileSide = 1024;
 void SocketSession::set_cells(const SetCellsRequest& what) const {
   const sim::CellRect& rect = what.rect;
   require_cells(rect, what.cells.size());
-  const std::shared_ptr<Connection> connection = line_->connection();
+  const std::shared_ptr<Connection> connection = sender_->connection();
   const protocol::Encoding encoding = connection->encoding();
   // Pieces must fit a message: whole rows if possible, otherwise parts of rows.
   const std::size_t most =

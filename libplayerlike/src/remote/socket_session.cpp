@@ -14,7 +14,7 @@
 #include "process/end_of_program.h"
 #include "process/thread_end.h"
 #include "protocol/request_codec.h"
-#include "remote/socket_line.h"
+#include "remote/message_sender.h"
 #include "session/checks.h"
 #include "sim/core/error.h"
 
@@ -35,9 +35,9 @@ Connection::Clock::duration wall(double seconds) {
 }
 
 // Tells the server that a thread has ended, so that nobody waits for it.
-void say_goodbye(void* line) {
+void say_goodbye(void* sender) {
   try {
-    static_cast<SocketLine*>(line)->tell(
+    static_cast<MessageSender*>(sender)->tell(
         json{{"do", "thread_ended"}, {"thread", this_thread_id()}});
   } catch (const std::exception&) {
     // The server notices the lost connection itself.
@@ -154,11 +154,12 @@ SocketSession::SocketSession(SocketSettings settings, std::optional<std::string>
   understood([&] {
     robots_ = protocol::decode_robots(protocol::require(welcome, "robots"));
     canvas_ = protocol::decode_canvas(protocol::require(welcome, "canvas"));
-    line_ = std::make_shared<SocketLine>(connection, protocol::require_text(welcome, "simulation"));
+    sender_ =
+        std::make_shared<MessageSender>(connection, protocol::require_text(welcome, "simulation"));
     const TimeStatistics time = protocol::decode_time(protocol::require(welcome, "time"));
-    line_->set_paced(time.mode == sim::TimeMode::kPaced);
+    sender_->set_paced(time.mode == sim::TimeMode::kPaced);
   });
-  line_->simulation()->add(line_);
+  sender_->simulation()->add(sender_);
   resumed_ = connection;
 }
 
@@ -193,7 +194,7 @@ template <typename Use>
 auto SocketSession::with_connection(Use use) const {
   for (;;) {
     require_open();
-    const std::shared_ptr<Connection> connection = line_->connection();
+    const std::shared_ptr<Connection> connection = sender_->connection();
     try {
       return use();
     } catch (const ConnectionLost&) {
@@ -233,7 +234,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
   const int limit = retry_limit_;
   if (limit == 0) return false;
   const Lock lock(recover_mutex_);
-  if (line_->connection() != lost) return true;
+  if (sender_->connection() != lost) return true;
   std::string reason;
   int attempts = 0;
   while ((limit < 0 || attempts < limit) && (attempts == 0 || pause(retry_time_s_))) {
@@ -247,7 +248,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
                              "the server has robots now that this client does not know");
         }
         resume(connection);
-        line_->replace(connection, protocol::require_text(welcome, "simulation"));
+        sender_->replace(connection, protocol::require_text(welcome, "simulation"));
         note(welcome);
       });
       return true;
@@ -265,19 +266,19 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
 // --- Messages and requests
 
 json SocketSession::ask(json request) const {
-  json answer = with_connection([&] { return line_->ask(request); });
+  json answer = with_connection([&] { return sender_->ask(request); });
   note(answer);
-  throw_complaint();
+  throw_async_error();
   return answer;
 }
 
 json SocketSession::read(json request) const {
-  if (ThreadEnd* const end = ThreadEnd::mine()) end->say_goodbye(line_, say_goodbye);
-  return with_connection([&] { return line_->wait(request); });
+  if (ThreadEnd* const end = ThreadEnd::mine()) end->say_goodbye(sender_, say_goodbye);
+  return with_connection([&] { return sender_->wait(request); });
 }
 
 void SocketSession::tell(const json& message) const {
-  with_connection([&] { line_->tell(message); });
+  with_connection([&] { sender_->tell(message); });
 }
 
 void SocketSession::note(const json& answer) const {
@@ -290,25 +291,27 @@ void SocketSession::note(const json& answer) const {
   canvas_generation_.fetch_add(1, std::memory_order_release);
 }
 
-void SocketSession::throw_complaint() const {
-  if (const auto complaint = line_->connection()->complaint()) throw *complaint;
+void SocketSession::throw_async_error() const {
+  if (const auto async_error = sender_->connection()->async_error()) throw *async_error;
 }
 
 const std::vector<RobotInfo>& SocketSession::robots() const noexcept { return robots_; }
 int SocketSession::port() const noexcept { return settings_.port; }
 
-bool SocketSession::connected() const noexcept { return !closed_ && !line_->connection()->lost(); }
+bool SocketSession::connected() const noexcept {
+  return !closed_ && !sender_->connection()->lost();
+}
 
 template <typename Note>
-void SocketSession::request_for_good(const Request& request, Note note_it) {
+void SocketSession::request_persistently(const Request& request, Note note_it) {
   for (;;) {
     std::shared_ptr<Connection> answered_by;
     const json answer = with_connection([&] {
-      json message = protocol::encode_request(request, line_->connection()->encoding());
-      return line_->ask(message, answered_by);
+      json message = protocol::encode_request(request, sender_->connection()->encoding());
+      return sender_->ask(message, answered_by);
     });
     note(answer);
-    throw_complaint();
+    throw_async_error();
     const Lock lock(mutex_);
     // After the answer another thread may have made a new connection, and resumed on it without
     // this request.
@@ -332,14 +335,14 @@ void SocketSession::unsubscribe(DeviceId device) {
     }
   }
   json request =
-      protocol::encode_request(UnsubscribeRequest{device}, line_->connection()->encoding());
+      protocol::encode_request(UnsubscribeRequest{device}, sender_->connection()->encoding());
   for (;;) {
     require_open();
-    const std::shared_ptr<Connection> connection = line_->connection();
+    const std::shared_ptr<Connection> connection = sender_->connection();
     std::shared_ptr<Connection> answered_by = connection;
     std::optional<ConnectionLost> lost;
     try {
-      note(line_->ask(request, answered_by));
+      note(sender_->ask(request, answered_by));
     } catch (const ConnectionLost& e) {
       lost = e;
     }
@@ -355,7 +358,7 @@ void SocketSession::unsubscribe(DeviceId device) {
     }
     // Another thread is making a connection; it copied the subscriptions before this change.
     { const Lock made(recover_mutex_); }
-    if (line_->connection() != subscribed) return;
+    if (sender_->connection() != subscribed) return;
   }
 }
 
@@ -381,14 +384,14 @@ class SocketSession::ReadTurn {
   SocketSession& session_;
 };
 
-void SocketSession::accept(const json& answer, bool round) {
+void SocketSession::store_answer(const json& answer, bool round) {
   note(answer);
   understood([&] {
     std::vector<protocol::DecodedReading> readings;
     if (const auto list = answer.find("readings"); list != answer.end()) {
       if (!list->is_array()) protocol::refuse_value("readings", "a list", *list);
       readings.reserve(list->size());
-      const Encoding encoding = line_->connection()->encoding();
+      const Encoding encoding = sender_->connection()->encoding();
       for (const json& reading : *list) {
         readings.push_back(protocol::decode_reading(reading, encoding));
       }
@@ -424,13 +427,13 @@ void SocketSession::wait() {
   {
     const ReadTurn turn(*this, lock);
     try {
-      accept(read(read_request("data")), /*round=*/true);
+      store_answer(read(read_request("data")), /*round=*/true);
     } catch (const SessionError& e) {
       if (e.code() != SessionError::Code::kFinished) throw;
       throw_finished();
     }
   }
-  throw_complaint();
+  throw_async_error();
 }
 
 int SocketSession::take(ReadingSink& sink) {
@@ -439,7 +442,7 @@ int SocketSession::take(ReadingSink& sink) {
   if (!round_ && !reading_ && !over_) {
     {
       const ReadTurn turn(*this, lock);
-      accept(ask(read_request("none")), /*round=*/false);
+      store_answer(ask(read_request("none")), /*round=*/false);
     }
     lock.lock();
   }
@@ -466,8 +469,8 @@ bool SocketSession::peek(milliseconds timeout) {
   if (round_ || over_) return true;
   const ReadTurn turn(*this, lock);
   try {
-    accept(read(read_request("peek", std::chrono::duration<double>(timeout).count())),
-           /*round=*/false);
+    store_answer(read(read_request("peek", std::chrono::duration<double>(timeout).count())),
+                 /*round=*/false);
   } catch (const SessionError& e) {
     if (e.code() != SessionError::Code::kFinished) throw;
     const Lock again(mutex_);
@@ -482,7 +485,7 @@ void SocketSession::join() {
   changed_.wait(lock, [&] { return closed_ || !reading_; });
   require_open();
   const ReadTurn turn(*this, lock);
-  accept(read(read_request("join")), /*round=*/false);
+  store_answer(read(read_request("join")), /*round=*/false);
 }
 
 void SocketSession::sleep(double seconds) {
@@ -490,13 +493,13 @@ void SocketSession::sleep(double seconds) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "sleep takes a number of seconds in [0, 1e9]");
   }
-  if (line_->paced()) return sleep_by_the_wall_clock(seconds);
+  if (sender_->paced()) return sleep_by_the_wall_clock(seconds);
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !reading_; });
   require_open();
   const ReadTurn turn(*this, lock);
   try {
-    accept(read(read_request("sleep", seconds)), /*round=*/false);
+    store_answer(read(read_request("sleep", seconds)), /*round=*/false);
   } catch (const SessionError& e) {
     if (e.code() != SessionError::Code::kFinished) throw;
   }
@@ -528,7 +531,7 @@ void SocketSession::sleep_by_the_wall_clock(double seconds) {
 TimeStatistics SocketSession::time() const {
   auto time = std::get<TimeStatistics>(ask_for(TimeRequest{}));
   const bool paced = time.mode == sim::TimeMode::kPaced;
-  if (paced != line_->paced()) line_->set_paced(paced);
+  if (paced != sender_->paced()) sender_->set_paced(paced);
   return time;
 }
 
@@ -546,17 +549,17 @@ void SocketSession::send(DeviceId device, const sim::Command& command) {
 std::unique_ptr<Session> SocketSession::open_follower() {
   require_open();
   const std::string key =
-      understood([&] { return protocol::require_text(line_->connection()->welcome(), "key"); });
+      understood([&] { return protocol::require_text(sender_->connection()->welcome(), "key"); });
   SocketSettings settings = settings_;
   settings.request_timeout_s = request_timeout_s_;
   return std::unique_ptr<Session>(new SocketSession(std::move(settings), key));
 }
 
-const void* SocketSession::simulation() const noexcept { return line_->simulation().get(); }
+const void* SocketSession::simulation() const noexcept { return sender_->simulation().get(); }
 
 // --- The canvas
 
-DrawQueue& SocketSession::draw_queue() noexcept { return line_->drawings(); }
+DrawQueue& SocketSession::draw_queue() noexcept { return sender_->drawings(); }
 
 std::uint64_t SocketSession::canvas_generation() const noexcept {
   return canvas_generation_.load(std::memory_order_acquire);
@@ -570,11 +573,11 @@ struct SocketSession::RequestHandler {
 
   void operator()(const SubscribeRequest& what) const {
     require_device(session.robots_, what.device);
-    session.request_for_good(what, [&] { ++session.subscriptions_[key_of(what.device)]; });
+    session.request_persistently(what, [&] { ++session.subscriptions_[key_of(what.device)]; });
   }
   void operator()(const UnsubscribeRequest& what) const { session.unsubscribe(what.device); }
   void operator()(const ReplaceRequest& what) const {
-    session.request_for_good(what, [&] {
+    session.request_persistently(what, [&] {
       if (what.device) {
         session.replace_[key_of(*what.device)] = what.replace;
       } else {
@@ -594,14 +597,14 @@ struct SocketSession::RequestHandler {
   void operator()(const NoteLooksRequest&) const {}  // the server may let time pass
   void operator()(const AnswerTimeoutRequest& what) const {
     session.request_timeout_s_ = what.seconds;
-    session.line_->connection()->set_request_timeout(wall(what.seconds));
+    session.sender_->connection()->set_request_timeout(wall(what.seconds));
   }
   void operator()(const RetriesRequest& what) const {
     session.retry_time_s_ = what.time_s;
     session.retry_limit_ = what.limit;
   }
   void operator()(const FlushDrawingsRequest&) const {
-    session.with_connection([&] { session.line_->flush(); });
+    session.with_connection([&] { session.sender_->flush(); });
   }
   void operator()(const SetCellsRequest& what) const { session.set_cells(what); }
   CanvasInfo operator()(const CanvasInfoRequest&) const {
@@ -609,7 +612,7 @@ struct SocketSession::RequestHandler {
     return session.canvas_;
   }
   CanvasInfo operator()(const ResizeCanvasRequest& what) const {
-    session.line_->settle_others();  // earlier drawings of other sessions belong to the old size
+    session.sender_->confirm_others();  // earlier drawings of other sessions belong to the old size
     return std::get<CanvasInfo>(session.ask_for(what));
   }
   WorldMap operator()(const WorldMapRequest& what) const {
@@ -644,7 +647,7 @@ Answer SocketSession::answer(const Request& request) {
 }
 
 Answer SocketSession::ask_for(const Request& request) const {
-  const Encoding encoding = line_->connection()->encoding();
+  const Encoding encoding = sender_->connection()->encoding();
   const json answer = ask(protocol::encode_request(request, encoding));
   return understood([&] { return protocol::decode_answer(request, answer, encoding); });
 }
@@ -655,7 +658,7 @@ void SocketSession::close() noexcept {
     const Lock lock(mutex_);
     changed_.notify_all();
   }
-  line_->close();
+  sender_->close();
 }
 
 }  // namespace playerlike

@@ -39,7 +39,7 @@ struct SocketSettings {
 /// The error for an answer that cannot be decoded.
 [[nodiscard]] SessionError misunderstood(const std::string& why);
 
-class SocketLine;
+class MessageSender;
 
 /// A session with a simulation on a server, in Playpen's protocol (docs/protocol.md).
 ///
@@ -89,7 +89,7 @@ class SocketSession final : public Session {
   /// Sends a request that must be repeated on every later connection, and records it with note_it()
   /// under `mutex_`. Repeats the request if the connection was replaced meanwhile.
   template <typename Note>
-  void request_for_good(const Request& request, Note note_it);
+  void request_persistently(const Request& request, Note note_it);
   /// Waits between two attempts to connect. @return whether the session is still open.
   bool pause(double seconds) const;
 
@@ -104,9 +104,9 @@ class SocketSession final : public Session {
   void note(const nlohmann::json& answer) const;
   /// Stores the contents of an answer to a `read`.
   /// @param round  whether it counts as a round even without readings.
-  void accept(const nlohmann::json& answer, bool round);
+  void store_answer(const nlohmann::json& answer, bool round);
   /// Throws the server's error for a message without an answer.
-  void throw_complaint() const;
+  void throw_async_error() const;
   void unsubscribe(DeviceId device);
   void set_cells(const SetCellsRequest& what) const;
   [[nodiscard]] WorldMap world_map(double cell_size_m) const;
@@ -119,7 +119,7 @@ class SocketSession final : public Session {
   const SocketSettings settings_;
   const std::optional<std::string> follow_;  ///< key of the session that this one follows
   std::vector<RobotInfo> robots_;
-  std::shared_ptr<SocketLine> line_;
+  std::shared_ptr<MessageSender> sender_;
   std::atomic<bool> closed_{false};
   std::atomic<double> request_timeout_s_;
   std::atomic<int> retry_limit_{0};

@@ -117,11 +117,11 @@ bool Access::has_wrong(const std::vector<std::string>& tokens) const {
   return wrong;
 }
 
-Hub::TokenVerdict Hub::judge_tokens(const Peer& peer, const std::vector<std::string>& tokens) {
-  const TokenGuard::Clock::time_point now = TokenGuard::Clock::now();
+Hub::TokenVerdict Hub::check_tokens(const Peer& peer, const std::vector<std::string>& tokens) {
+  const TokenThrottle::Clock::time_point now = TokenThrottle::Clock::now();
   if (tokens.empty()) return {};
-  if (!access().has_wrong(tokens)) return {false, guard_.delay_of_right(peer.name(), now)};
-  const TokenGuard::Cost cost = guard_.note_wrong(peer.name(), now);
+  if (!access().has_wrong(tokens)) return {false, throttle_.delay_of_right(peer.name(), now)};
+  const TokenThrottle::Cost cost = throttle_.note_wrong(peer.name(), now);
   if (cost.tell) {
     log(sim::LogLevel::kWarning,
         peer.name() + ": a wrong token, " + std::to_string(cost.count) +

@@ -335,7 +335,7 @@ void Connection::hurry(Clock::time_point deadline) {
   if (state_ == State::kClosing) close_deadline_ = std::min(*close_deadline_, deadline);
 }
 
-void Connection::look_after(Clock::time_point now) {
+void Connection::enforce_limits(Clock::time_point now) {
   if (state_ == State::kClosing && now >= *close_deadline_) end(reason_);
   if (state_ != State::kOpen) return;
   if (!reading_) {

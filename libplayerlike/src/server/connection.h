@@ -61,7 +61,7 @@ class Connection final : public Peer, public std::enable_shared_from_this<Connec
   /// As close(), with a reason for the log.
   void close(std::string farewell, std::string reason);
   /// Ends connections that exceed a time limit; must be called periodically.
-  void look_after(Clock::time_point now);
+  void enforce_limits(Clock::time_point now);
   /// Sets the latest end of a connection that is closing.
   void hurry(Clock::time_point deadline);
   /// Closes the socket at once.

@@ -140,7 +140,7 @@ void MorseConnection::work(const std::string& id, const MorseService& service, c
   peer_.set_busy(true);
   // The job holds no reference to the connection, which may be closed before the job is done.
   const auto line = std::make_shared<std::string>();
-  const auto piece = [client = state_->client(), &service, list, id, line] {
+  const auto run_slice = [client = state_->client(), &service, list, id, line] {
     const MorseArguments arguments(service, list);
     *line = line_of(id, "SUCCESS", service.work({*client, arguments}));
     return false;
@@ -161,16 +161,16 @@ void MorseConnection::work(const std::string& id, const MorseService& service, c
     }
     from.peer_.set_busy(false);
   };
-  hub_.work({piece, done});
+  hub_.work({run_slice, done});
 }
 
 void MorseConnection::try_tokens(const std::string& id, const std::vector<std::string>& tokens,
                                  std::function<void()> action) {
-  const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, tokens);
+  const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, tokens);
   if (verdict.wrong) ++wrong_tokens_;
   hub_.answer_after(verdict.delay, peer_, self_, [this, id, action = std::move(action)] {
     guarded(id, action);
-    if (wrong_tokens_ >= TokenGuard::kMostOfAConnection) {
+    if (wrong_tokens_ >= TokenThrottle::kMostOfAConnection) {
       peer_.close(farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
     }
   });

@@ -66,7 +66,7 @@ json set_line(MorseCall& call) {
 json clear(const PenCall& call) {
   DrawWork fill;
   fill.operations.emplace_back().kind = sim::DrawOperation::Kind::kFill;
-  while (!call.client.draw_some(fill, kPieceCells)) {
+  while (!call.client.draw_some(fill, kSliceCells)) {
   }
   return nullptr;
 }

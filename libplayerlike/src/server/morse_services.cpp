@@ -353,7 +353,7 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
   MorseCall call{state, from, id, found, MorseArguments(chosen, list)};
   if (chosen.right == Right::kAll) require_command_all(call);
   if (chosen.right == Right::kRobot) require_command(call, found->robot);
-  if (chosen.work != nullptr && (chosen.is_heavy || canvas_cells(state.session()) > kLightCells)) {
+  if (chosen.work != nullptr && (chosen.is_heavy || canvas_cells(state.session()) > kInlineCells)) {
     from.work(id, chosen, list);
     return std::nullopt;
   }

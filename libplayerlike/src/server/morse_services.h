@@ -51,7 +51,7 @@ struct MorseCall {
   MorseArguments arguments;
 };
 
-/// A request about the canvas, on the server's thread or in the workshop.
+/// A request about the canvas, on the server's thread or in the worker thread.
 struct PenCall {
   EventClient& client;
   const MorseArguments& arguments;
@@ -72,8 +72,8 @@ struct MorseService {
   std::string_view arguments;  ///< in the syntax of docs/morse.md: "x, y, z, tolerance=0.5"
   Right right;
   Run run;
-  /// Does the same as `run` for requests that may take long: the server's workshop calls it if the
-  /// canvas is large.
+  /// Does the same as `run` for requests that may take long: the server's worker thread calls it if
+  /// the canvas is large.
   Work work = nullptr;
   bool later = false;     ///< `run` arranges for a later answer; its result is ignored
   bool is_heavy = false;  ///< `work` takes long on any canvas

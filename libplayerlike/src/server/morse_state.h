@@ -122,7 +122,7 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
  private:
   /// The result of a waiting request, set by its alarm.
   enum class Outcome { kNone, kArrived, kReplaced };
-  struct Pending {
+  struct PendingRequest {
     MorseConnection* from = nullptr;
     std::string id;
     std::optional<DeviceId> waypoint;
@@ -133,17 +133,18 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   using Number = std::uint64_t;
 
   /// Registers a waiting request; the answer may be sent before this returns.
-  void wait_for(Pending pending, Alarm alarm);
-  void ring(Number number);
+  void add_pending(PendingRequest pending, Alarm alarm);
+  void on_alarm(Number number);
   /// Sends the answer and removes the entry. @return the next entry.
-  std::map<Number, Pending>::iterator end(std::map<Number, Pending>::iterator pending,
-                                          std::string_view status, const nlohmann::json& result);
+  std::map<Number, PendingRequest>::iterator end(std::map<Number, PendingRequest>::iterator pending,
+                                                 std::string_view status,
+                                                 const nlohmann::json& result);
 
   Hub& hub_;
   std::shared_ptr<Postbox> postbox_;
   std::vector<MorseComponent> components_;
   std::shared_ptr<EventClient> client_;  ///< created on first use
-  std::map<Number, Pending> pending_;
+  std::map<Number, PendingRequest> pending_;
   Number last_number_ = 0;
   std::set<std::string> verbose_;
   bool synchronised_ = false;
@@ -164,8 +165,8 @@ class MorseConnection final : public Handler {
   /// Adds a token, which may add rights.
   void present(std::string token);
 
-  /// Has the server's workshop execute a request about the canvas, then answers it. Reading from
-  /// the connection pauses until then. @param list  its arguments.
+  /// Has the server's worker thread execute a request about the canvas, then answers it. Reading
+  /// from the connection pauses until then. @param list  its arguments.
   void work(const std::string& id, const MorseService& service, const nlohmann::json& list);
 
   /// Sends an answer. @param result  null: none.

@@ -50,7 +50,7 @@ class StreamConnection : public Handler {
     if (!first) return false;
     const auto token = token_in(line);
     if (!token) return false;
-    const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, {*token});
+    const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, {*token});
     // A connection has one attempt: a wrong token closes it.
     hub_.answer_after(verdict.delay, peer_, alive_, [this, wrong = verdict.wrong, token = *token] {
       if (wrong) return peer_.close("");
@@ -306,7 +306,7 @@ class SyncConnection final : public Handler {
     if (!allowed_) {
       std::vector<std::string> tokens;
       if (auto token = token_in(bytes)) tokens.push_back(std::move(*token));
-      const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, tokens);
+      const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, tokens);
       return hub_.answer_after(verdict.delay, peer_, alive_, [this, tokens = std::move(tokens)] {
         allow(hub_.access().rights(tokens));
         if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");

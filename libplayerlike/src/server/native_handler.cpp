@@ -10,7 +10,7 @@
 
 #include "protocol/codec.h"
 #include "protocol/request_codec.h"
-#include "server/workshop.h"
+#include "server/worker_thread.h"
 #include "session/checks.h"
 #include "sim/core/number_text.h"
 
@@ -22,7 +22,8 @@ using protocol::ProtocolError;
 
 // Doubles represent all whole numbers up to this one exactly.
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53U;
-// Cells that the drawings of all sessions may write in a step, without the workshop's drawings.
+// Cells that the drawings of all sessions may write in a step, without the worker thread's
+// drawings.
 constexpr std::size_t kStepCells = std::size_t{1} << 20U;
 // A larger answer needs a claim on the server's limit of queued bytes, see Hub::claim_room()
 // [bytes].
@@ -60,10 +61,10 @@ double require_timeout(const json& request) {
 
 /// A request that is not part of Session: its name, its keys and its function.
 struct NativeHandler::OwnRequest {
-  using Carry = json (NativeHandler::*)(const json&);
+  using Method = json (NativeHandler::*)(const json&);
   std::string_view name;
   std::initializer_list<std::string_view> keys;  ///< all allowed keys
-  Carry carry;                                   ///< null: `read` and `draw`, handled separately
+  Method handle;                                 ///< null: `read` and `draw`, handled separately
   bool for_watchers = false;                     ///< allowed without a session
 };
 
@@ -203,7 +204,7 @@ NativeHandler::~NativeHandler() {
   state_->watching.forget(peer_);
   if (client_) {
     state_->leaders.erase(terms_.key);
-    // The workshop may still hold a reference.
+    // The worker thread may still hold a reference.
     client_->session().close();
   }
   if (waiting_ && waiting_->timer != 0) hub_.cancel(waiting_->timer);
@@ -263,14 +264,14 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
   if (type) {
     Request request = protocol::decode_request(*type, message, terms_.encoding);
     std::visit(Guard{*this}, request);
-    if (native_work_cells(request, session(), hub_.host()) > kLightCells) {
+    if (native_work_cells(request, session(), hub_.host()) > kInlineCells) {
       return answer_elsewhere(std::move(request), id, name);
     }
     return answer(id, protocol::encode_answer(request, session().answer(request), terms_.encoding));
   }
   protocol::refuse_unknown_keys(message, own->keys, "this request");
-  if (own->carry != nullptr) {
-    answer(id, (this->*own->carry)(message));
+  if (own->handle != nullptr) {
+    answer(id, (this->*own->handle)(message));
     if (ending_) peer_.close("");
     return;
   }
@@ -284,7 +285,7 @@ void NativeHandler::execute(const json& message, const json& id, std::string& na
 
 // --- Work
 
-void NativeHandler::work(const json& id, const std::string& name, std::function<bool()> piece,
+void NativeHandler::work(const json& id, const std::string& name, std::function<bool()> run_slice,
                          std::function<void()> then) {
   peer_.set_busy(true);
   const auto done = [weak = std::weak_ptr<NativeHandler*>(self_), id, name,
@@ -298,7 +299,7 @@ void NativeHandler::work(const json& id, const std::string& name, std::function<
     });
     handler.peer_.set_busy(false);
   };
-  hub_.work({std::move(piece), done});
+  hub_.work({std::move(run_slice), done});
 }
 
 void NativeHandler::answer_elsewhere(Request request, const json& id, const std::string& name) {
@@ -311,8 +312,8 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
   const auto made = std::make_shared<Made>();
   made->canvas_generation = canvas_generation_;
   // The job holds no reference to the handler, which may be destroyed before the job is done.
-  const auto piece = [client = client_, encoding = terms_.encoding, request = std::move(request),
-                      id, made] {
+  const auto run_slice = [client = client_, encoding = terms_.encoding,
+                          request = std::move(request), id, made] {
     Session& session = client->session();
     json answer = protocol::encode_answer(request, session.answer(request), encoding);
     if (id.is_null()) return false;
@@ -326,7 +327,7 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
     made->bytes = protocol::encode(answer, encoding);
     return false;
   };
-  work(id, name, piece, [this, made, room = std::move(room)] {
+  work(id, name, run_slice, [this, made, room = std::move(room)] {
     if (made->bytes.empty()) return;
     canvas_generation_ = std::max(canvas_generation_, made->canvas_generation);
     peer_.send(std::move(made->bytes));
@@ -361,19 +362,19 @@ bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
     cells += sim::cells_written(drawing, canvas.width, canvas.height);
   }
   const std::size_t share = kStepCells / std::max<std::size_t>(state_->leaders.size(), 1);
-  if (light_cells_ + cells > std::min(share, 4 * kLightCells)) return false;
-  light_cells_ += cells;
+  if (queued_cells_ + cells > std::min(share, 4 * kInlineCells)) return false;
+  queued_cells_ += cells;
   session().draw(drawings);
   return true;
 }
 
 void NativeHandler::draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
                                    const std::string& name, std::function<void()> then) {
-  light_cells_ = 0;
+  queued_cells_ = 0;
   const auto drawing = std::make_shared<DrawWork>();
   drawing->operations = std::move(drawings);
   work(
-      id, name, [client = client_, drawing] { return !client->draw_some(*drawing, kPieceCells); },
+      id, name, [client = client_, drawing] { return !client->draw_some(*drawing, kSliceCells); },
       std::move(then));
 }
 
@@ -550,7 +551,7 @@ void NativeHandler::on_peek_timeout() {
 
 // The answer to a `read` for the outcome of its wait. A cancelled wait has timed out.
 json NativeHandler::round(Wait wait, Outcome outcome) {
-  if (outcome != Outcome::kIdle && wait != Wait::kNone) light_cells_ = 0;  // a step has drawn them
+  if (outcome != Outcome::kIdle && wait != Wait::kNone) queued_cells_ = 0;  // a step has drawn them
   if (wait == Wait::kData && outcome == Outcome::kFinished) {
     throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
   }

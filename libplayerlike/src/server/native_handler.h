@@ -64,17 +64,17 @@ class NativeHandler final : public Handler {
   /// Runs an action for a request; answers its exceptions.
   template <typename Action>
   void guarded(const json& id, const std::string& name, Action action);
-  /// Has the workshop run piece(), then calls then(). If piece() throws, the request fails. Reading
-  /// from the connection pauses until then.
-  void work(const json& id, const std::string& name, std::function<bool()> piece,
+  /// Has the worker thread run run_slice(), then calls then(). If run_slice() throws, the request
+  /// fails. Reading from the connection pauses until then.
+  void work(const json& id, const std::string& name, std::function<bool()> run_slice,
             std::function<void()> then);
-  /// Has the workshop answer a request that takes long, see native_work.h.
+  /// Has the worker thread answer a request that takes long, see native_work.h.
   void answer_elsewhere(Request request, const json& id, const std::string& name);
   /// Queues drawings that are little work, like those of embedded programs. Removes drawings that
   /// others cover.
   /// @return false if they are too much work: then draw_elsewhere() must draw them.
   [[nodiscard]] bool draw_here(std::vector<sim::DrawOperation>& drawings);
-  /// Has the workshop draw, and calls then() afterwards.
+  /// Has the worker thread draw, and calls then() afterwards.
   void draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
                       const std::string& name, std::function<void()> then);
   /// @throws ProtocolError access/denied for drawings on the shared canvas without the right to
@@ -117,11 +117,12 @@ class NativeHandler final : public Handler {
   std::shared_ptr<NativeState> state_;
   Terms terms_;
   std::shared_ptr<NativeHandler*> self_;  ///< expires with the handler; posted tasks check it
-  std::shared_ptr<EventClient> client_;   ///< null: only watches; shared with jobs of the workshop
+  /// Null: only watches. Shared with jobs of the worker thread.
+  std::shared_ptr<EventClient> client_;
   std::optional<Waiting> waiting_;
   bool ending_ = false;                  ///< the client has sent bye
   std::uint64_t canvas_generation_ = 0;  ///< the generation that the client knows
-  std::size_t light_cells_ = 0;  ///< cells of queued drawings that may not have been drawn yet
+  std::size_t queued_cells_ = 0;  ///< cells of queued drawings that may not have been drawn yet
 };
 
 }  // namespace playerlike::server

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "server/workshop.h"
+#include "server/worker_thread.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike::server {
@@ -37,7 +37,7 @@ struct WorkCells {
   }
   // A new log may have to read an existing, long file first.
   std::size_t operator()(const LogRequest& what) const {
-    return what.running ? kLightCells + 1 : 0;
+    return what.running ? kInlineCells + 1 : 0;
   }
   template <typename One>
   std::size_t operator()(const One&) const {

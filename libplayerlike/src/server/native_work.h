@@ -8,7 +8,7 @@
 #include "protocol/framing.h"
 
 /// Cost estimates of requests in Playpen's own protocol whose work grows with the canvas or the
-/// arena. The server's workshop (workshop.h) executes expensive ones.
+/// arena. The server's worker thread (worker_thread.h) executes expensive ones.
 namespace playerlike::server {
 
 /// Maximum number of cells of a server's map.

@@ -12,8 +12,8 @@
 #include "playerlike/host/host.h"
 #include "playerlike/server/server_settings.h"
 #include "protocol/framing.h"
-#include "server/token_guard.h"
-#include "server/workshop.h"
+#include "server/token_throttle.h"
+#include "server/worker_thread.h"
 #include "sim/core/log.h"
 
 namespace playerlike::server {
@@ -144,11 +144,11 @@ class Hub {
   virtual std::uint64_t after(std::chrono::microseconds delay, std::function<void()> task) = 0;
   virtual void cancel(std::uint64_t timer) = 0;
 
-  /// Gives long work to the workshop's thread, which runs jobs piece by piece in turn. The server's
-  /// thread calls `job.done`. When the server ends, remaining pieces and `job.done` are dropped.
+  /// Gives long work to the worker thread, which runs jobs slice by slice in turn. The server's
+  /// thread calls `job.done`. When the server ends, remaining slices and `job.done` are dropped.
   virtual void work(Job job) = 0;
-  /// Claims room for an answer that the workshop makes; destroying the result releases it. @throws
-  /// ProtocolError server/busy if the bytes that clients have not read yet would exceed
+  /// Claims room for an answer that the worker thread makes; destroying the result releases it.
+  /// @throws ProtocolError server/busy if the bytes that clients have not read yet would exceed
   /// ServerLimits::all_queued_bytes.
   [[nodiscard]] virtual std::shared_ptr<void> claim_room(std::size_t bytes) = 0;
 
@@ -171,8 +171,8 @@ class Hub {
     bool wrong = false;                  ///< whether a token is unknown to this server
     std::chrono::milliseconds delay{0};  ///< to wait before the answer
   };
-  /// Judges tokens; counts wrong ones and logs some of them.
-  [[nodiscard]] TokenVerdict judge_tokens(const Peer& peer, const std::vector<std::string>& tokens);
+  /// Checks tokens; counts wrong ones and logs some of them.
+  [[nodiscard]] TokenVerdict check_tokens(const Peer& peer, const std::vector<std::string>& tokens);
   /// Runs an action for a connection after a delay, at once if the delay is zero. The connection
   /// does not read in the meantime; other connections are not delayed.
   /// @param handler  of the connection; if it has expired by then, the action is dropped.
@@ -194,7 +194,7 @@ class Hub {
   std::shared_ptr<NativeState> native_state;
 
  private:
-  TokenGuard guard_;  ///< counts wrong tokens on all ports
+  TokenThrottle throttle_;  ///< counts wrong tokens on all ports
 };
 
 /// Handler of a connection to the services' port, for MORSE's protocol and `playpen hello`.

@@ -104,8 +104,8 @@ void require_token(const ServerSettings& settings,
 }
 
 /// The addresses to listen on. @throws sim::ConfigError, also if they need a token.
-std::vector<asio::ip::address> sound_addresses(asio::io_context& io,
-                                               const ServerSettings& settings) {
+std::vector<asio::ip::address> checked_addresses(asio::io_context& io,
+                                                 const ServerSettings& settings) {
   std::vector<asio::ip::address> addresses = addresses_of(io, settings.bind);
   require_token(settings, addresses);
   return addresses;
@@ -194,7 +194,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
         settings_(std::move(settings)),
         log_(std::move(log)),
         access_(settings_.access, host_->robots(), host_->own_sensors_only()),
-        addresses_(sound_addresses(io_, settings_)) {
+        addresses_(checked_addresses(io_, settings_)) {
     Listener services_port;
     services_port.services = true;
     services_port.make = std::move(services);
@@ -305,7 +305,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   std::map<std::string, Process> processes_;
   std::uint64_t process_uses_ = 0;
 
-  Workshop workshop_;
+  WorkerThread worker_;
 
   bool stopping_ = false;
   Clock::time_point stop_deadline_{};
@@ -428,7 +428,7 @@ void ServerHub::Body::tick() {
     const Clock::time_point now = Clock::now();
     // A copy, since connections that end are removed.
     const std::vector<std::shared_ptr<Connection>> all(connections_.begin(), connections_.end());
-    for (const auto& connection : all) connection->look_after(now);
+    for (const auto& connection : all) connection->enforce_limits(now);
     if (stopping_ && now >= stop_deadline_) {
       for (const auto& connection : all) connection->end("the server ended");
     }
@@ -456,7 +456,7 @@ void ServerHub::Body::serve() {
   }
   // All handlers are destroyed. Now end the work and the alarms of the shared state, which must not
   // reach a destroyed hub.
-  workshop_.close();
+  worker_.close();
   morse_state.reset();
   native_state.reset();
 }
@@ -544,7 +544,7 @@ void ServerHub::Body::work(Job job) {
   job.done = [this, done = std::move(job.done)](const std::exception_ptr& error) {
     post([done, error] { done(error); });
   };
-  workshop_.add(std::move(job));
+  worker_.add(std::move(job));
 }
 
 std::shared_ptr<void> ServerHub::Body::claim_room(std::size_t bytes) {
@@ -617,7 +617,7 @@ void ServerHub::check(const ServerSettings& settings, const std::vector<std::str
   for (std::size_t i = 0; i < robots.size(); ++i) infos[i].name = robots[i];
   const Access access(settings.access, infos);
   asio::io_context io;
-  const std::vector<asio::ip::address> addresses = sound_addresses(io, settings);
+  const std::vector<asio::ip::address> addresses = checked_addresses(io, settings);
   Listener services;
   Listener clock;
   open_or_throw(io, addresses, settings, settings.port, "port", services);

@@ -36,12 +36,12 @@ struct PlaypenVirtualTimeHooks {
   /// on wake() finds the calling thread.
   /// @param kind         a PlaypenWaitKind.
   /// @param deadline_ns  since the program's start; < 0: none.
-  /// @param is_there     nullptr, or a function of object and value that tells whether the wait is
+  /// @param is_ready     nullptr, or a function of object and value that tells whether the wait is
   ///                  over. Called with locks held: it must not block.
   /// @return 1: finish_wait() must be called; 2: the wait is over; 0: the thread must wait in real
   /// time.
   int (*begin_wait)(const void* object, int kind, long long deadline_ns,
-                    int (*is_there)(const void*, unsigned), unsigned value);
+                    int (*is_ready)(const void*, unsigned), unsigned value);
   /// Waits until the wait is over. @return a PlaypenWaitEnd.
   int (*finish_wait)();
   /// Wakes up to `most` threads that wait for an object. @return the number of threads woken.
@@ -72,7 +72,7 @@ struct PlaypenVirtualTimeHooks {
 enum PlaypenWaitKind { kPlaypenWaitObject = 0, kPlaypenWaitMutex = 1, kPlaypenWaitThread = 2 };
 
 enum PlaypenWaitEnd {
-  kPlaypenWaitThere = 0,
+  kPlaypenWaitReady = 0,
   kPlaypenWaitTime = 1,         ///< the deadline has passed
   kPlaypenWaitInterrupted = 2,  ///< another thread cancels this one
   kPlaypenWaitReleased = 3,     ///< time is no longer virtual: the thread must wait in real time

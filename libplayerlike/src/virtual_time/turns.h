@@ -18,17 +18,17 @@
 
 namespace playerlike {
 
-/// A thread of the program in virtual time. The mutex of Turns guards it, except for the bell.
+/// A thread of the program in virtual time. The mutex of Turns guards it, except for `event_count`.
 struct TurnThread {
   enum class State {
-    kThinks,  ///< has the turn and runs
-    kBeside,  ///< runs concurrently with that one: it is new, or its client was closed
-    kReady,   ///< its wait is over; it runs when it gets its turn
+    kRunning,     ///< has the turn and runs
+    kConcurrent,  ///< runs concurrently with that one: it is new, or its client was closed
+    kReady,       ///< its wait is over; it runs when it gets its turn
     kWaits,
-    kAside,  ///< runs on its own: nobody waits for it until it waits again
+    kDetached,  ///< runs on its own: nobody waits for it until it waits again
   };
   /// The reason why a wait ended.
-  enum class Wake { kNone, kThere, kTime, kInterrupted };
+  enum class Wake { kNone, kObjectReady, kTime, kInterrupted };
 
   explicit TurnThread(ThreadId id) : thread_id(id) {}
 
@@ -36,14 +36,14 @@ struct TurnThread {
   pid_t number = 0;              ///< the system's thread id; 0: not begun yet
   const void* handle = nullptr;  ///< its pthread_t
   State state = State::kReady;
-  std::uint64_t place =
-      0;  ///< order among ready threads and among threads that wait for one object: lowest first
+  /// Order among ready threads and among threads that wait for one object: lowest first.
+  std::uint64_t queue_order = 0;
   bool starts_background = false;  ///< it has called StartThread()
 
   // What it waits for; any of these ends the wait.
   const void* object = nullptr;                      ///< a wake-up for this object
-  int (*is_there)(const void*, unsigned) = nullptr;  ///< if set, checked before time advances
-  unsigned value = 0;                                ///< argument of is_there
+  int (*is_ready)(const void*, unsigned) = nullptr;  ///< if set, checked before time advances
+  unsigned value = 0;                                ///< argument of is_ready
   const void* client = nullptr;                      ///< data for this client, or ...
   /// ... this time: simulated time, or time since the program's start if there is no simulation.
   std::optional<sim::SimTime> wake_ns;
@@ -57,9 +57,9 @@ struct TurnThread {
   std::uint64_t blocked_switches = 0;  ///< context switches at the first check that found it asleep
   std::optional<std::chrono::steady_clock::time_point> blocked_since;  ///< time of that check
   std::chrono::steady_clock::time_point blocked_last{};                ///< time of the latest check
-  int blocked_looks = 0;                                               ///< checks since then
+  int blocked_checks = 0;                                              ///< checks since then
 
-  std::atomic<unsigned> bell{0};  ///< counts events for this thread; a futex
+  std::atomic<unsigned> event_count{0};  ///< counts events for this thread; a futex
 
   [[nodiscard]] bool waits_for_time() const noexcept {
     return client != nullptr || wake_ns.has_value();
@@ -81,7 +81,7 @@ class TurnClock {
   /// Whether simulated time has reached a wake-up time.
   [[nodiscard]] virtual bool has_come(sim::SimTime wake_ns) const = 0;
   /// Checks for clients that have been silent for too long.
-  virtual void look_at_start() = 0;
+  virtual void check_silent_clients() = 0;
   /// When a thread last sent something, or began to run if that is later.
   [[nodiscard]] virtual std::chrono::steady_clock::time_point last_seen(
       const TurnThread& thread) const = 0;
@@ -187,9 +187,9 @@ class Turns {
   /// Ends a thread's wait; it runs when it gets its turn.
   void make_ready(TurnThread& thread, Wake wake);
   /// Lets the thread that waits for this client's data run at once, concurrently with the others.
-  void let_go(const void* client);
+  void resume_client_thread(const void* client);
   /// If no thread runs: gives the turn to a ready thread, or wakes one that steps the simulation.
-  void kick();
+  void schedule_next();
 
   /// Whether a thread waits for data or a time.
   [[nodiscard]] bool somebody_waits_for_time() const;
@@ -210,36 +210,36 @@ class Turns {
   TurnThread& insert(ThreadId thread_id, State state);
   [[nodiscard]] TurnThread* find(ThreadId thread_id) const;
   void move(TurnThread& thread, State state);
-  static void ring(TurnThread& thread);
+  static void notify(TurnThread& thread);
   [[nodiscard]] TurnThread* first_ready() const;
   void end_wait(TurnThread& thread);
   [[nodiscard]] bool has_come(sim::SimTime wake_ns) const;
   void note_signal(TurnThread& self);
-  /// Calls the is_there functions of waiting threads. @return whether a wait is over.
-  bool ask_waiting();
+  /// Calls the is_ready functions of waiting threads. @return whether a wait is over.
+  bool poll_waits();
   /// Without a simulation: sleeps in real time until the earliest wake-up time. @return whether
   /// anything has changed.
-  bool wait_really(Lock& lock, TurnThread& self);
-  void wake_those_of_later();
+  bool wait_real_time(Lock& lock, TurnThread& self);
+  void flush_deferred_wakes();
   /// Checks for threads that are blocked or run for too long.
-  void look(Lock& lock);
+  void check_blocked_threads(Lock& lock);
 
   std::mutex mutex_;
   std::atomic<bool> active_{false};
   std::vector<std::unique_ptr<TurnThread>> threads_;  ///< in the order of their start
   TurnThread* current_ = nullptr;                     ///< the thread that has the turn
   TurnClock* clock_ = nullptr;
-  std::uint64_t last_place_ = 0;
-  int ready_ = 0;   ///< number of ready threads
-  int beside_ = 0;  ///< number of concurrent threads
+  std::uint64_t last_queue_order_ = 0;
+  int ready_ = 0;       ///< number of ready threads
+  int concurrent_ = 0;  ///< number of concurrent threads
   std::atomic<int> mutex_waits_{0};
   std::atomic<int> object_waits_{0};
 
   /// Objects for wake_later(). If there are too many, all waiting threads are woken and check for
   /// themselves.
-  std::array<std::atomic<const void*>, 16> later_{};
-  std::atomic<bool> any_later_{false};
-  std::atomic<bool> all_later_{false};
+  std::array<std::atomic<const void*>, 16> deferred_{};
+  std::atomic<bool> any_deferred_{false};
+  std::atomic<bool> all_deferred_{false};
 
   mutable std::mutex reasons_mutex_;
   std::vector<std::string> reasons_;

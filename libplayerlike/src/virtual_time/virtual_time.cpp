@@ -31,21 +31,21 @@ namespace {
 
 // How often a thread may read the clock without reading data or sleeping; each further read waits
 // for a step.
-constexpr int kFreeAsks = 4;
+constexpr int kFreeClockReads = 4;
 // How many calls of yield() without another ready thread are free; then a step passes.
 constexpr int kFreeYields = 100;
 // The same limit for accesses to data that a background thread changes, and how many more accesses
 // a step costs then. The limit is high, since programs access all beams of a scan, perhaps several
 // times.
-constexpr long long kFreeLooks = 1'000'000;
-constexpr long long kLooksAStep = 10'000;
+constexpr long long kFreeDataReads = 1'000'000;
+constexpr long long kDataReadsPerStep = 10'000;
 // After this many accesses the other ready threads get a turn, since the loop may wait for one of
 // them.
-constexpr long long kLooksATurn = 1'000;
+constexpr long long kDataReadsPerTurn = 1'000;
 // The limits for programs without a reading thread: only the end of the run can change anything for
 // them. They are higher, since such a program may compute for long between two reads.
-constexpr long long kFreeLooksAlone = 3'000'000;
-constexpr long long kLooksAStepAlone = 1'000;
+constexpr long long kFreeDataReadsAlone = 3'000'000;
+constexpr long long kDataReadsPerStepAlone = 1'000;
 // How far a read of the clock advances time before there is a simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
@@ -63,8 +63,8 @@ struct ThreadState {
   bool programs = false;        ///< started by the program's code
   signed char main = -1;        ///< whether it is the main thread; < 0: unknown
   signed char leaving = 0;      ///< < 0: the thread is about to end; > 0: the process is
-  int asks = 0;                 ///< reads of the clock since the last wait
-  long long looks = 0;          ///< accesses to data since the last wait
+  int clock_reads = 0;          ///< reads of the clock since the last wait
+  long long data_reads = 0;     ///< accesses to data since the last wait
   int yields = 0;               ///< yields without another ready thread
   sim::SimTime ahead_ns = 0;    ///< time slept beyond whole steps, ...
   sim::SimTime ahead_from = 0;  ///< ... at this simulated time
@@ -150,12 +150,12 @@ long long elapsed(const ThreadState& thread) {
   return before_ns + now_ns + (ahead ? thread.ahead_ns : 0);
 }
 
-enum class Passed { kNo, kYes, kInterrupted };
+enum class SleepResult { kNo, kYes, kInterrupted };
 
 /// Advances simulated time for the calling thread.
 /// @param left_ns  receives the remaining time if a signal ends the wait.
-Passed pass(ThreadState& thread, TurnClock& clock, long long duration_ns,
-            long long* left_ns = nullptr) {
+SleepResult advance_time(ThreadState& thread, TurnClock& clock, long long duration_ns,
+                         long long* left_ns = nullptr) {
   const Inside inside;
   try {
     thread.takes_part = true;
@@ -164,16 +164,16 @@ Passed pass(ThreadState& thread, TurnClock& clock, long long duration_ns,
     const sim::SimTime start_ns = from_ns + (thread.ahead_from == from_ns ? thread.ahead_ns : 0);
     bool interrupted = false;
     const auto ahead_ns = clock.pass_time(start_ns + duration_ns, interrupted);
-    if (!ahead_ns) return Passed::kNo;
+    if (!ahead_ns) return SleepResult::kNo;
     if (interrupted) {
       if (left_ns != nullptr) *left_ns = std::max<sim::SimTime>(*ahead_ns, 0);
-      return Passed::kInterrupted;
+      return SleepResult::kInterrupted;
     }
     thread.ahead_from = clock.now_ns();
     thread.ahead_ns = *ahead_ns;
-    return Passed::kYes;
+    return SleepResult::kYes;
   } catch (const std::exception&) {
-    return Passed::kNo;  // out of memory, or the simulation has ended
+    return SleepResult::kNo;  // out of memory, or the simulation has ended
   }
 }
 
@@ -214,13 +214,13 @@ int on_sleep(long long duration_ns, const void* caller, long long* left_ns) {
   if (!thread.takes_part && !thread.programs && !is_main(thread) && !is_programs_code(caller)) {
     return 0;
   }
-  thread.asks = 0;
-  thread.looks = 0;
+  thread.clock_reads = 0;
+  thread.data_reads = 0;
   thread.yields = 0;
-  switch (pass(thread, *clock, duration_ns, left_ns)) {
-    case Passed::kNo:
+  switch (advance_time(thread, *clock, duration_ns, left_ns)) {
+    case SleepResult::kNo:
       return 0;
-    case Passed::kYes:
+    case SleepResult::kYes:
       return 1;
     default:
       return 2;
@@ -235,13 +235,13 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
   // Only the program's threads are counted. In other threads, code that is linked into the program
   // may belong to a library that does not wait, such as a sanitizer at the end of a thread.
   if (ask != 0 && programs && !given_up.load(std::memory_order_acquire) &&
-      ++thread.asks > kFreeAsks) {
-    thread.asks = kFreeAsks;
+      ++thread.clock_reads > kFreeClockReads) {
+    thread.clock_reads = kFreeClockReads;
     TurnClock* const clock = attached.load(std::memory_order_acquire);
     if (clock == nullptr) {
       offset_ns.fetch_add(kStepBefore_ns);
     } else {
-      pass(thread, *clock, clock->step_ns());
+      advance_time(thread, *clock, clock->step_ns());
     }
   }
   *elapsed_ns = elapsed(thread);
@@ -314,7 +314,7 @@ void on_thread_begun(unsigned long long number) {
 }
 
 int on_begin_wait(const void* object, int kind, long long deadline_ns,
-                  int (*is_there)(const void*, unsigned), unsigned value) {
+                  int (*is_ready)(const void*, unsigned), unsigned value) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended) return 0;
   TurnThread* const self = Turns::known_self();
@@ -324,11 +324,11 @@ int on_begin_wait(const void* object, int kind, long long deadline_ns,
   const Turns::Lock lock(turns.mutex());
   if (!turns.active()) return 0;
   const bool takes_mutex = kind == kPlaypenWaitMutex;
-  if (takes_mutex && self->state == TurnThread::State::kAside) return 0;
-  if (is_there != nullptr && is_there(object, value) != 0) return 2;
+  if (takes_mutex && self->state == TurnThread::State::kDetached) return 0;
+  if (is_ready != nullptr && is_ready(object, value) != 0) return 2;
   if (kind == kPlaypenWaitThread && !turns.lives(object)) return 2;
   turns.begin_wait(*self, object, takes_mutex);
-  self->is_there = is_there;
+  self->is_ready = is_ready;
   self->value = value;
   thread.yields = 0;
   thread.deadline_ns = -1;
@@ -352,10 +352,10 @@ int on_finish_wait() {
   TurnThread& self = turns.self();
   const bool timed = thread.deadline_ns >= 0;
   switch (turns.wait(lock, self)) {
-    case TurnThread::Wake::kThere:
-      thread.asks = 0;
-      thread.looks = 0;
-      return kPlaypenWaitThere;
+    case TurnThread::Wake::kObjectReady:
+      thread.clock_reads = 0;
+      thread.data_reads = 0;
+      return kPlaypenWaitReady;
     case TurnThread::Wake::kInterrupted:
       return kPlaypenWaitInterrupted;
     case TurnThread::Wake::kNone:
@@ -363,8 +363,8 @@ int on_finish_wait() {
     case TurnThread::Wake::kTime:
       break;
   }
-  thread.asks = 0;
-  thread.looks = 0;
+  thread.clock_reads = 0;
+  thread.data_reads = 0;
   TurnClock* const clock = attached.load();
   if (timed && clock != nullptr) {
     thread.takes_part = true;
@@ -402,8 +402,8 @@ int on_mutex_is_wanted(const void* mutex) {
   const Inside inside;
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
-  return turns.active() && self->state == TurnThread::State::kThinks && turns.is_wanted(mutex) ? 1
-                                                                                               : 0;
+  return turns.active() && self->state == TurnThread::State::kRunning && turns.is_wanted(mutex) ? 1
+                                                                                                : 0;
 }
 
 int on_thread_lives(const void* handle) {
@@ -426,7 +426,7 @@ void on_cancelled(const void* handle) { interrupt(handle, /*by_signal=*/false); 
 void on_signalled(const void* handle) { interrupt(handle, /*by_signal=*/true); }
 
 /// Lets the ready threads run. @return whether there were any.
-bool let_others_go_on() {
+bool yield_turn() {
   TurnThread* const self = Turns::known_self();
   if (self == nullptr || !Turns::instance().active()) return false;
   const Inside inside;
@@ -438,12 +438,12 @@ bool let_others_go_on() {
 void on_yield() {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended || Turns::known_self() == nullptr) return;
-  if (let_others_go_on()) thread.yields = 0;
+  if (yield_turn()) thread.yields = 0;
   // No other thread can run, so the caller waits for simulated time.
   if (++thread.yields < kFreeYields || given_up.load(std::memory_order_acquire)) return;
   thread.yields = 0;
   TurnClock* const clock = attached.load(std::memory_order_acquire);
-  if (clock != nullptr) pass(thread, *clock, clock->step_ns());
+  if (clock != nullptr) advance_time(thread, *clock, clock->step_ns());
 }
 
 void on_leaving(int process) { state.leaving = process != 0 ? 1 : -1; }
@@ -591,24 +591,25 @@ void remember_thread() {
 
 void note_wait() noexcept {
   state.takes_part = true;
-  state.asks = 0;
-  state.looks = 0;
+  state.clock_reads = 0;
+  state.data_reads = 0;
   state.yields = 0;
 }
 
-void note_looks(int count) noexcept {
+void count_data_reads(int count) noexcept {
   ThreadState& thread = state;
-  const bool turn = thread.looks / kLooksATurn != (thread.looks + count) / kLooksATurn;
-  thread.looks += count;
+  const bool turn =
+      thread.data_reads / kDataReadsPerTurn != (thread.data_reads + count) / kDataReadsPerTurn;
+  thread.data_reads += count;
   const bool alone = !background.load(std::memory_order_relaxed);
-  const long long free_looks = alone ? kFreeLooksAlone : kFreeLooks;
-  if (turn && thread.inside == 0) let_others_go_on();
-  if (thread.looks < free_looks) return;
-  thread.looks = free_looks - (alone ? kLooksAStepAlone : kLooksAStep);
+  const long long free_data_reads = alone ? kFreeDataReadsAlone : kFreeDataReads;
+  if (turn && thread.inside == 0) yield_turn();
+  if (thread.data_reads < free_data_reads) return;
+  thread.data_reads = free_data_reads - (alone ? kDataReadsPerStepAlone : kDataReadsPerStep);
   TurnClock* const clock = attached.load(std::memory_order_acquire);
   if (thread.inside > 0 || thread.ended || given_up || clock == nullptr) return;
   if (!thread.takes_part && (!alone || !(thread.programs || is_main(thread)))) return;
-  pass(thread, *clock, clock->step_ns());
+  advance_time(thread, *clock, clock->step_ns());
 }
 
 void note_background() noexcept { background = true; }
@@ -637,7 +638,7 @@ bool wait_until(const void* simulation, const std::function<bool()>& condition) 
   }
   const sim::SimTime step_ns = clock->step_ns();
   while (!condition()) {
-    if (given_up || pass(thread, *clock, step_ns) == Passed::kNo) return false;
+    if (given_up || advance_time(thread, *clock, step_ns) == SleepResult::kNo) return false;
   }
   return true;
 }

@@ -76,8 +76,8 @@ void note_wait() noexcept;
 /// very long, a step passes now and then: a background thread may change the data it polls, and
 /// without such a thread the run must still end. Must not be called with a lock held that other
 /// threads need.
-void note_looks(int count = 1) noexcept;
-/// From now on background threads read data, see note_looks().
+void count_data_reads(int count = 1) noexcept;
+/// From now on background threads read data, see count_data_reads().
 void note_background() noexcept;
 /// The calling thread's variables are being destroyed. The thread leaves virtual time, unless the
 /// whole process ends.

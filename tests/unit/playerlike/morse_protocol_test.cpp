@@ -20,7 +20,7 @@
 #include "playerlike/server/server.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
-#include "server/token_guard.h"
+#include "server/token_throttle.h"
 #include "sim/core/number_text.h"
 #include "temporary_folder.h"
 
@@ -850,7 +850,7 @@ TEST_F(MorseProtocol, BesideAGuesserRightTokensAreTakenLaterButTaken) {
   client.get("playpen token [\"open sesame\"]");
   std::vector<RawClient> guessers;
   const int port = client.get("simulation get_stream_port [\"r1.pose\"]");
-  for (int i = 0; i < server::TokenGuard::kMostOfAnAddress; ++i) {
+  for (int i = 0; i < server::TokenThrottle::kMostOfAnAddress; ++i) {
     guessers.emplace_back("127.0.0.1", port).send("{\"playpen_token\": \"wrong\"}\n");
   }
   // A stream has one try: it is closed after its delay. By then all of them count.

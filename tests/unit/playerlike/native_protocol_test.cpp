@@ -112,7 +112,7 @@ class FakeHub final : public Hub {
     claimed += bytes;
     return {nullptr, [this, bytes](void*) { claimed -= bytes; }};
   }
-  /// Does one turn of a workshop. @return whether there was work.
+  /// Does one turn of a worker thread. @return whether there was work.
   bool do_piece() {
     if (jobs_.empty()) return false;
     Job job = std::move(jobs_.front());
@@ -1200,7 +1200,7 @@ json fills(int count, Encoding encoding) {
   return protocol::encode_drawings(fills, encoding);
 }
 
-/// A large canvas, and a workshop that the test drives.
+/// A large canvas, and a worker thread that the test drives.
 class NativeWork : public NativeProtocol {
  protected:
   void SetUp() override {

@@ -865,13 +865,13 @@ TEST(TokenFile, MadeTokensAreLongAndDiffer) {
 
 TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
   using std::chrono::milliseconds;
-  TokenGuard guard;
-  auto now = TokenGuard::Clock::now();
+  TokenThrottle guard;
+  auto now = TokenThrottle::Clock::now();
   int told = 0;
   milliseconds waited{0};
-  for (int i = 1; i <= TokenGuard::kMostOfAnAddress; ++i) {
+  for (int i = 1; i <= TokenThrottle::kMostOfAnAddress; ++i) {
     EXPECT_EQ(guard.delay_of_right("10.0.0.7:" + std::to_string(i), now), milliseconds(0));
-    const TokenGuard::Cost cost = guard.note_wrong("10.0.0.7:" + std::to_string(i), now);
+    const TokenThrottle::Cost cost = guard.note_wrong("10.0.0.7:" + std::to_string(i), now);
     EXPECT_EQ(cost.count, i) << "whatever the connection";
     EXPECT_EQ(cost.delay,
               std::min(milliseconds(25) * (1 << std::min(i - 1, 10)), milliseconds(5000)));
@@ -886,15 +886,15 @@ TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
       << "so that the time does not tell right from wrong";
   EXPECT_EQ(guard.delay_of_right("10.0.0.8:99", now), milliseconds(0));
   EXPECT_EQ(guard.delay_of_right("[10.0.0.7::1]:99", now), milliseconds(0));
-  now += TokenGuard::kMemory;
+  now += TokenThrottle::kMemory;
   EXPECT_EQ(guard.delay_of_right("10.0.0.7:99", now), milliseconds(0));
   EXPECT_EQ(guard.note_wrong("10.0.0.7:99", now).count, 1);
 }
 
 TEST(TokenGuards, RememberSoManyAddressesOnly) {
-  TokenGuard guard;
-  auto now = TokenGuard::Clock::now();
-  for (std::size_t i = 0; i <= TokenGuard::kMostAddresses; ++i) {
+  TokenThrottle guard;
+  auto now = TokenThrottle::Clock::now();
+  for (std::size_t i = 0; i <= TokenThrottle::kMostAddresses; ++i) {
     now += std::chrono::microseconds(1);
     static_cast<void>(guard.note_wrong(std::to_string(i) + ":1", now));
   }

@@ -79,7 +79,7 @@ EXPORTED clock_t clock() noexcept {
 
 namespace {
 
-void tell_of_real_time(const char* what, const void* caller) {
+void report_real_time(const char* what, const void* caller) {
   if (!is_programs(caller)) return;
   const int error = errno;
   playpen()->waits_for_real(what);
@@ -89,12 +89,12 @@ void tell_of_real_time(const char* what, const void* caller) {
 }  // namespace
 
 EXPORTED unsigned alarm(unsigned seconds) noexcept {
-  if (seconds != 0) tell_of_real_time("alarm()", CALLER);
+  if (seconds != 0) report_real_time("alarm()", CALLER);
   return next_alarm(seconds);
 }
 
 EXPORTED useconds_t ualarm(useconds_t value, useconds_t interval) noexcept {
-  if (value != 0) tell_of_real_time("ualarm()", CALLER);
+  if (value != 0) report_real_time("ualarm()", CALLER);
   return next_ualarm(value, interval);
 }
 
@@ -102,7 +102,7 @@ EXPORTED useconds_t ualarm(useconds_t value, useconds_t interval) noexcept {
 EXPORTED int setitimer(int which, const itimerval* __restrict value,
                        itimerval* __restrict old) noexcept {
   if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_usec != 0)) {
-    tell_of_real_time("setitimer()", CALLER);
+    report_real_time("setitimer()", CALLER);
   }
   return next_setitimer(which, value, old);
 }
@@ -110,7 +110,7 @@ EXPORTED int setitimer(int which, const itimerval* __restrict value,
 EXPORTED int timer_settime(timer_t timer, int flags, const itimerspec* __restrict value,
                            itimerspec* __restrict old) noexcept {
   if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0)) {
-    tell_of_real_time("timer_settime()", CALLER);
+    report_real_time("timer_settime()", CALLER);
   }
   return next_timer_settime(timer, flags, value, old);
 }
@@ -118,13 +118,13 @@ EXPORTED int timer_settime(timer_t timer, int flags, const itimerspec* __restric
 EXPORTED int timerfd_settime(int timer, int flags, const itimerspec* value,
                              itimerspec* old) noexcept {
   if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0)) {
-    tell_of_real_time("timerfd_settime()", CALLER);
+    report_real_time("timerfd_settime()", CALLER);
   }
   return next_timerfd_settime(timer, flags, value, old);
 }
 
 EXPORTED int semtimedop(int semaphores, sembuf* operations, size_t count,
                         const timespec* timeout) noexcept {
-  if (timeout != nullptr) tell_of_real_time("semtimedop()", CALLER);
+  if (timeout != nullptr) report_real_time("semtimedop()", CALLER);
   return next_semtimedop(semaphores, operations, count, timeout);
 }

@@ -12,9 +12,9 @@ void forget_playpen() { hooks.store(nullptr); }
 
 /// Advances simulated time instead of sleeping.
 /// @param left_ns  receives the remaining time if a signal ends the sleep.
-Slept sleep_virtually(long long duration_ns, const void* caller, long long& left_ns) {
+SleepResult sleep_virtually(long long duration_ns, const void* caller, long long& left_ns) {
   const auto* const table = playpen();
-  if (table == nullptr) return Slept::kNo;
+  if (table == nullptr) return SleepResult::kNo;
   const int error = errno;
   // Cancellation must not leave the simulation in the middle of a step; it happens afterwards.
   int done = 0;
@@ -23,8 +23,8 @@ Slept sleep_virtually(long long duration_ns, const void* caller, long long& left
     done = table->sleep(duration_ns, caller, &left_ns);
   }
   errno = error;
-  if (done == 0) return Slept::kNo;
-  return done == 1 ? Slept::kYes : Slept::kInterrupted;
+  if (done == 0) return SleepResult::kNo;
+  return done == 1 ? SleepResult::kYes : SleepResult::kInterrupted;
 }
 
 timespec real_deadline(clockid_t clock, long long duration_ns) {
@@ -54,14 +54,14 @@ void* find_next(const char* name, const char* version) {
   return plain;
 }
 
-Slept sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns) {
-  const Slept slept = sleep_virtually(duration_ns, caller, left_ns);
-  if (slept != Slept::kNo) pthread_testcancel();
+SleepResult sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns) {
+  const SleepResult slept = sleep_virtually(duration_ns, caller, left_ns);
+  if (slept != SleepResult::kNo) pthread_testcancel();
   return slept;
 }
 
-int result_of(Slept slept) {
-  if (slept == Slept::kYes) return 0;
+int result_of(SleepResult slept) {
+  if (slept == SleepResult::kYes) return 0;
   errno = EINTR;
   return -1;
 }

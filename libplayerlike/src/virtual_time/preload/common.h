@@ -95,14 +95,14 @@ class NotCancelled {
   int before_ = PTHREAD_CANCEL_ENABLE;
 };
 
-enum class Slept { kNo, kYes, kInterrupted };
+enum class SleepResult { kNo, kYes, kInterrupted };
 
 /// Advances simulated time instead of sleeping, in functions that are cancellation points.
 /// @param left_ns  receives the remaining time if a signal ends the sleep.
-Slept sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns);
+SleepResult sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns);
 
 /// Sets errno to EINTR and returns -1 after a signal; otherwise returns 0.
-int result_of(Slept slept);
+int result_of(SleepResult slept);
 
 /// nanosleep() and clock_nanosleep(), also called as system calls.
 int nanosleep_from(const timespec* duration, timespec* rest, const void* caller);
@@ -115,7 +115,7 @@ int clock_nanosleep_from(clockid_t clock, int flags, const timespec* time, times
 bool virtual_now(long long& elapsed_ns, bool ask, const void* caller);
 
 /// Lengthens a wait of zero time, so that loops of such waits end.
-inline long long at_least_one(long long duration_ns) {
+inline long long at_least_1us(long long duration_ns) {
   return duration_ns > 0 ? duration_ns : 1'000;
 }
 
@@ -145,31 +145,31 @@ Deadline deadline_of(const timespec* time, clockid_t clock, const void* caller);
 
 // --- Waiting
 
-using IsThere = int (*)(const void* object, unsigned value);
+using IsReady = int (*)(const void* object, unsigned value);
 
-/// Waits until another thread wakes this one, or until `is_there` says that the wait is over.
+/// Waits until another thread wakes this one, or until `is_ready` says that the wait is over.
 /// @param before  called when the wait has begun, so that no wake-up is missed.
 /// @return a PlaypenWaitEnd; < 0: the thread must wait in real time.
 template <typename Before>
-int wait_virtually(const void* object, int kind, const Deadline& deadline, IsThere is_there,
+int wait_virtually(const void* object, int kind, const Deadline& deadline, IsReady is_ready,
                    unsigned value, Before before) {
   const auto* const table = playpen();
   const bool real = deadline.elapsed_ns < 0 && deadline.real.tv_sec != 0;
   if (table == nullptr || real) return -1;
   const int error = errno;
   const NotCancelled whole;
-  const int begun = table->begin_wait(object, kind, deadline.elapsed_ns, is_there, value);
+  const int begun = table->begin_wait(object, kind, deadline.elapsed_ns, is_ready, value);
   if (begun == 0) return -1;
-  if (begun == 2) return kPlaypenWaitThere;
+  if (begun == 2) return kPlaypenWaitReady;
   before();
   const int end = table->finish_wait();
   errno = error;
   return end;
 }
 
-inline int wait_virtually(const void* object, int kind, const Deadline& deadline, IsThere is_there,
+inline int wait_virtually(const void* object, int kind, const Deadline& deadline, IsReady is_ready,
                           unsigned value) {
-  return wait_virtually(object, kind, deadline, is_there, value, [] {});
+  return wait_virtually(object, kind, deadline, is_ready, value, [] {});
 }
 
 /// Wakes up to `most` threads that wait for an object.

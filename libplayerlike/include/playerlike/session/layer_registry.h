@@ -17,7 +17,7 @@ namespace playerlike {
 /// Layers are stacked by port, then by age. Unlike the order in which clients connect, this order
 /// does not depend on the scheduling of their threads. Not thread-safe: the owner must serialise
 /// calls.
-class LayerBook {
+class LayerRegistry {
  public:
   /// @param client  unique number of the session, >= 0; never reused.
   /// @param port    port of the session.

@@ -13,7 +13,7 @@ namespace playerlike::server {
 /// which may be typing errors, cost some ms; the delay doubles with each further one. After
 /// kMostOfAnAddress wrong tokens, right tokens from that address are delayed like wrong ones, so
 /// that response times do not tell them apart. Used by the server's thread only.
-class TokenGuard {
+class TokenThrottle {
  public:
   using Clock = std::chrono::steady_clock;
 
