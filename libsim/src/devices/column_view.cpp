@@ -198,7 +198,7 @@ std::string image_text(const void* object) {
   return "[" + std::to_string(p.width) + ", " + std::to_string(p.height) + "]";
 }
 
-void tell_image(const void* object, std::map<std::string, double>& properties) {
+void add_image_properties(const void* object, std::map<std::string, double>& properties) {
   const auto& p = *static_cast<const ViewParams*>(object);
   properties["image_width"] = p.width;
   properties["image_height"] = p.height;
@@ -207,7 +207,7 @@ void tell_image(const void* object, std::map<std::string, double>& properties) {
 }  // namespace
 
 constexpr CustomField kImage{
-    read_image, image_text, tell_image,
+    read_image, image_text, add_image_properties,
     R"("type": "array", "prefixItems": [{"type": "integer", "minimum": 1, "maximum": 640}, )"
     R"({"type": "integer", "minimum": 1, "maximum": 480}], "minItems": 2, "maxItems": 2)"};
 

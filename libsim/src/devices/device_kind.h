@@ -89,7 +89,7 @@ template <typename Params, typename Complete>
     auto completed = params_in<Params>(params);
     complete(completed, model);
     std::map<std::string, double> properties;
-    tell_fields(fields_of<Params>(), &completed, properties);
+    add_properties(fields_of<Params>(), &completed, properties);
     return properties;
   };
   return row;
@@ -121,7 +121,7 @@ template <auto kMember>
 }
 template <auto kMember>
 [[nodiscard]] constexpr Field mount_field(const char* meaning) {
-  return field<kMember>("pose", "m, degrees", meaning).told_as("mount");
+  return field<kMember>("pose", "m, degrees", meaning).property_name("mount");
 }
 template <auto kMember>
 [[nodiscard]] constexpr Field north_field() {

@@ -332,7 +332,7 @@ constexpr Field kMotionSettings[] = {
                                                        "0: no limit")
         .within(0.0, 1e6),
     field<&MotionParams::enabled_at_start>("enabled", "", "whether the motors are on at the start")
-        .untold(),
+        .not_property(),
     field<&MotionParams::approach_gain>("approach_gain", "1/s",
                                         "position control: speed per metre of error")
         .above(0.0, 50.0),

@@ -106,7 +106,7 @@ constexpr Field kOpaqueSettings[] = {
                                "`opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
         .of(kSender)
         .counting(0, OpaqueParams::kMaxSenders)
-        .or_fault("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),
+        .with_issue("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),
 };
 SIM_FIELDS(OpaqueParams, kOpaqueSettings)
 

@@ -30,9 +30,9 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   // A portable block may be placed beyond the floor, as programs for Stage do.
   const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
   if (where) return "obstacle " + name + " would " + *where;
-  if (const auto fault = io::box_fault(now)) {
-    return "obstacle " + name + " cannot be so: expected " + fault->expected + ", found " +
-           fault->found;
+  if (const auto error = io::check_box(now)) {
+    return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
+           error->found;
   }
   const int robot = physics->robot_within(now);
   if (robot >= 0 && now.state == ObstacleState::kExtended) {
@@ -124,7 +124,7 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
   if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
     return "robot " + world.robots[i].name + " cannot be put there: " + *what;
   }
-  if (!io::is_place(X_WB)) {
+  if (!io::is_valid_pose(X_WB)) {
     return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
   }
   physics->set_pose(static_cast<int>(i), X_WB);

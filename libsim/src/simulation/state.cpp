@@ -85,7 +85,7 @@ void Simulation::Impl::archive_obstacle(StateArchive& archive, ObstacleDescripti
   archive(thing.center, thing.size, thing.yaw_rad, thing.height_m, thing.fiducial, thing.colour);
   archive.choice(thing.state, ObstacleState::kRetracted);
   archive.index(thing.carried_by, robots.size(), -1);
-  archive.expect(!archive.reading() || !io::box_fault(thing), "obstacles that can be");
+  archive.expect(!archive.reading() || !io::check_box(thing), "obstacles that can be");
 }
 
 void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {
