@@ -530,7 +530,7 @@ void LayerStack::take_base(LayerStack& from) {
   impl_->dirty.assign(base.tiles().size(), 1);
 }
 
-void LayerStack::succeed(const LayerStack& before) {
+void LayerStack::take_over_from(const LayerStack& before) {
   impl_->next_id = std::max(impl_->next_id, before.impl_->next_id);
   impl_->version = before.impl_->version;
   impl_->recomposed_cells = before.impl_->recomposed_cells;

@@ -136,9 +136,10 @@ std::string_view to_string(BatteryStatus status) {
 
 DeviceKind battery_kind() {
   return device_kind<BatteryParams, BatteryReading>(
-      "battery", {{"power"}}, [](const DeviceOrder& order, const BatteryParams& params) {
-        return std::make_unique<Battery>(order.name(), params,
-                                         order.model.drive.wheel_separation_m);
+      "battery", {{"power"}},
+      [](const DeviceConstruction& construction, const BatteryParams& params) {
+        return std::make_unique<Battery>(construction.name(), params,
+                                         construction.model.drive.wheel_separation_m);
       });
 }
 

@@ -170,8 +170,9 @@ SIM_FIELDS(BumperReading, kBumperReading)
 
 DeviceKind bumper_kind() {
   DeviceKind row = device_kind<BumperParams, BumperReading>(
-      "bumper", {{"bumper"}}, [](const DeviceOrder& order, const BumperParams& params) {
-        return std::make_unique<Bumper>(order.name(), params, order.model.footprint);
+      "bumper", {{"bumper"}},
+      [](const DeviceConstruction& construction, const BumperParams& params) {
+        return std::make_unique<Bumper>(construction.name(), params, construction.model.footprint);
       });
   return with_model<BumperParams>(std::move(row),
                                   [](BumperParams& params, const RobotModel& model) {

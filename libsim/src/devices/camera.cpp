@@ -92,7 +92,7 @@ void Camera::measure(const StepContext& context) {
     const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
-        brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
+        brightness(depth_m, params.range_max_m) * (run.top_face ? 1.0 : side_light(face));
     const Colour colour = scaled(shown_colour(face, context.world), light);
     std::uint8_t* pixel = reading.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;

@@ -111,9 +111,11 @@ SIM_FIELDS(LaserReading, kLaserReading)
 
 DeviceKind laser_kind() {
   return device_kind<LaserParams, LaserReading>(
-      "laser", {{"laser"}, {"ranger"}}, [](const DeviceOrder& order, const LaserParams& params) {
-        return std::make_unique<Laser>(
-            order.name(), params, !well_within(order.model.footprint, params.X_BL), order.noise());
+      "laser", {{"laser"}, {"ranger"}},
+      [](const DeviceConstruction& construction, const LaserParams& params) {
+        return std::make_unique<Laser>(construction.name(), params,
+                                       !is_safely_inside(construction.model.footprint, params.X_BL),
+                                       construction.noise());
       });
 }
 

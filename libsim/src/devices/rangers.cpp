@@ -140,11 +140,13 @@ std::optional<FieldError> check_mountings(const void* object) {
   return FieldError{"", "as many as there are ranges", "", "", "mountings"};
 }
 
-std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams& params) {
-  const bool may_be_inside = !std::ranges::all_of(
-      params.X_BS, [&order](const Pose& X_BS) { return well_within(order.model.footprint, X_BS); });
-  return std::make_unique<Ranger>(order.name(), order.device.type, params, may_be_inside,
-                                  order.noise());
+std::unique_ptr<Device> make_ranger(const DeviceConstruction& construction,
+                                    const RangerParams& params) {
+  const bool may_be_inside = !std::ranges::all_of(params.X_BS, [&construction](const Pose& X_BS) {
+    return is_safely_inside(construction.model.footprint, X_BS);
+  });
+  return std::make_unique<Ranger>(construction.name(), construction.device.type, params,
+                                  may_be_inside, construction.noise());
 }
 
 }  // namespace
