@@ -77,7 +77,7 @@ void step_figures() {
       const auto t0 = Clock::now();
       for (int i = 0; i < 10; ++i) simulation.step();
       const auto t1 = Clock::now();
-      for (int i = 0; i < 10; ++i) bare.physics.bare_step(0.01);
+      for (int i = 0; i < 10; ++i) bare.physics.plain_box2d_step(0.01);
       const auto t2 = Clock::now();
       bare.scan_all();
       const auto t3 = Clock::now();

@@ -125,7 +125,7 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   const std::any defaults = kind.defaults();
   for_each_field(*kind.settings, kind.settings_in(defaults),
                  [&](const Field& field, const void* owner) {
-                   if (!field.told_only) visit(field, owner);
+                   if (!field.read_only) visit(field, owner);
                  });
 }
 
@@ -204,8 +204,8 @@ inline void add_schema(const Field& field, const void* defaults, Json& propertie
     case FieldType::kPoses:
     case FieldType::kList:
       schema["type"] = "array";
-      if (field.fewest > 0) schema["minItems"] = field.fewest;
-      schema["maxItems"] = field.most;
+      if (field.min_count > 0) schema["minItems"] = field.min_count;
+      schema["maxItems"] = field.max_count;
       schema["items"] = field.element != nullptr          ? Json::parse(field.element->schema)
                         : field.type == FieldType::kPoses ? Json{{"$ref", "#/$defs/pose"}}
                                                           : object_schema(field.table());

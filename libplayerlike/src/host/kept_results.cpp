@@ -287,7 +287,7 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
   const KeptRun::Phase phase = kept.phase();
   if (phase == KeptRun::Phase::kNone || phase == KeptRun::Phase::kDone) return false;
   const FileLimitErrors limit_errors;
-  if (!film.empty()) std::remove(sim::part_name(film).c_str());
+  if (!film.empty()) std::remove(sim::part_file_name(film).c_str());
   const KeptMemory memory(kept.descriptor());
   const auto* const header = memory.at<KeptHeader>(0);
   const std::optional<LastStep> last =

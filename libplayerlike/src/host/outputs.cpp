@@ -143,7 +143,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
                       {"final_pose", {{"x", X_WB.x_m}, {"y", X_WB.y_m}, {"yaw", X_WB.yaw_rad}}}});
   }
   nlohmann::ordered_json said = nlohmann::ordered_json::array();
-  for (const sim::Utterance& u : simulation.said()) {
+  for (const sim::SpokenText& u : simulation.spoken_texts()) {
     said.push_back({{"time", sim::to_seconds(u.time_ns)},
                     {"robot", simulation.world().robots[static_cast<std::size_t>(u.robot)].name},
                     {"text", u.text}});

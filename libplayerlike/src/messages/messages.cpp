@@ -24,7 +24,7 @@ const std::vector<InterfaceRow>& interface_table() {
   static const auto* const table = [] {
     auto* rows = new std::vector<InterfaceRow>();
     for (const sim::DeviceKind& kind : sim::device_kinds()) {
-      for (const sim::CarriedInterface& interface : kind.interfaces) {
+      for (const sim::ProvidedInterface& interface : kind.interfaces) {
         rows->push_back({interface.name, kind.name, interface.rank});
       }
     }

@@ -265,8 +265,8 @@ void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding
     read_value(field, from, dot == nullptr ? field.name : dot + 1, encoding, field.set(owner));
   });
   if (table.check == nullptr) return;
-  if (const std::optional<sim::FieldFault> fault = table.check(object)) {
-    refuse_value(fault->key, fault->expected, require(in, fault->key));
+  if (const std::optional<sim::FieldError> error = table.check(object)) {
+    refuse_value(error->key, error->expected, require(in, error->key));
   }
 }
 

@@ -63,7 +63,7 @@ void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
     const bool whole = (row << kTileShift) >= begin && bottom <= end;
     for (auto tile = marks(row); tile != marks(row + 1); ++tile) {
       // Tiles that were blank before stay unmarked.
-      if ((*tile & (kChanged | kUsed)) != 0) *tile = whole ? kChanged | kUnkept : kWritten;
+      if ((*tile & (kChanged | kUsed)) != 0) *tile = whole ? kChanged | kUnsaved : kWritten;
     }
   }
 }
@@ -113,7 +113,7 @@ std::vector<std::uint8_t> CellRaster::resize(int width, int height,
                                 [](std::uint8_t tile) { return (tile & kUsed) != 0; });
   const auto stride = static_cast<std::size_t>(tiles_across(width));
   std::vector<std::uint8_t> tiles(stride * static_cast<std::size_t>(tiles_across(height)),
-                                  kChanged | kUnkept);
+                                  kChanged | kUnsaved);
   for (int i = 1; i <= rows && used; ++i) {
     const int row = height - i;
     std::uint8_t* const to = zeros.data() + static_cast<std::size_t>(row) * byte_offset(width);
@@ -143,7 +143,7 @@ void CellRaster::archive(StateArchive& archive) {
   archive.expect(tiles <= archive.left(), "a flag for each tile");
   if (archive.reading()) {
     *this = CellRaster(width, height, blank_);
-    std::fill(tiles_.begin(), tiles_.end(), kChanged | kUnkept);
+    std::fill(tiles_.begin(), tiles_.end(), kChanged | kUnsaved);
   }
   for (std::size_t tile = 0; tile < tiles; ++tile) {
     const auto left = static_cast<int>(tile % tile_stride_) << kTileShift;
@@ -161,12 +161,12 @@ void CellRaster::archive(StateArchive& archive) {
   }
 }
 
-void CellRaster::mark_seen() noexcept {
+void CellRaster::clear_changed() noexcept {
   for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kChanged);
 }
 
-void CellRaster::mark_kept() noexcept {
-  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kUnkept);
+void CellRaster::clear_unsaved() noexcept {
+  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kUnsaved);
 }
 
 }  // namespace sim

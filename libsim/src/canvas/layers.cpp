@@ -239,7 +239,7 @@ struct LayerStack::Impl {
       for (std::size_t i = 0; i < dirty.size(); ++i) {
         dirty[i] = static_cast<std::uint8_t>(dirty[i] | (tiles[i] & CellRaster::kChanged));
       }
-      layer.cells->mark_seen();
+      layer.cells->clear_changed();
     }
     if (!any_bit(dirty, 1)) return true;
     const std::uint64_t end =
@@ -530,7 +530,7 @@ void LayerStack::take_base(LayerStack& from) {
   impl_->dirty.assign(base.tiles().size(), 1);
 }
 
-void LayerStack::succeed(const LayerStack& before) {
+void LayerStack::take_over_from(const LayerStack& before) {
   impl_->next_id = std::max(impl_->next_id, before.impl_->next_id);
   impl_->version = before.impl_->version;
   impl_->recomposed_cells = before.impl_->recomposed_cells;
@@ -584,12 +584,12 @@ std::span<const std::uint8_t> LayerStack::bytes(LayerId layer) const {
 void LayerStack::take_written(const std::function<void(LayerId, const CellRect&)>& visit) {
   for (const Layer& layer : impl_->layers) {
     const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
-    if (!any_bit(tiles, CellRaster::kUnkept)) continue;
+    if (!any_bit(tiles, CellRaster::kUnsaved)) continue;
     const int columns = layer.cells->tile_columns();
     const auto is_written = [&](int row, int column) {
       return (tiles[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                     static_cast<std::size_t>(column)] &
-              CellRaster::kUnkept) != 0;
+              CellRaster::kUnsaved) != 0;
     };
     for (int row = 0; row < layer.cells->tile_rows(); ++row) {
       for (int column = 0; column < columns; ++column) {
@@ -602,7 +602,7 @@ void LayerStack::take_written(const std::function<void(LayerId, const CellRect&)
                          std::min(top + CellRaster::kTileSide, height()) - top});
       }
     }
-    layer.cells->mark_kept();
+    layer.cells->clear_unsaved();
   }
 }
 

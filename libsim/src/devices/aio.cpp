@@ -167,9 +167,9 @@ constexpr Field kAioSettings[] = {
     field<&AioParams::inputs>("inputs", "", "sources of input 0, 1, ...; at most 8")
         .of(kAnalogSource)
         .counting(0, AioParams::kMaxLines)
-        .or_fault("device/input",
-                  "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's "
-                  "name), or a wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\""),
+        .with_issue("device/input",
+                    "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's "
+                    "name), or a wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\""),
     field<&AioParams::outputs>("outputs", "", "number of outputs").within(0, AioParams::kMaxLines),
 };
 SIM_FIELDS(AioParams, kAioSettings)

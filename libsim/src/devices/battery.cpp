@@ -84,10 +84,10 @@ void Battery::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> voltage_fault(const void* object) {
+std::optional<FieldError> check_voltage(const void* object) {
   const auto& p = *static_cast<const BatteryParams*>(object);
   if (p.empty_voltage_v <= p.full_voltage_v) return std::nullopt;
-  return FieldFault{"device/battery-voltage", "an empty_voltage of at most full_voltage",
+  return FieldError{"device/battery-voltage", "an empty_voltage of at most full_voltage",
                     rounded_text(p.empty_voltage_v, 6) + " V empty, " +
                         rounded_text(p.full_voltage_v, 6) + " V full",
                     ""};
@@ -118,7 +118,7 @@ constexpr Field kBatterySettings[] = {
                                            "when empty; at most `full_voltage`")
         .above(0.0, 1000.0),
 };
-SIM_FIELDS(BatteryParams, kBatterySettings, voltage_fault)
+SIM_FIELDS(BatteryParams, kBatterySettings, check_voltage)
 
 constexpr Field kBatteryReading[] = {
     field<&BatteryReading::charge_percent>("charge", "percent"),
@@ -136,9 +136,10 @@ std::string_view to_string(BatteryStatus status) {
 
 DeviceKind battery_kind() {
   return device_kind<BatteryParams, BatteryReading>(
-      "battery", {{"power"}}, [](const DeviceOrder& order, const BatteryParams& params) {
-        return std::make_unique<Battery>(order.name(), params,
-                                         order.model.drive.wheel_separation_m);
+      "battery", {{"power"}},
+      [](const DeviceConstruction& construction, const BatteryParams& params) {
+        return std::make_unique<Battery>(construction.name(), params,
+                                         construction.model.drive.wheel_separation_m);
       });
 }
 

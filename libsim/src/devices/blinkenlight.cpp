@@ -67,7 +67,7 @@ constexpr Field kBlinkenlightSettings[] = {
         .within(0.0, 1.0),
     field<&BlinkenlightParams::p_BL>("position", "m", "position on the robot, in the robot's frame")
         .within(-100.0, 100.0)
-        .told_as(""),
+        .property_name(""),
 };
 SIM_FIELDS(BlinkenlightParams, kBlinkenlightSettings)
 

@@ -184,7 +184,7 @@ constexpr Field kBlobfinderSettings[] = {
         "colours", "", "list of the exact colours that it sees, like `\"#ff8800\"`; none: all")
         .of(kColour)
         .counting(0, BlobfinderParams::kMaxColours)
-        .or_fault("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),
+        .with_issue("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),
 };
 SIM_FIELDS(BlobfinderParams, kBlobfinderSettings)
 

@@ -34,9 +34,9 @@ void* ReadingKind::object(Reading& reading) const {
 
 std::map<std::string, double> DeviceKind::properties(const std::any& params) const {
   const std::any of_device = params.has_value() ? params : defaults();
-  std::map<std::string, double> told;
-  tell_fields(*settings, settings_in(of_device), told);
-  return told;
+  std::map<std::string, double> made;
+  add_properties(*settings, settings_in(of_device), made);
+  return made;
 }
 
 const std::vector<DeviceKind>& device_kinds() {

@@ -120,13 +120,13 @@ void Bumper::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> segment_fault(const void* object) {
+std::optional<FieldError> check_segment(const void* object) {
   const auto& segment = *static_cast<const BumperSegment*>(object);
   if (segment.radius_m <= 0.0 ||
       segment.length_m <= 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
     return std::nullopt;
   }
-  return FieldFault{"device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
+  return FieldError{"device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
                     rounded_text(segment.length_m, 6) + " m long with a radius of " +
                         rounded_text(segment.radius_m, 6) + " m",
                     ""};
@@ -138,17 +138,17 @@ constexpr Field kSegment[] = {
     field<&BumperSegment::X_BS, &Pose::x_m>("x", "m",
                                             "of its middle, ahead of the middle of the axle")
         .within(-100.0, 100.0)
-        .told_as("mount_x"),
+        .property_name("mount_x"),
     field<&BumperSegment::X_BS, &Pose::y_m>("y", "m", "of its middle, to the left")
         .within(-100.0, 100.0)
-        .told_as("mount_y"),
+        .property_name("mount_y"),
     field<&BumperSegment::X_BS, &Pose::yaw_rad>(
         "yaw_deg", "degrees", "where it looks, outwards, counter-clockwise from ahead")
-        .told_as("mount_yaw"),
+        .property_name("mount_yaw"),
     field<&BumperSegment::length_m>("length", "m", "along the piece").within(kLeastLength_m, 100.0),
     field<&BumperSegment::radius_m>("radius", "m", "of the arc; 0: straight").within(0.0, 100.0),
 };
-SIM_FIELDS(BumperSegment, kSegment, segment_fault)
+SIM_FIELDS(BumperSegment, kSegment, check_segment)
 
 constexpr Field kBumperSettings[] = {
     frequency_field<&BumperParams::frequency_hz>(),
@@ -159,7 +159,7 @@ constexpr Field kBumperSettings[] = {
                                    "list of at most 64 segments, in the order of their indexes; "
                                    "none: a straight one for each side of the footprint")
         .counting(0, BumperParams::kMaxSegments)
-        .telling_each(),
+        .listing_elements(),
 };
 SIM_FIELDS(BumperParams, kBumperSettings)
 
@@ -170,8 +170,9 @@ SIM_FIELDS(BumperReading, kBumperReading)
 
 DeviceKind bumper_kind() {
   DeviceKind row = device_kind<BumperParams, BumperReading>(
-      "bumper", {{"bumper"}}, [](const DeviceOrder& order, const BumperParams& params) {
-        return std::make_unique<Bumper>(order.name(), params, order.model.footprint);
+      "bumper", {{"bumper"}},
+      [](const DeviceConstruction& construction, const BumperParams& params) {
+        return std::make_unique<Bumper>(construction.name(), params, construction.model.footprint);
       });
   return with_model<BumperParams>(std::move(row),
                                   [](BumperParams& params, const RobotModel& model) {

@@ -92,7 +92,7 @@ void Camera::measure(const StepContext& context) {
     const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
-        brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
+        brightness(depth_m, params.range_max_m) * (run.top_face ? 1.0 : side_light(face));
     const Colour colour = scaled(shown_colour(face, context.world), light);
     std::uint8_t* pixel = reading.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;
@@ -135,11 +135,11 @@ void Camera::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> pixels_fault(const void* object) {
+std::optional<FieldError> check_pixels(const void* object) {
   const auto& reading = *static_cast<const CameraReading*>(object);
   const std::int64_t size = std::int64_t{3} * reading.width * reading.height;
   if (static_cast<std::int64_t>(reading.pixels.size()) == size) return std::nullopt;
-  return FieldFault{"", "three bytes for each pixel", "", "", "pixels"};
+  return FieldError{"", "three bytes for each pixel", "", "", "pixels"};
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ constexpr Field kCameraReading[] = {
     field<&CameraReading::height>("height", "pixels").within(0, ViewParams::kMaxHeight),
     field<&CameraReading::pixels>("pixels"),
 };
-SIM_FIELDS(CameraReading, kCameraReading, pixels_fault)
+SIM_FIELDS(CameraReading, kCameraReading, check_pixels)
 
 DeviceKind camera_kind() {
   return device_kind<Camera, CameraParams, CameraReading>("camera", {{"camera"}});

@@ -73,7 +73,7 @@ void ColumnView::look(const StepContext& context) {
   const double sin_yaw = std::sin(X_WS_.yaw_rad);
   for (const bool walls : {true, false}) {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-      if (std::isinf(faces_[i].height_m) == walls) meet(i, cos_yaw, sin_yaw);
+      if (std::isinf(faces_[i].height_m) == walls) intersect(i, cos_yaw, sin_yaw);
     }
   }
   std::sort(hits_.begin(), hits_.end(),
@@ -101,7 +101,7 @@ bool ColumnView::before(const Hit& a, const Hit& b) const {
 
 // Intersects a face with the columns that it spans, in S. A ray of slope t meets the line through A
 // and C at the depth x = (A x C) / (e_y - e_x t), with e = C - A.
-void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
+void ColumnView::intersect(std::size_t index, double cos_yaw, double sin_yaw) {
   const PhysicsWorld::Face& face = faces_[index];
   const double ax = face.p_WA.x() - X_WS_.x_m;
   const double ay = face.p_WA.y() - X_WS_.y_m;
@@ -155,13 +155,14 @@ void ColumnView::paint(int column, std::span<const Hit> hits) {
     return static_cast<int>(std::clamp<double>(edge, 0.0, pinhole_.height));
   };
   const std::size_t before_it = runs_.size();
-  int taken = pinhole_.height;  // rows from here down are filled
+  int filled_from = pinhole_.height;  // rows from here down are filled
   for (const Hit& hit : hits) {
     const PhysicsWorld::Face& face = faces_[hit.face];
     const int top = row(hit.depth_m, face.height_m - params_.height_m);
     // The top of an object begins where its front ends, which was painted last. A front stands on
     // the floor.
-    const int bottom = hit.back ? taken : std::min(taken, row(hit.depth_m, -params_.height_m));
+    const int bottom =
+        hit.back ? filled_from : std::min(filled_from, row(hit.depth_m, -params_.height_m));
     if (top >= bottom) continue;
     double range_m = hit.depth_m * stretch;
     if (hit.back && runs_.size() > before_it) {
@@ -169,12 +170,12 @@ void ColumnView::paint(int column, std::span<const Hit> hits) {
       if (front.kind == face.kind && front.index == face.index) range_m = runs_.back().range_m;
     }
     runs_.push_back({column, top, bottom, hit.face, hit.back, range_m});
-    taken = top;
-    if (taken == 0) return;
+    filled_from = top;
+    if (filled_from == 0) return;
   }
   const End& end = ends_[static_cast<std::size_t>(column)];
   if (end.face == kNothing) return;
-  const int foot = std::min(taken, row(end.depth_m, -params_.height_m));
+  const int foot = std::min(filled_from, row(end.depth_m, -params_.height_m));
   if (foot > 0) runs_.push_back({column, 0, foot, end.face, false, end.depth_m * stretch});
 }
 
@@ -198,7 +199,7 @@ std::string image_text(const void* object) {
   return "[" + std::to_string(p.width) + ", " + std::to_string(p.height) + "]";
 }
 
-void tell_image(const void* object, std::map<std::string, double>& properties) {
+void add_image_properties(const void* object, std::map<std::string, double>& properties) {
   const auto& p = *static_cast<const ViewParams*>(object);
   properties["image_width"] = p.width;
   properties["image_height"] = p.height;
@@ -207,7 +208,7 @@ void tell_image(const void* object, std::map<std::string, double>& properties) {
 }  // namespace
 
 constexpr CustomField kImage{
-    read_image, image_text, tell_image,
+    read_image, image_text, add_image_properties,
     R"("type": "array", "prefixItems": [{"type": "integer", "minimum": 1, "maximum": 640}, )"
     R"({"type": "integer", "minimum": 1, "maximum": 480}], "minItems": 2, "maxItems": 2)"};
 

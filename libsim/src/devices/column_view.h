@@ -31,7 +31,7 @@ class ColumnView {
     int bottom;
     std::size_t face;  ///< index in faces() of the visible face, or of the one where the visible
                        ///< top ends
-    bool lid;          ///< the top of the object is seen
+    bool top_face;     ///< the top of the object is seen
     double range_m;    ///< horizontal distance of its nearest point in this column
   };
 
@@ -65,7 +65,7 @@ class ColumnView {
     std::size_t face;  ///< a wall of a map, which has unlimited height, or kNothing
   };
   static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
-  void meet(std::size_t face, double cos_yaw, double sin_yaw);
+  void intersect(std::size_t face, double cos_yaw, double sin_yaw);
   void paint(int column, std::span<const Hit> hits);
   [[nodiscard]] bool before(const Hit& a, const Hit& b) const;
 

@@ -41,7 +41,7 @@ bool Sensor::update(const StepContext& context) {
   return true;
 }
 
-void Sensor::succeed(const Device& before, SimTime later_ns) {
+void Sensor::take_over_from(const Device& before, SimTime later_ns) {
   sequence_ = before.sensor()->sequence_;
   next_due_ns_ += later_ns;
 }
@@ -52,7 +52,7 @@ void Sensor::archive(StateArchive& archive) {
   archive.time(next_due_ns_);
 }
 
-bool well_within(const Polygon& footprint, const Pose& X_BL) {
+bool is_safely_inside(const Polygon& footprint, const Pose& X_BL) {
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Vec2& a = footprint[i];
     const Vec2 edge = footprint[(i + 1) % footprint.size()] - a;

@@ -19,7 +19,7 @@
 namespace sim {
 
 /// Everything that a device is constructed from.
-struct DeviceOrder {
+struct DeviceConstruction {
   const DeviceDescription& device;
   const RobotDescription& robot;
   const RobotModel& model;
@@ -39,9 +39,9 @@ template <typename Params>
 /// Defines a row; fields_of<Params>() and fields_of<ReadingType>() describe settings and readings.
 /// @tparam ReadingType  void for a device without readings.
 /// @param interfaces  that the device provides; a name alone has rank 0.
-/// @param make  creates the device from a DeviceOrder and Params.
+/// @param make  creates the device from a DeviceConstruction and Params.
 template <typename Params, typename ReadingType, typename Make>
-[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces,
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<ProvidedInterface> interfaces,
                                      Make make) {
   DeviceKind row;
   row.name = name;
@@ -58,7 +58,7 @@ template <typename Params, typename ReadingType, typename Make>
   };
   row.create = [make](const DeviceDescription& device, const RobotDescription& robot,
                       const RobotModel& model, std::uint64_t seed) -> std::unique_ptr<Device> {
-    return make(DeviceOrder{device, robot, model, seed}, params_in<Params>(device.params));
+    return make(DeviceConstruction{device, robot, model, seed}, params_in<Params>(device.params));
   };
   if constexpr (!std::is_void_v<ReadingType>) {
     row.reading = {&fields_of<ReadingType>(), &typeid(ReadingType),
@@ -70,13 +70,14 @@ template <typename Params, typename ReadingType, typename Make>
 /// Defines the row of a device that is constructed from its name, its settings and optionally its
 /// random stream.
 template <typename Made, typename Params, typename ReadingType>
-[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces) {
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<ProvidedInterface> interfaces) {
   return device_kind<Params, ReadingType>(
-      name, std::move(interfaces), [](const DeviceOrder& order, const Params& params) {
+      name, std::move(interfaces),
+      [](const DeviceConstruction& construction, const Params& params) {
         if constexpr (std::is_constructible_v<Made, std::string, const Params&, RandomStream>) {
-          return std::make_unique<Made>(order.name(), params, order.noise());
+          return std::make_unique<Made>(construction.name(), params, construction.noise());
         } else {
-          return std::make_unique<Made>(order.name(), params);
+          return std::make_unique<Made>(construction.name(), params);
         }
       });
 }
@@ -89,7 +90,7 @@ template <typename Params, typename Complete>
     auto completed = params_in<Params>(params);
     complete(completed, model);
     std::map<std::string, double> properties;
-    tell_fields(fields_of<Params>(), &completed, properties);
+    add_properties(fields_of<Params>(), &completed, properties);
     return properties;
   };
   return row;
@@ -97,7 +98,7 @@ template <typename Params, typename Complete>
 
 /// Whether a mounting is so far within the footprint that no solid reaches it; robots penetrate
 /// solids by less than 2 mm.
-[[nodiscard]] bool well_within(const Polygon& footprint, const Pose& X_BL);
+[[nodiscard]] bool is_safely_inside(const Polygon& footprint, const Pose& X_BL);
 
 /// @name Fields common to many devices
 /// @{
@@ -121,7 +122,7 @@ template <auto kMember>
 }
 template <auto kMember>
 [[nodiscard]] constexpr Field mount_field(const char* meaning) {
-  return field<kMember>("pose", "m, degrees", meaning).told_as("mount");
+  return field<kMember>("pose", "m, degrees", meaning).property_name("mount");
 }
 template <auto kMember>
 [[nodiscard]] constexpr Field north_field() {

@@ -134,9 +134,9 @@ constexpr Field kDioSettings[] = {
     field<&DioParams::inputs>("inputs", "", "sources of input 0, 1, ...; at most 32")
         .of(kDigitalSource)
         .counting(0, DioParams::kMaxLines)
-        .or_fault("device/input",
-                  "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
-                  "\"ROBOT.DEVICE.INDEX\""),
+        .with_issue("device/input",
+                    "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
+                    "\"ROBOT.DEVICE.INDEX\""),
     field<&DioParams::outputs>("outputs", "", "number of outputs").within(0, DioParams::kMaxLines),
 };
 SIM_FIELDS(DioParams, kDioSettings)

@@ -92,7 +92,7 @@ GripperState Gripper::state() const noexcept {
 std::optional<std::string> Gripper::execute(const Command& command, RobotControl& robot) {
   const auto* grip = std::get_if<GripCommand>(&command);
   if (grip == nullptr) return apply(command);
-  forget_lost(robot.context());
+  drop_missing(robot.context());
   switch (grip->action) {
     case GripCommand::Action::kOpen:
       return open(robot);
@@ -150,15 +150,15 @@ std::optional<std::string> Gripper::retrieve(RobotControl& robot) {
   return std::nullopt;
 }
 
-// Forgets held and stored objects that another client has moved elsewhere.
-void Gripper::forget_lost(const StepContext& now) {
-  const auto is_lost = [&](const Held& held) {
+// Drops held and stored objects that another client has moved elsewhere.
+void Gripper::drop_missing(const StepContext& now) {
+  const auto is_missing = [&](const Held& held) {
     const auto index = static_cast<std::size_t>(held.obstacle);
     return index >= now.world.arena.obstacles.size() ||
            now.world.arena.obstacles[index].carried_by != now.robot;
   };
-  if (held_ && is_lost(*held_)) held_.reset();
-  std::erase_if(stored_, is_lost);
+  if (held_ && is_missing(*held_)) held_.reset();
+  std::erase_if(stored_, is_missing);
 }
 
 void Gripper::act(RobotControl& robot) {
@@ -247,7 +247,7 @@ bool Gripper::is_broken(const StepContext& now, double x_m) const {
 }
 
 void Gripper::measure(const StepContext& context) {
-  forget_lost(context);
+  drop_missing(context);
   auto& reading = next(context);
   reading.state = state();
   reading.outer_beam = is_broken(context, kOuterBeam * params_.length_m);
@@ -318,9 +318,10 @@ std::string_view to_string(GripperState state) noexcept {
 
 DeviceKind gripper_kind() {
   DeviceKind row = device_kind<GripperParams, GripperReading>(
-      "gripper", {{"gripper"}}, [](const DeviceOrder& order, const GripperParams& params) {
-        return std::make_unique<Gripper>(order.name(), params,
-                                         params.X_BG.value_or(front_of(order.model)));
+      "gripper", {{"gripper"}},
+      [](const DeviceConstruction& construction, const GripperParams& params) {
+        return std::make_unique<Gripper>(construction.name(), params,
+                                         params.X_BG.value_or(front_of(construction.model)));
       });
   return with_model<GripperParams>(std::move(row),
                                    [](GripperParams& params, const RobotModel& model) {

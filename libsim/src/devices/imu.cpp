@@ -29,7 +29,7 @@ std::optional<std::string> Imu::apply(const Command& command) {
   if (set == nullptr) return Device::apply(command);
   // The next reading adds the rotation since the last reading, including the part before this
   // command.
-  yaw_rad_ = normalize_angle(set->pose.yaw_rad - turned_rad_);
+  yaw_rad_ = normalize_angle(set->pose.yaw_rad - rotation_rad_);
   return std::nullopt;
 }
 
@@ -39,9 +39,9 @@ void Imu::integrate(const StepContext& context) {
   // The step's rotation is multiplied by the mean of the speeds at its start and end.
   const double lateral = 0.5 * (before_.lateral_mps + now.lateral_mps);
   const double forward = 0.5 * (before_.v_mps + now.v_mps);
-  gained_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;
-  gained_y_mps_ += now.lateral_mps - before_.lateral_mps + context.body.turn_rad * forward;
-  turned_rad_ += context.body.turn_rad;
+  velocity_change_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;
+  velocity_change_y_mps_ += now.lateral_mps - before_.lateral_mps + context.body.turn_rad * forward;
+  rotation_rad_ += context.body.turn_rad;
   time_s_ += dt_s;
   before_ = now;
 }
@@ -50,8 +50,9 @@ void Imu::placed(const Pose&) { before_ = {}; }
 
 void Imu::measure(const StepContext& context) {
   auto& reading = next(context);
-  reading.acceleration_mps2 = {gained_x_mps_ / time_s_, gained_y_mps_ / time_s_, kGravity_mps2};
-  reading.rate_radps = {0.0, 0.0, turned_rad_ / time_s_};
+  reading.acceleration_mps2 = {velocity_change_x_mps_ / time_s_, velocity_change_y_mps_ / time_s_,
+                               kGravity_mps2};
+  reading.rate_radps = {0.0, 0.0, rotation_rad_ / time_s_};
   reading.field_ut = field_in_body_ut(params_, context.body.X_WB.yaw_rad);
   for (std::size_t i = 0; i < 3; ++i) {
     reading.acceleration_mps2[i] += bias_mps2_[i] + noise_.gaussian(params_.noise_mps2);
@@ -60,15 +61,16 @@ void Imu::measure(const StepContext& context) {
   }
   yaw_rad_ = normalize_angle(yaw_rad_ + reading.rate_radps[2] * time_s_);
   reading.yaw_rad = yaw_rad_;
-  gained_x_mps_ = 0.0;
-  gained_y_mps_ = 0.0;
-  turned_rad_ = 0.0;
+  velocity_change_x_mps_ = 0.0;
+  velocity_change_y_mps_ = 0.0;
+  rotation_rad_ = 0.0;
   time_s_ = 0.0;
 }
 
 void Imu::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  archive(noise_, before_, gained_x_mps_, gained_y_mps_, turned_rad_, time_s_, yaw_rad_);
+  archive(noise_, before_, velocity_change_x_mps_, velocity_change_y_mps_, rotation_rad_, time_s_,
+          yaw_rad_);
 }
 
 constexpr Field kImuSettings[] = {
@@ -106,8 +108,9 @@ SIM_FIELDS(ImuReading, kImuReading)
 
 DeviceKind imu_kind() {
   return device_kind<ImuParams, ImuReading>(
-      "imu", {{"imu"}}, [](const DeviceOrder& order, const ImuParams& params) {
-        return std::make_unique<Imu>(order.name(), params, order.robot.pose.yaw_rad, order.noise());
+      "imu", {{"imu"}}, [](const DeviceConstruction& construction, const ImuParams& params) {
+        return std::make_unique<Imu>(construction.name(), params, construction.robot.pose.yaw_rad,
+                                     construction.noise());
       });
 }
 

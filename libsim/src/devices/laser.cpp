@@ -69,11 +69,11 @@ void Laser::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> laser_view_fault(const void* object) {
+std::optional<FieldError> check_laser_view(const void* object) {
   const auto& p = *static_cast<const LaserParams*>(object);
   const double field_of_view_rad = p.resolution_rad * (p.beam_count - 1);
   if (field_of_view_rad <= 2.0 * std::numbers::pi + 1e-9) return std::nullopt;
-  return FieldFault{"device/laser-field-of-view",
+  return FieldError{"device/laser-field-of-view",
                     "beams that span at most 360 degrees together, (beams - 1) * resolution_deg",
                     rounded_text(field_of_view_rad / kDegrees, 6) + " degrees", ""};
 }
@@ -99,7 +99,7 @@ constexpr Field kLaserSettings[] = {
                                        "height of its case; only for programs that ask")
         .within(0.0, 100.0),
 };
-SIM_FIELDS(LaserParams, kLaserSettings, laser_view_fault)
+SIM_FIELDS(LaserParams, kLaserSettings, check_laser_view)
 
 constexpr Field kLaserReading[] = {
     field<&LaserReading::ranges_m>("ranges", "m"),
@@ -111,9 +111,11 @@ SIM_FIELDS(LaserReading, kLaserReading)
 
 DeviceKind laser_kind() {
   return device_kind<LaserParams, LaserReading>(
-      "laser", {{"laser"}, {"ranger"}}, [](const DeviceOrder& order, const LaserParams& params) {
-        return std::make_unique<Laser>(
-            order.name(), params, !well_within(order.model.footprint, params.X_BL), order.noise());
+      "laser", {{"laser"}, {"ranger"}},
+      [](const DeviceConstruction& construction, const LaserParams& params) {
+        return std::make_unique<Laser>(construction.name(), params,
+                                       !is_safely_inside(construction.model.footprint, params.X_BL),
+                                       construction.noise());
       });
 }
 

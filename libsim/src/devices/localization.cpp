@@ -148,18 +148,21 @@ SIM_FIELDS(PoseReading, kPoseReading)
 
 DeviceKind odometry_kind() {
   return device_kind<OdometryParams, PoseReading>(
-      "odometry", {{"position2d", 1}}, [](const DeviceOrder& order, const OdometryParams& params) {
-        const DriveDescription& drive = order.model.drive;
-        return std::make_unique<Odometry>(order.name(), params, drive.wheel_separation_m,
-                                          drive.kind == DriveKind::kOmnidirectional, order.noise());
+      "odometry", {{"position2d", 1}},
+      [](const DeviceConstruction& construction, const OdometryParams& params) {
+        const DriveDescription& drive = construction.model.drive;
+        return std::make_unique<Odometry>(construction.name(), params, drive.wheel_separation_m,
+                                          drive.kind == DriveKind::kOmnidirectional,
+                                          construction.noise());
       });
 }
 
 DeviceKind pose_kind() {
   return device_kind<PoseParams, PoseReading>(
       "pose", {{"localize"}, {"position2d"}},
-      [](const DeviceOrder& order, const PoseParams& params) {
-        return std::make_unique<PoseSensor>(order.name(), params, order.robot.pose, order.noise());
+      [](const DeviceConstruction& construction, const PoseParams& params) {
+        return std::make_unique<PoseSensor>(construction.name(), params, construction.robot.pose,
+                                            construction.noise());
       });
 }
 

@@ -13,15 +13,15 @@ namespace {
 // If the goal's bearing exceeds this, the robot turns on the spot before it drives.
 constexpr double kTurnOnSpot_rad = 0.5;
 // A robot that was pushed away from its goal by more than this many tolerances drives again.
-constexpr double kLost = 3.0;
+constexpr double kRestartTolerances = 3.0;
 // After leaving a goal within its turning circle, a car turns back to it once the arc there has
 // less than this fraction of its maximum curvature.
 constexpr double kWideEnough = 0.8;
 // A car seeks the goal's heading if the cosine of the angle between that heading and the direction
-// to the goal exceeds kOnItsWay. Its look-ahead point is the fraction kLookBefore of the distance
-// before the goal.
-constexpr double kOnItsWay = 0.2;
-constexpr double kLookBefore = 0.5;
+// to the goal exceeds kMinHeadingCosine. Its look-ahead point is the fraction kLookAheadFraction of
+// the distance before the goal.
+constexpr double kMinHeadingCosine = 0.2;
+constexpr double kLookAheadFraction = 0.5;
 // A car changes its driving direction only for goals clearly on the other side.
 constexpr double kDirectionMargin_rad = 0.3;
 
@@ -52,7 +52,7 @@ double PositionControl::turn_rate_for(double error_rad) const {
 }
 
 PositionControl::Step PositionControl::differential_step(const Pose& X_FB, double distance_m) {
-  const double near_m = (aligning_ ? kLost : 1.0) * params_.tolerance_m;
+  const double near_m = (aligning_ ? kRestartTolerances : 1.0) * params_.tolerance_m;
   aligning_ = distance_m <= near_m;
   if (aligning_) {
     const double error_rad = normalize_angle(command_.goal.yaw_rad - X_FB.yaw_rad);
@@ -95,18 +95,18 @@ PositionControl::Step PositionControl::car_step(const Pose& X_FB, double distanc
   // wheels turned away from the goal. So the goal moves in front of it.
   const bool reverse = leaving_ ? !backwards_ : backwards_;
   double arc = leaving_ ? -std::copysign(tightest, curvature) : curvature;
-  given_up_ = given_up_ || (sought_ && leaving_);
-  if (!leaving_ && !given_up_) {
+  heading_abandoned_ = heading_abandoned_ || (sought_heading_ && leaving_);
+  if (!leaving_ && !heading_abandoned_) {
     // The driving direction at the goal with the requested heading.
     const double through_rad = command_.goal.yaw_rad + (backwards_ ? std::numbers::pi : 0.0);
     const Vec2 through(std::cos(through_rad), std::sin(through_rad));
-    const Vec2 look = way - kLookBefore * distance_m * through;
+    const Vec2 look = way - kLookAheadFraction * distance_m * through;
     const double look_rad = std::atan2(look.y(), look.x()) - X_FB.yaw_rad;
     const double look_curvature = 2.0 * std::sin(look_rad) / look.norm();
-    if (way.dot(through) > kOnItsWay * distance_m && std::abs(look_curvature) <= tightest &&
+    if (way.dot(through) > kMinHeadingCosine * distance_m && std::abs(look_curvature) <= tightest &&
         (std::cos(look_rad) > 0.0) != backwards_) {
       arc = look_curvature;
-      sought_ = true;
+      sought_heading_ = true;
     }
   }
   arc = std::clamp(arc, -tightest, tightest);
@@ -130,7 +130,7 @@ PositionControl::Step PositionControl::step(const Pose& X_FB) {
 void PositionControl::archive(StateArchive& archive, const DriveDescription& drive,
                               const MotionParams& params) {
   archive.fields(command_);
-  archive(aligning_, backwards_, leaving_, sought_, given_up_);
+  archive(aligning_, backwards_, leaving_, sought_heading_, heading_abandoned_);
   if (!archive.reading()) return;
   drive_ = drive;
   params_ = params;
@@ -227,7 +227,7 @@ std::optional<std::string> Motion::execute(const Command& command, RobotControl&
   const auto* position = std::get_if<PositionCommand>(&command);
   if (heading != nullptr || position != nullptr) {
     const int frame = heading != nullptr ? heading->frame : position->frame;
-    if (frame >= 0 && !robot.pose_by(frame)) {
+    if (frame >= 0 && !robot.pose_estimate_of(frame)) {
       return "the robot's device number " + std::to_string(frame) +
              " is no localisation device, in whose frame the motors could be told where to go";
     }
@@ -235,14 +235,14 @@ std::optional<std::string> Motion::execute(const Command& command, RobotControl&
   const bool drives = heading != nullptr || position != nullptr ||
                       std::holds_alternative<TwistCommand>(command) ||
                       std::holds_alternative<CarCommand>(command);
-  if (enabled_ && drives) static_cast<void>(robot.take_motors(*this));
+  if (enabled_ && drives) static_cast<void>(robot.acquire_motors(*this));
   return apply(command);
 }
 
 void Motion::act(RobotControl& robot) {
   if (mode_ != Mode::kHeading && mode_ != Mode::kPosition) return;
   const int frame = mode_ == Mode::kHeading ? heading_.frame : position_.command().frame;
-  const Pose X_FB = frame < 0 ? robot.body().X_WB : robot.pose_by(frame).value_or(Pose{});
+  const Pose X_FB = frame < 0 ? robot.body().X_WB : robot.pose_estimate_of(frame).value_or(Pose{});
   if (mode_ == Mode::kHeading) {
     const double error_rad = normalize_angle(heading_.yaw_rad - X_FB.yaw_rad);
     command_turn(heading_.v_mps, heading_.lateral_mps, params_.turn_gain * error_rad);
@@ -258,7 +258,7 @@ void Motion::act(RobotControl& robot) {
   }
 }
 
-void Motion::motors_taken() { mode_ = Mode::kTwist; }
+void Motion::on_motors_taken() { mode_ = Mode::kTwist; }
 
 void Motion::placed(const Pose&) {
   stop();
@@ -332,7 +332,7 @@ constexpr Field kMotionSettings[] = {
                                                        "0: no limit")
         .within(0.0, 1e6),
     field<&MotionParams::enabled_at_start>("enabled", "", "whether the motors are on at the start")
-        .untold(),
+        .not_property(),
     field<&MotionParams::approach_gain>("approach_gain", "1/s",
                                         "position control: speed per metre of error")
         .above(0.0, 50.0),
@@ -351,8 +351,8 @@ SIM_FIELDS(MotionParams, kMotionSettings)
 
 DeviceKind motion_kind() {
   return device_kind<MotionParams, void>(
-      "motion", {}, [](const DeviceOrder& order, const MotionParams& params) {
-        return std::make_unique<Motion>(order.name(), params, drive_of(order.model));
+      "motion", {}, [](const DeviceConstruction& construction, const MotionParams& params) {
+        return std::make_unique<Motion>(construction.name(), params, drive_of(construction.model));
       });
 }
 

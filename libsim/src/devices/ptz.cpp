@@ -74,10 +74,10 @@ void Ptz::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> ptz_view_fault(const void* object) {
+std::optional<FieldError> check_ptz_view(const void* object) {
   const auto& p = *static_cast<const PtzParams*>(object);
   if (p.view_min_rad <= p.view_max_rad) return std::nullopt;
-  return FieldFault{"device/ptz-field-of-view",
+  return FieldError{"device/ptz-field-of-view",
                     "a field_of_view_min_deg of at most field_of_view_max_deg",
                     rounded_text(p.view_min_rad / kDegrees, 6) + " and " +
                         rounded_text(p.view_max_rad / kDegrees, 6) + " degrees",
@@ -106,7 +106,7 @@ constexpr Field kPtzSettings[] = {
                                         "maximum rate of change of the field of view")
         .above(0.0, 3600.0),
 };
-SIM_FIELDS(PtzParams, kPtzSettings, ptz_view_fault)
+SIM_FIELDS(PtzParams, kPtzSettings, check_ptz_view)
 
 constexpr Field kPtzReading[] = {
     field<&PtzReading::pan_rad>("pan", "rad"),

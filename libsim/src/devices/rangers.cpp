@@ -134,17 +134,19 @@ void Ranger::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> mountings_fault(const void* object) {
+std::optional<FieldError> check_mountings(const void* object) {
   const auto& reading = *static_cast<const RangerReading*>(object);
   if (reading.X_BS.size() == reading.ranges_m.size()) return std::nullopt;
-  return FieldFault{"", "as many as there are ranges", "", "", "mountings"};
+  return FieldError{"", "as many as there are ranges", "", "", "mountings"};
 }
 
-std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams& params) {
-  const bool may_be_inside = !std::ranges::all_of(
-      params.X_BS, [&order](const Pose& X_BS) { return well_within(order.model.footprint, X_BS); });
-  return std::make_unique<Ranger>(order.name(), order.device.type, params, may_be_inside,
-                                  order.noise());
+std::unique_ptr<Device> make_ranger(const DeviceConstruction& construction,
+                                    const RangerParams& params) {
+  const bool may_be_inside = !std::ranges::all_of(params.X_BS, [&construction](const Pose& X_BS) {
+    return is_safely_inside(construction.model.footprint, X_BS);
+  });
+  return std::make_unique<Ranger>(construction.name(), construction.device.type, params,
+                                  may_be_inside, construction.noise());
 }
 
 }  // namespace
@@ -157,10 +159,10 @@ constexpr Field kRangerSettings[] = {
     field<&RangerParams::X_BS>("mounts", "m, degrees",
                                "poses of the transducers on the body, X_BS; 1 to 64 of them")
         .counting(1, RangerParams::kMaxTransducers)
-        .or_fault("device/ranger-mounts",
-                  "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")
-        .told_as("mount")
-        .telling_each(),
+        .with_issue("device/ranger-mounts",
+                    "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")
+        .property_name("mount")
+        .listing_elements(),
 };
 SIM_FIELDS(RangerParams, kRangerSettings)
 
@@ -168,7 +170,7 @@ static_assert(RangerParams::kMaxTransducers == 64, "the texts above say so");
 
 constexpr Field kInfrared[] = {
     include<InfraredParams, RangerParams>(),
-    field<&InfraredParams::field_of_view_rad>("field_of_view", "rad").only_told(),
+    field<&InfraredParams::field_of_view_rad>("field_of_view", "rad").as_read_only(),
     field<&InfraredParams::voltage_gain_vm>("voltage_gain", "V m",
                                             "of the sensor curve, gain / (range + shift)")
         .above(0.0, 1000.0),
@@ -191,7 +193,7 @@ constexpr Field kRangerReading[] = {
     field<&RangerReading::range_max_m>("range_max", "m"),
     field<&RangerReading::field_of_view_rad>("field_of_view", "rad"),
 };
-SIM_FIELDS(RangerReading, kRangerReading, mountings_fault)
+SIM_FIELDS(RangerReading, kRangerReading, check_mountings)
 
 DeviceKind infrared_kind() {
   return device_kind<InfraredParams, RangerReading>("infrared", {{"ir"}, {"ranger", 2}},

@@ -42,12 +42,12 @@ std::optional<std::string> Waypoint::execute(const Command& command, RobotContro
       return "the speed to a goal must be a number of m/s greater than 0, not " +
              rounded_text(go->speed_mps, 6);
     }
-    if (!robot.take_motors(*this)) return "the robot has no motors to drive to a goal with";
+    if (!robot.acquire_motors(*this)) return "the robot has no motors to drive to a goal with";
     goal_ = *go;
     has_goal_ = true;
     ++goal_number_;
     status_ = WaypointStatus::kTransit;
-    steers_ = true;
+    controls_motors_ = true;
     return std::nullopt;
   }
   if (std::holds_alternative<StopCommand>(command)) {
@@ -56,9 +56,9 @@ std::optional<std::string> Waypoint::execute(const Command& command, RobotContro
   }
   if (std::holds_alternative<ResumeCommand>(command)) {
     if (!has_goal_) return "there is no goal to go on to: none was given yet";
-    static_cast<void>(robot.take_motors(*this));
+    static_cast<void>(robot.acquire_motors(*this));
     status_ = WaypointStatus::kTransit;
-    steers_ = true;
+    controls_motors_ = true;
     return std::nullopt;
   }
   return apply(command);
@@ -68,9 +68,9 @@ void Waypoint::act(RobotControl& robot) {
   X_WB_ = robot.body().X_WB;
   if (status_ == WaypointStatus::kTransit && distance_m() > goal_.tolerance_m) {
     robot.drive(waypoint_twist(X_WB_, goal_, params_));
-  } else if (steers_) {
+  } else if (controls_motors_) {
     robot.drive({});
-    steers_ = false;
+    controls_motors_ = false;
   }
 }
 
@@ -81,26 +81,26 @@ void Waypoint::integrate(const StepContext& context) {
   }
 }
 
-void Waypoint::motors_taken() {
+void Waypoint::on_motors_taken() {
   if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
-  steers_ = false;  // another device drives the motors now
+  controls_motors_ = false;  // another device drives the motors now
 }
 
 void Waypoint::placed(const Pose& X_WB) {
   X_WB_ = X_WB;
-  motors_taken();
+  on_motors_taken();
 }
 
-void Waypoint::succeed(const Device& before, SimTime later_ns) {
-  Sensor::succeed(before, later_ns);
+void Waypoint::take_over_from(const Device& before, SimTime later_ns) {
+  Sensor::take_over_from(before, later_ns);
   const auto& old = dynamic_cast<const Waypoint&>(before);
   goal_number_ = old.goal_number_ + (old.has_goal_ || has_goal_ ? 1 : 0);
 }
 
 void Waypoint::deactivated(RobotControl& robot) {
   if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
-  if (steers_) robot.drive({});
-  steers_ = false;
+  if (controls_motors_) robot.drive({});
+  controls_motors_ = false;
 }
 
 void Waypoint::measure(const StepContext& context) {
@@ -115,7 +115,7 @@ void Waypoint::measure(const StepContext& context) {
 void Waypoint::archive(StateArchive& archive) {
   SensorOf::archive(archive);
   archive.fields(goal_);
-  archive(goal_number_, has_goal_, steers_, X_WB_);
+  archive(goal_number_, has_goal_, controls_motors_, X_WB_);
   archive.choice(status_, WaypointStatus::kStop);
 }
 
@@ -155,8 +155,8 @@ std::string_view to_string(WaypointStatus status) noexcept {
 
 DeviceKind waypoint_kind() {
   return device_kind<WaypointParams, WaypointReading>(
-      "waypoint", {}, [](const DeviceOrder& order, const WaypointParams& params) {
-        return std::make_unique<Waypoint>(order.name(), params, order.robot.pose);
+      "waypoint", {}, [](const DeviceConstruction& construction, const WaypointParams& params) {
+        return std::make_unique<Waypoint>(construction.name(), params, construction.robot.pose);
       });
 }
 

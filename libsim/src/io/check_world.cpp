@@ -325,31 +325,31 @@ class Checker {
         "center is the middle of the box, size its full length and width");
   }
 
-  /// Records the fault of the part at `pointer`, if there is one.
+  /// Records the error in the part at `pointer`, if there is one.
   /// @return whether there is none.
-  bool sound(const std::optional<SolidFault>& fault, const std::string& pointer,
-             const std::string& name = "") {
-    if (!fault) return true;
-    add("world/out-of-range", pointer + fault->key, fault->expected,
-        fault->found + (name.empty() ? "" : " of " + name), fault->hint);
+  bool passes(const std::optional<SolidError>& error, const std::string& pointer,
+              const std::string& name = "") {
+    if (!error) return true;
+    add("world/out-of-range", pointer + error->key, error->expected,
+        error->found + (name.empty() ? "" : " of " + name), error->hint);
     return false;
   }
 
-  /// Whether the physics can build the arena; records each fault.
+  /// Whether the physics can build the arena; records each error.
   bool check_sizes() {
     const ArenaDescription& arena = world_.arena;
-    bool all = sound(floor_fault(arena), "/arena") && sound(walls_fault(arena), "/arena");
+    bool all = passes(check_floor(arena), "/arena") && passes(check_walls(arena), "/arena");
     // Elements of a preset have no position in the file.
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
-      all &= sound(box_fault(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
+      all &= passes(check_box(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
     }
     for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
       const ObstacleDescription& separator = arena.dock_separators[i];
-      all &= sound(box_fault(separator), separator_pointer(i), separator.name);
+      all &= passes(check_box(separator), separator_pointer(i), separator.name);
     }
     for (std::size_t i = 0; i < arena.docks.size(); ++i) {
       const ObstacleDescription area = area_of(arena.docks[i]);
-      all &= sound(box_fault(area), dock_pointer(i), area.name);
+      all &= passes(check_box(area), dock_pointer(i), area.name);
     }
     return all;
   }
@@ -360,7 +360,7 @@ class Checker {
       const std::string& name = world_.robots[i].model;
       const RobotModel* model = find_robot_model(world_, name);
       if (model == nullptr || !checked.insert(name).second) continue;
-      if (sound(model_fault(*model), robot_pointer(i) + "/model", "model " + name)) continue;
+      if (passes(check_model(*model), robot_pointer(i) + "/model", "model " + name)) continue;
       bad_models_.insert(name);
     }
   }
@@ -410,7 +410,7 @@ class Checker {
           bad_models_.contains(robot.model)) {
         continue;
       }
-      if (!is_place(robot.pose)) {
+      if (!is_valid_pose(robot.pose)) {
         add("world/out-of-range", pointer,
             "numbers from " + number_text(-kFarthest_m) + " to " + number_text(kFarthest_m) +
                 " m for x and y, and a number for the angle",

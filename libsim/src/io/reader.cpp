@@ -200,7 +200,7 @@ bool Reader::is_number() const { return state_->value->kind == Kind::kNumber; }
 bool Reader::is_null() const { return state_->value->kind == Kind::kNull; }
 const std::string& Reader::pointer() const { return state_->pointer; }
 const std::string& Reader::file() const { return state_->document->file; }
-std::string Reader::described() const { return describe(*state_->value); }
+std::string Reader::description_for_message() const { return describe(*state_->value); }
 
 std::optional<std::string> Reader::scalar_text() const {
   const Value& value = *state_->value;

@@ -71,9 +71,9 @@ Polygon read_footprint(Reader& model) {
   if (!list.is_array()) return {};
   const bool clockwise = area_m2(outline) < 0.0;
   if (clockwise) std::reverse(outline.begin(), outline.end());
-  if (auto fault = footprint_fault(outline)) {
-    list.issue("world/bad-footprint", std::move(fault->expected), std::move(fault->found),
-               std::move(fault->hint));
+  if (auto error = check_footprint(outline)) {
+    list.issue("world/bad-footprint", std::move(error->expected), std::move(error->found),
+               std::move(error->hint));
   }
   return outline;
 }
@@ -184,7 +184,7 @@ std::vector<DeviceDescription> read_devices(Reader& owner, std::vector<DeviceDes
       } else if (!settings.is_object()) {
         settings.issue("world/wrong-type",
                        "an object {...} of settings, or null for no such device",
-                       settings.described());
+                       settings.description_for_message());
       } else {
         read_device(settings, name, of_model, types, devices);
       }
@@ -216,7 +216,7 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
       if (std::find(known.begin(), known.end(), name) == known.end()) {
         element.issue("world/unknown-device",
                       "the name of a device of this robot: " + list_text(known),
-                      element.described(), did_you_mean(name, known));
+                      element.description_for_message(), did_you_mean(name, known));
       } else if (std::find(names.begin(), names.end(), name) != names.end()) {
         element.issue("world/duplicate-name", "each device once", in_quotes(name) + " again",
                       "a device has one index of an interface");

@@ -11,8 +11,8 @@
 /// an assertion of Box2D or in a division by zero.
 namespace sim::io {
 
-/// The fault of a number, an outline or a position, with the texts of a ConfigIssue.
-struct SolidFault {
+/// An error in a number, an outline or a position, with the texts of a ConfigIssue.
+struct SolidError {
   std::string key;  ///< the wrong member, e.g. "/size/0"; "": the whole
   std::string expected;
   std::string found;
@@ -21,24 +21,24 @@ struct SolidFault {
 
 /// Checks a box that stands on the floor: finite numbers, at least least_length_m() along each side
 /// and kLeastLength_m high, within kFarthest_m of the origin of W. nullopt if it can be built.
-[[nodiscard]] std::optional<SolidFault> box_fault(const ObstacleDescription& box);
+[[nodiscard]] std::optional<SolidError> check_box(const ObstacleDescription& box);
 
 /// Checks the size and the position of a floor.
-[[nodiscard]] std::optional<SolidFault> floor_fault(const ArenaDescription& arena);
+[[nodiscard]] std::optional<SolidError> check_floor(const ArenaDescription& arena);
 
 /// Checks the walls of a map: finite numbers, within kFarthest_m, no edge shorter than
 /// least_length_m().
-[[nodiscard]] std::optional<SolidFault> walls_fault(const ArenaDescription& arena);
+[[nodiscard]] std::optional<SolidError> check_walls(const ArenaDescription& arena);
 
 /// Checks a robot's outline: 3 to 8 vertices, convex, counter-clockwise, at least 1 cm^2 large and
 /// kLeastLength_m across, no side shorter than that.
-[[nodiscard]] std::optional<SolidFault> footprint_fault(const Polygon& outline);
+[[nodiscard]] std::optional<SolidError> check_footprint(const Polygon& outline);
 
 /// Checks a robot model: its outline, height, mass and wheels.
-[[nodiscard]] std::optional<SolidFault> model_fault(const RobotModel& model);
+[[nodiscard]] std::optional<SolidError> check_model(const RobotModel& model);
 
 /// Whether a pose is finite and within kFarthest_m of the origin of W.
-[[nodiscard]] bool is_place(const Pose& X_WB) noexcept;
+[[nodiscard]] bool is_valid_pose(const Pose& X_WB) noexcept;
 
 /// Signed area of a polygon [m^2]: positive if it runs counter-clockwise.
 [[nodiscard]] double area_m2(const Polygon& outline);

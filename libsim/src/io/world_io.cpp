@@ -215,7 +215,7 @@ class WorldReader {
   ObstacleDescription* named_dynamic(Reader& element) {
     if (!element.is_string()) {
       element.issue("world/wrong-type", "the name of a dynamic obstacle in double quotes",
-                    element.described());
+                    element.description_for_message());
       return nullptr;
     }
     const std::string name = element.scalar_text().value_or("");
@@ -325,7 +325,7 @@ class WorldReader {
       } else {
         reader->issue("world/wrong-type",
                       "\"lockstep\", \"real\" or a number: how many times real time",
-                      time->described(), "", "time");
+                      time->description_for_message(), "", "time");
       }
     }
     reader->finish();
@@ -508,7 +508,8 @@ class WorldReader {
       if (const std::optional<std::string> text = setting.scalar_text()) {
         driver.settings[key] = *text;
       } else {
-        setting.issue("world/wrong-type", "a number, a text, true or false", setting.described());
+        setting.issue("world/wrong-type", "a number, a text, true or false",
+                      setting.description_for_message());
       }
     }
     return driver;

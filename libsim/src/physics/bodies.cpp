@@ -8,7 +8,7 @@ namespace sim::physics {
 namespace {
 
 // A robot that nothing hinders any more keeps its Box2D body for this many substeps.
-constexpr std::uint8_t kKeptParts = 5;
+constexpr std::uint8_t kSubstepsInBox2d = 5;
 
 // Makes the body rotate around B, the axle's centre, as its wheels do: Box2D defines a body's
 // velocity at its centre of mass. Outlines whose centre of mass is B, except for rounding, are not
@@ -176,7 +176,7 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
 
   r.details->info = new_info(Contact::Kind::kRobot, index, model.height_m);
   r.details->mass_kg = model.mass_kg;
-  keep_in_box2d(r);
+  ensure_box2d_body(r);
   r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
 
   largest_radius_m_ = std::max(largest_radius_m_, r.radius_m);
@@ -223,7 +223,7 @@ int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf) const {
 }
 
 // Creates a Box2D body for a robot, at rest.
-void Bodies::put_into_box2d(Robot& r) {
+void Bodies::create_box2d_body(Robot& r) {
   b2BodyDef def;
   def.type = b2_dynamicBody;
   def.position = to_box2d(r.X_WB.position());
@@ -238,15 +238,15 @@ void Bodies::put_into_box2d(Robot& r) {
   if (r.suspended) make_heavy(*r.body);
 }
 
-void Bodies::take_out_of_box2d(Robot& r) {
+void Bodies::destroy_box2d_body(Robot& r) {
   world_.DestroyBody(r.body);
   r.body = nullptr;
   --in_box2d_;
 }
 
-void Bodies::keep_in_box2d(Robot& r) {
-  if (r.body == nullptr) put_into_box2d(r);
-  r.kept_parts = kKeptParts;
+void Bodies::ensure_box2d_body(Robot& r) {
+  if (r.body == nullptr) create_box2d_body(r);
+  r.substeps_in_box2d = kSubstepsInBox2d;
 }
 
 const std::vector<Bodies::Circle>& Bodies::by_x() {

@@ -48,8 +48,8 @@ class Bodies {
   [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
 
   /// Gives a robot a Box2D body for the next substeps.
-  void keep_in_box2d(Robot& r);
-  void take_out_of_box2d(Robot& r);
+  void ensure_box2d_body(Robot& r);
+  void destroy_box2d_body(Robot& r);
   /// Whether any robot has a Box2D body.
   [[nodiscard]] bool has_robots_in_box2d() const noexcept { return in_box2d_ > 0; }
 
@@ -98,7 +98,7 @@ class Bodies {
   void add_obstacles(const ArenaDescription& arena);
   void add_border(const ArenaDescription& arena);
   void add_wall(const WallLoop& loop);
-  void put_into_box2d(Robot& r);
+  void create_box2d_body(Robot& r);
   void archive_obstacle(StateArchive& archive, b2Body& body);
 
   b2World world_;

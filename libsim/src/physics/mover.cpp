@@ -15,10 +15,10 @@ constexpr double kSecondOrder_m = 0.0003;
 // Maximum travel of any point of a robot in one Box2D step while robots push each other. Box2D
 // decides where a pushed robot goes, and it detects a contact only if hulls are closer than the sum
 // of their skins, 2 mm.
-constexpr double kMaxShove_m = 0.002;
+constexpr double kMaxContactTravel_m = 0.002;
 
 // The same limit while the robots that touch have nothing else within reach.
-constexpr double kMaxLoneShove_m = 0.003;
+constexpr double kMaxLoneContactTravel_m = 0.003;
 
 // Tolerances within which a twist counts as achieved.
 constexpr double kSpeedTolerance_mps = 0.01;
@@ -68,7 +68,7 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
 }
 
 // Reverts changes that Box2D's solver made to a body that must not move.
-inline void hold(Robot& r) {
+inline void restore_pose(Robot& r) {
   const b2Vec2 p = to_box2d(r.X_WB.position());
   const float angle = static_cast<float>(r.X_WB.yaw_rad);
   if (r.body->GetPosition() == p && r.body->GetAngle() == angle) return;
@@ -78,7 +78,7 @@ inline void hold(Robot& r) {
 }
 
 // Keeps angles small, where single precision suffices.
-inline void unwind(Robot& r) {
+inline void wrap_yaw(Robot& r) {
   r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
   if (r.body == nullptr) return;
   r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
@@ -103,9 +103,9 @@ inline void finish_step(Robot& r, double dt_s) {
 // These functions are inline because they are called for every robot in every step.
 
 // Records that a robot has travelled and turned this much.
-inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
+inline void Mover::record_travel(Robot& r, double way_m, double turn_rad) {
   r.state->turn_rad += turn_rad;
-  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
+  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) wrap_yaw(r);
   const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // bound for all its points
   r.cumulative_max_travel_m += most_m;
   r.moved_m += most_m;
@@ -113,20 +113,21 @@ inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
 }
 
 // Moves a robot to the end of its arc.
-inline void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
+inline void Mover::move_to_goal(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
   r.X_WB = goal;
   const double travel = twist.v_mps * dt_s;
   const double side = twist.lateral_mps * dt_s;
   r.state->travel_m += travel;
   r.state->side_m += side;
-  moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
+  record_travel(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side),
+                twist.omega_radps * dt_s);
 }
 
 // For Box2D, a free robot that still has a body is at rest and is placed at a new pose.
 inline void Mover::move_freely(Robot& r, double dt_s) {
   if (r.body != nullptr) {
-    if (--r.kept_parts == 0) {
-      bodies_.take_out_of_box2d(r);
+    if (--r.substeps_in_box2d == 0) {
+      bodies_.destroy_box2d_body(r);
     } else if (r.body->IsAwake()) {
       r.body->SetAwake(false);
     }
@@ -136,24 +137,24 @@ inline void Mover::move_freely(Robot& r, double dt_s) {
   if (r.body != nullptr) {
     r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
   }
-  arrive(r, goal, r.target, dt_s);
+  move_to_goal(r, goal, r.target, dt_s);
 }
 
 void Mover::step(double dt_s) {
   double travel_m = 0.0;
   for (const Robot& r : bodies_.robots()) travel_m = std::max(travel_m, most_travel_m(r, dt_s));
-  const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
-  neighbours_.begin_step(std::max(travel_m / parts, kLeastTravel_m));
+  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
+  neighbours_.begin_step(std::max(travel_m / substeps, kLeastTravel_m));
   step_s_ = dt_s;
   const double cumulative_max_travel_m = neighbours_.cumulative_max_travel_m();
-  for (int i = 0; i < parts; ++i) advance(dt_s / parts, i == 0, i + 1 == parts);
+  for (int i = 0; i < substeps; ++i) substep(dt_s / substeps, i == 0, i + 1 == substeps);
   step_max_travel_m_ = neighbours_.cumulative_max_travel_m() - cumulative_max_travel_m;
 }
 
 // Moves all robots for a time in which no robot travels farther than kMaxTravel_m. Robots that are
 // free, or stay clear of everything near, are moved at once, without Box2D. Robots that push each
 // other are moved in several Box2D steps.
-void Mover::advance(double dt_s, bool first, bool last) {
+void Mover::substep(double dt_s, bool first, bool last) {
   neighbours_.find(dt_s);
   if (neighbours_.something_was_placed()) {
     // Lets Box2D find the contacts of everything that was placed since the last step.
@@ -164,13 +165,13 @@ void Mover::advance(double dt_s, bool first, bool last) {
   goals_.resize(robots.size());
   twists_.resize(robots.size());
   farthest_m_ = 0.0;
-  find_shoving();
+  find_contact_groups();
   hindered_.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     Robot& r = robots[i];
     r.moved_m = 0.0;
     if (first) r.state->travel_m = r.state->turn_rad = r.state->side_m = 0.0;
-    if (r.shoving || !neighbours_.is_free(i, dt_s)) {
+    if (r.in_contact_group || !neighbours_.is_free(i, dt_s)) {
       hindered_.push_back(i);
       continue;
     }
@@ -179,25 +180,28 @@ void Mover::advance(double dt_s, bool first, bool last) {
   }
   std::erase_if(hindered_, [&](std::size_t i) {
     Robot& r = robots[i];
-    if (!r.shoving) {
+    if (!r.in_contact_group) {
       twists_[i] = allowed_twist(i, dt_s);
-      if (stays_clear(r, twists_[i], dt_s)) {
+      if (clears_all(r, twists_[i], dt_s)) {
         move_freely(r, dt_s);
         if (last) finish_step(r, step_s_);
         return true;
       }
     }
-    bodies_.keep_in_box2d(r);
+    bodies_.ensure_box2d_body(r);
     for (const Neighbours::Neighbour& near : neighbours_.near_to(i)) {
-      bodies_.keep_in_box2d(bodies_.robot(near.robot));
+      bodies_.ensure_box2d_body(bodies_.robot(near.robot));
     }
     return false;
   });
-  double shove_m = 0.0;
-  for (const std::size_t i : shoving_) shove_m = std::max(shove_m, most_travel_m(robots[i], dt_s));
-  const int parts = std::max(1, static_cast<int>(std::ceil(shove_m / most_shove_m_)));
-  substep(dt_s / parts, dt_s);
-  for (int i = 1; i < parts; ++i) substep(dt_s / parts, 0.0);
+  double contact_travel_m = 0.0;
+  for (const std::size_t i : contact_robots_) {
+    contact_travel_m = std::max(contact_travel_m, most_travel_m(robots[i], dt_s));
+  }
+  const int box2d_steps =
+      std::max(1, static_cast<int>(std::ceil(contact_travel_m / max_contact_travel_m_)));
+  contact_substep(dt_s / box2d_steps, dt_s);
+  for (int i = 1; i < box2d_steps; ++i) contact_substep(dt_s / box2d_steps, 0.0);
   if (last) {
     for (const std::size_t i : hindered_) finish_step(robots[i], step_s_);
   }
@@ -240,10 +244,10 @@ void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transf
 }
 
 // Whether a robot that follows its target stays clear of a wall, or of the line through its edge.
-bool Mover::keeps_off(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
-  const OffLine off = off_line(r, wall, xf);
-  return off.apart_m > 0.0 && advance_m(r, xf, off.direction, r.target, dt_s) + kSecondOrder_m <=
-                                  off.apart_m - kTouchingGap_m;
+bool Mover::clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
+  const LineDistance line = distance_to_line(r, wall, xf);
+  return line.apart_m > 0.0 && advance_m(r, xf, line.direction, r.target, dt_s) + kSecondOrder_m <=
+                                   line.apart_m - kTouchingGap_m;
 }
 
 Twist Mover::allowed_twist(std::size_t index, double dt_s) {
@@ -257,8 +261,8 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   if (r.wall_until_m - r.cumulative_max_travel_m <= reach_m) {
     for (const Wall& wall : r.details->walls) {
       if (!may_reach(r, wall, reach_m)) continue;
-      if (wall.is_edge && keeps_off(r, wall, xf, dt_s)) continue;
-      add_constraints(r, *wall.shape, unmoved(), 1.0, dt_s);
+      if (wall.is_edge && clears_wall(r, wall, xf, dt_s)) continue;
+      add_constraints(r, *wall.shape, identity_transform(), 1.0, dt_s);
     }
   }
   for (const Neighbours::Neighbour& near : neighbours_.near_to(index)) {
@@ -290,7 +294,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
 
 // Whether a robot that is not free can follow its target after all: it touches nothing, and the
 // constraints just computed show that it will touch nothing.
-bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const {
+bool Mover::clears_all(const Robot& r, const Twist& allowed, double dt_s) const {
   if (allowed != r.target || r.target == Twist{}) return false;
   for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) return false;
@@ -302,41 +306,44 @@ bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const
 }
 
 // Collects the robots that touch others, those near them, those near these, and so on.
-void Mover::find_shoving() {
-  for (const std::size_t i : shoving_) bodies_.robots()[i].shoving = false;
-  shoving_.clear();
+void Mover::find_contact_groups() {
+  for (const std::size_t i : contact_robots_) bodies_.robots()[i].in_contact_group = false;
+  contact_robots_.clear();
   const auto add = [this](int index) {
     const auto i = static_cast<std::size_t>(index);
-    if (!std::exchange(bodies_.robots()[i].shoving, true)) shoving_.push_back(i);
+    if (!std::exchange(bodies_.robots()[i].in_contact_group, true)) contact_robots_.push_back(i);
   };
   for (const Neighbours::NearPair& pair : neighbours_.near_pairs()) {
     if (!touches(bodies_.robot(pair.first).body, bodies_.robot(pair.second).body)) continue;
     add(pair.first);
     add(pair.second);
   }
-  most_shove_m_ = std::any_of(shoving_.begin(), shoving_.end(),
-                              [this](std::size_t i) { return neighbours_.may_be_shoved_into(i); })
-                      ? kMaxShove_m
-                      : kMaxLoneShove_m;
-  for (std::size_t i = 0; i < shoving_.size(); ++i) {
-    for (const Neighbours::Neighbour& near : neighbours_.near_to(shoving_[i])) add(near.robot);
+  max_contact_travel_m_ =
+      std::any_of(contact_robots_.begin(), contact_robots_.end(),
+                  [this](std::size_t i) { return neighbours_.may_be_pushed_into_others(i); })
+          ? kMaxContactTravel_m
+          : kMaxLoneContactTravel_m;
+  for (std::size_t i = 0; i < contact_robots_.size(); ++i) {
+    for (const Neighbours::Neighbour& near : neighbours_.near_to(contact_robots_[i])) {
+      add(near.robot);
+    }
   }
 }
 
 // Moves the hindered robots in one Box2D step: robots in contact groups by dt_s, the others by
 // others_dt_s. The first call moves the others by the whole time; in further calls others_dt_s is
 // 0, and they rest.
-void Mover::substep(double dt_s, double others_dt_s) {
+void Mover::contact_substep(double dt_s, double others_dt_s) {
   if (!bodies_.has_robots_in_box2d()) return;
   const float inv_dt = static_cast<float>(1.0 / dt_s);
   for (const std::size_t i : hindered_) {
     Robot& r = bodies_.robots()[i];
-    const double own_dt_s = r.shoving ? dt_s : others_dt_s;
+    const double own_dt_s = r.in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s == 0.0) {
       r.body->SetAwake(false);
       continue;
     }
-    if (others_dt_s > 0.0 && r.shoving) twists_[i] = allowed_twist(i, others_dt_s);
+    if (others_dt_s > 0.0 && r.in_contact_group) twists_[i] = allowed_twist(i, others_dt_s);
     goals_[i] = arc_end(r.X_WB, twists_[i], own_dt_s);
     if (goals_[i] == r.X_WB && !r.body->IsAwake()) continue;
     // This velocity takes Box2D's single-precision body to the exact goal, so that rounding errors
@@ -348,7 +355,7 @@ void Mover::substep(double dt_s, double others_dt_s) {
   }
   bodies_.world().Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
   for (const std::size_t i : hindered_) {
-    const double own_dt_s = bodies_.robots()[i].shoving ? dt_s : others_dt_s;
+    const double own_dt_s = bodies_.robots()[i].in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s > 0.0) follow_body(i, own_dt_s);
   }
 }
@@ -357,7 +364,7 @@ void Mover::substep(double dt_s, double others_dt_s) {
 void Mover::follow_body(std::size_t index, double dt_s) {
   Robot& r = bodies_.robots()[index];
   if (r.suspended) {
-    hold(r);
+    restore_pose(r);
     return;
   }
   const Pose& goal = goals_[index];
@@ -368,7 +375,7 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
   if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
       std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
-    arrive(r, goal, twists_[index], dt_s);
+    move_to_goal(r, goal, twists_[index], dt_s);
     return;
   }
   const Pose before = r.X_WB;
@@ -380,12 +387,12 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   // The wheels' path is the arc with this chord.
   r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
   r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
-  moved(r, std::hypot(dx, dy), turn);
+  record_travel(r, std::hypot(dx, dy), turn);
 }
 
-void Mover::bare_step(double dt_s) {
+void Mover::plain_box2d_step(double dt_s) {
   for (Robot& r : bodies_.robots()) {
-    bodies_.keep_in_box2d(r);
+    bodies_.ensure_box2d_body(r);
     const double yaw = static_cast<double>(r.body->GetAngle());
     r.body->SetLinearVelocity(
         to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));

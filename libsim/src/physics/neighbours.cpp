@@ -16,13 +16,13 @@ constexpr double kCandidateMargin_m = 0.1;
 constexpr double kPairReach_m = 0.2;
 
 // Range of the search for walls around a robot, and the distance of its bounding circle from which
-// on a rough distance suffices.
+// on a coarse distance suffices.
 constexpr double kWallSearch_m = 0.25;
-constexpr double kRoughWall_m = 0.05;
+constexpr double kCoarseWallDistance_m = 0.05;
 
 }  // namespace
 
-void Neighbours::forget() {
+void Neighbours::invalidate() {
   placed_ = true;
   pairs_until_m_ = cumulative_max_travel_m_;
   for (Robot& r : bodies_.robots()) {
@@ -121,33 +121,35 @@ void Neighbours::find(double dt_s) {
 
 // Appends the pairs whose robots may hinder each other to near_pairs_.
 void Neighbours::find_near_pairs(double dt_s) {
-  const double in_the_way_m = 3.0 * travel_m_;
+  const double interaction_range_m = 3.0 * travel_m_;
   // This condition is unpredictable, so listing the pairs first, without a branch, is faster.
-  may_meet_.resize(pairs_.size());
+  candidate_pairs_.resize(pairs_.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    may_meet_[count] = i;
-    count += meet_at_travel_m_[i] - cumulative_max_travel_m_ <= 0.5 * in_the_way_m ? 1 : 0;
+    candidate_pairs_[count] = i;
+    count += meet_at_travel_m_[i] - cumulative_max_travel_m_ <= 0.5 * interaction_range_m ? 1 : 0;
   }
-  for (const std::size_t i : std::span(may_meet_).first(count)) {
+  for (const std::size_t i : std::span(candidate_pairs_).first(count)) {
     Pair& pair = pairs_[i];
     Robot& a = bodies_.robot(pair.first);
     Robot& b = bodies_.robot(pair.second);
     double apart_m = pair.apart_m - (a.cumulative_max_travel_m + b.cumulative_max_travel_m -
                                      pair.pair_at_travel_m);
-    if (apart_m > in_the_way_m) continue;
+    if (apart_m > interaction_range_m) continue;
     // The exact distance is not needed while both robots can follow their targets.
     const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
     const double touch_m = 2.0 * way_m + kTouchingGap_m;
-    if (pair.apart_m > in_the_way_m || a.shoving || b.shoving || apart_m <= touch_m) {
-      apart_m = distance_m(a, b, pair.apart_m > in_the_way_m ? in_the_way_m : touch_m, pair);
+    if (pair.apart_m > interaction_range_m || a.in_contact_group || b.in_contact_group ||
+        apart_m <= touch_m) {
+      apart_m = distance_m(a, b, pair.apart_m > interaction_range_m ? interaction_range_m : touch_m,
+                           pair);
       pair.apart_m = apart_m;
       meet_at_travel_m_[i] = cumulative_max_travel_m_ + 0.5 * apart_m;
       pair.pair_at_travel_m = a.cumulative_max_travel_m + b.cumulative_max_travel_m;
-      if (apart_m > in_the_way_m) continue;
+      if (apart_m > interaction_range_m) continue;
     }
-    if (placed_) bodies_.keep_in_box2d(a);
-    if (placed_) bodies_.keep_in_box2d(b);
+    if (placed_) bodies_.ensure_box2d_body(a);
+    if (placed_) bodies_.ensure_box2d_body(b);
     near_pairs_.push_back({pair.first, pair.second, apart_m, pair.direction});
   }
 }
@@ -165,7 +167,7 @@ void Neighbours::look_for_walls(Robot& r, double dt_s) {
     r.wall_until_m = r.cumulative_max_travel_m + apart_m;
     r.wall_at_travel_m = r.cumulative_max_travel_m;
   }
-  if (placed_ && apart_m <= reach_m) bodies_.keep_in_box2d(r);
+  if (placed_ && apart_m <= reach_m) bodies_.ensure_box2d_body(r);
 }
 
 // Distance below which a static solid may hinder a robot.
@@ -176,7 +178,7 @@ void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m)
   r.details->candidates.clear();
   r.details->candidates_reach_m = reach_m;
   r.details->candidates_at_travel_m = cumulative_max_travel_m_;
-  visit_fixed(bodies_.world(), grown(box, reach_m), [&](const b2Fixture& fixture) {
+  visit_fixed(bodies_.world(), expanded(box, reach_m), [&](const b2Fixture& fixture) {
     r.details->candidates.push_back(
         {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0), {}});
   });
@@ -214,7 +216,7 @@ double Neighbours::distance_to_walls_m(Robot& r) {
     r.details->shape.ComputeAABB(&box, xf, 0);
     r.details->walls.clear();
     r.details->walls_until_m = r.cumulative_max_travel_m + kWallSearch_m;
-    visit_fixed(bodies_.world(), grown(box, 2.0 * kWallSearch_m),
+    visit_fixed(bodies_.world(), expanded(box, 2.0 * kWallSearch_m),
                 [&](const b2Fixture& fixture) { r.details->walls.push_back(wall_of(fixture)); });
   }
   double least_m = kWallSearch_m;
@@ -223,18 +225,18 @@ double Neighbours::distance_to_walls_m(Robot& r) {
     // robot's distance from the line.
     if (!may_reach(r, wall, least_m)) continue;
     if (wall.is_edge) {
-      const OffLine off = off_line(r, wall, xf);
-      if (off.exact || off.apart_m >= std::min(least_m, kRoughWall_m)) {
-        least_m = std::min(least_m, off.apart_m);
+      const LineDistance line = distance_to_line(r, wall, xf);
+      if (line.exact || line.apart_m >= std::min(least_m, kCoarseWallDistance_m)) {
+        least_m = std::min(least_m, line.apart_m);
         continue;
       }
-      if (!may_reach(r, wall, kRoughWall_m)) {
-        least_m = std::min(least_m, kRoughWall_m);
+      if (!may_reach(r, wall, kCoarseWallDistance_m)) {
+        least_m = std::min(least_m, kCoarseWallDistance_m);
         continue;
       }
     }
     const b2DistanceOutput found =
-        distance_between(r.details->shape, xf, *wall.shape, unmoved(), wall.cache);
+        distance_between(r.details->shape, xf, *wall.shape, identity_transform(), wall.cache);
     least_m = std::min(least_m, metres(found.distance));
   }
   return least_m;
@@ -256,12 +258,12 @@ bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
   if (other->GetBody() == r.body) other = contact.GetFixtureB();
   if (info_of(other).kind == Contact::Kind::kRobot) return false;
   const b2Transform& xf = r.body->GetTransform();
-  const double apart_m =
-      metres(distance_between(r.details->shape, xf, *other->GetShape(), unmoved()).distance);
+  const double apart_m = metres(
+      distance_between(r.details->shape, xf, *other->GetShape(), identity_transform()).distance);
   return apart_m <= wall_reach_m();
 }
 
-bool Neighbours::may_be_shoved_into(std::size_t index) const {
+bool Neighbours::may_be_pushed_into_others(std::size_t index) const {
   const Robot& r = bodies_.robots()[index];
   for (const Neighbour& near : near_to_[index]) {
     if (!touches(r.body, bodies_.robot(near.robot).body)) return true;
@@ -294,7 +296,7 @@ double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
     const double boxes_apart_m =
         other == nullptr ? metres(gap_between(box, candidate.box)) : circles_apart_m(r, *other);
     if (boxes_apart_m >= least_m) continue;
-    const b2Transform their_xf = other == nullptr ? unmoved() : transform_of(*other);
+    const b2Transform their_xf = other == nullptr ? identity_transform() : transform_of(*other);
     const float apart = least_along(r.details->nearest_direction, *candidate.shape, their_xf) +
                         least_along(-r.details->nearest_direction, r.details->shape, xf);
     const double bound_m = std::max(boxes_apart_m, metres(apart));

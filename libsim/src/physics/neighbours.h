@@ -29,20 +29,19 @@ class Neighbours {
   explicit Neighbours(Bodies& bodies) : bodies_(bodies) {}
 
   /// Invalidates all distances after something was placed.
-  void forget();
-  /// Whether forget() was called since the last find(). Placed bodies may touch already, so find()
-  /// then gives Box2D bodies to all robots that are near anything.
+  void invalidate();
+  /// Whether invalidate() was called since the last find(). Placed bodies may touch already, so
+  /// find() then gives Box2D bodies to all robots that are near anything.
   [[nodiscard]] bool something_was_placed() const noexcept { return placed_; }
   void note_contacts_found() noexcept { placed_ = false; }
 
   /// Begins a step.
-  /// @param travel_m  maximum travel of a robot that follows its target, in one part of the step
-  ///     [m].
+  /// @param travel_m  maximum travel of a robot that follows its target, in one substep [m].
   void begin_step(double travel_m) noexcept { travel_m_ = travel_m; }
   /// Finds the pairs of robots that are close enough to reach each other, and the distances to
   /// walls.
   void find(double dt_s);
-  /// Ends a part of a step in which no robot moved farther than `farthest_m`.
+  /// Ends a substep in which no robot moved farther than `farthest_m`.
   void note_moved(double farthest_m) noexcept { cumulative_max_travel_m_ += farthest_m; }
   /// Upper bound of the cumulative travel of any robot [m].
   [[nodiscard]] double cumulative_max_travel_m() const noexcept { return cumulative_max_travel_m_; }
@@ -56,7 +55,7 @@ class Neighbours {
   /// than half of the gap to any other robot. Must not be called for robots that may be pushed.
   [[nodiscard]] bool is_free(std::size_t index, double dt_s) const;
   /// Whether a pushed robot might hit something that it does not touch yet.
-  [[nodiscard]] bool may_be_shoved_into(std::size_t index) const;
+  [[nodiscard]] bool may_be_pushed_into_others(std::size_t index) const;
 
   /// Writes or reads the state. When reading, Box2D's fixtures must exist.
   void archive(StateArchive& archive);
@@ -97,7 +96,7 @@ class Neighbours {
       meet_at_travel_m_;            // by pair: cumulative_max_travel_m_ from which on they may meet
   std::vector<Pair> pairs_before_;  // previous `pairs_`
   std::vector<double> meet_before_;
-  std::vector<std::size_t> may_meet_;  // indices of pairs that may meet in this substep
+  std::vector<std::size_t> candidate_pairs_;  // indices of pairs that may meet in this substep
   double pairs_until_m_ = 0.0;
   std::vector<NearPair> near_pairs_;             // those that may hinder each other
   std::vector<std::vector<Neighbour>> near_to_;  // the same pairs, by robot

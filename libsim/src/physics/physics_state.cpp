@@ -9,7 +9,7 @@
 #include "physics/contacts.h"
 #include "physics/mover.h"
 #include "physics/neighbours.h"
-#include "physics/sight.h"
+#include "physics/sensor_view.h"
 #include "sim/world/limits.h"
 
 namespace sim::physics {
@@ -17,8 +17,8 @@ namespace {
 
 void archive_robot_state(StateArchive& archive, Robot& r) {
   BodyState& s = *r.state;
-  archive(r.target, r.X_WB, r.cumulative_max_travel_m, r.suspended, r.shoving, r.kept_parts,
-          r.stall_clock_s);
+  archive(r.target, r.X_WB, r.cumulative_max_travel_m, r.suspended, r.in_contact_group,
+          r.substeps_in_box2d, r.stall_clock_s);
   archive.unbounded(r.wall_until_m);
   archive.unbounded(r.wall_at_travel_m);
   archive(s.X_WB, s.twist, s.commanded, s.travel_m, s.turn_rad, s.stalled, s.side_m);
@@ -105,11 +105,11 @@ void Bodies::archive(StateArchive& archive) {
   archive(newest_first);
   if (archive.reading()) {
     for (Robot& r : robots_) {
-      if (r.body != nullptr) take_out_of_box2d(r);
+      if (r.body != nullptr) destroy_box2d_body(r);
     }
     for (auto robot = newest_first.rbegin(); robot != newest_first.rend(); ++robot) {
       archive.expect(*robot < robots_.size() && robots_[*robot].body == nullptr, "each robot once");
-      put_into_box2d(robots_[*robot]);
+      create_box2d_body(robots_[*robot]);
     }
   }
   archive_box2d(archive, world_, fixtures());
@@ -207,15 +207,15 @@ void Neighbours::archive(StateArchive& archive) {
 void Mover::archive(StateArchive& archive) {
   archive(step_max_travel_m_);
   if (!archive.reading()) return;
-  shoving_.clear();
+  contact_robots_.clear();
   for (std::size_t i = 0; i < bodies_.robots().size(); ++i) {
-    if (bodies_.robots()[i].shoving) shoving_.push_back(i);
+    if (bodies_.robots()[i].in_contact_group) contact_robots_.push_back(i);
   }
 }
 
-void Sight::archive(StateArchive& archive) {
-  archive_order(archive, by_place_);
-  for (Spot& spot : by_place_) archive(spot.place, spot.until_m);
+void SensorView::archive(StateArchive& archive) {
+  archive_order(archive, by_hilbert_index_);
+  for (HilbertEntry& entry : by_hilbert_index_) archive(entry.hilbert_index, entry.until_m);
   if (!archive.reading()) return;
   solids_changed();
   outlines_fresh_ = false;

@@ -152,7 +152,7 @@ class PhysicsWorld {
 
   /// Runs a step with plain Box2D: each body gets the velocity of its target, then b2World::Step
   /// runs. It is the baseline of benchmarks; robots slide, and body() is not updated.
-  void bare_step(double dt_s);
+  void plain_box2d_step(double dt_s);
 
  private:
   struct Impl;

@@ -67,7 +67,7 @@ struct RobotDetails {
   double walls_until_m = kUnknown;
   // Of Contacts:
   std::vector<int> touching;  ///< number of contacts per partner, see count_contact
-  // Of Sight:
+  // Of SensorView:
   EdgeList load;                    ///< outlines of carried objects, in B
   std::vector<int> load_obstacles;  ///< obstacle index of each of these edges
   double seen_radius_m = 0.0;       ///< radius of footprint and load about B
@@ -83,12 +83,12 @@ struct alignas(64) Robot {
   double wall_until_m =
       kUnknown;  ///< it reaches no wall or block before its cumulative travel is this
   bool suspended = false;
-  bool shoving = false;         ///< touches another robot, or is near one that does
-  std::uint8_t kept_parts = 0;  ///< number of further substeps with a Box2D body
+  bool in_contact_group = false;       ///< touches another robot, or is near one that does
+  std::uint8_t substeps_in_box2d = 0;  ///< number of further substeps with a Box2D body
   DriveKind drive = DriveKind::kDifferential;
 
   Pose X_WB;             ///< exact; yaw is not wrapped, and matches the body's angle
-  double moved_m = 0.0;  ///< upper bound of the travel of any of its points in this part of a step
+  double moved_m = 0.0;  ///< upper bound of the travel of any of its points in this substep
   double stall_clock_s = 0.0;
   double wall_at_travel_m = kUnknown;  ///< its cumulative travel at its last search for walls
   BodyState* state = nullptr;
@@ -127,13 +127,14 @@ struct alignas(64) Robot {
 }
 
 /// Distance of a robot's outline from the line through an edge.
-struct OffLine {
+struct LineDistance {
   double apart_m;    ///< negative if the outline crosses the line
   b2Vec2 direction;  ///< towards the line
   bool exact;  ///< the nearest point of the line is on the edge, so apart_m is the distance to the
                ///< edge, too
 };
-[[nodiscard]] OffLine off_line(const Robot& r, const Wall& wall, const b2Transform& xf);
+[[nodiscard]] LineDistance distance_to_line(const Robot& r, const Wall& wall,
+                                            const b2Transform& xf);
 
 /// Whether a wall may be within reach_m of a robot, judged by the robot's bounding circle.
 [[nodiscard]] bool may_reach(const Robot& r, const Wall& wall, double reach_m);

@@ -25,7 +25,7 @@ inline constexpr float kScaleF = 10.0F;
 [[nodiscard]] inline double metres(float units) { return static_cast<double>(units) / kScale; }
 
 /// Transform of static solids, whose shapes are given in W.
-[[nodiscard]] inline b2Transform unmoved() {
+[[nodiscard]] inline b2Transform identity_transform() {
   b2Transform xf;
   xf.SetIdentity();
   return xf;
@@ -67,6 +67,6 @@ inline constexpr float kScaleF = 10.0F;
 }
 
 /// A box extended on all sides by `by_m` [m].
-[[nodiscard]] b2AABB grown(b2AABB box, double by_m);
+[[nodiscard]] b2AABB expanded(b2AABB box, double by_m);
 
 }  // namespace sim

@@ -178,7 +178,7 @@ class Video final : public FilmWriter::Impl {
     // before the run instead of after it.
     struct stat info {};
     // A pipe or a device cannot be replaced by a file.
-    if (lstat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) part_ = part_name(path);
+    if (lstat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) part_ = part_file_name(path);
     errno = 0;
     if (!std::ofstream(part_, std::ios::binary | std::ios::trunc)) {
       refuse_film(path, errno != 0 ? std::strerror(errno) : "unknown reason");
@@ -210,7 +210,7 @@ class Video final : public FilmWriter::Impl {
       refuse_film(path, "it is not whole (is the disk full?)");
     }
     if (part_ == path) return;
-    if (const int error = adopt_part(path)) refuse_film(path, std::strerror(error));
+    if (const int error = rename_part_file(path)) refuse_film(path, std::strerror(error));
   }
 
  private:

@@ -461,31 +461,31 @@ void Painter::fill_fading(const Shape& shape, Colour colour, const Vec2& center,
   });
 }
 
-void Painter::unite(const Shape& shape, double opacity) {
+void Painter::accumulate(const Shape& shape, double opacity) {
   const auto strength = static_cast<float>(opacity);
-  if (united_.empty()) united_.resize(image_.rgb.size() / 3);
+  if (accumulated_.empty()) accumulated_.resize(image_.rgb.size() / 3);
   rasteriser_.rasterise(shape, clip_, [&](int y, int begin, int end, float coverage) {
     float* const row =
-        united_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
+        accumulated_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
     for (int x = begin; x < end; ++x) row[x] = std::max(row[x], coverage * strength);
-    PixelRect& part = united_part_;
+    PixelRect& part = accumulated_part_;
     const bool none = part.right == 0;
     part = {none ? begin : std::min(part.left, begin), none ? y : std::min(part.top, y),
             std::max(part.right, end), std::max(part.bottom, y + 1)};
   });
 }
 
-void Painter::fill_united(Colour colour) {
-  for (int y = united_part_.top; y < united_part_.bottom; ++y) {
+void Painter::fill_accumulated(Colour colour) {
+  for (int y = accumulated_part_.top; y < accumulated_part_.bottom; ++y) {
     float* const row =
-        united_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
-    for (int x = first_not_zero(row, united_part_.left, united_part_.right); x < united_part_.right;
-         x = first_not_zero(row, x + 1, united_part_.right)) {
+        accumulated_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
+    for (int x = first_not_zero(row, accumulated_part_.left, accumulated_part_.right);
+         x < accumulated_part_.right; x = first_not_zero(row, x + 1, accumulated_part_.right)) {
       blend(y, x, x + 1, colour, row[x]);
       row[x] = 0.0F;
     }
   }
-  united_part_ = {};
+  accumulated_part_ = {};
 }
 
 double Painter::text_width_px(const std::string& text, const TextStyle& style) {

@@ -178,9 +178,9 @@ class Painter {
                    double opacity_center, double opacity_rim);
   /// Records a shape to be drawn with some opacity. Where recorded shapes overlap, the highest
   /// opacity counts.
-  void unite(const Shape& shape, double opacity);
+  void accumulate(const Shape& shape, double opacity);
   /// Blends a colour over all shapes recorded since the last call.
-  void fill_united(Colour colour);
+  void fill_accumulated(Colour colour);
   /// Limits the drawing of shapes (not text) to a rectangle from now on.
   void set_clip(const PixelRect& clip);
   void clear_clip() { set_clip({0, 0, image_.width, image_.height}); }
@@ -215,8 +215,8 @@ class Painter {
   Image image_;
   PixelRect clip_;
   Rasteriser rasteriser_;
-  std::vector<float> united_;  ///< opacity of each pixel; all zero after fill_united
-  PixelRect united_part_;      ///< area where it may be non-zero
+  std::vector<float> accumulated_;  ///< opacity of each pixel; all zero after fill_accumulated
+  PixelRect accumulated_part_;      ///< area where it may be non-zero
   std::map<std::string, TextMask> texts_;
 };
 

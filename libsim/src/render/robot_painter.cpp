@@ -123,9 +123,9 @@ class RobotPainter {
           if (cone.met) echoes.add_disc(rim.front(), layout_.line_px(2.6, 1.4));
         }
         const double ray = cone.field_of_view_rad > 0.0 ? 1.0 : 2.2;
-        painter_.unite(area, share * ray * (cone.met ? 0.16 : 0.07));
+        painter_.accumulate(area, share * ray * (cone.met ? 0.16 : 0.07));
       }
-      painter_.fill_united(colour);
+      painter_.fill_accumulated(colour);
       painter_.fill(echoes, mix(colour, palette::kInk, 0.2), std::min(1.0, 0.75 * share + 0.1));
     }
   }
@@ -187,8 +187,8 @@ class RobotPainter {
     }
   }
 
-  // Draws a line that fades with age. The segments' opacities are united by their maximum, so that
-  // neither joints nor crossings are visible.
+  // Draws a line that fades with age. The segments' opacities are combined by their maximum, so
+  // that neither joints nor crossings are visible.
   void draw_trails(const std::vector<std::uint8_t>& cells) {
     constexpr int kShades = 24;
     for (const RobotSnapshot& robot : scene_.robots) {
@@ -215,10 +215,10 @@ class RobotPainter {
                        points.begin() + static_cast<std::ptrdiff_t>(last) + 1},
                       layout_.line_px(2.4, 1.2));
         const double age = 1.0 - static_cast<double>(shade + 1) / kShades;
-        painter_.unite(line, strength * (0.8 - 0.6 * age));
+        painter_.accumulate(line, strength * (0.8 - 0.6 * age));
         first = last;
       }
-      painter_.fill_united(mix(opaque(robot.colour), palette::kInk, 0.12));
+      painter_.fill_accumulated(mix(opaque(robot.colour), palette::kInk, 0.12));
     }
   }
 

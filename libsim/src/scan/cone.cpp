@@ -20,7 +20,7 @@ struct Sides {
 };
 
 // The ends of an edge relative to a cone's apex: a, then b.
-struct Sight {
+struct EdgeFromApex {
   double ax, ay, bx, by;
 
   // Twice the signed area of the triangle with the apex. It is < 0 if the edge faces the apex; a is
@@ -30,7 +30,7 @@ struct Sight {
 
 // Not negative if an edge that faces the apex may be within the half-planes. Negative for edges
 // that do not face it.
-double within(const Sight& e, const Sides& sides) {
+double within(const EdgeFromApex& e, const Sides& sides) {
   const double a_in_left = e.ax * sides.ly - e.ay * sides.lx;  // >= 0: right of the left side
   const double b_in_left = e.bx * sides.ly - e.by * sides.lx;
   const double a_in_right = sides.rx * e.ay - sides.ry * e.ax;
@@ -49,7 +49,7 @@ void clip(double f0, double f1, double& t0, double& t1) {
 }
 
 // Square of the least distance to an edge for which within() is not negative, at most `least_m2`.
-double nearer_m2(const Sight& e, const Sides& sides, double least_m2) {
+double nearer_m2(const EdgeFromApex& e, const Sides& sides, double least_m2) {
   double t0 = 0.0;
   double t1 = 1.0;
   clip(e.ax * sides.ly - e.ay * sides.lx, e.bx * sides.ly - e.by * sides.lx, t0, t1);
@@ -65,7 +65,7 @@ double nearer_m2(const Sight& e, const Sides& sides, double least_m2) {
 }
 
 // Distance along a ray to an edge, if the ray passes between its ends; at most `least_m`.
-double nearer_on_ray_m(const Sight& e, const Sides& ray, double least_m) {
+double nearer_on_ray_m(const EdgeFromApex& e, const Sides& ray, double least_m) {
   const double left_of_ray = ray.rx * e.ay - ray.ry * e.ax;
   const double right_of_ray = ray.ry * e.bx - ray.rx * e.by;
   if (left_of_ray < 0.0 || right_of_ray <= 0.0) return least_m;
@@ -100,22 +100,22 @@ double EdgeColumns::least_range_in_cone_m(const Cone& cone, double range_max_m) 
   const double* const x1 = x1_.data();
   const double* const y1 = y1_.data();
   double* const kept = within_.data();
-  const auto sight = [&](std::size_t i) {
-    return Sight{x0[i] - cone.x_m, y0[i] - cone.y_m, x1[i] - cone.x_m, y1[i] - cone.y_m};
+  const auto edge_from_apex = [&](std::size_t i) {
+    return EdgeFromApex{x0[i] - cone.x_m, y0[i] - cone.y_m, x1[i] - cone.x_m, y1[i] - cone.y_m};
   };
   // Most edges are outside the cone. This loop has no branches, so compilers can vectorise it.
-  for (std::size_t i = 0; i < count; ++i) kept[i] = within(sight(i), sides);
+  for (std::size_t i = 0; i < count; ++i) kept[i] = within(edge_from_apex(i), sides);
 
   if (cone.field_of_view_rad <= 0.0) {
     double least_m = range_max_m;
     for (std::size_t i = 0; i < count; ++i) {
-      if (kept[i] >= 0.0) least_m = nearer_on_ray_m(sight(i), sides, least_m);
+      if (kept[i] >= 0.0) least_m = nearer_on_ray_m(edge_from_apex(i), sides, least_m);
     }
     return least_m;
   }
   double least_m2 = range_max_m * range_max_m;
   for (std::size_t i = 0; i < count; ++i) {
-    if (kept[i] >= 0.0) least_m2 = nearer_m2(sight(i), sides, least_m2);
+    if (kept[i] >= 0.0) least_m2 = nearer_m2(edge_from_apex(i), sides, least_m2);
   }
   return std::min(std::sqrt(least_m2), range_max_m);
 }

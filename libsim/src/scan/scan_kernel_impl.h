@@ -407,7 +407,7 @@ bool is_open_to_a_beam(const ScanJob& job, std::int32_t first, std::int32_t last
 /// its centre, where asin(t) <= t + (pi / 2 - 1) t^3. No beam meets it nearer than distance -
 /// radius.
 template <class V>
-struct Sighting {
+struct DiscView {
   typename V::Float first;    ///< first beam that it may span
   typename V::Float last;     ///< last beam that it may span
   typename V::Float inverse;  ///< upper bound of 1/r of its nearest point
@@ -422,11 +422,11 @@ unsigned lanes_within(typename V::Float limit, typename V::Float squared) {
 }
 
 template <class V>
-class Sight {
+class DiscLocator {
  public:
   using Float = typename V::Float;
 
-  explicit Sight(const ScanJob& job)
+  explicit DiscLocator(const ScanJob& job)
       : job_(job),
         cos_yaw_(V::broadcast(static_cast<float>(job.cos_yaw))),
         sin_yaw_(V::broadcast(static_cast<float>(job.sin_yaw))),
@@ -436,8 +436,9 @@ class Sight {
         last_beam_(V::broadcast(static_cast<float>(job.beam_count - 1))) {}
 
   /// Tests the lanes' discs from `base` on; the list has `count` discs.
-  [[nodiscard]] Sighting<V> look(const float* disc_x, const float* disc_y, const float* disc_radius,
-                                 std::int32_t base, std::int32_t count) const {
+  [[nodiscard]] DiscView<V> locate_discs(const float* disc_x, const float* disc_y,
+                                         const float* disc_radius, std::int32_t base,
+                                         std::int32_t count) const {
     // These margins cover the rounding of the positions of sensor, discs and edges.
     const Float slack = V::broadcast(1e-4F);
     const Float relative_slack = V::broadcast(2e-5F);
@@ -485,9 +486,9 @@ class Sight {
   Float last_beam_;
 };
 
-/// A test of discs without their bearings, coarser and faster than Sight::look().
+/// A test of discs without their bearings, coarser and faster than DiscLocator::locate_discs().
 template <class V>
-struct Glance {
+struct CoarseDiscView {
   typename V::Float squared;  ///< square of the distance of its centre
   typename V::Float radius;
   unsigned in_view;  ///< bit mask of discs that may be partly in view
@@ -495,8 +496,9 @@ struct Glance {
 
 /// Tests the lanes' discs from `base` on; the list has `count` discs.
 template <class V>
-Glance<V> glance_at(const ScanJob& job, const float* disc_x, const float* disc_y,
-                    const float* disc_radius, std::int32_t base, std::int32_t count) {
+CoarseDiscView<V> locate_discs_coarsely(const ScanJob& job, const float* disc_x,
+                                        const float* disc_y, const float* disc_radius,
+                                        std::int32_t base, std::int32_t count) {
   using Float = typename V::Float;
   const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
   const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
@@ -531,8 +533,8 @@ Located locate(const ScanJob& job) {
     unsigned in_view = lanes_below<V>(group_count - base);
     unsigned near = in_view;
     if (job.group_count != 0) {
-      const Glance<V> seen =
-          glance_at<V>(job, job.group_x, job.group_y, job.group_radius, base, group_count);
+      const CoarseDiscView<V> seen = locate_discs_coarsely<V>(job, job.group_x, job.group_y,
+                                                              job.group_radius, base, group_count);
       in_view = seen.in_view;
       near = in_view & lanes_within<V>(near_m + seen.radius, seen.squared);
     }
@@ -542,8 +544,8 @@ Located locate(const ScanJob& job) {
   for (std::int32_t i = 0; i < near_groups; ++i) {
     const std::int32_t begin = job.some[i] * DiscBuffer::kGroupSize;
     for (std::int32_t base = begin; base < begin + DiscBuffer::kGroupSize; base += V::kLanes) {
-      const Glance<V> seen =
-          glance_at<V>(job, job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+      const CoarseDiscView<V> seen = locate_discs_coarsely<V>(
+          job, job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
       const unsigned near = seen.in_view & lanes_within<V>(near_m, seen.squared);
       located.near = append_lanes<V>(near, base, job.near, located.near);
     }
@@ -554,14 +556,15 @@ Located locate(const ScanJob& job) {
 /// Lists the groups in view that a beam may meet before all swept edges, or all if the discs are
 /// not grouped. Returns their number.
 template <class V>
-std::int32_t find_open_groups(const ScanJob& job, const Sight<V>& sight, std::int32_t groups) {
+std::int32_t find_open_groups(const ScanJob& job, const DiscLocator<V>& locator,
+                              std::int32_t groups) {
   if (job.group_count == 0) {
     for (std::int32_t i = 0; i < groups; ++i) job.some[i] = job.groups[i];
     return groups;
   }
   for (std::int32_t base = 0; base < job.group_count; base += V::kLanes) {
-    const Sighting<V> seen =
-        sight.look(job.group_x, job.group_y, job.group_radius, base, job.group_count);
+    const DiscView<V> seen =
+        locator.locate_discs(job.group_x, job.group_y, job.group_radius, base, job.group_count);
     V::store_integers(job.group_first + base, seen.first);
     V::store_integers(job.group_last + base, seen.last);
     V::store(job.group_inverse + base, seen.inverse);
@@ -581,14 +584,14 @@ template <class V>
 std::int32_t find_visible(const ScanJob& job, std::int32_t groups) {
   if (groups == 0) return 0;
   find_minima<V>(job);
-  const Sight<V> sight(job);
-  const std::int32_t open = find_open_groups<V>(job, sight, groups);
+  const DiscLocator<V> locator(job);
+  const std::int32_t open = find_open_groups<V>(job, locator, groups);
   std::int32_t in_view = 0;
   for (std::int32_t i = 0; i < open; ++i) {
     const std::int32_t begin = job.some[i] * DiscBuffer::kGroupSize;
     for (std::int32_t base = begin; base < begin + DiscBuffer::kGroupSize; base += V::kLanes) {
-      const Sighting<V> seen =
-          sight.look(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+      const DiscView<V> seen =
+          locator.locate_discs(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
       V::store_integers(job.disc_first + base, seen.first);
       V::store_integers(job.disc_last + base, seen.last);
       V::store(job.disc_inverse + base, seen.inverse);

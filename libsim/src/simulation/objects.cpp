@@ -30,9 +30,9 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   // A portable block may be placed beyond the floor, as programs for Stage do.
   const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
   if (where) return "obstacle " + name + " would " + *where;
-  if (const auto fault = io::box_fault(now)) {
-    return "obstacle " + name + " cannot be so: expected " + fault->expected + ", found " +
-           fault->found;
+  if (const auto error = io::check_box(now)) {
+    return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
+           error->found;
   }
   const int robot = physics->robot_within(now);
   if (robot >= 0 && now.state == ObstacleState::kExtended) {
@@ -41,9 +41,9 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   }
   const int index = static_cast<int>(it - obstacles.begin());
   *it = std::move(now);
-  if (it->carried_by >= 0) let_go(index);
+  if (it->carried_by >= 0) detach_load(index);
   physics->change_obstacle(index, *it);
-  forget_clearances();
+  invalidate_clearances();
   return std::nullopt;
 }
 
@@ -59,8 +59,8 @@ std::optional<std::string> Simulation::Impl::pick_up(std::size_t robot, int inde
   const Pose X_WT{thing.center.x(), thing.center.y(), thing.yaw_rad};
   loads.push_back({robot, index, body_pose(robot).inverse() * X_WT, false});
   physics->set_extended(index, false);
-  show_load(robot);
-  forget_clearances();
+  update_load_outlines(robot);
+  invalidate_clearances();
   return std::nullopt;
 }
 
@@ -71,7 +71,7 @@ void Simulation::Impl::carry_at(std::size_t robot, int index, const Pose& X_BT, 
     load.inside = inside;
   }
   move_loads();
-  show_load(robot);
+  update_load_outlines(robot);
 }
 
 std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int index) {
@@ -84,22 +84,22 @@ std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int ind
   if (const auto what = io::put_down_blocked_by(world, poses, robot, thing)) {
     return "obstacle " + thing.name + " cannot be put down: " + *what;
   }
-  let_go(index);
+  detach_load(index);
   physics->change_obstacle(index, thing);
-  forget_clearances();
+  invalidate_clearances();
   return std::nullopt;
 }
 
 // The obstacle stands in the pose of its description again; the caller must update the physics.
-void Simulation::Impl::let_go(int index) {
+void Simulation::Impl::detach_load(int index) {
   const auto robot = static_cast<std::size_t>(std::exchange(obstacle(index).carried_by, -1));
   std::erase_if(loads, [&](const Load& load) { return load.obstacle == index; });
   physics->set_extended(index, true);
-  show_load(robot);
+  update_load_outlines(robot);
 }
 
 // Updates what the sensors of others see of a robot's load.
-void Simulation::Impl::show_load(std::size_t robot) {
+void Simulation::Impl::update_load_outlines(std::size_t robot) {
   std::vector<PhysicsWorld::Load> seen;
   for (const Load& load : loads) {
     if (load.robot != robot || load.inside) continue;
@@ -124,14 +124,14 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
   if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
     return "robot " + world.robots[i].name + " cannot be put there: " + *what;
   }
-  if (!io::is_place(X_WB)) {
+  if (!io::is_valid_pose(X_WB)) {
     return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
   }
   physics->set_pose(static_cast<int>(i), X_WB);
   robots[i].last_position = X_WB.position();  // the jump adds no path length
   move_loads();
   for (const auto& device : robots[i].devices) device->placed(X_WB);
-  forget_clearances();
+  invalidate_clearances();
   return std::nullopt;
 }
 
@@ -236,9 +236,9 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
 }
 
 template <typename Edit>
-std::optional<std::string> Simulation::Impl::change_look(const Simulation& simulation,
-                                                         const std::string& name,
-                                                         const char* refusal, Edit edit) {
+std::optional<std::string> Simulation::Impl::change_appearance(const Simulation& simulation,
+                                                               const std::string& name,
+                                                               const char* refusal, Edit edit) {
   if (const auto robot = simulation.find_robot(name)) {
     edit(world.robots[static_cast<std::size_t>(*robot)]);
     return std::nullopt;
@@ -254,14 +254,14 @@ std::optional<std::string> Simulation::Impl::change_look(const Simulation& simul
 }
 
 std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
-  return impl_->change_look(*this, name, "keeps its colour",
-                            [&](auto& object) { object.colour = colour; });
+  return impl_->change_appearance(*this, name, "keeps its colour",
+                                  [&](auto& object) { object.colour = colour; });
 }
 
 std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
   if (fiducial < 0) return "the number of a fiducial is at least 0";
-  return impl_->change_look(*this, name, "bears no fiducial",
-                            [&](auto& object) { object.fiducial = fiducial; });
+  return impl_->change_appearance(*this, name, "bears no fiducial",
+                                  [&](auto& object) { object.fiducial = fiducial; });
 }
 
 std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
@@ -285,7 +285,7 @@ std::optional<std::string> Simulation::set_obstacle_state(const std::string& nam
   }
   impl_->physics->set_extended(index, extend);
   it->state = state;
-  impl_->forget_clearances();
+  impl_->invalidate_clearances();
   return std::nullopt;
 }
 

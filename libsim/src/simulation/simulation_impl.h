@@ -23,7 +23,7 @@ struct alignas(64) RobotParts {
   double clearance_slack_m = 0.0;  // see update_clearance()
   std::uint32_t first_slot = 0;    // index of its first device's slot
   std::uint16_t slot_count = 0;
-  bool any_last = false;  // whether any device measures after others
+  bool any_measures_after_others = false;  // whether any device measures after others
   bool has_pen = false;
 
   Pen* pen = nullptr;  // its first pen and motion device, if any
@@ -40,7 +40,7 @@ struct Slot {
   std::uint16_t index;  // of the device
   bool is_sensor;
   bool integrates;
-  bool last;  // it reads other devices, so it measures after them
+  bool measures_after_others;  // it reads other devices
 
   [[nodiscard]] Sensor& sensor() const { return static_cast<Sensor&>(*device); }
 };
@@ -48,7 +48,7 @@ struct Slot {
 struct Simulation::Impl {
   class Control;
   class Directory;
-  struct Look {
+  struct Appearance {
     Colour colour;
     int fiducial;
   };
@@ -87,7 +87,7 @@ struct Simulation::Impl {
   void act(double dt_s);
   void update_robot(std::size_t i, double dt_s);
   // Updates a robot's devices that measure after others, or the remaining ones.
-  void update_devices(std::size_t i, bool last);
+  void update_devices(std::size_t i, bool measures_after_others);
   // Upper bound of how far any point of a robot can have moved in the last step.
   [[nodiscard]] double move_m(std::size_t i, double dt_s) const;
   // The least clearance so far can decrease only after the robot and its surroundings have moved by
@@ -95,7 +95,7 @@ struct Simulation::Impl {
   void update_clearance(std::size_t i, double dt_s);
   void measure_clearance(std::size_t i, double limit_m);
   // Invalidates all clearances after something was placed.
-  void forget_clearances();
+  void invalidate_clearances();
   void record_collisions();
   // Not done with each new collision, since it moves all that are kept.
   void forget_old_collisions();
@@ -107,8 +107,9 @@ struct Simulation::Impl {
   // Calls edit() with the description of a robot or block. Returns why it cannot.
   // @param refusal  what other objects do instead.
   template <typename Edit>
-  std::optional<std::string> change_look(const Simulation& simulation, const std::string& name,
-                                         const char* refusal, Edit edit);
+  std::optional<std::string> change_appearance(const Simulation& simulation,
+                                               const std::string& name, const char* refusal,
+                                               Edit edit);
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));
@@ -120,16 +121,16 @@ struct Simulation::Impl {
   void carry_at(std::size_t robot, int index, const Pose& X_BT, bool inside);
   std::optional<std::string> put_down(std::size_t robot, int index);
   // The obstacle stands in the pose of its description again; the caller must update the physics.
-  void let_go(int index);
+  void detach_load(int index);
   // Updates what the sensors of others see of a robot's load.
-  void show_load(std::size_t robot);
+  void update_load_outlines(std::size_t robot);
   void move_loads();
 
   // --- State (state.cpp)
   // Writes or reads the state. When reading, this object must be newly constructed.
   void archive(StateArchive& archive);
   // Replaces another simulation, see RestoreScope::kWorld.
-  void succeed(Impl& before);
+  void take_over_from(Impl& before);
   void archive_obstacle(StateArchive& archive, ObstacleDescription& thing);
   void archive_robot(StateArchive& archive, std::size_t i);
   // The layers of clients, and the view mode.
@@ -148,16 +149,16 @@ struct Simulation::Impl {
   LayerStack layers;
   ViewMode view_mode;
   std::vector<ObstacleDescription> start_obstacles;
-  std::vector<Look> start_looks;  // initial looks of the robots
+  std::vector<Appearance> start_appearances;  // of the robots
   std::vector<RobotParts> robots;
-  std::vector<Slot> slots;       // sorted by robot and device
-  std::vector<Motion*> motions;  // of the robots
-  std::vector<Actor> actors;     // sorted by robot and device
-  bool asked = false;            // act() of all devices has been called once
+  std::vector<Slot> slots;         // sorted by robot and device
+  std::vector<Motion*> motions;    // of the robots
+  std::vector<Actor> actors;       // sorted by robot and device
+  bool all_actors_called = false;  // act() of all devices has been called once
   std::vector<Load> loads;
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
-  std::vector<Utterance> said;
+  std::vector<SpokenText> spoken_texts;
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
   mutable std::optional<std::uint64_t> known_start_hash;

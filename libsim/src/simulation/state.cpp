@@ -69,9 +69,9 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
 WorldDescription Simulation::Impl::start_world() const {
   WorldDescription start = world;
   start.arena.obstacles = start_obstacles;
-  for (std::size_t i = 0; i < start_looks.size(); ++i) {
-    start.robots[i].colour = start_looks[i].colour;
-    start.robots[i].fiducial = start_looks[i].fiducial;
+  for (std::size_t i = 0; i < start_appearances.size(); ++i) {
+    start.robots[i].colour = start_appearances[i].colour;
+    start.robots[i].fiducial = start_appearances[i].fiducial;
   }
   return start;
 }
@@ -85,7 +85,7 @@ void Simulation::Impl::archive_obstacle(StateArchive& archive, ObstacleDescripti
   archive(thing.center, thing.size, thing.yaw_rad, thing.height_m, thing.fiducial, thing.colour);
   archive.choice(thing.state, ObstacleState::kRetracted);
   archive.index(thing.carried_by, robots.size(), -1);
-  archive.expect(!archive.reading() || !io::box_fault(thing), "obstacles that can be");
+  archive.expect(!archive.reading() || !io::check_box(thing), "obstacles that can be");
 }
 
 void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {
@@ -121,14 +121,14 @@ void Simulation::Impl::archive(StateArchive& archive) {
     archive.index(collision.robot, robots.size());
     archive(collision.partner);
   });
-  archive.list(said, [&](Utterance& utterance) {
-    archive.time(utterance.time_ns);
-    archive.index(utterance.robot, robots.size());
-    archive(utterance.text);
+  archive.list(spoken_texts, [&](SpokenText& spoken) {
+    archive.time(spoken.time_ns);
+    archive.index(spoken.robot, robots.size());
+    archive(spoken.text);
   });
   layers.archive_base(archive);
   if (!archive.reading()) return;
-  for (std::size_t i = 0; i < robots.size(); ++i) show_load(i);
+  for (std::size_t i = 0; i < robots.size(); ++i) update_load_outlines(i);
 }
 
 void Simulation::Impl::archive_pictures(StateArchive& archive) {
@@ -171,21 +171,21 @@ std::unique_ptr<Simulation::Impl> Simulation::Impl::restored(std::span<const std
   return made;
 }
 
-void Simulation::Impl::succeed(Impl& before) {
+void Simulation::Impl::take_over_from(Impl& before) {
   const SimTime later_ns = before.now_ns - now_ns;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].statistics = before.robots[i].statistics;
     for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
-      robots[i].devices[k]->succeed(*before.robots[i].devices[k], later_ns);
+      robots[i].devices[k]->take_over_from(*before.robots[i].devices[k], later_ns);
     }
     note_due_times(i);
   }
   now_ns = before.now_ns;
   steps = before.steps;
   collisions = std::move(before.collisions);
-  said = std::move(before.said);
+  spoken_texts = std::move(before.spoken_texts);
   updated.clear();
-  forget_clearances();
+  invalidate_clearances();
   layers.resize(before.layers.width(), before.layers.height());  // keep the size that clients chose
   before.layers.take_base(layers);
   layers = std::move(before.layers);
@@ -195,9 +195,9 @@ void Simulation::Impl::succeed(Impl& before) {
 void Simulation::restore(std::span<const std::uint8_t> snapshot, RestoreScope scope) {
   std::unique_ptr<Impl> restored = impl_->restored(snapshot, impl_->log);
   if (scope == RestoreScope::kAll) {
-    restored->layers.succeed(impl_->layers);
+    restored->layers.take_over_from(impl_->layers);
   } else {
-    restored->succeed(*impl_);
+    restored->take_over_from(*impl_);
   }
   impl_ = std::move(restored);
 }

@@ -433,7 +433,7 @@ TEST_P(WorldProxies, SayThings) {
   robot->Read();
   std::vector<std::string> said;
   host_->host().with_simulation([&](sim::Simulation& simulation) {
-    for (const sim::Utterance& u : simulation.said()) said.push_back(u.text);
+    for (const sim::SpokenText& u : simulation.spoken_texts()) said.push_back(u.text);
   });
   EXPECT_THAT(said, testing::ElementsAre("here \xc5\x99 ?!", std::string(254, 'x')));
   host_->host().finish();

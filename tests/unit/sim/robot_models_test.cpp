@@ -95,7 +95,7 @@ TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
     ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.1, 0.5}}));
     for (int i = 0; i < 300; ++i) simulation.step();
     const int odometry = simulation.find_device(0, "odometry").value();
-    const auto believed = simulation.device(0, odometry).believed_pose().value();
+    const auto believed = simulation.device(0, odometry).pose_estimate().value();
     EXPECT_NEAR(believed.x_m, simulation.body(0).X_WB.x_m - 3.0, 1e-9);
     EXPECT_NEAR(believed.y_m, simulation.body(0).X_WB.y_m - 3.0, 1e-9);
   }

@@ -191,16 +191,16 @@ TEST(Speech, StandsOverTheRobotForItsTime) {
   EXPECT_EQ(simulation.snapshot().robots[0].says, "hello");
   run(simulation, 1);
   EXPECT_EQ(simulation.snapshot().robots[0].says, "");
-  ASSERT_EQ(simulation.said().size(), 1U);
-  EXPECT_EQ(simulation.said()[0].time_ns, from_seconds(0.05));
-  EXPECT_EQ(simulation.said()[0].robot, 0);
-  EXPECT_EQ(simulation.said()[0].text, "hello");
+  ASSERT_EQ(simulation.spoken_texts().size(), 1U);
+  EXPECT_EQ(simulation.spoken_texts()[0].time_ns, from_seconds(0.05));
+  EXPECT_EQ(simulation.spoken_texts()[0].robot, 0);
+  EXPECT_EQ(simulation.spoken_texts()[0].text, "hello");
   EXPECT_THAT(log, ElementsAre("robot r1 says: hello"));
 
   ASSERT_FALSE(simulation.apply(id, SayCommand{"one"}));
   ASSERT_FALSE(simulation.apply(id, SayCommand{""}));
   EXPECT_EQ(simulation.snapshot().robots[0].says, "");
-  EXPECT_EQ(simulation.said().size(), 2U);  // silence does not count as speech
+  EXPECT_EQ(simulation.spoken_texts().size(), 2U);  // silence does not count as speech
   EXPECT_THAT(simulation.apply(id, SayCommand{std::string(256, 'x')}).value(), HasSubstr("255"));
 }
 

@@ -73,9 +73,9 @@ class CellRaster {
   static constexpr int kTileShift = 4;
   static constexpr int kTileSide = 1 << kTileShift;
   /// Flags of a tile.
-  static constexpr std::uint8_t kChanged = 1;  ///< written since mark_seen()
+  static constexpr std::uint8_t kChanged = 1;  ///< written since clear_changed()
   static constexpr std::uint8_t kUsed = 2;     ///< may hold cells that are not blank
-  static constexpr std::uint8_t kUnkept = 4;   ///< written since mark_kept()
+  static constexpr std::uint8_t kUnsaved = 4;  ///< written since clear_unsaved()
 
   /// @param blank  initial value of all cells, and of those that resize() adds.
   /// @pre sides >= 1.
@@ -136,13 +136,13 @@ class CellRaster {
 
   [[nodiscard]] int tile_columns() const noexcept { return tiles_across(width_); }
   [[nodiscard]] int tile_rows() const noexcept { return tiles_across(height_); }
-  /// Flags kChanged, kUsed and kUnkept of each tile, row-major from the top; tile_columns() x
+  /// Flags kChanged, kUsed and kUnsaved of each tile, row-major from the top; tile_columns() x
   /// tile_rows().
   [[nodiscard]] const std::vector<std::uint8_t>& tiles() const noexcept { return tiles_; }
   /// Clears kChanged of all tiles.
-  void mark_seen() noexcept;
-  /// Clears kUnkept of all tiles.
-  void mark_kept() noexcept;
+  void clear_changed() noexcept;
+  /// Clears kUnsaved of all tiles.
+  void clear_unsaved() noexcept;
 
   /// Writes or reads size and cells; a blank tile takes one byte. Cells that were read count as
   /// written.
@@ -154,7 +154,7 @@ class CellRaster {
   }
 
  private:
-  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnkept;
+  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnsaved;
 
   [[nodiscard]] static std::size_t byte_offset(int cells) noexcept {
     return static_cast<std::size_t>(cells) * sizeof(CellValue);

@@ -154,7 +154,7 @@ class LayerStack {
   void take_base(LayerStack& from);
   /// Continues the counters (version, revision) and the layer ids of a stack that this one
   /// replaces.
-  void succeed(const LayerStack& before);
+  void take_over_from(const LayerStack& before);
   /// @}
 
   /// Changes the number of columns and rows of all layers. Drawings keep their position in the

@@ -68,7 +68,7 @@ enum class FieldType : std::uint8_t {
 };
 
 /// An error in the combination of a struct's fields.
-struct FieldFault {
+struct FieldError {
   std::string id;        ///< in world files, e.g. "device/battery-voltage"
   std::string expected;  ///< in words, after "expected "
   std::string found;
@@ -82,7 +82,7 @@ struct Field;
 struct FieldTable {
   std::span<const Field> fields;
   /// Checks all fields together after they are read; nullptr if there is nothing to check.
-  std::optional<FieldFault> (*check)(const void* object) = nullptr;
+  std::optional<FieldError> (*check)(const void* object) = nullptr;
 };
 
 /// The table of a struct; specialised next to the struct.
@@ -117,7 +117,7 @@ struct ElementType {
 struct CustomField {
   void (*read)(io::Reader& settings, const Field& field, void* object);
   std::string (*text)(const void* object);  ///< as JSON
-  void (*tell)(const void* object, std::map<std::string, double>& properties);
+  void (*add_properties)(const void* object, std::map<std::string, double>& properties);
   const char* schema;  ///< members of its JSON schema, without braces
 };
 
@@ -130,21 +130,21 @@ struct Field {
   const char* meaning = "";  ///< a phrase in lower case, in Markdown
   std::int64_t least = 0;    ///< smallest value of a whole number
   std::int64_t greatest = 0;
-  std::size_t fewest = 0;  ///< minimum number of elements of a list
-  std::size_t most = std::numeric_limits<std::size_t>::max();
+  std::size_t min_count = 0;  ///< minimum number of elements of a list
+  std::size_t max_count = std::numeric_limits<std::size_t>::max();
   std::span<const char* const> words = {};  ///< names of a choice's values, in their order
   /// Name of the property that clients see; nullptr: the field's name without "_deg".
   const char* property = nullptr;
-  bool told = true;                  ///< clients see it as a property
-  bool told_only = false;            ///< clients see it, but world files cannot set it
-  bool tells_elements = false;       ///< clients see each element's fields, not only the number of
+  bool is_property = true;           ///< clients see it as a property
+  bool read_only = false;            ///< clients see it, but world files cannot set it
+  bool lists_elements = false;       ///< clients see each element's fields, not only the number of
                                      ///< elements
   bool may_be_left_out = false;      ///< may be missing in messages, and then keeps its default
   bool is_angle = false;             ///< in degrees in world files, in radians elsewhere
   const char* needed_for = nullptr;  ///< the field must name something; what it is needed for
-  const char* fault_id = nullptr;    ///< issue id for a list with wrong, too few or too many
+  const char* issue_id = nullptr;    ///< issue id for a list with wrong, too few or too many
                                      ///< elements
-  const char* fault_text = nullptr;  ///< the text after "expected" in that issue
+  const char* issue_expected = nullptr;    ///< the text after "expected" in that issue
   const FieldTable& (*table)() = nullptr;  ///< table of a struct, or of a list's elements
   const ListAccess* list = nullptr;
   const ElementType* element = nullptr;
@@ -177,7 +177,7 @@ struct Field {
     return made;
   }
   [[nodiscard]] constexpr Field counting(std::size_t from, std::size_t to) const {
-    return with<&Field::fewest>(from).with<&Field::most>(to);
+    return with<&Field::min_count>(from).with<&Field::max_count>(to);
   }
   [[nodiscard]] constexpr Field one_of(std::span<const char* const> all) const {
     return with<&Field::words>(all);
@@ -188,10 +188,10 @@ struct Field {
     made.table = nullptr;
     return made;
   }
-  [[nodiscard]] constexpr Field or_fault(const char* id, const char* expected) const {
-    return with<&Field::fault_id>(id).with<&Field::fault_text>(expected);
+  [[nodiscard]] constexpr Field with_issue(const char* id, const char* expected) const {
+    return with<&Field::issue_id>(id).with<&Field::issue_expected>(expected);
   }
-  [[nodiscard]] constexpr Field told_as(const char* key) const {
+  [[nodiscard]] constexpr Field property_name(const char* key) const {
     return with<&Field::property>(key);
   }
   [[nodiscard]] constexpr Field needed(const char* what_for) const {
@@ -200,9 +200,11 @@ struct Field {
   /// As a list of numbers from 0 to 255, not as opaque bytes.
   [[nodiscard]] constexpr Field as_octets() const { return with<&Field::type>(FieldType::kOctets); }
   [[nodiscard]] constexpr Field or_default() const { return with<&Field::may_be_left_out>(true); }
-  [[nodiscard]] constexpr Field untold() const { return with<&Field::told>(false); }
-  [[nodiscard]] constexpr Field only_told() const { return with<&Field::told_only>(true); }
-  [[nodiscard]] constexpr Field telling_each() const { return with<&Field::tells_elements>(true); }
+  [[nodiscard]] constexpr Field not_property() const { return with<&Field::is_property>(false); }
+  [[nodiscard]] constexpr Field as_read_only() const { return with<&Field::read_only>(true); }
+  [[nodiscard]] constexpr Field listing_elements() const {
+    return with<&Field::lists_elements>(true);
+  }
   /// @}
 };
 
@@ -390,10 +392,10 @@ void set_integer(const Field& field, void* value, std::int64_t number);
 [[nodiscard]] bool all_finite(const FieldTable& table, const void* object);
 
 /// Adds the numbers of a struct to the properties that clients see, in SI units and radians. A list
-/// adds its length; with tells_elements, it adds each element's fields with the suffixes "_0",
+/// adds its length; with lists_elements, it adds each element's fields with the suffixes "_0",
 /// "_1", ...
-void tell_fields(const FieldTable& table, const void* object,
-                 std::map<std::string, double>& properties, const std::string& suffix = "");
+void add_properties(const FieldTable& table, const void* object,
+                    std::map<std::string, double>& properties, const std::string& suffix = "");
 
 /// One alternative of a variant of structs: its name in messages and its fields.
 template <typename Variant>

@@ -8,17 +8,17 @@ namespace sim {
 
 /// The temporary name of a file while it is written: "scene.png" becomes "scene.part.png", so that
 /// the extension still shows the type.
-[[nodiscard]] std::string part_name(const std::string& path);
+[[nodiscard]] std::string part_file_name(const std::string& path);
 
 /// Replaces a file atomically: readers see either the old content or the complete new content.
-/// Writes to part_name() in the same folder, then renames. On failure the old file stays and the
-/// temporary file is removed. A path that exists and is not a regular file (a pipe, a device, a
+/// Writes to part_file_name() in the same folder, then renames. On failure the old file stays and
+/// the temporary file is removed. A path that exists and is not a regular file (a pipe, a device, a
 /// link) is written directly.
 /// @return 0, or the errno of the failed call.
 [[nodiscard]] int replace_file(const std::string& path, std::string_view bytes) noexcept;
 
-/// Renames a file that was written as part_name(path) to its final name.
+/// Renames a file that was written as part_file_name(path) to its final name.
 /// @return 0, or the errno of the failed call.
-[[nodiscard]] int adopt_part(const std::string& path) noexcept;
+[[nodiscard]] int rename_part_file(const std::string& path) noexcept;
 
 }  // namespace sim

@@ -30,7 +30,7 @@ struct ReadingKind {
 };
 
 /// An interface (named as in Player) under which clients find devices of a kind.
-struct CarriedInterface {
+struct ProvidedInterface {
   const char* name;
   int rank = 0;  ///< among the kinds with this interface, the least rank has index 0
 };
@@ -41,7 +41,7 @@ struct DeviceKind : io::DeviceType {
   /// Pointer to the struct that `settings` describes, inside the result of parse() or defaults().
   const void* (*settings_in)(const std::any& params) = nullptr;
   ReadingKind reading;
-  std::vector<CarriedInterface> interfaces;
+  std::vector<ProvidedInterface> interfaces;
   /// Creates a device.
   /// @param world_seed  seed of the run, for the device's noise stream.
   std::function<std::unique_ptr<Device>(const DeviceDescription&, const RobotDescription&,

@@ -184,14 +184,14 @@ class RobotControl {
   virtual ~RobotControl() = default;
 
   [[nodiscard]] virtual const BodyState& body() const = 0;
-  /// Estimate of the robot's pose by the robot's device of that index (Device::believed_pose);
+  /// Estimate of the robot's pose by the robot's device of that index (Device::pose_estimate);
   /// nullopt if there is no such device, or if it has no estimate.
-  [[nodiscard]] virtual std::optional<Pose> pose_by(int device) const = 0;
+  [[nodiscard]] virtual std::optional<Pose> pose_estimate_of(int device) const = 0;
   /// Makes `device` the one that drives the robot; notifies all other devices of the robot
-  /// (Device::motors_taken).
+  /// (Device::on_motors_taken).
   /// @return false if the robot has no motors, or if `device` is a motion device but not the one
   ///     that moves the robot.
-  virtual bool take_motors(const Device& device) = 0;
+  virtual bool acquire_motors(const Device& device) = 0;
   /// Sets the target twist of the motors, like a TwistCommand. No effect if the robot has no
   /// motors, or if they are off.
   virtual void drive(const Twist& twist) = 0;
@@ -271,20 +271,20 @@ class Device {
   [[nodiscard]] bool integrates() const noexcept { return integrates_; }
 
   /// Called when another device starts to drive the robot.
-  virtual void motors_taken() {}
+  virtual void on_motors_taken() {}
   /// Called when the robot was placed at X_WB, at rest, without driving there.
   virtual void placed(const Pose& X_WB) { static_cast<void>(X_WB); }
   /// Called on a new or restored device that replaces `before` in a reset or restore. Takes over
   /// the counters of `before`, and shifts its own schedule by `later_ns`.
   /// @pre `before` has the same class.
-  virtual void succeed(const Device& before, SimTime later_ns) {
+  virtual void take_over_from(const Device& before, SimTime later_ns) {
     static_cast<void>(before);
     static_cast<void>(later_ns);
   }
 
   /// A localisation device's current estimate of the robot's pose, in its own frame and without the
   /// noise of single readings; nullopt for other devices.
-  [[nodiscard]] virtual std::optional<Pose> believed_pose() const { return std::nullopt; }
+  [[nodiscard]] virtual std::optional<Pose> pose_estimate() const { return std::nullopt; }
 
   /// @name Special kinds of devices
   /// @{
@@ -347,7 +347,7 @@ class Sensor : public Device {
 
   [[nodiscard]] const Sensor* sensor() const noexcept final { return this; }
 
-  void succeed(const Device& before, SimTime later_ns) override;
+  void take_over_from(const Device& before, SimTime later_ns) override;
   void archive(StateArchive& archive) override;
 
  protected:

@@ -107,7 +107,7 @@ class Gripper final : public SensorOf<GripperReading> {
   std::optional<std::string> store(RobotControl& robot);
   std::optional<std::string> retrieve(RobotControl& robot);
   void close_further(RobotControl& robot, const StepContext& now);
-  void forget_lost(const StepContext& now);
+  void drop_missing(const StepContext& now);
   [[nodiscard]] bool is_stopped_at(const StepContext& now, double gap_m) const;
   [[nodiscard]] bool is_broken(const StepContext& now, double x_m) const;
 

@@ -64,10 +64,10 @@ class Imu final : public SensorOf<ImuReading> {
   RandomStream noise_;
   std::array<double, 3> bias_mps2_{};
   std::array<double, 3> bias_radps_{};
-  Twist before_;               ///< twist at the end of the last step
-  double gained_x_mps_ = 0.0;  ///< integral of the acceleration since the last reading
-  double gained_y_mps_ = 0.0;
-  double turned_rad_ = 0.0;
+  Twist before_;                        ///< twist at the end of the last step
+  double velocity_change_x_mps_ = 0.0;  ///< integral of the acceleration since the last reading
+  double velocity_change_y_mps_ = 0.0;
+  double rotation_rad_ = 0.0;
   double time_s_ = 0.0;
   double yaw_rad_;
 };

@@ -63,7 +63,7 @@ class PoseSensor final : public SensorOf<PoseReading> {
   void integrate(const StepContext& context) override;
   void placed(const Pose& X_WB) override { X_WB_ = X_WB; }
   /// The pose without noise, in the frame of the reports.
-  [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_FW_ * X_WB_; }
+  [[nodiscard]] std::optional<Pose> pose_estimate() const override { return X_FW_ * X_WB_; }
   void archive(StateArchive& archive) override;
 
  protected:
@@ -94,7 +94,7 @@ class Odometry final : public SensorOf<PoseReading> {
 
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
-  [[nodiscard]] std::optional<Pose> believed_pose() const override { return X_SB_; }
+  [[nodiscard]] std::optional<Pose> pose_estimate() const override { return X_SB_; }
   void archive(StateArchive& archive) override;
 
  protected:

@@ -77,11 +77,11 @@ class PositionControl {
   DriveDescription drive_;
   MotionParams params_;
   PositionCommand command_;
-  bool aligning_ = false;   ///< differential: at the goal, turning to its heading
-  bool backwards_ = false;  ///< car: driving backwards
-  bool leaving_ = false;    ///< car: driving away from a goal within its turning circle
-  bool sought_ = false;     ///< car: the controller has sought the goal's heading
-  bool given_up_ = false;   ///< car: the controller has given up the goal's heading
+  bool aligning_ = false;           ///< differential: at the goal, turning to its heading
+  bool backwards_ = false;          ///< car: driving backwards
+  bool leaving_ = false;            ///< car: driving away from a goal within its turning circle
+  bool sought_heading_ = false;     ///< car: the controller has sought the goal's heading
+  bool heading_abandoned_ = false;  ///< car: the controller has abandoned the goal's heading
 };
 
 /// The motors of a robot. Takes commands by twist, by heading, by position, or like a car.
@@ -103,7 +103,7 @@ class Motion final : public Actuator {
   std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   /// Continues to hold a heading or to drive to a position, if commanded.
   void act(RobotControl& robot) override;
-  void motors_taken() override;
+  void on_motors_taken() override;
   void placed(const Pose& X_WB) override;
 
   [[nodiscard]] Motion* motion() noexcept override { return this; }

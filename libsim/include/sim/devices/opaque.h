@@ -51,14 +51,14 @@ class Opaque final : public SensorOf<OpaqueReading> {
 
  private:
   using Message = std::vector<std::uint8_t>;
-  struct Line {
+  struct Connection {
     const Opaque* sender = nullptr;
-    std::uint64_t heard = 0;  ///< number of messages received from that sender
+    std::uint64_t received_count = 0;  ///< number of messages received from that sender
   };
-  void hear(Line& line);
+  void receive(Connection& connection);
 
   OpaqueParams params_;
-  std::vector<Line> lines_;
+  std::vector<Connection> connections_;
   /// Messages sent since the step before the last one; the newest has the number sent_. All
   /// receivers have already received the older ones.
   std::deque<Message> sent_messages_;

@@ -79,9 +79,9 @@ class Waypoint final : public SensorOf<WaypointReading> {
   std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   void act(RobotControl& robot) override;
   void integrate(const StepContext& context) override;
-  void motors_taken() override;
+  void on_motors_taken() override;
   void placed(const Pose& X_WB) override;
-  void succeed(const Device& before, SimTime later_ns) override;
+  void take_over_from(const Device& before, SimTime later_ns) override;
 
   [[nodiscard]] const WaypointParams& params() const noexcept { return params_; }
   /// State at the end of the last step.
@@ -107,8 +107,8 @@ class Waypoint final : public SensorOf<WaypointReading> {
   std::uint64_t goal_number_ = 0;
   bool has_goal_ = false;  ///< since the start or the last reset
   WaypointStatus status_ = WaypointStatus::kArrived;
-  bool steers_ = false;  ///< drives the motors, and must stop them when not in transit
-  Pose X_WB_;            ///< pose at the last step
+  bool controls_motors_ = false;  ///< drives the motors, and must stop them when not in transit
+  Pose X_WB_;                     ///< pose at the last step
 };
 
 }  // namespace sim

@@ -55,7 +55,7 @@ class Reader {
   [[nodiscard]] const std::string& file() const;     ///< the file's name in messages
 
   /// This value in words for a message, shortened: `3.5`, `"abc"`, `an object`, `a list of 2`.
-  [[nodiscard]] std::string described() const;
+  [[nodiscard]] std::string description_for_message() const;
   /// The content of a text, a number as written in the file, "true" or "false"; otherwise nullopt.
   [[nodiscard]] std::optional<std::string> scalar_text() const;
   /// Whether this value is an object; if not, records an issue.

@@ -37,7 +37,7 @@ struct Collision {
 };
 
 /// A text that a robot said.
-struct Utterance {
+struct SpokenText {
   SimTime time_ns = 0;
   int robot = 0;     ///< index
   std::string text;  ///< UTF-8
@@ -90,7 +90,7 @@ class Simulation {
   /// The newest collisions, oldest first. At most 1024 are kept; RobotStatistics counts all.
   [[nodiscard]] const std::vector<Collision>& collisions() const noexcept;
   /// The newest texts that robots said, oldest first; at most 1024 are kept.
-  [[nodiscard]] const std::vector<Utterance>& said() const noexcept;
+  [[nodiscard]] const std::vector<SpokenText>& spoken_texts() const noexcept;
 
   [[nodiscard]] int device_count(int robot) const;
   [[nodiscard]] const Device& device(int robot, int device) const;
@@ -209,9 +209,10 @@ class Simulation {
   ///
   /// With RestoreScope::kWorld only the world is restored. Everything that reset() keeps is kept
   /// here too: the clock and the step count; sequence numbers and Waypoint::goal_number();
-  /// statistics(), collisions() and said(), which cover the whole run; the view mode, the size of
-  /// the canvas and the layers of clients. The delay until each sensor's next measurement is the
-  /// one at the time of the snapshot. Invalidates references to devices and readings, like reset().
+  /// statistics(), collisions() and spoken_texts(), which cover the whole run; the view mode, the
+  /// size of the canvas and the layers of clients. The delay until each sensor's next measurement
+  /// is the one at the time of the snapshot. Invalidates references to devices and readings, like
+  /// reset().
   /// @throws SnapshotError if the snapshot is truncated or altered, or has another version, world
   ///     or seed. The simulation is then unchanged.
   void restore(std::span<const std::uint8_t> snapshot, RestoreScope scope = RestoreScope::kAll);

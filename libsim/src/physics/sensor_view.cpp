@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "physics/sight.h"
+#include "physics/sensor_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
 
 }  // namespace
 
-void Sight::solids_changed() {
+void SensorView::solids_changed() {
   sweep_ = bodies_.edges().edges.size() <= kSweepLimit;
   fixed_edges_.clear();
   if (!sweep_) return;
@@ -59,12 +59,12 @@ void Sight::solids_changed() {
   }
 }
 
-void Sight::robot_was_placed() {
-  for (Spot& spot : by_place_) spot.until_m = 0.0;
+void SensorView::robot_was_placed() {
+  for (HilbertEntry& entry : by_hilbert_index_) entry.until_m = 0.0;
   outlines_fresh_ = false;
 }
 
-void Sight::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
+void SensorView::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
   r.details->load.clear();
   r.details->load_obstacles.clear();
   r.details->seen_radius_m = r.radius_m;
@@ -84,29 +84,32 @@ void Sight::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
 
 // Sorts the robots by their position on a Hilbert curve, so that consecutive robots are near each
 // other. A position is kept until the robot has moved by kWhile_m, since small moves hardly matter.
-void Sight::sort_by_place() {
+void SensorView::sort_by_hilbert_index() {
   constexpr double kWhile_m = 0.1;
-  for (Spot& spot : by_place_) {
-    const Robot& r = bodies_.robot(spot.robot);
-    if (r.cumulative_max_travel_m < spot.until_m) continue;
-    spot.place = along_hilbert_curve(r.X_WB.position());
-    spot.until_m = r.cumulative_max_travel_m + kWhile_m;
+  for (HilbertEntry& entry : by_hilbert_index_) {
+    const Robot& r = bodies_.robot(entry.robot);
+    if (r.cumulative_max_travel_m < entry.until_m) continue;
+    entry.hilbert_index = along_hilbert_curve(r.X_WB.position());
+    entry.until_m = r.cumulative_max_travel_m + kWhile_m;
   }
-  for (std::size_t i = 1; i < by_place_.size(); ++i) {  // insertion sort: nearly sorted already
-    const Spot moving = by_place_[i];
+  // Insertion sort, since the robots are nearly sorted already.
+  for (std::size_t i = 1; i < by_hilbert_index_.size(); ++i) {
+    const HilbertEntry moving = by_hilbert_index_[i];
     std::size_t j = i;
-    for (; j > 0 && by_place_[j - 1].place > moving.place; --j) by_place_[j] = by_place_[j - 1];
-    by_place_[j] = moving;
+    for (; j > 0 && by_hilbert_index_[j - 1].hilbert_index > moving.hilbert_index; --j) {
+      by_hilbert_index_[j] = by_hilbert_index_[j - 1];
+    }
+    by_hilbert_index_[j] = moving;
   }
 }
 
-void Sight::rebuild_outlines() {
+void SensorView::rebuild_outlines() {
   load_edges_.clear();
   outlines_.resize(bodies_.robots().size());
   robot_discs_.clear();
-  sort_by_place();
-  for (std::size_t k = 0; k < by_place_.size(); ++k) {
-    const Robot& r = bodies_.robot(by_place_[k].robot);
+  sort_by_hilbert_index();
+  for (std::size_t k = 0; k < by_hilbert_index_.size(); ++k) {
+    const Robot& r = bodies_.robot(by_hilbert_index_[k].robot);
     robot_discs_.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
                      static_cast<float>(r.details->seen_radius_m));
     const double c = std::cos(r.X_WB.yaw_rad);
@@ -122,7 +125,7 @@ void Sight::rebuild_outlines() {
     outline.p_WB = r.X_WB.position();
     outline.seen_radius_m = r.details->seen_radius_m;
     outline.height_m = r.details->height_m;
-    outline.robot = by_place_[k].robot;
+    outline.robot = by_hilbert_index_[k].robot;
     outline.first_load = load_edges_.edges.size();
     for (std::size_t i = 0; i < r.details->load.edges.size(); ++i) {
       const Edge& e = r.details->load.edges[i];
@@ -139,7 +142,7 @@ void Sight::rebuild_outlines() {
 // Casts a ray from A to C at the robots for which may(robot) is true. Calls visit(fraction of the
 // line) for each robot that it hits from outside, until visit returns false.
 template <typename Filter, typename Visitor>
-void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
+void SensorView::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
   const Vec2 line = p_WC - p_WA;
   b2RayCastInput input;
   input.p1 = to_box2d(p_WA);
@@ -160,14 +163,14 @@ void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visit
       });
 }
 
-scan::ScanKernel& Sight::kernel_of(const scan::ScanGeometry& geometry) {
+scan::ScanKernel& SensorView::kernel_of(const scan::ScanGeometry& geometry) {
   const auto it = std::find_if(kernels_.begin(), kernels_.end(),
                                [&](const scan::ScanKernel& k) { return k.geometry() == geometry; });
   return it != kernels_.end() ? *it : kernels_.emplace_back(geometry);
 }
 
 // Appends the edges of a robot's outline.
-void Sight::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
+void SensorView::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
   static_assert(sizeof(Vec2) == 2 * sizeof(double));
   scan::Edge* const target = out.append(outline.count);
   const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
@@ -176,8 +179,8 @@ void Sight::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuf
   }
 }
 
-void Sight::collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
-                                 scan::EdgeBuffer& edges) {
+void SensorView::collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                                      scan::EdgeBuffer& edges) {
   edges.clear();
   if (sweep_) {
     append_edges(fixed_edges_, 0, fixed_edges_.edges.size(), p_WL, sensor_height_m, edges);
@@ -191,8 +194,8 @@ void Sight::collect_static_edges(const Vec2& p_WL, double radius_m, double senso
   });
 }
 
-void Sight::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
-                          bool test_inside, scan::EdgeBuffer& edges) {
+void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                               int own_robot, bool test_inside, scan::EdgeBuffer& edges) {
   collect_static_edges(p_WL, radius_m, sensor_height_m, edges);
   if (!outlines_fresh_) rebuild_outlines();
   for (const Outline& outline : outlines_) {
@@ -211,8 +214,8 @@ void Sight::collect_edges(const Vec2& p_WL, double radius_m, double sensor_heigh
   if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
 }
 
-void Sight::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
-                 int own_robot, bool test_inside, std::span<double> ranges_m) {
+void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
+                      int own_robot, bool test_inside, std::span<double> ranges_m) {
   if (!outlines_fresh_) rebuild_outlines();
   scan::ScanKernel& kernel = kernel_of(geometry);
   scan::EdgeBuffer& edges = scan_edges_;
@@ -239,8 +242,8 @@ void Sight::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double se
   kernel.finish(ranges_m);
 }
 
-void Sight::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
-                          std::vector<Face>& faces) {
+void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
+                               std::vector<Face>& faces) {
   faces.clear();
   if (!outlines_fresh_) rebuild_outlines();
   const auto add = [&](const Edge& e, Contact::Kind kind, int index, double height_m) {
@@ -267,8 +270,8 @@ void Sight::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
   }
 }
 
-bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
-                         const Contact& target) {
+bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
+                              const Contact& target) {
   struct Blocked : b2RayCastCallback {
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
       const FixtureInfo& info = info_of(fixture);
@@ -305,7 +308,7 @@ bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, in
   return !callback.blocked;
 }
 
-bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
+bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   bool inside = false;
   visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
     if (info_of(&fixture).height_m <= height_m) return;
@@ -332,7 +335,8 @@ bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   return crossings % 2 == 1;
 }
 
-double Sight::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m, int own_robot) {
+double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
+                              int own_robot) {
   struct Closest : b2RayCastCallback {
     float fraction = 1.0F;
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {

@@ -16,9 +16,9 @@ using Face = PhysicsWorld::Face;
 
 /// What sensors see: edges and faces of solids, of robots and of carried objects. The functions
 /// have the same meaning as in PhysicsWorld.
-class Sight {
+class SensorView {
  public:
-  explicit Sight(Bodies& bodies) : bodies_(bodies) { solids_changed(); }
+  explicit SensorView(Bodies& bodies) : bodies_(bodies) { solids_changed(); }
 
   /// Writes or reads the state, except what robots carry. When reading, the state of the solids
   /// must have been read before.
@@ -28,7 +28,7 @@ class Sight {
   /// Must be called after robots have moved or their loads have changed.
   void robots_changed() noexcept { outlines_fresh_ = false; }
   /// Must be called after a robot was added or placed.
-  void add_robot(int robot) { by_place_.push_back({0, robot, 0.0}); }
+  void add_robot(int robot) { by_hilbert_index_.push_back({0, robot, 0.0}); }
   void robot_was_placed();
 
   void set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads);
@@ -44,9 +44,9 @@ class Sight {
                                   int own_robot);
 
  private:
-  // A robot with its position on the Hilbert curve.
-  struct Spot {
-    std::uint32_t place;
+  // A robot with its index along the Hilbert curve.
+  struct HilbertEntry {
+    std::uint32_t hilbert_index;
     int robot;
     double until_m;  // valid until the robot's cumulative travel has this value
   };
@@ -67,7 +67,7 @@ class Sight {
     }
   };
 
-  void sort_by_place();
+  void sort_by_hilbert_index();
   void rebuild_outlines();
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
   template <typename Filter, typename Visitor>
@@ -81,10 +81,10 @@ class Sight {
   bool sweep_ = true;     // the world is small
   EdgeList load_edges_;
   std::vector<Outline> outlines_;
-  scan::DiscBuffer robot_discs_;           // bounding discs of `outlines_`
-  std::vector<Spot> by_place_;             // order of `outlines_` and `robot_discs_`
-  std::vector<scan::ScanKernel> kernels_;  // for scan(), one per geometry
-  scan::EdgeBuffer scan_edges_;            // scratch memory of scan()
+  scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`
+  std::vector<HilbertEntry> by_hilbert_index_;  // order of `outlines_` and `robot_discs_`
+  std::vector<scan::ScanKernel> kernels_;       // for scan(), one per geometry
+  scan::EdgeBuffer scan_edges_;                 // scratch memory of scan()
   bool outlines_fresh_ = false;
 };
 
