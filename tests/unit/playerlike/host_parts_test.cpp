@@ -299,8 +299,8 @@ TEST_F(InputsTest, DrawingsOnLayersOfOthersAreLeftOut) {
   Inputs inputs(simulation, warn);
   const auto owner = clients.add(6665, false, {});
   const auto other = clients.add(6666, false, {});
-  const sim::LayerId layer = inputs.book.create(simulation.layers(), owner->number, owner->port,
-                                                sim::LayerKind::kBinary, {.name = "own"});
+  const sim::LayerId layer = inputs.registry.create(simulation.layers(), owner->number, owner->port,
+                                                    sim::LayerKind::kBinary, {.name = "own"});
   inputs.reserve_drawings(*owner);
   inputs.reserve_drawings(*other);
   const auto pixel = [&](int column, std::uint32_t value) {
