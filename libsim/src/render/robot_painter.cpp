@@ -15,6 +15,8 @@ namespace {
 // Much less than this far a line may be off its points without anybody seeing it.
 constexpr double kTolerance_px = 0.15;
 constexpr double kAnyLength_px = 1e9;
+// More robots than this get short fans.
+constexpr std::ptrdiff_t kMostFans = 20;
 
 // A polyline with fewer points that passes all of those left out within `tolerance_px`, and none of
 // whose parts is longer than `longest_px` unless one was. What comes of points does not
@@ -74,6 +76,10 @@ class RobotPainter {
       : scene_(scene), layout_(layout), painter_(painter) {}
 
   void draw_fans(const std::vector<std::uint8_t>& cells) {
+    if (fan_count() > kMostFans) {
+      draw_short_fans();
+      return;
+    }
     const double strength = fan_strength() * (1.0 - 0.4 * drawn_share(cells));
     for (const RobotSnapshot& robot : scene_.robots) {
       std::vector<Vec2> outline = hits_of(robot);
@@ -184,6 +190,32 @@ class RobotPainter {
       }
       end_surface();
       painter_.fill(rim, opaque(robot.colour), 0.35 + 0.5 * strength);
+    }
+  }
+
+  // Whole fans of many robots would mix their colours into grey: of each only what is near its
+  // robot is drawn, and fades out.
+  void draw_short_fans() {
+    constexpr double kRadii = 5.0;
+    const Vec2 floor_px = scene_.arena.size * layout_.pixels_per_m;
+    const double spacing_px =
+        std::sqrt(floor_px.x() * floor_px.y() / static_cast<double>(fan_count()));
+    for (const RobotSnapshot& robot : scene_.robots) {
+      std::vector<Vec2> outline = hits_of(robot);
+      if (outline.empty()) continue;
+      const Vec2 origin = layout_(robot.scan_origin);
+      const double reach_px =
+          std::max(std::min(kRadii * radius_px(robot, layout_), 0.6 * spacing_px),
+                   2.0 * marked_radius_px(robot, layout_));
+      for (Vec2& hit : outline) {
+        const Vec2 beam = hit - origin;
+        const double length_px = beam.norm();
+        if (length_px > reach_px) hit = origin + beam * (reach_px / length_px);
+      }
+      outline.push_back(origin);
+      Shape fan;
+      fan.add_outline(outline);
+      painter_.fill_fading(fan, opaque(robot.colour), origin, reach_px, 0.42, 0.0);
     }
   }
 
@@ -334,10 +366,14 @@ class RobotPainter {
     return hits;
   }
 
+  [[nodiscard]] std::ptrdiff_t fan_count() const {
+    return std::count_if(scene_.robots.begin(), scene_.robots.end(),
+                         [](const auto& robot) { return !robot.scan_points.empty(); });
+  }
+
   // Fans of many robots lie upon each other: together they must not hide the floor.
   [[nodiscard]] double fan_strength() const {
-    const auto count = std::count_if(scene_.robots.begin(), scene_.robots.end(),
-                                     [](const auto& robot) { return !robot.scan_points.empty(); });
+    const std::ptrdiff_t count = fan_count();
     return 1.0 / std::pow(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)), 0.7);
   }
 

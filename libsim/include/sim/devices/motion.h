@@ -112,6 +112,8 @@ class Motion final : public Actuator {
   [[nodiscard]] const Twist& commanded() const noexcept { return commanded_; }
   /// Of a car: where its front wheels point now, counter-clockwise [rad]; else 0.
   [[nodiscard]] double steering_rad() const noexcept { return steering_rad_; }
+  /// Whether the motors drive to a position: then present_command() is a PositionCommand.
+  [[nodiscard]] bool has_position_goal() const noexcept { return mode_ == Mode::kPosition; }
   /// A command that, given again, lets it go on with what it does now.
   [[nodiscard]] Command present_command() const;
   void archive(StateArchive& archive) override;

@@ -92,6 +92,8 @@ class Waypoint final : public SensorOf<WaypointReading> {
   [[nodiscard]] std::uint64_t goal_number() const noexcept { return goal_number_; }
   /// The goal that was accepted last, in W [m]; before the first: where the robot started.
   [[nodiscard]] const Vec2& goal() const noexcept { return goal_.goal_m; }
+  /// Of that goal: so near to it the robot has arrived [m].
+  [[nodiscard]] double tolerance_m() const noexcept { return goal_.tolerance_m; }
   /// From the robot to the goal [m].
   [[nodiscard]] double distance_m() const;
 
