@@ -9,6 +9,7 @@
 #include "playerlike/host/run_settings.h"
 #include "playerlike/server/server_settings.h"
 #include "sim/core/log.h"
+#include "sim/render/render.h"
 
 /// The commands of `playpen`, behind their arguments. Each prints to the standard streams and
 /// returns an exit status; what goes wrong beyond that is thrown.
@@ -82,6 +83,7 @@ struct RenderRequest {
   std::string file;   ///< .png, or .yaml with `map`
   int size_px = 1000;
   std::optional<sim::ViewMode> view_mode;  ///< instead of the world's
+  sim::render::RenderOptions pictures;     ///< what the picture shows; `size_px` is its size
   bool canvas = false;                     ///< the canvas alone
   bool map = false;                        ///< the true map
 };
@@ -92,5 +94,16 @@ struct RenderRequest {
 /// @throws sim::ConfigError for a bad world or map, std::runtime_error if the file can't be written
 ///         or the request asks for what is not there.
 [[nodiscard]] int render(const RenderRequest& request);
+
+/// What `playpen plot` was asked for.
+struct PlotRequest {
+  std::vector<std::string> folders;  ///< of results
+  std::string file = "plot.png";     ///< .png or .svg
+};
+
+/// Draws charts of runs. What cannot be shown because a world's file is gone is said on the
+/// standard error.
+/// @throws std::runtime_error naming the folder or file that is no run's, or cannot be written.
+[[nodiscard]] int plot(const PlotRequest& request);
 
 }  // namespace playpen

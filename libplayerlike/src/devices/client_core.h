@@ -103,6 +103,9 @@ class ClientCore final : private ReadingSink {
   void note_pose(int robot, const sim::Pose& pose, bool absolute);
   [[nodiscard]] std::optional<sim::Pose> last_pose(int robot) const;
 
+  /// The position goals that MorseRobot has set, by robot, in W; under the mutex.
+  std::map<int, sim::Pose>& position_goals() noexcept { return position_goals_; }
+
   /// A layer of the session for a Graphics2dProxy: one that an earlier proxy has given back, or a
   /// new one, under the first of the names "graphics2d", "graphics2d_1", ... that no proxy uses and
   /// no other layer has. The mutex is held by the caller.
@@ -143,6 +146,7 @@ class ClientCore final : private ReadingSink {
   std::list<Entry> entries_;                              // in the order of their addition
   std::multimap<std::pair<int, int>, Entry*> by_device_;  // robot and device -> entries
   std::map<int, KnownPose> poses_;
+  std::map<int, sim::Pose> position_goals_;
   std::map<int, bool> replace_rules_;
   std::map<sim::LayerId, bool> sheets_;  // layers of graphics proxies -> in use
   int looks_ = 0;                        // not told to the session yet

@@ -118,7 +118,8 @@ constexpr auto fields_of(std::type_identity<RobotInfo> /*type*/) {
       field("name", &T::name), field("model", &T::model), field("colour", &T::colour),
       field("initial_pose", &T::initial_pose), field("port", &T::port, WholeRange{0, 65535}),
       field("length", &T::length_m), field("width", &T::width_m), field("height", &T::height_m),
-      field("center", &T::center_m), field("max_speed", &T::max_speed_mps),
+      field("center", &T::center_m), field("radius", &T::radius_m, Presence::kOptional),
+      field("mass", &T::mass_kg, Presence::kOptional), field("max_speed", &T::max_speed_mps),
       field("max_turn_rate", &T::max_turn_rate_radps), field("proxies", &T::proxies, kAnyInt),
       field("interfaces", &T::interfaces), field("drivers", &T::drivers),
       field("snd_drivers", &T::snd_drivers), field("devices", &T::devices));

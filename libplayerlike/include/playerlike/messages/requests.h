@@ -455,6 +455,20 @@ struct RestoreStateRequest {
   static constexpr std::tuple kFields{field("name", &RestoreStateRequest::name)};
 };
 
+/// Tells the simulation where a robot is to drive by commands that do not say so, as those of a
+/// program that avoids obstacles: report and pictures show the goal. Nothing else follows from it.
+/// @throws SessionError kNoSuchDevice; kBadArgument for numbers that are not finite.
+struct NoteGoalRequest {
+  using Result = void;
+  static constexpr const char* kName = "note_goal";
+  DeviceId device{-1, -1};               ///< any device of the robot
+  sim::Vec2 goal_m = sim::Vec2::Zero();  ///< in the robot's frame B as it stands now [m]
+  double tolerance_m = 0.0;              ///< the robot has arrived when it is so near [m]
+  static constexpr std::tuple kFields{field("device", &NoteGoalRequest::device),
+                                      field("goal", &NoteGoalRequest::goal_m),
+                                      field("tolerance", &NoteGoalRequest::tolerance_m)};
+};
+
 /// Changes what the log of this session's port does, in the order of the members, or (without
 /// changes) only tells it. The log has the readings of that port's robots, see docs/log.md. All
 /// sessions of a port have it in common.
@@ -487,7 +501,7 @@ using Request =
                  ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
                  SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
                  ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
-                 RestoreStateRequest, LogRequest>;
+                 RestoreStateRequest, NoteGoalRequest, LogRequest>;
 
 /// The result of any request; std::monostate for those without.
 using Answer =

@@ -19,6 +19,16 @@ struct SndSettings {
   double patience_s = 20.0;       ///< blocked when it comes no nearer to the goal for so long
 };
 
+/// The settings that suit a robot, for what its driver is not told otherwise: a disc that holds the
+/// footprint (its radius rounded up to whole centimetres), one and a half times that as the safety
+/// distance, 0.6 of the greatest speed and half of the greatest turn rate; the others as
+/// SndSettings has them. For an S1R these are the values of SndSettings itself.
+/// @param radius_m  of the footprint round the axle's middle [m]; 0 (not known): that of an S1R.
+/// @param max_speed_mps, max_turn_rate_radps  what the robot's drive can do; 0 (not known): what an
+///     S1R can do.
+[[nodiscard]] SndSettings snd_settings_for(double radius_m, double max_speed_mps,
+                                           double max_turn_rate_radps);
+
 /// A number among the settings: how it is called and bounded.
 struct SndSettingRow {
   const char* key;   ///< in world files; one that ends in "_deg" is in degrees there
@@ -46,10 +56,12 @@ struct SndDriverDescription {
 /// @param robot    in the world.
 /// @param file     as messages call the world.
 /// @param pointer  JSON pointer of the robot, e.g. "/robots/0".
+/// @param defaults  settings that the world leaves out, see snd_settings_for().
 /// @throws sim::ConfigError with all that is wrong.
 [[nodiscard]] std::vector<SndDriverDescription> read_drivers(const sim::RobotDescription& robot,
                                                              const std::string& file,
-                                                             const std::string& pointer);
+                                                             const std::string& pointer,
+                                                             const SndSettings& defaults = {});
 
 /// Reads the drivers of all robots, only to see that they are sound.
 /// @throws sim::ConfigError with all that is wrong.
