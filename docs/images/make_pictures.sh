@@ -83,6 +83,9 @@ take roomba_maze/scene.png roomba_maze
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
 
+"$bin/playpen" plot "$out/planning_dijkstra" "$out/planning_theta" --out "$out/plot.png"
+take plot.png plot
+
 for device in speech blinkenlight; do
   run "worlds/devices/$device.json" "$device" --snapshot-every 0.2 --duration 0.4 -- \
     "$bin/docs_${device}_$device"
