@@ -155,7 +155,7 @@ class Chart {
                        Align::kMiddle);
       }
     }
-    for (const double value : ticks(low_, high_, 4)) {
+    for (const double value : ticks(low_, high_, 5)) {
       const bool is_zero = std::abs(value) < 1e-12 && low_ < 0.0;
       page_.add_line({{kLeft, y(value)}, {kRight, y(value)}}, is_zero ? kFrame : kGrid, 1.0);
       page_.add_text(tick_text(value), {kLeft - 7.0, y(value) + 0.5 * kSmallText}, kSmallText,

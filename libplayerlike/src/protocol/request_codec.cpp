@@ -349,11 +349,26 @@ void decode_field(const json& message, const MessageField<Struct, Value>& field,
   }
 }
 
+// The keys of a field in messages: a point has two.
+template <typename Struct, typename Value>
+void add_keys(const MessageField<Struct, Value>& field, std::vector<std::string>& keys) {
+  if constexpr (std::is_same_v<Value, sim::Vec2>) {
+    keys.push_back(std::string(field.key) + "_x");
+    keys.push_back(std::string(field.key) + "_y");
+  } else {
+    keys.emplace_back(field.key);
+  }
+}
+
 template <typename Struct>
 std::vector<std::string_view> keys_of() {
-  return std::apply(
-      [](const auto&... field) { return std::vector<std::string_view>{field.key...}; },
-      fields_of(std::type_identity<Struct>{}));
+  static const std::vector<std::string> kKeys = [] {
+    std::vector<std::string> keys;
+    std::apply([&](const auto&... field) { (add_keys(field, keys), ...); },
+               fields_of(std::type_identity<Struct>{}));
+    return keys;
+  }();
+  return {kKeys.begin(), kKeys.end()};
 }
 
 template <HasFields Struct>

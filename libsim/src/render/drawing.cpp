@@ -251,7 +251,7 @@ Colour distinct_colour(std::size_t number) {
   const std::size_t round = number / kColours.size();
   const Colour colour = kColours.at(number % kColours.size());
   if (round == 0) return colour;
-  const double share = std::min(0.15 * static_cast<double>((round + 1) / 2), 0.6);
+  const double share = std::min(0.15 * std::ceil(0.5 * static_cast<double>(round)), 0.6);
   return mix(colour, round % 2 == 1 ? palette::kWheel : palette::kLight, share);
 }
 

@@ -183,7 +183,11 @@ std::map<std::string, std::string> all_texts_of_a_run() {
   }
   for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {
     if (!entry.is_regular_file()) continue;
-    texts[fs::relative(entry.path(), settings.output_folder)] = read_bytes(entry.path());
+    std::string& text = texts[fs::relative(entry.path(), settings.output_folder)];
+    text = read_bytes(entry.path());
+    // The report names the world's file; each call has a folder of its own.
+    const std::string own = folder.path();
+    if (const std::size_t at = text.find(own); at != text.npos) text.replace(at, own.size(), "");
   }
   texts["summary"] = summarize_report(folder / "out/report.json");
   for (const auto& [name, value] : run_environment("", settings)) {

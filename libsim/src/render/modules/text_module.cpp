@@ -7,8 +7,6 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
-
-#include <mutex>
 #endif
 
 namespace {
@@ -27,7 +25,7 @@ constexpr const char* kFontFiles[] = {
 };
 constexpr double kCapHeight = 1493.0;  // of DejaVu Sans, in units of the font
 
-/// The font, loaded once and kept. Outlines are read unscaled and without hints, so they do not
+/// The font. Outlines are read unscaled and without hints, so they do not
 /// hang on the version of FreeType.
 class Font {
  public:
@@ -38,9 +36,14 @@ class Font {
       face_ = nullptr;
     }
   }
+  Font(const Font&) = delete;
+  Font& operator=(const Font&) = delete;
+  ~Font() {
+    if (face_ != nullptr) FT_Done_Face(face_);
+    if (library_ != nullptr) FT_Done_FreeType(library_);
+  }
 
   bool outline(std::uint32_t code_point, const OutlineSink& sink, double* advance) {
-    const std::lock_guard lock(mutex_);
     if (face_ == nullptr) return false;
     const FT_UInt glyph = FT_Get_Char_Index(face_, code_point);
     if (glyph == 0 || FT_Load_Glyph(face_, glyph, FT_LOAD_NO_SCALE) != 0 ||
@@ -75,13 +78,30 @@ class Font {
  private:
   static double units(FT_Pos position) { return static_cast<double>(position) / kCapHeight; }
 
-  std::mutex mutex_;
   FT_Library library_ = nullptr;
   FT_Face face_ = nullptr;
 };
 
+// FreeType is not safe from many threads: each has a font of its own until it ends. A picture may
+// still be made when the main thread's variables are gone, by a handler of std::atexit(): the font
+// is then loaded once more.
+thread_local Font* font = nullptr;
+struct FontOwner {
+  FontOwner() = default;
+  FontOwner(const FontOwner&) = delete;
+  FontOwner& operator=(const FontOwner&) = delete;
+  ~FontOwner() {
+    delete font;
+    font = nullptr;
+  }
+  void load() const {
+    if (font == nullptr) font = new Font;
+  }
+};
+thread_local FontOwner owner;
+
 bool outline(std::uint32_t code_point, const OutlineSink& sink, double* advance) {
-  static auto* const font = new Font;  // never destroyed: pictures may be made at the very end
+  owner.load();
   return font->outline(code_point, sink, advance);
 }
 
