@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -72,7 +73,7 @@ bool add_row(RunData& run, std::string_view row) {
   }
   if (count != kColumns || words[1].empty()) return false;
   std::array<double, kColumns> numbers{};
-  for (const std::size_t i : {0, 2, 3, 4, 5, 6, 7}) {
+  for (const std::size_t i : std::initializer_list<std::size_t>{0, 2, 3, 4, 5, 6, 7}) {
     if (!read_number(words.at(i), numbers.at(i))) return false;
   }
   Track& track = track_of(run, words[1]);

@@ -51,8 +51,8 @@ class MorseRobot {
   /// next step and returns at once; Read() lets the robot drive. Any other command for the motors
   /// replaces the goal. Copies of this value share the goal.
   /// @param aX, aY  in the world [m].
-  /// @param aYaw    heading there [rad]; without it: the direction from where the robot is known
-  ///                to be, that is from its last reading of a pose, else from its start.
+  /// @param aYaw    heading there [rad]; without it: the direction from where the robot was when a
+  ///                Position2dProxy of this client was last read, else from its start.
   /// @throws MorseError kNotAvailable if the robot has no motors, kBadArgument for NaN or infinity,
   ///         kDisconnected once the client is gone.
   void SetPositionGoal(double aX, double aY, double aYaw);

@@ -251,7 +251,7 @@ void take_marks(const ordered_json& report, sim::SceneSnapshot& scene) {
     throw std::runtime_error("there is no robot " + name);
   };
   const auto place_of = [](const ordered_json& event) {
-    const sim::Vec2 place(event.at("x").get<double>(), event.at("y").get<double>());
+    sim::Vec2 place(event.at("x").get<double>(), event.at("y").get<double>());
     if (!place.allFinite()) throw std::runtime_error("a place is not finite");
     return place;
   };

@@ -507,9 +507,9 @@ TEST_F(MorseInARoom, RobotDrivesToItsPositionGoal) {
   EXPECT_NEAR(pose.GetX(), x, 0.03);
   EXPECT_NEAR(pose.GetY(), y, 0.03);
   EXPECT_NEAR(pose.GetYaw(), 1.0, 0.1);
-  // Without a heading: the one from where it is to the goal.
-  robot.SetPositionGoal(pose.GetX(), pose.GetY() + 1.0);
-  EXPECT_NEAR(robot.GetPositionGoal().pa, 1.5708, 1e-4);
+  // Without a heading: the direction from its start, (1, 2), as no Position2dProxy has read since.
+  robot.SetPositionGoal(2.0, 3.0);
+  EXPECT_NEAR(robot.GetPositionGoal().pa, 0.785398, 1e-4);
   for (int i = 0; i < 10; ++i) client.Read();
   robot.ClearPositionGoal();
   EXPECT_FALSE(robot.HasPositionGoal());

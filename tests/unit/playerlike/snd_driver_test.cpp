@@ -192,7 +192,8 @@ TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
 }
 
 TEST_P(SndDriverTest, APioneerDrivesRoundABlockWithoutTouchingIt) {
-  start(R"({"arena": {"size": [8, 6], "obstacles": [{"center": [4, 2.9], "size": [0.5, 0.5]}]},
+  start(R"({"arena": {"size": [8, 6], "obstacles": [{"center": [4, 2.9], "size": [0.5, 0.5],
+                                               "height": 0.5}]},
     "robots": [{"name": "r1", "model": "pioneer2dx", "pose": {"x": 1, "y": 3},
                 "interfaces": {"position2d": ["pose"]}}]})");
   PlayerClient client(host->connect(6665));
