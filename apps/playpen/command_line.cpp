@@ -57,6 +57,7 @@ CommandLine::CommandLine(std::string name)
   add_list(*this);
   add_check(*this);
   add_render(*this);
+  add_plot(*this);
   add_token(*this);
   add_doctor(*this);
   add_completion(*this);

@@ -9,6 +9,7 @@
 #include "playerlike/host/run_settings.h"
 #include "playerlike/server/server_settings.h"
 #include "sim/core/log.h"
+#include "sim/render/render.h"
 
 /// The commands of `playpen`, without argument parsing. Each prints to the standard streams and
 /// returns an exit status; other errors are thrown.
@@ -82,8 +83,9 @@ struct RenderRequest {
   std::string file;   ///< .png, or .yaml with `map`
   int size_px = 1000;
   std::optional<sim::ViewMode> view_mode;  ///< instead of the world's
-  bool canvas = false;                     ///< draw only the canvas
-  bool map = false;                        ///< draw the true map
+  sim::render::RenderOptions pictures;     ///< what the picture shows; `size_px` is its size
+  bool canvas = false;                     ///< the canvas alone
+  bool map = false;                        ///< the true map
 };
 
 /// Draws a world in its initial state, only its canvas, its true map, or a map file. Pictures of
@@ -91,5 +93,16 @@ struct RenderRequest {
 /// @throws sim::ConfigError for a bad world or map, std::runtime_error if the file can't be written
 ///         or the world lacks what the request asks for.
 [[nodiscard]] int render(const RenderRequest& request);
+
+/// What `playpen plot` was asked for.
+struct PlotRequest {
+  std::vector<std::string> folders;  ///< of results
+  std::string file = "plot.png";     ///< .png or .svg
+};
+
+/// Draws charts of runs. What cannot be shown because a world's file is gone is said on the
+/// standard error.
+/// @throws std::runtime_error naming the folder or file that is no run's, or cannot be written.
+[[nodiscard]] int plot(const PlotRequest& request);
 
 }  // namespace playpen

@@ -68,6 +68,7 @@ int render(const RenderRequest& request) {
   sim::WorldDescription world = load_found_world(find_world(request.world));
   playerlike::RunSettings settings;
   settings.view_mode = request.view_mode;
+  settings.pictures = request.pictures;
   settings.apply_to(world);
   const sim::Simulation simulation(std::move(world));
   const sim::SceneSnapshot scene = simulation.snapshot();
@@ -77,7 +78,7 @@ int render(const RenderRequest& request) {
     draw_cells(request, scene.canvas_description.width, scene.canvas_description.height,
                scene.canvas);
   } else {
-    sim::render::RenderOptions options;
+    sim::render::RenderOptions options = request.pictures;
     options.size_px = request.size_px;
     sim::render::write_png(sim::render::draw_view(scene, options), request.file);
   }
@@ -104,6 +105,7 @@ void add_render(CommandLine& line) {
                return parse_number(text, size_px) && size_px >= 64 && size_px <= 8192;
              });
   add_view_mode(line, command, request->view_mode);
+  add_picture_options(line, command, request->pictures);
   CLI::Option* const canvas = command.add_flag("--canvas", request->canvas,
                                                "The canvas alone, a whole number of pixels a cell");
   command

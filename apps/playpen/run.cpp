@@ -155,8 +155,7 @@ int run(RunRequest request) {
   bool completed = false;
   watch.on_end = [&](const playerlike::ProgramEnd& program_end) {
     try {
-      completed = playerlike::complete_results(kept, world, settings.output_folder, settings.film,
-                                               program_end);
+      completed = playerlike::complete_results(kept, world, settings, program_end);
     } catch (const std::exception& e) {
       std::cerr << "playpen: results of the run are missing: " << e.what() << '\n';
     }

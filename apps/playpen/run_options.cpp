@@ -22,6 +22,29 @@ void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::View
   line.takes(option, {"ground", "mini-map", "full-screen"});
 }
 
+void add_picture_options(CommandLine& line, CLI::App& command,
+                         sim::render::RenderOptions& pictures) {
+  CLI::Option* const follow = add_parsed(
+      command, "--follow", "Pictures and film show what is round this robot, so wide",
+      "NAME[,METRES]", playerlike::kFollowExpected,
+      [&pictures](const std::string& text) { return playerlike::parse_follow(text, pictures); });
+  add_parsed(
+      command, "--crop", "Pictures and film show this part of the world [m]", "X,Y,W,H",
+      playerlike::kCropExpected,
+      [&pictures](const std::string& text) { return playerlike::parse_crop(text, pictures); })
+      ->excludes(follow);
+  add_parsed(command, "--hide",
+             "Leave out of pictures: fans, trails, labels, goals, collisions, legend, canvas",
+             "LIST", playerlike::kHideExpected, [&pictures](const std::string& text) {
+               return playerlike::parse_hide(text, pictures);
+             });
+  CLI::Option* const colour_by = add_parsed(
+      command, "--colour-by", "Colours of robots: the world's, one for each robot, or none [world]",
+      "SOURCE", playerlike::kColourByExpected,
+      [&pictures](const std::string& text) { return playerlike::parse_colour_by(text, pictures); });
+  line.takes(colour_by, {"world", "robot", "none"});
+}
+
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time) {
   add_parsed(command, "--duration", "Simulated seconds after which the run ends", "S",
@@ -48,8 +71,8 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
         return good;
       });
   line.takes(time, {"lockstep", "real"});
-  CLI::Option* const out = command.add_option("--out", settings.output_folder,
-                                              "Folder for results [out/<world's name>]");
+  CLI::Option* const out = command.add_option(
+      "--out", settings.output_folder, "Folder for results [out/<name of the world's file>]");
   line.takes(out->type_name("DIR"), ValueKind::Kind::kFolder);
   CLI::Option* const record =
       add_parsed(command, "--record", "Record a film: .mp4, .avi, or a folder for pictures", "FILM",
@@ -70,6 +93,13 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
                return playerlike::parse_film_speed(text, settings.film_speed);
              })
       ->needs(record);
+  add_parsed(command, "--film-size", "Size of the film [longer side 800]", "WxH",
+             playerlike::kFilmSizeExpected,
+             [&settings](const std::string& text) {
+               return playerlike::parse_film_size(text, settings.pictures);
+             })
+      ->needs(record);
+  add_picture_options(line, command, settings.pictures);
   add_parsed(command, "--snapshot-every", "Simulated seconds between pictures in DIR/snapshots",
              "S", playerlike::kSnapshotPeriodExpected, [&settings](const std::string& text) {
                double period_s = 0.0;

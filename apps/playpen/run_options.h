@@ -17,6 +17,10 @@ namespace playpen {
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time);
 
+/// Adds what pictures and films show: --follow, --crop, --hide and --colour-by.
+void add_picture_options(CommandLine& line, CLI::App& command,
+                         sim::render::RenderOptions& pictures);
+
 /// Adds --view-mode.
 void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode);
 

@@ -21,7 +21,7 @@ else
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
     compat_four_ports compat_roomba_maze \
-    par_intro_solution_wall par_planning_solution_dijkstra par_planning_solution_theta \
+    par_intro_solution_wall par_intro_solution_avoid par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest
   bin=build/dev/bin
 fi
@@ -82,6 +82,12 @@ take roomba_maze/scene.png roomba_maze
 
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
+
+for solution in wall avoid; do
+  run worlds/tasks/par_intro.json "$solution" --duration 30 -- "$bin/par_intro_solution_$solution"
+done
+"$bin/playpen" plot "$out/wall" "$out/avoid" --out "$out/plot.png"
+take plot.png plot
 
 for device in speech blinkenlight; do
   run "worlds/devices/$device.json" "$device" --snapshot-every 0.2 --duration 0.4 -- \

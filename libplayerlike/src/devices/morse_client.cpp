@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ostream>
 #include <utility>
 
@@ -119,6 +120,7 @@ player_pose2d_t MorseRobot::GetInitialPose() const { return initial_pose(info_of
 double MorseRobot::GetLength() const { return info_of(mCore, mIndex).length_m; }
 double MorseRobot::GetWidth() const { return info_of(mCore, mIndex).width_m; }
 double MorseRobot::GetHeight() const { return info_of(mCore, mIndex).height_m; }
+double MorseRobot::GetWeight() const { return info_of(mCore, mIndex).mass_kg; }
 double MorseRobot::GetMaxSpeed() const { return info_of(mCore, mIndex).max_speed_mps; }
 double MorseRobot::GetMaxTurnRate() const { return info_of(mCore, mIndex).max_turn_rate_radps; }
 
@@ -149,6 +151,64 @@ std::vector<MorseDeviceInfo> MorseRobot::GetDevices() const {
     devices.push_back(device_info(device));
   }
   return devices;
+}
+
+namespace {
+
+// @throws PlayerError kNotAvailable in the name of `fun` if the robot has no motors.
+playerlike::DeviceId motors_of(const char* fun, const RobotInfo& robot) {
+  for (const auto& device : robot.devices) {
+    if (device.type == "motion") return device.id;
+  }
+  throw PlayerError(fun,
+                    "robot " + robot.name + " has no motors (a device of type \"motion\"), so it " +
+                        "takes no position goal",
+                    PlayerError::kNotAvailable);
+}
+
+}  // namespace
+
+void MorseRobot::SetPositionGoal(double aX, double aY, double aYaw) {
+  const char* fun = "MorseRobot::SetPositionGoal";
+  playerlike::require_finite(fun, {{"x", aX}, {"y", aY}, {"the heading", aYaw}});
+  const playerlike::DeviceId motors = motors_of(fun, info_of(mCore, mIndex));
+  const sim::Pose goal{aX, aY, sim::normalize_angle(aYaw)};
+  const PlayerCc::mutex_t::scoped_lock lock(mCore->mutex());
+  mCore->send(fun, motors, sim::PositionCommand{goal});
+  mCore->position_goals()[static_cast<int>(mIndex)] = goal;
+}
+
+void MorseRobot::SetPositionGoal(double aX, double aY) {
+  sim::Pose from = info_of(mCore, mIndex).initial_pose;
+  {
+    const PlayerCc::mutex_t::scoped_lock lock(mCore->mutex());
+    from = mCore->last_pose(static_cast<int>(mIndex)).value_or(from);
+  }
+  SetPositionGoal(aX, aY, std::atan2(aY - from.y_m, aX - from.x_m));
+}
+
+bool MorseRobot::HasPositionGoal() const {
+  const PlayerCc::mutex_t::scoped_lock lock(mCore->mutex());
+  return mCore->position_goals().contains(static_cast<int>(mIndex));
+}
+
+player_pose2d_t MorseRobot::GetPositionGoal() const {
+  const PlayerCc::mutex_t::scoped_lock lock(mCore->mutex());
+  const auto goal = mCore->position_goals().find(static_cast<int>(mIndex));
+  if (goal == mCore->position_goals().end()) {
+    throw PlayerError("MorseRobot::GetPositionGoal",
+                      "robot " + GetName() + " has no position goal; SetPositionGoal() sets one",
+                      PlayerError::kNotAvailable);
+  }
+  return {goal->second.x_m, goal->second.y_m, goal->second.yaw_rad};
+}
+
+void MorseRobot::ClearPositionGoal() {
+  const char* fun = "MorseRobot::ClearPositionGoal";
+  const playerlike::DeviceId motors = motors_of(fun, info_of(mCore, mIndex));
+  const PlayerCc::mutex_t::scoped_lock lock(mCore->mutex());
+  mCore->send(fun, motors, sim::TwistCommand{});
+  mCore->position_goals().erase(static_cast<int>(mIndex));
 }
 
 // --- MorseProperties

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "devices/errors.h"
 #include "drivers/snd_thread.h"
@@ -26,6 +28,38 @@ playerlike::SndSettings checked(const char* fun, const SndSettings& s) {
   return settings;
 }
 
+// The settings with what the robot's model says of those that were not given.
+SndSettings filled(SndSettings settings, const SndSettings& of_robot) {
+  for (double SndSettings::*value : {&SndSettings::robot_radius, &SndSettings::safety_distance,
+                                     &SndSettings::max_speed, &SndSettings::max_turn_rate}) {
+    if (settings.*value == SND_FROM_ROBOT) settings.*value = of_robot.*value;
+  }
+  return settings;
+}
+
+SndSettings in_players_form(const playerlike::SndSettings& s) {
+  SndSettings settings;
+  settings.robot_radius = s.robot_radius_m;
+  settings.safety_distance = s.safety_distance_m;
+  settings.max_speed = s.max_speed_mps;
+  settings.max_turn_rate = s.max_turn_rate_radps;
+  settings.goal_distance = s.goal_distance_m;
+  settings.goal_angle = s.goal_angle_rad;
+  settings.patience = s.patience_s;
+  return settings;
+}
+
+// What suits the robot of a position2d.
+SndSettings of_robot(playerlike::ClientCore& core, uint32_t position) {
+  const std::vector<playerlike::RobotInfo>& robots = core.session().robots();
+  const playerlike::InterfaceBinding binding = playerlike::find_interface(
+      robots, core.session().port(), "position2d", static_cast<int>(position));
+  if (binding.robot < 0) return in_players_form({});
+  const playerlike::RobotInfo& robot = robots.at(static_cast<std::size_t>(binding.robot));
+  return in_players_form(
+      playerlike::snd_settings_for(robot.radius_m, robot.max_speed_mps, robot.max_turn_rate_radps));
+}
+
 }  // namespace
 
 SndDriver::SndDriver(PlayerClient* aClient, uint32_t aPosition, uint32_t aLaser,
@@ -35,10 +69,11 @@ SndDriver::SndDriver(PlayerClient* aClient, uint32_t aPosition, uint32_t aLaser,
   if (aClient == nullptr) {
     playerlike::refuse(fun, "a driver needs a client, but it is a null pointer");
   }
-  const playerlike::SndSettings settings = checked(fun, aSettings);
   mCore = PlayerCc::detail::CoreAccess::get(*aClient);
   translated(fun, [&] {
     mCore->require_usable();
+    const playerlike::SndSettings settings =
+        checked(fun, filled(aSettings, of_robot(*mCore, aPosition)));
     mThread = std::make_unique<playerlike::SndThread>(mCore->session().open_follower(),
                                                       static_cast<int>(aPosition),
                                                       static_cast<int>(aLaser), settings);
@@ -111,20 +146,15 @@ SndDriver::Status SndDriver::WaitForGoal(double aTimeout) {
   });
 }
 
-SndSettings SndDriver::GetSettings() const {
-  const playerlike::SndSettings s = mThread->settings();
-  SndSettings settings;
-  settings.robot_radius = s.robot_radius_m;
-  settings.safety_distance = s.safety_distance_m;
-  settings.max_speed = s.max_speed_mps;
-  settings.max_turn_rate = s.max_turn_rate_radps;
-  settings.goal_distance = s.goal_distance_m;
-  settings.goal_angle = s.goal_angle_rad;
-  settings.patience = s.patience_s;
-  return settings;
-}
+SndSettings SndDriver::GetSettings() const { return in_players_form(mThread->settings()); }
 
 void SndDriver::SetSettings(const SndSettings& aSettings) {
+  translated("SndDriver::SetSettings",
+             [&] { Apply(filled(aSettings, of_robot(*mCore, mPosition))); });
+}
+
+// Each setting must be in its range.
+void SndDriver::Apply(const SndSettings& aSettings) {
   const char* fun = "SndDriver::SetSettings";
   const playerlike::SndSettings settings = checked(fun, aSettings);
   translated(fun, [&] {
@@ -136,33 +166,33 @@ void SndDriver::SetSettings(const SndSettings& aSettings) {
 void SndDriver::SetRobotRadius(double aRadius) {
   SndSettings settings = GetSettings();
   settings.robot_radius = aRadius;
-  SetSettings(settings);
+  Apply(settings);
 }
 
 void SndDriver::SetSafetyDistance(double aDistance) {
   SndSettings settings = GetSettings();
   settings.safety_distance = aDistance;
-  SetSettings(settings);
+  Apply(settings);
 }
 
 void SndDriver::SetSpeedLimits(double aSpeed, double aTurnRate) {
   SndSettings settings = GetSettings();
   settings.max_speed = aSpeed;
   settings.max_turn_rate = aTurnRate;
-  SetSettings(settings);
+  Apply(settings);
 }
 
 void SndDriver::SetGoalTolerances(double aDistance, double aAngle) {
   SndSettings settings = GetSettings();
   settings.goal_distance = aDistance;
   settings.goal_angle = aAngle;
-  SetSettings(settings);
+  Apply(settings);
 }
 
 void SndDriver::SetPatience(double aSeconds) {
   SndSettings settings = GetSettings();
   settings.patience = aSeconds;
-  SetSettings(settings);
+  Apply(settings);
 }
 
 }  // namespace CCMorse

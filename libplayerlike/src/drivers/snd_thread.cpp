@@ -88,7 +88,8 @@ void SndThread::run() {
 void SndThread::round() {
   const sim::SimTime now_ns = session().request(TimeRequest{}).sim_time_ns;
   take_requests(now_ns);
-  // Navigation needs both a scan and a pose.
+  if (unnoted_ && position_.IsValid()) note_goal(*std::exchange(unnoted_, std::nullopt));
+  // Without a scan and a pose there is nothing to go by yet.
   if (navigation_.state() == SndState::kMoving && laser_.IsFresh() && position_.IsValid()) {
     laser_.NotFresh();
     const uint32_t count = laser_.GetCount();
@@ -133,6 +134,21 @@ void SndThread::begin(const Goal& goal) {
       limited.max_turn_rate_radps, goal.max_turn_rate_radps.value_or(limited.max_turn_rate_radps));
   navigation_.set_settings(limited);
   navigation_.start({goal.position, goal.yaw_rad});
+  unnoted_ = goal.position;
+}
+
+// The goal is in the frame of the position device, which may be that of an odometry: the host knows
+// where the robot is, and is told where the goal lies from there.
+void SndThread::note_goal(const sim::Vec2& goal) {
+  const sim::Pose X_FB{position_.GetXPos(), position_.GetYPos(), position_.GetYaw()};
+  const InterfaceBinding binding = find_interface(
+      session().robots(), session().port(), "position2d", static_cast<int>(position_.GetIndex()));
+  try {
+    session().request(NoteGoalRequest{binding.motion.value_or(binding.reading),
+                                      X_FB.inverse() * goal, in_use_.goal_distance_m});
+  } catch (const SessionError&) {
+    // An older server knows no such request. If the session has ended, the next round finds out.
+  }
 }
 
 void SndThread::ask(std::variant<Goal, Cancel, SndSettings> what) {

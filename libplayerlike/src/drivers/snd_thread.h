@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <variant>
 #include <vector>
@@ -62,6 +63,7 @@ class SndThread final : public GoalDriver {
   void ask(std::variant<Goal, Cancel, SndSettings> what);
   void take_requests(sim::SimTime before_ns);
   void begin(const Goal& goal);
+  void note_goal(const sim::Vec2& goal);
   [[nodiscard]] Session& session() const;
 
   PlayerCc::PlayerClient client_;
@@ -72,6 +74,7 @@ class SndThread final : public GoalDriver {
   SndSettings in_use_;
   SmoothNearnessDiagram navigation_;
   SndScan scan_;
+  std::optional<sim::Vec2> unnoted_;  ///< a goal that the host is to be told of
 
   mutable std::mutex mutex_;  // guards the members below; the host's mutex is locked under it
   std::condition_variable started_changed_;

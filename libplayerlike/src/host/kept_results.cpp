@@ -241,9 +241,36 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
   }
 }
 
-/// Draws the pictures from the memory. @throws std::exception for invalid data.
+/// The marks of collisions and goals, as the report tells of them.
+void take_marks(const ordered_json& report, sim::SceneSnapshot& scene) {
+  const auto robot_of = [&scene](const ordered_json& event) {
+    const auto name = event.at("robot").get<std::string>();
+    for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+      if (scene.robots[i].name == name) return static_cast<int>(i);
+    }
+    throw std::runtime_error("there is no robot " + name);
+  };
+  const auto place_of = [](const ordered_json& event) {
+    sim::Vec2 place(event.at("x").get<double>(), event.at("y").get<double>());
+    if (!place.allFinite()) throw std::runtime_error("a place is not finite");
+    return place;
+  };
+  for (const ordered_json& c : report.at("collisions")) {
+    scene.collisions.push_back({robot_of(c), place_of(c), c.at("time").get<double>()});
+  }
+  for (const ordered_json& g : report.at("goals")) {
+    const int robot = robot_of(g);
+    for (sim::GoalMark& earlier : scene.goals) {
+      if (earlier.robot == robot) earlier.newest = false;
+    }
+    scene.goals.push_back({robot, place_of(g), !g.at("reached").is_null(), true});
+  }
+}
+
+/// Draws what was kept. @throws std::exception for what cannot be.
 void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const LastStep& last,
-                       const sim::WorldDescription& world, const std::string& folder) {
+                       const ordered_json& report, const sim::WorldDescription& world,
+                       const RunSettings& settings) {
   const json kept = memory.text<json>(header.scene);
   sim::Simulation simulation(world, {});
   sim::SceneSnapshot scene = simulation.snapshot();
@@ -277,17 +304,18 @@ void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const
         memory.at<KeptScan>(header.scans + (i * 2 + from.scan - 1) * sizeof(KeptScan));
     if (scan != nullptr) take_scan(*scan, robot);
   }
-  write_pictures(folder, stack, scene);
+  take_marks(report, scene);
+  write_pictures(settings.output_folder, stack, scene, settings.pictures);
 }
 
 }  // namespace
 
 bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
-                      const std::string& folder, const std::string& film, const ProgramEnd& end) {
+                      const RunSettings& settings, const ProgramEnd& end) {
   const KeptRun::Phase phase = kept.phase();
   if (phase == KeptRun::Phase::kNone || phase == KeptRun::Phase::kDone) return false;
   const FileLimitErrors limit_errors;
-  if (!film.empty()) std::remove(sim::part_file_name(film).c_str());
+  if (!settings.film.empty()) std::remove(sim::part_file_name(settings.film).c_str());
   const KeptMemory memory(kept.descriptor());
   const auto* const header = memory.at<KeptHeader>(0);
   const std::optional<LastStep> last =
@@ -304,9 +332,11 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
     }
   };
   if (phase != KeptRun::Phase::kReported) {
-    attempt("no report: ", [&] { write_report(folder, completed_report(report, *last, end)); });
+    attempt("no report: ",
+            [&] { write_report(settings.output_folder, completed_report(report, *last, end)); });
   }
-  attempt("no pictures: ", [&] { complete_pictures(memory, *header, *last, world, folder); });
+  attempt("no pictures: ",
+          [&] { complete_pictures(memory, *header, *last, report, world, settings); });
   if (!problem.empty()) throw std::runtime_error(problem);
   return true;
 }

@@ -130,7 +130,34 @@ std::string hex(std::uint64_t value) {
   return text.data();
 }
 
-nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStatistics& time) {
+// Where and when robots hit something, and where they were to drive.
+void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goals,
+                nlohmann::ordered_json& report) {
+  const auto name_of = [&](int robot) {
+    return simulation.world().robots[static_cast<std::size_t>(robot)].name;
+  };
+  report["collisions"] = nlohmann::ordered_json::array();
+  for (const sim::Collision& c : simulation.collisions()) {
+    report["collisions"].push_back({{"time", sim::to_seconds(c.time_ns)},
+                                    {"robot", name_of(c.robot)},
+                                    {"with", c.partner},
+                                    {"x", c.place.x()},
+                                    {"y", c.place.y()}});
+  }
+  report["goals"] = nlohmann::ordered_json::array();
+  for (const Goal& g : goals) {
+    nlohmann::ordered_json goal = {{"time", sim::to_seconds(g.set_ns)},
+                                   {"robot", name_of(g.robot)},
+                                   {"x", g.place.x()},
+                                   {"y", g.place.y()}};
+    goal["reached"] = nullptr;
+    if (g.reached_ns) goal["reached"] = sim::to_seconds(*g.reached_ns);
+    report["goals"].push_back(std::move(goal));
+  }
+}
+
+nlohmann::ordered_json report(const sim::Simulation& simulation, const std::vector<Goal>& goals,
+                              const TimeStatistics& time) {
   nlohmann::ordered_json robots = nlohmann::ordered_json::array();
   for (int i = 0; i < simulation.robot_count(); ++i) {
     const sim::RobotStatistics& s = simulation.statistics(i);
@@ -158,6 +185,11 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
                                     {"state_hash", hex(simulation.state_hash())}}},
                                   {"robots", robots},
                                   {"said", said}};
+  add_events(simulation, goals, whole);
+  // Where the scene can be found again, for `playpen plot`.
+  std::error_code error;
+  const fs::path file = fs::absolute(simulation.world().file, error);
+  if (!error && fs::is_regular_file(file, error)) whole["run"]["world_file"] = file.string();
   whole["run"]["repeatable"] = time.unrepeatable.empty();
   if (!time.unrepeatable.empty()) whole["run"]["repeatable_why"] = time.unrepeatable;
   return whole;
@@ -257,9 +289,9 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
   return ended;
 }
 
-std::string report_text(const sim::Simulation& simulation, const TimeStatistics& time,
-                        const RunEnd& end) {
-  nlohmann::ordered_json whole = report(simulation, time);
+std::string report_text(const sim::Simulation& simulation, const std::vector<Goal>& goals,
+                        const TimeStatistics& time, const RunEnd& end) {
+  nlohmann::ordered_json whole = report(simulation, goals, time);
   whole["ended"] = to_json(end);
   // Texts of robots may be invalid UTF-8.
   return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
@@ -273,7 +305,7 @@ void write_report(const std::string& folder, const std::string& text) {
 }
 
 void write_pictures(const std::string& folder, const sim::LayerStack& layers,
-                    const sim::SceneSnapshot& scene) {
+                    const sim::SceneSnapshot& scene, const sim::render::RenderOptions& options) {
   const fs::path out(folder);
   // A failure must not prevent the other writes.
   std::exception_ptr failure;
@@ -286,7 +318,7 @@ void write_pictures(const std::string& folder, const sim::LayerStack& layers,
   };
   attempt([&] {
     const bool mini_map = scene.view_mode == sim::ViewMode::kMiniMap;
-    sim::render::SceneRenderer renderer({.size_px = kSceneSize_px});
+    sim::render::SceneRenderer renderer(scene_options(options));
     sim::render::write_png(
         renderer.draw(scene, mini_map ? sim::ViewMode::kMiniMap : sim::ViewMode::kGround),
         (out / "scene.png").string());

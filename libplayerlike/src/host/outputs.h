@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "host/goal_book.h"
 #include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
 #include "sim/io/map_file.h"
+#include "sim/render/render.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/simulation/simulation.h"
 #include "sim/world/occupancy_map.h"
@@ -44,7 +46,8 @@ struct RunEnd {
 [[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
 
 /// The text of report.json.
-[[nodiscard]] std::string report_text(const sim::Simulation& simulation, const TimeStatistics& time,
+[[nodiscard]] std::string report_text(const sim::Simulation& simulation,
+                                      const std::vector<Goal>& goals, const TimeStatistics& time,
                                       const RunEnd& end);
 /// Writes report.json into `folder`; see sim::replace_file().
 /// @throws std::runtime_error naming the file if it could not be written.
@@ -53,13 +56,14 @@ void write_report(const std::string& folder, const std::string& text);
 /// Writes scene.png, canvas.png and, for each layer, layers/NAME.png (for grey layers also NAME.pgm
 /// and NAME.yaml, see sim::io::write_map) into `folder`.
 ///
-/// scene.png shows the ground, or the mini-map if that is the view mode. canvas.png shows all
-/// visible layers, composed. In a layer's NAME, characters other than letters, digits, '-' and '_'
-/// become '_'. Equal names get their client's port as a suffix, and a number if they are still
-/// equal. @throws std::runtime_error with the first file that could not be written; the other files
-/// are written nevertheless.
+/// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
+/// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
+/// layers of one name get their clients' ports behind it, and a number if that is not enough.
+/// @param options  what scene.png shows; it has a size of its own.
+/// @throws std::runtime_error naming the first file that could not be written; the others are.
 void write_pictures(const std::string& folder, const sim::LayerStack& layers,
-                    const sim::SceneSnapshot& scene);
+                    const sim::SceneSnapshot& scene,
+                    const sim::render::RenderOptions& options = {});
 
 inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
 /// Whether a name is a plain file name that cannot leave its folder: 1 to kMaxFileName bytes

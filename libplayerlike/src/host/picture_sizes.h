@@ -1,10 +1,19 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "sim/render/render.h"
+
 namespace playerlike {
 
-inline constexpr int kFilmSize_px = 800;         ///< longer side of a film
 inline constexpr int kSceneSize_px = 1200;       ///< longer side of a run's pictures of the scene
 inline constexpr int kCanvasMostSize_px = 1200;  ///< pictures of cells; at least a pixel per cell
+
+/// What a run's pictures of the scene show, by what its film shows.
+[[nodiscard]] inline sim::render::RenderOptions scene_options(sim::render::RenderOptions film) {
+  film.size_px = kSceneSize_px;
+  film.width_px = 0;
+  film.height_px = 0;
+  return film;
+}
 
 }  // namespace playerlike

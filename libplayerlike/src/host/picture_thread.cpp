@@ -23,11 +23,11 @@ std::size_t most_jobs(const sim::SceneSnapshot& scene) {
 }  // namespace
 
 PictureThread::PictureThread(std::unique_ptr<sim::render::FilmWriter> film,
-                             std::uint64_t film_limit)
+                             std::uint64_t film_limit, const sim::render::RenderOptions& options)
     : film_limit_(film_limit),
       film_(std::move(film)),
-      film_renderer_({.size_px = kFilmSize_px}),
-      picture_renderer_({.size_px = kSceneSize_px}),
+      film_renderer_(options),
+      picture_renderer_(scene_options(options)),
       thread_([this] { work(); }) {}
 
 PictureThread::~PictureThread() { end_thread(); }

@@ -295,6 +295,14 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_SNAPSHOT_EVERY"] =
       settings.snapshot_period_s ? std::optional(sim::shortest_text(*settings.snapshot_period_s))
                                  : std::nullopt;
+  const auto text_unless_empty = [](const std::string& text) {
+    return text.empty() ? std::nullopt : std::optional(text);
+  };
+  changes["PLAYPEN_RECORD_SIZE"] = text_unless_empty(film_size_text(settings.pictures));
+  changes["PLAYPEN_FOLLOW"] = text_unless_empty(follow_text(settings.pictures));
+  changes["PLAYPEN_CROP"] = text_unless_empty(crop_text(settings.pictures));
+  changes["PLAYPEN_HIDE"] = text_unless_empty(hide_text(settings.pictures));
+  changes["PLAYPEN_COLOUR_BY"] = text_unless_empty(colour_by_text(settings.pictures));
   changes["PLAYPEN_VIEW_MODE"] =
       settings.view_mode ? std::optional(std::string(sim::to_string(*settings.view_mode)))
                          : std::nullopt;

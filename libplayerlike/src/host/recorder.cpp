@@ -42,7 +42,8 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
     snapshot_clock_ = Clock(*settings.snapshot_period_s);
   }
   if (film || !snapshot_folder_.empty()) {
-    pictures_ = std::make_unique<PictureThread>(std::move(film), settings.film_limit);
+    pictures_ =
+        std::make_unique<PictureThread>(std::move(film), settings.film_limit, settings.pictures);
   }
   trails_.resize(static_cast<std::size_t>(simulation.robot_count()));
   observe(simulation);
@@ -69,6 +70,7 @@ void Recorder::observe(const sim::Simulation& simulation) {
   if (!active_) return;
   const sim::SimTime now_ns = simulation.now_ns();
   extend_trails(simulation);
+  goals_.observe(simulation);
   if (trajectory_.is_open() && now_ns >= next_row_ns_) {
     next_row_ns_ += kRowPeriod_ns;
     write_rows(simulation);
@@ -120,6 +122,11 @@ sim::SceneSnapshot Recorder::scene(const sim::Simulation& simulation) const {
       snapshot.robots[i].trail.push_back(snapshot.robots[i].X_WB.position());
     }
   }
+  for (const sim::Collision& collision : simulation.collisions()) {
+    snapshot.collisions.push_back(
+        {collision.robot, collision.place, sim::to_seconds(collision.time_ns)});
+  }
+  snapshot.goals = goals_.marks();
   return snapshot;
 }
 

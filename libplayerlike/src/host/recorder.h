@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "host/goal_book.h"
 #include "host/picture_thread.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/simulation/simulation.h"
@@ -33,7 +34,10 @@ class Recorder {
   [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
     return trails_[robot].points;
   }
-  /// The scene now, with trails.
+  /// The goals of the robots so far.
+  [[nodiscard]] GoalBook& goals() noexcept { return goals_; }
+  [[nodiscard]] const GoalBook& goals() const noexcept { return goals_; }
+  /// The scene now, with trails, goals and collisions.
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
   /// Completes trajectory.csv. observe() must not be called afterwards. @throws std::runtime_error
@@ -72,6 +76,7 @@ class Recorder {
   std::string snapshot_folder_;
   std::unique_ptr<PictureThread> pictures_;  // null without film and pictures
   std::vector<Trail> trails_;
+  GoalBook goals_;
   sim::SimTime next_row_ns_ = 0;
   Clock film_clock_;
   Clock snapshot_clock_;

@@ -3,6 +3,7 @@
 #include "playerlike/messages/requests.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -225,6 +226,17 @@ struct Host::Core::RequestHandler {
   void operator()(const RestoreStateRequest& what) const {
     const Lock lock = lock_changeable();
     core.saved_states_.restore(what.name, core.simulation_);
+  }
+  void operator()(const NoteGoalRequest& what) const {
+    require_device(core.robots_, what.device);
+    if (!what.goal_m.allFinite() || !std::isfinite(what.tolerance_m)) {
+      throw SessionError(SessionError::Code::kBadArgument, "a goal's numbers must be finite");
+    }
+    const Lock lock = core.lock_with_priority();
+    client.require_open();
+    const int robot = what.device.robot;
+    core.results_.note_goal(robot, core.simulation_.body(robot).X_WB * what.goal_m,
+                            what.tolerance_m);
   }
   LogStatus operator()(const LogRequest& what) const {
     // A file to replay is read without the mutex: this may take seconds.

@@ -34,6 +34,11 @@ class Results {
   /// Writes all results once. A failure is logged as a warning.
   void write();
 
+  /// A client says where a robot is to drive. @param place  in W [m].
+  void note_goal(int robot, const sim::Vec2& place, double tolerance_m) {
+    recorder_->goals().note(robot, place, tolerance_m, simulation_.now_ns());
+  }
+
   [[nodiscard]] sim::SceneSnapshot scene() const { return recorder_->scene(simulation_); }
 
   std::map<int, RunLog> logs;  ///< by port; the logs that clients have asked for

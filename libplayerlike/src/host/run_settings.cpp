@@ -1,14 +1,19 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "playerlike/host/run_settings.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
+#include <iterator>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/core/time.h"
 #include "sim/render/render.h"
 #include "sim/world/view_mode.h"
@@ -49,7 +54,36 @@ bool parse_positive_seconds(const std::string& text, double& value) {
   return parse_whole(text, value) && positive(value) && value <= kLongest_s;
 }
 
-// A function that parses a text with parse(text, value) and stores the value in the target.
+// The words between the commas of a text.
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    words.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return words;
+}
+
+// What pictures can leave out.
+struct HiddenPart {
+  std::string_view word;
+  bool sim::render::RenderOptions::*shown;
+};
+constexpr HiddenPart kHidden[] = {
+    {"fans", &sim::render::RenderOptions::scans},
+    {"trails", &sim::render::RenderOptions::trails},
+    {"labels", &sim::render::RenderOptions::names},
+    {"goals", &sim::render::RenderOptions::goals},
+    {"collisions", &sim::render::RenderOptions::collisions},
+    {"legend", &sim::render::RenderOptions::legend},
+    {"canvas", &sim::render::RenderOptions::canvas},
+};
+
+// In the order of sim::render::ColourBy.
+constexpr std::string_view kColourSources[] = {"world", "robot", "none"};
+
+// What reads a text into the target if parse(text, value) understands it.
 template <typename T, typename Target>
 auto into(Target& target, bool (*parse)(const std::string&, T&)) {
   return [&target, parse](const std::string& text) {
@@ -115,6 +149,110 @@ bool parse_film_speed(const std::string& text, double& speed) {
   return parse_within(text, 0.01, 1000.0, speed);
 }
 
+bool parse_film_size(const std::string& text, sim::render::RenderOptions& options) {
+  constexpr int kLeast = 64;
+  constexpr int kMost = 4096;
+  const auto side = [](std::string_view word, int& px) {
+    return parse_whole(word, px) && px >= kLeast && px <= kMost;
+  };
+  const std::size_t cross = text.find('x');
+  int width = 0;
+  int height = 0;
+  if (!side(std::string_view(text).substr(0, cross), width)) return false;
+  if (cross == std::string::npos) {
+    options.size_px = width;
+    options.width_px = options.height_px = 0;
+    return true;
+  }
+  if (!side(std::string_view(text).substr(cross + 1), height)) return false;
+  options.width_px = width;
+  options.height_px = height;
+  return true;
+}
+
+bool parse_crop(const std::string& text, sim::render::RenderOptions& options) {
+  constexpr double kFarthest_m = 1e6;
+  std::array<double, 4> numbers{};
+  const std::vector<std::string_view> words = words_of(text);
+  if (words.size() != numbers.size()) return false;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (!parse_whole(words[i], numbers[i]) || !(std::abs(numbers[i]) <= kFarthest_m)) return false;
+  }
+  const sim::render::ScenePart part{{numbers[0], numbers[1]}, {numbers[2], numbers[3]}, false};
+  if (!(part.size.minCoeff() >= 1e-3)) return false;
+  options.part = part;
+  return true;
+}
+
+bool parse_follow(const std::string& text, sim::render::RenderOptions& options) {
+  const std::vector<std::string_view> words = words_of(text);
+  double width_m = 0.0;
+  if (words.empty() || words.size() > 2 || words[0].empty()) return false;
+  if (words.size() == 2 &&
+      (!parse_whole(words[1], width_m) || !(width_m >= 1e-3) || !(width_m <= 1e6))) {
+    return false;
+  }
+  options.follow = words[0];
+  options.follow_width_m = width_m;
+  return true;
+}
+
+bool parse_hide(const std::string& text, sim::render::RenderOptions& options) {
+  sim::render::RenderOptions read = options;
+  for (const std::string_view word : words_of(text)) {
+    const auto known = std::find_if(std::begin(kHidden), std::end(kHidden),
+                                    [&](const HiddenPart& hidden) { return hidden.word == word; });
+    if (known == std::end(kHidden)) return false;
+    read.*known->shown = false;
+  }
+  options = read;
+  return true;
+}
+
+bool parse_colour_by(const std::string& text, sim::render::RenderOptions& options) {
+  for (std::size_t i = 0; i < std::size(kColourSources); ++i) {
+    if (text != kColourSources[i]) continue;
+    options.colour_by = static_cast<sim::render::ColourBy>(i);
+    return true;
+  }
+  return false;
+}
+
+std::string film_size_text(const sim::render::RenderOptions& options) {
+  if (options.width_px > 0) {
+    return std::to_string(options.width_px) + 'x' + std::to_string(options.height_px);
+  }
+  return options.size_px == RunSettings{}.pictures.size_px ? "" : std::to_string(options.size_px);
+}
+
+std::string crop_text(const sim::render::RenderOptions& options) {
+  if (!options.part) return "";
+  const sim::render::ScenePart& part = *options.part;
+  std::string text;
+  for (const double number : {part.low.x(), part.low.y(), part.size.x(), part.size.y()}) {
+    text += (text.empty() ? "" : ",") + sim::shortest_text(number);
+  }
+  return text;
+}
+
+std::string follow_text(const sim::render::RenderOptions& options) {
+  if (options.follow.empty() || options.follow_width_m == 0.0) return options.follow;
+  return options.follow + ',' + sim::shortest_text(options.follow_width_m);
+}
+
+std::string hide_text(const sim::render::RenderOptions& options) {
+  std::string text;
+  for (const HiddenPart& hidden : kHidden) {
+    if (!(options.*hidden.shown)) text += (text.empty() ? "" : ",") + std::string(hidden.word);
+  }
+  return text;
+}
+
+std::string colour_by_text(const sim::render::RenderOptions& options) {
+  const auto source = static_cast<std::size_t>(options.colour_by);
+  return source == 0 ? "" : std::string(kColourSources[source]);
+}
+
 bool parse_snapshot_period(const std::string& text, double& period_s) {
   return parse_within(text, 0.001, kLongest_s, period_s);
 }
@@ -153,6 +291,16 @@ RunSettings RunSettings::from_environment() {
                  into<double>(settings.film_fps, parse_film_fps));
   variables.read("PLAYPEN_RECORD_SPEED", kFilmSpeedExpected,
                  into<double>(settings.film_speed, parse_film_speed));
+  using PictureParser = bool (*)(const std::string&, sim::render::RenderOptions&);
+  const auto read_picture = [&](const char* name, const char* expected, PictureParser parse) {
+    variables.read(name, expected,
+                   [&](const std::string& text) { return parse(text, settings.pictures); });
+  };
+  read_picture("PLAYPEN_RECORD_SIZE", kFilmSizeExpected, parse_film_size);
+  read_picture("PLAYPEN_FOLLOW", kFollowExpected, parse_follow);
+  read_picture("PLAYPEN_CROP", kCropExpected, parse_crop);
+  read_picture("PLAYPEN_HIDE", kHideExpected, parse_hide);
+  read_picture("PLAYPEN_COLOUR_BY", kColourByExpected, parse_colour_by);
   variables.read("PLAYPEN_SNAPSHOT_EVERY", kSnapshotPeriodExpected,
                  into<double>(settings.snapshot_period_s, parse_snapshot_period));
   if (settings.snapshot_period_s && settings.output_folder.empty()) {
@@ -173,7 +321,43 @@ RunSettings RunSettings::from_environment() {
   return settings;
 }
 
+namespace {
+
+// @throws sim::ConfigError if pictures of a world cannot show what they are to show.
+void check_pictures(const sim::render::RenderOptions& pictures,
+                    const sim::WorldDescription& world) {
+  const std::string place = world.file.empty() ? world.name : world.file;
+  if (!pictures.follow.empty()) {
+    std::vector<std::string> names;
+    std::string list;
+    for (const sim::RobotDescription& robot : world.robots) {
+      if (robot.name == pictures.follow) return;
+      names.push_back(robot.name);
+      list += (list.empty() ? "" : ", ") + robot.name;
+    }
+    const std::string near = sim::nearest_word(pictures.follow, names);
+    throw sim::ConfigError(std::vector<sim::ConfigIssue>{
+        {"run/follow", place, "/robots", "a robot to follow: " + (list.empty() ? "none" : list),
+         '"' + pictures.follow + '"', near.empty() ? "" : "did you mean \"" + near + "\"?"}});
+  }
+  if (!pictures.part) return;
+  const sim::Vec2 low = pictures.part->low.cwiseMax(world.arena.origin);
+  const sim::Vec2 high =
+      (pictures.part->low + pictures.part->size).cwiseMin(world.arena.origin + world.arena.size);
+  if ((high - low).minCoeff() > 0.0) return;
+  const auto number = [](double value) { return sim::rounded_text(value, 4); };
+  const sim::Vec2 end = world.arena.origin + world.arena.size;
+  throw sim::ConfigError(std::vector<sim::ConfigIssue>{
+      {"run/crop", place, "/arena",
+       "a part of the floor, which reaches from " + number(world.arena.origin.x()) + ", " +
+           number(world.arena.origin.y()) + " to " + number(end.x()) + ", " + number(end.y()),
+       crop_text(pictures), ""}});
+}
+
+}  // namespace
+
 void RunSettings::apply_to(sim::WorldDescription& world) const {
+  check_pictures(pictures, world);
   if (seed) world.simulation.seed = *seed;
   if (duration_s) world.simulation.duration_ns = sim::from_seconds(*duration_s);
   if (time_mode) {

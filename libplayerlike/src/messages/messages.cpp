@@ -230,14 +230,17 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     robot.proxies = description.proxies;
     robot.interfaces = description.interfaces;
     robot.drivers = description.drivers;
-    robot.snd_drivers =
-        read_drivers(description, simulation.world().file, "/robots/" + std::to_string(r));
     sim::Vec2 low = sim::Vec2::Constant(std::numeric_limits<double>::infinity());
     sim::Vec2 high = -low;
     for (const sim::Vec2& v : model.footprint) {
       low = low.cwiseMin(v);
       high = high.cwiseMax(v);
+      robot.radius_m = std::max(robot.radius_m, v.norm());
     }
+    robot.mass_kg = model.mass_kg;
+    robot.snd_drivers = read_drivers(
+        description, simulation.world().file, "/robots/" + std::to_string(r),
+        snd_settings_for(robot.radius_m, robot.max_speed_mps, robot.max_turn_rate_radps));
     robot.length_m = high.x() - low.x();
     robot.width_m = high.y() - low.y();
     robot.center_m = 0.5 * (low + high);

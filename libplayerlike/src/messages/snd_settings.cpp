@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -57,8 +58,9 @@ class DriverReader {
         {id, file_, key.empty() ? pointer_ : pointer_ + '/' + key, expected, found, hint});
   }
 
-  [[nodiscard]] SndDriverDescription read() {
+  [[nodiscard]] SndDriverDescription read(const SndSettings& defaults) {
     SndDriverDescription read;
+    read.settings = defaults;
     std::vector<std::string> known{"index", "position", "laser"};
     for (const SndSettingRow& row : snd_setting_table()) {
       known.emplace_back(row.key);
@@ -127,6 +129,7 @@ int count_of(const sim::RobotDescription& robot, std::string_view interface) {
 
 std::vector<SndDriverDescription> read_all(const sim::RobotDescription& robot,
                                            const std::string& file, const std::string& pointer,
+                                           const SndSettings& defaults,
                                            std::vector<sim::ConfigIssue>& issues) {
   std::vector<SndDriverDescription> drivers;
   const int positions = count_of(robot, "position2d");
@@ -144,7 +147,7 @@ std::vector<SndDriverDescription> read_all(const sim::RobotDescription& robot,
       drivers.emplace_back();
       continue;
     }
-    SndDriverDescription read = reader.read();
+    SndDriverDescription read = reader.read(defaults);
     const auto need = [&](const char* key, int index, int count, const char* what) {
       if (index < count) return;
       reader.complain("world/driver-device", key,
@@ -193,6 +196,24 @@ const std::vector<SndSettingRow>& snd_setting_table() {
   return kTable;
 }
 
+SndSettings snd_settings_for(double radius_m, double max_speed_mps, double max_turn_rate_radps) {
+  constexpr double kRounding = 1e-6;  // a radius of whole centimetres gets no further one
+  constexpr double kSpeedShare = 0.6;
+  constexpr double kTurnShare = 0.5;
+  SndSettings settings;
+  if (radius_m > 0.0) {
+    const double radius_cm = std::max(1.0, std::ceil(100.0 * radius_m - kRounding));
+    settings.robot_radius_m = radius_cm / 100.0;
+    settings.safety_distance_m = 1.5 * radius_cm / 100.0;
+  }
+  if (max_speed_mps > 0.0) settings.max_speed_mps = kSpeedShare * max_speed_mps;
+  if (max_turn_rate_radps > 0.0) settings.max_turn_rate_radps = kTurnShare * max_turn_rate_radps;
+  for (const SndSettingRow& row : snd_setting_table()) {
+    settings.*row.value = std::min(settings.*row.value, row.at_most);
+  }
+  return settings;
+}
+
 std::string fault_of(const SndSettings& settings) {
   for (const SndSettingRow& row : snd_setting_table()) {
     const double value = settings.*row.value;
@@ -204,10 +225,10 @@ std::string fault_of(const SndSettings& settings) {
 }
 
 std::vector<SndDriverDescription> read_drivers(const sim::RobotDescription& robot,
-                                               const std::string& file,
-                                               const std::string& pointer) {
+                                               const std::string& file, const std::string& pointer,
+                                               const SndSettings& defaults) {
   std::vector<sim::ConfigIssue> issues;
-  std::vector<SndDriverDescription> drivers = read_all(robot, file, pointer, issues);
+  std::vector<SndDriverDescription> drivers = read_all(robot, file, pointer, defaults, issues);
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
   return drivers;
 }
@@ -215,7 +236,7 @@ std::vector<SndDriverDescription> read_drivers(const sim::RobotDescription& robo
 void check_drivers(const sim::WorldDescription& world) {
   std::vector<sim::ConfigIssue> issues;
   for (std::size_t r = 0; r < world.robots.size(); ++r) {
-    read_all(world.robots[r], world.file, "/robots/" + std::to_string(r), issues);
+    read_all(world.robots[r], world.file, "/robots/" + std::to_string(r), {}, issues);
   }
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
 }

@@ -118,7 +118,8 @@ constexpr auto fields_of(std::type_identity<RobotInfo> /*type*/) {
       field("name", &T::name), field("model", &T::model), field("colour", &T::colour),
       field("initial_pose", &T::initial_pose), field("port", &T::port, WholeRange{0, 65535}),
       field("length", &T::length_m), field("width", &T::width_m), field("height", &T::height_m),
-      field("center", &T::center_m), field("max_speed", &T::max_speed_mps),
+      field("center", &T::center_m), field("radius", &T::radius_m, Presence::kOptional),
+      field("mass", &T::mass_kg, Presence::kOptional), field("max_speed", &T::max_speed_mps),
       field("max_turn_rate", &T::max_turn_rate_radps), field("proxies", &T::proxies, kAnyInt),
       field("interfaces", &T::interfaces), field("drivers", &T::drivers),
       field("snd_drivers", &T::snd_drivers), field("devices", &T::devices));
@@ -348,11 +349,26 @@ void decode_field(const json& message, const MessageField<Struct, Value>& field,
   }
 }
 
+// The keys of a field in messages: a point has two.
+template <typename Struct, typename Value>
+void add_keys(const MessageField<Struct, Value>& field, std::vector<std::string>& keys) {
+  if constexpr (std::is_same_v<Value, sim::Vec2>) {
+    keys.push_back(std::string(field.key) + "_x");
+    keys.push_back(std::string(field.key) + "_y");
+  } else {
+    keys.emplace_back(field.key);
+  }
+}
+
 template <typename Struct>
 std::vector<std::string_view> keys_of() {
-  return std::apply(
-      [](const auto&... field) { return std::vector<std::string_view>{field.key...}; },
-      fields_of(std::type_identity<Struct>{}));
+  static const std::vector<std::string> kKeys = [] {
+    std::vector<std::string> keys;
+    std::apply([&](const auto&... field) { (add_keys(field, keys), ...); },
+               fields_of(std::type_identity<Struct>{}));
+    return keys;
+  }();
+  return {kKeys.begin(), kKeys.end()};
 }
 
 template <HasFields Struct>

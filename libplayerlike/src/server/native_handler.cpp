@@ -164,6 +164,10 @@ struct NativeHandler::Guard {
                            sim::rounded_text(std::sqrt(arena_m.prod() / kMaxMapCells), 6) +
                            " m long at least, unless the map is asked for in tiles");
   }
+  void check(const NoteGoalRequest& what) const {
+    require_device(handler.hub_.host().robots(), what.device);
+    handler.require_rights(what.device.robot);
+  }
   void check(const LogRequest& what) const {
     if (!what.file && !what.replay && !what.rewind && !what.running) return;
     const std::vector<RobotInfo>& robots = handler.hub_.host().robots();

@@ -4,13 +4,23 @@
 namespace sim::physics {
 namespace {
 
-// Adds the line between a contact's points to the touches of one of its robots.
+Vec2 in_metres(const b2Vec2& p) { return {metres(p.x), metres(p.y)}; }
+
+// The middle of a contact's points.
+std::optional<Vec2> middle_of(const b2Contact& contact) {
+  const int32 count = contact.GetManifold()->pointCount;
+  if (count == 0) return std::nullopt;
+  b2WorldManifold points;
+  contact.GetWorldManifold(&points);
+  return 0.5 * (in_metres(points.points[0]) + in_metres(points.points[count - 1]));
+}
+
+// What a contact's points span, for one of the two robots that may be in it.
 void add_touch(const b2Contact& contact, int robot, std::vector<Touch>& into) {
   const int32 count = contact.GetManifold()->pointCount;
   if (count == 0) return;
   b2WorldManifold points;
   contact.GetWorldManifold(&points);
-  const auto in_metres = [](const b2Vec2& p) { return Vec2(metres(p.x), metres(p.y)); };
   into.push_back({robot, in_metres(points.points[0]), in_metres(points.points[count - 1])});
 }
 
@@ -41,7 +51,8 @@ std::size_t Contacts::slot(const FixtureInfo& info) const {
   return obstacles + 2 + bodies_.separator_count() + static_cast<std::size_t>(info.index);
 }
 
-void Contacts::count_contact(const b2Fixture* robot_fixture, const b2Fixture* other, int change) {
+void Contacts::count_contact(const b2Contact& contact, const b2Fixture* robot_fixture,
+                             const b2Fixture* other, int change) {
   const FixtureInfo& mine = info_of(robot_fixture);
   if (mine.kind != Contact::Kind::kRobot) return;
   const FixtureInfo& theirs = info_of(other);
@@ -50,13 +61,13 @@ void Contacts::count_contact(const b2Fixture* robot_fixture, const b2Fixture* ot
   if (touching.size() <= where) touching.resize(where + 1, 0);
   touching[where] += change;
   if (change > 0 && touching[where] == 1) {
-    fresh_.push_back({mine.index, theirs.kind, theirs.index});
+    fresh_.push_back({mine.index, theirs.kind, theirs.index, middle_of(contact)});
   }
 }
 
 void Contacts::BeginContact(b2Contact* contact) {
-  count_contact(contact->GetFixtureA(), contact->GetFixtureB(), 1);
-  count_contact(contact->GetFixtureB(), contact->GetFixtureA(), 1);
+  count_contact(*contact, contact->GetFixtureA(), contact->GetFixtureB(), 1);
+  count_contact(*contact, contact->GetFixtureB(), contact->GetFixtureA(), 1);
   for (const b2Fixture* fixture : {contact->GetFixtureA(), contact->GetFixtureB()}) {
     const FixtureInfo& info = info_of(fixture);
     if (info.kind == Contact::Kind::kRobot) add_touch(*contact, info.index, new_touches_);
@@ -64,8 +75,8 @@ void Contacts::BeginContact(b2Contact* contact) {
 }
 
 void Contacts::EndContact(b2Contact* contact) {
-  count_contact(contact->GetFixtureA(), contact->GetFixtureB(), -1);
-  count_contact(contact->GetFixtureB(), contact->GetFixtureA(), -1);
+  count_contact(*contact, contact->GetFixtureA(), contact->GetFixtureB(), -1);
+  count_contact(*contact, contact->GetFixtureB(), contact->GetFixtureA(), -1);
 }
 
 std::vector<Contact> Contacts::of(int robot) const {

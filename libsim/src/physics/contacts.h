@@ -31,7 +31,8 @@ class Contacts final : public b2ContactListener {
 
  private:
   [[nodiscard]] std::size_t slot(const FixtureInfo& info) const;
-  void count_contact(const b2Fixture* robot_fixture, const b2Fixture* other, int change);
+  void count_contact(const b2Contact& contact, const b2Fixture* robot_fixture,
+                     const b2Fixture* other, int change);
 
   Bodies& bodies_;
   std::vector<Contact> fresh_;

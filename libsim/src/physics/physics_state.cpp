@@ -137,8 +137,8 @@ void Contacts::archive(StateArchive& archive) {
   const std::vector<Contact> fresh = fresh_;
   for (b2Contact* c = bodies_.world().GetContactList(); c != nullptr; c = c->GetNext()) {
     if (!c->IsTouching()) continue;
-    count_contact(c->GetFixtureA(), c->GetFixtureB(), 1);
-    count_contact(c->GetFixtureB(), c->GetFixtureA(), 1);
+    count_contact(*c, c->GetFixtureA(), c->GetFixtureB(), 1);
+    count_contact(*c, c->GetFixtureB(), c->GetFixtureA(), 1);
   }
   fresh_ = fresh;
 }

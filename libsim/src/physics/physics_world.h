@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -57,7 +58,8 @@ class PhysicsWorld {
     enum class Kind : std::uint8_t { kObstacle, kSeparator, kBorder, kWall, kRobot };
     int robot;
     Kind kind;
-    int index;  ///< of the obstacle, separator or robot
+    int index;                      ///< of the obstacle, separator or robot
+    std::optional<Vec2> p_WC = {};  ///< a point of the contact when it began; none: not known
   };
   /// Contacts that began in the last step. A contact between two robots is listed for both.
   [[nodiscard]] const std::vector<Contact>& new_contacts() const noexcept;

@@ -41,7 +41,9 @@ class GroundPainter {
     }
     const double width_px = layout_.line_px(1.0, 0.7);
     Shape grid;
-    const Vec2 end = layout_.origin + arena_.size;
+    // Of a large arena only the lines that can be seen.
+    const Vec2 begin = layout_.origin.cwiseMax(layout_.view_low);
+    const Vec2 end = (layout_.origin + arena_.size).cwiseMin(layout_.view_low + layout_.view_size);
     const auto line = [&](const Vec2& p_WA, const Vec2& p_WB) {
       const Vec2 a = layout_(p_WA);
       const Vec2 b = layout_(p_WB);
@@ -53,10 +55,10 @@ class GroundPainter {
     };
     // Counted in whole steps: a sum of steps would drift, and would stop increasing far from zero.
     const auto lines_along = [&](int axis) {
-      const double first = std::floor(layout_.origin[axis] / step_m) + 1.0;
+      const double first = std::floor(begin[axis] / step_m) + 1.0;
       const int count = static_cast<int>(std::ceil(end[axis] / step_m) - first);
       for (int i = 0; i < count; ++i) {
-        Vec2 from = layout_.origin;
+        Vec2 from = begin;
         Vec2 to = end;
         from[axis] = to[axis] = (first + i) * step_m;
         line(from, to);

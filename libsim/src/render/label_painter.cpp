@@ -11,14 +11,16 @@
 
 #include "render/robot_painter.h"
 #include "render/robot_place.h"
+#include "render/text_outline.h"
 
 namespace sim::render {
 namespace {
 
 class LabelPainter {
  public:
-  LabelPainter(const SceneSnapshot& scene, const Layout& layout, Painter& painter)
-      : scene_(scene), layout_(layout), painter_(painter) {}
+  LabelPainter(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+               Painter& painter)
+      : scene_(scene), layout_(layout), covered_(covered), painter_(painter) {}
 
   // Draws bubbles next to robots that say something, without overlap if there is room.
   void draw_speech() {
@@ -54,7 +56,7 @@ class LabelPainter {
     std::vector<Label> labels;
     std::vector<Rectangle> bodies;
     for (const RobotSnapshot& robot : scene_.robots) {
-      if (!has_place(robot, layout_)) continue;
+      if (!is_seen(robot)) continue;
       Label label;
       label.center = layout_(robot.X_WB.position());
       label.radius_px = marked_radius_px(robot, layout_) + (robot.marked    ? 15.0
@@ -74,6 +76,7 @@ class LabelPainter {
       if (!label.text.empty()) labels.push_back(std::move(label));
     }
     for (const Bubble& bubble : bubbles()) bodies.push_back(bubble.place);
+    if (covered_.right > covered_.left) bodies.push_back(covered_);
     for (const int round : {0, 1}) {
       for (std::size_t i = 0; i < labels.size(); ++i) {
         std::vector<Rectangle> names;
@@ -99,18 +102,22 @@ class LabelPainter {
     std::vector<Vec2> tail;
   };
 
-  // The text with one '?' for each non-ASCII character, since the painter only draws ASCII.
+  // Whether a robot is in the picture, and not under what covers a part of it.
+  [[nodiscard]] bool is_seen(const RobotSnapshot& robot) const {
+    if (!has_place(robot, layout_)) return false;
+    const Vec2 center = layout_(robot.X_WB.position());
+    return !(center.x() > covered_.left && center.x() < covered_.right &&
+             center.y() > covered_.top && center.y() < covered_.bottom);
+  }
+
+  // A text as the painter can write it: blanks in place of control characters.
   static std::string plain(const std::string& text) {
-    std::string ascii;
-    for (const char c : text) {
+    std::string printable = text;
+    for (char& c : printable) {
       const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x80) {
-        ascii += byte < 0x20 || byte == 0x7f ? ' ' : c;
-      } else if (byte >= 0xc0) {
-        ascii += '?';
-      }
+      if (byte < 0x20 || byte == 0x7f) c = ' ';
     }
-    return ascii;
+    return printable;
   }
 
   // Wraps a text into at most two lines, broken between words; dots replace what does not fit.
@@ -127,9 +134,11 @@ class LabelPainter {
       if (!fits(rest.substr(0, at))) break;
       end = at;
     }
-    if (end == 0) {  // a word longer than a line
-      end = 1;
-      while (end < rest.size() && fits(rest.substr(0, end + 1))) ++end;
+    if (end == 0) {  // a word that is longer than a line
+      end = end_of_character(rest, 0);
+      while (end < rest.size() && fits(rest.substr(0, end_of_character(rest, end)))) {
+        end = end_of_character(rest, end);
+      }
     }
     std::string second = rest.substr(end);
     second.erase(0, std::min(second.find_first_not_of(' '), second.size()));
@@ -140,13 +149,13 @@ class LabelPainter {
     std::vector<Bubble> all;
     std::vector<Rectangle> bodies;
     for (const RobotSnapshot& robot : scene_.robots) {
-      if (!has_place(robot, layout_)) continue;
+      if (!is_seen(robot)) continue;
       const Vec2 center = layout_(robot.X_WB.position());
       const Vec2 reach = Vec2::Constant(marked_radius_px(robot, layout_));
       bodies.push_back(rectangle(center - reach, center + reach));
     }
     for (const RobotSnapshot& robot : scene_.robots) {
-      if (robot.says.empty() || !has_place(robot, layout_)) continue;
+      if (robot.says.empty() || !is_seen(robot)) continue;
       Bubble bubble;
       bubble.style = layout_.text_style(12.5, palette::kInk);
       bubble.padding_px = 0.75 * bubble.style.cap_height_px;
@@ -183,11 +192,11 @@ class LabelPainter {
       Vec2 middle = center + Vec2(direction[0] * (beside ? radius + gap + half.x() : half.x()),
                                   direction[1] * (radius + gap + half.y()));
       const Vec2 wanted = middle;
-      const double bottom = std::max(layout_.floor.bottom, 2.0 * half.y() + 2.0 * edge);
-      // Inside the floor if it is wide enough, otherwise anywhere in the picture.
-      const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
-      const double least_x = (fits ? layout_.floor.left : 0.0) + half.x() + edge;
-      const double most_x = (fits ? layout_.floor.right : layout_.width) - half.x() - edge;
+      const double bottom = std::max(layout_.view.bottom, 2.0 * half.y() + 2.0 * edge);
+      // Over the floor where it is wide enough, else anywhere in the picture.
+      const bool fits = layout_.view.right - layout_.view.left > 2.0 * (half.x() + edge);
+      const double least_x = (fits ? layout_.view.left : 0.0) + half.x() + edge;
+      const double most_x = (fits ? layout_.view.right : layout_.width) - half.x() - edge;
       middle.x() = std::clamp(middle.x(), least_x, std::max(most_x, least_x));
       middle.y() = std::clamp(middle.y(), half.y() + edge,
                               std::max(bottom - half.y() - edge, half.y() + edge));
@@ -271,22 +280,22 @@ class LabelPainter {
         const double reach = label.radius_px + gap * layout_.unit_px;
         Vec2 middle = label.center +
                       Vec2(direction[0] * (reach + half.x()), direction[1] * (reach + half.y()));
-        // Inside the floor if it is wide enough, otherwise in the picture above the footer.
-        const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
-        const double least_x = fits ? layout_.floor.left : 0.0;
-        const double most_x = fits ? layout_.floor.right : layout_.width;
+        // On the floor where it is wide enough, else in the picture and above the footer.
+        const bool fits = layout_.view.right - layout_.view.left > 2.0 * (half.x() + edge);
+        const double least_x = fits ? layout_.view.left : 0.0;
+        const double most_x = fits ? layout_.view.right : layout_.width;
         const double least_y = half.y() + edge;
         middle.x() = std::clamp(middle.x(), least_x + half.x() + edge,
                                 std::max(most_x - half.x() - edge, least_x + half.x() + edge));
         middle.y() = std::clamp(middle.y(), least_y,
-                                std::max(least_y, layout_.floor.bottom - half.y() - edge));
+                                std::max(least_y, layout_.view.bottom - half.y() - edge));
         const Rectangle place = rectangle(middle - half, middle + half);
         const Rectangle with_halo =
             rectangle(middle - half - Vec2(edge, edge), middle + half + Vec2(edge, edge));
         double cost = preference;
         for (const Rectangle& name : names) cost += 12.0 * with_halo.overlap(name) / area;
         for (const Rectangle& body : bodies) cost += 5.0 * with_halo.overlap(body) / area;
-        cost += 3.0 * (1.0 - place.overlap(layout_.floor) / area);
+        cost += 3.0 * (1.0 - place.overlap(layout_.view) / area);
         if (cost < least_cost) {
           least_cost = cost;
           best = place;
@@ -299,17 +308,20 @@ class LabelPainter {
 
   const SceneSnapshot& scene_;
   const Layout& layout_;
+  Rectangle covered_;
   Painter& painter_;
 };
 
 }  // namespace
 
-void draw_speech(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
-  LabelPainter(scene, layout, painter).draw_speech();
+void draw_speech(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+                 Painter& painter) {
+  LabelPainter(scene, layout, covered, painter).draw_speech();
 }
 
-void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
-  LabelPainter(scene, layout, painter).draw_names();
+void draw_names(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+                Painter& painter) {
+  LabelPainter(scene, layout, covered, painter).draw_names();
 }
 
 }  // namespace sim::render

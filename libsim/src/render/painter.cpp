@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "render/modules/module_file.h"
+#include "render/text_outline.h"
 
 namespace sim::render {
 namespace {
@@ -489,11 +490,56 @@ void Painter::fill_accumulated(Colour colour) {
 }
 
 double Painter::text_width_px(const std::string& text, const TextStyle& style) {
+  if (has_wide_characters(text)) return text_outline(text, style.cap_height_px).width_px;
   double width_px = 0.0;
   for (const Word& word : words_of(text, style)) {
     width_px = word.start_px + word.width_px;
   }
   return width_px;
+}
+
+Painter::TextMask Painter::make_outline_mask(const std::string& text, const TextStyle& style,
+                                             int quarter_px, double rim_px) {
+  const TextOutline outline = text_outline(text, style.cap_height_px);
+  // Accents stand above capitals, and some characters go far below the base line.
+  const int room = static_cast<int>(std::ceil(0.7 * style.cap_height_px + style.halo_px)) + 2;
+  const int cap_height = static_cast<int>(std::ceil(style.cap_height_px));
+  TextMask mask;
+  mask.left = -room;
+  mask.top = -cap_height - room;
+  mask.width = static_cast<int>(std::ceil(outline.width_px)) + 2 * room + 2;
+  mask.height = cap_height + 2 * room;
+  mask.coverage.resize(static_cast<std::size_t>(mask.width) *
+                       static_cast<std::size_t>(mask.height));
+  const Vec2 offset(room + static_cast<double>(quarter_px) / kTextOversampling,
+                    static_cast<double>(-mask.top));
+  Rasteriser rasteriser;
+  // Letters have edges that turn one way and the other, strokes all turn alike: they cannot be
+  // filled as one shape.
+  const auto add = [&](const Shape& shape) {
+    rasteriser.rasterise(
+        shape, {0, 0, mask.width, mask.height}, [&](int y, int begin, int end, float coverage) {
+          const std::uint32_t value = whole_weight(std::min(coverage, 1.0F));
+          for (int x = begin; x < end; ++x) {
+            std::uint32_t& cell =
+                mask.coverage[static_cast<std::size_t>(y) * static_cast<std::size_t>(mask.width) +
+                              static_cast<std::size_t>(x)];
+            cell = std::max(cell, value);
+          }
+        });
+  };
+  Shape letters;
+  Shape strokes;
+  // The font's strokes are as strong as those of the other letters at a weight of 0.13.
+  const double stroke_px = 2.0 * rim_px + std::max(0.0, style.weight - 0.13) * style.cap_height_px;
+  for (std::vector<Vec2> contour : outline.contours) {
+    for (Vec2& point : contour) point += offset;
+    letters.add_outline(contour);
+    if (stroke_px > 0.0) strokes.add_line(contour, stroke_px, true);
+  }
+  add(letters);
+  if (stroke_px > 0.0) add(strokes);
+  return mask;
 }
 
 Painter::TextMask Painter::make_text_mask(const std::string& text, const TextStyle& style,
@@ -567,7 +613,11 @@ void Painter::draw_text(const std::string& text, const Vec2& start, const TextSt
     auto known = texts_.find(key);
     if (known == texts_.end()) {
       if (texts_.size() >= kMostRemembered) texts_.clear();
-      known = texts_.emplace(key, make_text_mask(text, style, quarter_px, rim_px)).first;
+      known = texts_
+                  .emplace(key, has_wide_characters(text)
+                                    ? make_outline_mask(text, style, quarter_px, rim_px)
+                                    : make_text_mask(text, style, quarter_px, rim_px))
+                  .first;
     }
     fill(known->second, x + known->second.left, y + known->second.top, colour);
   };

@@ -187,8 +187,9 @@ class Painter {
 
   /// Length of a line of text [pixels].
   [[nodiscard]] static double text_width_px(const std::string& text, const TextStyle& style);
-  /// Draws a line of ASCII text (other characters become '?') whose base line begins at `start`.
-  /// Rendered texts are cached, so repeated texts cost less.
+  /// Writes a line of text in UTF-8, its base line beginning at `start`. Texts of ASCII alone are
+  /// written by strokes, others as outlines of a font (text_outline.h).
+  /// Texts are remembered: what was written before costs less.
   void draw_text(const std::string& text, const Vec2& start, const TextStyle& style);
 
  private:
@@ -202,6 +203,8 @@ class Painter {
   };
   [[nodiscard]] static TextMask make_text_mask(const std::string& text, const TextStyle& style,
                                                int quarter_px, double rim_px);
+  [[nodiscard]] static TextMask make_outline_mask(const std::string& text, const TextStyle& style,
+                                                  int quarter_px, double rim_px);
   void fill(const TextMask& mask, int left, int top, Colour colour);
 
   /// Blends a colour over the pixels of a row from x_begin to x_end.

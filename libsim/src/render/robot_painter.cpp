@@ -15,6 +15,8 @@ namespace {
 // Deviation of a line from its points that is invisible.
 constexpr double kTolerance_px = 0.15;
 constexpr double kAnyLength_px = 1e9;
+// More robots than this get short fans.
+constexpr std::ptrdiff_t kMostFans = 20;
 
 // Simplifies a polyline: the result passes all omitted points within `tolerance_px`, and none of
 // its segments is longer than `longest_px` unless an original one was. Appending points changes
@@ -74,6 +76,10 @@ class RobotPainter {
       : scene_(scene), layout_(layout), painter_(painter) {}
 
   void draw_fans(const std::vector<std::uint8_t>& cells) {
+    if (fan_count() > kMostFans) {
+      draw_short_fans();
+      return;
+    }
     const double strength = fan_strength() * (1.0 - 0.4 * drawn_share(cells));
     for (const RobotSnapshot& robot : scene_.robots) {
       std::vector<Vec2> outline = hits_of(robot);
@@ -187,8 +193,34 @@ class RobotPainter {
     }
   }
 
-  // Draws a line that fades with age. The segments' opacities are combined by their maximum, so
-  // that neither joints nor crossings are visible.
+  // Whole fans of many robots would mix their colours into grey: of each only what is near its
+  // robot is drawn, and fades out.
+  void draw_short_fans() {
+    constexpr double kRadii = 5.0;
+    const Vec2 floor_px = scene_.arena.size * layout_.pixels_per_m;
+    const double spacing_px =
+        std::sqrt(floor_px.x() * floor_px.y() / static_cast<double>(fan_count()));
+    for (const RobotSnapshot& robot : scene_.robots) {
+      std::vector<Vec2> outline = hits_of(robot);
+      if (outline.empty()) continue;
+      const Vec2 origin = layout_(robot.scan_origin);
+      const double reach_px =
+          std::max(std::min(kRadii * radius_px(robot, layout_), 0.6 * spacing_px),
+                   2.0 * marked_radius_px(robot, layout_));
+      for (Vec2& hit : outline) {
+        const Vec2 beam = hit - origin;
+        const double length_px = beam.norm();
+        if (length_px > reach_px) hit = origin + beam * (reach_px / length_px);
+      }
+      outline.push_back(origin);
+      Shape fan;
+      fan.add_outline(outline);
+      painter_.fill_fading(fan, opaque(robot.colour), origin, reach_px, 0.42, 0.0);
+    }
+  }
+
+  // A line that is fainter where it is older. The parts' opacities are united by the greatest one,
+  // so that neither joints nor crossings stand out.
   void draw_trails(const std::vector<std::uint8_t>& cells) {
     constexpr int kShades = 24;
     for (const RobotSnapshot& robot : scene_.robots) {
@@ -334,10 +366,14 @@ class RobotPainter {
     return hits;
   }
 
-  // Opacity factor for overlapping fans of many robots, which together must not hide the floor.
+  [[nodiscard]] std::ptrdiff_t fan_count() const {
+    return std::count_if(scene_.robots.begin(), scene_.robots.end(),
+                         [](const auto& robot) { return !robot.scan_points.empty(); });
+  }
+
+  // Fans of many robots lie upon each other: together they must not hide the floor.
   [[nodiscard]] double fan_strength() const {
-    const auto count = std::count_if(scene_.robots.begin(), scene_.robots.end(),
-                                     [](const auto& robot) { return !robot.scan_points.empty(); });
+    const std::ptrdiff_t count = fan_count();
     return 1.0 / std::pow(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)), 0.7);
   }
 

@@ -20,13 +20,19 @@ void draw_fans(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cell
 void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                  const Layout& layout, Painter& painter);
 
-/// Draw what lies above blocks and borders: surfaces that lasers have met, lines to detected
-/// fiducials, robots with their bumpers, and their names.
+/// What lies over blocks and borders: surfaces that lasers have met, lines to what fiducial finders
+/// see, robots with their bumpers.
 void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
-void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+/// Names, and what the robots say, in bubbles on top of all else. Robots under what covers a part
+/// of the picture, as a mini-map does, get neither; an empty rectangle covers nothing.
+void draw_names(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+                Painter& painter);
+void draw_speech(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+                 Painter& painter);
 
-/// Draws what the robots say, in bubbles on top of everything else.
-void draw_speech(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+/// Marks where robots have hit something, and where they were to drive, over the robots.
+void draw_collisions(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
+void draw_goals(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 
 }  // namespace sim::render

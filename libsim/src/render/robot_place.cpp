@@ -24,8 +24,7 @@ bool has_place(const RobotSnapshot& robot, const Layout& layout) {
     return false;
   }
   const Vec2 reach = Vec2::Constant(marked_radius_px(robot, layout));
-  return !layout.floor_only ||
-         rectangle(center - reach, center + reach).overlap(layout.floor) > 0.0;
+  return !layout.view_only || rectangle(center - reach, center + reach).overlap(layout.view) > 0.0;
 }
 
 }  // namespace sim::render

@@ -15,6 +15,7 @@
 #include "render/layout.h"
 #include "render/painter.h"
 #include "render/robot_painter.h"
+#include "sim/render/drawing.h"
 #include "sim/render/render.h"
 
 namespace sim::render {
@@ -89,9 +90,10 @@ void fill_rectangle(Painter& painter, const Rectangle& place, double grown_px, C
 /// The cached parts of an arena's pictures.
 class ArenaView {
  public:
-  ArenaView(const ArenaDescription& arena, const RenderOptions& options)
+  ArenaView(const ArenaDescription& arena, const RenderOptions& options,
+            const std::optional<ScenePart>& part)
       : options_(options),
-        layout_(arena, options),
+        layout_(arena, options, part),
         painter_(layout_.width, layout_.height, palette::kPaper) {
     draw_ground(arena, layout_, painter_);
     ground_ = painter_.image();
@@ -112,14 +114,20 @@ class ArenaView {
   const Image& draw(const SceneSnapshot& scene, ViewMode mode) {
     if (mode == ViewMode::kFullScreen) return draw_full_screen(scene);
     draw_arena(scene, mode == ViewMode::kGround);
-    if (mode == ViewMode::kMiniMap && options_.canvas) draw_mini_map(scene);
-    if (options_.names && layout_.text) draw_names(scene, layout_, painter_);
-    if (layout_.text) draw_speech(scene, layout_, painter_);
+    Rectangle covered;
+    if (mode == ViewMode::kMiniMap && options_.canvas) {
+      draw_mini_map(scene);
+      covered = to_rectangle(mini_place_);
+    }
+    if (layout_.cropped) draw_surround();
+    if (options_.names && layout_.text) draw_names(scene, layout_, covered, painter_);
+    if (layout_.text) draw_speech(scene, layout_, covered, painter_);
     if (options_.legend && layout_.text) {
-      const double left = std::min(layout_.floor.left - layout_.border_px, layout_.margin_px);
+      const double border_px = layout_.cropped ? 0.0 : layout_.border_px;
+      const double left = std::min(layout_.view.left - border_px, layout_.margin_px);
       draw_footer(scene, layout_,
-                  {left, layout_.floor.bottom + layout_.border_px, layout_.width - left,
-                   layout_.floor.bottom + layout_.footer_px},
+                  {left, layout_.view.bottom + border_px, layout_.width - left,
+                   layout_.view.bottom + layout_.footer_px},
                   layout_.pixels_per_m, painter_);
     }
     return painter_.image();
@@ -152,6 +160,24 @@ class ArenaView {
     solids_.draw_on(painter_.image(), {0, 0, layout_.width, layout_.height});
     if (options_.scans) draw_seen_surfaces(scene, layout_, painter_);
     draw_robots(scene, layout_, painter_);
+    if (options_.goals) draw_goals(scene, layout_, painter_);
+    if (options_.collisions) draw_collisions(scene, layout_, painter_);
+  }
+
+  // Hides what lies beyond the part that is shown, and frames it.
+  void draw_surround() {
+    const Rectangle& view = layout_.view;
+    const double width = layout_.width;
+    const double height = layout_.height;
+    for (const Rectangle& side :
+         {Rectangle{0.0, 0.0, width, view.top}, Rectangle{0.0, view.bottom, width, height},
+          Rectangle{0.0, view.top, view.left, view.bottom},
+          Rectangle{view.right, view.top, width, view.bottom}}) {
+      fill_rectangle(painter_, side, 0.0, palette::kPaper);
+    }
+    Shape frame;
+    frame.add_line(rectangle_corners(view, 0.0), layout_.line_px(1.4, 1.0), true);
+    painter_.fill(frame, palette::kFaintInk);
   }
 
   // Pixels per cell, as many as fit into the area: an integer, or the inverse of an integer.
@@ -164,10 +190,9 @@ class ArenaView {
   // mini-map would otherwise jump in a film. Robots appear in it as dots.
   void draw_mini_map(const SceneSnapshot& scene) {
     const CanvasDescription& canvas = scene.canvas_description;
-    constexpr double kShare = 0.36;         // maximum fraction of the floor's sides
-    constexpr double kCrispAtLeast = 0.75;  // minimum fraction of the above size for integer pixels
-                                            // per cell
-    const Rectangle& floor = layout_.floor;
+    constexpr double kShare = 0.36;         // of the floor's sides, at most
+    constexpr double kCrispAtLeast = 0.75;  // of that, for whole pixels a cell
+    const Rectangle& floor = layout_.view;
     const double room_x = kShare * (floor.right - floor.left);
     const double room_y = kShare * (floor.bottom - floor.top);
     double cell_px = std::min(room_x / canvas.width, room_y / canvas.height);
@@ -229,12 +254,12 @@ class ArenaView {
   // The corner of the floor where a mini-map covers the least of docks and solids.
   [[nodiscard]] PixelRect corner_for(int width, int height) const {
     const double gap_px = 14.0 * layout_.unit_px;
-    const int left = static_cast<int>(std::lround(layout_.floor.left + gap_px));
-    const int top = static_cast<int>(std::lround(layout_.floor.top + gap_px));
+    const int left = static_cast<int>(std::lround(layout_.view.left + gap_px));
+    const int top = static_cast<int>(std::lround(layout_.view.top + gap_px));
     const int right =
-        std::max(left, static_cast<int>(std::lround(layout_.floor.right - gap_px)) - width);
+        std::max(left, static_cast<int>(std::lround(layout_.view.right - gap_px)) - width);
     const int bottom =
-        std::max(top, static_cast<int>(std::lround(layout_.floor.bottom - gap_px)) - height);
+        std::max(top, static_cast<int>(std::lround(layout_.view.bottom - gap_px)) - height);
     PixelRect best;
     double least = 0.0;
     for (const auto& [x, y] : {std::array{right, top}, std::array{left, top},
@@ -286,14 +311,15 @@ class ArenaView {
     Layout on_canvas = layout_;
     on_canvas.pixels_per_m = cell_px / canvas.cell_size_m;
     on_canvas.origin = canvas.origin;
-    on_canvas.floor_only = true;
+    on_canvas.view_only = true;
     on_canvas.floor = {static_cast<double>(left), static_cast<double>(top),
                        left + canvas.width * cell_px, top + canvas.height * cell_px};
+    on_canvas.view = on_canvas.floor;
     painter_.set_clip(place);
     draw_robots(scene, on_canvas, painter_);
     painter_.clear_clip();
-    if (options_.names && layout_.text) draw_names(scene, on_canvas, painter_);
-    if (layout_.text) draw_speech(scene, on_canvas, painter_);
+    if (options_.names && layout_.text) draw_names(scene, on_canvas, {}, painter_);
+    if (layout_.text) draw_speech(scene, on_canvas, {}, painter_);
     if (footer) {
       const double bottom = layout_.height;
       draw_footer(
@@ -321,20 +347,57 @@ class ArenaView {
   CanvasView alone_;
 };
 
+// @throws std::invalid_argument naming what is out of range.
+void check(const RenderOptions& options) {
+  const auto check_side = [](const char* what, int side_px) {
+    if (side_px >= kLeastSizePx && side_px <= kGreatestSizePx) return;
+    throw std::invalid_argument(
+        std::string(what) + " of a picture must be in " + std::to_string(kLeastSizePx) + ".." +
+        std::to_string(kGreatestSizePx) + " pixels, found " + std::to_string(side_px));
+  };
+  if (options.width_px == 0 && options.height_px == 0) {
+    check_side("size", options.size_px);
+  } else {
+    check_side("width", options.width_px);
+    check_side("height", options.height_px);
+  }
+  if (options.part && !(options.part->size.minCoeff() > 0.0 && options.part->size.allFinite() &&
+                        options.part->low.allFinite())) {
+    throw std::invalid_argument("the part of the world that a picture shows must have a size");
+  }
+}
+
+// What to show of a scene; none: the whole arena.
+std::optional<ScenePart> shown_part(const SceneSnapshot& scene, const RenderOptions& options,
+                                    ViewMode mode) {
+  if (mode == ViewMode::kFullScreen) return std::nullopt;
+  for (const RobotSnapshot& robot : scene.robots) {
+    if (options.follow.empty() || robot.name != options.follow) continue;
+    constexpr double kRadii = 20.0;
+    double radius_m = 0.0;
+    for (const Vec2& corner : robot.footprint) radius_m = std::max(radius_m, corner.norm());
+    double width_m = options.follow_width_m > 0.0 ? options.follow_width_m : kRadii * radius_m;
+    if (!(width_m > 0.0)) width_m = scene.arena.size.maxCoeff();
+    const Vec2 size(width_m, width_m);
+    const Vec2 low = robot.X_WB.position() - 0.5 * size;
+    if (low.allFinite()) return ScenePart{low, size, true};
+  }
+  return options.part;
+}
+
 }  // namespace
 
 struct SceneRenderer::Impl {
+  const Image& draw(const SceneSnapshot& scene, ViewMode mode);
+
   RenderOptions options;
   ArenaKey key;
+  std::optional<ScenePart> part;
   std::optional<ArenaView> view;
 };
 
 SceneRenderer::SceneRenderer(const RenderOptions& options) {
-  if (options.size_px < kLeastSizePx || options.size_px > kGreatestSizePx) {
-    throw std::invalid_argument("size of a picture must be in " + std::to_string(kLeastSizePx) +
-                                ".." + std::to_string(kGreatestSizePx) + " pixels, found " +
-                                std::to_string(options.size_px));
-  }
+  check(options);
   impl_ = std::make_unique<Impl>();
   impl_->options = options;
 }
@@ -347,12 +410,24 @@ const Image& SceneRenderer::draw(const SceneSnapshot& scene, ViewMode mode) {
   if (!scene.canvas.empty() && scene.canvas.size() != canvas_bytes(scene.canvas_description)) {
     throw std::invalid_argument("a scene's canvas must have 4 bytes a cell");
   }
-  ArenaKey key(scene.arena);
-  if (!impl_->view || !(key == impl_->key)) {
-    impl_->view.emplace(scene.arena, impl_->options);
-    impl_->key = std::move(key);
+  if (impl_->options.colour_by == ColourBy::kWorld) return impl_->draw(scene, mode);
+  SceneSnapshot coloured = scene;
+  for (std::size_t i = 0; i < coloured.robots.size(); ++i) {
+    const bool by_robot = impl_->options.colour_by == ColourBy::kRobot;
+    coloured.robots[i].colour = by_robot ? distinct_colour(i) : palette::kFaintInk;
   }
-  return impl_->view->draw(scene, mode);
+  return impl_->draw(coloured, mode);
+}
+
+const Image& SceneRenderer::Impl::draw(const SceneSnapshot& scene, ViewMode mode) {
+  ArenaKey newest_key(scene.arena);
+  const std::optional<ScenePart> newest_part = shown_part(scene, options, mode);
+  if (!view || !(newest_key == key) || newest_part != part) {
+    view.emplace(scene.arena, options, newest_part);
+    key = std::move(newest_key);
+    part = newest_part;
+  }
+  return view->draw(scene, mode);
 }
 
 Image draw_view(const SceneSnapshot& scene, const RenderOptions& options) {

@@ -213,7 +213,9 @@ void Simulation::Impl::record_collisions() {
     ++s.collisions;
     s.least_clearance_m = 0.0;
     if (collisions.size() == 2 * kKeptCollisions) forget_old_collisions();
-    collisions.push_back({now_ns, contact.robot, partner_name(contact, world)});
+    const Vec2 middle = physics->body(contact.robot).X_WB.position();
+    collisions.push_back(
+        {now_ns, contact.robot, partner_name(contact, world), contact.p_WC.value_or(middle)});
   }
 }
 

@@ -27,7 +27,7 @@ struct SnapshotHeader {
   std::uint64_t hash;      // of both
 };
 constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
-constexpr std::uint64_t kSnapshotVersion = 1;
+constexpr std::uint64_t kSnapshotVersion = 2;
 
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   StateHash hash;
@@ -133,6 +133,8 @@ void Simulation::Impl::archive(StateArchive& archive) {
 
 void Simulation::Impl::archive_pictures(StateArchive& archive) {
   archive.choice(view_mode, ViewMode::kFullScreen);
+  // Only pictures and reports tell of them: the hash of the state does not cover them.
+  for (Collision& collision : collisions) archive(collision.place);
   layers.archive_others(archive);
 }
 

@@ -490,6 +490,47 @@ TEST_F(MorseInARoom, WaypointDrivesToItsGoal) {
   EXPECT_DOUBLE_EQ(waypoint.GetGoal().px, 2.5);
 }
 
+TEST_F(MorseInARoom, RobotDrivesToItsPositionGoal) {
+  EXPECT_DOUBLE_EQ(robot.GetWeight(), 2.0);
+  MorsePose pose(robot);
+  client.Read();
+  EXPECT_FALSE(robot.HasPositionGoal());
+  EXPECT_EQ(error_code_of([&] { robot.GetPositionGoal(); }), MorseError::kNotAvailable);
+  EXPECT_EQ(error_code_of([&] { robot.SetPositionGoal(std::nan(""), 0.0, 0.0); }),
+            MorseError::kBadArgument);
+  const double x = pose.GetX() + 0.4;
+  const double y = pose.GetY();
+  robot.SetPositionGoal(x, y, 1.0);
+  EXPECT_TRUE(robot.HasPositionGoal());
+  EXPECT_DOUBLE_EQ(client.GetRobot().GetPositionGoal().px, x);  // copies share it
+  for (int i = 0; i < 60; ++i) client.Read();
+  EXPECT_NEAR(pose.GetX(), x, 0.03);
+  EXPECT_NEAR(pose.GetY(), y, 0.03);
+  EXPECT_NEAR(pose.GetYaw(), 1.0, 0.1);
+  // Without a heading: the direction from its start, (1, 2), as no Position2dProxy has read since.
+  robot.SetPositionGoal(2.0, 3.0);
+  EXPECT_NEAR(robot.GetPositionGoal().pa, 0.785398, 1e-4);
+  for (int i = 0; i < 10; ++i) client.Read();
+  robot.ClearPositionGoal();
+  EXPECT_FALSE(robot.HasPositionGoal());
+  client.Read();
+  client.Read();
+  const double y_there = pose.GetY();
+  client.Read();
+  EXPECT_EQ(pose.GetY(), y_there);
+}
+
+TEST(MorseGoals, ARobotWithoutMotorsTakesNoPositionGoal) {
+  auto world = make_fake_world();
+  std::erase_if(world->robots[0].devices,
+                [](const playerlike::DeviceInfo& device) { return device.type == "motion"; });
+  MorseClient client(fake_session(world));
+  MorseRobot robot = client.GetRobot();
+  EXPECT_EQ(error_code_of([&] { robot.SetPositionGoal(1.0, 1.0, 0.0); }),
+            MorseError::kNotAvailable);
+  EXPECT_EQ(robot.GetWeight(), 0.0);  // not told
+}
+
 TEST_F(MorseInARoom, WaypointStopsAndResumes) {
   MorseWaypoint waypoint(robot);
   MorsePose pose(robot);

@@ -41,7 +41,7 @@ class Outputs : public testing::Test {
     return simulation_.layers().add(kind, style, owner);
   }
   void write() const {
-    write_report(folder_.path(), report_text(simulation_, {}, {}));
+    write_report(folder_.path(), report_text(simulation_, {}, {}, {}));
     write_pictures(folder_.path(), simulation_.layers(), simulation_.snapshot());
   }
   [[nodiscard]] std::vector<std::string> layer_files() const {
@@ -178,12 +178,16 @@ std::map<std::string, std::string> all_texts_of_a_run() {
     TimeStatistics time;
     time.wall_time_s = 12.345;
     time.real_time_factor = 1234.5;
-    write_report(settings.output_folder, report_text(simulation, time, {}));
+    write_report(settings.output_folder, report_text(simulation, {}, time, {}));
     write_pictures(settings.output_folder, simulation.layers(), recorder.scene(simulation));
   }
   for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {
     if (!entry.is_regular_file()) continue;
-    texts[fs::relative(entry.path(), settings.output_folder)] = read_bytes(entry.path());
+    std::string& text = texts[fs::relative(entry.path(), settings.output_folder)];
+    text = read_bytes(entry.path());
+    // The report names the world's file; each call has a folder of its own.
+    const std::string own = folder.path();
+    if (const std::size_t at = text.find(own); at != text.npos) text.replace(at, own.size(), "");
   }
   texts["summary"] = summarize_report(folder / "out/report.json");
   for (const auto& [name, value] : run_environment("", settings)) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sim/core/error.h"
+#include "sim/simulation/simulation.h"
 #include "temporary_folder.h"
 
 namespace playerlike {
@@ -37,10 +38,12 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_DURATION", std::nullopt), Pair("PLAYPEN_TIME", std::nullopt),
           Pair("PLAYPEN_PROGRESS", std::nullopt), Pair("PLAYPEN_RUN", std::nullopt),
           Pair("PLAYPEN_RECORD_FPS", std::nullopt), Pair("PLAYPEN_RECORD_SPEED", std::nullopt),
-          Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt), Pair("PLAYPEN_VIEW_MODE", std::nullopt),
-          Pair("PLAYPEN_VIEW", std::nullopt), Pair("PLAYPEN_CLIENTS", std::nullopt),
-          Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
-          Pair("PLAYPEN_STATE", std::nullopt)));
+          Pair("PLAYPEN_RECORD_SIZE", std::nullopt), Pair("PLAYPEN_FOLLOW", std::nullopt),
+          Pair("PLAYPEN_CROP", std::nullopt), Pair("PLAYPEN_HIDE", std::nullopt),
+          Pair("PLAYPEN_COLOUR_BY", std::nullopt), Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt),
+          Pair("PLAYPEN_VIEW_MODE", std::nullopt), Pair("PLAYPEN_VIEW", std::nullopt),
+          Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_GRADE", std::nullopt),
+          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
@@ -125,13 +128,13 @@ TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
 }
 
 TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
-  const EnvironmentChanges bad = {{"PLAYPEN_RECORD", "film.gif"},
-                                  {"PLAYPEN_RECORD_FPS", "0"},
-                                  {"PLAYPEN_RECORD_SPEED", "1001"},
-                                  {"PLAYPEN_SNAPSHOT_EVERY", "0"},
-                                  {"PLAYPEN_VIEW_MODE", "fullscreen"},
-                                  {"PLAYPEN_CLIENTS", "1001"},
-                                  {"PLAYPEN_OUT", "out"}};
+  const EnvironmentChanges bad = {
+      {"PLAYPEN_RECORD", "film.gif"},   {"PLAYPEN_RECORD_FPS", "0"},
+      {"PLAYPEN_RECORD_SPEED", "1001"}, {"PLAYPEN_RECORD_SIZE", "640x63"},
+      {"PLAYPEN_FOLLOW", "r1,0"},       {"PLAYPEN_CROP", "0,0,1"},
+      {"PLAYPEN_HIDE", "fans,walls"},   {"PLAYPEN_COLOUR_BY", "speed"},
+      {"PLAYPEN_SNAPSHOT_EVERY", "0"},  {"PLAYPEN_VIEW_MODE", "fullscreen"},
+      {"PLAYPEN_CLIENTS", "1001"},      {"PLAYPEN_OUT", "out"}};
   const ScopedEnvironment environment(bad);
   try {
     static_cast<void>(RunSettings::from_environment());
@@ -142,6 +145,65 @@ TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
       EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr('"' + *value + '"')));
     }
   }
+}
+
+TEST(RunSettings, PicturesAreReadBackFromTheEnvironment) {
+  RunSettings settings;
+  EXPECT_TRUE(parse_film_size("640x480", settings.pictures));
+  EXPECT_TRUE(parse_follow("r1,2.5", settings.pictures));
+  EXPECT_TRUE(parse_crop("0.1,-1,1.5,2", settings.pictures));
+  EXPECT_TRUE(parse_hide("fans,labels,canvas", settings.pictures));
+  EXPECT_TRUE(parse_colour_by("robot", settings.pictures));
+  EXPECT_FALSE(settings.pictures.names);
+  EXPECT_TRUE(settings.pictures.trails);
+  {
+    const ScopedEnvironment environment(run_environment("", settings));
+    EXPECT_EQ(RunSettings::from_environment().pictures, settings.pictures);
+  }
+  EXPECT_TRUE(parse_film_size("640", settings.pictures));
+  EXPECT_TRUE(parse_follow("r1", settings.pictures));
+  EXPECT_EQ(settings.pictures.width_px, 0);
+  const ScopedEnvironment environment(run_environment("", settings));
+  EXPECT_EQ(RunSettings::from_environment().pictures, settings.pictures);
+}
+
+TEST(RunSettings, BadPictureSettingsChangeNothing) {
+  sim::render::RenderOptions options;
+  const sim::render::RenderOptions before = options;
+  for (const char* size : {"", "x", "63", "4097", "640x", "x480", "640x480x3", "640 x 480"}) {
+    EXPECT_FALSE(parse_film_size(size, options)) << size;
+  }
+  for (const char* crop :
+       {"", "1,2,3", "1,2,3,4,5", "0,0,0,1", "0,0,1,-1", "nan,0,1,1", "a,0,1,1"}) {
+    EXPECT_FALSE(parse_crop(crop, options)) << crop;
+  }
+  for (const char* follow : {"", ",1", "r1,", "r1,-1", "r1,1,1"}) {
+    EXPECT_FALSE(parse_follow(follow, options)) << follow;
+  }
+  for (const char* hide : {"", "fan", "fans,", "fans labels"}) {
+    EXPECT_FALSE(parse_hide(hide, options)) << hide;
+  }
+  EXPECT_FALSE(parse_colour_by("", options));
+  EXPECT_EQ(options, before);
+}
+
+TEST(RunSettings, PicturesMustShowWhatTheWorldHas) {
+  sim::WorldDescription world = sim::load_world_text(
+      R"({"name": "small", "arena": {"size": [2, 1]}, "robots": [{"name": "r1"}]})");
+  RunSettings settings;
+  settings.pictures.follow = "r2";
+  EXPECT_THAT([&] { settings.apply_to(world); },
+              ThrowsMessage<sim::ConfigError>(
+                  AllOf(HasSubstr("run/follow"), HasSubstr("r1"), HasSubstr("\"r2\""))));
+  settings.pictures.follow = "r1";
+  settings.apply_to(world);
+  settings.pictures.follow.clear();
+  EXPECT_TRUE(parse_crop("2,0,1,1", settings.pictures));
+  EXPECT_THAT([&] { settings.apply_to(world); },
+              ThrowsMessage<sim::ConfigError>(
+                  AllOf(HasSubstr("run/crop"), HasSubstr("to 2, 1"), HasSubstr("2,0,1,1"))));
+  EXPECT_TRUE(parse_crop("1.9,0,1,1", settings.pictures));
+  settings.apply_to(world);
 }
 
 TEST(RunSettings, SnapshotsNeedAnOutputFolder) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -193,6 +194,78 @@ TEST(Recorder, AFilmThatCannotBeMadeIsAnErrorAtOnce) {
   const sim::Simulation simulation(small_world());
   EXPECT_THAT([&] { Recorder(settings, simulation); },
               ThrowsMessage<std::runtime_error>(HasSubstr("none/film.mp4")));
+}
+
+TEST(GoalBook, KeepsGoalsWithTheTimesAtWhichTheyWereSetAndReached) {
+  sim::WorldDescription world = small_world();
+  sim::Simulation simulation(world);
+  GoalBook book;
+  book.note(0, {0.5, 0.9}, 0.05, 0);
+  book.note(0, {0.5, 0.9}, 0.05, 10);  // the same
+  book.note(0, {0.51, 0.5}, 0.05, 20);
+  book.note(0, {std::nan(""), 0.0}, 0.05, 30);  // no place
+  simulation.step();
+  book.observe(simulation);
+  ASSERT_EQ(book.goals().size(), 2U);
+  EXPECT_FALSE(book.goals()[0].reached_ns);  // another came before it was reached
+  EXPECT_EQ(book.goals()[1].set_ns, 20);
+  EXPECT_EQ(book.goals()[1].reached_ns, simulation.now_ns());
+  const std::vector<sim::GoalMark> marks = book.marks();
+  EXPECT_FALSE(marks[0].newest);
+  EXPECT_FALSE(marks[0].reached);
+  EXPECT_TRUE(marks[1].newest);
+  EXPECT_TRUE(marks[1].reached);
+  for (int i = 0; i < 2000; ++i) book.note(0, {i, 0.0}, 0.1, i);
+  EXPECT_EQ(book.goals().size(), GoalBook::kMostGoals);
+  EXPECT_EQ(book.goals().back().place.x(), 1999.0);
+  EXPECT_TRUE(book.marks().back().newest);
+}
+
+TEST(GoalBook, FindsGoalsOfWaypointsAndMotors) {
+  sim::Simulation simulation(sim::load_world_text(R"({
+    "arena": {"size": [4, 4]},
+    "robots": [{"name": "r1", "pose": {"x": 1, "y": 2, "yaw_deg": 0}, "devices": {"waypoint": {}}},
+               {"name": "r2", "pose": {"x": 1, "y": 3, "yaw_deg": 0}}]})"));
+  GoalBook book;
+  ASSERT_FALSE(simulation.apply({0, simulation.find_device(0, "waypoint").value()},
+                                sim::GotoCommand{{2.0, 2.0}, 0.1, 0.5}));
+  // In the frame of odometry, which reads 0 where the robot started.
+  const int odometry = simulation.find_device(1, "odometry").value();
+  ASSERT_FALSE(simulation.apply({1, simulation.find_device(1, "motion").value()},
+                                sim::PositionCommand{{0.5, 0.0, 0.0}, 0.0, 0.0, odometry}));
+  for (int step = 0; step < 600; ++step) {
+    simulation.step();
+    book.observe(simulation);
+  }
+  ASSERT_EQ(book.goals().size(), 2U);
+  EXPECT_NEAR(book.goals()[0].place.x(), 2.0, 1e-9);
+  EXPECT_EQ(book.goals()[0].robot, 0);
+  EXPECT_TRUE(book.goals()[0].reached_ns);
+  EXPECT_NEAR(book.goals()[1].place.x(), 1.5, 0.02);
+  EXPECT_NEAR(book.goals()[1].place.y(), 3.0, 0.02);
+  EXPECT_TRUE(book.goals()[1].reached_ns);
+  EXPECT_LT(*book.goals()[1].reached_ns, simulation.now_ns());
+}
+
+TEST(Recorder, SceneHasThePlacesOfCollisions) {
+  const TemporaryFolder folder;
+  RunSettings settings;
+  settings.output_folder = folder.path();
+  sim::Simulation simulation(small_world());
+  Recorder recorder(settings, simulation);
+  ASSERT_FALSE(simulation.apply({0, simulation.find_device(0, "motion").value()},
+                                sim::TwistCommand{{0.5, 0.0, 0.0}}));
+  for (int step = 0; step < 200; ++step) {
+    simulation.step();
+    recorder.observe(simulation);
+  }
+  const sim::SceneSnapshot scene = recorder.scene(simulation);
+  ASSERT_EQ(scene.collisions.size(), 1U);
+  // The border is at x = 1; the robot's nose is 0.09 m wide.
+  EXPECT_NEAR(scene.collisions[0].place.x(), 1.0, 0.02);
+  EXPECT_NEAR(scene.collisions[0].place.y(), 0.5, 0.05);
+  // It has 0.413 m to the border at 0.5 m/s.
+  EXPECT_NEAR(scene.collisions[0].time_s, 0.83, 0.05);
 }
 
 }  // namespace

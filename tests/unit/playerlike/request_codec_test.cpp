@@ -78,6 +78,7 @@ std::vector<Request> examples() {
           SetObjectPropertyRequest{"r1", "colour", "red"},
           SaveStateRequest{"before the door"},
           RestoreStateRequest{"s"},
+          NoteGoalRequest{{1, 2}, {-0.5, 1.0 / 3.0}, 0.05},
           LogRequest{},
           LogRequest{"f", true, false, true}};
 }

@@ -226,6 +226,20 @@ TEST(SmoothNearnessDiagram, CancelledIsIdle) {
   EXPECT_EQ(navigation.step(0.1, {}, scan_at({}, {})).v_mps, 0.0);
 }
 
+TEST(SndSettings, FollowTheRobotsSizeAndSpeeds) {
+  // The S1R: hypot(0.087, 0.045) = 0.0979 m.
+  const SndSettings s1r = snd_settings_for(0.0979, 0.5, 3.0);
+  const SndSettings defaults;
+  for (const SndSettingRow& row : snd_setting_table()) {
+    EXPECT_DOUBLE_EQ(s1r.*row.value, defaults.*row.value) << row.key;
+  }
+  EXPECT_DOUBLE_EQ(snd_settings_for(0.2, 1.0, 2.0).robot_radius_m, 0.2);  // no further centimetre
+  const SndSettings unknown = snd_settings_for(0.0, 0.0, 0.0);
+  EXPECT_DOUBLE_EQ(unknown.robot_radius_m, defaults.robot_radius_m);
+  EXPECT_DOUBLE_EQ(unknown.max_speed_mps, defaults.max_speed_mps);
+  EXPECT_EQ(fault_of(snd_settings_for(100.0, 100.0, 1000.0)), "");  // within the ranges
+}
+
 TEST(SndSettings, FaultsAreNamedWithTheirRange) {
   EXPECT_EQ(fault_of({}), "");
   for (const SndSettingRow& row : snd_setting_table()) {

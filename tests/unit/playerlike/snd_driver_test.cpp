@@ -164,6 +164,48 @@ TEST_P(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
   EXPECT_EQ(driver.GetSettings().robot_radius, 0.1);
 }
 
+TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
+  // Footprint of the Pioneer 2-DX: the farthest corner is hypot(0.26, 0.1) = 0.2786 m from the
+  // axle's middle, 0.28 m in whole centimetres; 1.6 m/s and 300 degrees/s.
+  start(R"({"arena": {"size": [8, 6]}, "robots": [
+    {"name": "r1", "model": "pioneer2dx", "pose": {"x": 1, "y": 3},
+     "interfaces": {"position2d": ["pose"]}, "drivers": [{"type": "snd", "max_speed": 0.4}]}]})");
+  PlayerClient client(host->connect(6665));
+  SndDriver driver(&client);
+  const SndSettings settings = driver.GetSettings();
+  EXPECT_DOUBLE_EQ(settings.robot_radius, 0.28);
+  EXPECT_DOUBLE_EQ(settings.safety_distance, 0.42);
+  EXPECT_DOUBLE_EQ(settings.max_speed, 0.96);
+  EXPECT_NEAR(settings.max_turn_rate, 5.0 / 6.0 * std::numbers::pi, 1e-12);
+  EXPECT_EQ(settings.patience, 20.0);
+  // What was set stays; the rest follows the robot.
+  SndSettings own;
+  own.max_speed = 0.2;
+  driver.SetSettings(own);
+  EXPECT_EQ(driver.GetSettings().max_speed, 0.2);
+  EXPECT_DOUBLE_EQ(driver.GetSettings().robot_radius, 0.28);
+  driver.SetPatience(3.0);
+  EXPECT_EQ(driver.GetSettings().max_speed, 0.2);
+  // The driver of the world likewise.
+  const auto session = host->connect(6665);
+  const playerlike::SndDriverDescription& of_world = session->robots()[0].snd_drivers.at(0);
+  EXPECT_DOUBLE_EQ(of_world.settings.robot_radius_m, 0.28);
+  EXPECT_DOUBLE_EQ(of_world.settings.max_speed_mps, 0.4);
+}
+
+TEST_P(SndDriverTest, APioneerDrivesRoundABlockWithoutTouchingIt) {
+  start(R"({"arena": {"size": [8, 6], "obstacles": [{"center": [4, 2.9], "size": [0.5, 0.5],
+                                               "height": 0.5}]},
+    "robots": [{"name": "r1", "model": "pioneer2dx", "pose": {"x": 1, "y": 3},
+                "interfaces": {"position2d": ["pose"]}}]})");
+  PlayerClient client(host->connect(6665));
+  SndDriver driver(&client);
+  driver.SetGoal(7.0, 3.0);
+  EXPECT_EQ(driver.WaitForGoal(60.0), SndDriver::REACHED);
+  EXPECT_EQ(host->statistics(0).collisions, 0);
+  EXPECT_GT(host->statistics(0).least_clearance_m, 0.01);
+}
+
 TEST_P(SndDriverTest, KeepsItsSpeedLimit) {
   start(room("[]"));
   PlayerClient client(host->connect(6665));

@@ -468,7 +468,7 @@ TEST(Snapshots, AreRefusedWithAReason) {
   EXPECT_THAT(refusal(simulation, other), HasSubstr("a snapshot of Playpen, found other bytes"));
   other = good;
   other[8] = 200;
-  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 1, found version 200"));
+  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 2, found version 200"));
   other = good;
   other[good.size() / 2] ^= 1;
   EXPECT_THAT(refusal(simulation, other), HasSubstr("they were altered"));

@@ -7,6 +7,7 @@
 
 #include "playerlike/host/grading.h"
 #include "sim/core/log.h"
+#include "sim/render/render.h"
 #include "sim/world/description.h"
 
 namespace playerlike {
@@ -16,11 +17,14 @@ struct RunSettings {
   std::optional<std::uint64_t> seed;
   std::optional<double> duration_s;  ///< > 0
   std::optional<sim::TimeMode> time_mode;
-  double time_factor = 1.0;                 ///< with kPaced: simulated seconds per wall second
-  std::string output_folder;                ///< "": nothing is written
-  std::string film;                         ///< .mp4 or .avi file, or folder for PNGs; "": no film
-  double film_fps = 25.0;                   ///< frames per second of the film, 1..240
-  double film_speed = 1.0;                  ///< simulated seconds per second of film, 0.01..1000
+  double time_factor = 1.0;   ///< with kPaced: simulated seconds a wall second
+  std::string output_folder;  ///< "": nothing is written
+  std::string film;           ///< .mp4, .avi, or a folder that gets PNGs; "": no film
+  double film_fps = 25.0;     ///< frames a second of the film, 1..240
+  double film_speed = 1.0;    ///< simulated seconds a second of the film, 0.01..1000
+  /// What pictures and films show; size_px, width_px and height_px are those of the film, its
+  /// longer side by default 800.
+  sim::render::RenderOptions pictures = {.size_px = 800};
   std::optional<double> snapshot_period_s;  ///< simulated time between pictures in the output
                                             ///< folder's snapshots/ [s], 0.001..1e9
   std::optional<int> clients;  ///< start gate, 1..1000: time starts when this number of clients has
@@ -49,16 +53,19 @@ struct RunSettings {
   /// rest.
   Grading grading;
 
-  /// Reads the settings from the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME
-  /// (lockstep, real or a factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS,
-  /// PLAYPEN_RECORD_SPEED, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
-  /// mini-map or full-screen), PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN,
-  /// PLAYPEN_VIRTUAL_TIME, PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE.
-  /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
+  /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a
+  /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
+  /// PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP, PLAYPEN_HIDE, PLAYPEN_COLOUR_BY,
+  /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen),
+  /// PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE.
+  /// @throws sim::ConfigError naming the variable, what it should be and what it is.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Applies seed, duration, time mode, clients and view mode to the world.
-  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode.
+  /// Puts seed, duration, time mode, clients and view mode into the world.
+  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode,
+  ///         run/follow if it has no robot of the name to follow, run/crop if nothing of the arena
+  ///         lies within the part to show.
   void apply_to(sim::WorldDescription& world) const;
 };
 
@@ -76,8 +83,26 @@ struct RunSettings {
 /// Parses the simulated seconds per second of film, 0.01..1000.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_speed(const std::string& text, double& speed);
-/// Parses the simulated seconds between pictures, 0.001..1e9.
-/// @return whether the text is valid.
+/// Reads a film's size: "640x480", or the longer side alone, "640"; each side 64..4096 pixels.
+/// @return whether the text is such a size.
+[[nodiscard]] bool parse_film_size(const std::string& text, sim::render::RenderOptions& options);
+/// Reads a part of the world, "X,Y,W,H": its bottom left corner and its size [m].
+/// @return whether the text is such a part.
+[[nodiscard]] bool parse_crop(const std::string& text, sim::render::RenderOptions& options);
+/// Reads a robot's name, with or without the width to show [m]: "r1" or "r1,2.5".
+/// @return whether the text is such a thing.
+[[nodiscard]] bool parse_follow(const std::string& text, sim::render::RenderOptions& options);
+/// Reads what pictures leave out, e.g. "fans,labels". @return whether all of its words are known.
+[[nodiscard]] bool parse_hide(const std::string& text, sim::render::RenderOptions& options);
+/// Reads where colours come from: "world", "robot" or "none". @return whether it is one of these.
+[[nodiscard]] bool parse_colour_by(const std::string& text, sim::render::RenderOptions& options);
+/// The reverse of these: the text, or "" for the default.
+[[nodiscard]] std::string film_size_text(const sim::render::RenderOptions& options);
+[[nodiscard]] std::string crop_text(const sim::render::RenderOptions& options);       ///< as above
+[[nodiscard]] std::string follow_text(const sim::render::RenderOptions& options);     ///< as above
+[[nodiscard]] std::string hide_text(const sim::render::RenderOptions& options);       ///< as above
+[[nodiscard]] std::string colour_by_text(const sim::render::RenderOptions& options);  ///< as above
+/// Reads simulated seconds between pictures, 0.001..1e9. @return whether the text is such a number.
 [[nodiscard]] bool parse_snapshot_period(const std::string& text, double& period_s);
 
 /// Description of the values that parse_clients() accepts, for messages.
@@ -86,7 +111,21 @@ inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// Description of the values that parse_film_speed() accepts, for messages.
 inline constexpr const char* kFilmSpeedExpected = "a number from 0.01 to 1000";
-/// Description of the values that parse_snapshot_period() accepts, for messages.
+/// What parse_film_size() takes, in words for messages.
+inline constexpr const char* kFilmSizeExpected =
+    "WIDTHxHEIGHT or the longer side, in pixels from 64 to 4096, such as 640x480";
+/// What parse_crop() takes, in words for messages.
+inline constexpr const char* kCropExpected =
+    "X,Y,W,H in metres: the bottom left corner, and a width and height above 0, such as 0,0,1.5,1";
+/// What parse_follow() takes, in words for messages.
+inline constexpr const char* kFollowExpected =
+    "the name of a robot, and maybe the width to show in metres, such as r1 or r1,2.5";
+/// What parse_hide() takes, in words for messages.
+inline constexpr const char* kHideExpected =
+    "some of fans, trails, labels, goals, collisions, legend and canvas, with commas between them";
+/// What parse_colour_by() takes, in words for messages.
+inline constexpr const char* kColourByExpected = "world, robot or none";
+/// What parse_snapshot_period() takes, in words for messages.
 inline constexpr const char* kSnapshotPeriodExpected = "a number of seconds from 0.001 to 1e9";
 /// Description of valid film names, for messages; see sim::render::FilmWriter.
 inline constexpr const char* kFilmExpected =

@@ -44,7 +44,9 @@ struct RobotInfo {
   double length_m = 0.0;                   ///< footprint's bounding box along x of B [m]
   double width_m = 0.0;                    ///< that box along y [m]
   double height_m = 0.0;                   ///< [m]
-  sim::Vec2 center_m = sim::Vec2::Zero();  ///< centre of that box, in B [m]
+  sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
+  double radius_m = 0.0;                   ///< of the footprint about B's origin [m]; 0: not known
+  double mass_kg = 0.0;                    ///< [kg]; 0: not known
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, from the world file

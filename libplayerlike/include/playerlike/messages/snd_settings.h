@@ -20,7 +20,17 @@ struct SndSettings {
   double patience_s = 20.0;       ///< the goal counts as blocked after this time without progress
 };
 
-/// Description of a setting: name and range.
+/// The settings that suit a robot, for what its driver is not told otherwise: a disc that holds the
+/// footprint (its radius rounded up to whole centimetres), one and a half times that as the safety
+/// distance, 0.6 of the greatest speed and half of the greatest turn rate; the others as
+/// SndSettings has them. For an S1R these are the values of SndSettings itself.
+/// @param radius_m  of the footprint round the axle's middle [m]; 0 (not known): that of an S1R.
+/// @param max_speed_mps, max_turn_rate_radps  what the robot's drive can do; 0 (not known): what an
+///     S1R can do.
+[[nodiscard]] SndSettings snd_settings_for(double radius_m, double max_speed_mps,
+                                           double max_turn_rate_radps);
+
+/// A number among the settings: how it is called and bounded.
 struct SndSettingRow {
   const char* key;   ///< key in world files; a value whose key ends in "_deg" is in degrees there
   const char* unit;  ///< unit in world files, "m", "m/s", ...
@@ -47,10 +57,12 @@ struct SndDriverDescription {
 /// @param robot    in the world.
 /// @param file     as messages call the world.
 /// @param pointer  JSON pointer of the robot, e.g. "/robots/0".
+/// @param defaults  settings that the world leaves out, see snd_settings_for().
 /// @throws sim::ConfigError with all that is wrong.
 [[nodiscard]] std::vector<SndDriverDescription> read_drivers(const sim::RobotDescription& robot,
                                                              const std::string& file,
-                                                             const std::string& pointer);
+                                                             const std::string& pointer,
+                                                             const SndSettings& defaults = {});
 
 /// Checks the drivers of all robots.
 /// @throws sim::ConfigError with all that is wrong.

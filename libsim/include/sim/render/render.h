@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/core/pose.h"
 #include "sim/simulation/scene_snapshot.h"
 
 namespace sim::render {
@@ -17,14 +19,40 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
-/// Which parts of a scene to draw.
+/// A part of the world: a rectangle in W.
+struct ScenePart {
+  Vec2 low = Vec2::Zero();  ///< its bottom left corner [m]
+  Vec2 size = {1.0, 1.0};   ///< [m], each > 0
+  bool fills_room = false;  ///< shows more of the world where the picture has room to
+
+  friend bool operator==(const ScenePart&, const ScenePart&) = default;
+};
+
+/// Where the colours of robots, trails and fans come from.
+enum class ColourBy {
+  kWorld,  ///< the world gives each robot its colour
+  kRobot,  ///< each robot gets a colour of its own, by its place in the world
+  kNone,   ///< one dark grey for all
+};
+
+/// What to draw of a scene.
 struct RenderOptions {
-  int size_px = 1000;  ///< longer side of the picture, 64..8192; no text below 200
+  int size_px = 1000;  ///< the longer side of the picture, 64..8192; below 200 there is no text
+  int width_px = 0;    ///< with height_px: the picture's exact size instead, each 64..8192, and the
+                       ///< arena in the middle of it; 0: as high and wide as the arena needs
+  int height_px = 0;
   bool canvas = true;  ///< the grid-map
   bool trails = true;
   bool scans = true;  ///< laser fans, sonar cones, infrared rays, lines to fiducials
   bool names = true;
   bool legend = true;  ///< scale bar, world name, simulated time, and the visible layers' names
+  bool goals = true;
+  bool collisions = true;
+  ColourBy colour_by = ColourBy::kWorld;
+  std::optional<ScenePart> part = {};  ///< shows this alone, not in the view mode full-screen
+  std::string follow = {};  ///< shows what is round the robot of that name, instead of `part`, not
+                            ///< in the view mode full-screen; "" or no such robot: all
+  double follow_width_m = 0.0;  ///< of what is shown round it; 0: twenty radii of its footprint
 
   friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
 };

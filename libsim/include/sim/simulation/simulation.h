@@ -32,8 +32,9 @@ struct RobotStatistics {
 /// The start of a contact.
 struct Collision {
   SimTime time_ns = 0;
-  int robot = 0;        ///< index
-  std::string partner;  ///< name of the obstacle or robot; "border" or "wall"
+  int robot = 0;              ///< index
+  std::string partner;        ///< name of the obstacle or robot; "border" or "wall"
+  Vec2 place = Vec2::Zero();  ///< where they touched, in W [m]
 };
 
 /// A text that a robot said.

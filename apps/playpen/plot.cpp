@@ -1,0 +1,58 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include <cstring>
+#include <iostream>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "parsed_option.h"
+#include "plot_data.h"
+#include "plot_page.h"
+#include "sim/core/replace_file.h"
+
+namespace playpen {
+
+int plot(const PlotRequest& request) {
+  std::vector<RunData> runs;
+  std::set<std::string> problems;
+  for (const std::string& folder : request.folders) {
+    RunData& run = runs.emplace_back(read_run(folder));
+    measure_clearances(run);
+    if (!run.world && problems.insert(run.world_problem).second) {
+      std::cerr << "playpen: no clearance and no scene for '" << folder
+                << "': " << run.world_problem << '\n';
+    }
+  }
+  const sim::render::Drawing page = plot_page(runs);
+  if (!request.file.ends_with(".svg")) {
+    sim::render::write_png(page.image(), request.file);
+  } else if (const int error = sim::replace_file(request.file, page.svg())) {
+    throw std::runtime_error(request.file + ": cannot write the plot: " + std::strerror(error));
+  }
+  return kOk;
+}
+
+void add_plot(CommandLine& line) {
+  const auto request = std::make_shared<PlotRequest>();
+  CLI::App& command = line.add_command("plot", "Draw charts of runs, and their ways");
+  CLI::Option* const folders = command.add_option(
+      "folders", request->folders, "Folders of results, as 'playpen run --out' makes them");
+  line.takes(folders->required()->type_name(""), ValueKind::Kind::kFolder);
+  CLI::Option* const out =
+      add_parsed(command, "--out", "Picture to write, .png or .svg [plot.png]", "FILE",
+                 "a file ending in .png or .svg", [request](const std::string& text) {
+                   request->file = text;
+                   return text.size() > 4 && (text.ends_with(".png") || text.ends_with(".svg"));
+                 });
+  line.takes(out, ValueKind::Kind::kFile);
+  command.footer(
+      "Shows speed, turn rate, clearance and path over time, and the ways over the scene. The\n"
+      "lines of a second run and those that follow are dashed. For example:\n"
+      "  playpen plot out/first out/second --out compared.png");
+  command.callback([request, &line] { line.status = plot(*request); });
+}
+
+}  // namespace playpen

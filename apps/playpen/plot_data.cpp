@@ -1,0 +1,288 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "plot_data.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "sim/core/file.h"
+#include "sim/simulation/simulation.h"
+#include "sim/world/robot_model.h"
+
+namespace playpen {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using sim::Vec2;
+
+constexpr std::string_view kHeader = "time,robot,x,y,yaw,v,omega,stalled";
+constexpr const char* kTrajectory = "trajectory.csv";
+constexpr const char* kReport = "report.json";
+constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
+
+std::string text_of(const fs::path& file) {
+  sim::FileLimits limits;
+  limits.most_bytes = kMostBytes;
+  std::string text;
+  if (const auto problem = sim::read_whole_file(file.string(), limits, text)) {
+    throw std::runtime_error("cannot read " + file.string() + ": found " + problem->found);
+  }
+  return text;
+}
+
+[[noreturn]] void refuse_row(const fs::path& file, std::size_t line, std::string_view found) {
+  constexpr std::size_t kMostShown = 60;
+  throw std::runtime_error(file.string() + ", line " + std::to_string(line) + ": expected " +
+                           std::string(kHeader) + ", found '" +
+                           std::string(found.substr(0, kMostShown)) + "'");
+}
+
+bool read_number(std::string_view word, double& value) {
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+}
+
+Track& track_of(RunData& run, std::string_view robot) {
+  for (Track& track : run.tracks) {
+    if (track.robot == robot) return track;
+  }
+  run.tracks.emplace_back().robot = robot;
+  return run.tracks.back();
+}
+
+// Appends a row. @return whether it is one.
+bool add_row(RunData& run, std::string_view row) {
+  constexpr std::size_t kColumns = 8;
+  std::array<std::string_view, kColumns> words;
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin <= row.size(); ++count) {
+    if (count == kColumns) return false;
+    const std::size_t end = std::min(row.find(',', begin), row.size());
+    words.at(count) = row.substr(begin, end - begin);
+    begin = end + 1;
+  }
+  if (count != kColumns || words[1].empty()) return false;
+  std::array<double, kColumns> numbers{};
+  for (const std::size_t i : std::initializer_list<std::size_t>{0, 2, 3, 4, 5, 6, 7}) {
+    if (!read_number(words.at(i), numbers.at(i))) return false;
+  }
+  Track& track = track_of(run, words[1]);
+  const sim::Pose pose{numbers[2], numbers[3], numbers[4]};
+  if (!track.time_s.empty() && numbers[0] < track.time_s.back()) return false;
+  const double step_m =
+      track.X_WB.empty() ? 0.0 : (pose.position() - track.X_WB.back().position()).norm();
+  track.path_m.push_back((track.path_m.empty() ? 0.0 : track.path_m.back()) + step_m);
+  track.time_s.push_back(numbers[0]);
+  track.X_WB.push_back(pose);
+  track.v_mps.push_back(numbers[5]);
+  track.omega_radps.push_back(numbers[6]);
+  return true;
+}
+
+void read_trajectory(const fs::path& file, RunData& run) {
+  const std::string text = text_of(file);
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view row = std::string_view(text).substr(begin, end - begin);
+    // A program that died may have left half of the last row.
+    const bool is_whole = end < text.size();
+    begin = end + 1;
+    ++line;
+    if (line == 1) {
+      if (row != kHeader) refuse_row(file, line, row);
+    } else if (is_whole && !add_row(run, row)) {
+      refuse_row(file, line, row);
+    }
+  }
+  if (run.tracks.empty()) {
+    throw std::runtime_error(file.string() + ": expected rows of robots, found none");
+  }
+}
+
+// The index of a robot's track; none for a robot without one.
+std::optional<int> index_of(const RunData& run, const std::string& robot) {
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    if (run.tracks[i].robot == robot) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+void read_marks(const json& report, RunData& run) {
+  const auto each = [&](const char* key, auto action) {
+    for (const json& event : report.value(key, json::array())) {
+      const auto robot = index_of(run, event.at("robot").get<std::string>());
+      const Vec2 place(event.at("x").get<double>(), event.at("y").get<double>());
+      if (robot && place.allFinite()) action(event, *robot, place);
+    }
+  };
+  each("collisions", [&](const json& event, int robot, const Vec2& place) {
+    run.collisions.push_back({robot, place, event.at("time").get<double>()});
+  });
+  each("goals", [&](const json& event, int robot, const Vec2& place) {
+    for (sim::GoalMark& earlier : run.goals) {
+      if (earlier.robot == robot) earlier.newest = false;
+    }
+    run.goals.push_back({robot, place, !event.at("reached").is_null(), true});
+  });
+}
+
+void read_report(const fs::path& file, RunData& run) {
+  const std::string text = text_of(file);
+  std::string world_file;
+  try {
+    const json report = json::parse(text);
+    run.world_name = report.at("run").at("world").get<std::string>();
+    world_file = report.at("run").value("world_file", std::string());
+    read_marks(report, run);
+  } catch (const json::exception& error) {
+    throw std::runtime_error(
+        file.string() + ": expected the report of a run, found something else: " + error.what());
+  }
+  try {
+    // The default world has no file.
+    sim::WorldDescription world = sim::load_world(world_file);
+    if (world_file.empty() && world.name != run.world_name) {
+      run.world_problem = "the report names no file of the world";
+      return;
+    }
+    run.world = std::move(world);
+  } catch (const std::exception& error) {
+    run.world_problem = error.what();
+  }
+}
+
+// --- Clearance
+
+double distance_m(const Vec2& point, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double square = along.squaredNorm();
+  const double share = square > 0.0 ? std::clamp((point - a).dot(along) / square, 0.0, 1.0) : 0.0;
+  return (point - (a + share * along)).norm();
+}
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Of two lines from point to point: 0 if they cross.
+double distance_m(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const bool cross_ab = cross(b - a, c - a) * cross(b - a, d - a) < 0.0;
+  const bool cross_cd = cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
+  if (cross_ab && cross_cd) return 0.0;
+  return std::min(
+      {distance_m(a, c, d), distance_m(b, c, d), distance_m(c, a, b), distance_m(d, a, b)});
+}
+
+// A closed outline, and a disc round it.
+struct Outline {
+  explicit Outline(std::vector<Vec2> vertices) : points(std::move(vertices)) {
+    for (const Vec2& p : points) center += p / static_cast<double>(points.size());
+    for (const Vec2& p : points) radius_m = std::max(radius_m, (p - center).norm());
+  }
+  std::vector<Vec2> points;
+  Vec2 center = Vec2::Zero();
+  double radius_m = 0.0;
+};
+
+double distance_m(const Outline& body, const Outline& other, double least_m) {
+  const double gap_m = (body.center - other.center).norm() - body.radius_m;
+  // An outline may surround the body, as a border does.
+  if (gap_m - other.radius_m >= least_m) return least_m;
+  for (std::size_t k = 0; k < other.points.size(); ++k) {
+    const Vec2& c = other.points[k];
+    const Vec2& d = other.points[(k + 1) % other.points.size()];
+    if (distance_m(body.center, c, d) - body.radius_m >= least_m) continue;
+    for (std::size_t i = 0; i < body.points.size(); ++i) {
+      const Vec2& a = body.points[i];
+      const Vec2& b = body.points[(i + 1) % body.points.size()];
+      least_m = std::min(least_m, distance_m(a, b, c, d));
+    }
+  }
+  return least_m;
+}
+
+std::vector<Outline> solids_of(const sim::ArenaDescription& arena) {
+  std::vector<Outline> solids;
+  if (arena.border) {
+    const Vec2 low = arena.origin;
+    const Vec2 high = arena.origin + arena.size;
+    solids.emplace_back(std::vector<Vec2>{low, {high.x(), low.y()}, high, {low.x(), high.y()}});
+  }
+  for (const auto& box : arena.obstacles) {
+    if (box.state == sim::ObstacleState::kExtended) solids.emplace_back(sim::box_corners(box));
+  }
+  for (const auto& box : arena.dock_separators) solids.emplace_back(sim::box_corners(box));
+  for (const sim::WallLoop& loop : arena.walls) solids.emplace_back(loop.vertices);
+  return solids;
+}
+
+std::vector<Vec2> body_at(const sim::Polygon& footprint, const sim::Pose& X_WB) {
+  std::vector<Vec2> body;
+  for (const Vec2& p_B : footprint) body.push_back(X_WB * p_B);
+  return body;
+}
+
+}  // namespace
+
+RunData read_run(const std::string& folder) {
+  RunData run;
+  run.folder = folder;
+  const fs::path path(folder);
+  std::error_code error;
+  if (!fs::is_directory(path, error)) {
+    throw std::runtime_error("expected a folder of results, found no folder '" + folder + "'");
+  }
+  for (const char* const name : {kTrajectory, kReport}) {
+    if (fs::is_regular_file(path / name, error)) continue;
+    throw std::runtime_error("expected a folder of results, found no " + std::string(name) +
+                             " in '" + folder + "'; 'playpen run WORLD --out " + folder +
+                             " -- PROGRAM' makes one");
+  }
+  read_trajectory(path / kTrajectory, run);
+  read_report(path / kReport, run);
+  return run;
+}
+
+void measure_clearances(RunData& run) {
+  if (!run.world) return;
+  const std::vector<Outline> solids = solids_of(run.world->arena);
+  std::vector<const sim::RobotModel*> models(run.tracks.size(), nullptr);
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    for (const sim::RobotDescription& robot : run.world->robots) {
+      if (robot.name == run.tracks[i].robot) {
+        models[i] = sim::find_robot_model(*run.world, robot.model);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < run.tracks.size(); ++i) {
+    Track& track = run.tracks[i];
+    if (models[i] == nullptr) continue;
+    for (std::size_t row = 0; row < track.X_WB.size(); ++row) {
+      const Outline body(body_at(models[i]->footprint, track.X_WB[row]));
+      double least_m = std::numeric_limits<double>::infinity();
+      for (const Outline& solid : solids) least_m = distance_m(body, solid, least_m);
+      for (std::size_t k = 0; k < run.tracks.size(); ++k) {
+        const Track& other = run.tracks[k];
+        if (k == i || models[k] == nullptr || row >= other.X_WB.size()) continue;
+        least_m =
+            distance_m(body, Outline(body_at(models[k]->footprint, other.X_WB[row])), least_m);
+      }
+      if (!std::isfinite(least_m)) {  // there is nothing solid
+        track.clearance_m.clear();
+        break;
+      }
+      track.clearance_m.push_back(least_m);
+    }
+  }
+}
+
+}  // namespace playpen

@@ -1,0 +1,123 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// playpen plot as a user runs it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "playpen_process.h"
+#include "run_process.h"
+#include "temporary_folder.h"
+
+namespace {
+
+using test_support::playpen;
+using test_support::ProcessResult;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+constexpr const char* kWorld = R"({"name": "small", "arena": {"size": [2, 1]},
+  "robots": [{"name": "r1", "pose": {"x": 0.5, "y": 0.5}}]})";
+constexpr const char* kRows =
+    "time,robot,x,y,yaw,v,omega,stalled\n"
+    "0.000,r1,0.500000,0.500000,0.000000,0.000000,0.000000,0\n"
+    "0.100,r1,0.550000,0.500000,0.000000,0.500000,0.000000,0\n"
+    "0.200,r1,0.600000,0.500000,0.000000,0.500000,-1.000000,0\n";
+
+std::string report(const std::string& world_file) {
+  return R"({"run": {"world": "small", "world_file": ")" + world_file + R"("},
+    "collisions": [{"time": 0.2, "robot": "r1", "with": "border", "x": 1.9, "y": 0.5}],
+    "goals": [{"time": 0.0, "robot": "r1", "x": 1.5, "y": 0.5, "reached": null}]})";
+}
+
+void write_run(const TemporaryFolder& folder, const std::string& name) {
+  folder.write("small.json", kWorld);
+  folder.write(name + "/trajectory.csv", kRows);
+  folder.write(name + "/report.json", report(folder / "small.json"));
+}
+
+ProcessResult plot(const TemporaryFolder& folder, const std::vector<std::string>& runs,
+                   const std::string& file) {
+  std::vector<std::string> call = {"plot"};
+  for (const std::string& run : runs) call.push_back(folder / run);
+  call.insert(call.end(), {"--out", folder / file});
+  return playpen(call);
+}
+
+TEST(PlaypenPlot, DrawsARunAsPngAndAsSvg) {
+  const TemporaryFolder folder;
+  write_run(folder, "one");
+  const ProcessResult result = plot(folder, {"one"}, "a.png");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(read_bytes(folder / "a.png"), StartsWith("\x89PNG"));
+  ASSERT_EQ(plot(folder, {"one"}, "a.svg").status, 0);
+  const std::string svg = read_bytes(folder / "a.svg");
+  for (const char* text : {"speed [m/s]", "turn rate [rad/s]", "clearance [m]", "path [m]",
+                           "time [s]", ">small<", ">r1<", "1 collision", "0 of 1 goal reached"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  EXPECT_THAT(svg, Not(HasSubstr("not known")));
+  EXPECT_THAT(svg, Not(HasSubstr("stroke-dasharray")));
+  // The same run gives the same bytes.
+  ASSERT_EQ(plot(folder, {"one"}, "b.svg").status, 0);
+  EXPECT_EQ(read_bytes(folder / "b.svg"), svg);
+}
+
+TEST(PlaypenPlot, ASecondRunIsDashedAndNamedByItsFolder) {
+  const TemporaryFolder folder;
+  write_run(folder, "one");
+  write_run(folder, "two");
+  ASSERT_EQ(plot(folder, {"one", "two"}, "a.svg").status, 0);
+  EXPECT_THAT(read_bytes(folder / "a.svg"),
+              AllOf(HasSubstr(">one: r1<"), HasSubstr(">two: r1<"), HasSubstr("stroke-dasharray"),
+                    HasSubstr("2 collisions")));
+}
+
+TEST(PlaypenPlot, WithoutTheWorldItSaysSoAndDrawsTheRest) {
+  const TemporaryFolder folder;
+  write_run(folder, "one");
+  folder.write("one/report.json", report(folder / "gone.json"));
+  const ProcessResult result = plot(folder, {"one"}, "a.svg");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("no clearance and no scene"), HasSubstr("gone.json")));
+  EXPECT_THAT(read_bytes(folder / "a.svg"), HasSubstr("not known"));
+}
+
+TEST(PlaypenPlot, SaysWhatIsWrongWithAFolder) {
+  const TemporaryFolder folder;
+  write_run(folder, "one");
+  const auto complaint = [&](const std::string& run) {
+    const ProcessResult result = plot(folder, {run}, "a.png");
+    EXPECT_EQ(result.status, 2);
+    return result.err;
+  };
+  EXPECT_THAT(complaint("none"), HasSubstr("found no folder"));
+  folder.write("empty/notes.txt", "");
+  EXPECT_THAT(complaint("empty"),
+              AllOf(HasSubstr("found no trajectory.csv in"), HasSubstr("playpen run")));
+  folder.write("half/trajectory.csv", kRows);
+  EXPECT_THAT(complaint("half"), HasSubstr("found no report.json in"));
+  folder.write("half/report.json", "[1]");
+  EXPECT_THAT(complaint("half"), HasSubstr("expected the report of a run"));
+  const std::string header = "time,robot,x,y,yaw,v,omega,stalled\n";
+  for (const auto& [rows, found] : std::vector<std::pair<std::string, std::string>>{
+           {"a,b\n", "line 1"},
+           {header, "found none"},
+           {header + "0,r1,0,0,0,0,0\n", "line 2"},
+           {header + "0,r1,0,0,0,0,0,0\n0.1,r1,nan,0,0,0,0,0\n", "line 3"},
+           {header + "0.1,r1,0,0,0,0,0,0\n0,r1,0,0,0,0,0,0\n", "line 3"}}) {
+    folder.write("one/trajectory.csv", rows);
+    EXPECT_THAT(complaint("one"), AllOf(HasSubstr("trajectory.csv"), HasSubstr(found))) << rows;
+  }
+  EXPECT_EQ(playpen({"plot"}).status, 2);
+  EXPECT_EQ(plot(folder, {"one"}, "a.gif").status, 2);
+}
+
+}  // namespace

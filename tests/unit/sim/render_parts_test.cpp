@@ -1,0 +1,297 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+// Pictures of a part of the world, marks of goals and collisions, and what can be left out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/text_outline.h"
+#include "sim/render/drawing.h"
+#include "sim/render/render.h"
+
+namespace sim::render {
+namespace {
+
+using testing::HasSubstr;
+
+using Rgb = std::array<int, 3>;
+
+Rgb pixel(const Image& image, double x, double y) {
+  const auto at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                       static_cast<std::size_t>(x));
+  return {image.rgb.at(at), image.rgb.at(at + 1), image.rgb.at(at + 2)};
+}
+
+bool is_red(const Rgb& rgb) { return rgb[0] > 190 && rgb[1] < 110 && rgb[2] < 110; }
+bool is_blue(const Rgb& rgb) { return rgb[2] > 150 && rgb[0] < 90; }
+
+// An arena of 4 x 4 m: in a picture of 1000 px without legend the floor is 924 px wide, 38 px from
+// each edge.
+SceneSnapshot scene_of(int robots) {
+  SceneSnapshot scene;
+  scene.world_name = "test";
+  scene.arena.size = {4.0, 4.0};
+  scene.canvas_description = {.width = 40, .height = 40, .cell_size_m = 0.1, .origin = {0.0, 0.0}};
+  for (int i = 0; i < robots; ++i) {
+    RobotSnapshot robot;
+    robot.name = "r" + std::to_string(i + 1);
+    robot.colour = {0x10, 0x20, 0xe0};
+    robot.X_WB = {0.5 + 3.0 * ((i % 10) / 10.0), 0.5 + 3.0 * ((i / 10) / 10.0), 0.0};
+    robot.footprint = {{0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}, {-0.1, -0.1}};
+    scene.robots.push_back(robot);
+  }
+  return scene;
+}
+
+RenderOptions plain() {
+  RenderOptions options;
+  options.names = false;
+  options.legend = false;
+  return options;
+}
+
+TEST(RenderParts, ExactSizeIsKeptWhateverTheArena) {
+  for (const auto& [width, height] : {std::array{640, 480}, std::array{300, 900}, {64, 4096}}) {
+    RenderOptions options;
+    options.width_px = width;
+    options.height_px = height;
+    for (const ViewMode mode : {ViewMode::kGround, ViewMode::kMiniMap, ViewMode::kFullScreen}) {
+      SceneRenderer renderer(options);
+      const Image& image = renderer.draw(scene_of(1), mode);
+      EXPECT_EQ(image.width, width);
+      EXPECT_EQ(image.height, height);
+    }
+  }
+  RenderOptions bad;
+  bad.width_px = 640;
+  EXPECT_THROW(SceneRenderer{bad}, std::invalid_argument);
+  bad.height_px = 9000;
+  EXPECT_THROW(SceneRenderer{bad}, std::invalid_argument);
+}
+
+TEST(RenderParts, CropShowsThatPartAlone) {
+  SceneSnapshot scene = scene_of(2);  // at (0.5, 0.5) and (0.8, 0.5)
+  RenderOptions options = plain();
+  options.part = ScenePart{{0.0, 0.0}, {1.0, 1.0}, false};
+  const Image image = draw_scene(scene, options);
+  // A metre is 924 px: the first robot's middle is at 38 + 462, its body 92 px to each side.
+  EXPECT_EQ(image.width, 1000);
+  EXPECT_TRUE(is_blue(pixel(image, 500 - 60, 500 + 20)));
+  EXPECT_FALSE(is_blue(pixel(image, 500 - 110, 500)));
+  // Nothing beyond the part: the margin is as light as paper.
+  scene.robots[0].X_WB = {0.0, 0.5, 0.0};  // half of it in the part
+  const Image cut = draw_scene(scene, options);
+  EXPECT_TRUE(is_blue(pixel(cut, 38 + 20, 500 + 30)));
+  EXPECT_GT(pixel(cut, 20, 500)[0], 230);
+  options.part->size.x() = 0.0;
+  EXPECT_THROW(SceneRenderer{options}, std::invalid_argument);
+}
+
+TEST(RenderParts, ALargeWorldCanBeShownInASmallPart) {
+  SceneSnapshot scene = scene_of(1);
+  scene.arena.size = {20000.0, 20000.0};
+  RenderOptions options = plain();
+  options.part = ScenePart{{0.45, 0.45}, {0.1, 0.1}, false};
+  EXPECT_TRUE(is_blue(pixel(draw_scene(scene, options), 300, 700)));
+}
+
+TEST(RenderParts, FollowKeepsTheRobotInTheMiddle) {
+  SceneSnapshot scene = scene_of(2);
+  RenderOptions options = plain();
+  options.follow = "r2";
+  options.follow_width_m = 1.0;
+  SceneRenderer renderer(options);
+  for (const double x : {0.8, 2.0, 3.97, 7.0}) {  // the last one is beyond the floor
+    scene.robots[1].X_WB = {x, 1.0, 0.0};
+    const Image& image = renderer.draw(scene);
+    EXPECT_TRUE(is_blue(pixel(image, 500 - 60, 500 + 20))) << x;
+    EXPECT_FALSE(is_blue(pixel(image, 500 - 110, 500))) << x;
+  }
+  // What is kept from one picture to the next changes none.
+  EXPECT_EQ(renderer.draw(scene).rgb, SceneRenderer(options).draw(scene).rgb);
+  // A picture twice as wide as high shows more to the sides, at the same scale.
+  options.width_px = 1600;
+  options.height_px = 800;
+  const Image wide = draw_scene(scene, options);
+  EXPECT_TRUE(is_blue(pixel(wide, 800 - 40, 400 + 10)));
+  // No such robot: all of the arena.
+  options.follow = "r9";
+  EXPECT_EQ(draw_scene(scene, options).width, 1600);
+}
+
+TEST(RenderParts, CollisionsAndGoalsAreMarkedUnlessHidden) {
+  SceneSnapshot scene = scene_of(1);
+  scene.collisions = {{0, {2.0, 2.0}, 1.0}, {0, {2.0, 2.0}, 2.0}};
+  scene.goals = {{0, {3.0, 3.0}, false, true}, {0, {1.0, 3.0}, true, false}};
+  RenderOptions options = plain();
+  const auto at = [](const Image& image, double x, double y) {
+    return pixel(image, 38 + 231 * x, 962 - 231 * y);
+  };
+  const Image marked = draw_scene(scene, options);
+  EXPECT_TRUE(is_red(at(marked, 2.0, 2.0)));
+  const double ring = 10.0 / 231.0;
+  EXPECT_LT(at(marked, 3.0 + ring, 3.0)[0], 100);  // the ring, in the robot's colour
+  EXPECT_GT(at(marked, 3.0, 3.0)[0], 200);         // not reached: open
+  EXPECT_LT(at(marked, 1.0, 3.0)[0], 100);         // reached: a dot
+  options.collisions = false;
+  options.goals = false;
+  const Image without = draw_scene(scene, options);
+  scene.collisions.clear();
+  scene.goals.clear();
+  EXPECT_EQ(without.rgb, draw_scene(scene, plain()).rgb);
+  // Marks of robots that are not there, and places that are no places, are left out.
+  scene.goals = {{7, {1.0, 1.0}, true, true}};
+  scene.collisions = {{0, {std::nan(""), 1.0}, 0.0}};
+  EXPECT_EQ(draw_scene(scene, plain()).rgb, without.rgb);
+}
+
+TEST(RenderParts, ColoursFollowTheSourceThatIsAskedFor) {
+  const SceneSnapshot scene = scene_of(3);
+  RenderOptions options = plain();
+  const auto colour_of = [&](int robot) {
+    const Pose& X_WB = scene.robots[static_cast<std::size_t>(robot)].X_WB;
+    return pixel(draw_scene(scene, options), 38 + 231 * (X_WB.x_m - 0.05), 962 - 231 * X_WB.y_m);
+  };
+  EXPECT_EQ(colour_of(0), colour_of(1));
+  options.colour_by = ColourBy::kRobot;
+  EXPECT_NE(colour_of(0), colour_of(1));
+  EXPECT_NE(colour_of(1), colour_of(2));
+  options.colour_by = ColourBy::kNone;
+  EXPECT_EQ(colour_of(0), colour_of(2));
+  EXPECT_LT(std::abs(colour_of(0)[0] - colour_of(0)[2]), 20);
+}
+
+TEST(RenderParts, AHundredLasersLeaveTheFloorLightAndColoured) {
+  SceneSnapshot scene = scene_of(100);
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    RobotSnapshot& robot = scene.robots[i];
+    robot.colour = i % 2 == 0 ? Colour{0xe0, 0x20, 0x20} : Colour{0x20, 0x60, 0xe0};
+    robot.scan_origin = robot.X_WB.position();
+    for (int beam = 0; beam < 90; ++beam) {
+      const double angle = -std::numbers::pi + beam * std::numbers::pi / 45.0;
+      robot.scan_points.push_back(robot.scan_origin + 4.0 * Vec2(std::cos(angle), std::sin(angle)));
+    }
+  }
+  const Image image = draw_scene(scene, plain());
+  // Far from all robots the floor is as without lasers; beside one it has the robot's colour.
+  EXPECT_GT(pixel(image, 38 + 231 * 3.8, 962 - 231 * 3.8)[0], 240);
+  const Rgb beside = pixel(image, 38 + 231 * 0.37, 962 - 231 * 0.5);
+  EXPECT_GT(beside[0], beside[1] + 10);
+}
+
+TEST(RenderParts, MiniMapHidesTheLabelsOfTheRobotsUnderIt) {
+  SceneSnapshot scene = scene_of(1);
+  scene.view_mode = ViewMode::kMiniMap;
+  RenderOptions options;
+  options.legend = false;
+  options.names = false;
+  // The map lies in the top right corner of an empty floor.
+  scene.robots[0].X_WB = {3.4, 3.4, 0.0};
+  const Image unnamed = draw_view(scene, options);
+  options.names = true;
+  EXPECT_EQ(draw_view(scene, options).rgb, unnamed.rgb);
+  scene.robots[0].says = "hello";
+  EXPECT_EQ(draw_view(scene, options).rgb, unnamed.rgb);
+  scene.robots[0].X_WB = {1.0, 1.0, 0.0};
+  scene.robots[0].says = "";
+  const Image seen = draw_view(scene, options);
+  options.names = false;
+  EXPECT_NE(draw_view(scene, options).rgb, seen.rgb);
+}
+
+// --- Texts
+
+TEST(TextOutline, ReadsUtf8CharacterByCharacter) {
+  EXPECT_EQ(code_points("a\u017d\u20ac\U0001f916"),
+            (std::vector<std::uint32_t>{'a', 0x17d, 0x20ac, 0x1f916}));
+  // A byte that belongs to no character.
+  EXPECT_EQ(code_points("\xff\xc5z"), (std::vector<std::uint32_t>{0xfffd, 0xfffd, 'z'}));
+  EXPECT_TRUE(has_wide_characters("k\u016f\u0148"));
+  EXPECT_FALSE(has_wide_characters("kun"));
+  std::string cut = "k\u016f";
+  cut.pop_back();
+  drop_cut_character(cut);
+  EXPECT_EQ(cut, "k");
+  std::string whole = "k\u016f";
+  drop_cut_character(whole);
+  EXPECT_EQ(whole, "k\u016f");
+}
+
+TEST(TextOutline, EveryCharacterHasAnOutlineOrABox) {
+  // Czech, Greek, Cyrillic, and a character that no font for Europe has.
+  double width_px = 0.0;
+  for (const char* text : {"\u017dlu\u0165ou\u010dk\u00fd", "\u0395\u03bb\u03bb\u03ac",
+                           "\u041a\u0438\u0440", "\U0001fbf0"}) {
+    const TextOutline outline = text_outline(text, 20.0);
+    EXPECT_GE(outline.contours.size(), code_points(text).size()) << text;
+    EXPECT_GT(outline.width_px, 0.0);
+    width_px += outline.width_px;
+    for (const auto& contour : outline.contours) {
+      for (const Vec2& point : contour) EXPECT_LT(std::abs(point.y()), 60.0);
+    }
+  }
+  EXPECT_GT(width_px, 100.0);
+  // A box: its outer and inner edge, as high as a capital letter.
+  const TextOutline box = text_outline("\U0001fbf0", 20.0);
+  ASSERT_EQ(box.contours.size(), 2U);
+  EXPECT_DOUBLE_EQ(box.contours[0][1].y(), -20.0);
+  EXPECT_TRUE(text_outline("\u00a0\t", 20.0).contours.empty());
+}
+
+TEST(TextOutline, NamesBeyondAsciiAreInThePictureAndTheSameEachTime) {
+  SceneSnapshot scene = scene_of(1);
+  scene.robots[0].name = "\u017dofie";
+  scene.world_name = "\u017dlu\u0165ou\u010dk\u00fd k\u016f\u0148";
+  const Image first = draw_scene(scene, {});
+  EXPECT_EQ(draw_scene(scene, {}).rgb, first.rgb);
+  SceneSnapshot other = scene;
+  other.robots[0].name = "\u010cofie";
+  EXPECT_NE(draw_scene(other, {}).rgb, first.rgb);
+  // Bytes that are no text do no harm.
+  other.world_name = "\xff\xfe";
+  other.robots[0].says = std::string(300, '\xc5') + "\u0148";
+  static_cast<void>(draw_scene(other, {}));
+}
+
+// --- Pages of charts
+
+TEST(Drawing, SameItemsAsPictureAndAsSvg) {
+  Drawing page(200, 100);
+  page.add_line({{10, 50}, {190, 50}}, {0xff, 0, 0, 0xff}, 4.0);
+  page.add_line({{10, 80}, {190, 80}}, {0, 0, 0xff, 0xff}, 4.0, true);
+  page.add_area({{20, 10}, {40, 10}, {40, 30}, {20, 30}}, {0, 0x80, 0, 0xff});
+  page.add_text("a<b & \u010d", {100, 30}, 10.0, {0, 0, 0, 0xff}, Drawing::Align::kMiddle);
+  page.add_picture(Image{2, 1, {1, 2, 3, 4, 5, 6}}, {60.0, 5.0});
+  page.add_picture(Image{2, 1, {9, 9, 9, 9, 9, 9}}, {199.0, 99.0});  // beyond the edge: cut off
+  const Image image = page.image();
+  EXPECT_EQ(image.width, 200);
+  EXPECT_EQ(pixel(image, 100, 50), (Rgb{0xff, 0, 0}));
+  EXPECT_EQ(pixel(image, 18, 80), (Rgb{0, 0, 0xff}));          // the first dash is 16 pixels long
+  EXPECT_EQ(pixel(image, 30.5, 80), (Rgb{0xff, 0xff, 0xff}));  // the gap after it 10, less the ends
+  EXPECT_EQ(pixel(image, 30, 20), (Rgb{0, 0x80, 0}));
+  EXPECT_EQ(pixel(image, 61, 5), (Rgb{4, 5, 6}));
+  const std::string svg = page.svg();
+  EXPECT_THAT(svg, HasSubstr("<polyline fill=\"none\" stroke=\"#ff0000\" stroke-width=\"4\""));
+  EXPECT_THAT(svg, HasSubstr("stroke-dasharray=\"16 10.4\""));
+  EXPECT_THAT(svg, HasSubstr("points=\"10,50 190,50\""));
+  EXPECT_THAT(svg, HasSubstr(">a&lt;b &amp; \u010d</text>"));
+  EXPECT_THAT(svg, HasSubstr("data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_EQ(svg, page.svg());
+  EXPECT_THROW(Drawing(63, 100), std::invalid_argument);
+}
+
+TEST(Drawing, ColoursOfManyThingsDiffer) {
+  for (std::size_t i = 0; i < 30; ++i) {
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(distinct_colour(i) == distinct_colour(k));
+  }
+}
+
+}  // namespace
+}  // namespace sim::render
