@@ -17,8 +17,8 @@ namespace PlayerCc {
 /// outermost columns and rows, which belong to it, and `range` how far away it is [m]; column 0 is
 /// on the left, row 0 on top. `id` is 0. Before the first reading there are 0 blobs.
 ///
-/// Errors: while there are blobs, an index that is not below GetCount() is refused with PlayerError
-/// kBadArgument; while there are none, every blob is zero.
+/// A blob whose index is not below GetCount() is all zeros; while there are blobs, a warning on
+/// standard error says so, once for each proxy.
 class BlobfinderProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.

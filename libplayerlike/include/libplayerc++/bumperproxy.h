@@ -14,8 +14,8 @@ namespace PlayerCc {
 /// A segment counts as pressed if it was so at any time since the reading before. Before the first
 /// reading there are 0 segments, and each reads 0; where they are is known from the start.
 ///
-/// Errors: from the first reading on an index that is not below GetCount() is refused with
-/// PlayerError kBadArgument, at any time one of GetPose() that is not below GetPoseCount().
+/// An element whose index is not below its count reads 0; after the first reading a warning on
+/// standard error says so, once for each proxy.
 class BumperProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.

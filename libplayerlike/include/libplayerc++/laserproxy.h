@@ -16,9 +16,8 @@ namespace PlayerCc {
 /// meets nothing reads GetMaxRange(). Before the first reading there are 0 beams, while the
 /// settings (angles, resolution, greatest range, frequency, poses) are known from the start.
 ///
-/// Beams that there are not, before the first reading or at an index that is not below GetCount(),
-/// read 0, as in Player: programs look before their first Read(), or were written for a laser with
-/// more beams. Of the latter a warning on standard error tells, once for each proxy.
+/// A beam whose index is not below GetCount() reads 0; after the first reading a warning on
+/// standard error says so, once for each proxy.
 class LaserProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
@@ -106,7 +105,6 @@ class LaserProxy : public ClientProxy {
   std::size_t mStride = 1;
   std::size_t mShown = 0;
   double mRangeRes = 0.0;  // 0: not rounded
-  mutable bool mHasWarned = false;
 };
 
 }  // namespace PlayerCc

@@ -19,7 +19,8 @@ namespace PlayerCc {
 /// Which of a robot's rangers has which index: lasers first, then sonars, then infrared ones,
 /// unless the world's `interfaces` say otherwise.
 ///
-/// Errors: an index that is not below the count is refused with PlayerError kBadArgument.
+/// A range, point or element whose index is not below its count reads 0; after the first reading a
+/// warning on standard error says so, once for each proxy.
 class RangerProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
@@ -44,7 +45,7 @@ class RangerProxy : public ClientProxy {
   /// Where a range ends, seen from GetDevicePose() [m]; z is the height of the element over it.
   player_point_3d_t GetPoint(uint32_t aIndex) const;
   uint32_t GetIntensityCount() const;          ///< 0: the simulated rangers measure ranges only
-  double GetIntensity(uint32_t aIndex) const;  ///< refuses every index, see GetIntensityCount()
+  double GetIntensity(uint32_t aIndex) const;  ///< 0, see GetIntensityCount()
 
   void SetPower(bool aEnable);          ///< without effect: simulated rangers are always on
   void SetIntensityData(bool aEnable);  ///< without effect, see GetIntensityCount()
