@@ -79,7 +79,7 @@ class RangerProxy : public ClientProxy {
   double GetAngularRes() const;  ///< between shown beams, or a cone's full angle [rad]
   double GetMinRange() const;    ///< [m], see Configure()
   double GetMaxRange() const;    ///< [m], see Configure()
-  double GetRangeRes() const;    ///< [m], see Configure(); 0: not rounded
+  double GetRangeRes() const;    ///< [m], see Configure(); 0.001 by default
   double GetFrequency() const;   ///< readings a simulated second [Hz]
 
   /// GetElementCount(), as Player 2.x called it. @deprecated

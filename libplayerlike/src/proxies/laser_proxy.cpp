@@ -18,9 +18,6 @@ using sim::LaserReading;
 
 namespace {
 
-// What both the S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets.
-constexpr double kRangeResolution_m = 0.001;
-
 constexpr ElementWords kBeams{"beam", "beams", "the scan has"};
 
 uint32_t count(const LaserReading& scan) { return static_cast<uint32_t>(scan.ranges_m.size()); }
@@ -81,7 +78,7 @@ double LaserProxy::GetScanRes() const {
 
 double LaserProxy::GetRangeRes() const {
   const scoped_lock_t lock(LockData("LaserProxy::GetRangeRes"));
-  return mRangeRes > 0.0 ? mRangeRes : kRangeResolution_m;
+  return mRangeRes > 0.0 ? mRangeRes : detail::kRangeResolution_m;
 }
 
 double LaserProxy::GetScanningFrequency() const {

@@ -116,7 +116,8 @@ player_pose3d_t RangerProxy::GetElementPose(uint32_t aIndex) const {
 player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetElementSize";
   const scoped_lock_t lock(LockData(fun));
-  if (!mLink->has_element(fun, kElements, aIndex, mPoses.size()) || !mIsLaser) return {0.0, 0.0, 0.0};
+  if (!mLink->has_element(fun, kElements, aIndex, mPoses.size()) || !mIsLaser)
+    return {0.0, 0.0, 0.0};
   return detail::scanner_settings(mLink->info().properties).size;
 }
 
@@ -235,7 +236,10 @@ double RangerProxy::GetAngularRes() const {
 
 double RangerProxy::GetMinRange() const { return GetVar(mMinRange); }
 double RangerProxy::GetMaxRange() const { return GetVar(mMaxRange); }
-double RangerProxy::GetRangeRes() const { return GetVar(mRangeRes); }
+double RangerProxy::GetRangeRes() const {
+  const scoped_lock_t lock(LockData("RangerProxy::GetRangeRes"));
+  return mRangeRes > 0.0 ? mRangeRes : detail::kRangeResolution_m;
+}
 
 double RangerProxy::GetFrequency() const {
   const scoped_lock_t lock(LockData());

@@ -192,6 +192,29 @@ TEST_P(SensorProxies, RangerIsCroppedByConfigure) {
             PlayerError::kBadArgument);
 }
 
+TEST_P(SensorProxies, SettingsAreThoseOfConfigureRightAfterIt) {
+  const auto client = open(room(R"({"laser": {"beams": 181, "resolution_deg": 1}})"));
+  RangerProxy ranger(client.get());
+  LaserProxy laser(client.get());
+  EXPECT_EQ(ranger.GetRangeRes(), 0.001);
+  EXPECT_EQ(laser.GetRangeRes(), 0.001);
+  // Before the first Read(), and without asking for the settings first.
+  ranger.Configure(-0.5, 0.5, 2.0 * kPi / 180.0, 0.1, 1.5, 0.01, 10.0);
+  EXPECT_EQ(ranger.GetRangeRes(), 0.01);
+  EXPECT_EQ(ranger.GetMinRange(), 0.1);
+  EXPECT_EQ(ranger.GetMaxRange(), 1.5);
+  EXPECT_NEAR(ranger.GetMinAngle(), -28.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(ranger.GetMaxAngle(), 28.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(ranger.GetAngularRes(), 2.0 * kPi / 180.0, 1e-12);
+  laser.Configure(-0.5, 0.5, 200, 10, false, 10.0);
+  laser.RequestConfigure();
+  EXPECT_EQ(laser.GetRangeRes(), 0.01);
+  EXPECT_NEAR(laser.GetScanRes(), 2.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(laser.GetMinAngle(), -28.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(laser.GetMaxAngle(), 28.0 * kPi / 180.0, 1e-12);
+  EXPECT_NEAR(laser.GetConfMaxAngle(), 28.0 * kPi / 180.0, 1e-12);
+}
+
 constexpr const char* kThreeRangers =
     R"({"infrared": {}, "sonar": {"mounts": [{"x": 0.1, "yaw_deg": 30}, {"x": 0.2}]}})";
 
