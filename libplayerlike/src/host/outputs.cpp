@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host/picture_sizes.h"
+#include "host/recorder.h"
 #include "playerlike/host/results.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/replace_file.h"
@@ -130,7 +131,8 @@ std::string hex(std::uint64_t value) {
   return text.data();
 }
 
-nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStatistics& time) {
+nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder& recorder,
+                              const TimeStatistics& time) {
   nlohmann::ordered_json robots = nlohmann::ordered_json::array();
   for (int i = 0; i < simulation.robot_count(); ++i) {
     const sim::RobotStatistics& s = simulation.statistics(i);
@@ -141,6 +143,9 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const TimeStati
                       {"least_clearance", s.least_clearance_m},
                       {"stalled_time", s.stalled_time_s},
                       {"final_pose", {{"x", X_WB.x_m}, {"y", X_WB.y_m}, {"yaw", X_WB.yaw_rad}}}});
+    if (const auto driven_s = recorder.driven_time_s(static_cast<std::size_t>(i))) {
+      robots.back()["driven_time"] = *driven_s;
+    }
   }
   nlohmann::ordered_json said = nlohmann::ordered_json::array();
   for (const sim::Utterance& u : simulation.said()) {
@@ -257,9 +262,9 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
   return ended;
 }
 
-std::string report_text(const sim::Simulation& simulation, const TimeStatistics& time,
-                        const RunEnd& end) {
-  nlohmann::ordered_json whole = report(simulation, time);
+std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
+                        const TimeStatistics& time, const RunEnd& end) {
+  nlohmann::ordered_json whole = report(simulation, recorder, time);
   whole["ended"] = to_json(end);
   // What robots said may be any bytes.
   return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';

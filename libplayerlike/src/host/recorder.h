@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ class Recorder {
   [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
     return trails_[robot].points;
   }
+  /// How long a robot's motors were commanded to move it [s]; none where nothing is recorded.
+  [[nodiscard]] std::optional<double> driven_time_s(std::size_t robot) const {
+    if (!active_ || robot >= trails_.size()) return std::nullopt;
+    return sim::to_seconds(trails_[robot].driven_ns);
+  }
   /// The scene now, with trails.
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
@@ -46,6 +52,7 @@ class Recorder {
   struct Trail {
     std::vector<sim::Vec2> points;
     double spacing_m = 0.01;
+    sim::SimTime driven_ns = 0;  // here because both are followed in each step
   };
   void extend_trails(const sim::Simulation& simulation);
   void write_rows(const sim::Simulation& simulation);
