@@ -78,6 +78,8 @@ const BadWorld kBadWorlds[] = {
     {"out_of_range", "world/out-of-range", "/simulation/step", 1, "from 0.0001 to 0.1 s", "1e300"},
     {"out_of_range_integer", "world/out-of-range", "/simulation/seed", 1, "from 0 to", "-1"},
     {"out_of_range_negative", "world/out-of-range", "/arena/size/1", 1, "from 0.001", "-3"},
+    {"reserved_shared_port", "world/reserved-port", "/robots_on_port", 1, "other than 4000",
+     "4000"},
     {"reserved_port", "world/reserved-port", "/robots/0/port", 1, "other than 4000", "4000"},
     {"robot_inside_wall", "world/robot-overlaps-wall", "/robots/0/pose", 3, "clear of the map",
      "(3.60, 1.30)"},

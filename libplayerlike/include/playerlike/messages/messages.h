@@ -47,7 +47,9 @@ struct RobotInfo {
   sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
-  std::map<std::string, int> proxies;  ///< interface -> index on port 4000, where the world says so
+  bool shares_port = false;  ///< other robots have this port, too; see note_shared_ports()
+  std::map<std::string, int> proxies;  ///< interface -> index on port 4000, and of the first device
+                                       ///< on a shared port, where the world says so
   std::map<std::string, std::vector<std::string>>
       interfaces;  ///< interface -> names of devices in order of index, where the world says so
   std::vector<sim::DriverDescription> drivers;    ///< as the world file has them
@@ -113,16 +115,27 @@ void require_finite(const sim::Command& command);
 /// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 
+/// All interfaces that devices carry, in alphabetical order.
+[[nodiscard]] std::vector<std::string_view> interface_names();
+
+/// Names of a robot's devices that carry an interface, by index on the robot's own port.
+[[nodiscard]] std::vector<std::string> device_order(const sim::RobotDescription& robot,
+                                                    std::string_view interface);
+
 /// The world that comes with Playpen for trying an interface: it has a robot with a device that
 /// carries it.
 /// @return its name in the folder of worlds, e.g. "devices/laser.json"; "" if no device carries the
 ///         interface.
 [[nodiscard]] std::string example_world(std::string_view interface);
 
-/// Checks the orders of devices that robots give for interfaces.
-/// @throws sim::ConfigError naming each interface that there is not, and each device that does not
-///         carry the one it is listed for.
+/// Checks the orders of devices that robots give for interfaces, and the indices of devices on a
+/// port that robots share.
+/// @throws sim::ConfigError naming each interface that there is not, each device that does not
+///         carry the one it is listed for, and each index that two devices of a shared port have.
 void check_interfaces(const sim::WorldDescription& world);
+
+/// Notes which robots share a port.
+void note_shared_ports(std::vector<RobotInfo>& robots);
 
 /// Builds what clients are told of a simulation's robots.
 /// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
@@ -133,7 +146,7 @@ void check_interfaces(const sim::WorldDescription& world);
 [[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
                                               double cell_size_m);
 
-/// The robot that has a port of its own; null if none has this one.
+/// The first robot that has a port; null if none has this one.
 [[nodiscard]] const RobotInfo* robot_at(const std::vector<RobotInfo>& robots, int port);
 /// Whether clients can connect to a port: a robot's, or that of all robots.
 [[nodiscard]] bool is_open(const std::vector<RobotInfo>& robots, int port);
@@ -155,7 +168,8 @@ struct InterfaceBinding {
 /// robot's i-th device with the interface, in the order that its `interfaces` give or else in order
 /// of type and name, and drivers have the indices that the world gives them
 /// (by default the first free ones); on port 4000 the index is the one that the world's
-/// `proxies` table gives, by default the robot's number counted from 0.
+/// `proxies` table gives, by default the robot's number counted from 0. On a port that robots share
+/// it is the same, but a robot's further devices follow the index that `proxies` gives.
 /// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices),
 /// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"
 /// (batteries), "graphics2d" (pens); those of the devices that have their names ("aio",

@@ -135,9 +135,10 @@ struct RobotDescription {
   std::string model = "s1r";  ///< see find_robot_model()
   Pose pose;                  ///< X_WB at the start
   Colour colour{0xff, 0x88, 0x00, 0xff};
-  int port = 0;  ///< Player port; the reader gives 6665, 6666, ... by default
+  int port = 0;  ///< Player port; the reader gives the one that robots share, else 6665, ...
   std::vector<DeviceDescription> devices;  ///< in order of name
-  std::map<std::string, int> proxies;      ///< interface name -> index on port 4000
+  std::map<std::string, int> proxies;      ///< interface name -> index on port 4000, and of the
+                                           ///< first device on a port that robots share
   std::map<std::string, std::vector<std::string>>
       interfaces;  ///< interface name -> names of devices, by index on the robot's own port; those
                    ///< not named follow in the usual order
@@ -175,6 +176,7 @@ struct WorldDescription {
   /// The kinds of robot that are not the library's own, by what RobotDescription::model says.
   std::map<std::string, std::shared_ptr<const RobotModel>> models;
   std::vector<RobotDescription> robots;
+  int robots_on_port = 0;  ///< Player port that robots without one of their own share; 0: none
   CanvasDescription canvas;
 };
 
