@@ -4,12 +4,24 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "playerlike/host/grading.h"
 #include "sim/core/log.h"
 #include "sim/world/description.h"
 
 namespace playerlike {
+
+/// Which device answers under an interface and index, instead of what the world says.
+struct InterfaceChoice {
+  std::string robot;      ///< name; "": each robot that has the device
+  std::string interface;  ///< e.g. "ranger"
+  int index = 0;          ///< on the robot's own port, from 0
+  std::string device;     ///< e.g. "laser"
+
+  /// "ranger:0=laser" or "r1.ranger:0=laser".
+  [[nodiscard]] std::string text() const;
+};
 
 /// How a world is run: what overrides the world file, and where results go.
 struct RunSettings {
@@ -24,7 +36,8 @@ struct RunSettings {
   std::optional<double> snapshot_period_s;  ///< simulated time between pictures in the output
                                             ///< folder's snapshots/, 0.001..1e9
   std::optional<int> clients;  ///< of the start gate, 1..1000: time waits until as many have joined
-  std::optional<sim::ViewMode> view_mode;  ///< at the start, instead of the world's
+  std::optional<sim::ViewMode> view_mode;   ///< at the start, instead of the world's
+  std::vector<InterfaceChoice> interfaces;  ///< instead of the world's order of devices
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
   bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
@@ -51,12 +64,13 @@ struct RunSettings {
   /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
   /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen),
   /// PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE.
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, what it should be and what it is.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Puts seed, duration, time mode, clients and view mode into the world.
-  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode.
+  /// Puts seed, duration, time mode, clients, view mode and interfaces into the world.
+  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode;
+  ///         run/interface for each choice of an interface that the world's robots cannot follow.
   void apply_to(sim::WorldDescription& world) const;
 };
 
@@ -66,6 +80,16 @@ struct RunSettings {
 
 /// Reads a number of clients, 1..1000. @return whether the text is such a number.
 [[nodiscard]] bool parse_clients(const std::string& text, int& clients);
+
+/// Reads "[ROBOT.]INTERFACE:INDEX=DEVICE". @return whether the text has this form.
+[[nodiscard]] bool parse_interface_choice(const std::string& text, InterfaceChoice& choice);
+
+/// Gives devices the indices that choices name; the other devices of the interface keep their
+/// order. A choice without a robot holds for each robot that has the device.
+/// @throws sim::ConfigError run/interface for each unknown robot, interface or device, an index
+///         that the robot does not have, and an index or device that is chosen twice.
+void apply_interface_choices(sim::WorldDescription& world,
+                             const std::vector<InterfaceChoice>& choices);
 
 /// Reads frames a second of a film, 1..240. @return whether the text is such a number.
 [[nodiscard]] bool parse_film_fps(const std::string& text, double& frames_per_second);
@@ -77,6 +101,9 @@ struct RunSettings {
 
 /// What parse_clients() takes, in words for messages.
 inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
+/// What parse_interface_choice() takes, in words for messages.
+inline constexpr const char* kInterfaceChoiceExpected =
+    "[ROBOT.]INTERFACE:INDEX=DEVICE, such as ranger:0=laser or r1.ranger:0=laser";
 /// What parse_film_fps() takes, in words for messages.
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// What parse_film_speed() takes, in words for messages.
