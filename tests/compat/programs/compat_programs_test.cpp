@@ -91,6 +91,7 @@ std::vector<Case> cases() {
       {"own_goto", kPioneer, {"distance left 0.0"}, 1.4, 2.5},
       {"own_proxy", kPioneer, {"50 scans"}, 0.0, 0.01, 0, 0},
       {"posix_threads", kCave, {"nearest"}, 0.5},
+      {"past_the_end", kCave, {"sonar 99 reads -1", "nothing was thrown"}, 3.0},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
       {"roomba_goal",
@@ -166,6 +167,43 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   }
   EXPECT_LE(collisions, c.most_collisions) << result.out << result.err;
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
+}
+
+// A program that meets another world than the one that it was written for.
+TEST(StalledProgram, IsPointedToThePageOfWorlds) {
+  const TemporaryFolder folder;
+  const ProcessResult result = playpen(
+      {"run", "cave", "--out", folder / "out", "--duration", "60", "--", PROGRAMS "push_wall"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("\npioneer1 was stalled for [5-9][0-9] % of the "
+                                                 "time that it drove: docs/which_world.md"));
+  EXPECT_THAT(result.out, Not(HasSubstr("pioneer2 was")));
+  const json report = json::parse(read_bytes(folder / "out/report.json"));
+  const json& robot = report.at("robots")[0];
+  EXPECT_NEAR(robot.at("driven_time"), 28.9, 0.2);
+  EXPECT_GT(robot.at("stalled_time"), 0.5 * robot.at("driven_time").get<double>());
+  EXPECT_EQ(report.at("robots")[1].at("driven_time"), 0.0);
+}
+
+TEST(InterfacesOfARun, AreThoseOfTheCommandLine) {
+  const TemporaryFolder folder;
+  const auto run = [&](std::vector<std::string> options) {
+    std::vector<std::string> call = {"run",          "pioneer_laser", "--out",
+                                     folder / "out", "--duration",    "20"};
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", PROGRAMS "sonar_ranger"});
+    return playpen(call);
+  };
+  EXPECT_THAT(run({}).out, Not(HasSubstr("16 sonars")));
+  const ProcessResult chosen = run({"--interface", "ranger:0=sonar"});
+  EXPECT_EQ(chosen.status, 0) << chosen.err;
+  EXPECT_THAT(chosen.out, HasSubstr("16 sonars, 361 beams"));
+  EXPECT_THAT(run({"--interface", "ranger:1=laser", "--interface", "ranger:0=sonar"}).out,
+              HasSubstr("16 sonars, 361 beams"));
+  const ProcessResult wrong = run({"--interface", "ranger:0=radar"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--interface ranger:0=radar: expected a device with the "
+                                   "interface ranger of a robot of this world: laser, sonar"));
 }
 
 // Pictures and films need OpenCV, which brings 250 libraries along: only who draws loads it.
