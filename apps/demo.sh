@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# From a fresh machine to a film: installs what is missing, builds what is needed, lets a robot
-# explore an arena that it does not know, all by itself, and says how good its map is.
+# Installs missing packages, builds the programs, lets a robot explore an unknown arena by
+# itself, films it and grades its map.
 # Results: out/demo/.
 set -euo pipefail
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs the Debian or Ubuntu packages that Playpen needs and that are not there yet. This is
-# the one place that names them; why each is needed is told in docs/decisions/dependencies.md.
+# Installs the missing Debian or Ubuntu packages that Playpen needs. No other file names them;
+# docs/decisions/dependencies.md explains why each is needed.
 set -euo pipefail
 
 usage() {
@@ -26,8 +26,8 @@ Groups (default: build):
 TEXT
 }
 
-# One entry a package: its name, or name=command where any installed version of that command
-# will do, wherever it came from.
+# One entry per package: its name, or name=command if any installed version of that command is
+# sufficient, whatever its origin.
 build_packages=(
   "g++=g++" cmake=cmake ninja-build=ninja make=make pkg-config=pkg-config
   libbox2d-dev libeigen3-dev
@@ -38,7 +38,7 @@ build_packages=(
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev locales ffmpeg=ffprobe xvfb=Xvfb xdotool=xdotool
   python3=python3)
-# Where the system has no such package (Ubuntu 24.04 lacks the first), the tests that want it are
+# If the system has no such package (Ubuntu 24.04 lacks the first), the tests that need it are
 # skipped.
 optional_test_packages=(python3-morse-simulator libboost-program-options-dev)
 lint_packages=(
@@ -58,7 +58,7 @@ is_installed() {
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true) == installed ]]
 }
 
-# missing_optional PACKAGE...: those that are not installed and that apt knows, one a line.
+# missing_optional PACKAGE...: prints those that are not installed but known to apt, one per line.
 missing_optional() {
   local package
   for package in "$@"; do
@@ -68,9 +68,9 @@ missing_optional() {
   done
 }
 
-# The package that holds the sanitizer and fuzzer runtime of the packaged clang. Its name carries
-# clang's version; older releases (Ubuntu 22.04) have the files in another package, which clang
-# draws in by itself. Prints nothing where there is no such package, or apt does not know yet.
+# The package that contains the sanitizer and fuzzer runtime of the packaged clang. Its name
+# contains clang's version. In older releases (Ubuntu 22.04) the files are in another package, which
+# clang depends on. Prints nothing if there is no such package, or if apt does not know it yet.
 clang_runtime_package() {
   local depends version
   depends=$(dpkg-query -W -f '${Depends}' clang 2>/dev/null || true)
@@ -170,7 +170,8 @@ apt_get() {
 }
 
 echo "Asking the package servers for their lists ..."
-# A broken third-party source must not stop us: whether our packages come is what counts.
+# A broken third-party source must not stop the script: only Playpen's packages have to be
+# installable.
 updated=true
 apt_get update || updated=false
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs what is missing, builds everything and runs the tests.
+# Installs missing packages, builds everything and runs the tests.
 set -euo pipefail
 
 usage() {
@@ -44,8 +44,8 @@ apps/install_dependencies.sh build test
 
 launcher=()
 if command -v ccache >/dev/null 2>&1; then
-  # What ccache has need not be compiled: it cannot store what used a precompiled header, and has
-  # more of use where each test is compiled by itself.
+  # Without precompiled headers and joined tests, because ccache cannot store what used a
+  # precompiled header, and gets more hits if each test is compiled separately.
   launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DPLAYPEN_PCH= -DPLAYPEN_JOIN=)
 fi
 jobs=$(nproc)
@@ -58,14 +58,14 @@ if ! cmake --preset "$preset" "${launcher[@]}" >"$configure_log" 2>&1; then
 fi
 cmake --build "build/$preset" --parallel "$jobs" "${targets[@]}"
 
-# ThreadSanitizer of older compilers cannot place its memory where the kernel randomises
-# addresses by more than 28 bits; without randomisation it always can.
+# ThreadSanitizer of older compilers cannot place its memory if the kernel randomises addresses by
+# more than 28 bits. It always can without randomisation.
 run=()
 if [[ $preset == tsan && $(cat /proc/sys/vm/mmap_rnd_bits 2>/dev/null || echo 28) -gt 28 ]]; then
   run=(setarch -R)
 fi
-# Test programs call setlocale(): half of the world writes 0,5 for 0.5, and none of that may get into
-# a file or onto a wire. Only numbers follow the locale, messages of the system stay English.
+# Test programs call setlocale(). Half of the world writes 0,5 for 0.5; this must not get into a
+# file or onto a wire. Only numbers follow the locale; messages of the system stay English.
 case $preset in
   asan) locale=cs_CZ ;;
   *) locale=de_DE ;;
@@ -83,5 +83,5 @@ else
     "installed?), so the tests run with a decimal point" >&2
 fi
 
-# Many tests wait for programs, sockets or a window: half a job more for each processor.
+# Many tests wait for programs, sockets or a window, so run half a job more per processor.
 "${run[@]}" ctest --preset "$preset" --parallel "$((jobs + (jobs + 1) / 2))" "$@"

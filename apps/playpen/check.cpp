@@ -74,7 +74,7 @@ std::string describe(const sim::RobotModel& model) {
          (devices.empty() ? ", no devices" : ", devices " + devices);
 }
 
-/// Reads a world as a run does. What devices are wired to is looked up by the simulation.
+/// Reads a world in the way that a run does. The simulation resolves what devices are wired to.
 sim::WorldDescription read_world(const std::string& file) {
   sim::WorldDescription world = sim::load_world(file);
   playerlike::check_drivers(world);
@@ -83,7 +83,7 @@ sim::WorldDescription read_world(const std::string& file) {
   return world;
 }
 
-/// Reads a task and its worlds as grading does.
+/// Reads a task and its worlds in the way that grading does.
 grade::Task read_task(const std::string& file) {
   grade::Task task = grade::read_task(file);
   for (const grade::TaskWorld& world : task.worlds) {
@@ -92,7 +92,7 @@ grade::Task read_task(const std::string& file) {
   return task;
 }
 
-/// Validates a file. @return what it holds.
+/// Validates a file. @return a description of its content.
 std::string checked(const NamedFile& named) {
   switch (named.kind) {
     case FileKind::kTask:
@@ -119,7 +119,8 @@ int check(const std::vector<std::string>& names) {
     }
     for (const NamedFile& file : files) {
       try {
-        const std::string what = checked(file);  // all that may throw comes before the line
+        // everything that may throw comes before the output line
+        const std::string what = checked(file);
         std::cout << name << ": ok (" << what << ")\n";
       } catch (const sim::ConfigError& error) {
         std::cerr << error.what() << '\n'

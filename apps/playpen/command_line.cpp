@@ -45,7 +45,7 @@ CommandLine::CommandLine(std::string name)
   app.set_version_flag("-V,--version", "playpen " PLAYPEN_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   app.require_subcommand(0, 1);
-  app.formatter(std::make_shared<HelpFormatter>(*this));  // commands inherit it
+  app.formatter(std::make_shared<HelpFormatter>(*this));  // commands inherit the formatter
   app.footer(
       "Exit status: 0 fine, 1 the program failed, 2 bad input.\n"
       "'playpen help COMMAND' tells more of a command, 'playpen list' shows worlds,\n"
@@ -94,8 +94,8 @@ const CLI::App& CommandLine::command(const std::string& name) const {
 }
 
 int CommandLine::run(std::vector<std::string> arguments) {
-  // What follows `run ... --` or `grade ... --` is another program's: kept from the parser, which
-  // would take "[a,b]" apart.
+  // What follows `run ... --` or `grade ... --` belongs to another program. CLI11 must not parse
+  // it; it would split "[a,b]".
   const auto takes_program = [&](const CLI::App* command) {
     return !arguments.empty() && command->get_name() == arguments.front();
   };
@@ -104,7 +104,7 @@ int CommandLine::run(std::vector<std::string> arguments) {
     if (end != arguments.end()) program.assign(end + 1, arguments.end());
     arguments.erase(end, arguments.end());
   }
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants it
+  std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
   try {
     app.parse(std::move(arguments));
     if (app.get_subcommands().empty()) std::cout << app.help();
@@ -115,13 +115,13 @@ int CommandLine::run(std::vector<std::string> arguments) {
 }
 
 int CommandLine::explain(const CLI::ParseError& error) const {
-  // Help and version are thrown, too.
+  // Help and version are exceptions, too.
   if (error.get_exit_code() == 0) return app.exit(error) == 0 ? kOk : kBadInput;
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   const CLI::App& command = chosen.empty() ? app : *chosen.front();
   const std::string name = chosen.empty() ? "playpen" : "playpen " + command.get_name();
 
-  // A word that nobody knows may be why something else is missing.
+  // An unknown word may be the reason why another argument is missing.
   std::string message = error.what();
   const std::vector<std::string> unknown = app.remaining(true);
   const auto option = std::find_if(unknown.begin(), unknown.end(), [](const std::string& word) {

@@ -11,7 +11,7 @@
 
 namespace playpen {
 
-/// What the value of an option or argument can be, for shells that complete it.
+/// The kinds of value that an option or argument takes, for shell completion.
 struct ValueKind {
   enum class Kind { kAnything, kFile, kFolder, kWorld, kTask, kNamedFile, kChoice };
   Kind kind = Kind::kAnything;
@@ -19,7 +19,7 @@ struct ValueKind {
 };
 
 /// The description of the whole command line: its commands, their options and what they do. Help,
-/// manual page, completion and the hints for misspelt words are all made from it.
+/// manual page, completion and the hints for misspelt words are generated from it.
 struct CommandLine {
   /// @param invocation  how the user calls this program, "playpen" or a path.
   explicit CommandLine(std::string invocation);
@@ -28,22 +28,23 @@ struct CommandLine {
 
   CLI::App app;
   std::string invocation;
-  std::vector<std::string> program;  ///< the client program and its arguments: what follows "--"
-  int status = kOk;                  ///< what the command that has run gives back
+  /// the client program and its arguments: everything after "--"
+  std::vector<std::string> program;
+  int status = kOk;  ///< exit status of the command that has run
 
   std::set<const CLI::App*> with_program;  ///< commands that are followed by "-- PROGRAM"
-  std::map<const CLI::Option*, ValueKind> value_kinds;  ///< those that are not kAnything
+  std::map<const CLI::Option*, ValueKind> value_kinds;  ///< without those of kAnything
 
-  /// Adds a command. `action` runs it and gives back its exit status.
+  /// Adds a command. `action` runs it and returns its exit status.
   CLI::App& add_command(const std::string& name, const std::string& description);
-  /// Says what an option's value can be. @return the option.
+  /// Sets the kind of an option's values. @return the option.
   CLI::Option* takes(CLI::Option* option, ValueKind::Kind kind);
-  /// Says which values an option has. @return the option.
+  /// Sets the possible values of an option. @return the option.
   CLI::Option* takes(CLI::Option* option, std::vector<std::string> choices);
-  /// The commands that are not hidden, in order.
+  /// The visible commands, in order.
   [[nodiscard]] std::vector<const CLI::App*> commands() const;
-  /// The command of that name.
-  /// @throws CLI::ParseError naming the nearest one if there is none.
+  /// The command with that name.
+  /// @throws CLI::ParseError that suggests the most similar name if there is none.
   [[nodiscard]] const CLI::App& command(const std::string& name) const;
 
   /// Parses the arguments (without the program's own name) and runs the command that they name.

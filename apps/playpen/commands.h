@@ -10,87 +10,86 @@
 #include "playerlike/server/server_settings.h"
 #include "sim/core/log.h"
 
-/// The commands of `playpen`, behind their arguments. Each prints to the standard streams and
-/// returns an exit status; what goes wrong beyond that is thrown.
+/// The commands of `playpen`, without argument parsing. Each prints to the standard streams and
+/// returns an exit status; other errors are thrown.
 namespace playpen {
 
 inline constexpr int kOk = 0;             ///< all went well
 inline constexpr int kProgramFailed = 1;  ///< the client program failed
-inline constexpr int kBadInput = 2;       ///< arguments or a world that can't be used
+inline constexpr int kBadInput = 2;       ///< unusable arguments or world
 
-/// What `playpen run` was asked for.
+/// Arguments of `playpen run`.
 struct RunRequest {
   std::string world;  ///< as the user wrote it, see find_world()
   playerlike::RunSettings settings;
   bool quiet = false;
   bool view = false;        ///< in a window, in real time unless the settings say otherwise
-  bool real_sleep = false;  ///< sleeps of the program are not simulated time
+  bool real_sleep = false;  ///< the program's sleeps take wall time, not simulated time
   std::vector<std::string> command;  ///< program and arguments
 };
 
-/// What `playpen grade` was asked for.
+/// Arguments of `playpen grade`.
 struct GradeRequest {
   std::string task;                  ///< as the user wrote it, see load_task()
-  std::vector<std::string> worlds;   ///< see find_world(); none: those of the task
-  std::vector<std::uint64_t> seeds;  ///< none: those of the task
-  int jobs = 0;                      ///< 0: as many as there are processors
-  std::optional<double> timeout_s;   ///< none: that of the task
+  std::vector<std::string> worlds;   ///< see find_world(); empty: those of the task
+  std::vector<std::uint64_t> seeds;  ///< empty: those of the task
+  int jobs = 0;                      ///< 0: the number of processors
+  std::optional<double> timeout_s;   ///< empty: that of the task
   std::string output_folder;         ///< "": out/grade/TASK
   std::string json_file;             ///< "": grade.json in the output folder
   std::vector<std::string> command;  ///< program and arguments
 };
 
-/// Runs a client program on the worlds of a task, judges it, prints a table and writes a JSON file.
+/// Runs a client program on the worlds of a task, grades it, prints a table and writes a JSON file.
 /// @return kOk if all runs pass, else kProgramFailed.
-/// @throws sim::ConfigError for a bad task or world, playerlike::ProgramError for a program that
-///         can't be started, std::exception if a folder or file can't be written.
+/// @throws sim::ConfigError for a bad task or world, playerlike::ProgramError if the program can't
+///         be started, std::exception if a folder or file can't be written.
 [[nodiscard]] int grade_program(GradeRequest request);
 
-/// Runs a client program on a world; prints how it went unless told to be quiet.
-/// @throws sim::ConfigError for a bad world, playerlike::ProgramError for a program that can't be
-///         started, std::exception if the output folder can't be prepared or there can be no
-///         window.
+/// Runs a client program on a world and prints a summary unless the request says quiet.
+/// @throws sim::ConfigError for a bad world, playerlike::ProgramError if the program can't be
+///         started, std::exception if the output folder can't be prepared or no window can be
+///         opened.
 [[nodiscard]] int run(RunRequest request);
 
-/// What `playpen serve` was asked for.
+/// Arguments of `playpen serve`.
 struct ServeRequest {
   std::string world;  ///< as the user wrote it, see find_world()
   playerlike::RunSettings settings;
   playerlike::ServerSettings server;
   std::string token_file;         ///< "": no tokens
-  std::optional<int> clients;     ///< of the start gate, instead of the world's
-  bool own_sensors_only = false;  ///< whatever the world's "privacy" says
+  std::optional<int> clients;     ///< clients that the start gate waits for, instead of the world's
+  bool own_sensors_only = false;  ///< overrides the world's "privacy"
   sim::LogLevel log_level = sim::LogLevel::kInfo;
   bool quiet = false;
   bool view = false;  ///< in a window, in real time unless the settings say otherwise
 };
 
-/// Offers a simulation over TCP until a signal comes, a client says so, or the run is over and its
-/// clients have left. Prints where it listens, and how the run went unless told to be quiet.
+/// Serves a simulation over TCP until a signal arrives, a client requests the end, or the run is
+/// over and its clients have left. Prints the address, and a summary unless the request says quiet.
 /// @return kOk, or kProgramFailed if results could not be written.
 /// @throws sim::ConfigError for a bad world, token file, address or port; std::exception if the
-///         output folder can't be prepared or there can be no window.
+///         output folder can't be prepared or no window can be opened.
 [[nodiscard]] int serve(ServeRequest request);
 
-/// Validates worlds, tasks and robot models, files or names (see find_files()); prints a line for
-/// each sound one and every issue of the others.
+/// Validates worlds, tasks and robot models, given as files or names (see find_files()). Prints a
+/// line for each valid one and every issue of the others.
 [[nodiscard]] int check(const std::vector<std::string>& names);
 
-/// What `playpen render` was asked for.
+/// Arguments of `playpen render`.
 struct RenderRequest {
   std::string world;  ///< as the user wrote it, see find_world(); or a map_server file, .yaml
   std::string file;   ///< .png, or .yaml with `map`
   int size_px = 1000;
   std::optional<sim::ViewMode> view_mode;  ///< instead of the world's
-  bool canvas = false;                     ///< the canvas alone
-  bool map = false;                        ///< the true map
+  bool canvas = false;                     ///< draw only the canvas
+  bool map = false;                        ///< draw the true map
 };
 
-/// Draws a world as it is at its start, its canvas alone or its true map, or a map.
-/// Pictures of cells have a whole number of pixels a cell, so many that the longer side is at most
-/// `size_px` long, but at least one.
+/// Draws a world in its initial state, only its canvas, its true map, or a map file. Pictures of
+/// cells use a whole number of pixels per cell, at least one; the longer side is at most `size_px`.
 /// @throws sim::ConfigError for a bad world or map, std::runtime_error if the file can't be written
-///         or the request asks for what is not there.
+///         or the world lacks what the request asks for.
 [[nodiscard]] int render(const RenderRequest& request);
 
 }  // namespace playpen

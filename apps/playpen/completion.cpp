@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Scripts by which shells complete the command line, made from its description.
+// Shell completion scripts, generated from the description of the command line.
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -36,14 +36,14 @@ std::string joined(const std::vector<std::string>& words, const std::string& bet
   return text;
 }
 
-/// A text in single quotes, as shells read it; `inner_quote` stands for a quote in it.
+/// A text in single quotes, in the shell's syntax; `inner_quote` replaces a quote in the text.
 std::string quoted(const std::string& text, const std::string& inner_quote = "'\\''") {
   std::string result = "'";
   for (const char c : text) result += c == '\'' ? inner_quote : std::string(1, c);
   return result + '\'';
 }
 
-/// The first line of a description: shells have one line for each word.
+/// The first line of a description; shells show one line per word.
 std::string summary(const CLI::Option& option) { return option.get_description(); }
 
 std::vector<const CLI::Option*> options_of(const CLI::App& app, bool positional) {
@@ -62,7 +62,7 @@ std::vector<std::string> command_names(const CommandLine& line) {
 
 // --- bash ---------------------------------------------------------------------------------------
 
-/// The call that fills in values of this kind.
+/// The call that completes values of this kind.
 std::string bash_call(const ValueKind& kind) {
   switch (kind.kind) {
     case Kind::kFile:
@@ -200,7 +200,7 @@ _playpen() {
 
 // --- zsh ----------------------------------------------------------------------------------------
 
-/// A blank in front: zsh hands the function these words and no others.
+/// The leading blank makes zsh pass exactly these words to the function.
 std::string zsh_action(const ValueKind& kind) {
   switch (kind.kind) {
     case Kind::kFile:
@@ -221,7 +221,7 @@ std::string zsh_action(const ValueKind& kind) {
   return " ";
 }
 
-/// A text within a specification of zsh's _arguments, where some characters have a meaning.
+/// Escapes a text for a specification of zsh's _arguments, where some characters are special.
 std::string zsh_text(const std::string& text) {
   std::string result;
   for (const char c : text) {

@@ -84,7 +84,7 @@ void add_doctor(CommandLine& line) {
   const auto request = std::make_shared<Request>();
   CLI::App& command =
       line.add_command("doctor", "Look for what is amiss: installation, packages, display, films");
-  // For the processes that the checks start.
+  // Hidden option, for the processes that the checks start.
   command.add_option("--probe", request->probe)->group("");
   command.add_option("--file", request->file)->group("");
   command.footer(

@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 constexpr const char* kInstallAgain =
     "install Playpen again: cmake --install BUILD --prefix PREFIX";
 
-/// A folder that is removed with all that it holds.
+/// A temporary folder, removed with its content by the destructor.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -63,7 +63,7 @@ class ScratchFolder {
   fs::path folder_;
 };
 
-/// What a program printed, and whether it ended with status 0.
+/// The output of a program, and whether it ended with status 0.
 struct Outcome {
   bool success = false;
   std::string output;
@@ -118,7 +118,7 @@ std::string last_line(std::string text) {
   return start == std::string::npos ? text : text.substr(start + 1);
 }
 
-/// Of a build's output, the lines that tell what went wrong; its last line if none does.
+/// The lines of a build's output that name an error; its last line if none does.
 std::string reasons(const std::string& output) {
   constexpr std::size_t kMostLines = 3;
   std::string text;
@@ -140,14 +140,14 @@ std::string reasons(const std::string& output) {
 
 // --- Building -----------------------------------------------------------------------------------
 
-/// A program that building needs, under one of several names, and the package that has it.
+/// A program that a build needs, under one of several names, and the package that contains it.
 struct Tool {
   const char* what;
   std::vector<std::string> names;
   const char* package;
 };
 
-/// @return whether it is there.
+/// @return whether the tool is installed.
 bool look_for(const Tool& tool, const fs::path& log, Findings& findings) {
   for (const std::string& name : tool.names) {
     if (const std::optional<std::string> file = found_program(name)) {
@@ -186,7 +186,7 @@ void check_pkgconfig(const fs::path& log, Findings& findings) {
   }
 }
 
-/// Builds the smallest client program by CMake.
+/// Builds the smallest client program with CMake.
 Finding trial_build(const ScratchFolder& scratch) {
   const fs::path project = scratch / "client";
   const std::string build = (project / "build").string();
@@ -217,7 +217,7 @@ Finding trial_build(const ScratchFolder& scratch) {
 
 constexpr int kProbeRounds = 9;  // of 0.1 s
 
-/// Counts what a laser reads.
+/// Counts laser readings.
 class Readings : public playerlike::ReadingSink {
  public:
   void on_reading(playerlike::DeviceId /*device*/, const sim::SharedReading& /*reading*/) override {
@@ -229,7 +229,7 @@ class Readings : public playerlike::ReadingSink {
   int count_ = 0;
 };
 
-/// What a client library does for a program that reads a laser.
+/// Does what the client library does for a program that reads a laser.
 int probe_run() {
   constexpr int kPort = 6665;
   const std::unique_ptr<playerlike::Session> session = playerlike::open_session("localhost", kPort);
@@ -418,7 +418,7 @@ Findings check_films() {
     if (!outcome.success || bytes.empty()) {
       return {{Health::kAmiss, "no .mp4 can be written: " + last_line(outcome.output), kInstead}};
     }
-    // The name of the coding in the film's table of contents (ISO 14496-15, ISO 14496-14).
+    // The name of the codec in the film's table of contents (ISO 14496-15, ISO 14496-14).
     if (bytes.find("avc1") != std::string::npos) {
       return {{Health::kGood, "an .mp4 was written as H.264, which browsers play", ""}};
     }
@@ -438,7 +438,7 @@ Findings check_core_dumps() {
   if (getrlimit(RLIMIT_CORE, &limit) != 0) return {};
   const std::string pattern = first_line(read_bytes("/proc/sys/kernel/core_pattern"));
   const bool is_piped = pattern.starts_with('|');
-  // The kernel hands dumps to a program whatever the limit is, but for 1.
+  // If core_pattern is a pipe, the kernel ignores the limit, except for 1.
   if (limit.rlim_cur == 0 && !is_piped) {
     return {{Health::kNote, "a program that crashes leaves no core dump: 'ulimit -c' is 0",
              "to look at a crash: ulimit -c unlimited, run the program again, then gdb PROGRAM "

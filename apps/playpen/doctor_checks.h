@@ -4,46 +4,46 @@
 #include <string>
 #include <vector>
 
-/// What `playpen doctor` looks at.
+/// The checks of `playpen doctor`.
 namespace playpen {
 
-/// How something is.
+/// The result of a check.
 enum class Health {
   kGood,
   kNote,    ///< worth knowing
-  kAmiss,   ///< something is missing that a run does not need
-  kBroken,  ///< something is missing that each run needs
+  kAmiss,   ///< something is missing, but a run does not need it
+  kBroken,  ///< something is missing that every run needs
 };
 
-/// What was found out about one thing.
+/// The result of one check.
 struct Finding {
   Health health = Health::kGood;
-  std::string text;          ///< what was looked at, and how it is
-  std::string cure;          ///< what to do; "": nothing
-  std::string command = {};  ///< that does it, to be copied from the terminal; "": none
+  std::string text;          ///< what was checked, and the result
+  std::string cure;          ///< what to do about it; "": nothing
+  std::string command = {};  ///< command that fixes it, to be copied from the terminal; "": none
 };
 
 using Findings = std::vector<Finding>;
 
 /// The installation: worlds, templates and the libraries and programs beside the command.
 [[nodiscard]] Findings check_installation();
-/// Runs a program in the default world and looks at its results.
+/// Runs a program in the default world and checks its results.
 [[nodiscard]] Findings check_run();
-/// Looks for what builds programs, and builds one.
+/// Checks the programs that a build needs, and builds a program.
 [[nodiscard]] Findings check_building();
 /// Whether --view can open a window.
 [[nodiscard]] Findings check_display();
 /// Whether films can be written, and how.
 [[nodiscard]] Findings check_films();
-/// What becomes of a program that crashes.
+/// What happens to a program that crashes.
 [[nodiscard]] Findings check_core_dumps();
-/// The variables of the environment that change what programs do.
+/// The environment variables that change what programs do.
 [[nodiscard]] Findings check_variables();
 
-/// What a check does in a process of its own, since it may fail there in any way: "run" is a client
-/// program, "film" writes a film.
-/// @param file  the film's name.
-/// @return the process's exit status.
+/// Runs the part of a check that needs its own process, because it may fail there in any way: "run"
+/// is a client program, "film" writes a film.
+/// @param file  name of the film.
+/// @return exit status of the process.
 [[nodiscard]] int probe(const std::string& what, const std::string& file);
 
 }  // namespace playpen

@@ -5,14 +5,14 @@
 
 namespace playpen {
 
-/// A variable of the environment that Playpen reads.
+/// An environment variable that Playpen reads.
 struct EnvironmentVariable {
   const char* name;
-  const char* meaning;  ///< for people, a sentence
-  bool run_sets;  ///< `playpen run` and `grade` replace or remove it, whatever the shell holds
+  const char* meaning;  ///< a sentence for the user
+  bool run_sets;        ///< `playpen run` and `grade` overwrite or remove it
 };
 
-/// All that users may set, in alphabetical order.
+/// All variables that users may set, in alphabetical order.
 [[nodiscard]] const std::vector<EnvironmentVariable>& environment_variables();
 
 }  // namespace playpen

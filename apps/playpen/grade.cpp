@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A line that is written over again and again, if a person looks at it.
+/// A progress line that overwrites itself, shown only on a terminal.
 class ProgressLine {
  public:
   void show(const grade::Progress& progress) {
@@ -40,7 +40,7 @@ class ProgressLine {
 
 void write_file(const fs::path& file, const std::string& text) {
   if (file.has_parent_path()) {
-    std::error_code ignored;  // what is not there then shows below
+    std::error_code ignored;  // a missing result is reported below
     fs::create_directories(file.parent_path(), ignored);
   }
   if (const int error = sim::replace_file(file.string(), text)) {
@@ -76,7 +76,7 @@ int grade_program(GradeRequest request) {
   grade::Grade result =
       grade::grade(settings, [&](const grade::Progress& progress, const grade::Grade& known) {
         line.show(progress);
-        if (std::exchange(written, progress.ended) == progress.ended) return;  // nothing new
+        if (std::exchange(written, progress.ended) == progress.ended) return;  // no change
         grade::Grade present = known;
         present.program = request.command;
         write_file(file, grade::json_text(present));

@@ -26,7 +26,7 @@ void add_help(CommandLine& line) {
     if (request->man) {
       std::cout << man_page(line);
     } else if (request->command.empty()) {
-      // App::help() tells of the command that was chosen, which is this one.
+      // App::help() shows the chosen command, which is this one.
       std::cout << line.app.get_formatter()->make_help(&line.app, line.app.get_name(),
                                                        CLI::AppFormatMode::Normal);
     } else {

@@ -9,10 +9,10 @@ namespace playpen {
 
 struct CommandLine;
 
-/// CLI11's help in lines that fit the terminal, with the client program in the usage.
+/// CLI11's help, wrapped to the terminal's width, with the client program in the usage.
 class HelpFormatter : public CLI::Formatter {
  public:
-  /// @param line  outlives this.
+  /// @param line  must outlive this object.
   explicit HelpFormatter(const CommandLine& line);
 
   [[nodiscard]] std::string make_usage(const CLI::App* app, std::string name) const override;

@@ -16,7 +16,7 @@
 namespace playpen {
 namespace {
 
-/// What is listed under one heading.
+/// The entries under one heading.
 struct Section {
   FileKind kind;
   const char* folder;
@@ -32,7 +32,7 @@ constexpr Section kSections[] = {
     {FileKind::kModel, "models", "Robot models (\"model\": \"NAME\" of a robot in a world)"},
 };
 
-/// The files that have names, and what has a name but no file.
+/// The named files, and names without a file.
 std::vector<ShippedFile> named_files() {
   std::vector<ShippedFile> files = shipped_files();
   if (files.empty()) {

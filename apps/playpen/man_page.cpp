@@ -9,7 +9,7 @@
 namespace playpen {
 namespace {
 
-/// A text as roff wants it: a minus that can be copied, and no line that is taken for a request.
+/// Escapes a text for roff: a minus that can be copied, and no line that looks like a request.
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -71,7 +71,7 @@ void write_options(std::ostream& page, const CLI::App& app) {
   }
 }
 
-/// A footer, line by line: it is laid out for terminals.
+/// A footer, line by line, because it is laid out for terminals.
 void write_footer(std::ostream& page, const std::string& footer) {
   if (footer.empty()) return;
   page << ".PP\n.nf\n" << escaped(footer) << "\n.fi\n";

@@ -7,7 +7,8 @@
 
 namespace playpen {
 
-/// The manual page playpen(1), made from the description of the command line, for man(7)'s macros.
+/// The manual page playpen(1), generated from the description of the command line, with man(7)'s
+/// macros.
 [[nodiscard]] std::string man_page(const CommandLine& line);
 
 }  // namespace playpen

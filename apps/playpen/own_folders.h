@@ -6,9 +6,9 @@
 
 namespace playpen {
 
-/// The folder that this program lies in and those above it, as far up as the root of an installed
-/// tree or of the source tree that a build folder lies in. What belongs to this program is looked
-/// for from there: nothing is compiled in, so that an installed tree can be moved.
+/// The folder of this program and its parents, up to the root of an installed tree or of the source
+/// tree that contains the build folder. The program finds its files from there: no path is compiled
+/// in, so an installed tree can be moved.
 [[nodiscard]] std::vector<std::filesystem::path> own_folders();
 
 }  // namespace playpen

@@ -8,7 +8,7 @@
 
 namespace playpen {
 
-/// Reads the whole of a text as a number.
+/// Parses a whole text as a number.
 template <typename T>
 [[nodiscard]] bool parse_number(const std::string& text, T& value) {
   const char* const end = text.data() + text.size();
@@ -16,7 +16,8 @@ template <typename T>
   return error == std::errc() && rest == end;
 }
 
-/// Adds an option whose text `parse` turns into a setting; it returns false for a bad one.
+/// Adds an option whose text `parse` turns into a setting; `parse` returns false for an invalid
+/// text.
 template <typename Parse>
 CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& description,
                         const std::string& value_name, const std::string& expected, Parse parse) {

@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kName = "libplaypen_virtual_time.so";
 constexpr const char* kFolderVariable = "PLAYPEN_LIBRARIES";
-// These would mean something to the loader, which knows no way to write them otherwise.
+// These characters are special to the loader, which has no way to escape them.
 constexpr const char* kSpecial = " :;$\t\n";
 
-/// Where Playpen's own libraries may lie: beside the folder that this program lies in, so that an
+/// Folders that may contain Playpen's own libraries, relative to this program's folder, so that an
 /// installed tree can be moved.
 std::array<fs::path, 2> library_folders() {
   const std::vector<fs::path> own = own_folders();
@@ -65,7 +65,7 @@ void add_libraries_folder(playerlike::EnvironmentChanges& environment_changes) {
 
 PreloadedLibrary::PreloadedLibrary() : file_(find_library().string()), name_(file_) {
   if (file_.find_first_of(kSpecial) == std::string::npos) return;
-  // Then by another name. /tmp has none of them.
+  // Otherwise use another name, in /tmp, which contains none of these characters.
   std::string folder = "/tmp/playpen-XXXXXX";
   std::error_code error;
   if (mkdtemp(folder.data()) == nullptr) {
@@ -94,7 +94,7 @@ void PreloadedLibrary::add_to(playerlike::EnvironmentChanges& environment_change
     environment_changes[variable] = present.empty() ? text : present + ':' + text;
   };
   append("LD_PRELOAD", name_);
-  // AddressSanitizer wants to be the first library. It need not be before this one.
+  // AddressSanitizer requires to be the first library; this option allows another one before it.
   append("ASAN_OPTIONS", "verify_asan_link_order=0");
 }
 

@@ -7,30 +7,30 @@
 
 namespace playpen {
 
-/// Tells a program, by PLAYPEN_LIBRARIES, the folder of the libraries that it may load: a program
-/// that is linked statically cannot know. A folder that the user has set stays.
+/// Passes the folder of the loadable libraries to a program in PLAYPEN_LIBRARIES; a statically
+/// linked program cannot find it by itself. Keeps a folder that the user has set.
 void add_libraries_folder(playerlike::EnvironmentChanges& environment);
 
-/// The library that makes a program's time virtual (docs/virtual_time.md), made ready to be
-/// preloaded. To be kept until the program has ended.
+/// The library that makes a program's time virtual (docs/virtual_time.md), ready to be preloaded.
+/// Keep the object until the program has ended.
 class PreloadedLibrary {
  public:
-  /// Finds it: in lib/playpen beside the folder of this command, installed or built.
-  /// @throws std::runtime_error naming the places where it should be.
+  /// Finds the library in lib/playpen beside the folder of this command, installed or built.
+  /// @throws std::runtime_error that names the places where it should be.
   PreloadedLibrary();
   PreloadedLibrary(const PreloadedLibrary&) = delete;
   PreloadedLibrary& operator=(const PreloadedLibrary&) = delete;
   ~PreloadedLibrary();
 
-  /// Where the library lies.
+  /// Path of the library.
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
 
-  /// Lets a program load it, after what it is to preload anyway.
+  /// Makes a program load the library, after its other preloaded libraries.
   void add_to(playerlike::EnvironmentChanges& environment) const;
 
  private:
   std::string file_;
-  std::string name_;         ///< by which it is preloaded: without blanks
+  std::string name_;         ///< name for preloading: without blanks
   std::string link_folder_;  ///< "": not needed
 };
 

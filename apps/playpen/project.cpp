@@ -33,7 +33,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
   }
 }
 
-/// A path as CMake reads it in double quotes.
+/// A path in the syntax of a double-quoted CMake string.
 std::string cmake_text(const fs::path& path) {
   std::string result;
   for (const char c : path.string()) {
@@ -43,7 +43,7 @@ std::string cmake_text(const fs::path& path) {
   return result;
 }
 
-/// Lets the copied build files find this Playpen. A prefix that the user names comes before it.
+/// Makes the copied build files find this Playpen. A prefix named by the user takes precedence.
 void name_the_package(const fs::path& folder, const fs::path& prefix) {
   const fs::path cmake_file = folder / "CMakeLists.txt";
   std::string text = read_text(cmake_file);
@@ -59,8 +59,8 @@ void name_the_package(const fs::path& folder, const fs::path& prefix) {
   write_text(makefile, text);
 }
 
-/// The file's folder, from the folder of the libraries on: as the install rules lay it, where a
-/// build folder has lib/ beside bin/.
+/// The file's folder, relative to the folder of the libraries: in the layout of the install rules,
+/// or of a build folder, which has lib/ beside bin/.
 std::optional<fs::path> folder_by_libraries(const char* folder, const char* file) {
   const std::vector<fs::path> own = own_folders();
   if (own.empty()) return std::nullopt;

@@ -12,10 +12,10 @@ namespace playpen {
 /// A kind of project that `playpen new` makes.
 struct ProjectTemplate {
   const char* name;
-  const char* what;           ///< for people
-  const char* source_folder;  ///< of the template, from the root of the source tree
+  const char* what;           ///< description for users
+  const char* source_folder;  ///< path of the template from the root of the source tree
   const char* program;        ///< the name of its executable
-  const char* task;           ///< that it is for; "": none
+  const char* task;           ///< the task that it is for; "": none
 };
 
 inline constexpr std::array<ProjectTemplate, 4> kProjectTemplates{{
@@ -28,23 +28,23 @@ inline constexpr std::array<ProjectTemplate, 4> kProjectTemplates{{
     {"client", "a Player client program", "apps/client/template", "my_robot", ""},
 }};
 
-/// The one of that name, which must be there.
+/// The template with that name, which must exist.
 [[nodiscard]] const ProjectTemplate& project_template(const std::string& name);
 
-/// The folder of a template: share/playpen/templates/NAME of the prefix that this program is
-/// installed in, or that of the source tree that the build folder lies in. nullopt: there is none.
+/// The folder of a template: share/playpen/templates/NAME of this program's installation prefix, or
+/// the template in the source tree that contains the build folder. nullopt: there is none.
 [[nodiscard]] std::optional<std::filesystem::path> template_folder(const ProjectTemplate& kind);
 
-/// The prefix below which CMake finds the package playpen that belongs to this program: that of the
-/// installation, or the build folder. nullopt: there is none.
+/// The prefix below which CMake finds the package playpen of this program: the installation prefix,
+/// or the build folder. nullopt: there is none.
 [[nodiscard]] std::optional<std::filesystem::path> package_prefix();
 
-/// The folder below package_prefix() with playerc++.pc, for pkg-config. nullopt: there is none.
+/// The folder of playerc++.pc below package_prefix(), for pkg-config. nullopt: there is none.
 [[nodiscard]] std::optional<std::filesystem::path> pkgconfig_folder();
 
-/// Copies a template (but for what was built in it) into a folder, and lets its build files find
+/// Copies a template (without build folders) into a folder, and makes its build files find
 /// package_prefix(), if there is one.
-/// @throws std::runtime_error naming what is missing or cannot be written.
+/// @throws std::runtime_error that names what is missing or cannot be written.
 void copy_template(const ProjectTemplate& kind, const std::filesystem::path& folder);
 
 }  // namespace playpen

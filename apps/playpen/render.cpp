@@ -35,7 +35,7 @@ void draw_cells(const RenderRequest& request, int width, int height,
   sim::render::write_png(sim::render::draw_canvas(cells, rgba, scale), request.file);
 }
 
-/// White is free, black occupied, grey between.
+/// White is free, black is occupied, grey is between.
 void draw_map(const RenderRequest& request, const sim::OccupancyMap& map) {
   std::vector<std::uint8_t> rgba;
   rgba.reserve(4 * map.cells.size());

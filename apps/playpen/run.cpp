@@ -17,14 +17,14 @@
 namespace playpen {
 namespace {
 
-constexpr const char* kTrajectory = "trajectory.csv";  // made when the program connects
+constexpr const char* kTrajectory = "trajectory.csv";  // created when the program connects
 
 bool in_lockstep(const playerlike::RunSettings& settings, const sim::WorldDescription& world) {
   return settings.time_mode.value_or(world.simulation.time_mode) == sim::TimeMode::kLockstep;
 }
 
-// Programs that take the end of the run, which they are told by an exception, for an error, end
-// with what they have for errors of all kinds. Other statuses are their own verdict.
+// Playpen reports the end of the run to a program by an exception. Programs that treat it as an
+// error end with their status for all errors. Other statuses are the program's own result.
 bool only_says_that_the_run_is_over(const playerlike::ProgramEnd& end,
                                     const playerlike::RunSettings& settings,
                                     const sim::WorldDescription& world) {
@@ -45,7 +45,7 @@ bool is_crash(int signal) {
   return false;
 }
 
-// A word as a shell takes it.
+// Quotes a word for the shell.
 std::string shell_word(const std::string& word) {
   constexpr const char* kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+@%";
@@ -61,7 +61,7 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-// What to do about a program that a signal has ended.
+// Prints advice about a program that was ended by a signal.
 void tell_more(const RunRequest& request, const std::string& world,
                const playerlike::ProgramEnd& end, bool completed) {
   if (end.forced) {
@@ -75,7 +75,7 @@ void tell_more(const RunRequest& request, const std::string& world,
             << " -- gdb -ex run --args" << command << '\n';
 }
 
-// Says how a run has ended. @return the command's exit code.
+// Prints how the run ended. @return the command's exit code.
 int verdict(const RunRequest& request, const sim::WorldDescription& world,
             const playerlike::ProgramEnd& end, bool completed) {
   const playerlike::RunSettings& settings = request.settings;
@@ -128,7 +128,7 @@ int run(RunRequest request) {
   }
   const std::string world_file = find_world(request.world);
   sim::WorldDescription world = load_found_world(world_file);
-  request.settings.apply_to(world);  // says what does not go with the world before the run
+  request.settings.apply_to(world);  // reports settings that do not match the world before the run
   request.command.front() = playerlike::find_program(request.command.front());
   playerlike::RunSettings& settings = request.settings;
   if (request.view) pace_for_view(settings, world);
@@ -163,7 +163,7 @@ int run(RunRequest request) {
   };
   const playerlike::ProgramEnd end = playerlike::run_program(request.command, environment, watch);
 
-  viewer.reset();  // it has nothing to show any more
+  viewer.reset();  // the window has nothing left to show
 
   return verdict(request, world, end, completed);
 }

@@ -10,17 +10,17 @@
 
 namespace playpen {
 
-/// Adds the options that say how a world is run: --duration, --seed, --time, --out, --record...,
-/// --snapshot-every and --view-mode.
-/// @param settings  gets what they say; lives as long as the command.
-/// @param default_time  what --time is without one, for the help.
+/// Adds the options of a run: --duration, --seed, --time, --out, --record..., --snapshot-every and
+/// --view-mode.
+/// @param settings  receives the values; must outlive the command.
+/// @param default_time  default of --time, for the help.
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time);
 
 /// Adds --view-mode.
 void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode);
 
-/// Adds the argument that names a world, see find_world().
+/// Adds the argument for the world's name, see find_world().
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world);
 
 }  // namespace playpen

@@ -33,7 +33,7 @@ void prepare_outputs(playerlike::RunSettings& settings, const std::string& world
   }
   playerlike::remove_results(settings.output_folder);
   if (settings.film.empty()) return;
-  // A film that is a folder of pictures ends in a slash, maybe.
+  // The name of a film that is a folder of pictures may end in a slash.
   const fs::path film = fs::absolute(settings.film);
   const fs::path film_folder = (film.has_filename() ? film : film.parent_path()).parent_path();
   if (!fs::is_directory(film_folder, error)) {

@@ -6,29 +6,29 @@
 #include "playerlike/host/run_settings.h"
 #include "sim/world/description.h"
 
-/// What `run` and `serve` do about a run's time and its results.
+/// Time mode and results of a run, shared by `run` and `serve`.
 namespace playpen {
 
-/// Gives the settings an output folder unless they have one, makes it, and takes results of earlier
-/// runs out of it, so that what lies there afterwards is of this run.
+/// Sets the output folder if the settings have none, creates it, and removes the results of earlier
+/// runs from it, so that later content belongs to this run.
 /// @param world_file  "": the default world.
-/// @throws std::runtime_error naming the folder or file that can't be prepared.
+/// @throws std::runtime_error that names the folder or file that can't be prepared.
 void prepare_outputs(playerlike::RunSettings& settings, const std::string& world_file);
 
 /// Whether the run has written its report.
 [[nodiscard]] bool has_report(const playerlike::RunSettings& settings);
 
-/// Whether the run's pictures are there, too.
+/// Whether the run has written its pictures, too.
 [[nodiscard]] bool has_pictures(const playerlike::RunSettings& settings);
 
-/// How long the run was, as its report says: simulated time [s].
+/// Duration of the run according to its report: simulated time [s].
 [[nodiscard]] double simulated_time(const playerlike::RunSettings& settings);
 
 /// Prints the main figures of the report, and where the pictures are.
 void print_results(const playerlike::RunSettings& settings);
 
-/// Lets time follow the wall clock, as people need it who watch.
-/// @throws std::runtime_error if lockstep was asked for.
+/// Makes time follow the wall clock, because people watch the run.
+/// @throws std::runtime_error if the settings request lockstep.
 void pace_for_view(playerlike::RunSettings& settings, const sim::WorldDescription& world);
 
 }  // namespace playpen

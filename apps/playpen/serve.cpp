@@ -23,12 +23,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// How long clients may take to leave when the run is over.
+// How long clients may take to disconnect after the run is over.
 constexpr auto kLeavingTime = std::chrono::seconds(5);
 constexpr long kLook_ns = 50'000'000;
 
-/// Holds SIGINT, SIGTERM and SIGHUP back in all threads that are started afterwards, so that they
-/// can be waited for. Those that this process ignores, as under nohup, stay ignored.
+/// Blocks SIGINT, SIGTERM and SIGHUP in all threads that are started afterwards, so that they can
+/// be waited for. Signals that this process ignores, as under nohup, remain ignored.
 class HeldSignals {
  public:
   HeldSignals() {
@@ -51,15 +51,15 @@ class HeldSignals {
     pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
   }
 
-  /// Waits a moment. @return the number of one that came; 0: none.
+  /// Waits a moment. @return the number of a signal that arrived; 0: none.
   [[nodiscard]] int wait() const {
     const timespec time{0, kLook_ns};
     const int signal = sigtimedwait(&held_, nullptr, &time);
     return signal > 0 ? signal : 0;
   }
 
-  /// From now on, the first one having come, the next one ends this process at once. Copies of the
-  /// first (`timeout` sends two) are none, nor is a further SIGHUP after a first one.
+  /// After the first signal, the next one ends this process at once. Exceptions: copies of the
+  /// first signal (`timeout` sends two), and a SIGHUP after the first signal.
   void end_on_second(int first) {
     end_on_second_ = std::thread([this, first, begin = Clock::now()] {
       while (!over_) {
@@ -80,8 +80,8 @@ class HeldSignals {
   std::thread end_on_second_;
 };
 
-/// What `playpen run` passes on to its program, by way of the environment, holds here too: so of
-/// what the shell holds only the silence limit counts.
+/// Applies to this process the environment that `playpen run` gives its program. So of the shell's
+/// own environment, only the silence limit has an effect.
 playerlike::RunSettings with_environment(const playerlike::RunSettings& settings,
                                          const std::string& world_file) {
   for (const auto& [name, value] : playerlike::run_environment(world_file, settings)) {
@@ -92,7 +92,7 @@ playerlike::RunSettings with_environment(const playerlike::RunSettings& settings
     }
   }
   playerlike::RunSettings result = playerlike::RunSettings::from_environment();
-  result.start_at_once = settings.start_at_once;  // no matter of the environment
+  result.start_at_once = settings.start_at_once;  // not affected by the environment
   return result;
 }
 
@@ -101,7 +101,7 @@ std::string address_text(const std::string& bind, int port) {
          std::to_string(port);
 }
 
-/// Serves until a signal comes, or all is over.
+/// Serves until a signal arrives or everything is over.
 void wait_for_end(playerlike::Host& host, const playerlike::Server& server, HeldSignals& signals) {
   std::optional<Clock::time_point> finished;
   while (!server.done()) {
@@ -138,7 +138,7 @@ int serve(ServeRequest request) {
   }
   std::vector<std::string> robots;
   for (const sim::RobotDescription& robot : world.robots) robots.push_back(robot.name);
-  // Before the results of a server that may hold the port are removed.
+  // Check this before removing the results of a server that may be using the port.
   playerlike::Server::check(request.server, robots);
 
   prepare_outputs(settings, world_file);
@@ -156,9 +156,9 @@ int serve(ServeRequest request) {
     host->finish();
     server.stop();
   }
-  viewer.reset();  // it has nothing to show any more
+  viewer.reset();  // the window has nothing left to show
 
-  if (!has_report(settings)) return kProgramFailed;  // the log says why
+  if (!has_report(settings)) return kProgramFailed;  // the log contains the reason
   if (!request.quiet) print_results(settings);
   return kOk;
 }

@@ -39,7 +39,7 @@ std::string without(std::string text, std::string_view suffix) {
   return text;
 }
 
-/// A name without the endings that files of any kind have.
+/// A name without the extensions of all file kinds.
 std::string stem_of(const std::string& name) {
   const std::string stem = without(name, grade::kTaskSuffix);
   return stem != name ? stem : without(name, kWorldSuffix);
@@ -52,7 +52,7 @@ std::string description_of(const fs::path& file) {
       if (root.is_object()) description = root.string("description", "");
     });
   } catch (const ConfigError&) {
-    return "";  // 'playpen check' says why
+    return "";  // 'playpen check' reports the reason
   }
   return description;
 }
@@ -84,15 +84,14 @@ std::vector<ShippedFile> files_of_folder() {
   return files;
 }
 
-/// Whether a user's name means a shipped file: "par_intro", "tasks/par_intro", and both with an
-/// ending.
+/// Whether a user's name refers to a shipped file: "par_intro", "tasks/par_intro", and both with an
+/// extension.
 bool is_called(const ShippedFile& file, const std::string& name) {
   const std::string stem = stem_of(name);
   return stem == file.name || stem == (fs::path(file.folder) / file.name).string();
 }
 
-/// The nearest names to one that means nothing: of shipped files, and of files beside the one that
-/// was named.
+/// The names most similar to an unknown one: of shipped files, and of files in the same folder.
 std::vector<std::string> nearest_names(const std::string& name,
                                        const std::vector<ShippedFile>& files,
                                        std::optional<FileKind> kind) {
@@ -117,7 +116,7 @@ std::vector<std::string> nearest_names(const std::string& name,
       sim::nearest_words(path.filename().string(), beside, kMostSuggestions);
   for (std::string& near : nearest) near = (path.parent_path() / near).string();
   const auto add = [&nearest](const std::string& near) {
-    // "par_intro" and "tasks/par_intro" are the same one.
+    // "par_intro" and "tasks/par_intro" are the same file.
     const auto is_same = [&near](const std::string& other) {
       return fs::path(other).filename() == fs::path(near).filename();
     };
@@ -156,14 +155,14 @@ bool is_file(const std::string& name) {
   std::error_code error;
   const fs::file_status status = fs::status(name, error);
   if (fs::exists(status)) return !fs::is_directory(status);
-  // Links that lead nowhere, or in a circle: whoever reads them says so.
+  // A broken or circular link; the code that reads it reports the error.
   return fs::is_symlink(fs::symlink_status(name, error));
 }
 
-/// A pipe can be read once only, but a world is read several times, the last time by the program.
-/// @return a name that the same content can be read from, by this process and those that it
-///         starts: that of a regular file itself; of a pipe, the name of a descriptor of memory.
-/// @throws ConfigError if a pipe gives nothing, or too much.
+/// A pipe can be read only once, but a world is read several times, the last time by the program.
+/// @return a name from which this process and its child processes can read the same content: for a
+///         regular file its own name; for a pipe, the name of a descriptor of memory.
+/// @throws ConfigError if a pipe provides nothing, or too much.
 std::string readable_again(const std::string& name) {
   std::error_code error;
   if (!fs::is_fifo(fs::status(name, error))) return name;
@@ -175,7 +174,7 @@ std::string readable_again(const std::string& name) {
                     "a pipe that gives a file of at most 16 MiB", problem->found,
                     too_large ? "" : "does the program that writes into it still run?"});
   }
-  // Inherited by programs on purpose; of a pipe that the shell has made, it takes the number.
+  // Programs inherit it on purpose. If the shell created the pipe, it takes the pipe's number.
   int memory = memfd_create("playpen", 0);
   constexpr std::string_view kOfShell = "/dev/fd/";
   int number = 0;
@@ -199,7 +198,7 @@ std::string readable_again(const std::string& name) {
   return std::string(kOfShell) + std::to_string(memory);
 }
 
-/// The file that a name stands for by itself, with or without an ending.
+/// The file that a name refers to directly, with or without an extension.
 std::optional<std::string> own_file(const std::string& name,
                                     const std::vector<std::string_view>& suffixes) {
   if (is_file(name)) return readable_again(name);
@@ -218,7 +217,7 @@ std::optional<std::string> find_shipped(const std::string& name, FileKind kind,
   return found == files.end() ? std::nullopt : std::optional(found->file.string());
 }
 
-/// Says that a file, which could not be read as `wanted`, is of another kind; returns if it is not.
+/// Throws if a file that could not be read as `wanted` is of another kind; otherwise returns.
 void throw_if_other_kind(const std::string& file, FileKind wanted) {
   const FileKind kind = kind_of(file);
   if (kind == wanted) return;
@@ -276,7 +275,7 @@ FileKind kind_of(const std::string& file) {
     const auto has_any = [&root](std::initializer_list<const char*> keys) {
       return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return root.has(key); });
     };
-    // Keys that files of the other kinds do not have.
+    // Keys that the other file kinds do not have.
     if (schema.ends_with("task.schema.json") || has_any({"worlds", "thresholds", "seeds"})) {
       kind = FileKind::kTask;
     } else if (schema.ends_with("model.schema.json") ||
@@ -290,7 +289,7 @@ FileKind kind_of(const std::string& file) {
   try {
     sim::io::read_settings(file, "world", look);
   } catch (const ConfigError&) {
-    // Its text is unsound, or it is not there: the name must do.
+    // The file is invalid JSON or missing, so decide by its name.
   }
   if (kind) return *kind;
   if (file.ends_with(grade::kTaskSuffix)) return FileKind::kTask;
@@ -306,7 +305,7 @@ std::vector<NamedFile> find_files(const std::string& name) {
   std::vector<NamedFile> found;
   const std::vector<ShippedFile> files = files_of_folder();
   for (const ShippedFile& file : files) {
-    // An ending says which of several is meant.
+    // An extension selects one of several files.
     if (is_called(file, name) && (name.ends_with(grade::kTaskSuffix) || name.ends_with(kWorldSuffix)
                                       ? file.file.filename() == fs::path(name).filename()
                                       : true)) {
@@ -323,7 +322,7 @@ std::string find_world(const std::string& name) {
   if (const auto file = own_file(name, {kWorldSuffix})) return *file;
   const std::vector<ShippedFile> files = files_of_folder();
   if (const auto file = find_shipped(name, FileKind::kWorld, files)) return *file;
-  // load_world() knows better what to say of a folder.
+  // load_world() gives a better error for a folder.
   std::error_code error;
   if (fs::exists(name, error)) return name;
   throw_missing(name, files, FileKind::kWorld);

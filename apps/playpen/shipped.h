@@ -9,8 +9,8 @@
 #include "grade/task.h"
 #include "sim/world/description.h"
 
-/// What comes with Playpen and has a name, and how names that users write are resolved. All
-/// commands use this one resolver.
+/// The named files that come with Playpen, and the resolution of names that users write. All
+/// commands use this resolver.
 namespace playpen {
 
 /// What a file describes.
@@ -20,51 +20,53 @@ enum class FileKind { kWorld, kTask, kModel };
 [[nodiscard]] const char* to_string(FileKind kind);
 
 /// The folder of the worlds, tasks and models that belong to this program:
-/// PREFIX/share/playpen/worlds of PREFIX/bin/playpen when it is installed, worlds/ of the source
-/// tree that the build folder lies in. Nothing is compiled in, so that an installed tree can be
-/// moved. nullopt: there is none.
+/// PREFIX/share/playpen/worlds for an installed PREFIX/bin/playpen, or worlds/ of the source tree
+/// that contains the build folder. No path is compiled in, so an installed tree can be moved.
+/// nullopt: there is none.
 [[nodiscard]] std::optional<std::filesystem::path> worlds_folder();
 
 /// One of these files.
 struct ShippedFile {
   FileKind kind = FileKind::kWorld;
-  std::string name;    ///< what users call it: "cave", "par_intro"; unique for each kind
+  std::string name;    ///< name for users: "cave", "par_intro"; unique within each kind
   std::string folder;  ///< within worlds_folder(): "", "tasks", "examples", "devices" or "models"
   std::filesystem::path file;
-  std::string description;  ///< what it is for, from the file; "": it does not say, or is unsound
+  std::string description;  ///< purpose, from the file; "": none, or the file is invalid
 };
 
-/// All of them, by folder and name.
+/// All shipped files, ordered by folder and name.
 [[nodiscard]] std::vector<ShippedFile> shipped_files();
 
-/// What kind of file this is, by its contents; by its name if it cannot be read.
+/// The kind of a file, by its content; by its name if it cannot be read.
 [[nodiscard]] FileKind kind_of(const std::string& file);
 
-/// A file that a name means.
+/// A file that a name refers to.
 struct NamedFile {
   FileKind kind = FileKind::kWorld;
   std::string file;  ///< "" for the default world
 };
 
-/// Finds what a name means: a file; a file without its ending; "default", the world of programs
-/// that name none; or a shipped world, task or model, with or without folder and ending
+/// Finds what a name refers to: a file; a file without its extension; "default", the world of
+/// programs that name none; or a shipped world, task or model, with or without folder and extension
 /// ("par_intro", "tasks/par_intro", "tasks/par_intro.json").
 /// @return one file, or one of each kind if several shipped ones have the name.
-/// @throws sim::ConfigError file/missing, with the nearest names.
+/// @throws sim::ConfigError file/missing, with the most similar names.
 [[nodiscard]] std::vector<NamedFile> find_files(const std::string& name);
 
-/// Finds the world that a name means. A name that means only a task of that name means its world.
+/// Finds the world that a name refers to. If the name refers only to a task, the result is the
+/// world of that name.
 /// @return a path; "" for "default" and "": the default world.
-/// @throws sim::ConfigError file/missing, with the nearest names.
+/// @throws sim::ConfigError file/missing, with the most similar names.
 [[nodiscard]] std::string find_world(const std::string& name);
 
-/// Reads the world that find_world() has found.
-/// @throws sim::ConfigError as sim::load_world(); file/other-kind for a task or a model.
+/// Reads a world that find_world() has found.
+/// @throws sim::ConfigError as sim::load_world() does; file/other-kind for a task or a model.
 [[nodiscard]] sim::WorldDescription load_found_world(const std::string& file);
 
-/// Finds and reads the task that a name means; a world's name means the task of the same name.
-/// @throws sim::ConfigError as find_world() and grade::read_task(); file/other-kind for a world or
-///         a model.
+/// Finds and reads the task that a name refers to; the name of a world refers to the task of that
+/// name.
+/// @throws sim::ConfigError as find_world() and grade::read_task() do; file/other-kind for a world
+///         or a model.
 [[nodiscard]] grade::Task load_task(const std::string& name);
 
 }  // namespace playpen

@@ -4,32 +4,32 @@
 #include <cstddef>
 #include <string>
 
-/// What the command must know of the terminal that it writes to.
+/// Properties of the terminal that the command writes to.
 namespace playpen {
 
-/// Columns of text where no terminal says how many there are.
+/// Default width [columns of text] where no terminal reports one.
 inline constexpr std::size_t kUsualColumns = 80;
 
-/// Whether a descriptor is a terminal, and how many columns that has; kUsualColumns if it is none
-/// or does not say.
+/// Whether a descriptor is a terminal, and its number of columns; kUsualColumns if it is not a
+/// terminal or does not report a width.
 /// @param descriptor  for example STDOUT_FILENO.
 [[nodiscard]] std::size_t terminal_columns(int descriptor);
 
-/// Whether text for a descriptor may be coloured: it is a terminal that can, and the user has not
-/// set NO_COLOR (https://no-color.org).
+/// Whether text for a descriptor may be coloured: it is a terminal with colours, and the user has
+/// not set NO_COLOR (https://no-color.org).
 [[nodiscard]] bool shows_colour(int descriptor);
 
-/// A text in lines of at most `columns - indent` characters, all but the first of which begin with
-/// `indent` blanks. Lines break at blanks; a longer word has a line of its own.
+/// Wraps a text into lines of at most `columns - indent` characters; all lines but the first begin
+/// with `indent` blanks. Lines break at blanks; a longer word gets its own line.
 [[nodiscard]] std::string wrapped(const std::string& text, std::size_t columns, std::size_t indent);
 
-/// A word as a shell reads it: in single quotes if it needs them.
+/// Quotes a word for the shell, if necessary.
 [[nodiscard]] std::string shell_word(const std::string& word);
 
-/// What is printed in colour, if it is.
+/// Meaning of a text, for its colour.
 enum class Tint { kGood, kBad, kWarning, kStrong };
 
-/// A text in colour, or as it is.
+/// A text in colour, or unchanged.
 [[nodiscard]] std::string tinted(const std::string& text, Tint tint, bool colour);
 
 }  // namespace playpen

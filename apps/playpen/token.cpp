@@ -18,7 +18,7 @@ struct TokenRequest {
   int count = 1;
 };
 
-/// A token file for a world: one token for the server and one for each robot.
+/// Prints a token file for a world: one token for the server and one for each robot.
 void print_token_file(const std::string& name) {
   const sim::WorldDescription world = load_found_world(find_world(name));
   nlohmann::ordered_json file = {{"server", playerlike::make_token()},

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds kOpeningLimit{30};
 constexpr std::chrono::seconds kClosingLimit{2};
 
-/// What a user is told who cannot have a window.
+/// The error for a user who cannot have a window.
 std::runtime_error no_window(const std::string& reason) {
   return std::runtime_error("--view cannot open a window: " + reason +
                             ". To watch the run later, record a film instead: "
@@ -39,7 +39,7 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
-/// playpen-view, which is installed and built beside this program.
+/// The path of playpen-view, which is installed and built beside this program.
 std::string viewer_program() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
@@ -66,7 +66,7 @@ ViewerProcess::ViewerProcess(const std::string& title) {
   socket_ = ends[0];
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  // The viewer talks through its standard input.
+  // The viewer communicates through its standard input.
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   std::array<char*, 3> arguments = {command[0].data(), command[1].data(), nullptr};
   const int error =
@@ -83,10 +83,10 @@ ViewerProcess::ViewerProcess(const std::string& title) {
     end();
     throw;
   }
-  fcntl(socket_, F_SETFD, 0);  // the client program is to have it
+  fcntl(socket_, F_SETFD, 0);  // the client program inherits it
 }
 
-// The viewer's first word means that its window is open. It stays in the socket, for the host.
+// The viewer's first message means that its window is open. It stays in the socket, for the host.
 void ViewerProcess::wait_for_window() {
   pollfd readable{socket_, POLLIN, 0};
   const auto deadline = std::chrono::steady_clock::now() + kOpeningLimit;

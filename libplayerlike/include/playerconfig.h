@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// What old programs ask the preprocessor about Player: the version whose interface this library
-/// has, and which functions of the system they may call without Player's replacements.
+/// Configuration macros that old programs test: the version of Player whose interface this library
+/// has, and the system functions that are available without Player's replacements.
 
 #include <stdint.h>
 #include <sys/types.h>
@@ -13,7 +13,7 @@
 #define PLAYER_VERSION "3.1.0"
 #endif
 
-// What Linux has. A program's own configuration may say so as well.
+// Features of Linux. A program's own configuration may define these macros too.
 #ifndef HAVE_CFMAKERAW
 #define HAVE_CFMAKERAW 1
 #endif

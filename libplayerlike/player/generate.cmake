@@ -1,13 +1,13 @@
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-# Makes the headers of Player's names from the tables of this folder, when CMake configures: they are
-# there for whatever comes next, the compiler, clang-tidy and Doxygen alike, and no program has to be
-# built first. A file is written only if its text has changed.
+# Generates the headers of Player's names from the tables of this folder when CMake configures. The
+# compiler, clang-tidy and Doxygen then find them without building a program first. A file is written
+# only if its text has changed.
 #
-#   playpen_generate_player(TABLES INCLUDE PRIVATE): the folder of the tables, and those that public
-#   headers and parts of sources are written to.
+#   playpen_generate_player(TABLES INCLUDE PRIVATE): the folder of the tables, and the folders for
+#   generated public headers and for generated parts of sources.
 
-# player_read(FILE RESULT): the entries and members of a table, a line each. Semicolons, at which
-# CMake would divide them, are replaced by ${_player_semicolon}.
+# player_read(FILE RESULT): the entries and members of a table, one per line. Semicolons, which CMake
+# would treat as separators, are replaced by ${_player_semicolon}.
 string(ASCII 1 _player_semicolon)
 function(player_read file result)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
@@ -28,7 +28,7 @@ function(player_read file result)
   set(${result} "${lines}" PARENT_SCOPE)
 endfunction()
 
-# player_write(FILE TEXT): writes a file if it has another text.
+# player_write(FILE TEXT): writes a file if its text has changed.
 function(player_write file text)
   set_property(GLOBAL APPEND PROPERTY playpen_player_files "${file}")
   string(REPLACE "${_player_semicolon}" ";" text "${text}")
@@ -41,8 +41,8 @@ function(player_write file text)
   endif()
 endfunction()
 
-# player_wrap(FIRST NEXT TEXT): ${wrapped} is the text in lines of at most 100 columns; the first
-# begins with FIRST, the others with NEXT.
+# player_wrap(FIRST NEXT TEXT): sets ${wrapped} to the text in lines of at most 100 columns. The first
+# line begins with FIRST, the others with NEXT.
 function(player_wrap first next text)
   set(lines "")
   set(prefix "${first}")
@@ -67,7 +67,7 @@ function(player_wrap first next text)
   set(wrapped "${lines}${prefix}${text}\n" PARENT_SCOPE)
 endfunction()
 
-# player_divide(LINE WHAT MEANING): what stands before the first ": ", and after it.
+# player_divide(LINE WHAT MEANING): splits a line at the first ": ".
 function(player_divide line what meaning)
   string(FIND "${line}" ": " at)
   set(after "")
@@ -81,7 +81,7 @@ function(player_divide line what meaning)
   set(${meaning} "${after}" PARENT_SCOPE)
 endfunction()
 
-# player_fields(FIELDS MEANING): ${declared} are the declarations of "TYPE X, Y[]; TYPE Z".
+# player_fields(FIELDS MEANING): sets ${declared} to the declarations of "TYPE X, Y[]; TYPE Z".
 function(player_fields fields meaning)
   set(text "")
   string(REPLACE "${_player_semicolon}" ";" fields "${fields}")
@@ -126,7 +126,7 @@ function(player_fields fields meaning)
   set(declared "${text}" PARENT_SCOPE)
 endfunction()
 
-# player_nameless(RESULT PARAMETERS): the parameters with their names as comments.
+# player_nameless(RESULT PARAMETERS): returns the parameters with their names as comments.
 function(player_nameless result parameters)
   string(REGEX REPLACE "([A-Za-z0-9_]+)(([[][^]]*[]])?( = [^,]+)?)(,|$)" "/*\\1*/\\2\\5"
     parameters "${parameters}")
@@ -134,7 +134,7 @@ function(player_nameless result parameters)
   set(${result} "${parameters}" PARENT_SCOPE)
 endfunction()
 
-# player_head(TABLE MEANING): ${head} is how a generated header begins.
+# player_head(TABLE MEANING): sets ${head} to the beginning of a generated header.
 function(player_head table meaning)
   set(text "// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause\n")
   string(APPEND text "// Made by CMake from libplayerlike/player/${table}.\n#pragma once\n\n/// @file\n")
@@ -147,16 +147,16 @@ endfunction()
 function(player_generate_interfaces tables include private)
   player_read("${tables}/interfaces.txt" lines)
   player_head(interfaces.txt "Constants of Player's interfaces: codes, message types and \
-subtypes, states. Macros, as Player has them, so that the preprocessor knows them; also for programs in C.")
+subtypes, states. They are macros, as in Player, so that the preprocessor and C programs can use them.")
   set(constants "${head}")
-  player_head(interfaces.txt "Player's data types as C programs know them: plain structs in \
-the global namespace, under their tags (struct player_pose2d) and with _t. Lengths in metres, angles in \
-radians, angles counter-clockwise. None has constructors, so they are initialised by braces: {x, y, a}. A \
-field X_count says how many elements X has.")
+  player_head(interfaces.txt "Player's data types for C and C++: plain structs in \
+the global namespace, with their tags (struct player_pose2d) and as typedefs with _t. Lengths are in metres; angles \
+are in radians, counter-clockwise. The structs have no constructors; initialize them with braces: {x, y, a}. A \
+field X_count is the number of elements of X.")
   set(structs "${head}")
   string(APPEND structs "#include <stddef.h>\n#include <stdint.h>\n\n"
     "#include \"libplayerinterface/player_constants.h\"\n")
-  set(codes "\n// Codes of interfaces: what a device speaks, in device addresses and LookupName().\n")
+  set(codes "\n// Codes of interfaces, for device addresses and LookupName().\n")
   set(heading "")
   set(defines "")
   set(names "")
@@ -218,14 +218,14 @@ endfunction()
 # playerc.txt: playerc.h, and the functions of missing.cpp.
 function(player_generate_c_library tables include private)
   player_read("${tables}/playerc.txt" lines)
-  player_head(playerc.txt "Player's C client library: what programs in C include, and C++ \
-programs that look below the proxies. Here are its devices; clients, errors, and what is common to all devices, \
-are in libplayerc/playerc_client.h.")
+  player_head(playerc.txt "Player's C client library, for programs in C and for C++ \
+programs that use the layer below the proxies. This header declares the devices; libplayerc/playerc_client.h \
+declares clients, errors, and the common part of all devices.")
   string(APPEND head "#include \"libplayerc/playerc_client.h\"\n\n#ifdef __cplusplus\nextern \"C\" {\n#endif\n")
   set(structs "")
   set(functions "")
   set(stubs "")
-  set(before "")  # what ends the entry before
+  set(before "")  # the end of the previous entry
   set(wordless FALSE)
   foreach(line IN LISTS lines ITEMS "end")
     player_divide("${line}" what meaning)
@@ -297,7 +297,7 @@ are in libplayerc/playerc_client.h.")
       if(meaning STREQUAL "" AND NOT wordless)
         set(wordless TRUE)
         string(APPEND structs "  /// @{\n"
-          "  /// As in the messages of the interface (libplayerinterface/player_structs.h).\n")
+          "  /// Same as in the interface's messages (libplayerinterface/player_structs.h).\n")
       endif()
       player_fields("${what}" "${meaning}")
       string(APPEND structs "${declared}")
@@ -308,14 +308,14 @@ are in libplayerc/playerc_client.h.")
   player_write("${private}/playerc/missing_functions.inc" "${stubs}")
 endfunction()
 
-# player_c_frame(DEVICE IS_MISSING): ${frame} are the functions that every device has.
+# player_c_frame(DEVICE IS_MISSING): sets ${frame} to the functions that every device has.
 function(player_c_frame device is_missing)
   set(name "playerc_${device}")
   if(is_missing)
-    set(text "///\n/// No world has such a device: create makes the struct, everything else fails.\n")
+    set(text "///\n/// No world has this device: create returns the struct; all other functions fail.\n")
     string(APPEND text "/// @{\n\n/// See playerc_device_subscribe().\n")
   else()
-    set(text "/// @{\n\n/// Makes the struct for a device, subscribes to it, and the reverse; see\n")
+    set(text "/// @{\n\n/// Creates and destroys a device's struct, subscribes and unsubscribes; see\n")
     string(APPEND text "/// playerc_device_subscribe().\n")
   endif()
   string(APPEND text
@@ -326,8 +326,8 @@ function(player_c_frame device is_missing)
   set(frame "${text}" PARENT_SCOPE)
 endfunction()
 
-# player_c_function(MEANING TYPE DEVICE NAME PARAMETERS): ${declared} is a function's declaration,
-# ${stub} is what stands for it if its device is missing.
+# player_c_function(MEANING TYPE DEVICE NAME PARAMETERS): sets ${declared} to a function's declaration,
+# and ${stub} to its implementation for a missing device.
 function(player_c_function meaning type device name parameters)
   set(wrapped "")
   if(NOT meaning STREQUAL "")
@@ -346,7 +346,7 @@ function(player_c_function meaning type device name parameters)
   return refused<${result}>(__func__);\n}\n" PARENT_SCOPE)
 endfunction()
 
-# proxies.txt: headers of proxies that no device stands behind.
+# proxies.txt: headers of proxies without a device.
 function(player_generate_proxies tables include)
   player_read("${tables}/proxies.txt" lines)
   set(file "")
@@ -363,7 +363,7 @@ function(player_generate_proxies tables include)
       endif()
       set(file "${CMAKE_MATCH_1}")
       player_head(proxies.txt
-        "${meaning} Programs with them compile; no device of Playpen carries their interfaces.")
+        "${meaning} Programs that use them compile, but no device of Playpen provides their interfaces.")
       set(text "${head}")
       string(APPEND text "#include <cstddef>\n#include <cstdint>\n#include <string>\n#include <vector>\n\n"
         "#include \"libplayerc++/proxywithoutdevice.h\"\n\nnamespace PlayerCc {\n")
@@ -409,7 +409,7 @@ function(player_generate_forwarders tables include)
       player_head(headers.txt "PlayerCc::${class} in namespace ${namespace}.")
       player_write("${include}/lib${namespace}/${class}.h"
         "${head}#include \"${CMAKE_MATCH_3}\"\n\nnamespace ${namespace} {\n
-/// The one class under both names; see PlayerCc::${class}.
+/// The same class in both namespaces; see PlayerCc::${class}.
 using PlayerCc::${class};\n\n}  // namespace ${namespace}\n")
     elseif(what MATCHES "^(.*) = (.*)$")
       string(REPLACE " " ";" targets "${CMAKE_MATCH_1}")
@@ -444,11 +444,11 @@ function(playpen_generate_player tables include private)
   player_generate_c_library("${tables}" "${include}" "${private}")
   player_generate_proxies("${tables}" "${include}")
   player_generate_forwarders("${tables}" "${include}")
-  # clang-tidy looks for it from each header upwards.
+  # clang-tidy searches for this file in the folders above each header.
   player_write("${include}/.clang-tidy" "InheritParentConfig: true
 Checks: -readability-identifier-naming, -google-explicit-constructor
 ")
-  # What another version of the tables has made.
+  # Files that an earlier version of the tables has generated.
   get_property(files GLOBAL PROPERTY playpen_player_files)
   file(GLOB_RECURSE stale "${include}/*.h")
   list(REMOVE_ITEM stale ${files})

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// How fast drawing on layers and composing them is, on the canvas of the SyRoTek arena.
+// Speed of drawing on layers and composing them, on the canvas of the SyRoTek arena.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ constexpr int kWidth = 172;
 constexpr int kHeight = 186;
 constexpr int kLayers = 8;  // without the base
 
-// Eight layers as an exploration has them: an opaque grey map, then pixels and binary ones, some
-// of them translucent, cells here and there.
+// Eight layers as in an exploration task: an opaque grey map, then pixel and binary layers with
+// scattered cells, some of them translucent.
 struct Canvases {
   Canvases() : stack({.width = kWidth, .height = kHeight}) {
     for (int i = 0; i < kLayers; ++i) {
@@ -64,7 +64,7 @@ struct Canvases {
       canvas.set_pixel(pixel.x0, pixel.y0, pixel.value.colour());
     }
   }
-  // Each time every cell is another.
+  // Every call changes every cell.
   void set_whole(LayerId layer, const std::vector<CellValue> (&images)[2]) {
     turn = 1 - turn;
     stack.set_cells(layer, kWhole, images[turn]);
@@ -156,13 +156,13 @@ void print_layer_figures() {
                 50));
 }
 
-// The same as a client program has it: through WindowProxy, GridMapLayer and the host.
+// The same measurement through the client's interface: WindowProxy, GridMapLayer and the host.
 void print_window_figures() {
   PlayerCc::PlayerClient client("localhost", 6665);
   CCMorse::WindowProxy& window = CCMorse::WindowProxy::GetInstance(&client, kWidth, kHeight);
   CCMorse::GridMapLayer& layer = window.CreateLayer("layer");
   CCMorse::GridMapLayer& grey = window.CreateLayer("grey", CCMorse::GridMapLayer::GREY);
-  // Every cell once, and a look, so that all drawings are carried out.
+  // Set every cell once, and then look at one, so that the host executes all drawings.
   const auto draw_all = [](CCMorse::Drawing& drawing) {
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) drawing.SetPixel(x, y, x, y, 80);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What client programs cost beside the simulation: 13 that wander by their lasers, the getter of
-// one beam, and 1000 clients at once.
+// Cost of client programs relative to the simulation: 13 clients that wander by laser, the getter
+// of one beam, and 1000 clients at once.
 #include <benchmark/benchmark.h>
 #include <libplayerc++/playerc++.h>
 
@@ -18,14 +18,14 @@
 namespace sim::bench {
 namespace {
 
-constexpr int kStepsARound = 10;  // lasers and localisation measure so often
+constexpr int kStepsARound = 10;  // lasers and localisation measure every ten steps
 
 struct Choice {
   double speed_mps;
   double turn_rate_radps;
 };
 
-// The rule of wandering: looks at each beam, turns away from what is near, else drives on.
+// The wandering rule: look at each beam, turn away from near obstacles, otherwise drive on.
 template <typename Beams>
 Choice choose(const Beams& beams, std::uint32_t count, std::size_t robot) {
   double least_m = 1e3;
@@ -49,7 +49,7 @@ double used_us(F f) {
   return static_cast<double>(std::clock() - begin) * 1e6 / CLOCKS_PER_SEC;
 }
 
-// The simulation with the rule in it: no client, no session.
+// The simulation with the rule inside it: no client, no session.
 class Alone {
  public:
   explicit Alone(const WorldDescription& world) : simulation_(world) {
@@ -60,7 +60,7 @@ class Alone {
     }
   }
 
-  // A round of ten steps.
+  // One round of ten steps.
   void wander() {
     for (std::size_t r = 0; r < robots_.size(); ++r) {
       const LaserReading& scan = robots_[r].laser->reading();
@@ -92,7 +92,7 @@ class Alone {
   std::vector<Robot> robots_;
 };
 
-// The same by client programs of one robot each, in one thread.
+// The same rule in client programs, one per robot, in one thread.
 class Clients {
  public:
   explicit Clients(const std::shared_ptr<playerlike::Host>& host) {
@@ -131,8 +131,9 @@ class Clients {
   std::vector<std::unique_ptr<Robot>> robots_;
 };
 
-// The same robots without and with clients, turn by turn, so that a slow moment of the machine
-// meets both; of each the least. The figures' names end with the number of robots.
+// Compares the same robots without and with clients. The two take turns, so that a slow moment of
+// the machine affects both; the minimum of each counts. The names of the figures end with the
+// number of robots.
 void compare(const WorldDescription& world, int turns, int rounds, const auto& go,
              const std::string& robots) {
   Alone alone(world);
@@ -153,13 +154,13 @@ void compare(const WorldDescription& world, int turns, int rounds, const auto& g
   figure(("clients_over_simulation_" + robots).c_str(), clients_us / alone_us);
 }
 
-// 13 robots of the arena, each driven by a client of its own.
+// 13 robots of the arena, each driven by its own client.
 void wander_figures() {
   compare(
       endless(kThirteen), 40, 200, [](auto& robots) { robots.wander(); }, "13");
 }
 
-// A function of its own, as programs have it.
+// A separate function, as in programs.
 [[gnu::noinline]] double sum_of_ranges(const PlayerCc::LaserProxy& laser) {
   const std::uint32_t count = laser.GetCount();
   double sum = 0.0;
@@ -167,7 +168,7 @@ void wander_figures() {
   return sum;
 }
 
-// The getter of one beam, over whole scans; a Read() every hundred of them.
+// The getter of one beam, over whole scans, with a Read() every hundred scans.
 void getter_figure() {
   const auto host = playerlike::Host::create(endless(kOne));
   PlayerCc::PlayerClient client(host->connect(6665));
@@ -195,7 +196,7 @@ WorldDescription plain_floor() {
   return load_world_text(text + "]}");
 }
 
-// A thousand clients in one thread, of a robot each.
+// A thousand clients in one thread, one robot each.
 void thousand_figures() {
   const WorldDescription world = plain_floor();
   using Clock = std::chrono::steady_clock;

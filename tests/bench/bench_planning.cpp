@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// How long planning takes on a grid of 186 x 172 cells, the arena's canvas.
+// Duration of planning on a grid of 186 x 172 cells, the arena's canvas.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -14,7 +14,7 @@ namespace {
 
 using Planner = par::Path (*)(const par::Mask&, const par::Cell&, const par::Cell&);
 
-// The planning task: its map with grown obstacles, from its start to its goal.
+// The planning task: its map with inflated obstacles, its start and its goal.
 struct Task {
   Task()
       : walls(par::load_text_map(PLAYPEN_SOURCE_DIR "/worlds/maps/par_planning.txt")),

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// How fast a laser scan is, against one b2World::RayCast a beam in the same world, and a round of
-// 16 sonars, against beams that fill each cone.
+// Speed of a laser scan compared with one b2World::RayCast per beam in the same world, and of a
+// round of 16 sonars compared with beams that fill each cone.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace sim::bench {
 namespace {
 
-// The arena with 13 robots, and the laser of one of them after another.
+// The arena with 13 robots; their lasers take turns.
 struct Arena {
   Arena()
       : world(load_world(PLAYPEN_SOURCE_DIR "/worlds/examples/thirteen_robots.json")),
@@ -70,7 +70,8 @@ void BM_RayCast682(benchmark::State& state) {
 }
 BENCHMARK(BM_RayCast682)->Unit(benchmark::kMicrosecond);
 
-// 16 sonars round a robot, as a Pioneer has them: the device, and the slow way, 121 beams a cone.
+// 16 sonars around a robot, as on a Pioneer: the device, and the slow method with 121 beams per
+// cone.
 struct Sonars {
   static constexpr int kCount = 16;
 
@@ -119,7 +120,7 @@ struct Sonars {
 
 void print_figures() {
   Arena arena;
-  // Turn by turn, so that a slow moment of the machine meets both.
+  // They take turns, so that a slow moment of the machine affects both.
   double scan_s = 1e30;
   double cast_s = 1e30;
   for (int round = 0; round < 10; ++round) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What a step costs beside the bare physics and the bare scans, what Read() of a client adds, and
-// how much faster than real time it all runs.
+// Cost of a step compared with the bare physics and the bare scans, the additional cost of a
+// client's Read(), and the speed relative to real time.
 #include <benchmark/benchmark.h>
 #include <libplayerc++/playerc++.h>
 
@@ -26,7 +26,7 @@
 namespace sim::bench {
 namespace {
 
-// The bare costs of a step of 13 robots: b2World::Step, and a tenth of each robot's scan.
+// The bare cost of a step of 13 robots: b2World::Step, and a tenth of each robot's scan.
 struct Bare {
   explicit Bare(const WorldDescription& world)
       : physics(world.arena),
@@ -50,13 +50,13 @@ struct Bare {
   std::vector<double> ranges;
 };
 
-// 13 robots that wander, and beside them the same robots with the same targets in the plain Box2D
-// way; turn by turn, so that a slow moment of the machine meets both.
+// 13 wandering robots, and the same robots with the same targets in plain Box2D. The two take
+// turns, so that a slow moment of the machine affects both.
 void step_figures() {
   const WorldDescription world = endless(kThirteen);
   using Clock = std::chrono::steady_clock;
   using Seconds = std::chrono::duration<double>;
-  // Of each the least over the rounds: what else the machine does only ever adds time.
+  // Take the minimum over the rounds: other processes can only add time.
   Seconds best_step{1e30};
   Seconds best_bare{1e30};
   Seconds best_scans{1e30};
@@ -77,7 +77,7 @@ void step_figures() {
       const auto t0 = Clock::now();
       for (int i = 0; i < 10; ++i) simulation.step();
       const auto t1 = Clock::now();
-      for (int i = 0; i < 10; ++i) bare.physics.bare_step(0.01);
+      for (int i = 0; i < 10; ++i) bare.physics.plain_box2d_step(0.01);
       const auto t2 = Clock::now();
       bare.scan_all();
       const auto t3 = Clock::now();
@@ -95,7 +95,7 @@ void step_figures() {
   figure("step_overhead_ratio", best_step / (best_bare + best_scans));
 }
 
-// Read() of a client with position and laser against the ten steps that it lets pass.
+// Read() of a client with position and laser, compared with the ten steps that it waits for.
 void read_figures() {
   Simulation plain(endless(kOne));
   ::setenv("PLAYPEN_WORLD", kOne, 1);
@@ -125,7 +125,7 @@ double resident_kb() {
   return 0.0;
 }
 
-// Growth of memory over a million steps of one robot, after a warm-up.
+// Memory growth over a million steps of one robot, after a warm-up.
 void memory_figure() {
   Simulation simulation(endless(kOne));
   const auto run = [&](int steps) {
@@ -140,7 +140,7 @@ void memory_figure() {
   figure("memory_growth_kb_per_million_steps", std::max(0.0, resident_kb() - before_kb));
 }
 
-// Least time that something takes [s], over some rounds.
+// Minimum duration of `work` over some rounds [s].
 template <typename Work>
 double least_s(Work work) {
   double best_s = 1e30;
@@ -152,8 +152,8 @@ double least_s(Work work) {
   return best_s;
 }
 
-// Saving and restoring 1000 robots with all devices of an S1R, of which laser and odometry have
-// noise, 2 m apart on a plain floor.
+// Saves and restores 1000 robots with all devices of an S1R, 2 m apart on a plain floor. Laser and
+// odometry have noise.
 void save_figures() {
   WorldDescription world = endless(PLAYPEN_SOURCE_DIR "/worlds/examples/empty_room.json");
   world.arena.size = {64.0, 66.0};
@@ -198,9 +198,9 @@ BENCHMARK_CAPTURE(BM_Step, thirteen_robots, kThirteen)->Unit(benchmark::kMicrose
 }  // namespace
 }  // namespace sim::bench
 
-// With --world FILE: only the cost of a robot among so many, for each --robots N (default 1, 10, 50
-// and 200) that is given. Its robots have but lasers, motors and odometry; --devices TYPE,TYPE...
-// leaves them other ones (laser and motion must be among them), --devices all all that they have.
+// With --world FILE: only the cost per robot, for each --robots N that is given (default 1, 10, 50
+// and 200). Its robots keep only lasers, motors and odometry. --devices TYPE,TYPE... keeps other
+// devices instead (laser and motion must be among them); --devices all keeps all.
 int main(int argc, char** argv) {
   std::string world;
   std::vector<int> counts;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// How fast remote clients are on loopback: a server in a process of its own, clients here.
+// Speed of remote clients on loopback: the server is a separate process, the clients run here.
 #include <benchmark/benchmark.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
@@ -35,7 +35,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kWidth = 172;
 constexpr int kHeight = 186;
 
-/// A server in a process of its own, as long as this object lives.
+/// A server in a separate process, which ends with this object.
 class ServerProcess {
  public:
   explicit ServerProcess(const char* world, double time_factor = 0.0) {
@@ -117,7 +117,7 @@ class Connection {
       text.remove_prefix(static_cast<std::size_t>(count));
     }
   }
-  /// Reads until so many lines have come.
+  /// Reads until this many lines have arrived.
   void read_lines(int lines) const {
     std::array<char, 65536> buffer{};
     while (lines > 0) {
@@ -132,7 +132,7 @@ class Connection {
   int socket_;
 };
 
-/// Read() rounds a second with pose, odometry and laser.
+/// Read() rounds per second with pose, odometry and laser.
 double read_rounds(const std::string& host, const char* encoding) {
   setenv("PLAYPEN_ENCODING", encoding, 1);
   PlayerCc::PlayerClient client(host, 6665);
@@ -153,7 +153,7 @@ void read_figures() {
   figure("read_rounds_per_s_json", json);
 }
 
-/// Whole canvases a second: each one is sent, and the last one read back.
+/// Whole canvases per second: each one is sent, and the last one is read back.
 double canvases(const std::string& host, const char* encoding) {
   setenv("PLAYPEN_ENCODING", encoding, 1);
   PlayerCc::PlayerClient client(host, 4000);
@@ -180,8 +180,8 @@ double canvases(const std::string& host, const char* encoding) {
   return kCanvases / round_s;
 }
 
-/// Whole canvases a second, pixel by pixel through MORSE's set_pixel: each one's answer awaited, or
-/// (in_flight > 1) so many asked for at once.
+/// Whole canvases per second, pixel by pixel through MORSE's set_pixel. With in_flight = 1 it waits
+/// for each answer, otherwise it keeps that many requests in flight.
 double canvases_by_set_pixel(int port, int in_flight) {
   const Connection connection(port);
   const int pixels = 2000 * in_flight;
@@ -214,7 +214,7 @@ void canvas_figures() {
   figure("canvas_speedup_over_set_pixel_64_in_flight", cbor / many);
 }
 
-/// Clients that watch, served by a process of their own, as long as this object lives.
+/// Watching clients in a separate process, which ends with this object.
 class Watchers {
  public:
   Watchers(int port, int count) : child_(count > 0 ? fork() : -1) {
@@ -258,8 +258,8 @@ class Watchers {
   pid_t child_;
 };
 
-/// Steps a wall second of a paced simulation of 13 wandering robots that is told to go faster than
-/// it can.
+/// Steps per wall second of a paced simulation of 13 wandering robots whose requested speed is
+/// higher than possible.
 double paced_steps(int watchers) {
   const ServerProcess server(kThirteen, 1e6);
   PlayerCc::PlayerClient client(server.host(), 4000);

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What it costs to start: the libraries that a plain client loads, the processor time from exec to
-// the end of its first Read(), and that of a whole run of a minute with its pictures. Processor
-// time of the kernel and the process, not the wall clock's, as getrusage() tells it of children.
+// Cost of starting: the libraries that a plain client loads, the processor time from exec to the
+// end of its first Read(), and the processor time of a whole run of a minute with its pictures. The
+// times are user and kernel time of the child processes, as getrusage() reports them, not
+// wall-clock time.
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -28,7 +29,7 @@ double milliseconds(const timeval& time) {
   return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
 }
 
-/// Runs a program, its output thrown away. @return its and its children's processor time [ms].
+/// Runs a program and discards its output. @return its and its children's processor time [ms].
 double processor_time_ms(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
   arguments.reserve(command.size() + 1);
@@ -54,7 +55,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// The medians of commands that take turns, so that what disturbs one disturbs all.
+/// The medians of several commands. The commands take turns, so that a disturbance affects all.
 std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& commands) {
   std::vector<std::vector<double>> times(commands.size());
   for (int run = 0; run < kRuns; ++run) {
@@ -68,7 +69,7 @@ std::vector<double> medians_ms(const std::vector<std::vector<std::string>>& comm
   return result;
 }
 
-/// What a command prints after the last blank of its last line, as a number.
+/// The number after the last blank of the last line that a command prints.
 double last_number(const std::string& command) {
   std::FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error(command + " failed");
@@ -84,7 +85,7 @@ double last_number(const std::string& command) {
 int main() {
   try {
     const fs::path out = fs::temp_directory_path() / ("bench_start_" + std::to_string(getpid()));
-    // Nothing of a user's settings may slow a start, or speed it up.
+    // The user's settings must not affect the measured start.
     for (const char* name : {"PLAYPEN_WORLD", "PLAYPEN_OUT", "PLAYPEN_VIEW", "PLAYPEN_RECORD"}) {
       unsetenv(name);
     }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What messages cost at both ends, without sockets: the answer to a read with a scan of 682 beams,
-// a pose and odometry, and a whole canvas of 172 x 186 cells.
+// Cost of messages at both ends, without sockets: the answer to a read with a scan of 682 beams, a
+// pose and odometry, and a whole canvas of 172 x 186 cells.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Round {
   sim::PoseReading pose;
 
   Round() {
-    // The generator, unlike the standard's distributions, gives the same numbers everywhere.
+    // Unlike the standard's distributions, the generator gives the same numbers everywhere.
     std::mt19937_64 random(1);
     const auto number = [&] { return static_cast<double>(random() >> 11U) * 0x1p-53; };
     scan.sequence = pose.sequence = 1;

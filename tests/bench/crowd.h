@@ -15,17 +15,18 @@
 
 namespace sim::bench {
 
-// The k-th number of van der Corput's sequence in a base, 0 to 1: few or many, they lie evenly.
-// In two bases that share no factor they are Halton's points of the plane (Halton, On the
-// efficiency of certain quasi-random sequences of points, Numer. Math. 2, 84, 1960).
+// The k-th number of van der Corput's sequence in a base, in 0 to 1: any number of them is evenly
+// distributed. In two bases without a common factor they are Halton's points of the plane (Halton,
+// On the efficiency of certain quasi-random sequences of points, Numer. Math. 2, 84, 1960).
 [[nodiscard]] inline double van_der_corput(int k, int base) {
   double value = 0.0;
   for (double digit = 1.0 / base; k > 0; k /= base, digit /= base) value += digit * (k % base);
   return value;
 }
 
-// A world with so many robots: the first of those that it names, then copies of the last one,
-// spread evenly over the floor. Of their devices only those of `types`, if there are any.
+// A world with the given number of robots: the first of those that the file names, then copies of
+// the last one, spread evenly over the floor. They keep only devices of `types`, or all if it is
+// empty.
 [[nodiscard]] inline WorldDescription crowded(const char* file, int robots,
                                               const std::vector<std::string>& types) {
   WorldDescription world = endless(file);
@@ -64,16 +65,16 @@ namespace sim::bench {
   return world;
 }
 
-// Processor time of a step for each robot [us], wandering for 25 s after the first 5 s. It is taken
-// in rounds of as many steps of robots, however many there are, and the median of them counts: so
-// what else the machine does matters little, and no more to many robots than to few.
+// Processor time of a step per robot [us], while the robots wander for 25 s after the first 5 s.
+// Each round has the same number of robot steps, whatever the number of robots, and the median of
+// the rounds counts. So other processes matter little, and equally for few and many robots.
 [[nodiscard]] inline double robot_step_us(const WorldDescription& world) {
   constexpr int kWarmUpSteps = 500;
   constexpr int kSteps = 2500;
   constexpr int kRobotStepsPerRound = 5000;
   constexpr std::size_t kLeastRounds = 50;
   const int robots = static_cast<int>(world.robots.size());
-  // Lasers look every tenth step: each round has as many looks.
+  // Lasers measure every tenth step: each round has the same number of scans.
   const int round = std::clamp(kRobotStepsPerRound / robots / 10 * 10, 10, kSteps);
   std::vector<double> rounds_us;
   while (rounds_us.size() < kLeastRounds) {
@@ -97,7 +98,7 @@ namespace sim::bench {
   return *median;
 }
 
-// How the cost of a robot grows with the number of them.
+// Prints the cost per robot for different numbers of robots.
 inline void print_crowd(const char* file, const std::vector<int>& counts,
                         const std::vector<std::string>& types) {
   for (const int count : counts) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A C++ program that does nothing: what bench_start measures others against.
+// A C++ program that does nothing: the baseline of bench_start.
 #include <iostream>
 
 int main() { std::cout.flush(); }

@@ -8,11 +8,11 @@
 
 namespace sim::bench {
 
-/// Prints a headline figure of a benchmark as the line "figure NAME VALUE".
+/// Prints a result of a benchmark as the line "figure NAME VALUE".
 inline void figure(const char* name, double value) { std::printf("figure %s %.6g\n", name, value); }
 
-/// Seconds that one call of f takes, the least of `rounds` rounds of `calls` calls each: what
-/// else the machine does only ever adds time.
+/// Seconds that one call of f takes: the minimum over `rounds` rounds of `calls` calls each,
+/// because other processes can only add time.
 template <typename F>
 [[nodiscard]] double seconds_per_call(F f, int calls, int rounds = 9) {
   using Clock = std::chrono::steady_clock;

@@ -20,7 +20,7 @@ inline constexpr const char* kOne = PLAYPEN_SOURCE_DIR "/worlds/syrotek.json";
   return world;
 }
 
-// Robots that wander: they turn away from what the laser sees ahead, otherwise drive on.
+// Makes the robots wander: they turn away from what the laser sees ahead, otherwise drive on.
 inline void wander(Simulation& simulation) {
   for (int r = 0; r < simulation.robot_count(); ++r) {
     const int laser = simulation.find_device(r, "laser").value();
@@ -33,8 +33,8 @@ inline void wander(Simulation& simulation) {
   }
 }
 
-// Simulated seconds in a second of processor time, commands every tenth of a second; the best of
-// five rounds.
+// Simulated seconds per second of processor time, with commands every tenth of a second; the best
+// of five rounds.
 [[nodiscard]] inline double realtime_factor(const char* file, double simulated_s) {
   Simulation simulation(endless(file));
   const auto steps = static_cast<int>(simulated_s * 100.0);

@@ -1,9 +1,10 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What a server and its paced simulation make of clients that connect and drop, most of them rude.
+// Load of a server and its paced simulation when clients connect and disconnect, most of them
+// abruptly.
 //
-// Usage: server_load [CLIENTS [AT_ONCE]], by default 10000 and 200. Prints figures, and ends with
-// status 1 if a client that deserved an answer got none, if anything of the clients is left, or if
-// the clock was late by more than 50 ms.
+// Usage: server_load [CLIENTS [AT_ONCE]], by default 10000 and 200. Prints figures. Ends with
+// status 1 if a client that should get an answer got none, if resources of the clients remain, or
+// if the clock was late by more than 50 ms.
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -25,7 +26,7 @@ using test_support::RawClient;
 constexpr double kMostLate_ms = 50.0;
 constexpr int kThreads = 4;
 
-/// How late the steps of a paced simulation are, compared with the most punctual one.
+/// Measures how late the steps of a paced simulation are, compared with the most punctual one.
 class Lateness {
  public:
   explicit Lateness(playerlike::Host& host) : host_(host) {
@@ -40,7 +41,7 @@ class Lateness {
     alarm.notify = [] {};
     alarm_ = host_.set_alarm(alarm);
   }
-  /// Looks no more. @return the most that a step was late [ms].
+  /// Stops measuring. @return the greatest lateness of a step [ms].
   [[nodiscard]] double stop() {
     host_.cancel_alarm(alarm_);
     return (most_s_ - least_s_) * 1e3;
@@ -54,7 +55,7 @@ class Lateness {
   double most_s_ = -1e9;
 };
 
-/// What clients do before they drop.
+/// What a client sends before it disconnects.
 std::string last_words(int client) {
   switch (client % 8) {
     case 0:
@@ -82,7 +83,7 @@ struct Counts {
   std::atomic<int> unanswered{0};
 };
 
-/// Connects so many clients at once, lets them have their say and drops them.
+/// Connects this many clients at once, lets them send their messages and disconnects them.
 void drop_clients(int port, int first, int count, Counts& counts) {
   std::vector<RawClient> clients;
   for (int i = 0; i < count; ++i) {
@@ -93,7 +94,7 @@ void drop_clients(int port, int first, int count, Counts& counts) {
     const std::string answer = clients[static_cast<std::size_t>(i)].line();
     ++(answer.starts_with("1 SUCCESS") ? counts.answered : counts.unanswered);
   }
-  // Half of them leave as programs that are killed do, half as machines that go down.
+  // Half of them close like programs that are killed, half like machines that crash.
   for (std::size_t i = 0; i < clients.size(); i += 2) clients[i].reset();
 }
 
@@ -102,7 +103,7 @@ void wait_until_empty(const playerlike::Server& server) {
   while (server.connections() > 0 && Clock::now() < end) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  // Sockets are closed right after their handlers are gone.
+  // Sockets are closed right after their handlers are destroyed.
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
 }
 
@@ -119,7 +120,7 @@ int run(int clients, int at_once) {
   playerlike::Server server(host, settings);
 
   Counts counts;
-  drop_clients(server.port(), 0, 8, counts);  // so that what is made once is there
+  drop_clients(server.port(), 0, 8, counts);  // warm-up for everything that is created once
   wait_until_empty(server);
   const std::size_t files_before = RawClient::open_files();
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program for CCMorse, with every namespace open and all three layers in use.
+// A program for CCMorse that opens every namespace and uses all three layers.
 #include <libCCMorse/CCMorse.h>
 
 using namespace std;

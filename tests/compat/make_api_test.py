@@ -15,7 +15,7 @@ import sys
 
 HEAD = "// Written by make_api_test.py from the tables in player-api; do not change it.\n"
 
-# Members of the tables that are not written as a plain function is.
+# Members of the tables that need another form than a plain function.
 SPECIAL = {
     ("PlayerClient", "mutex_t mMutex"): """
   PlayerClient::mutex_t::scoped_lock lock(object->mMutex);
@@ -192,7 +192,7 @@ class Parameter:
         self.optional = len(parts) > 1
         nameless = re.match(r"^(\w+|.*[*&])$", parts[0])
         kind = parts[0] if nameless else type_of(parts[0])[0]
-        # As a parameter, an array is a pointer, and const is nobody else's matter.
+        # As a parameter, an array is a pointer, and its const does not matter to callers.
         self.type = re.sub(r"\[[^\]]*\]$", "*", kind)
         bare = re.sub(r"^const (?!.*[*&]$)", "", self.type)
         self.argument = f"arg<{bare.rstrip('&').strip()}>()"
@@ -383,7 +383,7 @@ def write_c(path, tables):
         for _, field in fields_of(text):
             out.append(f"  sum += offsetof({name}, {field});")
     out += ["  return sum;", "}", "", "static int missing(void) {", "  int count = 0;"]
-    # Called through a variable, a function's address is not known to be there before it is linked.
+    # Called through a variable, so that the compiler must assume that the function may be missing.
     for number, function in enumerate(functions):
         out.append(f"  {function.type} (*volatile f{number})({function.types() or 'void'}) = "
                    f"{function.name};")

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program as they are in the wild: client and proxies at namespace scope, all namespaces at once,
-// no header but Player's, errors caught by value, a loop that counts its turns.
+// A program in the style of existing ones: client and proxies at namespace scope, all namespaces
+// opened, only Player's headers, errors caught by value, a loop that counts its iterations.
 #include <libplayerc++/playerc++.h>
 
 using namespace std;

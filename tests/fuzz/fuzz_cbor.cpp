@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// CBOR: the first byte says whether a message alone follows, or frames, and in which pieces.
+// CBOR: the first byte selects a single message or a stream of frames, and the size of its pieces.
 #include "messages.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Lines of JSON, in pieces: the first byte says how large these are.
+// Lines of JSON, in pieces: the first byte is the size of the pieces.
 #include "messages.h"
 
 namespace {
@@ -9,7 +9,7 @@ using namespace playerlike::protocol;  // NOLINT(google-build-using-namespace): 
 void take_line(std::string_view line) {
   fuzz::attempt([&] { fuzz::take_message(decode(line, Encoding::kJson), Encoding::kJson); });
   fuzz::attempt([&] {
-    // Any value, also behind the words of a MORSE request; what is written is read as the same.
+    // Any value, also after the words of a MORSE request; a value must survive writing and reading.
     const json value = decode_json_value(line);
     std::string text = encode(value, Encoding::kJson);
     text.pop_back();

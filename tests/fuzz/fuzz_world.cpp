@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// World files: whatever they hold, they are read or refused with words; and what is read can be
+// World files: any content is either read or refused with an error; a world that is read can be
 // built and stepped.
 #include <cstddef>
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace {
 
-// Worlds beyond these are read, but not built: each input must take milliseconds.
+// Larger worlds are read but not built, because each input must take only milliseconds.
 constexpr std::size_t kMostRobots = 4;
-constexpr std::size_t kMostDevices = 12;  // of a robot
+constexpr std::size_t kMostDevices = 12;  // per robot
 constexpr std::size_t kMostObstacles = 60;
 constexpr std::size_t kMostWalls = 200;  // vertices
 constexpr int kMostCanvasSide = 512;
@@ -34,7 +34,7 @@ bool is_small(const sim::WorldDescription& world) {
   return vertices <= kMostWalls;
 }
 
-// Robots drive, so that they meet what stands there and the devices have something to tell.
+// Robots drive, so that they touch obstacles and the devices have something to measure.
 void drive(sim::WorldDescription world) {
   sim::Simulation simulation(std::move(world));
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {

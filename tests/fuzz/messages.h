@@ -9,15 +9,15 @@
 
 #include "protocol/codec.h"
 
-/// What the fuzzers of the protocol do with messages. Anything but a ProtocolError ends them.
+/// What the protocol's fuzzers do with messages. Any exception but a ProtocolError ends them.
 namespace playerlike::protocol::fuzz {
 
-/// A bug was found: libFuzzer keeps the input.
+/// Reports a bug: libFuzzer keeps the input.
 inline void require_true(bool condition) {
   if (!condition) std::abort();
 }
 
-/// Calls something that may refuse its input.
+/// Calls a function that may refuse its input.
 template <typename Call>
 void attempt(Call call) {
   try {
@@ -27,7 +27,7 @@ void attempt(Call call) {
   }
 }
 
-/// What arrives if it is sent on, in any encoding that holds all of it.
+/// The message after encoding and decoding, in any encoding that can represent it.
 inline json sent_on(const json& message, Encoding encoding) {
   MessageSplitter splitter(encoding, std::size_t{1} << 26U);
   splitter.add(encode(message, encoding));
@@ -36,7 +36,7 @@ inline json sent_on(const json& message, Encoding encoding) {
   return decode(*bytes, encoding);
 }
 
-/// Reads a value as everything that it could be meant as.
+/// Reads a value as every type that it could represent.
 inline void take_value(const json& value, Encoding encoding) {
   attempt([&] {
     const sim::Command command = decode_command(value);
@@ -69,7 +69,7 @@ inline void take_value(const json& value, Encoding encoding) {
   attempt([&] { static_cast<void>(encode_map(decode_map(value, encoding), encoding)); });
 }
 
-/// Does with a message what a server or a client might.
+/// Processes a message like a server or a client.
 inline void take_message(const json& message, Encoding encoding) {
   require_true(message.is_object());
   require_true(sent_on(message, Encoding::kCbor) == message);
@@ -91,8 +91,8 @@ inline void take_message(const json& message, Encoding encoding) {
   }
 }
 
-/// Feeds a stream in pieces to a splitter and hands on what it gives.
-/// @param piece  bytes of a piece; 0: all at once.
+/// Feeds a stream in pieces to a splitter and passes on the splitter's output.
+/// @param piece  size of a piece [bytes]; 0: all at once.
 template <typename Take>
 void split(std::string_view stream, std::size_t piece, Encoding encoding, Take take) {
   MessageSplitter splitter(encoding, 4096);

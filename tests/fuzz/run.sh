@@ -56,7 +56,7 @@ failed=()
 for program in "${programs[@]}"; do
   name=$(basename "$program")
   seeds=("$here/corpus/${name#fuzz_}")
-  # Each shipped world, sound or not, is where the reader's fuzzer starts.
+  # The corpus of the world reader starts with every shipped world and every invalid test world.
   if [[ $name == fuzz_world ]]; then
     seeds+=(worlds/devices worlds/examples worlds/tasks tests/invalid_worlds)
   fi
@@ -64,7 +64,7 @@ for program in "${programs[@]}"; do
   discovered=build/fuzz/corpus/$name
   mkdir -p "$found" "$discovered"
   echo "== $name, $seconds s"
-  # A seed that is longer than this is cut, so that small inputs are tried often.
+  # A longer seed is truncated, so that small inputs are tried often.
   if ! ASAN_OPTIONS=detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 \
     "$program" -max_total_time="$seconds" -timeout=600 -rss_limit_mb=2048 -max_len=8192 \
     -print_final_stats=1 -verbosity=0 -artifact_prefix="$found/" "$discovered" "${seeds[@]}"; then

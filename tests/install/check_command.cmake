@@ -1,5 +1,6 @@
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-# Included by check_install.cmake: what is installed with the command playpen, in ${prefix}.
+# Included by check_install.cmake: checks the files that are installed with the command playpen, in
+# ${prefix}.
 set(command "${prefix}/bin/playpen")
 foreach(file IN ITEMS share/man/man1/playpen.1 share/bash-completion/completions/playpen
     share/zsh/site-functions/_playpen share/fish/vendor_completions.d/playpen.fish)
@@ -12,7 +13,7 @@ foreach(file IN ITEMS share/man/man1/playpen.1 share/bash-completion/completions
   endif()
 endforeach()
 
-# Each template is copied and finds the package where it now lies.
+# Each template is copied and finds the package at its new place.
 set(projects "${STAGE_DIR}/new projects")
 file(REMOVE_RECURSE "${projects}")
 foreach(kind IN ITEMS intro planning exploration client)
@@ -30,7 +31,7 @@ foreach(kind IN ITEMS intro planning exploration client)
   endif()
 endforeach()
 
-# One is built and run, by CMake and by its makefile.
+# Builds and runs one of them with CMake and with its makefile.
 run("building the new client" ${CMAKE_COMMAND} --build "${projects}/client/build")
 run("running the new client" "${command}" run cave --duration 5 --out "${projects}/out"
   -- "${projects}/client/build/my_robot")

@@ -10,12 +10,12 @@ function(run what)
   set(run_output "${out}" PARENT_SCOPE)
 endfunction()
 
-# The package is installed afresh each time; what is built against it is kept, so that only what
-# has changed is compiled again (installed files keep their times).
+# The package is installed anew each time. The projects built against it are kept, so that only
+# changed sources are compiled again (installed files keep their times).
 file(REMOVE_RECURSE "${STAGE_DIR}/first" "${STAGE_DIR}/moved" "${STAGE_DIR}/my robot/out")
 run("installing" ${CMAKE_COMMAND} --install ${BUILD_DIR} --config "${CONFIG}"
   --prefix ${STAGE_DIR}/first)
-# The package must not care where it lies.
+# The package must be relocatable.
 set(prefix "${STAGE_DIR}/moved/to another place")
 file(MAKE_DIRECTORY "${STAGE_DIR}/moved")
 file(RENAME "${STAGE_DIR}/first" "${prefix}")
@@ -27,7 +27,7 @@ endif()
 foreach(package_file IN LISTS package_files)
   file(READ "${package_file}" text)
   foreach(folder IN ITEMS "${SOURCE_DIR}" "${BUILD_DIR}" "${STAGE_DIR}")
-    # As a path of its own: a tree in /playpen must not take share/playpen/worlds for itself.
+    # Compare whole paths: a tree in /playpen must not match share/playpen/worlds.
     string(REGEX REPLACE "([][+.*()^$?|\\\\])" "\\\\\\1" pattern "${folder}")
     if(text MATCHES "(^|[^A-Za-z0-9_}.-])${pattern}(/|[^A-Za-z0-9_.-]|$)")
       message(FATAL_ERROR "${package_file} names the folder ${folder} of this build")
@@ -55,7 +55,7 @@ if(EXISTS "${prefix}/bin/playpen")
   if(NOT EXISTS "${prefix}/bin/playpen-view")
     message(FATAL_ERROR "playpen-view, the program of the live window, was not installed")
   endif()
-  # Its sleeps are simulated time, by a library that is found in a folder with blanks.
+  # The client's sleeps are simulated time, through a library that is found in a folder with blanks.
   run("running the sleeping client" "${prefix}/bin/playpen" run default
     --out ${STAGE_DIR}/sleeper_out -- ${STAGE_DIR}/consumer/sleeper)
   if(NOT run_output MATCHES "3.5 s simulated")
@@ -63,7 +63,7 @@ if(EXISTS "${prefix}/bin/playpen")
   endif()
 endif()
 
-# A task of the course, copied out of the tree, built and run by the installed command on an
+# A task of the course, copied out of the tree, then built and run by the installed command on an
 # installed world.
 set(task "${STAGE_DIR}/my robot")
 file(COPY "${SOURCE_DIR}/apps/par_intro/solution_wall/" DESTINATION "${task}")
@@ -81,14 +81,14 @@ if(EXISTS "${prefix}/bin/playpen")
   endif()
 endif()
 
-# Programs as old as Player, by build files as they were written for it.
+# Old programs for Player, with their original build files.
 find_program(bash bash REQUIRED)
 run("building by old build files" ${CMAKE_COMMAND} -E env
   "CXX=${CXX_COMPILER}" "CXXFLAGS=${CXX_FLAGS}" "CC=${C_COMPILER}" "CFLAGS=${CXX_FLAGS}"
   "${bash}" "${CMAKE_CURRENT_LIST_DIR}/old_build_files.sh" "${prefix}" "${STAGE_DIR}/old")
 message(STATUS "${run_output}")
 
-# A Player that is there already keeps its names; a second installation of Playpen finds its own.
+# An installed Player keeps its names; a second installation of Playpen finds its own.
 set(other "${STAGE_DIR}/other")
 file(REMOVE_RECURSE "${other}")
 file(GLOB_RECURSE link "${prefix}/libplayerc++.so")

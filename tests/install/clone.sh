@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Clones a checkout into a folder, with its changes that are not committed yet. A clone that is there
-# already is brought up to date, and keeps what was built in it.
+# Clones a checkout into a folder, including its uncommitted changes. An existing clone is updated
+# and keeps its build folders.
 set -euo pipefail
 
 if (($# != 2)) || [[ $1 == -* ]]; then
@@ -15,7 +15,7 @@ from=$1 to=$2
 from=$(cd "$from" && pwd)
 to=$(cd "$to" && pwd)
 
-# Only files that differ are touched: what was built from the others need not be built again.
+# Touches only files that differ, so that nothing else has to be built again.
 git -C "$from" ls-files -z -co --exclude-standard | while IFS= read -r -d '' file; do
   if [[ -f $from/$file ]] && ! cmp -s -- "$from/$file" "$to/$file"; then
     mkdir -p -- "$(dirname -- "$to/$file")"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Builds programs with an installed package in the ways that build files written for Player do, runs
-# each, and looks at what it prints. See usage().
+# Builds programs with an installed package in the ways that build files for Player do, runs each,
+# and checks its output. See usage().
 set -euo pipefail
 
 usage() {
@@ -24,7 +24,7 @@ rm -rf -- "$2"
 mkdir -p -- "$2"
 cp -R -- "$sources/." "$2"
 cd "$2"
-# By a name without blanks, since a shell splits at them what stands for a command's output.
+# Use a name without blanks, because the shell splits the output of a command at blanks.
 ln -s "$prefix" here
 folder=$(dirname "$(find -L here -name 'playerc++.pc' -printf '%p\n' | head -n 1)")
 [[ -f $folder/playerc++.pc ]] || { echo "$prefix has no playerc++.pc" >&2; exit 1; }
@@ -43,7 +43,7 @@ fail() {
   exit 1
 }
 
-# try COMMAND...: runs it quietly; what it prints is shown if it fails.
+# try COMMAND...: runs it quietly; its output is shown if it fails.
 try() {
   "$@" >log 2>&1 || fail "failed: $*" "$(cat log)"
 }
@@ -59,7 +59,7 @@ prints() {
 
 drove='drove to [0-9.]+ [0-9.]+'
 
-# Flags that pkg-config prints: nothing but flags, no folder of this machine.
+# pkg-config must print only flags, and no folder of this machine.
 count=0
 for file in "$folder"/*.pc; do
   package=$(basename "$file" .pc)
@@ -76,7 +76,7 @@ done
 pkg-config --atleast-version=3.0 playerc++ || fail "playerc++ has no version of Player 3"
 ((count >= 6)) || fail "only $count packages are there"
 
-# From the source in one command, flags after it and before it.
+# Compile and link in one command, with the flags after and before the source.
 # shellcheck disable=SC2046  # pkg-config's words are flags
 {
   try "${cxx[@]}" wander.cc $(pkg-config --cflags --libs playerc++) -o after
@@ -88,7 +88,7 @@ pkg-config --atleast-version=3.0 playerc++ || fail "playerc++ has no version of 
   try "${cxx[@]}" -c $(pkg-config --cflags playerc++) wander.cc
   try "${cc[@]}" -c $(pkg-config --cflags playerc) wander.c -o wander_c.o
 }
-# Where the linker leaves out libraries that nothing has needed yet, as gcc of Debian and Ubuntu has it do.
+# With a linker that drops libraries that nothing has needed yet, as gcc does on Debian and Ubuntu.
 for package in playerc++ playerc playercore playerinterface 'playerc++ playerc' 'playerc playerc++'; do
   read -ra flags <<<"$(pkg-config --libs "$package")"
   try "${cxx[@]}" -Wl,--as-needed "${flags[@]}" wander.o -o "as_needed_before"
@@ -99,7 +99,7 @@ for package in playerc++ playerc playercore playerinterface 'playerc++ playerc' 
   prints "$drove" ./as_needed_c
 done
 
-# A makefile in which pkg-config's words become part of a line, so that folders may have blanks.
+# A makefile that inserts pkg-config's words into a line, so that folders may contain blanks.
 cat >Makefile.pkg <<'TEXT'
 FLAGS = $(shell pkg-config --cflags --libs playerc++)
 flat_made: flat.cc
@@ -108,20 +108,22 @@ TEXT
 PKG_CONFIG_PATH=$prefix/${folder#here/} prints '' make -f Makefile.pkg CXX="${cxx[*]}" flat_made
 prints 'laser:0 .*position2d:0 ' ./flat_made
 
-# Names and folders by hand. A library that lies where the loader does not look is found by
-# LD_LIBRARY_PATH, as Player's would be.
+# Names and folders written by hand. LD_LIBRARY_PATH finds a library that is outside the loader's
+# folders, as for Player's own.
 try "${cxx[@]}" example.cc -Ihere/include/player-3.1 -Ihere/include/player-3.1/player-examples \
   -Lhere/"${libraries#here/}" -lplayerc++ -o hand
 LD_LIBRARY_PATH=$libraries prints 'read for a second at localhost:6665' ./hand
 try "${cc[@]}" wander.c -Ihere/include/player-2.1 -L"$libraries" -lplayerc -lm -o hand_c
 LD_LIBRARY_PATH=$libraries prints "$drove" ./hand_c
-# By Playpen's own name: the shared library, also where there is an archive of that name.
+# By Playpen's own name: the linker takes the shared library even if there is an archive of that
+# name.
 try "${cxx[@]}" wander.o -L"$libraries" -lplaypen_playerlike -o own_name
 LD_LIBRARY_PATH=$libraries prints "$drove" ./own_name
-# Bare names before the sources, with what the guide says for compilers that drop them.
+# Bare names before the sources, with the guide's option for compilers that drop them.
 try "${cxx[@]}" -Wl,--no-as-needed -L"$libraries" -lplayerc++ wander.o -o names_before
 LD_LIBRARY_PATH=$libraries prints "$drove" ./names_before
-# A makefile for a Player in /usr/local, unchanged: the compiler and the linker are told by variables.
+# An unchanged makefile for a Player in /usr/local: variables point the compiler and the linker to
+# it.
 CPATH=here/include/player-3.1 LIBRARY_PATH=$libraries LD_RUN_PATH=$libraries \
   prints '' make -f Makefile.names CXX="${cxx[*]}" CC="${cc[*]}"
 prints "$drove" ./named_cc
@@ -129,7 +131,7 @@ prints "$drove" ./named_c
 
 # shellcheck disable=SC2046  # pkg-config's words are flags
 {
-  # A program's own args.h; both client libraries in one program.
+  # A program with its own args.h; both client libraries in one program.
   try "${cxx[@]}" own_args/own_args.cc $(pkg-config --cflags --libs playerc++) -o own
   prints 'read 3 times at port 6665' ./own -r 3
   try "${cxx[@]}" both.cc $(pkg-config --cflags playerc++) -L"$libraries" \
@@ -144,7 +146,7 @@ needed=$(readelf -d both | grep -c 'NEEDED.*\(player\|playpen\)' || true)
 configure_and_build() {
   local folder=$1
   shift
-  # CMake 4 takes projects for CMake 2 only if it is told to.
+  # CMake 4 accepts projects for CMake 2 only with this option.
   try cmake -S "$folder" -B "$folder/build" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_POLICY_VERSION_MINIMUM=3.5 \
     -DCMAKE_CXX_COMPILER="${CXX:-g++}" -DCMAKE_CXX_FLAGS="${cxx_flags[*]}" \
@@ -165,7 +167,7 @@ prints "$drove" cmake_c/build/program
 PKG_CONFIG_PATH='' configure_and_build cmake_pkg "-DCMAKE_PREFIX_PATH=$PWD/here"
 for program in by_flags by_names by_target; do prints "$drove" cmake_pkg/build/$program; done
 
-# wrong WHAT PATTERN: the module's messages.
+# wrong WHAT PATTERN: checks an error message of the module.
 wrong() {
   if cmake -S cmake_use -B wrong -DCMAKE_POLICY_VERSION_MINIMUM=3.5 "-DPLAYER_PREFIX=$prefix" "-DWRONG=$1" >log 2>&1; then
     fail "CMake took $1 without an error"

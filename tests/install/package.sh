@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Tests the package as users get it. See usage().
+# Tests the package in the form in which users get it. See usage().
 set -euo pipefail
 
 usage() {
@@ -41,7 +41,7 @@ timed() {
   printf '\n===== %s: %d s\n\n' "$what" $((SECONDS - start))
 }
 
-# build SHARED: as demo.sh does, on a machine of somebody who wants no benchmarks.
+# build SHARED: builds as demo.sh does, on a machine without the benchmark library.
 build() {
   local settings=(-DCMAKE_DISABLE_FIND_PACKAGE_benchmark=ON "-DBUILD_SHARED_LIBS=$1")
   if command -v ccache >/dev/null 2>&1; then settings+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
@@ -54,7 +54,7 @@ follow() {
   "$clone/tests/install/pages.sh" --clone "$clone" --home "$home" "${@/#/$clone/}"
 }
 
-# The installed package, moved, with a project of its own and the build files that old programs have; for
+# The installed package, moved, with a separate project and the build files of old programs. For
 # shared libraries the test install.consumer does this.
 check_install() {
   cmake "-DBUILD_DIR=$clone/build/release" "-DSOURCE_DIR=$clone" \
@@ -65,7 +65,7 @@ check_install() {
 
 timed "the static build" build OFF
 PLAYPEN_WALK_CLONE=$clone timed "the walk" "$clone/tests/install/walk.sh" "$home"
-# Beside one another: each has little to do for a second processor.
+# Run both at the same time: each alone leaves the second processor mostly idle.
 check_install >"$folder/check_install.log" 2>&1 &
 checking=$!
 trap 'kill "$checking" 2>/dev/null || true' EXIT
@@ -73,7 +73,7 @@ timed "the pages" follow "${pages[@]}"
 wait_for_check() { wait "$checking" || { cat "$folder/check_install.log" >&2 && return 1; }; }
 timed "the installed package, further on" wait_for_check
 trap - EXIT
-# The target playpen::playerlike is what the demo has built: static.
+# The target playpen::playerlike is the library that the demo has built: static.
 loaded=$(ldd "$home/README/build/my_robot")
 [[ $loaded != *libplaypen* ]] || fail "the static package is not static:" "$loaded"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Runs the commands of pages as they are written there. See usage().
+# Runs the commands of pages exactly as written. See usage().
 set -euo pipefail
 
 usage() {
@@ -33,10 +33,10 @@ die() {
   exit 1
 }
 
-# bare COMMAND: without the comment at its end.
+# bare COMMAND: prints it without the comment at its end.
 bare() { sed -E 's/[[:space:]]+#.*$//; s/[[:space:]]+$//' <<<"$1"; }
 
-# file_of PAGE NAME: prints a file that a page has.
+# file_of PAGE NAME: prints a file that a page contains.
 file_of() {
   awk -v want="<!-- file: $2 -->" '
     inside && /^```/ { exit }
@@ -46,7 +46,7 @@ file_of() {
 }
 
 # shellcheck disable=SC2094  # a page is only read
-# steps PAGE: prints a script of calls of in_clone, in_own, lay_out, lay_out_here, step, background,
+# steps PAGE: prints a script that calls in_clone, in_own, lay_out, lay_out_here, step, background,
 # end_together and excused.
 steps() {
   local page=$1 number=0 line kind='' name='' block='' blank=true
@@ -56,7 +56,7 @@ steps() {
 
   at() { die "$page:$number: $*"; }
 
-  # Ends a block of commands: joins continued lines, and settles what is run.
+  # Ends a block of commands: joins continued lines, and decides which lines are run.
   end_commands() {
     local text='' command first=true
     while IFS= read -r command; do
@@ -122,7 +122,7 @@ steps() {
     esac
 
     if [[ $line == '<!--'* ]]; then
-      # Patterns in variables: bash takes quotes in a pattern as they are.
+      # Patterns are in variables, because bash takes quotes in a pattern literally.
       local with='^<!-- run with: ([^ ]+) of ([^ ]+) -->$' not='^<!-- not run: (.+) -->$'
       local one='^<!-- not run \((.+)\): (.+) -->$' is_file='^<!-- file: ([A-Za-z0-9_./+-]+) -->$'
       if [[ $line == "<!-- run in: Playpen's folder -->" ]]; then
@@ -224,7 +224,7 @@ if $list; then
   exit 0
 fi
 
-# What is done in the shell of a page. A command sees no variable of whoever runs this script.
+# The prelude of a page's shell. No variable of the caller's environment is visible to a command.
 read -r -d '' prelude <<'EOF_PRELUDE' || true
 set -uo pipefail
 own=$HOME/$PAGE_NAME
@@ -252,7 +252,7 @@ background() { printf -- '--- (together with what follows) %s\n' "$1" && togethe
 end_together() {
   local text=$together
   together=''
-  # Ports of its own, where the system gives them.
+  # Isolated ports, where the system provides them.
   local alone=()
   if unshare -rn ip link set lo up 2>/dev/null; then alone=(unshare -rn); fi
   TEXT=$text "${alone[@]}" bash -c '
@@ -261,7 +261,7 @@ end_together() {
     log=$(mktemp)
     eval "exec ${commands[0]}" >"$log" 2>&1 &
     first=$!
-    # It is ready when it has said where it listens.
+    # The server is ready after it has printed where it listens.
     until grep -q listening "$log"; do
       kill -0 "$first" 2>/dev/null || { cat "$log"; exit 1; }
       sleep 0.1
@@ -280,7 +280,7 @@ environment=("PATH=$PATH" "HOME=$home" "LANG=${LANG:-C.UTF-8}")
 for name in CCACHE_DIR CCACHE_BASEDIR TMPDIR; do
   if [[ -n ${!name:-} ]]; then environment+=("$name=${!name}"); fi
 done
-# Another home has another cache.
+# A different home folder has a different cache.
 if [[ -z ${CCACHE_DIR:-} ]] && command -v ccache >/dev/null 2>&1; then
   environment+=("CCACHE_DIR=$(ccache --get-config cache_dir)")
 fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# Tests of pages.sh, by small pages in a scratch folder. Usage: tests/install/pages_test.sh FOLDER
+# Tests of pages.sh with small pages in a scratch folder. Usage: tests/install/pages_test.sh FOLDER
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -15,17 +15,18 @@ fail() {
   exit 1
 }
 
-# page: the page is standard input, in which ::: stands for a fence.
+# page: writes the page from standard input, in which ::: stands for a fence.
 page() { sed 's/:::/```/' >page.md; }
 run() { "$here/pages.sh" --clone clone --home home page.md >log 2>&1; }
 passes() { run || fail "a page failed:" "$(cat page.md log)"; }
-# fails PATTERN: the page fails, and says so.
+# fails PATTERN: the page must fail with a matching message.
 fails() {
   if run; then fail "a page passed that should not:" "$(cat page.md)"; fi
   grep -qE -- "$1" log || fail "expected the message '$1':" "$(cat log)"
 }
 
-# Commands run in order, in one shell, in the folders that the page says, after the files before them.
+# Commands run in order, in one shell, in the folders that the page names, after the files before
+# them.
 page <<'TEXT'
 Text with `false` in it.
 
@@ -65,17 +66,17 @@ passes
 [[ -f clone/in_clone && -f clone/again && $(<home/more) == "one more" ]] || fail "wrong folders"
 [[ $(<home/page/words) == "two  words" ]] || fail "a variable was lost"
 
-# A command that fails ends the page, also as the first of two; what comes after it is not run.
+# A failing command ends the page, even as the first of two; later commands are not run.
 printf 'Text.\n\n    false && true\n    touch after\n' >page.md
 fails 'page\.md: failed: false && true'
 [[ ! -e clone/after ]] || fail "a page went on after a failure"
 
-# Nothing of this shell's environment comes along.
-# shellcheck disable=SC2016  # the page has it so
+# No variable of this shell's environment is visible.
+# shellcheck disable=SC2016  # literal text of the page
 printf '\n    test -z "${SECRET:-}"\n' >page.md
 SECRET=1 passes
 
-# A server that runs while the other commands do.
+# A server that runs while the other commands run.
 page <<'TEXT'
 
 <!-- run together -->
@@ -91,7 +92,7 @@ fails 'failed: bash -c "exit 3"'
 printf '<!-- run together -->\n\n    bash -c "echo listening; exec sleep 1000"\n    false\n' >page.md
 fails 'failed: '
 
-# Comments that are wrong are errors, so that none excuses a command by mistake.
+# Invalid comments are errors, so that none excuses a command by mistake.
 printf '<!-- not run (make al): no makefile -->\n\n    make all\n' >page.md
 fails "page\.md:.* 'not run' names a command that the block does not have: make al"
 printf '<!-- no run: oops -->\n\n    true\n' >page.md

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #
-# What a new user does, from a clone to programs of one's own. See usage().
+# The steps of a new user, from a clone to a program of one's own. See usage().
 set -euo pipefail
 
 usage() {
@@ -31,12 +31,12 @@ fail() {
   exit 1
 }
 headline() { printf '\n##### %s\n' "$*"; }
-# has FILE...: these must be there, and hold something.
+# has FILE...: the files must exist and not be empty.
 has() {
   local file
   for file in "$@"; do [[ -s $file ]] || fail "$file was not written"; done
 }
-# says PATTERN COMMAND...: runs it, shows what it prints, which must match.
+# says PATTERN COMMAND...: runs it and shows its output, which must match.
 says() {
   local pattern=$1 output status=0
   shift
@@ -74,7 +74,7 @@ playpen=$HOME/playpen/bin/playpen
 headline "A template, filled in and graded"
 cp -r "$clone/apps/par_intro/template" "$HOME/walk/intro"
 cd "$HOME/walk/intro"
-# The body of the function that the template leaves to its reader.
+# The body of the function that the template leaves to the reader.
 awk '
   /^void CRobot::decideSpeeds\(\) \{/ {
     print

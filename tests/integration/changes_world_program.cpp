@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program that changes a variable of its environment before it connects to "localhost", as
+// A program that changes an environment variable before it connects to "localhost":
 // changes_world_program NAME VALUE.
 #include <libplayerc++/playerc++.h>
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A client program that drives in a circle, draws where it is, and comes to an end as told:
+// A client program that drives in a circle, draws its position, and ends in the given way:
 //   ends_program WHAT [READS]
-// After that many reads (50 unless told) it says "ready" and then does WHAT.
+// After this number of reads (default 50) it prints "ready" and then does WHAT.
 #include <libplayerc++/playerc++.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -39,7 +39,7 @@ void end_badly(const std::string& what) {
   if (what == "kill") raise(SIGKILL);
   if (what == "stop") raise(SIGSTOP);
   if (what == "compute") compute();
-  if (what == "child") {  // one that leaves the group, ignores signals, and stays
+  if (what == "child") {  // a child that leaves the group, ignores signals, and continues
     if (fork() == 0) {
       setsid();
       if (fork() != 0) _exit(0);
@@ -48,7 +48,7 @@ void end_badly(const std::string& what) {
     }
     std::exit(0);
   }
-  if (what == "killer") {  // as one that wants to get rid of whoever has started it
+  if (what == "killer") {  // a program that kills its parent
     kill(-getpgid(getppid()), SIGKILL);
     compute();
   }
@@ -57,7 +57,7 @@ void end_badly(const std::string& what) {
     for (int i = 0; i < 12 * 1024; ++i) std::cout << line << '\n';
     std::cout.flush();
   }
-  if (what == "fill") {  // its output folder
+  if (what == "fill") {  // its output folder is filled
     const char* const folder = std::getenv("PLAYPEN_OUT");
     std::ofstream file(std::string(folder == nullptr ? "." : folder) + "/big");
     const std::vector<char> bytes(1 << 20, 'x');
@@ -101,7 +101,7 @@ int main(int argc, char** argv) {
       end_badly(what);
     }
     if (own_signals > 0) {
-      // Time for a second one to come, if somebody sends one.
+      // Leaves time for a second signal.
       usleep(1'000'000);
       std::cout << "signals " << own_signals << std::endl;
       return 0;

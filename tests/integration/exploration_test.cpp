@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The programs of the exploration task, on its worlds, against the truth.
+// The programs of the exploration task on its worlds, compared with the true map.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,18 +28,18 @@ using test_support::TemporaryFolder;
 using testing::HasSubstr;
 using testing::Not;
 
-// Of a task's world by its name; a file's name stays.
+// The file of a task's world, by its name; a file name stays unchanged.
 std::string world_file(const std::string& name) {
   if (name.ends_with(".json")) return name;
   return std::string(PLAYPEN_SOURCE_DIR "/worlds/tasks/") + name + ".json";
 }
 
-/// How well a map agrees with the arena.
+/// Agreement between a map and the arena.
 struct Quality {
-  double coverage = 0.0;     ///< share of the free cells that can be reached from the start, in
-                             ///< steps to 4 neighbours, that the map calls free
-  double correctness = 0.0;  ///< share of right cells among those that the map calls free or
-                             ///< occupied; an occupied cell next to a solid one is right
+  /// share of the cells reachable from the start (4 neighbours) that the map calls free
+  double coverage = 0.0;
+  /// share of the known cells that are right; occupied beside solid counts as right
+  double correctness = 0.0;
 };
 
 Quality judge(const sim::OccupancyMap& map, const std::string& world_name) {
@@ -55,7 +55,7 @@ Quality judge(const sim::OccupancyMap& map, const std::string& world_name) {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(truth.width) +
            static_cast<std::size_t>(column);
   };
-  // map_server's thresholds, by which a map is read again.
+  // map_server's thresholds for reading a map.
   const auto is_free = [&](int column, int row) { return map.at(column, row) < 0.2F; };
   const auto is_occupied = [&](int column, int row) { return map.at(column, row) > 0.65F; };
 
@@ -120,7 +120,7 @@ class Exploration : public testing::Test {
   [[nodiscard]] Quality quality(const std::string& world) const {
     return judge(sim::io::read_map(out_ + "/layers/occupancy.yaml"), world);
   }
-  /// Every file of the run by its name, but what tells of wall time.
+  /// Every file of the run by its name, without the values that depend on wall time.
   [[nodiscard]] std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> result;
     for (const auto& entry : fs::recursive_directory_iterator(out_)) {
@@ -137,10 +137,10 @@ class Exploration : public testing::Test {
     ASSERT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("Explored: no frontier is left"));
     EXPECT_EQ(robot().at("collisions").get<int>(), 0);
-    // What the task asks for. Solutions reach 99.8 and 99.7 %, so this is no close call.
+    // The task's threshold. Solutions reach 99.8 and 99.7 %, far above it.
     EXPECT_GE(quality(world).coverage, 0.98);
     EXPECT_GE(quality(world).correctness, 0.97);
-    // The time after which the world ends the run; it should take a fourth of that.
+    // The world's time limit; a run should take a fourth of it.
     EXPECT_LT(report().at("run").at("sim_time").get<double>(), 300.0);
   }
 
@@ -169,7 +169,7 @@ TEST_P(ExplorationOf, IsCompleteAndTwiceTheSameToTheBit) {
   const auto second = files();
   ASSERT_EQ(first.size(), second.size());
   for (const auto& [name, bytes] : first) {
-    // Not EXPECT_EQ: pictures do not print well.
+    // Not EXPECT_EQ, because pictures do not print well.
     EXPECT_TRUE(second.count(name) == 1 && second.at(name) == bytes)
         << name << " differs between two equal runs";
   }
@@ -191,8 +191,8 @@ TEST_F(Exploration, IsCompleteWithOtherSeeds) {
   }
 }
 
-// The robot starts in the mouth of a dead end and looks out of it: the end it sees in passing only,
-// and on its way nothing brings it back there.
+// The robot starts at the open end of a dead end and looks out of it. It sees the closed end only
+// briefly, and nothing on its path brings it back there.
 TEST_F(Exploration, LooksAgainAtWhatItHasOnlyGlancedAt) {
   const std::string file = folder_.write("glance.json", R"({
     "arena": {"preset": "syrotek", "extended": ["d1", "d2", "d3", "d4", "d7"]},
@@ -211,9 +211,10 @@ TEST_F(Exploration, BeginsCloseToWallsWithoutTouchingThem) {
   struct Start {
     double x, y, yaw_deg;
   };
-  // The S1R reaches 0.087 m ahead and back and 0.081 m to the sides, 0.098 m at the most. In the
-  // first two it has 5 mm before or behind it, in the third 10 mm beside it: it cannot turn on the
-  // spot. Then it stands in a corner, 5 and 11 mm from its walls, and in a dock.
+  // The S1R's outline extends 0.087 m ahead and back and 0.081 m to the sides, 0.098 m at most. In
+  // the first two cases there are 5 mm in front of or behind it, in the third 10 mm beside it: it
+  // cannot turn on the spot. In the others it stands in a corner, 5 and 11 mm from the walls, and
+  // in a dock.
   for (const Start& start :
        {Start{0.5, 3.628, 90.0}, Start{0.5, 3.628, -90.0}, Start{1.379, 1.5, 90.0},
         Start{3.328, 0.092, 0.0}, Start{0.15, 0.27, 180.0}}) {
@@ -232,7 +233,7 @@ TEST_F(Exploration, BeginsCloseToWallsWithoutTouchingThem) {
   }
 }
 
-// A cage that leaves the robot 15 mm on each side: no cell is far enough from its walls.
+// A cage that leaves the robot 15 mm on each side: every cell is too close to its walls.
 TEST_F(Exploration, ARobotThatIsShutInHasNotExploredAnything) {
   const std::string file = folder_.write("cage.json", R"({
     "arena": {"size": [3, 3], "obstacles": [
@@ -247,7 +248,7 @@ TEST_F(Exploration, ARobotThatIsShutInHasNotExploredAnything) {
 }
 
 TEST_F(Exploration, ByOdometryNeedsNoLocalisationWhereTheWheelsTellTheTruth) {
-  // Without noise the odometry is exact, so the map is as good; its place comes from the start.
+  // Without noise the odometry is exact, so the map is as good; the start pose gives its position.
   const std::string file = folder_.write("exact.json", R"({
     "arena": {"preset": "syrotek", "extended": ["d2", "d6"]}, "simulation": {"duration": 300},
     "canvas": {"size": [172, 186]}, "robots": [{"pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90}}]
@@ -267,11 +268,12 @@ TEST_F(Exploration, EndsAtItsTimeLimit) {
       run(world_file("par_exploration"), {}, {NEAREST_PROGRAM, "--time-limit", "5"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("the time limit is over"));
-  EXPECT_NEAR(report().at("run").at("sim_time").get<double>(), 5.3, 0.31);  // the first Reads, too
+  // includes the first Reads
+  EXPECT_NEAR(report().at("run").at("sim_time").get<double>(), 5.3, 0.31);
 }
 
 TEST_F(Exploration, EndsWellWithPicturesOfItsWay) {
-  // The program ends before the run does, so the last pictures are written by an exit handler.
+  // The program ends before the run does, so an exit handler writes the last pictures.
   const ProcessResult result = run(world_file("par_exploration"), {"--snapshot-every", "2"},
                                    {NEAREST_PROGRAM, "--time-limit", "5"});
   ASSERT_EQ(result.status, 0) << result.err;

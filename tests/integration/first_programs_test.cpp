@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The first programs of README and guides: robots that see much of their world and touch nothing.
+// The first programs of README and guides: their robots see much of the world and touch nothing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@
 
 namespace {
 
-/// A field of a table, whatever the locale.
+/// Parses a field of a table, independently of the locale.
 double number_of(const std::string& text) {
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -51,8 +51,8 @@ Square square_of(double x_m, double y_m, double side_m) {
   return {static_cast<int>(std::floor(x_m / side_m)), static_cast<int>(std::floor(y_m / side_m))};
 }
 
-/// Squares of the floor that the centre of an S1R (its circle has 0.098 m) can enter from the
-/// start, by at least a quarter of their area.
+/// Squares of the floor of which the centre of an S1R (its circle has a radius of 0.098 m) can
+/// reach at least a quarter from the start.
 std::set<Square> squares_to_visit(const std::string& world_name, double side_m) {
   const sim::WorldDescription world = sim::load_world(file_of(world_name));
   const sim::OccupancyMap truth = sim::true_map(world.arena, world.canvas);
@@ -79,8 +79,8 @@ std::set<Square> squares_to_visit(const std::string& world_name, double side_m) 
 
 class FirstPrograms : public testing::Test {
  protected:
-  /// Two simulated minutes; leaves the squares in which the first robot's centre was, `visited_`,
-  /// and what the report says of it, `robot_`.
+  /// Runs two simulated minutes. Sets `visited_`, the squares that contained the first robot's
+  /// centre, and `robot_`, its part of the report.
   void run(const std::string& program, const std::string& world, int seed, double side_m) {
     ProcessOptions patient;
     patient.timeout = std::chrono::seconds(900);
@@ -134,7 +134,7 @@ TEST_F(FirstPrograms, RoamTheArena) {
 #ifdef C_PROGRAM
   all.emplace_back(C_PROGRAM);
 #endif
-  // The worlds of introduction and planning have no noise, so all seeds are equal there.
+  // The worlds of introduction and planning have no noise, so all seeds give the same result.
   const std::vector<Case> cases = {{"tasks/par_intro", {1}, all},
                                    {"tasks/par_planning", {1}, {README_PROGRAM}},
                                    {"tasks/par_planning_2", {1}, {README_PROGRAM}},
@@ -153,7 +153,8 @@ TEST_F(FirstPrograms, RoamTheArena) {
         if (HasFatalFailure()) return;
         std::size_t visited = 0;
         for (const Square& square : squares) visited += visited_.count(square);
-        // Corridors are two to three squares wide; who drives through all of them once has half.
+        // Corridors are two to three squares wide; a robot that drives through all of them once
+        // visits half.
         EXPECT_GT(static_cast<double>(visited) / static_cast<double>(squares.size()), 0.5);
         expect_touched_nothing();
       }
@@ -166,7 +167,7 @@ TEST_F(FirstPrograms, WanderRoamsWhereOldProgramsLive) {
     SCOPED_TRACE(world);
     run(WANDER_PROGRAM, world, 1, 0.5);
     if (HasFatalFailure()) return;
-    // 120 s at 0.4 m/s are 48 m; a robot that circles in a corner sees ten squares or so.
+    // 120 s at 0.4 m/s are 48 m; a robot that circles in a corner visits about ten squares.
     EXPECT_GT(visited_.size(), 40U);
     expect_touched_nothing();
   }

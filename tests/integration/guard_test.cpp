@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The guard of the exploration task's solutions: the last word on every command.
+// The guard of the exploration task's solutions, which makes the last check of every command.
 #include "guard.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<par::Point> both(std::vector<par::Point> a, const std::vector<par::P
   return a;
 }
 
-// The S1R reaches 0.087 m ahead and 0.081 m to the sides.
+// The S1R's outline extends 0.087 m ahead and 0.081 m to the sides.
 TEST(Guard, ClearanceIsMeasuredFromTheRobotsOutline) {
   EXPECT_NEAR(clearance({{0.187, 0.0}}), 0.1, 1e-12);
   EXPECT_NEAR(clearance({{0.0, -0.131}, {1.0, 1.0}}), 0.05, 1e-12);
@@ -53,7 +53,7 @@ TEST(Guard, DrivesUpToAWallSlowerAndSlowerAndNeverNearerThanItsMargin) {
     const double distance = 1.0 - x;
     const par::Velocity command =
         guard.check({0.5, 0.0}, {wall(distance, -1.0, distance, 1.0), {}});
-    if (command.turn_radps != 0.0) break;  // no nearer: it looks for a way along the wall
+    if (command.turn_radps != 0.0) break;  // at its margin it turns to drive along the wall
     EXPECT_LE(command.forward_mps, before + 1e-9);
     before = command.forward_mps;
     x += 0.1 * command.forward_mps;
@@ -63,7 +63,7 @@ TEST(Guard, DrivesUpToAWallSlowerAndSlowerAndNeverNearerThanItsMargin) {
 }
 
 TEST(Guard, DoesNotTurnOnTheSpotBesideAWallThatTheCornersWouldTouch) {
-  // 5 mm beside it; the corners reach 0.098 m, which is 17 mm more than the side.
+  // The wall is 5 mm beside it; the corners extend to 0.098 m, which is 17 mm more than the side.
   const std::vector<par::Point> beside = wall(-0.5, 0.086, 0.5, 0.086);
   const par::Velocity command = CGuard().check({0.0, 2.0}, {beside, {}});
   EXPECT_NE(command.forward_mps, 0.0) << "the way out is a gentle curve";
@@ -71,7 +71,7 @@ TEST(Guard, DoesNotTurnOnTheSpotBesideAWallThatTheCornersWouldTouch) {
 }
 
 TEST(Guard, BacksOutOfANarrowDeadEndThatItCannotTurnIn) {
-  // 13 mm on both sides and 5 mm ahead.
+  // 13 mm of room on both sides and 5 mm ahead.
   const std::vector<par::Point> end =
       both(wall(0.092, -0.094, 0.092, 0.094),
            both(wall(-0.5, 0.094, 0.092, 0.094), wall(-0.5, -0.094, 0.092, -0.094)));
@@ -80,11 +80,11 @@ TEST(Guard, BacksOutOfANarrowDeadEndThatItCannotTurnIn) {
 }
 
 TEST(Guard, PrefersTheSeenToTheUnseen) {
-  // It wants to turn, and nobody knows what its tail would meet: it first drives ahead.
+  // It wants to turn, but the space behind it is unknown: it first drives ahead.
   const std::vector<par::Point> behind = wall(-0.095, -0.1, -0.095, 0.1);
   const par::Velocity blind = CGuard().check({0.0, 2.0}, {{}, behind});
   EXPECT_GT(blind.forward_mps, 0.0);
-  // With a wall ahead there is no other way than to turn.
+  // With a wall ahead, turning is the only way out.
   const par::Velocity turning = CGuard().check({0.0, 2.0}, {wall(0.145, -0.3, 0.145, 0.3), behind});
   EXPECT_NE(turning.turn_radps, 0.0);
 }

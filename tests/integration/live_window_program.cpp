@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The program of live_window_test: paints the canvas green, but for a red corner, and lets its
-// robot stand still. A name given as argument is that of a file that it makes first.
+// The program of live_window_test: paints the canvas green except for a red corner, while its robot
+// stands still. An argument is the name of a file that it creates first.
 #include <libCCMorse/CCMorse.h>
 
 #include <fstream>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// `playpen run --view` on a display of its own (Xvfb), with keys from xdotool, by what the window
-// shows. Both programs are needed: without them these tests fail.
+// `playpen run --view` on a separate display (Xvfb), with keys from xdotool; the tests check the
+// window's content. Both programs are required: without them these tests fail.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@
 #include "playpen_process.h"
 #include "run_process.h"
 #include "temporary_folder.h"
-// Last: X11's headers define macros of common names.
+// Included last: X11's headers define macros with common names.
 #include "x_window.h"
 
 namespace {
@@ -42,11 +42,11 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr int kBarHeight_px = 74;
-// Longer than ctest lets this program run.
+// Longer than ctest's time limit.
 constexpr std::chrono::hours kServerLimit{24};
 
-/// Two robots without lasers, whose fans would tint the picture, in a room of 2 m x 2 m. The first
-/// is orange, the second blue.
+/// Two robots in a room of 2 m x 2 m, without lasers, whose fans would tint the picture. The first
+/// robot is orange, the second blue.
 std::string two_robots(const std::string& view_mode = "ground", bool locked = false) {
   const json devices = {{"laser", nullptr}};
   const json world = {
@@ -74,8 +74,8 @@ bool is_border(const Screenshot::Pixel& p) { return p == Screenshot::Pixel{0x8c,
 class XServer {
  public:
   XServer()
-      // It does not start anew when, between two tests, the last window has gone: that takes
-      // time, and who connects meanwhile may be thrown out.
+      // -noreset: the server does not restart after the last window of a test has closed. A restart
+      // takes time, and clients that connect meanwhile may be disconnected.
       : server_({"Xvfb", "-displayfd", "1", "-noreset", "-screen", "0", "900x900x24", "-nolisten",
                  "tcp"},
                 {.environment = {}, .folder = {}, .timeout = kServerLimit}) {
@@ -83,7 +83,7 @@ class XServer {
     name_ = ":" + server_.output().substr(0, server_.output().find('\n'));
   }
   ~XServer() {
-    server_.send_signal(SIGTERM);  // unlike SIGKILL, lets it remove its files
+    server_.send_signal(SIGTERM);  // unlike SIGKILL, this lets it remove its files
     static_cast<void>(server_.finish());
   }
   XServer(const XServer&) = delete;
@@ -108,7 +108,7 @@ class LiveWindow : public testing::Test {
   void open(const std::string& world_text = two_robots()) {
     const std::string world = folder.write("window.json", world_text);
     const ProcessOptions options{
-        // Toolkits leak by design: in builds that look for leaks, that is not what is tested.
+        // Toolkits leak on purpose; leak checks of sanitizer builds are off for them.
         .environment = {{"DISPLAY", server->name()}, {"ASAN_OPTIONS", "detect_leaks=0"}},
         .folder = folder.path().string()};
     run = std::make_unique<Process>(
@@ -121,7 +121,7 @@ class LiveWindow : public testing::Test {
     });
     wait_until("the program's picture is shown",
                [&] { return shot().share([](const auto& p) { return is_green(p); }) > 0.005; });
-    // There is no window manager to do that. The toolkit may do it as well, when it gets to it.
+    // There is no window manager to give it the focus. The toolkit may also do it, but later.
     wait_until("the window has the keyboard", [&] {
       if (display.has_focus(window)) return true;
       display.focus(window);
@@ -140,8 +140,8 @@ class LiveWindow : public testing::Test {
     }
   }
 
-  /// Presses a key until the window shows what it does not show for long. On a loaded machine it
-  /// may have come and gone before anybody looks.
+  /// Presses a key until the window shows a message that disappears after a moment. On a loaded
+  /// machine the message may have disappeared before the test looks.
   void press_until(const std::string& key, const std::string& what,
                    const std::function<bool()>& is_so) {
     wait_until(what, [&] {
@@ -150,7 +150,7 @@ class LiveWindow : public testing::Test {
     });
   }
 
-  /// For people who wonder why a test fails. Ends the run.
+  /// Describes the window's content, for a failed test. Ends the run.
   [[nodiscard]] std::string what_is_there() {
     std::ostringstream text;
     if (const auto seen = display.capture(window)) {
@@ -187,7 +187,7 @@ class LiveWindow : public testing::Test {
     xdotool({"key", key});
   }
 
-  /// The window as it is now.
+  /// The window's current content.
   [[nodiscard]] Screenshot shot() const {
     auto captured = display.capture(window);
     if (!captured) throw std::runtime_error("the window has gone");
@@ -197,7 +197,7 @@ class LiveWindow : public testing::Test {
     const Screenshot all = shot();
     return all.rows(0, all.height - kBarHeight_px);
   }
-  /// The line that tells robot, time, speed and mode.
+  /// The line with robot, time, speed and mode.
   [[nodiscard]] Screenshot status_line() const {
     const Screenshot all = shot();
     return all.rows(all.height - kBarHeight_px, all.height - kBarHeight_px + 32);
@@ -207,7 +207,7 @@ class LiveWindow : public testing::Test {
   }
   [[nodiscard]] Screenshot::Pixel robot_dot() const { return status_line().at(20, 18); }
 
-  /// Whether the bar has the colour that says that time stands still.
+  /// Whether the bar has the colour of a paused run.
   [[nodiscard]] bool paused() const {
     return status_line().at(2, 2) == Screenshot::Pixel{0x63, 0x44, 0x20};
   }
@@ -216,7 +216,7 @@ class LiveWindow : public testing::Test {
     wait_until("the run is paused", [&] { return paused(); });
   }
 
-  /// Middle of what has this colour in the picture [pixels]; (-1, -1) if nothing has.
+  /// Centre of the pixels with this colour in the picture; (-1, -1) if there are none.
   [[nodiscard]] std::pair<double, double> middle_of(const Screenshot::Pixel& colour) const {
     const Screenshot all = picture();
     double x_sum = 0.0;
@@ -235,13 +235,13 @@ class LiveWindow : public testing::Test {
   }
   [[nodiscard]] double orange_x() const { return middle_of(kOrange).first; }
 
-  /// Waits for the run's end, which must be a good one with a report.
+  /// Waits for the run's end. The run must succeed and have a report.
   json finished_run() {
     const ProcessResult result = run->finish();
     EXPECT_FALSE(result.timed_out);
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err, Not(HasSubstr("goes on without")));
-    // Its process has gone; the X server may not have noticed yet.
+    // The process has ended, but the X server may not have noticed yet.
     wait_until("the window has gone", [&] { return !display.find("Playpen: window"); });
     return json::parse(read_bytes(folder / "out/report.json"));
   }
@@ -259,14 +259,14 @@ bool LiveWindow::waited_in_vain = false;
 
 TEST_F(LiveWindow, ShowsTheArenaWithItsCanvasAndRobots) {
   open();
-  // Of 900 x 900 on the screen, the picture is square, as the arena is: at most 900 - 90 - 74.
+  // On a screen of 900 x 900, the picture is square like the arena: at most 900 - 90 - 74.
   const Screenshot all = shot();
   EXPECT_LE(all.height, 900 - 90);
   EXPECT_GT(all.width, 600);
-  // The floor takes most of the picture, and the program painted it green but for a 25th.
+  // The floor takes most of the picture; the program has painted all but a 25th of it green.
   EXPECT_GT(green(), 0.6);
   EXPECT_GT(picture().share([](const auto& p) { return is_border(p); }), 0.01);
-  // r1 stands at 0.4 m of 2 m, left of the middle.
+  // r1 stands at 0.4 m of 2 m, left of the centre.
   EXPECT_GT(orange_x(), 0.1 * all.width);
   EXPECT_LT(orange_x(), 0.4 * all.width);
   press("q");
@@ -282,7 +282,7 @@ TEST_F(LiveWindow, SpaceStopsTimeAndSSavesWhatIsShown) {
     return !(status_line() ==
              first.rows(first.height - kBarHeight_px, first.height - kBarHeight_px + 32));
   });
-  // Only the message has come: the picture, in whose corner the time stands, is the same.
+  // Only the message has changed; the picture, with the time in its corner, is unchanged.
   EXPECT_TRUE(picture() == first.rows(0, first.height - kBarHeight_px));
 
   const cv::Mat saved = cv::imread(folder / "out/view_000001.png", cv::IMREAD_COLOR);
@@ -308,14 +308,14 @@ TEST_F(LiveWindow, CtrlAndArrowsChangeTheViewMode) {
   open();
   const double on_the_floor = green();
   press("ctrl+Down");
-  // The canvas is a small picture in a corner, the floor is bare.
+  // The canvas is a small picture in a corner; the floor is empty.
   wait_until("the canvas is a mini-map", [&] { return green() < 0.3; });
   EXPECT_GT(green(), 0.005);
   EXPECT_GT(picture().share([](const auto& p) { return is_border(p); }), 0.01);
   press("ctrl+Down");
   wait_until("the canvas is there instead of the arena", [&] { return green() > 0.5; });
   EXPECT_EQ(picture().share([](const auto& p) { return is_border(p); }), 0.0);
-  EXPECT_GT(orange_x(), 0.0);  // the robots stand on it
+  EXPECT_GT(orange_x(), 0.0);  // the robots stand on the floor
   press("ctrl+Up");
   press("ctrl+Up");
   wait_until("the canvas lies on the floor",
@@ -361,7 +361,7 @@ TEST_F(LiveWindow, TheRobotIsDrivenWhileAKeyIsHeld) {
 TEST_F(LiveWindow, TabChoosesTheRobotAndTheArrowsDriveIt) {
   open();
   EXPECT_EQ(robot_dot(), kOrange);
-  // The middle fifth of the picture, where r1 stands, but not r2 nor the clock in the footer.
+  // The middle fifth of the picture: it contains r1, but neither r2 nor the clock in the footer.
   const auto round_r1 = [this] {
     const Screenshot all = picture();
     return all.rows(all.height * 2 / 5, all.height * 3 / 5);
@@ -371,8 +371,8 @@ TEST_F(LiveWindow, TabChoosesTheRobotAndTheArrowsDriveIt) {
   wait_until("the other robot is chosen", [&] { return robot_dot() == kBlue; });
   EXPECT_FALSE(round_r1() == r1_marked);
 
-  // It looks to the right: to get up in the picture it must turn and drive. Where it is sideways
-  // is not sure: it turns on the spot until the second key comes, and circles until it is seen.
+  // The robot faces right: to move up in the picture it must turn and drive. Its lateral position
+  // varies: it turns on the spot until the second key arrives, and circles until the test sees it.
   const double start_y = middle_of(kBlue).second;
   xdotool({"keydown", "Left", "keydown", "Up"});
   wait_until("the robot drives a bow to its left", [&] {
@@ -441,7 +441,7 @@ TEST_F(LiveWindow, CtrlCEndsARunThatIsPaused) {
 // --- No window
 // ----------------------------------------------------------------------------------
 
-/// A run with --view that cannot be.
+/// A run with --view for which no window can be opened.
 class NoWindow : public testing::Test {
  protected:
   ProcessResult run(const std::vector<std::string>& prefix, const std::string& command,
@@ -477,7 +477,7 @@ TEST_F(NoWindow, UnderWaylandAloneSaysThatXIsNeeded) {
 }
 
 TEST_F(NoWindow, OnADisplayThatDoesNotAnswerIsAnError) {
-  // No server has this number: X's port would be above 65535.
+  // No server can have this number: X's port would be above 65535.
   const ProcessResult result = run({"env", "DISPLAY=:60000"}, PLAYPEN_COMMAND);
   expect_not_started(result);
   EXPECT_THAT(result.err, AllOf(HasSubstr(":60000"), HasSubstr("--record film.mp4")));

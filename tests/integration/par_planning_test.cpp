@@ -45,7 +45,7 @@ class ParPlanning : public testing::Test {
   [[nodiscard]] std::string output(const std::string& name) const {
     return read_bytes(fs::path(out_) / name);
   }
-  /// How far from a place the robot stands at the end [m].
+  /// Distance of the robot from a point at the end [m].
   [[nodiscard]] double distance_m(double x, double y) const {
     const json pose = robot().at("final_pose");
     return std::hypot(pose.at("x").get<double>() - x, pose.at("y").get<double>() - y);
@@ -63,9 +63,10 @@ TEST_F(ParPlanning, BothSolutionsReachTheGoalInBothWorldsWithoutCollisions) {
       EXPECT_THAT(result.err, AllOf(HasSubstr("Reached the goal"), Not(HasSubstr("ERROR"))));
       EXPECT_EQ(robot().at("collisions").get<int>(), 0) << program;
       EXPECT_DOUBLE_EQ(robot().at("stalled_time").get<double>(), 0.0) << program;
-      // The goal is 0.01 m too near to an obstacle, and 0.02 m off it has arrived.
+      // The goal is 0.01 m too near to an obstacle, and the arrival tolerance is 0.02 m.
       EXPECT_LT(distance_m(3.1, 3.3), 0.05) << program;
-      // Obstacles are grown by 0.13 m, the S1R's circle has 0.098 m, cells 0.02 m.
+      // Obstacles are inflated by 0.13 m, the S1R's circle has a radius of 0.098 m, cells are 0.02
+      // m.
       EXPECT_GT(robot().at("least_clearance").get<double>(), 0.01) << program;
       for (const char* layer : {"map", "inflated", "path", "smoothed", "goal"}) {
         EXPECT_THAT(output("layers/" + std::string(layer) + ".png"), HasSubstr("PNG")) << layer;
@@ -77,7 +78,7 @@ TEST_F(ParPlanning, BothSolutionsReachTheGoalInBothWorldsWithoutCollisions) {
 TEST_F(ParPlanning, OtherGoalsAreOptions) {
   const ProcessResult result = run(kWorlds[0], {THETA_PROGRAM, "--goal-x=0.5", "--goal-y=3.4"});
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_LT(distance_m(0.5, 3.4), 0.04);  // the cell's middle, and the tolerance
+  EXPECT_LT(distance_m(0.5, 3.4), 0.04);  // the cell's centre, and the tolerance
   EXPECT_EQ(robot().at("collisions").get<int>(), 0);
 }
 
@@ -91,7 +92,7 @@ TEST_F(ParPlanning, RunsAreRepeatableByteForByte) {
     ASSERT_EQ(run(kWorlds[1], {program}).status, 0);
     EXPECT_EQ(robot(), first);
     for (std::size_t i = 0; i < names.size(); ++i) {
-      // Not EXPECT_EQ: pictures do not print well.
+      // Not EXPECT_EQ, because pictures do not print well.
       EXPECT_TRUE(files[i] == output(names[i])) << names[i] << " differs between two equal runs";
     }
   }
@@ -99,7 +100,7 @@ TEST_F(ParPlanning, RunsAreRepeatableByteForByte) {
 
 TEST_F(ParPlanning, SaysSoIfThereIsNoWay) {
   for (const std::string& program : kSolutions) {
-    // Off the map; and a room of the robot's own.
+    // Goals outside the map and in a closed room.
     const ProcessResult outside = run(kWorlds[0], {program, "--goal-x", "5"});
     EXPECT_EQ(outside.status, 1);
     EXPECT_THAT(outside.err, AllOf(HasSubstr("There is no way"), HasSubstr("(5, 3.3) m")));

@@ -207,7 +207,7 @@ TEST(PlaypenRender, DrawsTheCanvasAloneAndTheTrueMapAndMapsOfFiles) {
   render(world, "map.png", {"--map"});
   render(world, "map.yaml", {"--map"});
   render(folder / "map.yaml", "read.png", {});
-  // 172 x 186 cells in 1000 px: 5 pixels a cell.
+  // 172 x 186 cells in 1000 px: 5 pixels per cell.
   const std::string canvas = read_bytes(folder / "canvas.png");
   EXPECT_EQ(static_cast<unsigned char>(canvas[18]) * 256 + static_cast<unsigned char>(canvas[19]),
             172 * 5);

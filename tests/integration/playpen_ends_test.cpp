@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What is left of a run, however it ends, and that nothing of it goes on.
+// What a run leaves for each way of ending it, and that no process of it continues.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST_F(PlaypenEnds, OneSignalHoweverOftenItComesEndsTheRunCleanly) {
       SCOPED_TRACE(std::string(time) + ", signal " + std::to_string(signal));
       Process process(command({"--quiet", "--time", time}, {"drive"}));
       ASSERT_TRUE(process.read_until("ready"));
-      // As timeout does: to the command, and to its group.
+      // As timeout does: sends the signal to the command, and to its group.
       process.send_signal(signal);
       process.send_signal_to_group(signal);
       const ProcessResult end = process.finish();
@@ -101,7 +101,7 @@ TEST_F(PlaypenEnds, AProgramsOwnHandlerGetsTheSignalOnce) {
 
 TEST_F(PlaypenEnds, SignalsThatAreIgnoredFromTheStartStayIgnored) {
   ProcessOptions options;
-  options.ignored_signals = {SIGHUP};  // as nohup has it
+  options.ignored_signals = {SIGHUP};  // as under nohup
   Process process(command({"--time", "20"}, {"drive"}), options);
   ASSERT_TRUE(process.read_until("ready"));
   process.send_signal_to_group(SIGHUP);
@@ -112,7 +112,7 @@ TEST_F(PlaypenEnds, SignalsThatAreIgnoredFromTheStartStayIgnored) {
 
 TEST_F(PlaypenEnds, NothingThatTheProgramHasStartedOutlivesTheRun) {
   Process process(command({}, {"child"}));
-  // Ends when the last process has gone that holds the output.
+  // Returns when the last process that holds the output has ended.
   const ProcessResult end = process.finish();
   EXPECT_FALSE(end.timed_out);
   EXPECT_EQ(end.status, 0) << end.err;
@@ -157,7 +157,7 @@ TEST_F(PlaypenEnds, AProgramThatNeverLooksIsEndedAllTheSame) {
 }
 
 TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
-  // What a run leaves that ends in good order at the same moment.
+  // The results of a run that ends normally at the same moment.
   const std::string crashed = out_;
   out_ = folder_ / "whole";
   ASSERT_EQ(test_support::run_process(command({"--duration", "5.1"}, {"drive", "99"})).status, 0);
@@ -217,7 +217,7 @@ TEST_F(PlaypenEnds, AProgramThatStopsItselfIsToldOfAndEndsWhenAskedTo) {
 
 TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
   ProcessOptions options;
-  options.file_limit = 4096;  // enough for the report, and for no picture
+  options.file_limit = 4096;  // enough for the report, but not for a picture
   const ProcessResult end =
       test_support::run_process(command({"--duration", "1"}, {"drive"}), options);
   EXPECT_EQ(end.status, 1);
@@ -227,8 +227,8 @@ TEST_F(PlaypenEnds, AFileThatReachesItsLimitKeepsTheReport) {
   EXPECT_FALSE(fs::exists(result("scene.part.png")));
 }
 
-// --- The table of ends: what is left of a run, by how it is ended and when. PLAYPEN_ENDS_TRIES=20
-// tries each end in each phase so often, and prints the table's rows; else each end is tried once.
+// --- The table of ends: what a run leaves, by how and when it ends. PLAYPEN_ENDS_TRIES=20 tries
+// each end in each phase 20 times and prints the table's rows; by default each end is tried once.
 
 enum class Whom { kCommand, kProgram, kGroup, kDisk, kTerminal };
 enum class Phase { kStart, kRun, kPictures, kFilm };
@@ -259,7 +259,7 @@ constexpr WayToEnd kWaysToEnd[] = {
     {"closed terminal", 0, Whom::kTerminal},
 };
 
-/// A program on a terminal of its own, as its session's leader.
+/// A program on its own terminal, as leader of its session.
 class OnTerminal {
  public:
   explicit OnTerminal(std::vector<std::string> command) {
@@ -300,7 +300,7 @@ class OnTerminal {
   void hang_up() {
     if (terminal_ >= 0) close(std::exchange(terminal_, -1));
   }
-  /// Waits until no process of it is left. @return whether that came.
+  /// Waits until all its processes have ended. @return whether they have.
   [[nodiscard]] bool wait_until_all_are_gone() const {
     pollfd gone{held_, POLLIN, 0};
     const auto limit = std::chrono::milliseconds(test_support::patience()).count();
@@ -330,14 +330,14 @@ TEST_F(PlaypenEnds, AClosedTerminalEndsTheRun) {
 class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<WayToEnd> {
  protected:
   PlaypenEndsTable() {
-    // Pictures of it take a while.
+    // Drawing this world takes a while.
     json world = json::parse(room_world());
     world["canvas"]["size"] = {1600, 1600};
     large_world_ = folder_.write("large.json", world.dump());
     room_world_ = world_;
   }
 
-  /// Ends a run in a phase, and sees what is left.
+  /// Ends a run in a phase, and checks its results.
   /// @return whether nothing is lost.
   bool attempt(const WayToEnd& way, Phase phase) {
     fs::remove_all(out_);
@@ -361,7 +361,7 @@ class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<
       gone = process.wait_until_all_are_gone();
     } else {
       ProcessOptions process_options;
-      // Enough for the report, and for no picture.
+      // Enough for the report, but not for a picture.
       if (way.whom == Whom::kDisk) process_options.file_limit = 8192;
       Process process(call, process_options);
       if (!process.read_until("\n")) return false;
@@ -389,8 +389,8 @@ class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<
     const json ended = has("report.json") ? report().at("ended") : json();
     const bool pictures = has("scene.png") && has("canvas.png");
     bool whole = gone && has("trajectory.csv") && pictures == (way.whom != Whom::kDisk);
-    // The limit holds for the memory shared with the program, too: if that must be killed before
-    // its first step, there is no report.
+    // The limit also applies to the memory shared with the program: if the program must be killed
+    // before its first step, there is no report.
     const bool owes_no_report = way.whom == Whom::kDisk && phase == Phase::kStart;
     whole = whole && (owes_no_report || !ended.is_null());
     if (!whole) tell_what_is_left(gone, ended);
@@ -410,7 +410,7 @@ class PlaypenEndsTable : public PlaypenEnds, public testing::WithParamInterface<
     std::cout << std::endl;
   }
 
-  /// Waits until a run that ends by itself has come to a phase.
+  /// Waits until a run that ends by itself has reached a phase.
   void wait_for(Phase phase) const {
     const auto deadline = std::chrono::steady_clock::now() + test_support::patience();
     const char* const before = phase == Phase::kPictures ? "report.json" : "canvas.png";
@@ -432,7 +432,7 @@ TEST_P(PlaypenEndsTable, LeavesReportTrajectoryAndPictures) {
   const int tries = wanted == nullptr ? 0 : std::atoi(wanted);
   constexpr Phase kPhases[] = {Phase::kStart, Phase::kRun, Phase::kPictures, Phase::kFilm};
   if (tries <= 0) {
-    // Another phase for each, so that all have their turn.
+    // A different phase for each end, so that all phases are tested.
     const std::string name = way.name;
     const Phase phase = kPhases[(name.size() + static_cast<std::size_t>(way.signal)) % 4];
     EXPECT_TRUE(attempt(way, phase)) << "phase " << static_cast<int>(phase);

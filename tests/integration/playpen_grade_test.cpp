@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// `playpen grade` as a user runs it, with programs that behave and programs that do not.
+// `playpen grade` as a user runs it, with programs that behave and programs that misbehave.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ using testing::StartsWith;
 
 constexpr const char* kIntroTask = PLAYPEN_SOURCE_DIR "/worlds/tasks/par_intro.task.json";
 
-/// Gradings in a folder of their own, by default of a task on a room with two seeds.
+/// Gradings in a separate folder, by default of a task on a room with two seeds.
 class PlaypenGrade : public testing::Test {
  protected:
   [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& options,
@@ -51,7 +51,7 @@ class PlaypenGrade : public testing::Test {
                                     const std::vector<std::string>& program) const {
     std::vector<std::string> patient = options;
     if (std::find(options.begin(), options.end(), "--timeout") == options.end()) {
-      // The task's own limit is for an idle machine.
+      // The task's own time limit is for an idle machine.
       patient.insert(patient.end(), {"--timeout", "3000"});
     }
     return playpen(arguments(patient, program));
@@ -138,7 +138,7 @@ TEST_F(PlaypenGrade, AProgramThatHangsIsEnded) {
   EXPECT_EQ(result().at("runs").at(0).at("end"), json({{"kind", "timeout"}}));
 }
 
-/// Takes wall times out, wherever they stand.
+/// Removes all wall times.
 void drop_wall_times(json& value) {
   if (value.is_object()) value.erase("wall_time");
   for (json& part : value) {
@@ -147,7 +147,7 @@ void drop_wall_times(json& value) {
 }
 
 TEST_F(PlaypenGrade, SideBySideGivesTheSameAsOneAfterTheOther) {
-  folder_.write("room.json", room_world(0.01));  // so that seeds matter
+  folder_.write("room.json", room_world(0.01));  // with noise, so that seeds matter
   std::vector<json> results;
   for (const char* jobs : {"1", "4"}) {
     ASSERT_EQ(grade({"--seeds", "4", "--jobs", jobs}, {WALL_PROGRAM}).status, 0);
@@ -201,7 +201,7 @@ TEST_F(PlaypenGrade, AReportThatTheProgramWritesItselfIsRefused) {
   EXPECT_EQ(grade({}, {"sh", "-c", script}).status, 1);
   EXPECT_THAT(result().at("runs").at(0).at("faults"),
               ElementsAre(HasSubstr("not signed by the simulation of this run")));
-  // Nor does that of an earlier run count.
+  // A report of an earlier run does not count either.
   folder_.write("try.task.json", R"({"worlds": ["room.json"], "seeds": 1, "duration": 1})");
   ASSERT_EQ(grade({}, {TEMPLATE_PROGRAM}).status, 0);
   const std::string old = folder_.write("old.json", read_bytes(out_ + "/room_seed1/report.json"));
@@ -284,7 +284,7 @@ TEST_F(PlaypenGrade, TheJsonFileIsWholeAfterEachRun) {
 }
 
 TEST_F(PlaypenGrade, AProgramCannotReachResultsThatAreJudged) {
-  // It writes where its results will be, and into those of the first run.
+  // The program writes to the place of its results, and into those of the first run.
   const ProcessResult run = grade({"--seeds", "2", "--jobs", "1"},
                                   {"sh", "-c",
                                    "for d in room_seed1 room_seed2; do echo '{}' > " + out_ +
@@ -305,7 +305,7 @@ TEST_F(PlaypenGrade, InterruptedItEndsAllProgramsAndWritesWhatThereIs) {
                 {"sh", "-c", "exec 3> " + fifo + "; echo up >&3; sleep 1000"});
   command.insert(command.begin(), PLAYPEN_COMMAND);
   Process process(command);
-  std::ifstream from_program(fifo);  // opens when the program does
+  std::ifstream from_program(fifo);  // blocks until the program opens it
   std::string word;
   from_program >> word;
   EXPECT_EQ(word, "up");
@@ -313,7 +313,7 @@ TEST_F(PlaypenGrade, InterruptedItEndsAllProgramsAndWritesWhatThereIs) {
   const ProcessResult run = process.finish();
   EXPECT_FALSE(run.timed_out);
   EXPECT_EQ(run.status, 1);
-  // Its end comes when neither the shell nor its child holds the other end any more.
+  // The end of file arrives when neither the shell nor its child holds the other end.
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(from_program), {}), "\n");
   const json runs = result().at("runs");
   EXPECT_EQ(runs.at(0).at("end"), json({{"kind", "interrupted"}}));

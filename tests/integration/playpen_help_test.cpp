@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What the playpen command tells of itself: help, hints, manual page, completion of shells.
+// The playpen command's documentation of itself: help, hints, manual page, shell completion.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// `doctor` takes a variable that is not listed for a misspelt one.
+// `doctor` reports a variable that is not listed as misspelt.
 TEST(PlaypenHelp, TheManualPageListsTheVariablesOfStartHere) {
   const std::string page = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/start_here.md");
   const std::string manual = playpen({"help", "--man"}).out;
@@ -83,7 +83,7 @@ TEST(PlaypenHelp, UnknownWordsGetTheNearestOne) {
       {{"--vrsion"}, "option '--vrsion'", "'--version'"},
       {{"run", "cave", "--durtion", "5", "--", "/bin/true"}, "option '--durtion'", "'--duration'"},
       {{"run", "--durtion=5", "cave", "--", "/bin/true"}, "option '--durtion'", "'--duration'"},
-      // It is why --out is missing, too.
+      // The misspelling is also the reason why --out is missing.
       {{"render", "cave", "--oout", "a.png"}, "option '--oout'", "'--out'"},
       {{"serve", "cave", "--prot", "4000"}, "option '--prot'", "'--port'"},
       {{"new", "introo", "x"}, "template 'introo'", "'intro'"},
@@ -119,10 +119,10 @@ TEST(PlaypenManPage, TellsOfEachCommandAndOption) {
       EXPECT_THAT(man.out, HasSubstr(roff)) << command;
     }
   }
-  EXPECT_THAT(man.out, Not(HasSubstr("probe")));  // hidden
+  EXPECT_THAT(man.out, Not(HasSubstr("probe")));  // a hidden option
 }
 
-/// What bash offers for the last of these words.
+/// bash's completions of the last of these words.
 std::vector<std::string> completed(const std::vector<std::string>& words) {
   const TemporaryFolder folder;
   folder.write("world.json", "{}");
@@ -188,7 +188,7 @@ TEST(PlaypenCompletion, OfZshAndFishNameEachCommandAndOption) {
   EXPECT_THAT(other.err, HasSubstr("bash, zsh or fish"));
 }
 
-/// A terminal that is nobody's.
+/// A pseudo-terminal that controls no process.
 class PseudoTerminal {
  public:
   explicit PseudoTerminal(unsigned short columns) : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
@@ -229,7 +229,7 @@ TEST(Terminal, ShowsColourUnlessTheUserOrTheTerminalObjects) {
   EXPECT_TRUE(playpen::shows_colour(terminal.descriptor()));
   setenv("NO_COLOR", "1", 1);
   EXPECT_FALSE(playpen::shows_colour(terminal.descriptor()));
-  setenv("NO_COLOR", "", 1);  // as if it were not set
+  setenv("NO_COLOR", "", 1);  // an empty value counts as not set
   EXPECT_TRUE(playpen::shows_colour(terminal.descriptor()));
   setenv("TERM", "dumb", 1);
   EXPECT_FALSE(playpen::shows_colour(terminal.descriptor()));
@@ -237,7 +237,7 @@ TEST(Terminal, ShowsColourUnlessTheUserOrTheTerminalObjects) {
 }
 
 TEST(Wrapped, BreaksAtBlanksAndIndentsWhatFollows) {
-  // 26 columns less an indent of 3: 23 characters a line.
+  // 26 columns minus an indent of 3: 23 characters per line.
   EXPECT_EQ(playpen::wrapped("one two three four five six", 26, 3),
             "one two three four five\n   six");
   EXPECT_EQ(playpen::wrapped("", 80, 3), "");

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// How the playpen command finds worlds, tasks and models by their names, and lists and checks them.
+// How the playpen command resolves names of worlds, tasks and models, lists them and checks them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// A folder with nothing in it, so that names cannot mean files.
+/// An empty folder, so that names cannot refer to files.
 ProcessOptions in(const TemporaryFolder& folder) {
   ProcessOptions options;
   options.folder = folder / ".";
@@ -50,11 +50,11 @@ TEST(PlaypenNames, AllCommandsFindAWorldByEachOfItsNames) {
     EXPECT_EQ(render.status, 0) << name << ": " << render.err;
     const ProcessResult check = playpen({"check", name}, in(folder));
     EXPECT_EQ(check.status, 0) << name << ": " << check.err;
-    // /bin/true connects to no simulation, which is said after the world was found and read.
+    // /bin/true connects to no simulation. This error comes after the world was found and read.
     const ProcessResult run = playpen({"run", name, "--out", folder / "out", "--", "/bin/true"});
     EXPECT_EQ(run.status, 1) << name;
     EXPECT_THAT(run.err, HasSubstr("never connected")) << name;
-    // An address that no machine has: the world was read before that is seen.
+    // An address that no machine has. This error comes after the world was read.
     const ProcessResult serve = playpen({"serve", name, "--bind", "256.0.0.1"}, in(folder));
     EXPECT_EQ(serve.status, 2) << name;
     EXPECT_THAT(serve.err, HasSubstr("256.0.0.1")) << name;
@@ -77,14 +77,14 @@ TEST(PlaypenNames, WhatGradeFindsRunFindsAndTheOtherWayRound) {
 
 TEST(PlaypenNames, FilesOfTheFolderComeFirstAndNeedNoEnding) {
   const TemporaryFolder folder;
-  folder.write("cave.json", room_world());  // its own cave, 2 m wide
+  folder.write("cave.json", room_world());  // a cave of its own, 2 m wide
   folder.write("mine.json", room_world());
   for (const char* name : {"cave", "cave.json", "mine", "./mine"}) {
     const ProcessResult result = playpen({"check", name}, in(folder));
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("2.00 m x 2.00 m")) << name;
   }
-  // A folder of that name is in nobody's way.
+  // A folder of that name does not hide the shipped world.
   fs::create_directory(folder / "office");
   EXPECT_EQ(
       playpen({"render", "office", "--out", folder / "a.png", "--size", "64"}, in(folder)).status,
@@ -118,10 +118,10 @@ TEST(PlaypenNames, AnUnknownNameGetsTheNearestOnes) {
                       HasSubstr("playpen list"), HasSubstr("[file/missing]")))
         << c.call[1];
   }
-  // Several are near: all are named.
+  // Several names are similar: the hint lists all of them.
   EXPECT_THAT(playpen({"check", "par_planing_3"}, in(folder)).err,
               AllOf(HasSubstr("par_planning_2"), HasSubstr(" or ")));
-  // None is near: nothing is made up.
+  // No name is similar: there is no hint.
   EXPECT_THAT(playpen({"check", "xyzzyxyzzy"}, in(folder)).err, Not(HasSubstr("did you mean")));
 }
 

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// `playpen new` and `playpen doctor`, of the build folder. Projects are built as its output says.
+// `playpen new` and `playpen doctor` of the build folder. The test builds projects by the commands
+// that `playpen new` prints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +29,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-/// In a folder, with the patience that a compiler needs on a busy machine.
+/// Options for a folder, with enough time for a compiler on a busy machine.
 ProcessOptions in(const std::string& folder) {
   ProcessOptions options;
   options.folder = folder;
@@ -37,7 +38,7 @@ ProcessOptions in(const std::string& folder) {
   return options;
 }
 
-/// The commands among what `playpen new` prints: its indented lines.
+/// The commands in the output of `playpen new`: its indented lines.
 std::vector<std::string> commands_of(const std::string& text) {
   std::vector<std::string> commands;
   std::istringstream stream(text);
@@ -47,7 +48,7 @@ std::vector<std::string> commands_of(const std::string& text) {
   return commands;
 }
 
-/// Makes a project in "my robot" of a folder and carries out what it prints, but for grading.
+/// Makes a project in "my robot" of a folder and executes the printed commands, except for grading.
 void build_and_run(const std::string& kind, const std::string& result) {
   const TemporaryFolder folder;
   const ProcessOptions options = in(folder / ".");
@@ -68,7 +69,7 @@ TEST(PlaypenNew, TheIntroTemplateBuildsAndRuns) {
 }
 
 TEST(PlaypenNew, ThePlanningTemplateBuildsAndRuns) {
-  // It has planned nothing, and says so by its status: what counts is that it was built.
+  // The template plans nothing and therefore fails; the test only checks that it was built.
   const TemporaryFolder folder;
   const ProcessOptions options = in(folder / ".");
   ASSERT_EQ(playpen({"new", "planning", "p"}, options).status, 0);
@@ -92,7 +93,7 @@ TEST(PlaypenNew, PrintsTheNextCommandsForTheTask) {
                               HasSubstr("run par_planning -- p/build/par_planning_template"),
                               HasSubstr("grade par_planning -- p/build/par_planning_template"),
                               HasSubstr("p/README.md")));
-  // Nothing that was built in the source tree comes along.
+  // Build results in the source tree are not copied.
   EXPECT_FALSE(fs::exists(folder / "p/build"));
 }
 
@@ -141,13 +142,13 @@ TEST(PlaypenDoctor, FindsThatRunsWorkAndProgramsCanBeBuilt) {
   EXPECT_TRUE(fs::is_empty(folder / ".")) << "it leaves something behind";
   std::istringstream lines(result.out);
   for (std::string line; std::getline(lines, line);) {
-    // A line may be longer only if it is a path that nobody can break.
+    // Only an unbreakable path may make a line longer.
     const bool is_one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos;
     EXPECT_TRUE(line.size() <= 80 || is_one_word) << line;
   }
 }
 
-/// What doctor prints with these variables, without a compiler, which costs time.
+/// doctor's output with these variables. There is no compiler, because building takes time.
 ProcessResult doctor_with(const std::map<std::string, std::string>& environment) {
   ProcessOptions options;
   options.environment = environment;

@@ -7,7 +7,7 @@
 
 #include "run_process.h"
 
-/// What the tests of the playpen command share.
+/// Helpers for the tests of the playpen command.
 namespace test_support {
 
 /// An empty room with one robot; laser and pose are exact unless `noise_m` says otherwise.
@@ -23,7 +23,7 @@ namespace test_support {
   return world.dump();
 }
 
-/// Runs playpen with these arguments, in a folder.
+/// Runs playpen with these arguments in a folder.
 [[nodiscard]] inline ProcessResult playpen(std::vector<std::string> arguments,
                                            const ProcessOptions& options = {}) {
   arguments.insert(arguments.begin(), PLAYPEN_COMMAND);

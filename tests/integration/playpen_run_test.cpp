@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client programs under `playpen run`, the course's among them.
+// Client programs under `playpen run`, including those of the course.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::vector<std::string> keys(const json& object) {
   return result;
 }
 
-/// Runs in a folder of their own, on the room unless they say otherwise.
+/// Each run has its own folder, and uses the room unless it names another world.
 class PlaypenRun : public testing::Test {
  protected:
   /// `playpen run WORLD OPTIONS --out out -- PROGRAM`.
@@ -70,7 +70,7 @@ class PlaypenRun : public testing::Test {
   std::string out_ = folder_ / "out";
 };
 
-// The command reads the world to check it, the program once more.
+// The command reads the world to check it, and the program reads it once more.
 TEST_F(PlaypenRun, TakesAWorldFromAPipe) {
   const std::string line = std::string(PLAYPEN_COMMAND) + " run <(cat " + kIntroWorld +
                            ") --duration 1 --out " + out_ + " -- " + WALL_PROGRAM;
@@ -98,7 +98,7 @@ TEST_F(PlaypenRun, LeavesReportPicturesAndTrajectory) {
 
   EXPECT_THAT(output("scene.png"), HasSubstr("PNG"));
   EXPECT_THAT(output("canvas.png"), HasSubstr("PNG"));
-  // A line of headings and at least one a second.
+  // A line of headings and at least one line per second.
   const std::string trajectory = output("trajectory.csv");
   EXPECT_GT(std::count(trajectory.begin(), trajectory.end(), '\n'), 20);
 
@@ -122,7 +122,7 @@ TEST_F(PlaypenRun, TwiceGivesTheSameToTheBitButForWallTime) {
   }
   EXPECT_EQ(first, second);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    // Not EXPECT_EQ: pictures do not print well.
+    // Not EXPECT_EQ, because pictures do not print well.
     EXPECT_TRUE(files[i] == output(names[i])) << names[i] << " differs between two equal runs";
   }
 }
@@ -221,7 +221,8 @@ TEST_F(PlaypenRun, AProgramThatNeverConnectsIsAFailureAndOldResultsDoNotHideIt) 
 }
 
 TEST_F(PlaypenRun, PicturesThatCannotBeWrittenAreAFailureThatSaysSo) {
-  // A folder where a picture is to be written; made by the program's shell, as earlier results go.
+  // A folder at the place of a picture. The program's shell creates it, because earlier results are
+  // removed before the run.
   const ProcessResult result =
       run({"--duration", "1"}, {"sh", "-c", "mkdir \"$1\" && exec \"$0\"", TEMPLATE_PROGRAM,
                                 (fs::path(out_) / "scene.png").string()});
@@ -249,7 +250,7 @@ TEST_F(PlaypenRun, PassesSignalsOnToTheProgram) {
 TEST_F(PlaypenRun, TellsTheProgramOfItsRunByTheEnvironment) {
   ProcessOptions options;
   options.folder = folder_.path();
-  // What the shell holds is of other runs.
+  // The shell's variables are of other runs.
   options.environment = {
       {"PLAYPEN_TIME", "7"}, {"PLAYPEN_SEED", "99"}, {"PLAYPEN_RECORD", "x.mp4"}};
   const ProcessResult result = playpen({"run", "room.json", "--duration", "1e1", "--seed",
@@ -314,9 +315,9 @@ TEST_F(PlaypenRun, FilmsHaveTheFramesTheSizeAndTheRateAskedFor) {
         {"ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-show_entries",
          "stream=width,height,r_frame_rate,nb_read_frames", "-of", "csv=p=0", film});
     ASSERT_EQ(probe.status, 0) << probe.err;
-    // 2 s * 20 / 0.5 + 1 frames. The arena is a square: with 30 px of margin on the left and the
-    // right, 30 above and 59 below, a picture of 800 px has one of 711 px, and is 771 px wide,
-    // in films 770.
+    // 2 s * 20 / 0.5 + 1 frames. The arena is a square. With margins of 30 px on the left, on the
+    // right and above, and 59 below, a picture of 800 px height has a square of 711 px. It is 771
+    // px wide, and 770 in films.
     EXPECT_EQ(probe.out, "770,800,20/1,81\n") << name;
   }
 }
@@ -336,7 +337,7 @@ TEST_F(PlaypenRun, FilmsIntoAFolderAndTakesPicturesOnTheWay) {
   EXPECT_EQ(count(folder_ / "out/snapshots"), 5);  // at 0, 0.5, 1, 1.5 and 2 s
   EXPECT_TRUE(fs::exists(folder_ / "out/layers/canvas.png"));
   EXPECT_FALSE(fs::exists(folder_ / "out/layers/old.png"));
-  // scene.png is drawn in the mode, too, and of the same moment.
+  // scene.png is drawn in the same mode and at the same moment.
   EXPECT_TRUE(output("scene.png") == output("snapshots/scene_000002.000s.png"));
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// `playpen serve` as a user runs it; what it answers to clients is tested with the library.
+// `playpen serve` as a user runs it; the library's tests cover its answers to clients.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -121,11 +121,11 @@ TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
       "1 playpen hello [{\"version\": 1}]\n{\"id\": 2, \"do\": \"read\", \"wait\": \"sleep\", "
       "\"timeout\": 10}\n{\"id\": 3, \"do\": \"time\"}\n");
   EXPECT_THAT(client.line(), testing::StartsWith("1 SUCCESS"));
-  // Of the two answers to come, that of the sleep is the one that tells of the end.
+  // Two answers follow; that of the sleep reports the end.
   std::string answer = client.line();
   if (answer.find("\"id\":3") != std::string::npos) answer = client.line();
   EXPECT_THAT(answer, AllOf(HasSubstr("\"id\":2"), HasSubstr("\"finished\":true")));
-  // The round that the end cut short, and then the news that there is no other.
+  // The round that the end interrupted, and then the message that there is no other.
   client.send("{\"id\": 4, \"do\": \"read\", \"wait\": \"data\"}\n");
   client.send("{\"id\": 5, \"do\": \"read\", \"wait\": \"data\"}\n");
   do {
@@ -140,7 +140,7 @@ TEST_F(PlaypenServe, TellsClientsOfTheEndAndEndsWhenTheyHaveLeft) {
   const auto files = [](const fs::path& folder) {
     return std::distance(fs::directory_iterator(folder), {});
   };
-  EXPECT_EQ(files(folder_ / "film"), 13);  // 0.5 s at 25 a second, and the first one
+  EXPECT_EQ(files(folder_ / "film"), 13);  // 0.5 s at 25 frames per second, and the first frame
   EXPECT_EQ(files(result("snapshots")), 3);
 }
 

@@ -26,7 +26,7 @@ except ImportError as error:
 
 PLAYPEN, REPOSITORY = sys.argv[1:3]
 WORLD = os.path.join(REPOSITORY, "worlds/examples/remote.json")
-# Whatever takes longer hangs; nothing is measured.
+# Anything that takes longer hangs; the test measures nothing.
 TIMEOUT = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
 
 
@@ -49,7 +49,7 @@ class Server:
                 break
         if self.port is None:
             raise RuntimeError("playpen serve did not start:\n" + self.log)
-        # Or the server would wait for room in the pipe.
+        # Without this thread the server would wait for room in the pipe.
         self.reader = threading.Thread(target=self._read)
         self.reader.start()
 
@@ -87,7 +87,8 @@ def wait_for(condition, simu):
 
 
 def close(simu):
-    # Waiting for publishers fails in pymorse 1.4 itself: dir() of a component calls its lazy_init().
+    # Waiting for publishers fails in pymorse 1.4 itself: dir() of a component calls its
+    # lazy_init().
     simu.close(cancel_async_services=True, wait_publishers=False)
 
 
@@ -192,7 +193,7 @@ class Paced(unittest.TestCase):
     def test_sleep_passes_simulated_time(self):
         before = self.simu.time()
         self.simu.sleep(2.0)
-        # Both are whole steps, but as floating point numbers their difference is not.
+        # Both are whole steps, but their floating-point difference is not.
         self.assertGreaterEqual(self.simu.time() - before, 2.0 - 1e-9)
 
     def test_pen_draws_and_reads_back(self):
@@ -211,7 +212,7 @@ class Paced(unittest.TestCase):
 
     def test_reset_restores_everything(self):
         simu = self.simu
-        simu.sleep(0.2)  # there is a reading
+        simu.sleep(0.2)  # until there is a reading
         simu.r1.motion.set_speed(0.3, 0.0).result(TIMEOUT)
         simu.r1.pen.set_pixel(3, 4, 10, 20, 30).result(TIMEOUT)
         self.assertTrue(wait_for(

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client programs, as they are, against `playpen serve`: the same results as under `playpen run`.
+// Unchanged client programs with `playpen serve`: the results equal those of `playpen run`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ std::string task_world(const std::string& name) {
   return std::string(PLAYPEN_SOURCE_DIR "/worlds/tasks/") + name + ".json";
 }
 
-/// Every file of a run by its name; of the report, all but what tells of wall time and of how it
-/// ended: a server outlives its clients.
+/// Every file of a run by its name. The report is without wall times and without the reason of its
+/// end, because a server outlives its clients.
 Files files_of(const std::string& folder) {
   Files result;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -55,7 +55,7 @@ Files files_of(const std::string& folder) {
 void expect_equal(const Files& remote, const Files& expected) {
   EXPECT_EQ(remote.at("report.json"), expected.at("report.json"));
   for (const auto& [name, bytes] : expected) {
-    // Not EXPECT_EQ: pictures do not print well.
+    // Not EXPECT_EQ, because pictures do not print well.
     EXPECT_TRUE(remote.count(name) == 1 && remote.at(name) == bytes) << name << " differs";
   }
   EXPECT_EQ(remote.size(), expected.size());
@@ -63,7 +63,7 @@ void expect_equal(const Files& remote, const Files& expected) {
 
 class RemotePrograms : public testing::Test {
  protected:
-  /// `playpen run WORLD OPTIONS -- PROGRAM`, with time as programs across a network have it.
+  /// `playpen run WORLD OPTIONS -- PROGRAM`, in the time mode of programs on a network.
   [[nodiscard]] ProcessResult run(const std::string& world, Words options, const Words& program) {
     const std::string out = folder_ / "run";
     options.insert(options.begin(), {"run", world});
@@ -74,8 +74,8 @@ class RemotePrograms : public testing::Test {
     return result;
   }
 
-  /// `playpen serve WORLD OPTIONS` and these programs, which it outlives.
-  /// @return how each program ended, and what it printed.
+  /// Runs `playpen serve WORLD OPTIONS` and these programs; the server outlives them.
+  /// @return how each program ended, and its output.
   [[nodiscard]] std::vector<ProcessResult> serve(const std::string& world, Words options,
                                                  const std::vector<Words>& programs,
                                                  const std::string& encoding = "cbor") {
@@ -97,7 +97,7 @@ class RemotePrograms : public testing::Test {
     }
     std::vector<ProcessResult> results;
     for (const auto& program : running) results.push_back(program->finish());
-    // With the run, which has an end then, the server ends by itself.
+    // If the run has a limit, the server ends by itself after it.
     const bool ends = std::find(options.begin(), options.end(), "--duration") != options.end();
     if (!ends) server.send_signal(SIGTERM);
     const ProcessResult end = server.finish();
@@ -152,7 +152,7 @@ TEST_F(RemotePrograms, AsTheyAreInTheWildDoTheSame) {
 }
 
 TEST_F(RemotePrograms, TwoProcessesWithARobotEachDoTheSameEveryTime) {
-  // A wall between the two, so that neither sees, nor draws over, the other.
+  // A wall between the robots, so that neither sees the other or draws over its drawing.
   const std::string world = folder_.write("two.json", R"({
     "arena": {"size": [3.42, 3.72],
               "obstacles": [{"center": [1.71, 1.86], "size": [0.2, 3.72], "type": "static"}]},

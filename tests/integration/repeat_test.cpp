@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The same program gives the same result, each time, however busy the machine is: every program
-// with threads many times over, beside four busy processes a core.
-// PLAYPEN_REPEATS in the environment says how often; .ci/run nightly does.
+// The same program gives the same result every time, however busy the machine is. The test runs
+// every program with threads many times, in parallel with four busy processes per core.
+// PLAYPEN_REPEATS in the environment sets the number of repetitions; .ci/run nightly does so.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ using testing::HasSubstr;
 
 const char* const kPreloaded = PRELOADED_LIBRARY;
 constexpr const char* kDuration_s = "4";
-// On a machine that is busy enough a thread may wait for its turn for longer than the usual limit,
-// which is a rule of the wall clock.
+// On a very busy machine, a thread may wait for its turn longer than the usual limit, which is in
+// wall-clock time.
 ProcessOptions patient() {
   ProcessOptions options;
   options.environment = {{"PLAYPEN_SILENCE_LIMIT", "900"}};
@@ -63,7 +63,7 @@ std::vector<Command> programs() {
   return all;
 }
 
-/// Four busy processes a core. They end with this, and with the test.
+/// Four busy processes per core. They end with this object, and with the test.
 class Load {
  public:
   Load() {
@@ -81,7 +81,7 @@ class Load {
 
 class Repeats : public testing::Test {
  protected:
-  /// As `playpen run` starts a program, but without results and what they cost.
+  /// The environment that `playpen run` gives a program, but without results, which cost time.
   [[nodiscard]] ProcessOptions environment() const {
     ProcessOptions options = patient();
     options.environment.insert({{"LD_PRELOAD", kPreloaded},
@@ -97,7 +97,7 @@ class Repeats : public testing::Test {
     command.insert(command.end(), program.begin(), program.end());
     return command;
   }
-  /// What a run leaves: the report, without what tells of the wall clock, and the trajectory.
+  /// The results of a run: the report, without wall-clock times, and the trajectory.
   [[nodiscard]] std::string results() const {
     json report = json::parse(read_bytes(fs::path(out_) / "report.json"));
     report.at("run").erase("wall_time");
@@ -137,7 +137,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
       different += result.out == *printed ? 0 : 1;
       EXPECT_EQ(result.out, *printed) << name;
     };
-    // One of five with its results; of the others two at a time.
+    // Every fifth run writes results; the others run two at a time.
     for (int i = 0; i < repeats(); ++i) {
       if (i % 5 == 0) {
         compare(Process(whole_run(program), patient()).finish());
@@ -163,7 +163,7 @@ TEST_F(Repeats, EveryProgramWithThreadsGivesTheSameEachTimeUnderLoad) {
   EXPECT_EQ(different, 0);
 }
 
-// Clocks of the system tell how long the machine is up. Nothing may depend on that.
+// The system's clocks start at its boot. No result may depend on that.
 TEST_F(Repeats, SoDoTheyOnAMachineThatWasJustStarted) {
   std::ifstream file("/proc/uptime");
   double uptime_s = 0.0;

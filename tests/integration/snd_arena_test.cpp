@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // SndDriver in the SyRoTek arena: random blocks, random starts and goals.
 //
-// One case alone: SND_CASE=17 snd_arena_test
+// To run a single case: SND_CASE=17 snd_arena_test
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,15 +32,14 @@ constexpr int kCases = 12;
 constexpr int kCases = 200;
 #endif
 
-// The S1R's farthest corner is hypot(0.087, 0.045) = 0.098 m from its middle; 5 cm to spare.
+// The S1R's farthest corner is hypot(0.087, 0.045) = 0.098 m from its centre; 5 cm of clearance.
 constexpr double kRadius_m = 0.098 + 0.05;
-// Of the planner's grid, as of the canvas.
+// Cell size of the planner's grid and of the canvas.
 constexpr double kCell_m = 0.02;
-// A goal nearer than this is no journey.
+// A nearer goal is too easy.
 constexpr double kLeastDistance_m = 0.3;
-// "Open room": the way round what stands between start and goal is at most so much longer than
-// the straight one, so that a robot that sees no further than its laser is led there by and large
-// downhill.
+// "Open room": the shortest path is at most this much longer than the straight line. Then a robot
+// that sees no farther than its laser gets to the goal mostly by approaching it.
 constexpr double kOpenRoom = 1.3;
 
 double distance_to(const sim::ObstacleDescription& box, const Vec2& p_W) {
@@ -49,11 +48,11 @@ double distance_to(const sim::ObstacleDescription& box, const Vec2& p_W) {
   return (p_O.cwiseAbs() - 0.5 * box.size).cwiseMax(Vec2::Zero()).norm();
 }
 
-/// How far a point is from all that is solid [m].
+/// Distance of a point from everything that is solid [m].
 double clearance(const sim::ArenaDescription& arena, const Vec2& p_W) {
   double least_m = std::min({p_W.x(), p_W.y(), arena.size.x() - p_W.x(), arena.size.y() - p_W.y()});
   const auto look_at = [&](const sim::ObstacleDescription& box) {
-    // Most are farther away than what is known, even from the circle round their corners.
+    // Skip a box whose circumscribed circle is not nearer than the current minimum.
     if ((p_W - box.center).norm() - 0.5 * box.size.norm() >= least_m) return;
     least_m = std::min(least_m, distance_to(box, p_W));
   };
@@ -64,7 +63,8 @@ double clearance(const sim::ArenaDescription& arena, const Vec2& p_W) {
   return least_m;
 }
 
-/// The planner: cells whose middle has room for robot and clearance, 8 neighbours, Dijkstra.
+/// The planner: Dijkstra's algorithm over 8 neighbours, on cells whose centre has room for the
+/// robot and the clearance.
 class Planner {
  public:
   explicit Planner(const sim::ArenaDescription& arena)
@@ -79,7 +79,7 @@ class Planner {
     return free_[static_cast<std::size_t>(cell(p_W))];
   }
 
-  /// Length of the shortest way on the grid [m]; infinity if there is none.
+  /// Length of the shortest path on the grid [m]; infinity if there is none.
   [[nodiscard]] double path_m(const Vec2& from, const Vec2& to) const {
     std::vector<double> length_m(free_.size(), std::numeric_limits<double>::infinity());
     using Entry = std::pair<double, int>;
@@ -126,12 +126,13 @@ struct Case {
   Vec2 goal = Vec2::Zero();
   double straight_m = 0.0;
   double path_m = 0.0;
-  bool clear_line = false;  ///< the robot fits all along the straight line, 5 cm to spare
+  /// the robot fits along the whole straight line, with 5 cm of clearance
+  bool clear_line = false;
   [[nodiscard]] bool open() const { return clear_line || path_m <= kOpenRoom * straight_m; }
 };
 
-/// Case number k: each block extended or not as a coin falls; start, heading and goal anywhere
-/// with 5 cm to spare and a way between them.
+/// Case number k: each block is extended at random; start, heading and goal are random, with 5 cm
+/// of clearance and a path between them.
 Case make_case(int k) {
   sim::RandomStream random(static_cast<std::uint64_t>(k), "snd");
   Case c;
@@ -172,7 +173,7 @@ Case make_case(int k) {
 
 struct Outcome {
   CCMorse::SndDriver::Status status = CCMorse::SndDriver::IDLE;
-  double from_goal_m = 0.0;  ///< where the robot is in the end
+  double from_goal_m = 0.0;  ///< distance of the robot from the goal at the end
   bool collided = false;
   double time_s = 0.0;
 };
@@ -184,7 +185,7 @@ Outcome run(const Case& c) {
   CCMorse::Position2dProxy position(&client, 0);
   CCMorse::SndDriver driver(&client);
   driver.SetGoal(c.goal.x(), c.goal.y());
-  // Far more than the longest way takes: the driver itself must end it.
+  // Far more than the longest path takes: the driver itself must end the journey.
   outcome.status = driver.WaitForGoal(300.0);
   outcome.from_goal_m =
       std::hypot(position.GetXPos() - c.goal.x(), position.GetYPos() - c.goal.y());
@@ -221,9 +222,9 @@ TEST(SndArena, OpenGoalsAreReachedAndNothingIsEverHit) {
                 << (outcome.collided ? ", COLLIDED" : "") << '\n';
     }
     EXPECT_FALSE(outcome.collided) << "case " << k;
-    // It ends one way or the other: nothing circles for ever.
+    // Every case ends: no robot circles for ever.
     EXPECT_TRUE(arrived || outcome.status == CCMorse::SndDriver::BLOCKED) << "case " << k;
-    // 5 cm is the tolerance; the robot stands when the goal is reached.
+    // The tolerance is 5 cm; the robot stands still when it has reached the goal.
     if (arrived) {
       EXPECT_LE(outcome.from_goal_m, 0.05 + 0.001) << "case " << k;
     }

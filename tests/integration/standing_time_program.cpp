@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client programs, one for each name on the command line: some forget what lets simulated time
-// pass, others only look as if they did.
+// Client programs, selected by name on the command line. Some do not advance simulated time, others
+// only seem not to.
 #include <libplayerc++/playerc++.h>
 #include <libplayerc/playerc.h>
 #include <sys/resource.h>
@@ -36,7 +36,7 @@ void compute(double cpu_s) {
   }
 }
 
-// --- Those that let no time pass
+// --- Programs that do not advance time
 
 int command_once() {
   Robot robot;
@@ -78,7 +78,7 @@ int command_and_compute() {
   return 0;
 }
 
-/// Whether a thread of this process sleeps, by the state that proc(5) gives it.
+/// Whether a thread of this process sleeps, according to its state in proc(5).
 bool sleeps(pid_t thread) {
   std::ifstream file("/proc/self/task/" + std::to_string(thread) + "/stat");
   std::string text;
@@ -90,14 +90,14 @@ bool sleeps(pid_t thread) {
 int command_in_a_thread() {
   Robot robot;
   std::thread([&] {
-    // Not while main() is still on its way into join(): it might be about to read.
+    // Wait until main() is inside join(); before that it might be about to read.
     while (!sleeps(getpid())) std::this_thread::yield();
     for (int i = 0; i < 100000; ++i) robot.position.SetSpeed(0.2, 0.0);
   }).join();
   return 0;
 }
 
-int compute_for_ever() {  // for very long, as far as its test is concerned
+int compute_for_ever() {  // very long, compared with its test
   Robot robot;
   robot.position.SetSpeed(0.2, 0.0);
   compute(0.5);
@@ -142,7 +142,7 @@ int c_no_such_port() {
   return playerc_client_connect(playerc_client_create(nullptr, "localhost", 7000));
 }
 
-// Asks what there is, and does without.
+// Asks which devices exist, and does without them.
 int c_asks() {
   playerc_client_t* client = playerc_client_create(nullptr, "localhost", 6665);
   playerc_position2d_t* position = drive(client);
@@ -157,7 +157,7 @@ int c_asks() {
   return 0;
 }
 
-// --- Those that are right
+// --- Correct programs
 
 int peek() {
   Robot robot;
@@ -199,7 +199,7 @@ int sleep_only() {
   return 0;
 }
 
-// The thread that reads takes its time, but it is awake.
+// The thread that reads is slow, but awake.
 int read_in_a_thread() {
   Robot robot;
   std::atomic<bool> started{false};

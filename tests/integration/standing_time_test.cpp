@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What programs are told that let no simulated time pass, or whose devices are not there.
+// Messages to programs that do not advance simulated time, or whose devices do not exist.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,14 +30,14 @@ constexpr const char* kBusy = "no simulated time has passed: it has not called R
 
 class StandingTime : public testing::Test {
  protected:
-  /// Under `playpen run`, for a simulated second, with no more told than there must be.
+  /// Under `playpen run`, for a simulated second, with no unnecessary output.
   [[nodiscard]] ProcessResult run(const std::string& name,
                                   const ProcessOptions& options = {}) const {
     return playpen({"run", world_, "--out", folder_ / "out", "--quiet", "--duration", "1", "--",
                     FORGETFUL_PROGRAM, name},
                    options);
   }
-  /// By itself.
+  /// Without `playpen run`.
   [[nodiscard]] ProcessResult run_plainly(const std::string& name) const {
     return run_process({FORGETFUL_PROGRAM, name}, with("PLAYPEN_WORLD", world_));
   }
@@ -46,7 +46,7 @@ class StandingTime : public testing::Test {
     options.environment = {{variable, value}};
     return options;
   }
-  /// How often a text is found.
+  /// Number of occurrences of a text.
   static int count(const std::string& text, const std::string& what) {
     int found = 0;
     for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++found;
@@ -95,11 +95,11 @@ TEST_F(StandingTime, ALoopWithoutAnyCallIsToldAfterSomeProcessorTime) {
   EXPECT_EQ(count(result.err, kBusy), 1) << result.err;
   EXPECT_THAT(result.err, AllOf(StartsWith("playpen: warning: the program has been busy for 0.1 s"),
                                 Not(HasSubstr(kNothing))));
-  // It is told one thing only.
+  // It gets only one of the two messages.
   const ProcessResult both = run("command_and_compute", with("PLAYPEN_SILENCE_LIMIT", "0.1"));
   EXPECT_EQ(count(both.err, "warning"), 1) << both.err;
   EXPECT_THAT(both.err, HasSubstr(kStandsStill));
-  // With the usual limit, of 5 s, only its end tells.
+  // With the usual limit, of 5 s, the message comes only at its end.
   EXPECT_THAT(run("compute_for_ever").err, AllOf(HasSubstr(kNothing), Not(HasSubstr(kBusy))));
 }
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client programs with threads, one for each name on the command line, on a world with two robots.
-// Each prints what its threads see and when, so that no two runs may differ by a byte.
+// Client programs with threads, selected by name on the command line, for a world with two robots.
+// Each prints what its threads see and when, so that any difference between two runs shows.
 #include <fcntl.h>
 #include <imr-h/thread.h>
 #include <libplayerc++/playerc++.h>
@@ -46,7 +46,7 @@ using Clock = std::chrono::steady_clock;
 
 const Clock::time_point kStart = Clock::now();
 
-// Prints a result and when it came. (Which argument of a call comes first is not fixed.)
+// Prints a result and its time. (The evaluation order of a call's arguments is not fixed.)
 void note(const char* what, long result);
 
 double now_s() { return std::chrono::duration<double>(Clock::now() - kStart).count(); }
@@ -104,7 +104,7 @@ void have_clients_in_detached_threads() {
   std::printf("%.3f\n", now_s());
 }
 
-// Computes for a while before it makes its client, longer each time than the other one needs.
+// Computes for a while before it creates its client, longer each time than the other thread needs.
 void have_a_slow_second_client() {
   std::thread other([] {
     volatile double sum = 0.0;
@@ -120,12 +120,12 @@ struct StartedEarly {
 };
 
 void have_a_thread_from_before_main() {
-  static StartedEarly early;  // as one at namespace scope, but only in this program
+  static StartedEarly early;  // like an object at namespace scope, but only in this program
   drive(6665, 0.2, 15);
   early.thread.join();
 }
 
-// Sleeps and waits of several threads before there is a simulation, and on into it.
+// Sleeps and waits of several threads that begin before there is a simulation and end during it.
 void begin_before_the_clients() {
   std::mutex mutex;
   std::condition_variable changed;
@@ -149,7 +149,7 @@ void begin_before_the_clients() {
   std::printf("%.4f\n", now_s());
 }
 
-// The one that comes first initialises, and takes its time.
+// The first thread initialises, and takes its time.
 void initialise_once() {
   PlayerClient robot("localhost", 6665);
   static std::once_flag once;
@@ -191,7 +191,7 @@ class Worker : public imr::concurrent::CThread {
   std::atomic<int>& left_;
 };
 
-// --- Threads that wait for each other
+// --- Threads that wait for one another
 
 void have_threads_of_imr() {
   std::atomic<int> left{2};
@@ -543,7 +543,7 @@ void cancel_a_thread() {
   }
 }
 
-// Its threads go on while it returns from main().
+// Its threads continue while it returns from main().
 void end_with_threads() {
   for (const uint32_t port : {6665U, 6666U}) std::thread(drive, port, 0.2, 1000).detach();
   usleep(50000);
@@ -552,7 +552,7 @@ void end_with_threads() {
   std::printf("%.3f\n", now_s());
 }
 
-// The run ends before they do.
+// The run ends before its threads do.
 void be_ended_with_threads() {
   std::vector<std::thread> threads;
   for (const uint32_t port : {6665U, 6666U}) {

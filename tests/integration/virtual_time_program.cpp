@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client programs that live in real time, one for each name on the command line. What they print
-// comes from the simulation and from the clocks, so it is the same whenever they run.
+// Client programs written for real time, selected by name on the command line. Their output comes
+// from the simulation and from the clocks, so it is the same in every run.
 #include <libplayerc++/playerc++.h>
 #include <poll.h>
 #include <pthread.h>
@@ -40,7 +40,7 @@ const double kStart_s = [] {  // before main(), as some programs have it
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }();
 
-// Since the program's start, by the clock. It asks twice at most.
+// Clock time since the program's start. Reads the clock at most twice.
 double clock_s() {
   timespec now;
   clock_gettime(CLOCK_MONOTONIC, &now);
@@ -207,7 +207,7 @@ void read_in_background() {
   std::printf("%.2f\n", clock_s());
 }
 
-// The same with a thread of the program's own, and one that only counts.
+// The same program with its own thread, and one thread that only counts.
 void read_in_own_thread() {
   PlayerClient robot("localhost", 6665);
   Position2dProxy position(&robot, 0);
@@ -252,7 +252,7 @@ void read_in_own_thread() {
   counter.join();
 }
 
-// Started before there is a simulation, each with a client of its own.
+// Threads that start before there is a simulation, each with its own client.
 void have_threads_with_clients() {
   std::mutex mutex;
   const auto work = [&mutex](int number, unsigned pause_us) {
@@ -288,7 +288,7 @@ void wait_for_the_clock() {
   std::printf("asked %d times\n", asked);
 }
 
-// One look a turn does not move time.
+// One clock read per iteration does not advance time.
 void look_at_the_clock() {
   PlayerClient robot("localhost", 6665);
   LaserProxy laser(&robot, 0);
@@ -375,7 +375,7 @@ void steer_by_hand() {
   Position2dProxy position(&robot, 0);
   robot.StartThread();
   position.SetSpeed(0.1, 0.0);
-  int keyboard[2];  // somebody else's
+  int keyboard[2];  // input that the simulation does not control
   if (pipe(keyboard) != 0) std::exit(8);
   pollfd key = {keyboard[0], POLLIN, 0};
   poll(&key, 1, 600);
@@ -427,7 +427,7 @@ void wait_for_each_other() {
   std::printf("%d\n", clock_s() < 1.0 ? 1 : 0);
 }
 
-// One thread reads, the other one steers, whenever it is told of data.
+// One thread reads; the other one steers, whenever it is notified of data.
 void steer_when_told() {
   PlayerClient robot("localhost", 6665);
   Position2dProxy position(&robot, 0);
@@ -472,21 +472,21 @@ void begin_before_the_client() {
   std::printf("%.2f\n", clock_s());
 }
 
-// Whoever reads the first line sends it a signal.
+// The test sends a signal when it has read the first line.
 void be_woken() {
   PlayerClient robot("localhost", 6665);
   struct sigaction action = {};
   action.sa_handler = [](int) {};
-  action.sa_flags = SA_RESTART;  // which does not hold for sleeps
+  action.sa_flags = SA_RESTART;  // has no effect on sleeps
   sigaction(SIGUSR1, &action, nullptr);
   sigaction(SIGUSR2, &action, nullptr);
   std::printf("%d\n", static_cast<int>(getpid()));
   std::fflush(stdout);
   const unsigned left_s = sleep(100000000);
-  signal(SIGUSR1, SIG_IGN);  // the test sends it until it has come during the sleep
+  signal(SIGUSR1, SIG_IGN);  // the test repeats it until one arrives during the sleep
   std::printf("alone %d\n", left_s > 0 && left_s <= 100000000);
   std::fflush(stdout);
-  // Another thread's, while this one waits for its turn.
+  // The handle of another thread that sleeps while this one waits for its turn.
   const pthread_t sleeper = pthread_self();
   const auto wake = [&] {
     usleep(500000);
@@ -521,7 +521,7 @@ void compute_for_long() {
   other.join();
 }
 
-// A child without a client lives in real time.
+// A child process without a client lives in real time.
 void have_a_child() {
   PlayerClient robot("localhost", 6665);
   robot.Read();

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Programs that sleep, look at the clock and have threads, under `playpen run`.
+// Programs with sleeps, clocks and threads, under `playpen run`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -40,7 +40,7 @@ using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 
-/// Runs programs of virtual_time_program on the room, in a folder of its own.
+/// Runs programs of virtual_time_program on the room, in a separate folder.
 class VirtualTime : public testing::Test {
  protected:
   [[nodiscard]] ProcessResult run(const std::string& name,
@@ -50,14 +50,14 @@ class VirtualTime : public testing::Test {
     call.insert(call.end(), {"--", SLEEPING_PROGRAM, name});
     return playpen(call);
   }
-  /// What the program prints, without the summary.
+  /// The program's output, without the summary.
   [[nodiscard]] std::string printed(const std::string& name) const {
     const ProcessResult result = run(name, {"--quiet", "--duration", "100"});
     EXPECT_EQ(result.status, 0) << result.err;
     EXPECT_THAT(result.err, IsEmpty());
     return result.out;
   }
-  /// The report, without what tells of the wall clock.
+  /// The report, without wall-clock values.
   [[nodiscard]] json report() const {
     json whole = json::parse(read_bytes(fs::path(out_) / "report.json"));
     whole["run"].erase("wall_time");
@@ -81,7 +81,7 @@ class VirtualTime : public testing::Test {
 TEST_F(VirtualTime, AProgramThatNeverReadsDrivesAsLongAsItSleeps) {
   ASSERT_EQ(run("drive_by_sleeping").status, 0);
   EXPECT_DOUBLE_EQ(sim_time(), 3.5);
-  // 3 s at 0.1 m/s, but for what speeding up and braking at 1 m/s^2 or more take: 2 * 0.05 s * v.
+  // 3 s at 0.1 m/s, minus the loss by acceleration and braking at 1 m/s^2 or more: 2 * 0.05 s * v.
   EXPECT_NEAR(robot().at("path_length").get<double>(), 0.3, 0.011);
 }
 
@@ -95,7 +95,7 @@ TEST_F(VirtualTime, EveryWayToSleepMovesSimulatedTimeAndTheClock) {
     const char* expected = second ? ": 1.00 1.00" : ": 0.50 0.50";
     // 100000 * 1 us and 100 * 1.5 ms.
     if (line.starts_with("small ones")) expected = ": 0.25 0.25";
-    // Whoever looks at the clock gets on in whole steps.
+    // Reading the clock repeatedly advances time in whole steps.
     if (line.starts_with("clock:")) expected = ": 0.51 0.51";
     EXPECT_THAT(line, EndsWith(expected));
   }
@@ -125,8 +125,8 @@ TEST_F(VirtualTime, AReportEqualsItselfUnderHeavyLoad) {
   }
 }
 
-// Encoders of films have threads of their own, which are not the program's and may wait for one
-// another while a step waits for them.
+// Video encoders have their own threads, which are not threads of the program. They may wait for
+// one another while a step waits for them.
 TEST_F(VirtualTime, AFilmChangesNothing) {
   for (const char* name : {"read_in_background", "read_in_own_thread"}) {
     ASSERT_EQ(run(name, {"--duration", "20", "--quiet"}).status, 0);
@@ -147,7 +147,8 @@ TEST_F(VirtualTime, ABackgroundThreadStaysInLockstep) {
   const ProcessResult result = run("read_in_background");
   ASSERT_EQ(result.status, 0);
   EXPECT_THAT(result.err, Not(HasSubstr("warning")));
-  // 1 s and 200 * 70 ms, and up to two looks of 10 ms until the thread finds that it is to stop.
+  // 1 s and 200 * 70 ms, and up to two clock reads of 10 ms until the thread notices that it must
+  // stop.
   EXPECT_GE(sim_time(), 15.0);
   EXPECT_LE(sim_time(), 15.02);
   EXPECT_GT(robot().at("path_length").get<double>(), 0.5);
@@ -157,7 +158,7 @@ TEST_F(VirtualTime, ThreadsOfTheProgramTakeTurnsInTheSameOrderEachTime) {
   const std::string first = printed("read_in_own_thread");
   const std::string second = printed("read_in_own_thread");
   EXPECT_EQ(first, second);
-  // 100 turns of 50 ms, and a count every 30 ms.
+  // 100 iterations of 50 ms, and a count every 30 ms.
   EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 100);
   EXPECT_THAT(first, AllOf(HasSubstr(" 1\n"), HasSubstr(" 2\n"), Not(HasSubstr(" 3\n"))));
 }
@@ -171,7 +172,7 @@ TEST_F(VirtualTime, ThreadsThatBeginAtTheSameMomentDoSoInTheSameOrder) {
 }
 
 TEST_F(VirtualTime, WhoWaitsForTheClockGetsAStepALook) {
-  // 3 s of 10 ms, less the looks before that.
+  // 3 s in steps of 10 ms, minus the clock reads before that.
   const std::string out = printed("wait_for_the_clock");
   const int asked = std::atoi(out.substr(std::string("asked ").size()).c_str());
   EXPECT_NEAR(asked, 300, 5);
@@ -189,7 +190,7 @@ TEST_F(VirtualTime, ALookATurnMovesNothing) {
 TEST_F(VirtualTime, TheClockDoesNotJumpWhenTheSimulationBegins) {
   const std::string first = printed("begin_before_the_client");
   EXPECT_THAT(first, HasSubstr("\n0.02\n"));
-  // Ten times 1 s by the clock; the last Read() returns with the scan of then.
+  // Ten times 1 s by the clock; the last Read() returns with the scan of that time.
   EXPECT_THAT(first, EndsWith("\n10.02\n"));
   EXPECT_EQ(first, printed("begin_before_the_client"));
 }
@@ -271,7 +272,7 @@ TEST_F(VirtualTime, ASignalEndsASleep) {
   ASSERT_TRUE(process.read_until("\n"));
   const pid_t program = std::atoi(process.output().c_str());
   std::atomic<bool> woken{false};
-  // Again and again: the first may come before the sleep has begun.
+  // Send it repeatedly: the first one may come before the sleep has begun.
   std::thread wake([&] {
     while (!woken) {
       kill(program, SIGUSR1);
@@ -322,7 +323,7 @@ TEST_F(VirtualTime, WhatCannotBeSimulatedIsToldOnce) {
 }
 
 TEST_F(VirtualTime, TimeMayWaitForMoreClients) {
-  // Two clients in two threads, each of which waits for a second one.
+  // Two clients in two threads, each of which waits for a second client.
   ASSERT_EQ(run("have_threads_with_clients", {"--clients", "2"}).status, 0);
   EXPECT_EQ(report().at("run").at("repeatable"), true);
   ProcessOptions options;
@@ -346,11 +347,11 @@ TEST_F(VirtualTime, ChildrenAndOtherProgramsAreLeftAlone) {
 }
 
 TEST_F(VirtualTime, IsOffWithRealSleepAndInPacedTime) {
-  // The program's own sleeps do not count then: no client ever waits, so no time passes.
+  // In this mode the program's own sleeps do not count: no client ever waits, so no time passes.
   EXPECT_EQ(run("drive_by_sleeping", {"--real-sleep"}).status, 0);
   EXPECT_DOUBLE_EQ(sim_time(), 0.0);
   EXPECT_EQ(run("drive_by_sleeping", {"--time", "10"}).status, 0);
-  EXPECT_GT(sim_time(), 3.5);  // ten times as much, if the machine keeps up
+  EXPECT_GT(sim_time(), 3.5);  // ten times as much, if the machine is fast enough
 }
 
 TEST_F(VirtualTime, IsAddedToWhatIsPreloadedAlready) {

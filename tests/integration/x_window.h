@@ -14,7 +14,7 @@
 
 namespace test_support {
 
-/// What a window shows: RGB, row-major from the top.
+/// The content of a window: RGB, row-major from the top.
 struct Screenshot {
   struct Pixel {
     int r = 0;
@@ -30,7 +30,7 @@ struct Screenshot {
     return pixels.at(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                      static_cast<std::size_t>(x));
   }
-  /// The rows from `first` up to `last`, that one not included.
+  /// The rows from `first` up to, but not including, `last`.
   [[nodiscard]] Screenshot rows(int first, int last) const {
     Screenshot part{width, last - first, {}};
     for (int y = first; y < last; ++y) {
@@ -38,7 +38,7 @@ struct Screenshot {
     }
     return part;
   }
-  /// Share of the pixels that are such.
+  /// Share of the pixels for which `such` is true.
   [[nodiscard]] double share(const std::function<bool(const Pixel&)>& such) const {
     std::size_t count = 0;
     for (const Pixel& pixel : pixels) count += such(pixel) ? 1U : 0U;
@@ -47,28 +47,28 @@ struct Screenshot {
   friend bool operator==(const Screenshot&, const Screenshot&) = default;
 };
 
-/// A connection with an X display, to look at windows and to close them.
+/// A connection to an X display, for inspecting and closing windows.
 class XDisplay {
  public:
   explicit XDisplay(const std::string& name) : display_(XOpenDisplay(name.c_str())) {
     if (display_ == nullptr) throw std::runtime_error("no X display " + name);
-    // A window that goes while it is looked at is no failure.
+    // A window that disappears during the inspection is not an error.
     XSetErrorHandler([](Display* /*display*/, XErrorEvent* /*error*/) { return 0; });
   }
   XDisplay(const XDisplay&) = delete;
   XDisplay& operator=(const XDisplay&) = delete;
   ~XDisplay() { XCloseDisplay(display_); }
 
-  /// The window of that title that can be seen.
+  /// The visible window with that title.
   [[nodiscard]] std::optional<Window> find(const std::string& title) const {
     return find_below(DefaultRootWindow(display_), title);
   }
 
-  /// What a window shows; nullopt if it has gone.
+  /// The content of a window; nullopt if the window does not exist.
   [[nodiscard]] std::optional<Screenshot> capture(Window window) const {
     XWindowAttributes attributes;
     XImage* image = nullptr;
-    // Nobody may change the window's size in between: more than a window has cannot be read.
+    // Lock the window's size: reading beyond the window fails.
     XGrabServer(display_);
     if (XGetWindowAttributes(display_, window, &attributes) != 0 &&
         attributes.map_state == IsViewable) {
@@ -91,7 +91,7 @@ class XDisplay {
     return shot;
   }
 
-  /// Gives a window the keyboard, wherever the pointer is.
+  /// Gives a window the keyboard focus, independently of the pointer.
   void focus(Window window) const {
     XSetInputFocus(display_, window, RevertToPointerRoot, CurrentTime);
     XSync(display_, False);
@@ -103,7 +103,7 @@ class XDisplay {
     return focused == window;
   }
 
-  /// Asks a window to close, as the button in its frame does.
+  /// Asks a window to close, like the button in its frame.
   void ask_to_close(Window window) const {
     XEvent event = {};
     event.xclient.type = ClientMessage;

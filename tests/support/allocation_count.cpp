@@ -13,7 +13,7 @@ namespace playpen::test {
 std::size_t allocation_count() noexcept { return count; }
 }  // namespace playpen::test
 
-// The other forms of new and delete for one object or many call these.
+// The other forms of new and delete for single objects or arrays call these.
 void* operator new(std::size_t size) {
   ++count;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;

@@ -5,7 +5,7 @@
 
 namespace playpen::test {
 
-/// How often the program has taken memory with `new`, from its start and in all threads. Needs
+/// Number of calls of `new` since the program's start, in all threads. Requires
 /// allocation_count.cpp in the program.
 [[nodiscard]] std::size_t allocation_count() noexcept;
 

@@ -11,8 +11,8 @@
 
 namespace test_support {
 
-/// While it exists, the process has a locale with a decimal comma and separated thousands, as a
-/// program has that calls setlocale() or std::locale::global(). For one thread at a time.
+/// While this object exists, the process has a locale with a decimal comma and separated thousands,
+/// as in a program that calls setlocale() or std::locale::global(). For one thread at a time.
 class CommaLocale {
  public:
   CommaLocale()
@@ -21,7 +21,7 @@ class CommaLocale {
     for (const char* name : {"de_DE.UTF-8", "cs_CZ.UTF-8", "fr_FR.UTF-8"}) {
       if (std::setlocale(LC_ALL, name) != nullptr) return;
     }
-    // None is installed: one is made for this test alone, if the sources of locales are there.
+    // No such locale is installed: create one for this test, if the locale sources are installed.
     const std::string make =
         "localedef -i de_DE -f UTF-8 '" + folder_.path().string() + "/de_DE.UTF-8' >/dev/null 2>&1";
     static_cast<void>(!std::system(make.c_str()));
@@ -47,7 +47,7 @@ class CommaLocale {
     std::setlocale(LC_ALL, c_before_.c_str());
   }
 
-  /// Whether the functions of C have the comma, too: only where such a locale can be had.
+  /// Whether the C functions use the comma, too: only if such a locale is available.
   [[nodiscard]] bool is_whole() const noexcept { return is_whole_; }
 
  private:

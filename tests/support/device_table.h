@@ -9,7 +9,7 @@
 
 namespace sim::test {
 
-/// Settings of the devices in this table: enough to see that they are read.
+/// Settings of the devices in this table: enough to check that they are read.
 struct PlainParams {
   double frequency_hz = 10.0;
   double noise = 0.0;
@@ -17,8 +17,8 @@ struct PlainParams {
   friend bool operator==(const PlainParams&, const PlainParams&) = default;
 };
 
-/// A device table for tests of io that need no devices: the S1R's types and a camera, each with
-/// the settings "frequency" and "noise".
+/// A device table for tests of io that need no devices: the S1R's types and a camera, each with the
+/// settings "frequency" and "noise".
 inline std::vector<io::DeviceType> device_table() {
   std::vector<io::DeviceType> types;
   for (const char* name : {"camera", "laser", "motion", "odometry", "pen", "pose"}) {

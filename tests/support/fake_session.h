@@ -16,7 +16,7 @@
 
 #include "libplayerc++/playererror.h"
 #include "player_errors.h"
-#include "playerlike/session/layer_book.h"
+#include "playerlike/session/layer_registry.h"
 #include "playerlike/session/session.h"
 #include "sim/canvas/layers.h"
 #include "sim/devices/laser.h"
@@ -24,9 +24,9 @@
 
 namespace test {
 
-/// What stands behind a FakeSession: a world without physics, whose readings a test writes down
-/// beforehand, and which remembers what it was told. Outlives the session, so that a test can look
-/// at what a client left behind.
+/// The backend of a FakeSession: a world without physics. A test defines its readings beforehand,
+/// and it records the commands it receives. It outlives the session, so that a test can check what
+/// a client left behind.
 struct FakeWorld {
   using Round = std::vector<std::pair<playerlike::DeviceId, std::shared_ptr<sim::Reading>>>;
   using Sent = std::pair<playerlike::DeviceId, sim::Command>;
@@ -42,12 +42,12 @@ struct FakeWorld {
   std::map<int, bool> replace;       ///< device number (-1: all) -> rule
   std::vector<std::string> real_time_reasons;
   bool closed = false;
-  std::size_t drawn = 0;  ///< drawings carried out
+  std::size_t drawn = 0;  ///< drawings executed
   int cell_calls = 0;     ///< of draw_cells()
   int flushes = 0;
   sim::LayerStack layers{sim::CanvasDescription{}};
-  playerlike::LayerBook book;
-  int clients = 0;  ///< sessions so far
+  playerlike::LayerRegistry registry;
+  int clients = 0;  ///< number of sessions so far
   std::atomic<std::uint64_t> resizes{0};
   sim::ViewMode view_mode = sim::ViewMode::kGround;
   bool view_mode_locked = false;
@@ -64,7 +64,7 @@ struct FakeWorld {
   }
 };
 
-// Numbers of the devices of the fake robot.
+// Device numbers of the fake robot.
 inline constexpr playerlike::DeviceId kLaser{0, 0};
 inline constexpr playerlike::DeviceId kMotion{0, 1};
 inline constexpr playerlike::DeviceId kOdometry{0, 2};
@@ -112,7 +112,7 @@ inline std::shared_ptr<FakeWorld> make_fake_world() {
   return world;
 }
 
-/// A reading of a localisation device at a time.
+/// A reading of a localisation device at the given time.
 inline std::shared_ptr<sim::Reading> pose_reading(double time_s, sim::Pose pose,
                                                   sim::Twist twist = {}, bool stalled = false) {
   auto reading = std::make_shared<sim::PoseReading>();
@@ -124,7 +124,7 @@ inline std::shared_ptr<sim::Reading> pose_reading(double time_s, sim::Pose pose,
   return reading;
 }
 
-/// A scan of the fake laser: beam i looks at -1 + 0.5 i [rad].
+/// A scan of the fake laser: beam i points to -1 + 0.5 i [rad].
 inline std::shared_ptr<sim::Reading> scan(double time_s, std::vector<double> ranges_m) {
   auto reading = std::make_shared<sim::LaserReading>();
   reading->time_ns = sim::from_seconds(time_s);
@@ -136,7 +136,7 @@ inline std::shared_ptr<sim::Reading> scan(double time_s, std::vector<double> ran
   return reading;
 }
 
-/// A session that hands out a FakeWorld's readings, one round a wait().
+/// A session that returns a FakeWorld's readings, one round per wait().
 class FakeSession final : public playerlike::Session {
  public:
   explicit FakeSession(std::shared_ptr<FakeWorld> world)
@@ -208,9 +208,9 @@ class FakeSession final : public playerlike::Session {
   void close() noexcept override {
     const std::lock_guard lock(world_->mutex);
     world_->closed = true;
-    carry_out_drawings();
+    execute_drawings();
     queue_.close();
-    world_->book.leave(number_);
+    world_->registry.leave(number_);
     world_->changed.notify_all();
   }
 
@@ -249,59 +249,59 @@ class FakeSession final : public playerlike::Session {
   void operator()(const playerlike::AnswerTimeoutRequest&) {}
   void operator()(const playerlike::RetriesRequest&) {}
   void operator()(const playerlike::FlushDrawingsRequest&) {
-    with_layers([this](sim::LayerStack&, playerlike::LayerBook&) {
+    with_layers([this](sim::LayerStack&, playerlike::LayerRegistry&) {
       ++world_->flushes;
       queue_.reserve();
     });
   }
   void operator()(const playerlike::SetCellsRequest& what) {
     playerlike::require_cells(what.rect, what.cells.size());
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, what.layer);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.require(number_, what.layer);
       ++world_->cell_calls;
       layers.set_cells(what.layer, what.rect, what.cells);
     });
   }
   std::optional<sim::CellValue> operator()(const playerlike::CellRequest& what) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, what.layer);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.require(number_, what.layer);
       return layers.cell(what.layer, what.column, what.row);
     });
   }
   std::vector<sim::CellValue> operator()(const playerlike::CellsRequest& what) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.require(number_, what.layer);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.require(number_, what.layer);
       return layers.cells(what.layer);
     });
   }
   sim::LayerId operator()(const playerlike::CreateLayerRequest& what) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      return book.create(layers, number_, world_->port, what.kind, what.style);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      return registry.create(layers, number_, world_->port, what.kind, what.style);
     });
   }
   void operator()(const playerlike::RemoveLayerRequest& what) {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.remove(layers, number_, what.layer);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.remove(layers, number_, what.layer);
     });
   }
   void operator()(const playerlike::SetLayerStyleRequest& what) {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.set_style(layers, number_, what.layer, what.style);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.set_style(layers, number_, what.layer, what.style);
     });
   }
   std::vector<sim::LayerInfo> operator()(const playerlike::LayersRequest&) {
-    return with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      return book.list(layers, number_);
+    return with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      return registry.list(layers, number_);
     });
   }
   playerlike::CanvasImage operator()(const playerlike::CanvasImageRequest&) {
-    return with_layers([](sim::LayerStack& layers, playerlike::LayerBook&) {
+    return with_layers([](sim::LayerStack& layers, playerlike::LayerRegistry&) {
       return playerlike::CanvasImage{layers.composed(), {}};
     });
   }
   playerlike::CanvasInfo operator()(const playerlike::ResizeCanvasRequest& what) {
-    with_layers([&](sim::LayerStack& layers, playerlike::LayerBook& book) {
-      book.resize(layers, what.width, what.height);
+    with_layers([&](sim::LayerStack& layers, playerlike::LayerRegistry& registry) {
+      registry.resize(layers, what.width, what.height);
       ++world_->resizes;
     });
     return (*this)(playerlike::CanvasInfoRequest{});
@@ -331,7 +331,7 @@ class FakeSession final : public playerlike::Session {
     }
     world_->view_mode = what.mode;
   }
-  /// Of a room of one square metre without anything in it.
+  /// The map of an empty room of one square metre.
   playerlike::WorldMap operator()(const playerlike::WorldMapRequest& what) const {
     if (!(what.cell_size_m > 1e-3)) {
       throw playerlike::SessionError(playerlike::SessionError::Code::kBadArgument,
@@ -363,20 +363,20 @@ class FakeSession final : public playerlike::Session {
     }
   }
 
-  // With the world's mutex held.
-  void carry_out_drawings() {
+  // The caller holds the world's mutex.
+  void execute_drawings() {
     queue_.drain([this](std::span<const sim::DrawOperation> operations) {
       world_->drawn += operations.size();
       world_->layers.draw(operations);
     });
   }
   template <typename Action>
-  std::invoke_result_t<Action, sim::LayerStack&, playerlike::LayerBook&> with_layers(
+  std::invoke_result_t<Action, sim::LayerStack&, playerlike::LayerRegistry&> with_layers(
       Action action) {
     const std::lock_guard lock(world_->mutex);
     require_open();
-    carry_out_drawings();
-    return action(world_->layers, world_->book);
+    execute_drawings();
+    return action(world_->layers, world_->registry);
   }
 
   std::shared_ptr<FakeWorld> world_;

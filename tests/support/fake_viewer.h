@@ -18,7 +18,8 @@
 
 namespace test_support {
 
-/// The viewer's end of a run's connection with its window, for tests that play the viewer.
+/// The viewer's end of the connection between a run and its window, for tests that act as the
+/// viewer.
 class FakeViewer {
  public:
   struct Frame {
@@ -39,7 +40,7 @@ class FakeViewer {
   FakeViewer& operator=(const FakeViewer&) = delete;
   ~FakeViewer() { die(); }
 
-  /// The run's end, which the run closes.
+  /// The run's end of the connection; the run closes it.
   [[nodiscard]] int socket_for_run() const { return theirs_; }
 
   void send_bytes(const std::string& bytes) const {
@@ -67,7 +68,7 @@ class FakeViewer {
     return {reinterpret_cast<const char*>(&message), sizeof message};
   }
 
-  /// Waits for a frame, and says that it is shown.
+  /// Waits for a frame and confirms that it is shown.
   /// @return nullopt if the run has closed the connection.
   [[nodiscard]] std::optional<Frame> show() const {
     auto frame = receive();
@@ -80,7 +81,7 @@ class FakeViewer {
     std::string bytes;
     if (!read(sizeof frame.header, bytes)) return std::nullopt;
     std::memcpy(&frame.header, bytes.data(), sizeof frame.header);
-    if (!playerlike::view::is_sound(frame.header)) throw std::runtime_error("an unsound frame");
+    if (!playerlike::view::is_valid(frame.header)) throw std::runtime_error("an invalid frame");
     if (!read(playerlike::view::body_bytes(frame.header), bytes)) return std::nullopt;
     frame.text = bytes.substr(bytes.size() - frame.header.text_bytes);
     bytes.resize(bytes.size() - frame.header.text_bytes);
@@ -88,14 +89,14 @@ class FakeViewer {
     return frame;
   }
 
-  /// Closes the connection without a word.
+  /// Closes the connection without a message.
   void die() {
     if (ours_ >= 0) close(ours_);
     ours_ = -1;
   }
 
  private:
-  // Waits for so many bytes; false at the end of the connection.
+  // Waits for this many bytes; false at the end of the connection.
   [[nodiscard]] bool read(std::size_t count, std::string& bytes) const {
     bytes.resize(count);
     std::size_t got = 0;

@@ -14,8 +14,8 @@
 #include "sim/core/number_text.h"
 #include "sim/devices/builtin.h"
 
-/// What is made of the tables of fields for people and editors: tables of settings in Markdown, and
-/// JSON schemas.
+/// Documents generated from the tables of fields: tables of settings in Markdown for users, and
+/// JSON schemas for editors.
 namespace sim::test {
 
 using Json = nlohmann::ordered_json;
@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
   return Json::parse(rounded_text(value + 0.0, 12));
 }
 
-/// As world files have it.
+/// A pose in the format of world files.
 [[nodiscard]] inline Json pose_json(const Pose& pose, bool with_zeros) {
   Json out = Json::object();
   if (with_zeros || pose.x_m != 0.0) out["x"] = rounded(pose.x_m);
@@ -34,7 +34,7 @@ using Json = nlohmann::ordered_json;
   return out;
 }
 
-/// The value of a setting as world files have it.
+/// The value of a setting in the format of world files.
 [[nodiscard]] inline Json value_json(const Field& field, const void* object) {
   const void* value = field.get(object);
   if (value == nullptr) return Json::object();
@@ -88,7 +88,7 @@ using Json = nlohmann::ordered_json;
     }
     return text;
   };
-  // Members that do not fit by themselves do not fit together either.
+  // Members that do not fit separately do not fit together either.
   std::string line =
       value.dump().size() > kWidth ? "" : brackets[0] + joined(" ", 0, false) + brackets[1];
   line = line.find('\n') == std::string::npos ? line : "";
@@ -110,7 +110,7 @@ using Json = nlohmann::ordered_json;
   return value.is_object() ? "{" + text + "}" : "[" + text + "]";
 }
 
-/// "(0, 1000]", or a dash for what has no range of numbers.
+/// "(0, 1000]", or a dash if the field has no numeric range.
 [[nodiscard]] inline std::string range_text(const Field& field) {
   const bool has_range = field.type == FieldType::kInt ||
                          (field.type == FieldType::kNumber && field.range.min > NumberRange{}.min);
@@ -119,17 +119,17 @@ using Json = nlohmann::ordered_json;
          ", " + rounded_text(field.range.max, 12) + "]";
 }
 
-/// Each setting of a kind of device with the object that holds its default.
+/// Visits each setting of a device kind, with the object that holds its default.
 template <typename Visit>
 void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   const std::any defaults = kind.defaults();
   for_each_field(*kind.settings, kind.settings_in(defaults),
                  [&](const Field& field, const void* owner) {
-                   if (!field.told_only) visit(field, owner);
+                   if (!field.read_only) visit(field, owner);
                  });
 }
 
-/// The table of settings of a kind's page; empty if it has none.
+/// The table of settings on a device kind's page; empty if it has none.
 [[nodiscard]] inline std::string settings_table(const DeviceKind& kind) {
   std::string rows;
   for_each_setting(kind, [&](const Field& field, const void* defaults) {
@@ -142,7 +142,7 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   return "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n" + rows;
 }
 
-/// A phrase as a sentence without Markdown: "above the floor" -> "Above the floor [m]."
+/// Turns a phrase into a sentence without Markdown: "above the floor" -> "Above the floor [m]."
 [[nodiscard]] inline std::string sentence(std::string phrase, const std::string& unit) {
   std::erase(phrase, '`');
   if (!phrase.empty()) {
@@ -204,8 +204,8 @@ inline void add_schema(const Field& field, const void* defaults, Json& propertie
     case FieldType::kPoses:
     case FieldType::kList:
       schema["type"] = "array";
-      if (field.fewest > 0) schema["minItems"] = field.fewest;
-      schema["maxItems"] = field.most;
+      if (field.min_count > 0) schema["minItems"] = field.min_count;
+      schema["maxItems"] = field.max_count;
       schema["items"] = field.element != nullptr          ? Json::parse(field.element->schema)
                         : field.type == FieldType::kPoses ? Json{{"$ref", "#/$defs/pose"}}
                                                           : object_schema(field.table());
@@ -230,7 +230,7 @@ inline Json object_schema(const FieldTable& table) {
   return schema;
 }
 
-/// The schema of what stands under a device's name in a world file.
+/// The schema of the object under a device's name in a world file.
 [[nodiscard]] inline Json device_schema(const DeviceKind& kind) {
   Json properties = {{"type", {{"$ref", "#/$defs/device_type"}}}};
   for_each_setting(kind, [&properties](const Field& field, const void* defaults) {
@@ -243,7 +243,7 @@ inline Json object_schema(const FieldTable& table) {
           {"oneOf", {settings, {{"$ref", "#/$defs/removed"}}}}};
 }
 
-/// The schema of worlds with the part about devices made anew.
+/// The schema of worlds with a newly generated part for devices.
 [[nodiscard]] inline Json with_devices(Json schema) {
   Json& definitions = schema.at("$defs");
   std::vector<std::string> names;
@@ -263,7 +263,7 @@ inline Json object_schema(const FieldTable& table) {
   return schema;
 }
 
-/// Whether files are to be written anew, not compared: PLAYPEN_WRITE_PAGES=1.
+/// Whether the test writes the files instead of comparing them: PLAYPEN_WRITE_PAGES=1.
 [[nodiscard]] inline bool writes_pages() { return std::getenv("PLAYPEN_WRITE_PAGES") != nullptr; }
 
 inline void write_page(const std::string& file, const std::string& text) {

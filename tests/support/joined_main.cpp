@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The main function of a program that holds the tests of several others
+// The main function of a program that contains the tests of several sources
 // (docs/decisions/build_time.md).
 //
 // joined_tests [--source=FILE.cpp]... [GoogleTest's options]
-// With --source only the tests that these files hold are run; each must hold one.
+// With --source, only the tests of these files run; each file must contain one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 
 namespace {
 
-/// A filter for GoogleTest that names the tests of these sources; sources without one are named on
-/// stderr, and the filter is empty.
+/// A GoogleTest filter for the tests of these sources. If a source contains no tests, prints its
+/// name to stderr and returns an empty filter.
 std::string filter_of(const std::set<std::string>& sources) {
   std::string filter;
   std::set<std::string> missing = sources;

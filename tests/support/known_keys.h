@@ -10,8 +10,8 @@
 
 namespace test_support {
 
-/// Keys that a reader of files knows in each object, by the object's pointer, as it names them when
-/// it meets one that it does not know.
+/// The keys that a file reader knows in each object, by the object's pointer. They come from the
+/// reader's errors about unknown keys.
 /// @param read  reads a text with an unknown key in each object; throws ConfigError for them.
 template <typename Read>
 std::map<std::string, std::set<std::string>> known_keys(Read read) {

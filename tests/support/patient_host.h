@@ -8,8 +8,8 @@
 
 namespace test {
 
-/// Host::create() for tests in which clients wait for each other: unless the test sets a silence
-/// limit, it is long. On a loaded machine a client that is about to read may be silent for seconds.
+/// Host::create() for tests in which clients wait for each other: the silence limit is long unless
+/// the test sets one. On a loaded machine, a client may be silent for seconds before it reads.
 [[nodiscard]] inline std::shared_ptr<playerlike::Host> patient_host(
     sim::WorldDescription world, playerlike::RunSettings settings = {}, sim::LogHook log = {}) {
   if (settings.silence_limit_s == playerlike::RunSettings{}.silence_limit_s) {

@@ -9,7 +9,7 @@
 
 namespace sim::test {
 
-/// A polygon of frame B, in W.
+/// A polygon given in frame B, transformed to W.
 [[nodiscard]] inline Polygon placed(const Polygon& polygon, const Pose& X_WB) {
   Polygon result;
   for (const Vec2& v : polygon) result.push_back(X_WB * v);
@@ -23,8 +23,8 @@ namespace sim::test {
                 {o.center.x(), o.center.y(), o.yaw_rad});
 }
 
-/// How far two convex, counter-clockwise polygons must be moved apart until they do not overlap,
-/// at least (separating axes over all edge normals); 0 if they do not.
+/// The smallest distance by which two convex, counter-clockwise polygons must be moved apart so
+/// that they do not overlap (separating axes over all edge normals); 0 if they do not overlap.
 [[nodiscard]] inline double overlap_depth_m(const Polygon& a, const Polygon& b) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [p, q] : {std::pair(&a, &b), std::pair(&b, &a)}) {

@@ -7,7 +7,7 @@
 
 namespace playerlike::protocol {
 
-/// How GoogleTest names an encoding in its output.
+/// Prints an encoding in GoogleTest's output.
 inline void PrintTo(Encoding encoding, std::ostream* os) { *os << to_string(encoding); }
 
 }  // namespace playerlike::protocol

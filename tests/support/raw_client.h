@@ -24,16 +24,16 @@
 
 namespace test_support {
 
-/// A client that is nothing but a TCP socket, for what no well-behaved client would do. Whatever
-/// takes longer than patience() throws std::runtime_error.
+/// A client that is only a TCP socket, for behaviour that no well-behaved client shows. Waiting
+/// longer than patience() throws std::runtime_error.
 class RawClient {
  public:
   struct Unconnected {};
-  /// Has its descriptor already, but is not connected (IPv4).
+  /// Opens a socket but does not connect it (IPv4).
   explicit RawClient(Unconnected) : descriptor_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     if (descriptor_ < 0) fail("socket");
   }
-  /// @param address  IPv4 or IPv6, in numbers.
+  /// @param address  numeric IPv4 or IPv6 address.
   RawClient(const std::string& address, int port)
       : descriptor_(socket(address.find(':') == std::string::npos ? AF_INET : AF_INET6,
                            SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -67,7 +67,7 @@ class RawClient {
   void send(std::string_view bytes) {
     if (!send_if_open(bytes)) fail("send");
   }
-  /// @return whether the other end still takes anything.
+  /// @return whether the other end still accepts data.
   [[nodiscard]] bool send_if_open(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t sent = ::send(descriptor_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -77,7 +77,7 @@ class RawClient {
     return true;
   }
 
-  /// The next line without its end; what came, if the other end closes before.
+  /// The next line without its line end; the data so far if the other end closes before.
   [[nodiscard]] std::string line() {
     std::size_t searched = 0;
     for (;;) {
@@ -87,13 +87,13 @@ class RawClient {
       if (!receive()) return take(input_.size(), 0);
     }
   }
-  /// So many bytes; fewer if the other end closes before.
+  /// This many bytes; fewer if the other end closes before.
   [[nodiscard]] std::string bytes(std::size_t count) {
     while (input_.size() < count && receive()) {
     }
     return take(std::min(count, input_.size()), 0);
   }
-  /// All that comes until the other end closes.
+  /// All data until the other end closes.
   [[nodiscard]] std::string rest() {
     while (receive()) {
     }
@@ -105,7 +105,7 @@ class RawClient {
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
   }
-  /// Closes as a machine does that knows nothing of the connection.
+  /// Closes with a TCP reset, like a machine that does not know the connection.
   void reset() {
     const linger at_once{1, 0};
     setsockopt(descriptor_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
@@ -122,7 +122,7 @@ class RawClient {
     ::close(probe);
     return found;
   }
-  /// Descriptors that this process has open.
+  /// Number of open descriptors of this process.
   [[nodiscard]] static std::size_t open_files() {
     return static_cast<std::size_t>(
         std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}));

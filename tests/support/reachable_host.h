@@ -13,7 +13,7 @@
 
 namespace test {
 
-/// How a test's sessions reach a host: by calls, or over TCP in one of two encodings.
+/// How a test's sessions reach a host: by function calls, or over TCP in one of two encodings.
 enum class Transport { kInProcess, kCbor, kJson };
 
 inline void PrintTo(Transport transport, std::ostream* os) {
@@ -28,7 +28,7 @@ inline void PrintTo(Transport transport, std::ostream* os) {
                                             : "Json";
 }
 
-/// A host that sessions reach in one of these ways: one test for all of them.
+/// A host that sessions reach by one of these transports, so that one test covers all of them.
 class ReachableHost {
  public:
   ReachableHost(std::shared_ptr<playerlike::Host> host, Transport transport,
@@ -48,7 +48,7 @@ class ReachableHost {
     return playerlike::open_session(name_, port);
   }
 
-  /// What a client calls it, over TCP.
+  /// The host name for clients, over TCP.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] playerlike::Server* server() noexcept { return server_.get(); }
   [[nodiscard]] playerlike::Host& host() const noexcept { return *host_; }
@@ -62,7 +62,7 @@ class ReachableHost {
   std::shared_ptr<playerlike::Host> host_;
   Transport transport_;
   std::string name_;
-  std::unique_ptr<playerlike::Server> server_;  // before the host, which it uses
+  std::unique_ptr<playerlike::Server> server_;  // destroyed before the host, which it uses
 };
 
 }  // namespace test

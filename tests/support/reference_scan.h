@@ -10,18 +10,18 @@
 
 namespace playpen::test {
 
-/// What the slow, plain way of scanning finds for one beam.
+/// Result of the slow reference method for one beam.
 struct ReferenceBeam {
-  double range_m = 0.0;         ///< range_max where nothing is met
+  double range_m = 0.0;         ///< range_max if the beam hits nothing
   double corner_off_rad = 4.0;  ///< angle between the beam and the nearest corner of any edge
 };
 
-/// A scan in the plainest way: every beam against every edge, in double precision.
+/// A scan by the simplest method: every beam against every edge, in double precision.
 ///
-/// The beam b from the origin meets the edge from p in direction d where (p + s d) = r b, so with
-/// the cross product r = (p x d) / (b x d) and s = (p x b) / (b x d). An edge counts if
-/// the origin lies strictly on its right (p x d < 0) and 0 <= s <= 1.
-/// @param edges    relative to the sensor, W-aligned, the solid on their left [m].
+/// The beam with direction b from the origin intersects the edge from p with direction d where p +
+/// s d = r b. With the cross product this gives r = (p x d) / (b x d) and s = (p x b) / (b x d). An
+/// edge counts if the origin is strictly on its right (p x d < 0) and 0 <= s <= 1.
+/// @param edges    relative to the sensor, W-aligned, with the solid on their left [m].
 /// @param yaw_rad  the sensor's heading in W [rad].
 [[nodiscard]] inline std::vector<ReferenceBeam> reference_scan(
     std::span<const sim::scan::Edge> edges, const sim::scan::ScanGeometry& geometry,

@@ -18,7 +18,7 @@
 
 namespace test {
 
-/// A socket that listens on loopback, on any free port.
+/// A socket that listens on any free port of loopback.
 class ListeningSocket {
  public:
   explicit ListeningSocket(bool v6 = false) : socket_(::socket(v6 ? AF_INET6 : AF_INET, kType, 0)) {
@@ -58,13 +58,13 @@ class ListeningSocket {
   int port_ = 0;
 };
 
-/// Stands between clients and a server on loopback, and misbehaves on demand: what networks and
-/// servers do at the wrong moment. A thread of its own passes bytes on.
+/// A proxy between clients and a server on loopback that can inject faults of networks and servers.
+/// Its own thread forwards bytes.
 class Relay {
  public:
-  /// @param server_port  of the server.
+  /// @param server_port  port of the server.
   explicit Relay(int server_port) : server_port_(server_port), thread_([this] { run(); }) {}
-  /// Without a server: answers each connection with this text, then is silent.
+  /// Without a server: answers each connection with this text and then sends nothing.
   explicit Relay(std::string text) : text_(std::move(text)), thread_([this] { run(); }) {}
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
@@ -74,13 +74,13 @@ class Relay {
   }
 
   [[nodiscard]] int port() const noexcept { return listening_.port(); }
-  /// Further connections go to another server; 0: they are closed at once.
+  /// Forwards new connections to another server; 0: closes them at once.
   void set_server(int port) noexcept { server_port_ = port; }
-  /// From now on nothing passes, until it is undone.
+  /// Stops forwarding until it is undone.
   void freeze(bool frozen = true) noexcept { frozen_ = frozen; }
-  /// Cuts all connections after so many further bytes from servers.
+  /// Cuts all connections after this many further bytes from servers.
   void cut_after(int bytes) noexcept { bytes_left_ = bytes; }
-  /// Connections that were made so far.
+  /// Number of connections so far.
   [[nodiscard]] int connections() const noexcept { return connections_; }
 
  private:
@@ -94,7 +94,7 @@ class Relay {
     while (!stop_) {
       std::vector<pollfd> polled{{listening_.descriptor(), POLLIN, 0}};
       for (const Pair& pair : pairs) {
-        // A negative descriptor is left out.
+        // poll() ignores a negative descriptor.
         polled.push_back({frozen_ ? -1 : pair.client, POLLIN, 0});
         polled.push_back({frozen_ ? -1 : pair.server, POLLIN, 0});
       }
@@ -157,7 +157,7 @@ class Relay {
     std::array<char, 65536> buffer;
     const ssize_t count = recv(from, buffer.data(), buffer.size(), 0);
     if (count <= 0) return false;
-    // Without a server nobody listens.
+    // Without a server, the bytes are discarded.
     return to < 0 || send_all(to, {buffer.data(), static_cast<std::size_t>(count)});
   }
 
@@ -179,7 +179,7 @@ class Relay {
   std::string text_;
   std::atomic<int> server_port_{0};
   std::atomic<bool> frozen_{false};
-  std::atomic<int> bytes_left_{-1};  ///< before the cut; -1: there is none
+  std::atomic<int> bytes_left_{-1};  ///< remaining bytes before the cut; -1: no cut
   std::atomic<int> connections_{0};
   std::atomic<bool> stop_{false};
   std::thread thread_;

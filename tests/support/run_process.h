@@ -25,32 +25,32 @@
 
 #include "patience.h"
 
-/// Running built programs from tests, with their output captured and an end to their patience.
+/// Runs built programs from tests, captures their output and limits their run time.
 namespace test_support {
 
-/// How a program ended, and what it wrote.
+/// How a program ended, and its output.
 struct ProcessResult {
   std::optional<int> status;  ///< exit status; nullopt: a signal ended it
   std::optional<int> signal;  ///< the signal that ended it
-  bool timed_out = false;     ///< it was killed because it took too long
+  bool timed_out = false;     ///< it was killed because it exceeded the time limit
   std::string out;            ///< its standard output
   std::string err;            ///< its standard error
 };
 
 struct ProcessOptions {
-  std::map<std::string, std::string> environment;  ///< variables to set on top of ours
-  std::string folder;                              ///< to run in; "": ours
+  std::map<std::string, std::string> environment;  ///< variables to set in addition to the test's
+  std::string folder;                              ///< working folder; "": the test's
   std::chrono::seconds timeout = patience();
-  std::vector<int> ignored_signals = {};         ///< that it is to ignore from the start
-  std::optional<std::uint64_t> file_limit = {};  ///< bytes that a file of it may have
+  std::vector<int> ignored_signals = {};  ///< signals that the program ignores from its start
+  std::optional<std::uint64_t> file_limit = {};  ///< limit of the size of its files [bytes]
 };
 
-/// A running program. Its standard input is a pipe that stays open, and silent, until the end.
-/// It runs in a process group of its own: who kills it kills what it has started as well, and if
-/// the test is killed it dies, too. Must be started from a program with one thread.
+/// A running program. Its standard input is a pipe that stays open and empty until the end. It runs
+/// in its own process group: killing the group also kills its child processes. If the test is
+/// killed, the program dies, too. Start it from a program with one thread.
 class Process {
  public:
-  /// Starts a program; command[0] is looked up in PATH if it has no slash. If it can't be run,
+  /// Starts a program; command[0] is looked up in PATH if it has no slash. If it can't be executed,
   /// its status is 127, as in a shell.
   explicit Process(const std::vector<std::string>& command, const ProcessOptions& options = {})
       : deadline_(std::chrono::steady_clock::now() + options.timeout) {
@@ -65,7 +65,7 @@ class Process {
       dup2(stdin_read, STDIN_FILENO);
       dup2(stdout_write, STDOUT_FILENO);
       dup2(stderr_write, STDERR_FILENO);
-      // Tests may be started in the background, where shells let SIGINT be ignored.
+      // The test may run in the background, where shells make it ignore SIGINT.
       for (const int signal : {SIGINT, SIGQUIT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
       for (const int signal : options.ignored_signals) std::signal(signal, SIG_IGN);
       if (options.file_limit) {
@@ -85,7 +85,7 @@ class Process {
       }
       _exit(127);
     }
-    setpgid(child_, child_);  // here too: whoever of both comes first
+    setpgid(child_, child_);  // both processes do this, because either may be first
     close(stdin_read);
     close(stdout_write);
     close(stderr_write);
@@ -96,8 +96,8 @@ class Process {
   Process& operator=(const Process&) = delete;
   ~Process() { static_cast<void>(kill_now()); }
 
-  /// Reads until the program's standard output holds the text.
-  /// @return whether it came before the program closed its output, or took too long.
+  /// Reads until the program's standard output contains the text.
+  /// @return false if the program closed its output first, or exceeded the time limit.
   [[nodiscard]] bool read_until(std::string_view text) {
     while (result_.out.find(text) == std::string::npos) {
       if (!pump()) return false;
@@ -105,7 +105,7 @@ class Process {
     return true;
   }
 
-  /// The same of its standard error.
+  /// Does this for its standard error.
   [[nodiscard]] bool read_error_until(std::string_view text) {
     while (result_.err.find(text) == std::string::npos) {
       if (!pump()) return false;
@@ -113,27 +113,27 @@ class Process {
     return true;
   }
 
-  /// What it has written to its standard output so far.
+  /// Its standard output so far.
   [[nodiscard]] const std::string& output() const { return result_.out; }
 
   void send_signal(int signal) const { kill(child_, signal); }
-  /// To the program and all that it has started in its group, as a terminal does.
+  /// Sends a signal to the program and all processes in its group, as a terminal does.
   void send_signal_to_group(int signal) const { kill(-child_, signal); }
 
-  /// Kills the program and all that it has started.
+  /// Kills the program and all processes in its group.
   [[nodiscard]] ProcessResult kill_now() {
     kill_group();
-    // The pipes end with their last holder, unless one of them went off into another group.
+    // The pipes end with the last process that holds them, unless one of them joined another group.
     deadline_ = std::min(deadline_, std::chrono::steady_clock::now() + std::chrono::seconds(20));
     return finish();
   }
 
-  /// Waits for the program's end; kills it when the time is over.
+  /// Waits for the program's end; kills it when its time limit is exceeded.
   [[nodiscard]] ProcessResult finish() {
     while (pump()) {
     }
     if (child_ > 0) {
-      // Output is at its end, or the time is over: then it does not get any more.
+      // Output has ended, or the time limit was exceeded: then kill the group.
       if (result_.timed_out) kill_group();
       int state = 0;
       while (waitpid(child_, &state, 0) < 0 && errno == EINTR) {
@@ -155,12 +155,12 @@ class Process {
 
   static std::pair<int, int> make_pipe() {
     std::array<int, 2> ends{};
-    // Closed in the child by exec; dup2 clears that on the copies.
+    // The child closes these on exec; dup2 clears the flag on the copies.
     if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe failed");
     return {ends[0], ends[1]};
   }
 
-  /// @pre nobody has waited for the program if child_ > 0, so the group is nobody else's.
+  /// @pre nobody has waited for the program if child_ > 0, so the group id is still in use.
   void kill_group() const {
     if (child_ > 0) kill(-child_, SIGKILL);
   }
@@ -170,7 +170,7 @@ class Process {
     descriptor = -1;
   }
 
-  /// Waits for output and takes it. @return false at the end of both streams, or of the time.
+  /// Waits for output and stores it. @return false at the end of both streams, or of the time.
   bool pump() {
     std::array<pollfd, 2> polls{};
     bool any_open = false;

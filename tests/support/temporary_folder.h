@@ -10,7 +10,7 @@
 
 namespace test_support {
 
-/// A folder of a test's own, gone with it.
+/// A folder for one test, removed by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -30,7 +30,7 @@ class TemporaryFolder {
     return (path_ / name).string();
   }
 
-  /// Writes a file, making the folders it lies in. @return its path.
+  /// Writes a file and creates its parent folders. @return its path.
   std::string write(const std::string& name, const std::string& text) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());

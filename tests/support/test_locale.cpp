@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Linked into every test program: its functions of C follow the user's locale, as those of programs
-// with Qt or GTK do. tests/run.sh chooses one with a decimal comma.
+// Linked into every test program: makes its C functions follow the user's locale, as in programs
+// with Qt or GTK. tests/run.sh chooses a locale with a decimal comma.
 #include <clocale>
 #include <cstdlib>
 #include <iostream>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// docs/add_a_device.md shows the compass: its code is that of the sources, and the files that it
-// names are those that the compass has touched.
+// docs/add_a_device.md uses the compass as its example: its code equals that of the sources, and it
+// names every file that the compass changes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ const fs::path kRoot(PLAYPEN_SOURCE_DIR);
 std::string page() { return read_bytes(kRoot / "docs/add_a_device.md"); }
 
 bool mentions_compass(const fs::path& file) {
-  // Not COMPASS: Player has a constant of that name.
+  // Not COMPASS, because Player has a constant of that name.
   static const std::regex kWord("[Cc]ompass");
   return std::regex_search(read_bytes(file), kWord);
 }
@@ -47,7 +47,7 @@ std::set<std::string> files_of_page() {
   return files;
 }
 
-/// The files of the source tree that mention the compass, but for tests, docs and worlds.
+/// The files of the source tree that mention the compass, except tests, docs and worlds.
 std::set<std::string> files_of_program() {
   std::set<std::string> files;
   const auto look_at = [&files](const fs::path& file) {

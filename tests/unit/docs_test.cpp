@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Links of the documentation lead somewhere.
+// Links of the documentation point to existing files and headings.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,12 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using test_support::read_bytes;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 const fs::path kRoot(PLAYPEN_SOURCE_DIR);
 
-/// The text without fenced blocks and code in backticks, lines kept.
+/// The text without fenced blocks and code in backticks; line breaks are kept.
 std::string prose_of(const std::string& text) {
   std::string prose;
   std::istringstream lines(text);
@@ -39,7 +40,7 @@ std::string prose_of(const std::string& text) {
   return prose;
 }
 
-/// Targets of links and pictures, those in the web left out.
+/// Targets of links and pictures, except links to the web.
 std::vector<std::string> links_of(const std::string& text) {
   static const std::regex kLink(R"(\]\(([^()\s]+(\([^()\s]*\))?)\))");
   const std::string prose = prose_of(text);
@@ -51,7 +52,7 @@ std::vector<std::string> links_of(const std::string& text) {
   return links;
 }
 
-/// The anchor that a heading gets: lower case, blanks to hyphens, other signs dropped.
+/// The anchor of a heading: lower case, blanks become hyphens, other characters are dropped.
 std::string anchor_of(const std::string& heading) {
   std::string anchor;
   for (const char c : heading) {
@@ -78,7 +79,7 @@ std::set<std::string> anchors_of(const std::string& text) {
   return anchors;
 }
 
-/// What is wrong with the links of a page; `file` is where it lies.
+/// The broken links of a page in `file`.
 std::vector<std::string> dead_links(const fs::path& file, const std::string& text) {
   std::vector<std::string> dead;
   for (const std::string& link : links_of(text)) {
@@ -116,6 +117,29 @@ TEST(Documentation, LinksLeadToFilesAndHeadingsThatExist) {
   }
 }
 
+TEST(Documentation, IndexListsEveryPage) {
+  const fs::path docs = kRoot / "docs";
+  const std::vector<std::string> listed = links_of(read_bytes(docs / "index.md"));
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(docs)) {
+    const std::string page = fs::relative(entry.path(), docs).generic_string();
+    if (entry.path().extension() != ".md" || page == "index.md") continue;
+    EXPECT_THAT(listed, Contains(page));
+  }
+}
+
+TEST(Documentation, GlossaryIsAlphabetical) {
+  static const std::regex kRow("\n\\| ([^|]+) \\|");
+  const std::string page = read_bytes(kRoot / "docs/glossary.md");
+  std::vector<std::string> terms;
+  for (std::sregex_iterator it(page.begin(), page.end(), kRow), end; it != end; ++it) {
+    std::string term = (*it)[1];
+    for (char& c : term) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    terms.push_back(term);
+  }
+  ASSERT_GT(terms.size(), 50U);
+  EXPECT_TRUE(std::is_sorted(terms.begin() + 1, terms.end()));  // after the heading "term"
+}
+
 // Each row of the table runs the world that it links to.
 TEST(Documentation, NamesTheWorldThatItRuns) {
   static const std::regex kRow(R"(\| \[(\w+)\]\(\.\./worlds/(\S+)\) \| `playpen run (\w+) )");
@@ -142,7 +166,7 @@ std::set<std::string> names_of_tests() {
   return names;
 }
 
-/// The tests that a page names in the last columns of its tables; '*' stands for anything.
+/// The tests that a page names in the last columns of its tables; '*' is a wildcard.
 std::vector<std::string> tests_named_in(const std::string& page) {
   static const std::regex kName("`([A-Z][A-Za-z0-9]*\\.[A-Za-z0-9*]+)`");
   std::vector<std::string> names;
@@ -173,7 +197,7 @@ TEST(Documentation, PromisesNameTestsThatExist) {
   for (const std::string& name : named) EXPECT_TRUE(is_test(name, tests)) << name;
 }
 
-// The checks themselves, so that one that lets all pass is noticed.
+// Tests of the checks themselves: a check that accepts everything must fail here.
 TEST(DocumentationLinks, AreFoundInProseOnly) {
   EXPECT_THAT(links_of("[a](b.md) and ![c](d/e.png)\n`[f](g)`\n```\n[h](i)\n```\n[j](#k)\n"
                        "[web](https://example.org/x)\n"),

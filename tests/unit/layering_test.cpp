@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Who may include whom: the arrows of docs/architecture.md, checked on the text of the sources.
+// The allowed includes: checks the arrows of docs/architecture.md on the text of the sources.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,8 +27,8 @@ struct Source {
   std::string text;
 };
 
-/// The text with comments and the contents of string literals blanked, lines kept; the names of
-/// included files are kept too.
+/// The text with blanks instead of comments and string literals. Line breaks and the names of
+/// included files are kept.
 std::string without_comments(const std::string& text) {
   std::string out;
   std::istringstream lines(text);
@@ -68,7 +68,7 @@ std::string without_comments(const std::string& text) {
   return out;
 }
 
-/// What a text includes, in order, as written between the quotes or angles.
+/// The includes of a text, in order, as written between the quotes or angle brackets.
 std::vector<std::string> includes_of(const std::string& text) {
   static const std::regex kInclude(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
   std::vector<std::string> found;
@@ -76,7 +76,7 @@ std::vector<std::string> includes_of(const std::string& text) {
   std::string line;
   while (std::getline(lines, line)) {
     std::smatch match;
-    if (line.find('#') == line.npos) continue;  // spares the expression
+    if (line.find('#') == line.npos) continue;  // saves the regular expression
     if (std::regex_search(line, match, kInclude)) found.push_back(match[1]);
   }
   return found;
@@ -87,8 +87,8 @@ bool starts_with_any(std::string_view text, const std::vector<std::string_view>&
                      [&](std::string_view prefix) { return text.starts_with(prefix); });
 }
 
-/// The folder of libsim that a source lies in or an include names ("sim/core/pose.h" and
-/// "core/x.h" are both "core"); empty if it is none of libsim's.
+/// The folder of libsim that a source belongs to or that an include names ("sim/core/pose.h" and
+/// "core/x.h" both give "core"); empty if it is not libsim's.
 std::string sim_folder(std::string_view path) {
   for (const std::string_view prefix : {"libsim/include/sim/", "libsim/src/", "sim/"}) {
     if (path.starts_with(prefix)) {
@@ -100,7 +100,7 @@ std::string sim_folder(std::string_view path) {
   return slash == std::string_view::npos ? "" : std::string(path.substr(0, slash));
 }
 
-/// Folder of libsim -> the folders it may include besides itself.
+/// Folder of libsim -> the other folders that it may include.
 const std::map<std::string, std::set<std::string>>& sim_arrows() {
   static const std::map<std::string, std::set<std::string>> kArrows = {
       {"core", {}},
@@ -116,10 +116,10 @@ const std::map<std::string, std::set<std::string>>& sim_arrows() {
   return kArrows;
 }
 
-/// The folder of libplayerlike or of apps that a source lies in or an include names:
-/// "playerlike/host/host.h", "host/core.h" and "libplayerlike/src/host/core.h" are all "host";
-/// "apps/playpen/grade/x.cpp" is "playpen/grade". Player's old places of headers are one,
-/// "player-". Empty if it is none of theirs.
+/// The folder of libplayerlike or of apps that a source belongs to or that an include names.
+/// "playerlike/host/host.h", "host/core.h" and "libplayerlike/src/host/core.h" all give "host";
+/// "apps/playpen/grade/x.cpp" gives "playpen/grade". The places of headers in old versions of
+/// Player are one folder, "player-". Empty if it belongs to neither.
 std::string playerlike_folder(std::string_view path) {
   const bool in_apps = path.starts_with("apps/");
   for (const std::string_view prefix :
@@ -139,8 +139,8 @@ std::string playerlike_folder(std::string_view path) {
   return slash == std::string_view::npos ? "" : std::string(path.substr(0, slash));
 }
 
-/// Folder of libplayerlike or apps -> the folders of libplayerlike and apps that it may include
-/// besides itself: the floors of docs/architecture.md, each above those that it names.
+/// Folder of libplayerlike or apps -> the other folders of libplayerlike and apps that it may
+/// include. They are the layers of docs/architecture.md, each above those that it names.
 const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
   static const std::map<std::string, std::set<std::string>> kArrows = {
       {"messages", {}},
@@ -153,7 +153,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"remote", {"messages", "process", "protocol", "session"}},
       {"connect", {"messages", "process", "session", "virtual_time", "host", "remote"}},
       {"server", {"messages", "process", "protocol", "session", "host"}},
-      // What clients include.
+      // Headers that clients include.
       {"libplayerinterface", {}},
       {"libplayercommon", {}},
       {"libplayererror", {"libplayercommon"}},
@@ -165,7 +165,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
       {"player-", {"libplayerc", "libplayerc++", "libplayercommon", "libplayerinterface"}},
       {"imr-h", {}},
       {"replace", {}},
-      // And what stands behind that.
+      // Their implementation.
       {"devices", {"messages", "process", "session", "connect", "libCCMorse", "libplayerc++"}},
       {"proxies",
        {"messages", "session", "virtual_time", "connect", "libCCMorse", "libplayerc++", "devices"}},
@@ -188,7 +188,7 @@ const std::map<std::string, std::set<std::string>>& playerlike_arrows() {
 
 using Arrows = std::map<std::string, std::set<std::string>>;
 
-/// A circle among arrows, as "a -> b -> a"; empty if there is none.
+/// A cycle among the arrows, as "a -> b -> a"; empty if there is none.
 std::string circle_in(const Arrows& arrows) {
   std::vector<std::string> way;
   std::set<std::string> done;
@@ -216,14 +216,14 @@ std::string circle_in(const Arrows& arrows) {
   return "";
 }
 
-/// What is wrong with one source of libsim, libplayerlike or apps; empty if nothing is.
+/// The violations of one source of libsim, libplayerlike or apps; empty if there are none.
 std::vector<std::string> violations(const Source& source) {
   std::vector<std::string> found;
   const std::string_view path = source.path;
   const bool in_sim = path.starts_with("libsim/");
   const bool in_playerlike = path.starts_with("libplayerlike/");
   const bool in_apps = path.starts_with("apps/");
-  // playerconfig.h, replace.h and robot_types.h lie beside the folders, as Player has them.
+  // playerconfig.h, replace.h and robot_types.h are beside the folders, as in Player.
   const bool is_loose = path.starts_with("libplayerlike/include/") &&
                         path.find('/', sizeof "libplayerlike/include/") == path.npos;
   const bool is_public =
@@ -233,7 +233,7 @@ std::vector<std::string> violations(const Source& source) {
     found.push_back(source.path + ": " + what);
   };
 
-  // A failed assertion says so on standard error before it aborts: nobody is left to be told.
+  // A failed assertion prints to standard error before it aborts, because no caller can handle it.
   const bool has_last_words = path == "libsim/src/core/assert.cpp";
 
   if (in_sim && !sim_arrows().contains(folder)) complain("lies in no known folder of libsim");
@@ -338,7 +338,7 @@ std::vector<std::string> violations(const Source& source) {
   return found;
 }
 
-/// All sources below a folder of the repository.
+/// All sources in a folder of the repository and its subfolders.
 std::vector<Source> sources_in(const std::string& folder) {
   std::vector<Source> sources;
   const fs::path root(PLAYPEN_SOURCE_DIR);
@@ -378,7 +378,7 @@ TEST(Layering, TheFloorsHaveNoCircle) {
   }
 }
 
-// Whatever the map says.
+// This holds independently of the map of arrows.
 TEST(Layering, IncludesMakeNoCircle) {
   Arrows sim;
   for (const Source& source : sources_in("libsim")) {
@@ -403,7 +403,7 @@ TEST(Layering, IncludesMakeNoCircle) {
   EXPECT_GT(others.size(), 15U);
 }
 
-// What it offers besides waiting, taking and sending are requests (messages/requests.h).
+// Except for waiting, taking and sending, the seam offers requests (messages/requests.h).
 TEST(Layering, TheSeamIsNarrow) {
   for (const Source& source : sources_in("libplayerlike/include/playerlike/session")) {
     if (!source.path.ends_with("/session.h")) continue;
@@ -429,7 +429,7 @@ TEST(Layering, AppsUsePublicHeadersOnly) {
       EXPECT_FALSE(sim_arrows().contains(sim_folder(include)) && !include.starts_with("sim/"))
           << source.path << " includes " << include;
       EXPECT_THAT(include, testing::Not(HasSubstr("../"))) << source.path;
-      // A windowing toolkit is loaded by the window's own process, nowhere else.
+      // Only the window's own process loads a windowing toolkit.
       EXPECT_TRUE(source.path.starts_with("apps/playpen/view/") ||
                   !starts_with_any(include, {"opencv2/", "X11/"}))
           << source.path << " includes " << include;
@@ -437,7 +437,7 @@ TEST(Layering, AppsUsePublicHeadersOnly) {
   }
 }
 
-/// What of a text writes or reads numbers as the locale has it.
+/// The parts of a text that write or read numbers in the locale's format.
 std::vector<std::string> locale_dependent(const std::string& text) {
   static const std::regex kCall(R"(\b(std::)?(sto[df]|stold|strto[df]|strtold|atof|sscanf)\s*\()");
   static const std::regex kFormat(R"(printf\s*\([^;]*%[-+ #0-9.*]*[aefgAEFG])");
@@ -454,7 +454,7 @@ std::vector<std::string> locale_dependent(const std::string& text) {
 TEST(Numbers, AreNotWrittenOrReadAsTheLocaleHasIt) {
   for (const char* folder : {"libsim/src", "libplayerlike/src", "apps/playpen"}) {
     for (const Source& source : sources_in(folder)) {
-      // What Player's functions print for people follows their locale, as Player's do.
+      // Player's functions that print for users follow the locale, as Player's own do.
       if (source.path.starts_with("libplayerlike/src/playerc/")) continue;
       EXPECT_THAT(locale_dependent(source.text), IsEmpty()) << source.path;
     }
@@ -464,7 +464,7 @@ TEST(Numbers, AreNotWrittenOrReadAsTheLocaleHasIt) {
   EXPECT_THAT(locale_dependent("std::snprintf(a, n, \"%06d of %s\", b, c);"), IsEmpty());
 }
 
-// The rules themselves, so that a rule that lets all pass is noticed.
+// Tests of the rules themselves: a rule that accepts everything must fail here.
 TEST(LayeringRules, FindIncludesButNotThoseInComments) {
   EXPECT_THAT(includes_of("#include <a/b.h>\n// #include <c>\n/* #include <d>\n#include <e>\n*/\n"
                           "  # include \"f.h\"  // why\n"),

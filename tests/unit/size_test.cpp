@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Files and functions stay so small that they can be read at one sitting. Headers that the build
-// makes from tables do not count, nor do tests, which are lists of cases.
+// Files and functions are small enough to read in one sitting. Generated headers do not count, and
+// neither do tests, which are lists of cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,7 @@ struct Excuse {
   const char* reason;
 };
 
-// Functions by file and the line that their brace is on. This list may only shrink.
+// Functions, identified by file and the line of their opening brace. This list may only shrink.
 const std::map<std::string, Excuse>& excused_functions() {
   static const std::map<std::string, Excuse> excused = {
       {"apps/playpen/completion.cpp: std::string bash_script(const CommandLine& line) {",
@@ -38,7 +38,8 @@ struct Function {
   std::size_t lines;
 };
 
-/// For each line, the braces that it opens less those that it closes, but for texts and comments.
+/// For each line, the number of braces that it opens minus the number that it closes, ignoring
+/// string literals and comments.
 std::vector<int> braces_of(const std::vector<std::string>& lines) {
   std::vector<int> braces;
   std::string raw_end;  // of the raw text that goes on, if one does
@@ -71,8 +72,9 @@ std::vector<int> braces_of(const std::vector<std::string>& lines) {
   return braces;
 }
 
-/// Functions of a source as clang-format lays them out: from the line that ends with their brace to
-/// its counterpart. Statements and lambdas that look like one are shorter than what they are in.
+/// Functions in a source formatted by clang-format: from the line that ends with the opening brace
+/// to the closing brace. Statements and lambdas may look like functions, but they are shorter than
+/// the function that contains them.
 std::vector<Function> functions_of(const std::vector<std::string>& lines) {
   const std::vector<int> braces = braces_of(lines);
   std::vector<Function> found;
@@ -141,7 +143,7 @@ TEST(Size, ExcusesAreForWhatIsThere) {
   }
 }
 
-// The measure itself, so that one that finds nothing is noticed.
+// A test of the measure itself: one that finds nothing must fail.
 TEST(SizeRules, MeasureFunctions) {
   const auto found = functions_of({"namespace {", "int one() { return 1; }", "int two(int a,",
                                    "        int b) const {", "  if (a == '}') return 0;  // }",

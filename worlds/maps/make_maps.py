@@ -61,7 +61,7 @@ def flat():
     return plan
 
 
-# The cave in metres, the middle of the floor at (0, 0).
+# The cave in metres; the centre of the floor is (0, 0).
 CHAMBERS = [(-5.2, 5.0, 2.3), (-0.8, 4.3, 1.5), (5.0, 5.1, 2.2), (-5.2, -0.6, 1.6), (0.4, 0.2, 2.4),
             (5.3, 0.3, 1.7), (-4.9, -5.3, 2.2), (1.0, -4.6, 1.6), (5.4, -5.3, 2.0),
             (1.6, 6.6, 0.9), (-2.2, -2.4, 0.9), (-1.6, -6.4, 1.0), (6.8, -2.7, 0.8), (3.0, 2.8, 0.9)]
@@ -107,7 +107,8 @@ def cave():
     return plan
 
 
-# The clearing in metres, the middle of the floor at (0, 0): tongues of rock from the walls, and rocks.
+# The clearing in metres; the centre of the floor is (0, 0). Tongues of rock start at the walls,
+# rocks stand alone.
 TONGUES = [(-8.0, 1.5, -4.6, 1.0, 0.4), (1.5, -8.0, 1.0, -4.4, 0.45), (8.0, -1.0, 4.4, -1.6, 0.4),
            (-1.0, 8.0, -1.6, 4.4, 0.45)]
 CLEARING_ROCKS = [(0.4, 0.2, 0.9), (5.0, 4.6, 0.7), (-4.6, 5.2, 0.5), (5.4, -5.6, 0.6)]

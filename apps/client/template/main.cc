@@ -6,7 +6,7 @@
 #include <iostream>
 #include <string>
 
-// Drives ahead and turns away from what is near: a start for a program of your own.
+// Drives ahead and turns away from near obstacles: a starting point for your own program.
 int main(int argc, char** argv) {
   // "localhost" is the simulation inside this very program; each robot has a port of its own.
   const std::string host = argc > 1 ? argv[1] : "localhost";
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
       }
     }
   } catch (const PlayerCc::PlayerError& error) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     std::cerr << error.GetErrorStr() << '\n';
   }
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // result[x] = min over q of (x - q)^2 + heights[q], for x = 0..n-1: the lower envelope of parabolas
-// with their lowest points at (q, heights[q]). Heights may be infinite.
+// whose lowest points are at (q, heights[q]). Heights may be infinite.
 class LowerEnvelope {
  public:
   explicit LowerEnvelope(std::size_t n) : apex_(n), begin_(n) {}
@@ -24,7 +24,8 @@ class LowerEnvelope {
     std::size_t parabolas = 0;
     for (std::size_t q = 0; q < n; ++q) {
       if (heights[q] == kInfinity) continue;
-      // Those whose part of the envelope begins only where the new one is already lower go.
+      // Remove the parabolas whose part of the envelope begins only where the new one is already
+      // lower.
       double begin = -kInfinity;
       while (parabolas > 0) {
         const std::size_t p = apex_[parabolas - 1];
@@ -51,14 +52,14 @@ class LowerEnvelope {
   }
 
  private:
-  // Where the parabola of q > p becomes the lower one.
+  // The x from which the parabola of q > p is lower than that of p.
   static double crossing(const std::vector<double>& heights, std::size_t p, std::size_t q) {
     const double a = static_cast<double>(p);
     const double b = static_cast<double>(q);
     return ((heights[q] + b * b) - (heights[p] + a * a)) / (2.0 * (b - a));
   }
 
-  std::vector<std::size_t> apex_;  // of the envelope's parabolas, from left to right
+  std::vector<std::size_t> apex_;  // the envelope's parabolas, from left to right
   std::vector<double> begin_;      // where each of them begins to be the lowest
 };
 
@@ -69,7 +70,7 @@ Grid<double> squared_distances(const Mask& blocked, Outside outside) {
   const int height = blocked.height();
   const double beyond = outside == Outside::kBlocked ? 1.0 : kInfinity;
 
-  // Along the columns the nearest blocked cell is found by looking up and down.
+  // Along a column, the nearest blocked cell is found by looking up and down.
   for (int column = 0; column < width; ++column) {
     double distance = beyond - 1.0;
     for (int row = 0; row < height; ++row) {
@@ -112,7 +113,8 @@ Grid<double> distance_to_blocked_m(const Mask& blocked, Outside outside) {
 Mask inflate(const Mask& blocked, double radius_m, Outside outside) {
   if (!(radius_m >= 0.0)) throw std::invalid_argument("inflate: the radius must be at least 0 m");
   const Grid<double> squared = squared_distances(blocked, outside);
-  // Squared distances are whole numbers; a radius meant as so many cells must not miss by rounding.
+  // Squared distances are integers. The tolerance keeps rounding from excluding cells exactly at
+  // the radius.
   const double radius_cells = radius_m / blocked.frame().cell_size_m;
   const double limit = radius_cells * radius_cells * (1.0 + 1e-9);
   Mask grown(blocked.frame());

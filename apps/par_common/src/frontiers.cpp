@@ -35,7 +35,7 @@ double squared_distance(const Cell& cell, const Mean& mean) {
   return columns * columns + rows * rows;
 }
 
-/// The cell nearest to the mean; of equally near ones the first.
+/// The cell nearest to the mean; of equally near cells, the first.
 Cell middle_of(const std::vector<Cell>& cells) {
   const Mean mean = mean_of(cells);
   return *std::min_element(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) {
@@ -68,8 +68,8 @@ std::vector<Frontier> cluster(const Mask& cells, std::size_t min_cells) {
   for (int row = 0; row < cells.height(); ++row) {
     for (int column = 0; column < cells.width(); ++column) {
       if (left[{column, row}] == 0) continue;
-      // All cells that can be reached from this one over neighbours: its list grows while it is
-      // read.
+      // All cells that are connected to this one through neighbours. The list grows while the loop
+      // reads it.
       Frontier frontier;
       frontier.cells.push_back({column, row});
       left[{column, row}] = 0;
@@ -103,9 +103,9 @@ std::vector<Frontier> split(const Frontier& frontier, double range_cells) {
                               std::floor(static_cast<double>(cells) / (1.8 * range_cells) + 0.5)));
   if (parts <= 1) return {frontier};
 
-  // Lloyd's algorithm: cells go to the nearest mean, means to the middle of their cells, until
-  // nothing changes. It always ends, as the sum of squared distances falls; the bound is for
-  // patience.
+  // Lloyd's algorithm: assign each cell to the nearest mean, move each mean to the middle of its
+  // cells, repeat until nothing changes. The sum of squared distances decreases, so it always ends;
+  // the bound only limits the run time.
   std::vector<Mean> means;
   for (std::size_t part = 0; part < parts; ++part) {
     const Cell& cell = frontier.cells[(2 * part + 1) * cells / (2 * parts)];
@@ -142,7 +142,7 @@ std::vector<Frontier> split(const Frontier& frontier, double range_cells) {
 std::size_t information_gain(const Grid<CellState>& states, const Cell& from, double range_m) {
   if (states.value_or(from, CellState::kOccupied) == CellState::kOccupied) return 0;
   const GridFrame& frame = states.frame();
-  // No farther than from one corner of the grid to the other.
+  // The range is at most the distance between opposite corners of the grid.
   const double range = std::min(range_m / frame.cell_size_m,
                                 std::hypot(static_cast<double>(frame.width), frame.height));
   const int reach = static_cast<int>(std::floor(range));

@@ -7,10 +7,10 @@
 namespace par {
 namespace {
 
-// Columns and rows stop here, so that differences of two of them still are ints.
+// Columns and rows saturate here, so that the difference of two of them fits into an int.
 constexpr int kLimit = 1 << 30;
 
-// floor(value), within the limits; what is not a number counts as far to the left.
+// floor(value), saturated at the limits; NaN gives the lower limit.
 int bounded_floor(double value) {
   const double floored = std::floor(value);
   if (!(floored > -kLimit)) return -kLimit;

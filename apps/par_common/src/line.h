@@ -10,8 +10,8 @@
 
 namespace par {
 
-/// Walks along Bresenham's line and tells each of its cells, both ends included, until `visit`
-/// returns false.
+/// Walks along Bresenham's line and calls `visit` for each of its cells, both ends included, until
+/// `visit` returns false.
 template <typename Visit>
 void walk_line(const Cell& from, const Cell& to, Visit visit) {
   const std::int64_t columns = std::abs(std::int64_t{to.column} - from.column);
@@ -23,7 +23,7 @@ void walk_line(const Cell& from, const Cell& to, Visit visit) {
   const std::int64_t minor = steep ? columns : rows;
 
   Cell cell = from;
-  std::int64_t error = major;  // twice the way to the next minor step, in parts of 2 major
+  std::int64_t error = major;  // twice the distance to the next minor step, in parts of 2 major
   for (std::int64_t i = 0;; ++i) {
     if (!visit(cell) || i == major) return;
     error += 2 * minor;
@@ -35,18 +35,18 @@ void walk_line(const Cell& from, const Cell& to, Visit visit) {
 }
 
 /// Whether the straight line between the centres of two cells touches only cells that are 0 in a
-/// row-major list with `stride` cells a row; cells are closed squares, so that one it passes
-/// through a corner of counts. Neither end is looked at outside the list: both must lie in it.
+/// row-major list with `stride` cells per row. Cells are closed squares, so a cell that the line
+/// touches at a corner counts. Both ends must be inside the list.
 ///
 /// On the border between the columns i and i + 1 (i counts along the longer side, of length n), the
 /// line is m (2 i + 1) / (2 n) cells up the shorter side. There the row changes from k to k + 1
-/// when that has reached k + 1/2, and if it has just reached it, the line goes through the corner
+/// when this value has reached k + 1/2. If it is exactly k + 1/2, the line goes through the corner
 /// of four cells.
 [[nodiscard]] inline bool line_is_clear(const std::uint8_t* cells, std::ptrdiff_t stride, int x0,
                                         int y0, int x1, int y1) {
   std::ptrdiff_t n = std::abs(std::ptrdiff_t{x1} - x0);
   std::ptrdiff_t m = std::abs(std::ptrdiff_t{y1} - y0);
-  std::ptrdiff_t along = x1 < x0 ? -1 : 1;  // from a cell to the next in the list
+  std::ptrdiff_t along = x1 < x0 ? -1 : 1;  // index step from a cell to the next one
   std::ptrdiff_t across = y1 < y0 ? -stride : stride;
   if (m > n) {
     std::swap(n, m);

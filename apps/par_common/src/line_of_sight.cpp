@@ -27,7 +27,7 @@ Path smooth(const Mask& blocked, const Path& path) {
   if (!path.found()) return smoothed;
   smoothed.cells.push_back(path.cells.front());
   for (std::size_t at = 0; at + 1 < path.cells.size();) {
-    // The last cell in sight; the next one of the way is, or it would be no way.
+    // Find the last cell in sight. The next cell of the path is always in sight.
     std::size_t next = path.cells.size() - 1;
     while (next > at + 1 && !line_of_sight(blocked, path.cells[at], path.cells[next])) --next;
     smoothed.cells.push_back(path.cells[next]);

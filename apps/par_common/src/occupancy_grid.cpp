@@ -57,7 +57,7 @@ void OccupancyGrid::update(const Scan& scan) {
                false);
     }
   }
-  // What the scan as a whole says of each cell.
+  // Apply the result of the whole scan to each cell.
   const float limit = static_cast<float>(params_.limit_log_odds);
   for (const std::size_t i : touched_) {
     const double change = seen_[i] == kHit ? params_.hit_log_odds : params_.miss_log_odds;
@@ -96,7 +96,7 @@ Grid<float> OccupancyGrid::probabilities() const {
 }
 
 Grid<CellState> OccupancyGrid::states() const {
-  // Thresholds in log odds, so that no exponential is needed for each of 30 000 cells.
+  // Thresholds as log odds, which saves an exponential for each of 30 000 cells.
   const auto log_odds_of = [](double p) { return static_cast<float>(std::log(p / (1.0 - p))); };
   const float occupied = log_odds_of(params_.occupied_threshold);
   const float free = log_odds_of(params_.free_threshold);

@@ -10,10 +10,10 @@
 namespace par {
 namespace {
 
-// Slowest speed before the end: without it braking would never end [m/s].
+// Lowest speed before the end; without it, braking would never finish [m/s].
 constexpr double kCreep_mps = 0.02;
 
-/// Where on the stretch from a to b the point nearest to p lies: 0 at a, 1 at b.
+/// Parameter of the point on the segment from a to b that is nearest to p: 0 at a, 1 at b.
 double nearest_fraction(const Point& a, const Point& b, const Point& p) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
@@ -68,8 +68,8 @@ Point PathFollower::point_at(double along_m) const {
 }
 
 void PathFollower::find_progress(const Point& robot) {
-  // From where it was to a little ahead; what lies behind, or where the way passes by once more,
-  // is none of its business.
+  // Search from the last progress to a little ahead. Ignore the path behind, and later passes near
+  // this place.
   const double from_m = progress_m_;
   const double to_m = progress_m_ + 3.0 * params_.lookahead_m;
   double least = std::numeric_limits<double>::infinity();
@@ -110,7 +110,8 @@ Velocity PathFollower::update(const Pose& robot) {
                             params_.max_turn_radps)};
   }
 
-  // Fast enough to stop at the end, and never faster than the circle to the aim can be turned.
+  // Fast enough to stop at the end, but not faster than the robot can turn along the circle to the
+  // aim.
   double speed = std::clamp(std::sqrt(2.0 * params_.braking_mps2 * remaining_m()), kCreep_mps,
                             params_.max_speed_mps);
   const double curvature = 2.0 * std::sin(error_rad) / std::max(distance, 1e-6);

@@ -19,11 +19,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDiagonal = 1.4142135623730950488;  // sqrt(2)
 
-// A way must be shorter by this to be better [cells]: less is rounding.
+// A path must be shorter by this to count as better [cells]; smaller differences are rounding.
 constexpr double kGain = 1e-9;
 
-/// A map with a blocked frame of one cell round it, so that nobody need ask whether a neighbour
-/// lies outside. Its cells are known by their place in the list.
+/// A map with a border of one blocked cell, so that no code needs to check whether a neighbour is
+/// outside. Cells are identified by their index in the list.
 class Walls {
  public:
   explicit Walls(const Mask& blocked)
@@ -47,7 +47,7 @@ class Walls {
   }
   [[nodiscard]] Cell cell(int place) const { return {place % stride_ - 1, place / stride_ - 1}; }
 
-  /// Tells the places that can be reached from a place in one step, and what the step costs.
+  /// Calls `visit` for each place that can be reached in one step, with the cost of the step.
   template <typename Visit>
   void for_each_neighbour(int place, Visit visit) const {
     std::array<bool, 4> free{};  // right, up, left, down
@@ -71,7 +71,7 @@ class Walls {
     const int rows = a / stride_ - b / stride_;
     return std::sqrt(static_cast<double>(columns * columns + rows * rows));
   }
-  /// Length of the shortest way if nothing were blocked.
+  /// Length of the shortest path if no cell were blocked.
   [[nodiscard]] double octile_distance(int a, int b) const {
     const int columns = std::abs(a % stride_ - b % stride_);
     const int rows = std::abs(a / stride_ - b / stride_);
@@ -84,14 +84,14 @@ class Walls {
   GridFrame frame_;
   int stride_;
   std::vector<std::uint8_t> cells_;
-  std::array<int, 8> offsets_{};  // right, up, left, down, and the diagonals after each
+  std::array<int, 8> offsets_{};  // right, up, left, down, and the diagonal after each
 };
 
 /// A cell that waits to be expanded.
 struct Open {
-  double key;   // the least one is next
-  double rest;  // of equal keys, the one with the shortest estimated rest: it leads to the goal
-  int place;    // and of those the first: a rule, so that the result does not hang on the heap
+  double key;   // the smallest is next
+  double rest;  // tie-break 1: the shortest estimated rest, which leads to the goal
+  int place;    // tie-break 2: the first place, so that the result does not depend on the heap
 
   friend bool operator>(const Open& a, const Open& b) {
     if (a.key != b.key) return a.key > b.key;
@@ -100,7 +100,8 @@ struct Open {
   }
 };
 
-/// What the three planners share: a way so far and a predecessor for each cell, and the open ones.
+/// The state that the three planners share: the best length so far and a predecessor for each cell,
+/// and the open cells.
 class Search {
  public:
   explicit Search(const Walls& walls)
@@ -109,15 +110,16 @@ class Search {
         parent_(walls.size(), -1),
         expanded_at_(walls.size(), kInfinity) {}
 
-  /// A new, better way to a place; `rest` is the estimated length from it to the goal.
+  /// Stores a new, better path to a place; `rest` is the estimated length from the place to the
+  /// goal.
   void reach(int place, double length, int parent, double rest) {
     so_far_[Walls::at(place)] = length;
     parent_[Walls::at(place)] = parent;
     open_.push({length + rest, rest, place});
   }
 
-  /// The place to expand next; -1 if none is open. One that has been reached several times waits in
-  /// the queue several times, and is expanded for the best of them only.
+  /// The place to expand next; -1 if none is open. A place that was reached several times is in the
+  /// queue several times, and is expanded only for its best entry.
   int next() {
     while (!open_.empty()) {
       const int place = open_.top().place;
@@ -148,14 +150,14 @@ class Search {
 
  private:
   const Walls& walls_;
-  std::vector<double> so_far_;       // shortest known way from the start [cells]
-  std::vector<int> parent_;          // the place before on that way
-  std::vector<double> expanded_at_;  // so_far_ when it was expanded last
+  std::vector<double> so_far_;       // length of the shortest known path from the start [cells]
+  std::vector<int> parent_;          // the previous place on that path
+  std::vector<double> expanded_at_;  // so_far_ at the last expansion
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
   std::size_t expanded_ = 0;
 };
 
-/// Expands a place: sees whether its neighbours are better reached through it.
+/// Expands a place: checks whether its neighbours have a shorter path through it.
 template <typename Rest>
 void expand(const Walls& walls, Search& search, int place, Rest rest) {
   const double so_far = search.so_far(place);
@@ -167,12 +169,12 @@ void expand(const Walls& walls, Search& search, int place, Rest rest) {
   });
 }
 
-/// Whether both ends are places where a robot can be.
+/// Whether both ends are free.
 bool ends_are_free(const Walls& walls, int start, int goal) {
   return start >= 0 && goal >= 0 && walls.is_free(start) && walls.is_free(goal);
 }
 
-/// The search of Dijkstra's and of A*, from start to goal.
+/// The search of Dijkstra's algorithm and A*, from start to goal.
 template <typename Rest>
 Path plan(const Walls& walls, const GridFrame& frame, int start, int goal, Rest rest) {
   Search search(walls);
@@ -276,11 +278,12 @@ Path theta_star(const Mask& blocked, const Cell& start, const Cell& goal) {
   search.reach(from, 0.0, -1, walls.distance(from, to));
   for (int place = search.next(); place >= 0; place = search.next()) {
     if (place == to) return search.path_to(to, blocked.frame());
-    // The start has no predecessor: its neighbours are reached from itself.
+    // The start has no predecessor: its neighbours are reached from the start itself.
     const int parent = search.parent(place) >= 0 ? search.parent(place) : place;
     walls.for_each_neighbour(place, [&](int neighbour, double step) {
-      // From the predecessor, or if that does not see the neighbour, from the place itself. The
-      // former is the shorter one: if it is no gain, neither is the latter, and nobody need look.
+      // Try the predecessor first, and the place itself if the predecessor does not see the
+      // neighbour. The path over the predecessor is the shorter one: if it is no improvement,
+      // neither is the other.
       const double direct = search.so_far(parent) + walls.distance(parent, neighbour);
       const double better = search.so_far(neighbour) - kGain;
       if (!(direct < better)) return;

@@ -15,7 +15,7 @@ constexpr int kMaxSide = 8192;
   throw MapError(name + ":" + std::to_string(line) + ": " + what);
 }
 
-/// A piece of the file for a message: in quotes, not too long, nothing that upsets a terminal.
+/// A piece of the file for an error message: quoted, shortened, printable ASCII only.
 std::string quoted(const std::string& text) {
   constexpr std::size_t kMost = 20;
   std::string shown = "\"";
@@ -25,7 +25,7 @@ std::string quoted(const std::string& text) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
-/// The next line without blanks at its ends; false at the end of the text.
+/// The next line without trailing blanks; false at the end of the text.
 bool next_line(std::istream& text, std::string& line) {
   if (!std::getline(text, line)) return false;
   while (!line.empty() && is_blank(line.back())) line.pop_back();

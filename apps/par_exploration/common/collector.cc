@@ -12,14 +12,14 @@
 
 namespace {
 
-const double LASER_X = 0.035;     // the laser is so far ahead of the robot's centre [m]
-const double FOOTPRINT = 0.075;   // a circle inside the robot's outline [m]
-const int NEIGHBOURS = 7;         // beams to each side over which echoes are smoothed
-const double CLOSE = 0.04;        // ... if they are not farther apart than this [m]
-const int SCANS_PER_PICTURE = 3;  // the map is drawn after so many scans: 3.3 times a second
+const double LASER_X = 0.035;     // distance of the laser ahead of the robot's centre [m]
+const double FOOTPRINT = 0.075;   // radius of a circle inside the robot's outline [m]
+const int NEIGHBOURS = 7;         // echoes are averaged over this many beams on each side ...
+const double CLOSE = 0.04;        // ... that are at most this far away [m]
+const int SCANS_PER_PICTURE = 3;  // draw the map every third scan: 3.3 times a second
 
-// Each point moved to the mean of its neighbours among the beams that are close to it too: on a
-// wall, most of the noise goes, and corners lose a few millimetres.
+// Moves each point to the mean of the near points among its neighbouring beams. On a wall this
+// removes most of the noise; corners lose a few millimetres.
 std::vector<par::Point> smooth(const std::vector<par::Point>& points) {
   const int count = static_cast<int>(points.size());
   std::vector<par::Point> result;
@@ -83,14 +83,14 @@ void CCollector::threadBody() {
   try {
     collect();
   } catch (const CCMorse::MorseError& e) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     INFO("The run is over: " << e.GetErrorStr());
   } catch (const std::exception& e) {
     ERROR("Collecting data: " << e.what());
     const ScopedLock lk(mtx);
     failed = true;
   }
-  map.close();  // or the other thread would wait for ever
+  map.close();  // otherwise the other thread would wait for ever
 }
 
 void CCollector::collect() {
@@ -98,8 +98,9 @@ void CCollector::collect() {
   while (true) {
     client.Read();
     {
-      // Asked here only, and not after integrate(): whoever calls stop() has waited for the map of
-      // the Read() before, so whether this Read() is the last one is not a matter of chance.
+      // Check `quit` only here, not after integrate(). The caller of stop() has waited for the map
+      // of the previous Read(), so this Read() is the last one in every run, regardless of thread
+      // timing.
       const ScopedLock lk(mtx);
       if (quit) break;
     }
@@ -108,8 +109,8 @@ void CCollector::collect() {
   layers.drawMap(grid);
 }
 
-// Odometry counts from where the robot started. Where that is, the arena's localisation told in
-// the first moment, so that both maps can be laid upon the same arena.
+// Odometry starts at 0 where the robot starts. The arena's localisation gives that place at the
+// first moment, so the map lies in the arena's frame with either source of poses.
 void CCollector::setOrigin() {
   const double yaw = par::normalize_angle(arena->GetYaw() - position->GetYaw());
   const double c = std::cos(yaw);
@@ -132,7 +133,7 @@ void CCollector::integrate() {
   seen.time = position->GetDataTime();
   seen.robot = robotPose();
 
-  // What the laser measured, in two forms: as the map wants it, and as points around the robot.
+  // The laser data in two forms: a scan for the map, and points around the robot.
   par::Scan scan;
   scan.sensor = {seen.robot.x + LASER_X * std::cos(seen.robot.yaw),
                  seen.robot.y + LASER_X * std::sin(seen.robot.yaw), seen.robot.yaw};
@@ -145,7 +146,7 @@ void CCollector::integrate() {
   for (unsigned i = 0; i < beams; i++) {
     const double range = laser->GetRange(i);
     scan.ranges_m.push_back(range);
-    if (range >= scan.max_range_m) continue;  // this beam met nothing
+    if (range >= scan.max_range_m) continue;  // this beam hit nothing
     const double bearing = scan.first_bearing_rad + i * scan.bearing_step_rad;
     seen.echoes.push_back({LASER_X + range * std::cos(bearing), range * std::sin(bearing)});
   }
@@ -154,7 +155,7 @@ void CCollector::integrate() {
   if (laser->IsFresh()) {
     laser->NotFresh();
     grid.update(scan);
-    // The laser does not see the floor the robot stands on.
+    // The laser does not see the floor below the robot.
     grid.set_free({seen.robot.x, seen.robot.y}, FOOTPRINT);
     layers.drawScan(seen);
     if (scans++ % SCANS_PER_PICTURE == 0) layers.drawMap(grid);

@@ -11,24 +11,25 @@
 #include "par_common/occupancy_grid.h"
 #include "shared_map.h"
 
-// The thread that collects data: ten times a second it reads where the robot is and what its laser
-// sees, and learns it into the map.
+// The thread that collects data. Ten times a second it reads the robot's pose and the laser, and
+// updates the map.
 //
-// It has a client for itself. In lockstep, simulated time goes on only when every client's thread
-// waits in Read(), so no scan is lost, however long the other thread plans.
+// It has its own client. In lockstep, simulated time advances only when every client's thread waits
+// in Read(), so no scan is lost, however long the other thread plans.
 class CCollector : public imr::concurrent::CThread {
  public:
   static imr::CConfig& getConfig(imr::CConfig& config);
 
-  // What is passed by reference must outlive this object; the client is for this thread only.
+  // The arguments passed by reference must outlive this object. Only this thread may use the
+  // client.
   CCollector(imr::CConfig& cfg, CCMorse::PlayerClient& client, CSharedMap& map, CLayers& layers);
   ~CCollector() override;
 
   // Waits for the first data. Call it before execute().
   void waitForData();
-  // Lets the thread end after its next Read(). A map that was published before stays the last one.
+  // The thread ends after its next Read(). The map that it published before remains the last one.
   void stop();
-  // Whether the thread ended by a fault, and not by the end of the run or by stop().
+  // Whether the thread ended because of an error, rather than by the end of the run or by stop().
   bool hasFailed() const;
 
  protected:
@@ -44,16 +45,16 @@ class CCollector : public imr::concurrent::CThread {
   CSharedMap& map;
   CLayers& layers;
   std::unique_ptr<CCMorse::LaserProxy> laser;
-  std::unique_ptr<CCMorse::Position2dProxy> position;  // where the map's poses come from
-  std::unique_ptr<CCMorse::Position2dProxy> arena;     // the arena's localisation: where it began
+  std::unique_ptr<CCMorse::Position2dProxy> position;  // source of the map's poses
+  std::unique_ptr<CCMorse::Position2dProxy> arena;  // the arena's localisation, for the start pose
 
-  par::OccupancyGrid grid;  // its own: what it publishes are copies
-  par::Pose origin;         // of the frame in which `position` tells where the robot is, in the map
+  par::OccupancyGrid grid;  // this thread's own map; it publishes copies
+  par::Pose origin;         // pose, in the map, of the frame in which `position` reports poses
   int scans = 0;
 
   mutable Mutex mtx;    // guards what follows
   bool quit = false;    // stop() sets it from another thread
-  bool failed = false;  // read when the thread has ended
+  bool failed = false;  // read after the thread has ended
 };
 
 #endif

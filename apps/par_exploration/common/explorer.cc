@@ -15,41 +15,43 @@
 
 namespace {
 
-// The robot's circle has 0.098 m; half the diagonal of a cell, 0.014 m, is for what fills a cell
-// beyond its centre; the rest is for driving that is not exact.
+// The robot's circle has a radius of 0.098 m. Half the diagonal of a cell (0.014 m) covers
+// obstacles that fill a cell beyond its centre. The rest allows for inexact driving.
 const double RADIUS = 0.125;
-// Ways keep so far from walls where there is room: the robot is faster there [m].
+// Where there is room, paths keep this distance from walls, because the robot is faster there [m].
 const double COMFORT = 0.19;
-// Within this of start and goal a way may be less comfortable [m].
+// This close to the start and the goal, a path may have less clearance [m].
 const double DETOUR = 0.20;
 
-const std::size_t LEAST_CELLS = 4;  // smaller frontiers are left out
-const double PART = 40.0;  // longer frontiers are cut into parts about so far across [cells]
-// A frontier that promises less is a hole in the drawing of a wall: unknown cells, which would be
-// seen from its centre, within this range.
+const std::size_t LEAST_CELLS = 4;  // smaller frontiers are ignored
+const double PART = 40.0;  // longer frontiers are split into parts of about this extent [cells]
+// A frontier must have at least this many unknown cells that are visible from its centre within
+// PROMISE_RANGE. Otherwise it is a hole in the map of a wall.
 const std::size_t PROMISE = 30;
 const double PROMISE_RANGE = 0.3;  // [m]
-const double VIEW = 0.6;           // a frontier can be looked at from so far away [m]
-const double IN_VIEW = 0.8;        // it is seen if it is less off the heading than this [rad]
-const double LOOK = 0.5;           // and looked at when it was seen for so long [s]
-const int MOST_TRIES = 5;          // of a cell as part of a target
+const double VIEW = 0.6;           // the robot can observe a frontier from this far away [m]
+// a frontier is in view if it is within this angle of the heading [rad]
+const double IN_VIEW = 0.8;
+const double LOOK = 0.5;   // and observed after it has been in view for this long [s]
+const int MOST_TRIES = 5;  // how often a cell may be part of a target
 
 const double PLAN_PERIOD = 0.5;  // [s]
-const double WAY_PERIOD = 2.0;   // the way is looked for anew after this, as more is known [s]
-const double SETTLE = 0.3;       // the first plan waits for so much data [s]
-const int SURE = 3;              // so many plans must find nothing before the robot gives in
-const int SHUT_IN = 20;          // or so many, no free cell near the robot for a way to begin in
+// replan the path after this time, because more of the map is known [s]
+const double WAY_PERIOD = 2.0;
+const double SETTLE = 0.3;  // collect data for this long before the first plan [s]
+const int SURE = 3;         // end after this many plans in a row without a target
+const int SHUT_IN = 20;     // or after this many plans without a free cell near the robot
 
-const double STUCK = 5.0;      // a robot that has not got on for so long gives its target up [s]
+const double STUCK = 5.0;      // give the target up after this long without progress [s]
 const double GOT_ON = 0.03;    // [m]
 const double GOT_ROUND = 0.3;  // [rad]
-const double SLOWEST = 0.05;   // it should get on with at least this [m/s]
-const double PATIENCE = 15.0;  // and this much more time for each target [s]
+const double SLOWEST = 0.05;   // expected minimum speed [m/s]
+const double PATIENCE = 15.0;  // additional time allowed for each target [s]
 
 const double TURN_GAIN = 3.0;  // [1/s]
 
-const double LASER_X = 0.035;  // the laser is so far ahead of the robot's centre [m]
-const double BEHIND = 0.30;    // what the map says behind the robot matters up to here [m]
+const double LASER_X = 0.035;  // distance of the laser ahead of the robot's centre [m]
+const double BEHIND = 0.30;    // behind the robot, use the map up to this distance [m]
 
 par::FollowerParams followerParams() {
   par::FollowerParams params;
@@ -84,8 +86,8 @@ CExplorer::CExplorer(imr::CConfig& cfg)
       blocked(layers->getFrame()),
       tries(layers->getFrame()) {
   imr::assert_argument(timeLimit >= 0.0, "--time-limit must not be negative");
-  // A client takes part in the lockstep from its first Read() on. When both have read, neither
-  // thread can miss what the other one sees, whichever of them starts first.
+  // A client takes part in the lockstep from its first Read() on. Both clients read here, so the
+  // result does not depend on which thread starts first.
   collector->waitForData();
   while (!position->IsFresh()) client->Read();
 }
@@ -120,15 +122,16 @@ void CExplorer::threadBody() {
   try {
     explore();
   } catch (const CCMorse::MorseError& e) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     INFO("The run is over: " << e.GetErrorStr());
     end(RUN_IS_OVER);
   } catch (const std::exception& e) {
     ERROR("Exploring: " << e.what());
     end(FAILED);
   }
-  // The collector's thread may be in Read(), where only the passing of time lets it out again. Time
-  // passes when this thread leaves the lockstep: when its client is gone.
+  // The collector's thread may be waiting in Read(), which returns only when simulated time
+  // advances. Time advances after this thread has left the lockstep, that is, after its client is
+  // destroyed.
   map->close();
   collector->stop();
   position.reset();
@@ -176,16 +179,16 @@ bool CExplorer::mustPlan() const {
          target.lookedFor >= LOOK;
 }
 
-// Sees to it that there is a target and a way to it. Returns RUNNING, or why there is nothing left
-// to do.
+// Ensures that there is a target and a path to it. Returns RUNNING, or the reason why there is
+// nothing left to do.
 CExplorer::Outcome CExplorer::plan() {
   planTime = now.time;
   known = map->copy().states();
 
-  // Where the robot's centre must not go: what is occupied, inflated, and what is not known.
+  // The robot's centre must not enter inflated obstacles or unknown cells.
   const par::Mask occupied = par::cells_in_state(known, par::CellState::kOccupied);
   const par::Grid<double> distance = par::distance_to_blocked_m(occupied);
-  par::Mask hidden(known.frame());  // what is not known to be free hides what lies behind
+  par::Mask hidden(known.frame());  // cells that are not known to be free block the view
   par::Mask inflated(known.frame());
   for (std::size_t i = 0; i < inflated.values().size(); i++) {
     hidden.values()[i] = known.values()[i] != par::CellState::kFree;
@@ -194,7 +197,7 @@ CExplorer::Outcome CExplorer::plan() {
   }
   layers->drawInflated(inflated);
 
-  // Where the known ends, but for what has been tried often enough.
+  // The frontier cells, without those that have been tried often enough.
   par::Mask frontier = par::frontier_cells(known);
   for (std::size_t i = 0; i < frontier.values().size(); i++) {
     if (tries.values()[i] > MOST_TRIES) frontier.values()[i] = 0;
@@ -211,7 +214,7 @@ CExplorer::Outcome CExplorer::plan() {
   layers->drawFrontiers(frontiers);
 
   if (target.cells.empty()) {
-    // Where no way can begin, it is not known whether there is anything left to explore.
+    // Without a free start cell, the program cannot know whether there is anything left to explore.
     const auto start = par::nearest_free(blocked, robotCell(), DETOUR);
     if (!start) {
       layers->drawPath({});
@@ -235,8 +238,8 @@ CExplorer::Outcome CExplorer::plan() {
   return RUNNING;
 }
 
-// A target is dropped when most of its frontier is gone, as what lay behind has been seen by now.
-// It is given up if it is still there after a good look at it, or when its time is over.
+// Drops the target when most of its frontier is gone, because the robot has seen what lay behind
+// it. Gives it up if it is still there after a full observation, or when its deadline has passed.
 void CExplorer::keepOrDropTarget(const par::Mask& frontier) {
   if (target.cells.empty()) return;
   std::size_t left = 0;
@@ -248,7 +251,7 @@ void CExplorer::keepOrDropTarget(const par::Mask& frontier) {
   }
 }
 
-// The target's cells, and those close by, are never part of a frontier again.
+// Excludes the target's cells and their neighbours from all later frontiers.
 void CExplorer::giveUp() {
   for (const par::Cell& cell : target.cells) {
     for (int row = cell.row - 1; row <= cell.row + 1; row++) {
@@ -285,10 +288,10 @@ bool CExplorer::chooseTarget(const std::vector<par::Frontier>& frontiers, const 
   return true;
 }
 
-// For each frontier the place to go, to look at it: the nearest of its own cells that the robot can
-// reach. If it can reach none of them, since they are too close to a wall, the nearest place in
-// sight of the frontier's centre. If there is none either, the frontier is a sliver that cannot be
-// looked at, and is left out until the map changes.
+// Finds for each frontier the place to observe it from: the nearest of its own cells that the robot
+// can reach. If all of them are too close to a wall, it is the nearest place in sight of the
+// frontier's centre. If there is no such place either, the frontier is a sliver that cannot be
+// observed; it is ignored until the map changes.
 std::vector<CExplorer::Candidate> CExplorer::findCandidates(
     const std::vector<par::Frontier>& frontiers, const par::DistanceField& ways,
     const par::Mask& hidden) const {
@@ -304,7 +307,7 @@ std::vector<CExplorer::Candidate> CExplorer::findCandidates(
     for (const par::Cell& cell : frontier.cells) consider(cell);
     if (!std::isfinite(best.way)) {
       const int reach = static_cast<int>(VIEW / hidden.frame().cell_size_m);
-      // Every other cell is enough to find one.
+      // Testing every other cell is enough.
       for (int row = -reach; row <= reach; row += 2) {
         for (int column = -reach; column <= reach; column += 2) {
           if (column * column + row * row > reach * reach) continue;
@@ -321,7 +324,7 @@ std::vector<CExplorer::Candidate> CExplorer::findCandidates(
   return result;
 }
 
-// A way to the target, comfortable if there is one, and straightened.
+// Finds a path to the target and straightens it. Prefers a path with comfortable clearance.
 bool CExplorer::findWay(const par::Grid<double>& distance) {
   wayTime = now.time;
   way.clear();
@@ -359,18 +362,18 @@ par::Velocity CExplorer::decideSpeeds() {
     target.reached = follower.done();
     if (!target.reached) return velocity;
   }
-  // There: turn towards the frontier until the laser has had a good look at it.
+  // At the target: turn towards the frontier until the laser has observed it.
   const par::Point centre = blocked.frame().centre_of(target.centre);
   const double dx = centre.x - now.robot.x;
   const double dy = centre.y - now.robot.y;
-  // Right below the robot there is no direction to turn to.
+  // If the target is directly below the robot, there is no direction to turn to.
   const double off =
       std::hypot(dx, dy) < 0.05 ? 0.0 : par::normalize_angle(std::atan2(dy, dx) - now.robot.yaw);
   if (std::fabs(off) < IN_VIEW) target.lookedFor += 0.1;
   return {0.0, TURN_GAIN * off};
 }
 
-// A robot that wants to move and cannot is stuck: it gives its target up.
+// A robot that wants to move and does not is stuck: it gives its target up.
 void CExplorer::noteProgress(const par::Velocity& wanted) {
   const bool rests = wanted.forward_mps == 0.0 && wanted.turn_radps == 0.0;
   if (rests || std::hypot(now.robot.x - stuckPose.x, now.robot.y - stuckPose.y) > GOT_ON ||
@@ -381,7 +384,7 @@ void CExplorer::noteProgress(const par::Velocity& wanted) {
   if (now.time - stuckSince > STUCK && !target.cells.empty()) giveUp();
 }
 
-// What is round the robot: what its laser sees, and, where that does not look, what the map says.
+// The surroundings of the robot: the laser's echoes, and the map where the laser does not look.
 Surroundings CExplorer::lookAround() const {
   Surroundings around;
   around.solid = now.echoes;
@@ -399,11 +402,11 @@ Surroundings CExplorer::lookAround() const {
       const double dx = point.x - now.robot.x;
       const double dy = point.y - now.robot.y;
       const par::Point seen = {c * dx + s * dy, -s * dx + c * dy};
-      // The laser looks 135 degrees to both sides.
+      // The laser covers 135 degrees on both sides.
       if (seen.x > LASER_X - std::fabs(seen.y)) continue;
       if (state == par::CellState::kOccupied) {
         around.solid.push_back(seen);
-      } else if (clearance({seen}) > 0.0) {  // where the robot stands, nothing else does
+      } else if (clearance({seen}) > 0.0) {  // nothing else can be where the robot stands
         around.unseen.push_back(seen);
       }
     }

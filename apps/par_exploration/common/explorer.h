@@ -20,69 +20,72 @@
 #include "par_common/planners.h"
 #include "shared_map.h"
 
-// A robot that explores an arena it knows nothing of. This is all of it but for one decision: which
-// frontier to go to next. A solution derives a class from it that makes that decision, in choose().
+// A robot that explores an unknown arena. This class does everything except one decision: which
+// frontier to visit next. A solution derives a class from it and implements that decision in
+// choose().
 //
-// Two threads: a CCollector learns the map; this one plans on it and drives. Each has its own
-// client of the same robot.
+// There are two threads: a CCollector updates the map; this thread plans on it and drives. Each has
+// its own client of the same robot.
 //
-// The thread's turn, ten times a simulated second: wait for the map of this moment; if it is time,
-// or the way is blocked, plan; then command a speed. Planning is: inflate what is occupied; find
-// the frontiers; for each the best place to look at it from; choose one; find the way; straighten
-// it.
+// This thread repeats ten times a simulated second: wait for the current map; if it is time to
+// plan, or the path is blocked, plan; then command a speed. Planning means: inflate the obstacles,
+// find the frontiers, find for each the best place to observe it from, choose one, plan the path,
+// and smooth it.
 //
-// It ends when no frontier is left that can be seen from a place the robot can reach. Each
-// frontier is tried once only: if the robot has looked at it, and it is still there, or if it has
-// not got there in time, its cells are given up for good. So the exploration ends for certain.
+// The exploration ends when no frontier is left that can be seen from a reachable place. Each
+// frontier is tried only once. If a frontier remains after the robot has observed it, or if the
+// robot does not reach it in time, its cells are given up for good. This guarantees that the
+// exploration ends.
 class CExplorer : public imr::concurrent::CThread {
  public:
-  // How it ended.
+  // How the exploration ended.
   enum Outcome {
-    RUNNING,        // not yet
+    RUNNING,        // it has not ended yet
     EXPLORED,       // no frontier is left that can be reached
-    NO_WAY_BEGINS,  // the robot stands where the map has no free cell near it
-    TIME_IS_OVER,   // of --time-limit
+    NO_WAY_BEGINS,  // the map has no free cell near the robot
+    TIME_IS_OVER,   // --time-limit has passed
     RUN_IS_OVER,    // the simulation ended first
-    FAILED          // a fault
+    FAILED          // an error
   };
 
-  // Declares the settings that can be given on the command line, with their defaults.
+  // Declares the command-line settings and their defaults.
   static imr::CConfig& getConfig(imr::CConfig& config);
 
   // Connects to the robot and waits for its first data.
   explicit CExplorer(imr::CConfig& cfg);
-  // Derived classes must stop() and join() in their own destructor: the thread calls choose().
+  // Derived classes must call stop() and join() in their own destructor, because the thread calls
+  // choose().
   ~CExplorer() override;
 
-  // Asks the thread to end after its current turn; may be called from any thread.
+  // Asks the thread to end after its current iteration. Any thread may call this.
   void stop();
-  // When the thread has ended: how. Prints what the robot has done.
+  // How the exploration ended; call it after the thread has ended. Prints a summary.
   Outcome summary() const;
 
  protected:
   // A frontier that can be reached.
   struct Candidate {
     const par::Frontier* frontier;
-    par::Cell place;  // where to go, to look at it
-    double way;       // how far that is [m]
+    par::Cell place;  // where to go to observe it
+    double way;       // length of the path to it [m]
   };
 
-  // The decision: which of these to go to. candidates has at least one element, and the result must
-  // be less than candidates.size(). states: what is known of each cell.
+  // The decision: returns the index of the candidate to go to, less than candidates.size(). There
+  // is at least one candidate. `states` is the state of each cell of the map.
   virtual std::size_t choose(const std::vector<Candidate>& candidates,
                              const par::Grid<par::CellState>& states) = 0;
 
   void threadBody() override;
 
  private:
-  // What the robot has in mind.
+  // The current target.
   struct Target {
-    std::vector<par::Cell> cells;  // of the frontier; empty: there is no target
-    par::Cell centre;              // of the frontier
-    par::Cell place;               // to look at it from
-    double deadline = 0.0;         // time by which the robot should have been there [s]
-    bool reached = false;          // it is there, and turns towards the frontier
-    double lookedFor = 0.0;        // so long it has seen the frontier from there [s]
+    std::vector<par::Cell> cells;  // cells of the frontier; empty: there is no target
+    par::Cell centre;              // centre of the frontier
+    par::Cell place;               // where to observe it from
+    double deadline = 0.0;         // time by which the robot should have arrived [s]
+    bool reached = false;          // the robot has arrived and turns towards the frontier
+    double lookedFor = 0.0;        // how long the frontier has been in view from there [s]
   };
 
   void explore();
@@ -104,8 +107,8 @@ class CExplorer : public imr::concurrent::CThread {
   bool isOver();
   void end(Outcome how);
 
-  // Two connections to the robot, for two threads. The order matters: what is declared last is
-  // destroyed first, and each needs what is above it to the end.
+  // Two connections to the robot, one per thread. The order matters: members are destroyed in
+  // reverse order, and each needs the members above it.
   std::unique_ptr<CCMorse::PlayerClient> dataClient;
   std::unique_ptr<CLayers> layers;
   std::unique_ptr<CSharedMap> map;
@@ -117,25 +120,25 @@ class CExplorer : public imr::concurrent::CThread {
   par::PathFollower follower;
   CGuard guard;
 
-  Observation now;         // of this turn
-  double startTime = 0.0;  // of the first one [s]
-  double planTime = 0.0;   // when it planned last [s]
-  double wayTime = 0.0;    // when it last looked for a way [s]
-  int nothingFound = 0;    // plans in a row that found no target
-  int noStart = 0;         // plans in a row that found no free cell near the robot
+  Observation now;         // the observation of this iteration
+  double startTime = 0.0;  // time of the first iteration [s]
+  double planTime = 0.0;   // time of the last plan [s]
+  double wayTime = 0.0;    // time of the last path planning [s]
+  int nothingFound = 0;    // consecutive plans without a target
+  int noStart = 0;         // consecutive plans without a free cell near the robot
 
-  par::Grid<par::CellState> known;  // what is known of each cell
-  par::Mask blocked;                // where the robot's centre must not go, or nobody knows
+  par::Grid<par::CellState> known;  // state of each cell
+  par::Mask blocked;                // inflated obstacles and unknown cells
   par::Grid<std::uint8_t> tries;    // how often a cell was part of a target
   Target target;
-  std::vector<par::Cell> way;  // to it: the cells where it turns
+  std::vector<par::Cell> way;  // path to the target: the cells where it turns
 
-  par::Pose last;           // where the robot was in the turn before
-  double driven = 0.0;      // its way so far [m]
-  par::Pose stuckPose;      // where it was when it last got on
-  double stuckSince = 0.0;  // and when that was [s]
-  int targets = 0;          // that it has had
-  int given = 0;            // of these, given up
+  par::Pose last;           // pose in the previous iteration
+  double driven = 0.0;      // driven distance [m]
+  par::Pose stuckPose;      // pose at the last progress
+  double stuckSince = 0.0;  // time of the last progress [s]
+  int targets = 0;          // number of targets so far
+  int given = 0;            // number of targets given up
 
   mutable Mutex mtx;  // guards what follows
   bool quit = false;

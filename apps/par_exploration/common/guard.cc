@@ -7,41 +7,42 @@
 
 namespace {
 
-const double MAX_SPEED = 0.5;  // of the S1R [m/s]
+const double MAX_SPEED = 0.5;  // limits of the S1R [m/s]
 const double MAX_TURN = 3.0;   // [rad/s]
 
-const double REACH = 0.40;   // what is farther away cannot be touched within a rollout [m]
-const double MARGIN = 0.02;  // room to be kept round the robot [m]
-const double TIGHT = 0.015;  // with less, getting out of there comes first [m] ...
-const double ENOUGH = 0.04;  // ... until there is so much [m]
-const double SAME = 0.002;   // so little does not count as coming nearer [m]
+const double REACH = 0.40;   // farther obstacles cannot be touched within a rollout [m]
+const double MARGIN = 0.02;  // clearance to keep round the robot [m]
+const double TIGHT = 0.015;  // with less clearance, the robot first gets out of there [m] ...
+const double ENOUGH = 0.04;  // ... until it has this much [m]
+const double SAME = 0.002;   // smaller changes do not count as coming nearer [m]
 
-// With room: a command holds 0.1 s, so this is a few turns of the program ahead.
+// With enough room: a command lasts 0.1 s, so the horizon covers a few iterations of the program.
 const double HORIZON = 0.4;  // [s]
 const double STEP = 0.05;    // [s]; 2.5 cm at full speed
-const double SLOW = 0.10;    // a speed that is allowed with the least room [m/s],
-const double GAIN = 3.0;     // and so much more with each metre more of it [1/s]
+const double SLOW = 0.10;    // speed limit at the smallest clearance [m/s],
+const double GAIN = 3.0;     // and its increase per metre of clearance [1/s]
 
-// In a tight place: a curve that leaves a wall begins by swinging the tail towards it, so the
-// outcome shows late.
+// In a tight place: a curve away from a wall first swings the tail towards the wall, so its outcome
+// shows late.
 const double TIGHT_HORIZON = 1.5;  // [s]
 const double TIGHT_STEP = 0.1;     // [s]
-const double DIP = 0.0015;         // a curve may come nearer in between by this [m]
-const double TOUCH = 0.002;        // but never this near [m]
+const double DIP = 0.0015;         // a curve may temporarily come nearer by this [m]
+const double TOUCH = 0.002;        // but never as near as this [m]
 
-// A straight side of the robot: points p with nx px + ny py > d lie outside of it.
+// A straight side of the robot: points p with nx px + ny py > d are outside of it.
 struct Side {
   double nx;
   double ny;
   double d;
 };
 
-// The S1R's outline is an octagon round the middle of its axle: 0.087 m to the front and the back,
-// 0.081 m to the sides, with corners at (0.087, 0.045), (0.050, 0.081) and their mirror images.
+// The S1R's outline is an octagon centred on the middle of its axle: 0.087 m to the front and the
+// back, 0.081 m to the sides, with corners at (0.087, 0.045), (0.050, 0.081) and their mirror
+// images.
 std::vector<Side> makeOutline() {
   const double dx = 0.087 - 0.050;
   const double dy = 0.081 - 0.045;
-  const double nx = dy / std::hypot(dx, dy);  // at right angles to the side between those two
+  const double nx = dy / std::hypot(dx, dy);  // normal of the side between these two corners
   const double ny = dx / std::hypot(dx, dy);
   const double d = nx * 0.087 + ny * 0.045;
   return {{1, 0, 0.087}, {-1, 0, 0.087}, {0, 1, 0.081}, {0, -1, 0.081},
@@ -57,7 +58,8 @@ double distanceTo(const par::Point& p) {
   return outside;
 }
 
-// The clearance after driving a command for some time, on its circle, from where the robot is now.
+// The clearance after the robot has driven a command for some time, along a circular arc from its
+// current pose.
 double clearanceAfter(const par::Velocity& command, double time,
                       const std::vector<par::Point>& points) {
   const double turned = command.turn_radps * time;
@@ -94,15 +96,15 @@ std::vector<par::Point> within(double reach, const std::vector<par::Point>& poin
 
 double clamp(double value, double low, double high) { return std::max(low, std::min(high, value)); }
 
-bool stirs(const par::Velocity& command) {
+bool is_moving(const par::Velocity& command) {
   return command.forward_mps != 0.0 || command.turn_radps != 0.0;
 }
 
-// The command that leads to the most room, if it does not touch anything on the way there.
+// The command that leads to the largest clearance without touching anything on the way.
 par::Velocity getOut(double now, const Surroundings& around) {
   const double unseenNow = clearance(around.unseen);
   par::Velocity best;
-  double bestWorth = SAME;  // less is not worth moving
+  double bestWorth = SAME;  // a smaller gain is not worth moving
   for (const double v : {0.15, 0.08, 0.04, 0.0, -0.04, -0.08}) {
     for (const double w : {0.0, 0.1, -0.1, 0.2, -0.2, 0.4, -0.4, 0.8, -0.8, 1.6, -1.6}) {
       double least = now;
@@ -125,7 +127,7 @@ par::Velocity getOut(double now, const Surroundings& around) {
   return best;
 }
 
-// The command most like the wanted one that keeps the room there should be; zero if none does.
+// The command closest to the wanted one that keeps the required clearance; zero if there is none.
 par::Velocity mostLike(const par::Velocity& wanted, double now, const Surroundings& around) {
   const double limit = std::min(MAX_SPEED, SLOW + GAIN * std::max(0.0, now - MARGIN));
   const double forward = std::min(wanted.forward_mps, limit);
@@ -138,7 +140,7 @@ par::Velocity mostLike(const par::Velocity& wanted, double now, const Surroundin
     const par::Velocity command = {v, clamp(w, -MAX_TURN, MAX_TURN)};
     const double price = std::fabs(v - forward) / MAX_SPEED +
                          0.5 * std::fabs(command.turn_radps - wanted.turn_radps) / MAX_TURN;
-    if (stirs(command)) choices.push_back({command, price});
+    if (is_moving(command)) choices.push_back({command, price});
   };
   for (const double v : {forward, 0.6 * forward, 0.3 * forward, 0.0, std::min(limit, 0.08)}) {
     for (const double off : {0.0, 0.4, -0.4, 0.9, -0.9, 1.6, -1.6}) {
@@ -149,7 +151,7 @@ par::Velocity mostLike(const par::Velocity& wanted, double now, const Surroundin
   std::stable_sort(choices.begin(), choices.end(),
                    [](const Choice& a, const Choice& b) { return a.price < b.price; });
 
-  // Where there is less room than there should be, it is enough not to come nearer.
+  // If the clearance is already smaller than required, it is enough not to come nearer.
   const double room = std::min(MARGIN, now - SAME);
   const double unseenRoom = std::min(MARGIN, clearance(around.unseen) - SAME);
   for (const bool careful : {true, false}) {
@@ -179,13 +181,13 @@ par::Velocity CGuard::check(const par::Velocity& wanted, const Surroundings& aro
   gettingOut = now < (gettingOut ? ENOUGH : TIGHT);
   if (gettingOut) {
     const par::Velocity out = getOut(now, near);
-    if (stirs(out)) return out;
+    if (is_moving(out)) return out;
     gettingOut = false;
   }
   const par::Velocity most = mostLike(wanted, now, near);
-  if (stirs(most) || now >= ENOUGH) return most;
-  // There is a little room, but not enough for what it wants, such as to turn on the spot.
+  if (is_moving(most) || now >= ENOUGH) return most;
+  // There is a little room, but not enough for the wanted command, for example to turn on the spot.
   const par::Velocity out = getOut(now, near);
-  gettingOut = stirs(out);
+  gettingOut = is_moving(out);
   return out;
 }

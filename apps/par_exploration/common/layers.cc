@@ -20,7 +20,7 @@ par::GridFrame frameOf(const CCMorse::WindowProxy& window) {
   frame.width = window.GetWidth();
   frame.height = window.GetHeight();
   frame.cell_size_m = window.GetCellSize();
-  // The cell of the world's origin tells where the grid's own corner is.
+  // The cell of the world's origin gives the position of the grid's corner.
   frame.origin.x = -window.GetX(0.0) * frame.cell_size_m;
   frame.origin.y = -(frame.height - 1 - window.GetY(0.0)) * frame.cell_size_m;
   return frame;
@@ -28,8 +28,7 @@ par::GridFrame frameOf(const CCMorse::WindowProxy& window) {
 
 }  // namespace
 
-// What is seldom looked at lies below what is thin: frontiers and the scan cover walls, and no
-// surface covers a line.
+// Surfaces lie below thin things: frontiers and the scan cover walls, and no surface covers a line.
 CLayers::CLayers(CCMorse::PlayerClient* client)
     : window(CCMorse::WindowProxy::GetInstance(client, 172, 186)),
       occupancy(makeLayer(window, "occupancy", GridMapLayer::GREY, 1, "#000000", 0.0)),

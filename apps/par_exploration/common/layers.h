@@ -10,23 +10,24 @@
 #include "par_common/planners.h"
 #include "shared_map.h"
 
-// What the robot knows and intends, in layers of the grid-map over the arena. From below:
+// The robot's knowledge and intentions, drawn as layers of the grid-map over the arena. From bottom
+// to top:
 //   occupancy  white free, black occupied, grey unknown
 //   inflated   blue: free, but too close to something for the robot's centre
-//   frontiers  purple: where the known ends
+//   frontiers  purple: the border between known and unknown
 //   scan       green: the last scan
-//   trail      red: where the robot was
-//   path       orange: where it means to go
+//   trail      red: where the robot has been
+//   path       orange: the planned path
 //
-// The functions of the first group are called by the thread that collects data, those of the second
-// one by the thread that drives; no layer is drawn by both.
+// The thread that collects data calls the first group of functions, the thread that drives the
+// second group. No layer is drawn by both threads.
 class CLayers {
  public:
-  // Makes the layers. The client must outlive this object.
+  // Creates the layers. The client must outlive this object.
   explicit CLayers(CCMorse::PlayerClient* client);
   ~CLayers();
 
-  // Size and place of the canvas: the map's, too.
+  // Size and position of the canvas, and of the map.
   const par::GridFrame& getFrame() const { return frame; }
 
   void drawMap(const par::OccupancyGrid& map);

@@ -3,8 +3,8 @@
 
 namespace {
 
-// Times of one moment that two devices tell are the same number; this is for robots whose clocks
-// are not ideal [s].
+// Two devices report the same number for one moment; the tolerance is for robots whose clocks are
+// not ideal [s].
 const double SAME_TIME = 1e-3;
 
 }  // namespace
@@ -30,7 +30,7 @@ bool CSharedMap::waitFor(double time, Observation& observation) {
   ScopedLock lk(mtx);
   changed.wait(lk, [&] { return isClosed || newest.time > time - SAME_TIME; });
   observation = newest;
-  // What came before it was closed counts, whichever thread was faster.
+  // The map of this time counts if it came before close(), whichever thread was faster.
   return newest.time > time - SAME_TIME;
 }
 

@@ -24,7 +24,7 @@ CRobot::~CRobot() {
   join();
 }
 
-// The one that is worth most; the first of equals.
+// The candidate with the greatest worth; the first one of several equals.
 std::size_t CRobot::choose(const std::vector<Candidate>& candidates,
                            const par::Grid<par::CellState>& states) {
   std::size_t best = 0;

@@ -9,14 +9,16 @@
 #include "imr-h/imr_config.h"
 #include "par_common/occupancy_grid.h"
 
-// Explores by weighing what is to be seen at a frontier against the way to it (H. H. Gonzalez-Banos
-// and J.-C. Latombe, "Navigation strategies for exploring indoor environments", International
-// Journal of Robotics Research 21(10-11), 2002): it goes where
+// Explores by weighing the information gain at a frontier against the path to it (H. H.
+// Gonzalez-Banos and J.-C. Latombe, "Navigation strategies for exploring indoor environments",
+// International Journal of Robotics Research 21(10-11), 2002). It visits the candidate with the
+// greatest
 //
 //   gain x exp(-lambda x way)
 //
-// is greatest. The gain is the unknown area that may be seen from there; lambda says how little a
-// long way is liked: 0, gain is all; the greater, the more it behaves like the nearest frontier.
+// The gain is the unknown area that may be visible from there; `way` is the length of the path.
+// With lambda = 0 only the gain counts; with a large lambda the result is close to the nearest
+// frontier.
 class CRobot : public CExplorer {
  public:
   static imr::CConfig& getConfig(imr::CConfig& config);
@@ -30,7 +32,7 @@ class CRobot : public CExplorer {
 
  private:
   double lambda;  // [1/m]
-  double range;   // the gain is counted this far round a place [m]
+  double range;   // range within which the gain is counted [m]
 };
 
 #endif

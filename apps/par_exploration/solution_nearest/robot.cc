@@ -8,7 +8,7 @@ CRobot::~CRobot() {
   join();
 }
 
-// The one with the shortest way; the first of equals.
+// The candidate with the shortest path; the first one of several equals.
 std::size_t CRobot::choose(const std::vector<Candidate>& candidates,
                            const par::Grid<par::CellState>&) {
   const auto nearest =

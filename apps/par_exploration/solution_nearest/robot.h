@@ -8,8 +8,8 @@
 #include "explorer.h"
 #include "par_common/occupancy_grid.h"
 
-// Explores by going to the nearest frontier, the classic (B. Yamauchi, "A frontier-based approach
-// for autonomous exploration", CIRA 1997). Simple, and hard to beat by much.
+// Explores by visiting the nearest frontier, the classic method (B. Yamauchi, "A frontier-based
+// approach for autonomous exploration", CIRA 1997). It is simple and hard to beat by much.
 class CRobot : public CExplorer {
  public:
   using CExplorer::CExplorer;

@@ -6,18 +6,18 @@
 
 #include "imr-h/logging.h"
 
-// The functions that are yours to fill are at the end of this file, in the order in which you need
-// them. As it is, the robot knows nothing of the arena, learns nothing, and stands still.
+// Fill in the functions at the end of this file, in the order in which they stand there. As it is,
+// the robot knows nothing of the arena, learns nothing, and stands still.
 
 namespace {
 
-const double RADIUS = 0.125;    // of the robot, with some room for driving inexactly [m]
+const double RADIUS = 0.125;    // radius of the robot, with some room for inexact driving [m]
 const double REACH = 0.15;      // see moveToFree() [m]
-const double SAME_TIME = 1e-3;  // times that differ by less are the same moment [s]
+const double SAME_TIME = 1e-3;  // times that differ by less count as the same moment [s]
 
-// The window, with the layers of the task. They lie over one another as sheets of glass do, the
-// ones with higher priorities on top. A grey layer shows numbers: 0 white, 1 black. In a binary
-// layer a cell is set, and then drawn in the layer's colour, or not.
+// Creates the window with the layers of the task. Layers are stacked: those with a higher priority
+// lie on top. A grey layer shows numbers: 0 white, 1 black. In a binary layer a cell is either set,
+// and drawn in the layer's colour, or transparent.
 CCMorse::WindowProxy& makeWindow(CCMorse::PlayerClient* client) {
   using CCMorse::GridMapLayer;
   CCMorse::WindowProxy& window = CCMorse::WindowProxy::GetInstance(client, 172, 186);
@@ -98,7 +98,7 @@ void CCollector::threadBody() {
   try {
     collect();
   } catch (const CCMorse::MorseError& e) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     INFO("The run is over: " << e.GetErrorStr());
   }
   shared.close();
@@ -119,9 +119,9 @@ void CCollector::collect() {
     }
     shared.publish(map, pose, position.GetDataTime());
 
-    // Simulated time goes on when ALL threads that read wait in Read(). The other thread waits for
-    // the map that was just published before it reads again: neither can run ahead, and equal runs
-    // give equal results.
+    // Simulated time advances when ALL threads that read wait in Read(). The other thread waits for
+    // the map that this thread has just published before it reads again. So neither thread can run
+    // ahead, and equal runs give equal results.
     client.Read();
     const ScopedLock lk(mtx);
     if (quit) break;
@@ -131,8 +131,8 @@ void CCollector::collect() {
 // --- The thread that plans and drives ------------------------------------------------------------
 
 imr::CConfig& CRobot::getConfig(imr::CConfig& config) {
-  // Ports 6665, 6666, ... are one robot each. Index 0 of position2d is the arena's localisation,
-  // which is exact; index 1 the odometry, which drifts.
+  // Ports 6665, 6666, ... serve one robot each. Index 0 of position2d is the arena's localisation,
+  // which is exact; index 1 is the odometry, which drifts.
   config.add<std::string>("host", "where the robot is", "localhost");
   config.add<unsigned>("port", "its port", 6665);
   config.add<unsigned>("laser-index", "number of the laser", 0);
@@ -149,8 +149,8 @@ CRobot::CRobot(imr::CConfig& cfg)
       client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
       position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))),
       laser(new CCMorse::LaserProxy(client.get(), cfg.get<unsigned>("laser-index"))) {
-  // A client takes part in the run from its first Read() on. When both have read, neither thread
-  // can miss what the other one sees, whichever of them starts first.
+  // A client takes part in the run from its first Read() on. Both clients read here, so the result
+  // does not depend on which thread starts first.
   collector.waitForData();
   while (!position->IsFresh() || !laser->IsFresh()) client->Read();
 }
@@ -173,8 +173,8 @@ void CRobot::threadBody() {
   } catch (const CCMorse::MorseError& e) {
     INFO("The run is over: " << e.GetErrorStr());
   }
-  // The other thread may be in Read(), where it waits for time to go on. It goes on when this
-  // thread no longer takes part: when its client is gone.
+  // The other thread may be waiting in Read(), which returns only when simulated time advances.
+  // Time advances after this thread no longer takes part, that is, after its client is destroyed.
   shared.close();
   collector.stop();
   laser.reset();
@@ -191,8 +191,8 @@ void CRobot::explore() {
     const Map inflated = inflate(map, RADIUS);
     const std::vector<Cell> frontiers = findFrontiers(map);
 
-    // The robot's own cell may lie in a grown obstacle; the way then starts from the nearest free
-    // one.
+    // The robot's own cell may be inside an inflated obstacle. The path then starts from the
+    // nearest free cell.
     Cell start = cellOf(pose.x, pose.y);
     Cell goal = start;
     const bool hasGoal =
@@ -208,7 +208,7 @@ void CRobot::explore() {
     const ScopedLock lk(mtx);
     q = quit;
   }
-  // A command holds until the next one: a robot that nobody stops goes on for ever.
+  // A command stays in effect until the next one: without this one the robot would drive on.
   position->SetSpeed(0.0, 0.0);
 }
 
@@ -217,7 +217,7 @@ Cell CRobot::cellOf(double x, double y) const { return {window.GetX(x), window.G
 double CRobot::xOf(const Cell& cell) const { return (cell.column + 0.5) * window.GetCellSize(); }
 
 double CRobot::yOf(const Cell& cell) const {
-  // Rows count from the top, y from below.
+  // Rows count from the top, y from the bottom.
   return (window.GetHeight() - 1 - cell.row + 0.5) * window.GetCellSize();
 }
 
@@ -241,74 +241,77 @@ bool CRobot::moveToFree(const Map& map, Cell& cell) const {
 // --- Yours: the map ------------------------------------------------------------------------------
 
 void CCollector::addScan() {
-  // Beam i was measured in the direction pose.yaw + laser.GetBearing(i), from the LASER, which is
-  // 0.035 m ahead of the robot's centre. It ended after laser[i] metres at something, unless that
-  // is GetMaxRange(): then it met nothing. A place (x, y) lies in the cell of column window.GetX(x)
+  // Beam i has the direction pose.yaw + laser.GetBearing(i) and starts at the LASER, which is 0.035
+  // m ahead of the robot's centre. It hit something after laser[i] metres, unless that is
+  // GetMaxRange(): then it hit nothing. A point (x, y) lies in the cell of column window.GetX(x)
   // and row window.GetY(y).
   //
-  // Try first: make the cell where each beam ends 1, and see whether drawMap() shows walls. A beam
-  // may end off the map. The face of an obstacle lies between two cells: take the end 0.01 m
-  // further on.
-  // Then: every cell that a beam passed is free (look up "Bresenham's line"), but not a cell in
-  // which another beam of the same scan ends: beams graze along walls. The laser does not see the
-  // floor on which the robot stands: it is free, too, within 0.07 m of its centre.
-  // Then: a scan may err (5 mm of noise here), so do not set cells, but let each scan make them a
-  // little more likely free or occupied. Look up "occupancy grid" and "log odds": a number l for
-  // each cell, in a variable of your own in robot.h, at first 0. A scan in which the cell is
-  // occupied adds 0.9, one in which it is free subtracts 0.4, and l stays within -4 and 4. The
-  // probability of the cell is 1 / (1 + exp(-l)).
+  // Try first: set the cell at the end of each beam to 1, and see whether drawMap() shows walls. A
+  // beam may end outside the map. The face of an obstacle lies on the border of two cells, so move
+  // the end 0.01 m further along the beam.
+  // Then: every cell that a beam passed is free (look up "Bresenham's line"), except cells in which
+  // another beam of the same scan ends, because beams graze along walls. The laser does not see the
+  // floor below the robot: set cells within 0.07 m of the robot's centre free, too.
+  // Then: a scan may be wrong (it has 5 mm of noise here). So let each scan make a cell only a
+  // little more likely free or occupied. Look up "occupancy grid" and "log odds". Keep a number l
+  // for each cell, in a variable of your own in robot.h, with the initial value 0. A scan in which
+  // the cell is occupied adds 0.9, a scan in which it is free subtracts 0.4, and l stays within -4
+  // and 4. The probability that the cell is occupied is 1 / (1 + exp(-l)).
 }
 
 void CCollector::drawMap() {
-  // Try first: the whole map at once, window.GetLayer("occupancy").SetCells(map.occupied). This
-  // layer is what is graded.
-  // Next: is it needed ten times a second?
+  // Try first: draw the whole map at once with window.GetLayer("occupancy").SetCells(map.occupied).
+  // The grading uses this layer.
+  // Next: is this necessary ten times a second?
 }
 
 void CCollector::drawScan() {
-  // window.GetLayer("scan"): Clear() it, then SetPixelMetres(x, y) for the end of each beam.
+  // Use window.GetLayer("scan"): Clear() it, then SetPixelMetres(x, y) for the end of each beam.
 }
 
 void CCollector::drawTrail() {
-  // window.GetLayer("trail").SetLineMetres(x0, y0, x1, y1), from the pose before to this one.
+  // Use window.GetLayer("trail").SetLineMetres(x0, y0, x1, y1), from the previous pose to this one.
 }
 
 // --- Yours: where to go --------------------------------------------------------------------------
 
 Map CRobot::inflate(const Map& map, double radius) const {
-  // Where may the robot's CENTRE be? Nowhere nearer than its radius to what is occupied. If
-  // obstacles are grown by that radius, the robot may be planned for as if it were a point. What is
-  // unknown is not grown: nobody knows that anything is there.
+  // Where may the robot's CENTRE be? It must stay at least one radius away from every occupied
+  // cell. If you inflate obstacles by that radius, you can plan for the robot as if it were a
+  // point. Do not inflate unknown cells: nobody knows whether anything is there.
   //
-  // Try first: as in the planning task, cells whose centres are within radius of that of an
-  // occupied one become 1. There, too, the cells just off the map count as occupied: the arena ends
-  // in a wall.
+  // Try first: as in the planning task, set all cells to 1 whose centres are within radius of the
+  // centre of an occupied cell. Treat the cells just outside the map as occupied, too: the arena's
+  // border is a wall.
   static_cast<void>(radius);
   return map;
 }
 
 std::vector<Cell> CRobot::findFrontiers(const Map& map) const {
-  // A frontier is where the known ends: a free cell that has an unknown neighbour.
+  // A frontier is the border between known and unknown: free cells with an unknown neighbour.
   //
-  // Try first: all such cells, as a list; draw() shows whether they lie where you expect them.
-  // Next: group those that touch one another. What do you do with groups of two or three cells?
+  // Try first: return all such cells as a list; draw() shows whether they are where you expect
+  // them.
+  // Next: group cells that touch one another. What do you do with groups of two or three cells?
   static_cast<void>(map);
   return std::vector<Cell>();
 }
 
 bool CRobot::chooseGoal(const Map& map, const Cell& from, const std::vector<Cell>& frontiers,
                         Cell& goal) {
-  // Where to go next, from a free cell; false if there is nowhere to go.
+  // Chooses the next goal, starting from a free cell; false if there is nowhere to go.
   //
-  // Try first: the frontier that is nearest as the crow flies, and see where that robot gets stuck.
-  // Then: the one that is nearest to drive to. Flood the free cells of the map from `from`, as in
-  // plan(), until the first frontier cell comes out. Frontiers in grown obstacles never do.
-  // Then: a frontier may still be there when the robot has looked at it. Keep a count for each
-  // cell, in a variable of your own: 1 more for the goal each turn, 10 more while it is nearer than
-  // 0.15 m. Frontier cells within 0.1 m of a cell with more than 300 are given up: they are no
-  // goals again.
-  // Next: keep a goal until it is no frontier any more, rather than change it each turn. Look at a
-  // frontier from farther away. Go where there is more to be seen.
+  // Try first: take the frontier that is nearest in a straight line, and see where that robot gets
+  // stuck.
+  // Then: take the frontier with the shortest path. Search the free cells of the map from `from`,
+  // as in plan(), until the first frontier cell comes out. Frontiers inside inflated obstacles
+  // never do.
+  // Then: a frontier may remain after the robot has looked at it. Keep a count for each cell, in a
+  // variable of your own: add 1 for the goal in each iteration, and 10 while the goal is nearer
+  // than 0.15 m. Give up frontier cells within 0.1 m of a cell that has more than 300: never choose
+  // them again.
+  // Next: keep a goal until it is no longer a frontier, instead of changing it in each iteration.
+  // Look at a frontier from farther away. Go where more can be seen.
   static_cast<void>(map);
   static_cast<void>(from);
   static_cast<void>(frontiers);
@@ -317,11 +320,12 @@ bool CRobot::chooseGoal(const Map& map, const Cell& from, const std::vector<Cell
 }
 
 std::vector<Cell> CRobot::plan(const Map& map, const Cell& from, const Cell& to) const {
-  // The cells from `from` to `to`, each a neighbour of the one before; empty if there is no way.
+  // Returns the cells from `from` to `to`, each a neighbour of the previous one; empty if there is
+  // no path.
   //
-  // Try first: flooding over free cells, as in the planning task. The way must not lead through
-  // unknown cells: they are not grown.
-  // Next: keep more room to obstacles where there is some.
+  // Try first: breadth-first search over free cells, as in the planning task. The path must not
+  // lead through unknown cells, because they are not inflated.
+  // Next: keep a larger distance from obstacles where there is room.
   static_cast<void>(map);
   static_cast<void>(from);
   static_cast<void>(to);
@@ -332,31 +336,30 @@ void CRobot::decideSpeeds(const std::vector<Cell>& path) {
   // Sets forwardSpeed [m/s] and turnRate [rad/s], so that the robot follows the path. The S1R
   // drives at most 0.5 m/s and turns at most 3 rad/s.
   //
-  // Try first: turn towards the cell 5 cells ahead on the path (where it is: xOf(), yOf()) with
-  // turnRate = 3 * angle, and drive at 0.2 m/s while the angle is less than 0.3 rad. Without a
-  // path, or when it has no more than 5 cells, turn on the spot at 2 rad/s: that shows the laser
-  // all there is to see from here.
-  // Then: the map may be wrong, or not know yet what the last scan shows. Beam i ended, seen from
-  // the robot's centre, at x = 0.035 + r * cos(b) ahead and y = r * sin(b) to the left, with the
-  // range r = (*laser)[i] and the bearing b = laser->GetBearing(i). If any end has x between 0 and
-  // 0.14 m and y between -0.1 and 0.1 m, do not drive, only turn: a robot that touches something
-  // has failed.
+  // Try first: turn towards the cell 5 cells ahead on the path (its position: xOf(), yOf()) with
+  // turnRate = 3 * angle, and drive at 0.2 m/s while the angle is less than 0.3 rad. If the path
+  // has 5 cells or fewer, turn on the spot at 2 rad/s: this shows the laser everything that is
+  // visible from here.
+  // Then: the map may be wrong, or may not yet contain the last scan. In the robot's frame, beam i
+  // ended at x = 0.035 + r * cos(b) ahead and y = r * sin(b) to the left, with the range r =
+  // (*laser)[i] and the bearing b = laser->GetBearing(i). If any end has x between 0 and 0.14 m and
+  // y between -0.1 and 0.1 m, do not drive, only turn: a robot that touches something has failed.
   static_cast<void>(path);
 }
 
 bool CRobot::isFinished(bool hasGoal) {
-  // When is the arena explored? The frame ends the program if this is true.
+  // Is the exploration complete? The program ends when this returns true.
   //
-  // Try first: when there has been no goal for 20 turns. After one turn it is too early: the first
-  // scans are not enough for any cell to be free for certain.
+  // Try first: return true after 20 iterations without a goal. One iteration is not enough: after
+  // the first scans no cell is free for certain yet.
   static_cast<void>(hasGoal);
   return false;
 }
 
 void CRobot::draw(const Map& inflated, const std::vector<Cell>& frontiers,
                   const std::vector<Cell>& path) {
-  // Into window.GetLayer("inflated"), ("frontiers") and ("path"): Clear(), then SetPixel(column,
-  // row) for each cell, or SetCells() for all of them at once.
+  // Use window.GetLayer("inflated"), ("frontiers") and ("path"): Clear(), then SetPixel(column,
+  // row) for each cell, or SetCells() for all cells at once.
   static_cast<void>(inflated);
   static_cast<void>(frontiers);
   static_cast<void>(path);

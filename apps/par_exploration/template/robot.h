@@ -11,21 +11,21 @@
 #include "libCCMorse/CCMorse.h"
 #include "robot_types.h"
 
-// A square of the map: its column from the left and its row from the TOP, both from 0. On the
-// canvas it is the pixel of the same column and row.
+// A square of the map: column from the left and row from the TOP, both starting at 0. It is the
+// pixel of the canvas with the same column and row.
 struct Cell {
   int column;
   int row;
 };
 
-// What the robot knows: for each cell how likely it is occupied. 0 is free for certain, 1 occupied
-// for certain, and 0.5 that nobody knows. What counts as free and as occupied is what maps for ROS
-// take for it; the rest is unknown.
+// The robot's knowledge: the probability of each cell to be occupied. 0 is certainly free, 1 is
+// certainly occupied, and 0.5 means that nothing is known. The thresholds for free and occupied are
+// those of maps for ROS; all values between them are unknown.
 struct Map {
   int width = 0;                 // columns
   int height = 0;                // rows
   double cellSize = 0.0;         // side of a cell [m]
-  std::vector<double> occupied;  // of cell (column, row) at row * width + column
+  std::vector<double> occupied;  // cell (column, row) is at row * width + column
 
   bool contains(const Cell& cell) const {
     return cell.column >= 0 && cell.row >= 0 && cell.column < width && cell.row < height;
@@ -40,18 +40,18 @@ struct Map {
   }
 };
 
-// The map and where the robot is: what the two threads share. Only one thread at a time may touch
-// it, so each call takes the mutex.
+// The map and the robot's pose, which the two threads share. Only one thread at a time may access
+// them, so each call locks the mutex.
 class CSharedMap {
  public:
   explicit CSharedMap(const Map& unknown) : map(unknown) {}
 
-  // The thread that collects data hands over what it knows at a time [s].
+  // Called by the thread that collects data: publishes its knowledge at a time [s].
   void publish(const Map& newMap, const imr::robot::SPosition& newPose, double newTime);
-  // The thread that plans waits for what was known at a time, and gets copies. False: it will never
-  // come, since the other thread has ended.
+  // Called by the thread that plans: waits for the knowledge of that time and copies it. Returns
+  // false if the other thread has ended, so that it will never come.
   bool waitFor(double wantedTime, Map& theMap, imr::robot::SPosition& thePose);
-  // A thread that ends says so, or the other one could wait for ever.
+  // Each thread calls this when it ends; otherwise the other one could wait for ever.
   void close();
 
  private:
@@ -63,16 +63,16 @@ class CSharedMap {
   bool closed = false;
 };
 
-// The first thread: reads the sensors and learns the map. It has a client of its own, so that no
-// scan is lost while the other thread thinks.
+// The first thread: reads the sensors and updates the map. It has its own client, so that no scan
+// is lost while the other thread plans.
 class CCollector : public imr::concurrent::CThread {
  public:
   CCollector(imr::CConfig& cfg, CCMorse::PlayerClient& client, CSharedMap& shared);
   ~CCollector();
 
-  // Waits for the first data; to be called before the thread is started.
+  // Waits for the first data. Call it before you start the thread.
   void waitForData();
-  // Asks the thread to end after its next Read(); may be called from any thread.
+  // Asks the thread to end after its next Read(). Any thread may call this.
   void stop();
 
  protected:
@@ -82,10 +82,10 @@ class CCollector : public imr::concurrent::CThread {
   void collect();
 
   // Yours:
-  void addScan();    // what the laser sees, into the map
-  void drawMap();    // the map, into the layer "occupancy"
-  void drawScan();   // where the beams ended, into the layer "scan"
-  void drawTrail();  // where the robot is, into the layer "trail"
+  void addScan();    // adds the laser scan to the map
+  void drawMap();    // draws the map into the layer "occupancy"
+  void drawScan();   // draws the ends of the beams into the layer "scan"
+  void drawTrail();  // draws the robot's position into the layer "trail"
 
   CCMorse::PlayerClient& client;
   CSharedMap& shared;
@@ -94,64 +94,64 @@ class CCollector : public imr::concurrent::CThread {
   CCMorse::Position2dProxy position;
 
   Map map;
-  imr::robot::SPosition pose;  // of the robot, in the arena
+  imr::robot::SPosition pose;  // the robot's pose in the arena
   // Your own variables go here.
 
-  bool quit = false;  // guarded by mtx: stop() sets it from another thread
+  bool quit = false;  // guarded by mtx; stop() sets it from another thread
   Mutex mtx;
 };
 
-// The second thread: looks for frontiers, decides where to go, and drives.
+// The second thread: finds frontiers, decides where to go, and drives.
 class CRobot : public imr::concurrent::CThread {
  public:
-  // Declares the settings that can be given on the command line, with their defaults.
+  // Declares the command-line settings and their defaults.
   static imr::CConfig& getConfig(imr::CConfig& config);
 
   // Connects to the robot and waits for its first data.
   explicit CRobot(imr::CConfig& cfg);
   ~CRobot();
 
-  // Asks the thread to end after its current turn; may be called from any thread.
+  // Asks the thread to end after its current iteration. Any thread may call this.
   void stop();
 
  protected:
   void threadBody() override;
 
  private:
-  void explore();  // all the steps, again and again
+  void explore();  // all the steps, repeatedly
 
   // Yours, in this order:
-  Map inflate(const Map& map, double radius) const;       // grown obstacles
-  std::vector<Cell> findFrontiers(const Map& map) const;  // where the known ends
+  Map inflate(const Map& map, double radius) const;       // inflated obstacles
+  std::vector<Cell> findFrontiers(const Map& map) const;  // the border of the known area
   bool chooseGoal(const Map& map, const Cell& from, const std::vector<Cell>& frontiers, Cell& goal);
   std::vector<Cell> plan(const Map& map, const Cell& from, const Cell& to) const;
-  void decideSpeeds(const std::vector<Cell>& path);  // to follow it
-  bool isFinished(bool hasGoal);                     // the end of the exploration
+  void decideSpeeds(const std::vector<Cell>& path);  // to follow the path
+  bool isFinished(bool hasGoal);                     // whether the exploration ends
   void draw(const Map& inflated, const std::vector<Cell>& frontiers, const std::vector<Cell>& path);
 
-  // These work: from metres to cells and back, and from a cell that is not free to the nearest one
-  // that is (false if there is none close by).
+  // These already work: conversions from metres to cells and back, and the replacement of an
+  // occupied cell by the nearest free one (false if there is none close by).
   Cell cellOf(double x, double y) const;
   double xOf(const Cell& cell) const;
   double yOf(const Cell& cell) const;
   bool moveToFree(const Map& map, Cell& cell) const;
 
-  // Two connections to the robot, for two threads. The order matters: what is declared last is
-  // destroyed first, and each needs what is above it to the end.
+  // Two connections to the robot, one per thread. The order matters: members are destroyed in
+  // reverse order, and each needs the members above it.
   std::unique_ptr<CCMorse::PlayerClient> dataClient;
-  CCMorse::WindowProxy& window;  // the canvas, with a layer for each thing to show
+  CCMorse::WindowProxy& window;  // the canvas, with one layer for each thing to show
   CSharedMap shared;
   CCollector collector;
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::Position2dProxy> position;
   std::unique_ptr<CCMorse::LaserProxy> laser;  // the same laser as the collector's
 
-  imr::robot::SPosition pose;  // of the robot, in the arena
-  double forwardSpeed = 0.0;   // commanded [m/s], ahead is positive
-  double turnRate = 0.0;       // commanded [rad/s], to the left is positive
+  imr::robot::SPosition pose;  // the robot's pose in the arena
+  double forwardSpeed = 0.0;   // commanded [m/s], positive ahead
+  double turnRate = 0.0;       // commanded [rad/s], positive to the left
   // Your own variables go here.
 
-  bool quit = false;  // guarded by mtx: stop() sets it from another thread
+  bool quit = false;  // guarded by mtx; stop() sets it from another thread
   Mutex mtx;
 };
 

@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   try {
     imr::CConfig config;
     CRobot::getConfig(config);
-    if (!config.parse_command_line(argc, argv)) return 0;  // --help was asked for
+    if (!config.parse_command_line(argc, argv)) return 0;  // the user asked for --help
 
     CRobot robot(config);
     robot.execute();  // starts the robot's thread

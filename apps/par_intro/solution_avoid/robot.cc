@@ -9,13 +9,13 @@
 
 namespace {
 
-const double REACH = 0.6;   // obstacles farther away than this are not minded [m]
-const double SIDE = 1.75;   // how far round the eyes see, against straight ahead [rad]
-const double FRONT = 0.5;   // what counts as in front [rad]
+const double REACH = 0.6;   // obstacles farther away than this are ignored [m]
+const double SIDE = 1.75;   // half the field of view that the eyes use, from straight ahead [rad]
+const double FRONT = 0.5;   // half the field of view that counts as "in front" [rad]
 const double V_MAX = 0.3;   // speed with nothing in front [m/s]
 const double W_MAX = 2.0;   // fastest turn [rad/s]
-const double WEIGHT = 6.0;  // turn rate for an eye that is covered altogether [rad/s]
-const double CLOSE = 0.7;   // nearness in front from which on it only turns
+const double WEIGHT = 6.0;  // turn rate when one eye is fully covered [rad/s]
+const double CLOSE = 0.7;   // nearness in front above which the robot only turns
 
 }  // namespace
 
@@ -33,7 +33,7 @@ CRobot::CRobot(imr::CConfig& cfg)
     : client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
       laser(new CCMorse::LaserProxy(client.get(), cfg.get<unsigned>("laser-index"))),
       position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))) {
-  // The canvas of the arena has 172 x 186 pixels of 0.02 m; another world may have another one.
+  // The canvas of the arena has 172 x 186 pixels of 0.02 m; other worlds may differ.
   CCMorse::WindowProxy::GetInstance(client.get(), cfg.get<int>("canvas-width"),
                                     cfg.get<int>("canvas-height"));
   while (!laser->IsFresh() || !position->IsFresh()) {
@@ -56,7 +56,7 @@ void CRobot::threadBody() {
   try {
     navigation();
   } catch (const CCMorse::MorseError& e) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     INFO("The run is over: " << e.GetErrorStr());
   }
 }
@@ -81,7 +81,7 @@ void CRobot::navigation() {
 }
 
 void CRobot::drawTrail() {
-  // From metres in the arena to pixels of the canvas; the trail is a line from pose to pose.
+  // Converts metres in the arena to pixels of the canvas. The trail connects consecutive poses.
   CCMorse::WindowProxy& window = CCMorse::WindowProxy::GetInstance();
   const CCMorse::ImagePoint_t pixel(window.GetX(position->GetXPos()),
                                     window.GetY(position->GetYPos()));
@@ -92,8 +92,9 @@ void CRobot::drawTrail() {
 }
 
 void CRobot::decideSpeeds() {
-  // The eyes: each is a weighted mean of nearness (0: nothing within reach, 1: touching) over its
-  // half of the scan. What is ahead matters more than what is abeam.
+  // The two eyes. Each is a weighted mean of nearness over its half of the scan (nearness 0:
+  // nothing within reach, 1: touching). Beams that point ahead weigh more than beams that point
+  // sideways.
   double left = 0.0, right = 0.0, weights = 0.0, front = 0.0;
   for (unsigned i = 0; i < laser->GetCount(); i++) {
     const double angle = laser->GetBearing(i);  // negative to the right
@@ -107,12 +108,12 @@ void CRobot::decideSpeeds() {
   left /= weights;
   right /= weights;
 
-  // Each eye drives the wheel of its side, so the difference turns the robot away.
+  // Each eye drives the wheel on its own side, so the difference turns the robot away.
   double w = WEIGHT * (right - left);
   double v = V_MAX * std::max(0.0, 1.0 - front / CLOSE);
   if (front > CLOSE) {
-    // Too near to go on, and perhaps both eyes see the same: turn on the spot, always to the side
-    // that was chosen first, or it would dither between the two.
+    // Too near to drive on, and both eyes may see equally much. Turn on the spot and keep the side
+    // that was chosen first; otherwise the robot would oscillate between left and right.
     if (escape == 0.0) escape = right > left ? 1.0 : -1.0;
     w = escape * W_MAX;
   } else if (front < 0.5 * CLOSE) {

@@ -10,19 +10,20 @@
 #include "robot_types.h"
 
 // An obstacle avoider after Valentino Braitenberg, "Vehicles: Experiments in Synthetic Psychology"
-// (MIT Press, 1984), vehicle 2a: two eyes, two wheels, and each eye drives the wheel of its own
-// side. What it sees on the left makes the left wheel faster, so it turns away. Ours also drives
-// ahead of its own accord, and more slowly the more it sees in front.
+// (MIT Press, 1984), vehicle 2a. It has two eyes and two wheels; each eye drives the wheel on its
+// own side. An obstacle on the left makes the left wheel faster, so the robot turns away. Unlike
+// Braitenberg's vehicle, this one also drives ahead without a stimulus, and slows down when
+// something is in front.
 class CRobot : public imr::concurrent::CThread {
  public:
-  // Declares the settings that can be given on the command line, with their defaults.
+  // Declares the command-line settings and their defaults.
   static imr::CConfig& getConfig(imr::CConfig& config);
 
   // Connects to the robot and waits for its first data.
   explicit CRobot(imr::CConfig& cfg);
   ~CRobot();
 
-  // Asks the thread to end after its current turn; may be called from any thread.
+  // Asks the thread to end after its current iteration. Any thread may call this.
   void stop();
 
  protected:
@@ -33,18 +34,18 @@ class CRobot : public imr::concurrent::CThread {
   void drawTrail();
   void decideSpeeds();
 
-  // The connection, and the two devices that are reached through it. The order matters: what is
-  // declared last is destroyed first, and a proxy needs its client to the end.
+  // The connection and its devices. The order matters: members are destroyed in reverse order, and
+  // a proxy must be destroyed before its client.
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::LaserProxy> laser;
   std::unique_ptr<CCMorse::Position2dProxy> position;
 
-  double escape = 0.0;  // 1: turning left on the spot, -1: right, 0: not
+  double escape = 0.0;  // 1: turns left on the spot, -1: right, 0: not escaping
 
-  CCMorse::ImagePoint_t lastPixel;  // of the canvas, where the trail ends
+  CCMorse::ImagePoint_t lastPixel;  // pixel of the canvas where the trail ends
   bool trailBegun = false;
 
-  bool quit = false;  // guarded by mtx: stop() sets it from another thread
+  bool quit = false;  // guarded by mtx; stop() sets it from another thread
   Mutex mtx;
 };
 

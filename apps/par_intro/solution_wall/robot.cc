@@ -10,16 +10,16 @@
 
 namespace {
 
-const double LASER_X = 0.035;       // the laser is so far ahead of the robot's centre [m]
-const double RADIUS = 0.105;        // of a circle that holds the robot, with a little air [m]
-const double WALL_DISTANCE = 0.14;  // wanted, from the robot's centre to the wall [m]
-const double WALL_FOUND = 0.30;     // a wall so near is one to follow [m]
+const double LASER_X = 0.035;       // distance of the laser ahead of the robot's centre [m]
+const double RADIUS = 0.105;        // circle that contains the robot, with clearance [m]
+const double WALL_DISTANCE = 0.14;  // desired distance from centre to wall [m]
+const double WALL_FOUND = 0.30;     // the robot follows a wall that is nearer [m]
 
 const double V_MAX = 0.35;   // [m/s]
 const double W_MAX = 2.5;    // [rad/s]
-const double KP = 8.0;       // turn rate for being too near or too far, [rad/s] a metre
-const double KD = 2.5;       // turn rate for not driving along the wall, [rad/s] a radian
-const double BRAKING = 1.5;  // speed for the free way ahead, [m/s] a metre
+const double KP = 8.0;       // P gain: turn rate per distance error, [rad/s] per metre
+const double KD = 2.5;       // D gain: turn rate per heading error, [rad/s] per radian
+const double BRAKING = 1.5;  // speed per free distance ahead, [m/s] per metre
 
 double clamp(double value, double low, double high) { return std::max(low, std::min(high, value)); }
 
@@ -43,7 +43,7 @@ CRobot::CRobot(imr::CConfig& cfg)
       side(cfg.get<std::string>("side") == "right" ? -1.0 : 1.0) {
   imr::assert_argument(side < 0.0 || cfg.get<std::string>("side") == "left",
                        "--side must be left or right");
-  // The canvas of the arena has 172 x 186 pixels of 0.02 m; another world may have another one.
+  // The canvas of the arena has 172 x 186 pixels of 0.02 m; other worlds may differ.
   CCMorse::WindowProxy::GetInstance(client.get(), cfg.get<int>("canvas-width"),
                                     cfg.get<int>("canvas-height"));
   while (!laser->IsFresh() || !position->IsFresh()) {
@@ -66,7 +66,7 @@ void CRobot::threadBody() {
   try {
     navigation();
   } catch (const CCMorse::MorseError& e) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     INFO("The run is over: " << e.GetErrorStr());
   }
 }
@@ -91,7 +91,7 @@ void CRobot::navigation() {
 }
 
 void CRobot::drawTrail() {
-  // From metres in the arena to pixels of the canvas; the trail is a line from pose to pose.
+  // Converts metres in the arena to pixels of the canvas. The trail connects consecutive poses.
   CCMorse::WindowProxy& window = CCMorse::WindowProxy::GetInstance();
   const CCMorse::ImagePoint_t pixel(window.GetX(position->GetXPos()),
                                     window.GetY(position->GetYPos()));
@@ -105,19 +105,20 @@ CRobot::View CRobot::look() const {
   View view = {laser->GetMaxRange(), laser->GetMaxRange(), 0.5 * PI};
   for (unsigned i = 0; i < laser->GetCount(); i++) {
     const double range = (*laser)[i];
-    if (range >= laser->GetMaxRange()) continue;  // this beam met nothing
+    if (range >= laser->GetMaxRange()) continue;  // this beam hit nothing
 
-    // Where the beam ended: in the robot's frame, x ahead, y to the side of the wall.
+    // The end point of the beam in the robot's frame: x ahead, y towards the side of the wall.
     const double x = LASER_X + range * std::cos(laser->GetBearing(i));
     const double y = side * range * std::sin(laser->GetBearing(i));
 
-    // Ahead: the robot sweeps a lane as wide as its circle. It touches the point when the circle's
-    // edge, which at this y is sqrt(RADIUS^2 - y^2) ahead of its centre, gets there.
+    // Ahead: the robot sweeps a lane as wide as its circle. At lateral offset y the edge of the
+    // circle is sqrt(RADIUS^2 - y^2) ahead of its centre. The robot touches the point when that
+    // edge reaches it.
     if (x > 0.0 && std::fabs(y) < RADIUS) {
       const double free = x - std::sqrt(RADIUS * RADIUS - y * y);
       view.freeAhead = std::min(view.freeAhead, std::max(0.0, free));
     }
-    // The wall: the nearest point on its side, a little beyond straight ahead included.
+    // The wall: the nearest point on its side. The side begins a little beyond straight ahead.
     if (y > -0.5 * RADIUS && std::hypot(x, y) < view.wallRange) {
       view.wallRange = std::hypot(x, y);
       view.wallAngle = std::atan2(y, x);
@@ -129,20 +130,21 @@ CRobot::View CRobot::look() const {
 void CRobot::decideSpeeds(const View& view) {
   wallFound = wallFound || view.wallRange < WALL_FOUND || view.freeAhead < RADIUS;
 
-  // As fast as the way ahead allows.
+  // Drive as fast as the free distance ahead allows.
   double v = clamp(BRAKING * view.freeAhead, 0.0, V_MAX);
   double away = 0.0;  // turn rate away from the wall
   if (wallFound) {
-    // A PD controller. P: too near, turn away; too far, turn towards the wall. D: what the distance
-    // is about to do depends on the heading along the wall. If the nearest point is ahead of abeam
-    // (angle < pi/2), the robot drives into the wall and must turn away. That handles corners too:
-    // in an inner one the nearest point jumps ahead, at an outer one it falls behind.
+    // A PD controller. P term: turn away if the robot is too near, towards the wall if it is too
+    // far. D term: the heading along the wall says how the distance will change. If the nearest
+    // point is ahead of the robot's side (angle < pi/2), the robot drives into the wall and must
+    // turn away. This rule also handles corners: in an inner corner the nearest point jumps ahead,
+    // at an outer corner it falls behind.
     away = KP * (WALL_DISTANCE - view.wallRange) + KD * (0.5 * PI - view.wallAngle);
-    // The sharper the turn, the slower; and never tighter than round the end of a wall, or it
-    // would turn on the spot for ever when the wall is lost.
+    // Slow down in sharp turns. Limit the turn towards the wall to a circle round the wall's end;
+    // otherwise the robot would turn on the spot for ever after it has lost the wall.
     v *= clamp(1.0 - std::fabs(away) / W_MAX, 0.3, 1.0);
     away = clamp(away, -v / WALL_DISTANCE, W_MAX);
-    // No way ahead: a corner or a dead end. Its circle can always turn on the spot.
+    // Blocked ahead: a corner or a dead end. The robot's circle can always turn on the spot.
     if (view.freeAhead < 0.02) away = W_MAX;
   }
   position->SetSpeed(v, -side * away);

@@ -9,31 +9,33 @@
 #include "libCCMorse/CCMorse.h"
 #include "robot_types.h"
 
-// A wall follower: keeps a wall at a fixed distance on one side by a PD controller, and so finds
+// A wall follower. A PD controller keeps the wall on one side at a fixed distance. The robot finds
 // its way round every corner and out of every dead end, like a person in a maze with one hand on
 // the wall.
 class CRobot : public imr::concurrent::CThread {
  public:
-  // Declares the settings that can be given on the command line, with their defaults.
+  // Declares the command-line settings and their defaults.
   static imr::CConfig& getConfig(imr::CConfig& config);
 
   // Connects to the robot and waits for its first data.
   explicit CRobot(imr::CConfig& cfg);
   ~CRobot();
 
-  // Asks the thread to end after its current turn; may be called from any thread.
+  // Asks the thread to end after its current iteration. Any thread may call this.
   void stop();
 
  protected:
   void threadBody() override;
 
  private:
-  // What the robot makes of a scan. The frame is the robot's, but seen in a mirror if the wall is
-  // on its right: y then counts to the right, and one set of rules serves both hands.
+  // What the robot extracts from a scan. The frame is the robot's. If the wall is on the right, the
+  // frame is mirrored (y points to the right), so one set of rules works for both sides.
   struct View {
-    double freeAhead;  // how far it can drive straight on before it touches something [m]
-    double wallRange;  // from its centre to the nearest point on the side of the wall [m]
-    double wallAngle;  // direction of that point: 0 ahead, pi/2 abeam [rad]
+    double freeAhead;  // distance that the robot can drive straight ahead before it touches
+                       // something [m]
+    // distance from the robot's centre to the nearest point on the wall's side [m]
+    double wallRange;
+    double wallAngle;  // direction of that point: 0 ahead, pi/2 to the side [rad]
   };
 
   void navigation();
@@ -41,19 +43,19 @@ class CRobot : public imr::concurrent::CThread {
   View look() const;
   void decideSpeeds(const View& view);
 
-  // The connection, and the two devices that are reached through it. The order matters: what is
-  // declared last is destroyed first, and a proxy needs its client to the end.
+  // The connection and its devices. The order matters: members are destroyed in reverse order, and
+  // a proxy must be destroyed before its client.
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::LaserProxy> laser;
   std::unique_ptr<CCMorse::Position2dProxy> position;
 
   double side;             // 1: the wall is on the left, -1: on the right
-  bool wallFound = false;  // until then the robot drives straight on
+  bool wallFound = false;  // until it is true, the robot drives straight ahead
 
-  CCMorse::ImagePoint_t lastPixel;  // of the canvas, where the trail ends
+  CCMorse::ImagePoint_t lastPixel;  // pixel of the canvas where the trail ends
   bool trailBegun = false;
 
-  bool quit = false;  // guarded by mtx: stop() sets it from another thread
+  bool quit = false;  // guarded by mtx; stop() sets it from another thread
   Mutex mtx;
 };
 

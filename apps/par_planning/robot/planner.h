@@ -4,12 +4,12 @@
 
 #include "par_common/planners.h"
 
-// What the solutions differ in; each has it in its own planner.cc.
+// The part in which the solutions differ. Each solution implements it in its own planner.cc.
 
-// For messages.
+// The planner's name, for messages.
 extern const char* const PLANNER_NAME;
 
-// A way from start to goal over cells that are not blocked.
+// A path from start to goal over cells that are not blocked.
 par::Path plan(const par::Mask& blocked, const par::Cell& start, const par::Cell& goal);
 
 #endif

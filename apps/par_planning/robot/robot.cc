@@ -14,8 +14,8 @@
 
 namespace {
 
-// Start and goal may lie this far inside the grown obstacles; the nearest free cell is then meant
-// [m].
+// Start and goal may lie this far inside the inflated obstacles; the nearest free cell then
+// replaces them [m].
 const double REACH = 0.15;
 
 const char* const MAP = "map";
@@ -30,7 +30,7 @@ par::FollowerParams followerParams(imr::CConfig& cfg) {
   return params;
 }
 
-// Cells of several that are one pixel, rounded up.
+// a / b, rounded up.
 int ceilDivide(int a, int b) { return (a + b - 1) / b; }
 
 }  // namespace
@@ -57,7 +57,7 @@ CRobot::CRobot(imr::CConfig& cfg)
       inflation(cfg.get<double>("inflation")),
       client(new CCMorse::PlayerClient(cfg.get<std::string>("host"), cfg.get<unsigned>("port"))),
       position(new CCMorse::Position2dProxy(client.get(), cfg.get<unsigned>("position2d-index"))),
-      // The window has the canvas's size, whatever is wished for.
+      // The window takes the canvas's size; the requested size has no effect.
       window(CCMorse::WindowProxy::GetInstance(client.get(), 172, 186)),
       fromFile(!cfg.get<std::string>("map").empty()),
       follower(followerParams(cfg)) {
@@ -89,7 +89,7 @@ void CRobot::threadBody() {
   try {
     success = navigation();
   } catch (const CCMorse::MorseError& e) {
-    // Also the way in which a simulated run ends: when its time is over, Read() throws.
+    // Read() also throws when the simulated run ends.
     ERROR("The run is over before the goal was reached: " << e.GetErrorStr());
   }
 }
@@ -99,8 +99,8 @@ bool CRobot::navigation() {
   drawCells(MAP, walls);
   drawGoal();
 
-  // To a planner the robot is a point, if obstacles are grown by the robot's radius. Beyond the
-  // edges of the map are walls.
+  // With obstacles inflated by the robot's radius, the planner can treat the robot as a point. The
+  // map's edges count as walls.
   inflated = par::inflate(walls, inflation);
   drawCells(INFLATED, inflated);
   if (!findEnds()) return false;
@@ -120,7 +120,7 @@ bool CRobot::navigation() {
                     << " m with " << smoothed.cells.size() << " turning points");
   if (!isOfWorld) {
     INFO("The map is not one of this world, so the robot stays where it is");
-    client->Read();  // lets the drawings be carried out
+    client->Read();  // the host draws the layers during this step
     return true;
   }
   return drive(smoothed);
@@ -128,7 +128,7 @@ bool CRobot::navigation() {
 
 void CRobot::fetchMap() {
   if (fromFile) {
-    // A map of the canvas's size is taken as one of this world.
+    // A map of the canvas's size is assumed to show this world.
     const int width = window.GetWidth();
     const int height = window.GetHeight();
     isOfWorld = walls.width() == width && walls.height() == height;
@@ -156,7 +156,8 @@ void CRobot::fetchMap() {
   map.GetMap(cells.data());
   for (int row = 0; row < frame.height; row++) {
     for (int column = 0; column < frame.width; column++) {
-      // Player counts rows from the bottom. What is not surely free (-1) counts as a wall.
+      // Player counts rows from the bottom. A cell that is not certainly free (-1) counts as a
+      // wall.
       const int index = map.GetCellIndex(column, frame.height - 1 - row);
       walls[{column, row}] = cells[static_cast<std::size_t>(index)] < 0 ? 0 : 1;
     }
@@ -168,8 +169,8 @@ bool CRobot::findEnds() {
   if (isOfWorld) {
     return findEnd("robot", robot, REACH, start) && findEnd("goal", {goalX, goalY}, REACH, goal);
   }
-  // On some other map: from the given place, or the bottom left corner; and wherever it is, the
-  // nearest free cell will do.
+  // On a map of another place: start at the given position, or at the bottom left corner. The
+  // nearest free cell replaces start and goal, however far away it is.
   const double anywhere = std::numeric_limits<double>::infinity();
   const bool given = startX >= 0.0 && startY >= 0.0;
   return findEnd("start", given ? par::Point{startX, startY} : par::Point(), anywhere, start) &&
@@ -211,7 +212,7 @@ bool CRobot::drive(const par::Path& way) {
     ScopedLock lk(mtx);
     q = quit;
   }
-  // A command holds until the next one, and it takes a moment to stand still.
+  // A command stays in effect until the next one, and the robot needs a moment to stop.
   position->SetSpeed(0.0, 0.0);
   do {
     client->Read();
@@ -255,7 +256,7 @@ void CRobot::drawGoal() const {
   const CCMorse::ImagePoint_t middle = pixelOf(cell);
   for (int dy = -6; dy <= 6; dy++) {
     for (int dx = -6; dx <= 6; dx++) {
-      // In pixels of the canvas. The robot has room inside the ring.
+      // Distances in pixels of the canvas. The robot fits inside the ring.
       const double distance = std::hypot(dx, dy);
       if (distance < 1.5 || (distance > 5.0 && distance < 6.4)) {
         drawing.SetCell(middle.x + dx, middle.y + dy, 1);
@@ -267,7 +268,8 @@ void CRobot::drawGoal() const {
 void CRobot::drawWay(const std::string& layer, const par::Path& way, int margin) const {
   CCMorse::GridMapLayer& drawing = window.GetLayer(layer);
   drawing.Clear();
-  const int half = pixelsPerCell / 2;  // to the middle of a cell that is a square of pixels
+  // offset to the middle of a cell that is drawn as a square of pixels
+  const int half = pixelsPerCell / 2;
   for (std::size_t i = 1; i < way.cells.size(); i++) {
     const CCMorse::ImagePoint_t from = pixelOf(way.cells[i - 1]);
     const CCMorse::ImagePoint_t to = pixelOf(way.cells[i]);

@@ -13,22 +13,22 @@
 #include "par_common/planners.h"
 #include "robot_types.h"
 
-// Finds a way over a known map and drives it: map -> grown obstacles -> plan -> smooth -> follow.
-// What each step found is drawn in a layer of its own. How a way is planned is in planner.cc.
+// Plans a path on a known map and drives it: map -> inflated obstacles -> plan -> smooth -> follow.
+// Each step draws its result in its own layer. The planner is in planner.cc.
 class CRobot : public imr::concurrent::CThread {
  public:
-  // Declares the settings that can be given on the command line, with their defaults.
+  // Declares the command-line settings and their defaults.
   static imr::CConfig& getConfig(imr::CConfig& config);
 
-  // Reads the map file, if one is given, connects to the robot and waits for its first data.
+  // Reads the map file if one is given, connects to the robot and waits for its first data.
   explicit CRobot(imr::CConfig& cfg);
   ~CRobot();
 
-  // Asks the thread to end after its current turn; may be called from any thread.
+  // Asks the thread to end after its current iteration. Any thread may call this.
   void stop();
 
-  // Whether the robot came to the goal (with a map of another place: whether there is a way). To be
-  // asked when the thread has ended.
+  // Whether the robot reached the goal; with a map of another place, whether a path exists. Call it
+  // after the thread has ended.
   bool succeeded() const { return success; }
 
  protected:
@@ -41,21 +41,22 @@ class CRobot : public imr::concurrent::CThread {
   bool findEnd(const char* what, const par::Point& wanted, double reach, par::Cell& cell) const;
   bool drive(const par::Path& way);
 
-  // Drawing. A cell of the map is a pixel of the canvas, or a square of several; or several cells
-  // are one pixel, if the map is larger than the canvas.
+  // Drawing. If the canvas is larger than the map, a cell of the map is a square of pixels. If the
+  // map is larger than the canvas, several cells share one pixel.
   CCMorse::ImagePoint_t pixelOf(const par::Cell& cell) const;
   void drawCells(const std::string& layer, const par::Mask& cells) const;
-  // A dot and a ring round it where the robot is to go.
+  // Marks the goal with a dot and a ring.
   void drawGoal() const;
-  // The planned way is drawn with a margin [pixels], to be seen under the smoothed one.
+  // Draws a path with a margin [pixels]. The planned path has one, so that it stays visible under
+  // the smoothed path.
   void drawWay(const std::string& layer, const par::Path& way, int margin) const;
 
   double goalX, goalY;    // [m]
-  double startX, startY;  // the same, for maps of other places; negative: not given
-  double inflation;       // radius by which obstacles are grown [m]
+  double startX, startY;  // [m], for maps of other places; negative: not given
+  double inflation;       // radius by which obstacles are inflated [m]
 
-  // The connection, and the devices that are reached through it. The order matters: what is
-  // declared last is destroyed first, and a proxy needs its client to the end.
+  // The connection and its devices. The order matters: members are destroyed in reverse order, and
+  // a proxy must be destroyed before its client.
   std::unique_ptr<CCMorse::PlayerClient> client;
   std::unique_ptr<CCMorse::Position2dProxy> position;
   CCMorse::WindowProxy& window;
@@ -63,15 +64,15 @@ class CRobot : public imr::concurrent::CThread {
   par::Mask walls;        // the map: 1 where there is a wall
   bool fromFile;          // the map comes from a file
   bool isOfWorld = true;  // the map shows the place where the robot is
-  int pixelsPerCell = 1;  // side of the square that is drawn for a cell ...
-  int cellsPerPixel = 1;  // ... or side of the square of cells that is drawn as one pixel
+  int pixelsPerCell = 1;  // side of the square of pixels that is drawn for one cell
+  int cellsPerPixel = 1;  // side of the square of cells that is drawn as one pixel
 
   par::Mask inflated;  // where the robot's centre cannot be
   par::Cell start, goal;
   par::PathFollower follower;
 
   bool success = false;
-  bool quit = false;  // guarded by mtx: stop() sets it from another thread
+  bool quit = false;  // guarded by mtx; stop() sets it from another thread
   Mutex mtx;
 };
 

@@ -3,8 +3,8 @@
 
 const char* const PLANNER_NAME = "Dijkstra";
 
-// The shortest way over the grid's 8 neighbours. It goes in steps of 45 degrees; what comes next,
-// smoothing by line of sight, pulls it straight.
+// The shortest path over the grid's 8 neighbours. It turns in steps of 45 degrees; the smoothing by
+// line of sight that follows straightens it.
 par::Path plan(const par::Mask& blocked, const par::Cell& start, const par::Cell& goal) {
   return par::dijkstra(blocked, start, goal);
 }

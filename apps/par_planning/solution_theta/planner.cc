@@ -3,7 +3,7 @@
 
 const char* const PLANNER_NAME = "Theta*";
 
-// A way of any angle: it turns at corners only, so that smoothing leaves nearly all of it as it is.
+// An any-angle path. It turns only at corners of obstacles, so smoothing changes little.
 par::Path plan(const par::Mask& blocked, const par::Cell& start, const par::Cell& goal) {
   return par::theta_star(blocked, start, goal);
 }

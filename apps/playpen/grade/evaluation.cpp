@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Radius of the largest circle round the origin within a convex outline [m].
+/// Radius of the largest circle around the origin inside a convex outline [m].
 double inscribed_radius(const sim::Polygon& outline) {
   double radius = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -41,7 +41,7 @@ double inscribed_radius(const sim::Polygon& outline) {
                                           std::move(found), std::move(hint)});
 }
 
-/// Takes the judged robot's figures out of the report. @return what is wrong, if something is.
+/// Copies the graded robot's results from the report. @return an error, if there is one.
 std::optional<std::string> read_report(const fs::path& file, const Reference& reference,
                                        const playerlike::Grading& asked, Measures& measures) {
   std::string text;
@@ -63,7 +63,7 @@ std::optional<std::string> read_report(const fs::path& file, const Reference& re
       if (robot.at("name").get<std::string>() != reference.robot) continue;
       found.path_length_m = robot.at("path_length").get<double>();
       found.collisions = robot.at("collisions").get<int>();
-      // null: there is nothing solid to be clear of.
+      // null: the world contains nothing solid.
       if (const nlohmann::json& clearance = robot.at("least_clearance"); !clearance.is_null()) {
         found.least_clearance_m = clearance.get<double>();
       }
@@ -123,13 +123,13 @@ Ending ending_of(const playerlike::JobEnd& end, const Measures& measures,
   }
   if (end.program.signal) return Ending::kSignal;
   if (end.program.status != 0) return Ending::kBadStatus;
-  constexpr double kRounding_s = 1e-6;  // of the time that the report has
+  constexpr double kRounding_s = 1e-6;  // tolerance for the report's times
   const bool over = reference.duration_s && measures.sim_time_s &&
                     *measures.sim_time_s >= *reference.duration_s - kRounding_s;
   return over ? Ending::kTimeOver : Ending::kBySelf;
 }
 
-/// What is wrong with an ending, whatever the thresholds; nullopt if nothing is.
+/// The fault of an ending, independent of the thresholds; nullopt if there is none.
 std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end,
                                     const Task& task) {
   switch (ending) {
@@ -152,10 +152,11 @@ std::optional<std::string> fault_of(Ending ending, const playerlike::JobEnd& end
   return std::nullopt;
 }
 
-/// What is wrong with a path to the goal that is shorter than any; nullopt if it is not.
+/// A fault if the driven path to the goal is shorter than the shortest possible one; otherwise
+/// nullopt.
 std::optional<std::string> impossible_path(const Reference& reference, const Measures& measures) {
   if (!measures.path_ratio || !reference.goal || !measures.shortest_path_m) return std::nullopt;
-  // The goal is reached within its tolerance, and the shortest way is that of cells.
+  // The goal counts as reached within its tolerance, and the shortest path follows cells.
   const double slip_m = reference.goal->tolerance_m + 2.0 * kTruthCell_m;
   if (*measures.path_length_m >= *measures.shortest_path_m - slip_m) return std::nullopt;
   return "path of " + sim::fixed_text(*measures.path_length_m, 2) +
@@ -164,7 +165,7 @@ std::optional<std::string> impossible_path(const Reference& reference, const Mea
          " m): the robot has not driven there; does the world lock its objects (lock_objects)?";
 }
 
-/// Adds a fault if a measure lies beyond its limit, or was not taken.
+/// Adds a fault if a measure violates its limit, or is missing.
 class Judge {
  public:
   void at_least(const char* what, const std::optional<double>& value,
@@ -226,8 +227,8 @@ Reference make_reference(const Task& task, const TaskWorld& task_world,
   if (!task.map_layer.empty() || reference.goal) reference.truth = make_truth(world.arena);
   if (reference.goal) {
     const double radius_m = inscribed_radius(sim::find_robot_model(world, robot->model)->footprint);
-    // What stands beside a wall is up to a cell's diagonal deeper in the inflated map; a goal
-    // need only be met within its tolerance.
+    // The start and the goal may lie inside inflated obstacles: by up to a cell's diagonal beside a
+    // wall, and a goal only has to be reached within its tolerance.
     const double slip_m = std::max(2.0 * kTruthCell_m, reference.goal->tolerance_m);
     const std::optional<Way> way = shortest_way(inflate(reference.truth, radius_m), reference.start,
                                                 reference.goal->position, slip_m);
@@ -296,7 +297,7 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
     problem = read_report(folder / "report.json", reference, run.asked, run.measures);
     if (!problem && !task.map_layer.empty()) {
       problem = read_drawn_map(folder, task, reference, run.measures);
-      // A map that nobody asks for may be missing.
+      // A missing map is no problem if no threshold needs it.
       if (!task.thresholds.min_coverage && !task.thresholds.min_correctness) problem.reset();
     }
   }
@@ -307,12 +308,12 @@ void evaluate(const Task& task, const Reference& reference, const playerlike::Jo
 
   run.faults.clear();
   if (auto fault = fault_of(run.ending, end, task)) {
-    // A program that ended badly need not be told what is missing because of that.
+    // After a bad ending, do not report what is missing because of it.
     run.faults.push_back(*std::move(fault));
   } else if (problem) {
     run.faults.push_back(*std::move(problem));
   }
-  // Without a report there is nothing to judge, and its absence has been told.
+  // Without a report there is nothing to grade; the missing report is already a fault.
   if (!run.measures.sim_time_s) return;
   if (auto fault = impossible_path(reference, run.measures)) {
     run.faults.push_back(*std::move(fault));

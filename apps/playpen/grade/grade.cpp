@@ -18,6 +18,7 @@
 #include "playerlike/host/results.h"
 #include "playerlike/host/run_settings.h"
 #include "sim/core/error.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/simulation.h"
 
 namespace playpen::grade {
@@ -25,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Makes a run's folder and takes what an earlier run has left out of it.
+/// Creates a run's folder and removes the results of earlier runs from it.
 void prepare_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -42,12 +43,11 @@ bool same_world(const std::string& a, const std::string& b) {
   return !a.empty() && !b.empty() && fs::equivalent(a, b, error);
 }
 
-/// A number that no other run has.
+/// A number that is unique to the run.
 std::string new_nonce() {
-  constexpr const char* kDigits = "0123456789abcdef";
   std::random_device random;
   std::string nonce;
-  while (nonce.size() < 32) nonce += kDigits[random() & 15U];
+  for (int i = 0; i < 4; ++i) nonce += sim::hexadecimal_text(random(), 8);
   return nonce;
 }
 
@@ -77,8 +77,8 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& w
   return job;
 }
 
-/// The folder in which programs run, beside those of the results: what a program leaves is moved
-/// out of it before it is judged.
+/// The folder in which programs run, separate from the results. The grader moves a program's output
+/// out of it before grading.
 class WorkFolder {
  public:
   explicit WorkFolder(const fs::path& out) {
@@ -98,7 +98,7 @@ class WorkFolder {
  private:
   static constexpr const char* kPrefix = ".running-";
 
-  /// Those that a grader has left that was killed.
+  /// Removes the work folders of a grader that was killed.
   static void remove_those_of_others(const fs::path& out) {
     std::error_code ignored;
     std::vector<fs::path> left;
@@ -114,7 +114,7 @@ class WorkFolder {
   fs::path path_;
 };
 
-/// Moves what a run has left to where it belongs.
+/// Moves the results of a run to their folder.
 void take_results(const fs::path& from, const fs::path& to) {
   std::error_code error;
   std::vector<fs::path> entries;
@@ -125,7 +125,7 @@ void take_results(const fs::path& from, const fs::path& to) {
     const fs::path place = to / entry.filename();
     fs::rename(entry, place, error);
     if (!error) continue;
-    fs::remove_all(place, error);  // a folder that is there already
+    fs::remove_all(place, error);  // removes an existing folder
     fs::rename(entry, place);
   }
   fs::remove_all(from, error);
@@ -200,8 +200,8 @@ Grade grade(const GradeSettings& settings,
         tell();
       },
       [&](std::size_t index, const playerlike::JobEnd& end) {
-        // All processes of the run are gone; those of other runs may still do what they like, so it
-        // is judged now.
+        // All processes of this run have ended, but those of other runs may still change files. So
+        // grade the run now.
         GradedRun& run = result.runs[index];
         take_results(work.path() / run.folder, out / run.folder);
         evaluate(task, *reference_of[index], end, out / run.folder, run);

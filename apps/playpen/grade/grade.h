@@ -13,44 +13,44 @@
 
 namespace playpen::grade {
 
-/// What is to be graded, and how.
+/// Settings of a grading.
 struct GradeSettings {
-  Task task;                         ///< its worlds and seeds are those that are run
+  Task task;                         ///< its worlds and seeds are run
   std::vector<std::string> program;  ///< path (see playerlike::find_program()) and arguments
-  int jobs = 1;                      ///< programs that run side by side, >= 1
+  int jobs = 1;                      ///< number of programs that run in parallel, >= 1
   std::string output_folder;         ///< gets a folder WORLD_seedN for each run
-  /// Of virtual time (docs/virtual_time.md): what preloads its library; empty: sleeps are real.
+  /// environment changes that preload virtual time (docs/virtual_time.md); empty: sleeps are real
   playerlike::EnvironmentChanges virtual_time;
 };
 
-/// How far a grading is.
+/// Progress of a grading.
 struct Progress {
   std::size_t runs = 0;
   std::size_t running = 0;
   std::size_t ended = 0;
 };
 
-/// Puts the worlds that a user named in the place of the task's: those that the task has keep what
-/// it says of them, others get what holds for all.
+/// Replaces the task's worlds by those that the user named. Worlds that the task contains keep the
+/// task's settings for them; other worlds get the settings for all worlds.
 /// @param files  paths; "" is the default world.
 /// @throws sim::ConfigError if two have the same name (see world_name()).
 void choose_worlds(Task& task, const std::vector<std::string>& files);
 
-/// Runs a program on each world of a task with each seed and judges the runs. Whatever the program
-/// does is a result.
+/// Runs a program on each world of a task with each seed and grades the runs. Whatever the program
+/// does gives a result.
 ///
-/// A run has its own output folder, WORLD_seedN, with the usual files of a run and what the
-/// program printed in program.log; results of an earlier grading are taken out of it first. While
-/// it runs, its output folder lies in another one, .running-N; what is in it is moved, and judged,
-/// when all processes of the run are gone.
+/// Each run has its own output folder, WORLD_seedN, with the usual files of a run and the program's
+/// output in program.log. Results of an earlier grading are removed from it first. During the run,
+/// the output folder is inside another one, .running-N. When all processes of the run have ended,
+/// the grader moves its content and grades it.
 ///
-/// @param on_progress  called at first, and whenever a run starts or ends, with what is known by
-///                     then, if set.
-/// @return all runs, also if this process was told to end meanwhile.
-/// @throws sim::ConfigError for a world that can't be used or does not go with the task,
+/// @param on_progress  called at the start, and whenever a run starts or ends, with the current
+///        progress, if set.
+/// @return all runs, also if this process was told to stop meanwhile.
+/// @throws sim::ConfigError for a world that can't be used or does not match the task,
 ///         playerlike::ProgramError if the program can't be started, std::exception if an output
 ///         folder can't be prepared.
-/// @note For a command's main thread, see playerlike::run_programs().
+/// @note Call it from a command's main thread, see playerlike::run_programs().
 [[nodiscard]] Grade grade(
     const GradeSettings& settings,
     const std::function<void(const Progress&, const Grade&)>& on_progress = {});

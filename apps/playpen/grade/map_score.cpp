@@ -20,7 +20,7 @@ bool contains(const sim::OccupancyMap& map, const Cell& cell) {
   return cell.first >= 0 && cell.first < map.width && cell.second >= 0 && cell.second < map.height;
 }
 
-/// The cell that a point of the world lies in, if the map has it.
+/// The cell that contains a point of the world, if it is inside the map.
 std::optional<Cell> cell_at(const sim::OccupancyMap& map, const sim::Vec2& p_W) {
   const sim::Vec2 p = (p_W - map.origin) / map.cell_size_m;
   if (!(p.x() >= 0.0 && p.x() < map.width && p.y() >= 0.0 && p.y() < map.height)) {
@@ -62,12 +62,12 @@ CellState cell_state(float value) noexcept {
 }
 
 sim::OccupancyMap make_truth(const sim::ArenaDescription& arena) {
-  constexpr int kMargin = 2;  // cells round the floor
+  constexpr int kMargin = 2;  // cells around the floor
   sim::CanvasDescription grid;
   grid.cell_size_m = kTruthCell_m;
   grid.origin = arena.origin - sim::Vec2::Constant(kMargin * kTruthCell_m);
   const auto cells = [](double length_m) {
-    // 1e-9 forgives 3.42 / 0.02 > 171.
+    // 1e-9 absorbs rounding: 3.42 / 0.02 > 171.
     return static_cast<int>(std::ceil(length_m / kTruthCell_m - 1e-9)) + 2 * kMargin;
   };
   grid.width = cells(arena.size.x());

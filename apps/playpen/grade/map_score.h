@@ -11,42 +11,40 @@
 
 namespace playpen::grade {
 
-/// Side of a cell of the truth that maps are compared with [m].
+/// Cell size of the true map that maps are compared with [m].
 inline constexpr double kTruthCell_m = 0.02;
 
-/// What a map says of a cell: free if it is surely less than half occupied, solid if surely more.
+/// State of a cell: free if it is certainly less than half occupied, solid if certainly more.
 enum class CellState : std::uint8_t { kFree, kUnknown, kSolid };
 
-/// @param value  0 (free) .. 1 (occupied); from 0.45 to 0.55 nothing is known.
+/// @param value  0 (free) .. 1 (occupied); from 0.45 to 0.55 the cell is unknown.
 [[nodiscard]] CellState cell_state(float value) noexcept;
 
-/// How good a map of an arena is.
+/// Quality of a map.
 struct MapScore {
-  /// Of the truly free cells that can be reached, the share that the map calls free, 0..1.
+  /// Share of the reachable free cells that the map shows as free, 0..1.
   double coverage = 0.0;
-  /// Of the cells of which the map knows something, the share that are right, 0..1; 0 if it knows
-  /// nothing.
+  /// Share of the map's known cells that are correct, 0..1; 0 if it has no known cells.
   double correctness = 0.0;
-  std::size_t reachable_cells = 0;  ///< free cells of the truth that can be reached
-  std::size_t known_cells = 0;      ///< cells of the map that were judged
+  std::size_t reachable_cells = 0;  ///< reachable free cells of the true map
+  std::size_t known_cells = 0;      ///< cells of the map that were compared
 };
 
-/// The truth that maps are compared with: sim::true_map in cells of kTruthCell_m, from the floor's
-/// bottom left corner on, with some cells of the border round the floor.
+/// The true map that maps are compared with: sim::true_map with cells of kTruthCell_m. It starts at
+/// the floor's bottom left corner and includes a margin of some cells around the floor.
 [[nodiscard]] sim::OccupancyMap make_truth(const sim::ArenaDescription& arena);
 
-/// Cells of the truth that a point can be moved to from the start, through free cells that share
-/// a side.
-/// @return laid out as the map's cells; 1: can be reached.
+/// Cells of the true map that can be reached from the start through free cells that share a side.
+/// @return in the order of the map's cells; 1: reachable.
 [[nodiscard]] std::vector<std::uint8_t> reachable_cells(const sim::OccupancyMap& truth,
                                                         const sim::Vec2& start);
 
-/// Compares a map with the truth, by the positions of its cells in the world: the maps may differ
-/// in origin, size and cells.
+/// Compares a map with the truth by the world positions of its cells: the maps may differ in
+/// origin, size and cell size.
 ///
-/// A free cell is right if the truth is free at its middle; a solid one if the truth is solid
-/// there or in one of the eight cells round it. Cells of the map that lie off the truth are not
-/// judged.
+/// A free cell is correct if the truth is free at the cell's centre. A solid cell is correct if the
+/// truth is solid there or in one of the eight cells around it. Cells outside the true map are
+/// ignored.
 [[nodiscard]] MapScore score_map(const sim::OccupancyMap& map, const sim::OccupancyMap& truth,
                                  const sim::Vec2& start);
 

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A measure that is worth a summary: its name in the JSON file and in the summary's lines.
+/// A measure that appears in the summary: its name in the JSON file and in the summary's lines.
 struct Summarized {
   const char* key;
   const char* words;
@@ -77,8 +77,8 @@ std::string number_or_dash(const std::optional<double>& value, int decimals) {
 /// A column of the table.
 struct Column {
   const char* heading;
-  bool is_words;     ///< to the left; numbers are to the right
-  bool is_optional;  ///< not shown if no run has it
+  bool is_words;     ///< aligned left; numbers are aligned right
+  bool is_optional;  ///< hidden if no run has a value
 };
 
 constexpr Column kColumns[] = {
@@ -109,7 +109,7 @@ Row row_of(const GradedRun& run) {
           run.ending == Ending::kNotRun ? "-" : sim::fixed_text(run.wall_time_s, 1)};
 }
 
-/// The runs' rows, and which columns of them are shown how wide.
+/// The runs' rows, the visible columns and their widths.
 class Table {
  public:
   Table(const std::vector<GradedRun>& runs, const TableStyle& style) : style_(style) {
@@ -231,7 +231,7 @@ std::string table(const Grade& grade, const TableStyle& style) {
   }
   text += grade.task.name + ": " + std::to_string(grade.passed()) + " of " +
           std::to_string(grade.runs.size()) + " runs passed\n";
-  if (grade.runs.size() == 1) return text;  // the table says it all
+  if (grade.runs.size() == 1) return text;  // the table already contains everything
   for (const Summarized& what : kSummarized) {
     const std::optional<Spread> spread = spread_of(grade, what.value);
     if (!spread) continue;
@@ -259,7 +259,7 @@ std::string json_text(const Grade& grade) {
                               {"passed", grade.passed() == grade.runs.size()},
                               {"summary", summary},
                               {"runs", runs}};
-  // Arguments and folders may hold bytes that are no UTF-8.
+  // Arguments and folders may contain bytes that are not valid UTF-8.
   return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }
 

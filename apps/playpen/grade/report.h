@@ -10,29 +10,29 @@
 
 namespace playpen::grade {
 
-/// The grade of a program: its runs, in the order of worlds and seeds.
+/// The grade of a program: its runs, ordered by world and seed.
 struct Grade {
   Task task;
-  std::vector<std::string> program;  ///< with the arguments that the user gave
+  std::vector<std::string> program;  ///< including the arguments that the user gave
   std::vector<GradedRun> runs;
 
   [[nodiscard]] std::size_t passed() const noexcept;
 };
 
-/// How a table is laid out.
+/// Layout of a table.
 struct TableStyle {
-  std::size_t columns = 80;  ///< characters that a line of the table may have
+  std::size_t columns = 80;  ///< maximum width of a table line [characters]
   bool colour = false;       ///< whether verdicts are coloured, for terminals (ECMA-48)
 };
 
-/// The grade for people: a line a run, the faults of those that do not pass, and a summary.
-/// "-" stands for what was not measured; a measure that no run has gets no column. Where the table
-/// has less room than it needs, it loses blanks first, then the worlds' names, which become
-/// headings, and at last the rightmost columns (the JSON has them all). Sentences below the table
-/// are not broken: they may be longer than a line.
+/// The grade as text: one line per run, the faults of the failed runs, and a summary. "-" marks a
+/// measure without a value; a measure without any values has no column. If the table is too wide,
+/// it first loses blanks; then the worlds' names become headings; at last the rightmost columns are
+/// dropped (the JSON has them all). Sentences below the table are not wrapped: they may be longer
+/// than a line.
 [[nodiscard]] std::string table(const Grade& grade, const TableStyle& style = {});
 
-/// The grade for programs, as JSON (docs/grading.md). Equal grades give equal text but for the
+/// The grade as JSON (docs/grading.md), for programs. Equal grades give equal text, except for the
 /// members called wall_time.
 [[nodiscard]] std::string json_text(const Grade& grade);
 

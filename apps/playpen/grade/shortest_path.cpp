@@ -13,7 +13,7 @@ namespace playpen::grade {
 namespace {
 
 constexpr float kSolidAbove = 0.5F;
-constexpr std::int64_t kUnits = 1024;  ///< a cell's side in whole numbers
+constexpr std::int64_t kUnits = 1024;  ///< units per side of a cell
 
 /// A point in units of 1/kUnits cell from the map's bottom left corner, y up.
 struct Point {
@@ -30,10 +30,10 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {  // b > 0
   return a / b - (a % b < 0 ? 1 : 0);
 }
 
-/// Where the way may turn, and to which side of it the solid cell lies.
+/// A point where the path may turn, and the direction of its solid cell.
 struct Corner {
   Point at;
-  int solid_x = 0;  ///< -1 or 1; 0: an end of the way, which is no corner
+  int solid_x = 0;  ///< -1 or 1; 0: an end of the path, which is not a corner
   int solid_y = 0;
 };
 
@@ -41,7 +41,8 @@ class Space {
  public:
   explicit Space(const sim::OccupancyMap& map) : map_(map) {}
 
-  /// Cell by column and row from the bottom; all is solid beyond the map.
+  /// Whether a cell is solid, by column and row from the bottom; everything outside the map is
+  /// solid.
   [[nodiscard]] bool solid(std::int64_t column, std::int64_t row) const {
     if (column < 0 || row < 0 || column >= map_.width || row >= map_.height) return true;
     return map_.at(static_cast<int>(column), map_.height - 1 - static_cast<int>(row)) > kSolidAbove;
@@ -57,7 +58,7 @@ class Space {
                              (map_.cell_size_m / static_cast<double>(kUnits));
   }
 
-  /// Whether a point lies in free cells, or on the border of one.
+  /// Whether a point lies in a free cell, or on the border of one.
   [[nodiscard]] bool is_free(const Point& p) const {
     const std::int64_t column = floor_div(p.x, kUnits);
     const std::int64_t row = floor_div(p.y, kUnits);
@@ -66,7 +67,7 @@ class Space {
     return !solid(column, row) || !solid(left, row) || !solid(column, below) || !solid(left, below);
   }
 
-  /// Corners round which a shortest way may turn: those with three free cells round them.
+  /// Corners around which a shortest path may turn: those with three free cells around them.
   [[nodiscard]] std::vector<Corner> corners() const {
     std::vector<Corner> found;
     for (std::int64_t y = 1; y < map_.height; ++y) {
@@ -87,11 +88,11 @@ class Space {
     return found;
   }
 
-  /// Whether the straight line between two points stays out of the inside of solid cells and does
-  /// not slip between two of them.
+  /// Whether the straight line between two points avoids the interior of solid cells and does not
+  /// pass between two that meet at a corner.
   [[nodiscard]] bool sees(Point from, Point to) const {
     if (from == to) return true;
-    // Bands of rows are gone through; a level line is turned on its side.
+    // The loop iterates over bands of rows; a horizontal line is transposed first.
     const bool turned = from.y == to.y;
     if (turned) {
       std::swap(from.x, from.y);
@@ -104,7 +105,7 @@ class Space {
     const std::int64_t dx = to.x - from.x;
     const std::int64_t dy = to.y - from.y;
     const std::int64_t per_column = dy * kUnits;
-    // Where the line is at a height, in units of 1/per_column columns.
+    // x of the line at a height, in units of 1/per_column columns.
     const auto x_at = [&](std::int64_t y) { return from.x * dy + dx * (y - from.y); };
 
     for (std::int64_t row = floor_div(from.y, kUnits); row * kUnits < to.y; ++row) {
@@ -131,7 +132,7 @@ class Space {
     return true;
   }
 
-  /// The middle of the free cell nearest to a point, no farther than so many units.
+  /// The centre of the free cell nearest to a point, within `reach` units.
   [[nodiscard]] std::optional<Point> nearest_free(const Point& p, double reach) const {
     const auto cells = static_cast<std::int64_t>(std::ceil(reach / static_cast<double>(kUnits)));
     const std::int64_t column = floor_div(p.x, kUnits);
@@ -153,7 +154,7 @@ class Space {
   const sim::OccupancyMap& map_;
 };
 
-/// Whether a taut line in this direction may pass or end at a corner: it must not point into the
+/// Whether a taut path in this direction may pass or end at a corner: it must not point into the
 /// solid cell or away from it.
 bool touches(const Corner& corner, std::int64_t dx, std::int64_t dy) {
   const auto sign = [](std::int64_t value) { return value > 0 ? 1 : value < 0 ? -1 : 0; };
@@ -176,14 +177,14 @@ sim::OccupancyMap inflate(const sim::OccupancyMap& map, double radius_m) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double away =
           std::hypot(std::max(std::abs(dx) - 0.5, 0.0), std::max(std::abs(dy) - 0.5, 0.0));
-      constexpr double kRounding = 1e-9;  // a distance equal to the radius is no less
+      constexpr double kRounding = 1e-9;  // a distance equal to the radius is free
       if (away < radius - kRounding) disc.emplace_back(dx, dy);
     }
   }
   for (int row = 0; row < map.height; ++row) {
     for (int column = 0; column < map.width; ++column) {
       if (!is_solid(column, row)) continue;
-      // What is deep inside reaches no farther than its neighbours do.
+      // A cell inside a solid area inflates no farther than its neighbours.
       if (is_solid(column - 1, row) && is_solid(column + 1, row) && is_solid(column, row - 1) &&
           is_solid(column, row + 1)) {
         continue;
@@ -205,7 +206,7 @@ std::optional<Way> shortest_way(const sim::OccupancyMap& map, const sim::Vec2& s
   const Space space(map);
   const double cell = static_cast<double>(kUnits);
   Way way;
-  std::vector<Corner> nodes(2);  // start and goal, then the corners
+  std::vector<Corner> nodes(2);  // start and goal, followed by the corners
   for (std::size_t i = 0; i < 2; ++i) {
     nodes[i].at = space.point(i == 0 ? start : goal);
     if (space.is_free(nodes[i].at)) continue;
@@ -221,7 +222,7 @@ std::optional<Way> shortest_way(const sim::OccupancyMap& map, const sim::Vec2& s
   std::vector<double> length(nodes.size(), kFar);
   std::vector<std::size_t> before(nodes.size(), 0);
   std::vector<bool> settled(nodes.size(), false);
-  using Entry = std::pair<double, std::size_t>;  // bound of the whole way, node
+  using Entry = std::pair<double, std::size_t>;  // lower bound of the whole path's length, node
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   length[0] = 0.0;
   open.emplace(distance(nodes[0].at, nodes[1].at), 0);
@@ -251,7 +252,7 @@ std::optional<Way> shortest_way(const sim::OccupancyMap& map, const sim::Vec2& s
     way.points.push_back(space.in_world(nodes[before[i]].at));
   }
   std::reverse(way.points.begin(), way.points.end());
-  // The ends as they were given; joined to where the way begins if they lie in solid cells.
+  // Use the exact start and goal. An end in a solid cell is connected by a straight line.
   if (nodes[0].at == space.point(start)) way.points.erase(way.points.begin());
   way.points.insert(way.points.begin(), start);
   if (nodes[1].at == space.point(goal)) way.points.pop_back();

@@ -25,7 +25,7 @@ constexpr NumberRange kLength{0.0, 1e6, false, "m"};
 constexpr NumberRange kTime{0.0, 1e9, true, "s"};
 constexpr NumberRange kShare{0.0, 1.0, false, ""};
 
-/// A number that may be left out.
+/// An optional number.
 std::optional<double> optional_number(Reader& reader, const char* key, const NumberRange& range) {
   if (!reader.has(key)) return std::nullopt;
   return reader.number(key, 0.0, range);
@@ -68,10 +68,11 @@ class TaskReader {
     if (elements.empty()) {
       const std::optional<Reader> list = root.child("worlds");
       if (list->is_array()) {
-        root.issue("world/out-of-range", "at least one world", list->described(), "", "worlds");
+        root.issue("world/out-of-range", "at least one world", list->description_for_message(), "",
+                   "worlds");
       }
     }
-    std::map<std::string, std::string> places;  // of names
+    std::map<std::string, std::string> places;  // JSON pointers of the names
     for (Reader& element : elements) {
       TaskWorld world;
       std::string name;
@@ -87,9 +88,9 @@ class TaskReader {
       } else {
         element.issue("world/wrong-type",
                       "the name of a world file in double quotes, or an object {...}",
-                      element.described());
+                      element.description_for_message());
       }
-      if (name.empty() && !element.is_string()) continue;  // reported already
+      if (name.empty() && !element.is_string()) continue;  // already reported
       world.file = (fs::path(task_.file).parent_path() / name).string();
       std::error_code error;
       if (name.empty() || !fs::is_regular_file(world.file, error)) {
@@ -111,8 +112,8 @@ class TaskReader {
     if (!root.has("seeds")) return;
     if (const std::optional<Reader> seeds = root.child("seeds"); !seeds->is_array()) {
       if (!seeds->is_number()) {
-        root.issue("world/wrong-type", "a list of seeds, or how many there are", seeds->described(),
-                   "", "seeds");
+        root.issue("world/wrong-type", "a list of seeds, or how many there are",
+                   seeds->description_for_message(), "", "seeds");
         return;
       }
       const std::int64_t count = root.integer("seeds", 1, 1, kMaxItems);
@@ -135,9 +136,9 @@ class TaskReader {
       std::uint64_t seed = 0;
       const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
       if (!element.is_number()) {
-        element.issue("world/wrong-type", kExpected, element.described());
+        element.issue("world/wrong-type", kExpected, element.description_for_message());
       } else if (error != std::errc() || end != text.data() + text.size()) {
-        element.issue("world/out-of-range", kExpected, element.described());
+        element.issue("world/out-of-range", kExpected, element.description_for_message());
       } else if (!taken.insert(seed).second) {
         element.issue("task/duplicate-seed", "each seed once", text + " a second time",
                       "equal seeds give equal runs");
@@ -154,7 +155,7 @@ class TaskReader {
         arguments.push_back(element.scalar_text().value_or(""));
       } else {
         element.issue("world/wrong-type", "an argument of the program in double quotes",
-                      element.described());
+                      element.description_for_message());
       }
     }
     return arguments;

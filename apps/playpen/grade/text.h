@@ -5,8 +5,8 @@
 
 namespace playpen::grade {
 
-/// A number with so many decimals, or more if with these it could not be told from a limit that it
-/// differs from: 0.97996 is not "0.980" beside a limit of 0.98.
+/// A number with the given number of decimals, or with more if rounding would make it equal to a
+/// limit that it differs from: 0.97996 is not "0.980" beside a limit of 0.98.
 [[nodiscard]] std::string telling_number(double value, double limit, int decimals);
 
 }  // namespace playpen::grade

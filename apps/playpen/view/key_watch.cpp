@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Windows come and go while the tree is searched: that one is gone is no error.
+/// Windows come and go during the search: a missing window is not an error.
 int ignore_error(Display* /*display*/, XErrorEvent* /*error*/) { return 0; }
 
 }  // namespace
@@ -21,7 +21,7 @@ int ignore_error(Display* /*display*/, XErrorEvent* /*error*/) { return 0; }
 struct KeyWatch::Impl {
   Display* display = nullptr;
   Window window = None;
-  std::map<unsigned, KeySym> down;  ///< keys that are held, by keycode
+  std::map<unsigned, KeySym> down;  ///< keys that are down, by keycode
 
   [[nodiscard]] bool is_ours(Window candidate, const std::string& title) const {
     char* name = nullptr;
@@ -31,7 +31,7 @@ struct KeyWatch::Impl {
     return same && process_of(candidate) == getpid();
   }
 
-  /// The process that a window says it belongs to; -1 if it says nothing.
+  /// The process id that a window reports; -1 if it reports none.
   [[nodiscard]] long process_of(Window candidate) const {
     Atom type = None;
     int format = 0;
@@ -42,7 +42,7 @@ struct KeyWatch::Impl {
     if (XGetWindowProperty(display, candidate, XInternAtom(display, "_NET_WM_PID", False), 0, 1,
                            False, XA_CARDINAL, &type, &format, &count, &left, &data) == Success &&
         data != nullptr) {
-      // Properties of 32 bits come as longs, whatever their size.
+      // Xlib returns 32-bit properties as longs, whatever the size of a long.
       if (count == 1 && format == 32) process = *reinterpret_cast<const long*>(data);
       XFree(data);
     }
@@ -67,7 +67,7 @@ KeyWatch::KeyWatch() : impl_(std::make_unique<Impl>()) {
   impl_->display = XOpenDisplay(nullptr);
   if (impl_->display == nullptr) throw std::runtime_error("no X display");
   XSetErrorHandler(ignore_error);
-  // A held key then repeats its press only, without releases in between.
+  // A held key then repeats only its press, without releases in between.
   XkbSetDetectableAutoRepeat(impl_->display, True, nullptr);
 }
 
@@ -109,7 +109,7 @@ void KeyWatch::poll(const KeySink& key, const std::function<void()>& released) {
       if (!impl_->down.emplace(code, symbol).second) continue;
       key(static_cast<std::uint32_t>(symbol), true, control);
     } else if (const auto held = impl_->down.find(code); held != impl_->down.end()) {
-      // As what it went down: Shift may have changed in between.
+      // Report the keysym of the press: Shift may have changed in between.
       key(static_cast<std::uint32_t>(held->second), false, control);
       impl_->down.erase(held);
     }

@@ -6,17 +6,17 @@
 #include <memory>
 #include <string>
 
-/// Keys of a window, as they go down and up.
+/// Key presses and releases of a window.
 ///
-/// highgui's waitKey() tells neither releases nor, with its Qt backend, Tab and any key pressed
-/// with Ctrl. So the keys are taken from the X server itself, by a connection of our own that asks
-/// for the same window's events; highgui keeps getting its own.
+/// highgui's waitKey() reports no releases and, with its Qt backend, neither Tab nor any key
+/// pressed with Ctrl. So this class gets the keys from the X server, over its own connection that
+/// requests the same window's events; highgui still receives its own events.
 class KeyWatch {
  public:
-  /// A key went down (once, however long it is held) or up.
+  /// Called when a key is pressed (once, however long it is held) or released.
   using KeySink = std::function<void(std::uint32_t keysym, bool pressed, bool control)>;
 
-  /// Connects with the display that DISPLAY names.
+  /// Connects to the display that DISPLAY names.
   /// @throws std::runtime_error if there is none.
   KeyWatch();
   KeyWatch(const KeyWatch&) = delete;
@@ -26,15 +26,16 @@ class KeyWatch {
   [[nodiscard]] int screen_width_px() const;
   [[nodiscard]] int screen_height_px() const;
 
-  /// Readable when something has happened.
+  /// Becomes readable when there are events.
   [[nodiscard]] int descriptor() const;
 
-  /// Looks for this process's window of that title, and from then on watches it.
-  /// @return whether it is there.
+  /// Finds this process's window with that title, and watches it from then on.
+  /// @return whether the window exists.
   bool attach(const std::string& title);
 
-  /// Hands on what has happened since the last call.
-  /// @param released  called when the window has lost the keyboard, so that releases are missed.
+  /// Reports the events since the last call.
+  /// @param released  called when the window has lost the keyboard focus, so that releases are
+  ///        missed.
   void poll(const KeySink& key, const std::function<void()>& released);
 
  private:

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// playpen-view TITLE: the window of `playpen run --view`, which starts it. Shows the frames that
-// come through its standard input, a socket, and sends keys back (playerlike/view/protocol.h).
-// playpen-view --check: tells whether there is a display, and how large it is.
+// playpen-view TITLE: the window of `playpen run --view`, which starts this program. It shows the
+// frames that arrive on its standard input, a socket, and sends keys back
+// (playerlike/view/protocol.h).
+// playpen-view --check: reports whether there is a display, and its size.
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -28,13 +29,12 @@ namespace view = playerlike::view;
 
 constexpr int kSocket = STDIN_FILENO;
 constexpr int kTick_ms = 10;
-// Pictures are no larger than this, and leave room on the screen for the window's frame and the
-// desktop's bars.
+// Maximum picture size. It leaves room on the screen for the window's frame and the desktop's bars.
 constexpr int kLargestPicture_px = 900;
 constexpr int kRoomBeside_px = 20;
 constexpr int kRoomAbove_px = 90;
 
-/// The socket has come to its end: the run is over.
+/// The socket is at its end: the run is over.
 struct EndOfRun {};
 
 void send_message(view::ViewerMessageKind kind, std::uint32_t a = 0, std::uint32_t b = 0) {
@@ -42,11 +42,11 @@ void send_message(view::ViewerMessageKind kind, std::uint32_t a = 0, std::uint32
   if (send(kSocket, &message, sizeof message, MSG_NOSIGNAL) != sizeof message) throw EndOfRun{};
 }
 
-/// Puts frames together from what comes through the socket.
+/// Assembles frames from the data of the socket.
 class FrameReader {
  public:
-  /// Takes what is there, up to the end of a frame.
-  /// @return whether the frame is whole.
+  /// Reads the available data, up to the end of a frame.
+  /// @return whether the frame is complete.
   bool read_some() {
     for (;;) {
       const bool in_header = got_ < sizeof header_;
@@ -60,7 +60,7 @@ class FrameReader {
       if (count <= 0) throw EndOfRun{};
       got_ += static_cast<std::size_t>(count);
       if (in_header && got_ == sizeof header_) {
-        if (!view::is_sound(header_)) throw EndOfRun{};
+        if (!view::is_valid(header_)) throw EndOfRun{};
         body_.resize(view::body_bytes(header_));
       }
     }
@@ -82,7 +82,7 @@ class FrameReader {
     return all;
   }
 
-  /// Makes room for the next frame.
+  /// Prepares for the next frame.
   void next() { got_ = 0; }
 
  private:
@@ -93,7 +93,7 @@ class FrameReader {
   std::size_t got_ = 0;
 };
 
-/// The window before the first frame.
+/// The picture before the first frame.
 cv::Mat waiting_picture(int side_px) {
   cv::Mat picture(side_px + kStatusBarHeight_px, side_px, CV_8UC3, cv::Scalar(0xea, 0xef, 0xf1));
   StatusText text;
@@ -130,8 +130,8 @@ void serve(KeyWatch& keys, const std::string& title) {
         [] { send_message(view::ViewerMessageKind::kReleaseAll); });
     const bool whole = frames.read_some();
     if (whole) cv::imshow(title, frames.picture());
-    cv::waitKey(1);  // lets highgui work: draws the picture, and takes what the desktop says
-    // imshow would open a closed window anew, so that is looked for at once.
+    cv::waitKey(1);  // lets highgui process events: it draws the picture
+    // imshow would open a closed window again, so check at once.
     if (!is_open(title)) {
       send_message(view::ViewerMessageKind::kClosed);
       return;
@@ -155,12 +155,12 @@ int main(int argc, char** argv) {
   try {
     const std::string title = argv[1];
     KeyWatch keys;
-    if (title == "--check") {  // 'playpen doctor' asks whether there is a display
+    if (title == "--check") {  // 'playpen doctor' checks whether there is a display
       std::cout << keys.screen_width_px() << " x " << keys.screen_height_px() << " pixels\n";
       return 0;
     }
-    // Keys are taken from X, so the toolkit must show its window there, and (GTK) take events in
-    // the way that leaves them to others. Qt's warnings mean nothing to users.
+    // KeyWatch reads keys from X, so the toolkit must show its window there, and (GTK) must not
+    // take events away from other clients. Qt's warnings are meaningless to users.
     setenv("QT_QPA_PLATFORM", "xcb", 1);
     setenv("QT_LOGGING_RULES", "*=false", 0);
     setenv("GDK_BACKEND", "x11", 1);

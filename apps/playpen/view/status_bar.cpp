@@ -18,13 +18,13 @@ const cv::Scalar kMessageInk(0x6b, 0xcb, 0xff);
 
 constexpr int kMargin_px = 14;
 constexpr int kDot_px = 6;
-// Text is drawn this much larger and shrunk, for smooth edges.
+// Text is drawn larger by this factor and scaled down, for smooth edges.
 constexpr int kFine = 4;
 constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
-// Height of a capital letter at scale 1, as getTextSize tells it for this font.
+// Height of a capital letter at scale 1 in this font, measured with getTextSize.
 constexpr double kCapHeight_px = 22.0;
 
-/// Writes a line of text, shrunk if it is wider than `room`.
+/// Draws a line of text, scaled down if it is wider than `room`.
 /// @return its width.
 int write_text(cv::Mat& bar, const std::string& text, cv::Point start, double cap_height_px,
                const cv::Scalar& colour, int room, bool ends_there = false) {
@@ -62,7 +62,7 @@ int write_text(cv::Mat& bar, const std::string& text, cv::Point start, double ca
   return width;
 }
 
-/// Writes a line of help: keys and what they do in turn, two or more blanks apart.
+/// Draws a line of help: keys and their meanings alternate, two or more blanks apart.
 void write_help(cv::Mat& bar, const std::string& line, int base_line, int right) {
   int x = kMargin_px;
   bool is_key = true;

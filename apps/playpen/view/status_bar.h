@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-/// What stands below the picture.
+/// The text below the picture.
 struct StatusText {
-  std::string status;              ///< what goes on, left
-  std::string message;             ///< passing message, right
-  std::vector<std::string> help;   ///< lines of help; two have room
-  std::uint32_t robot_colour = 0;  ///< of the chosen robot, 0xRRGGBB
+  std::string status;              ///< current state, left
+  std::string message;             ///< temporary message, right
+  std::vector<std::string> help;   ///< lines of help; there is room for two
+  std::uint32_t robot_colour = 0;  ///< colour of the selected robot, 0xRRGGBB
   bool paused = false;
 
-  /// Takes a frame's text apart; see playerlike/view/protocol.h.
+  /// Parses a frame's text; see playerlike/view/protocol.h.
   [[nodiscard]] static StatusText parse(const std::string& text, std::uint32_t robot_colour,
                                         bool paused);
 };
 
-/// Height of the bar, whatever stands in it [pixels].
+/// Fixed height of the bar [pixels].
 inline constexpr int kStatusBarHeight_px = 74;
 
-/// Draws the bar into a BGR picture of kStatusBarHeight_px rows, all of which it fills.
+/// Draws the bar into a BGR picture with kStatusBarHeight_px rows and fills all of it.
 void draw_status_bar(cv::Mat bar, const StatusText& text);

@@ -7,29 +7,29 @@
 #include "imr-h/imr_config.h"
 
 /// @file
-/// The options of a configuration as options of Boost.Program_options, for programs whose main()
-/// reads its arguments that way. Needs Boost, which nothing else of Playpen does: the package
-/// libboost-program-options-dev, and -lboost_program_options. Names and signature: J. Faigl,
-/// github.com/comrob/gsoa, crl/src/boost_args_config.h.
+/// Offers the options of a configuration through Boost.Program_options, for programs whose main()
+/// parses its arguments with that library. This is the only header of Playpen that needs Boost:
+/// install the package libboost-program-options-dev and link with -lboost_program_options. Names
+/// and signature: J. Faigl, github.com/comrob/gsoa, crl/src/boost_args_config.h.
 
-/// As course programs call it.
+/// The alias that course programs use.
 namespace po = boost::program_options;
 
 namespace imr {
 
-/// Adds an option for each of a configuration's. When boost::program_options::notify() is called,
-/// the values that were found, or the default ones, are set in the configuration.
+/// Adds one Boost option for each option of a configuration. boost::program_options::notify() then
+/// writes the parsed values, or the defaults, into the configuration.
 ///
 ///   po::options_description options("Robot");
 ///   imr::boost_args_add_options(CRobot::getConfig(config), "robot-", options);
 ///   po::store(po::parse_command_line(argc, argv, options), variables);
 ///   po::notify(variables);
 ///
-/// @param config  must live as long as the values are notified.
-/// @param prefix  comes before each name: "robot-" makes --robot-port of the option "port".
+/// @param config  receives the values; must outlive the last call of notify().
+/// @param prefix  is put before each name: with "robot-" the option "port" becomes --robot-port.
 /// @param desc    receives the options.
 /// @return desc.
-/// @throws imr::exception from notify(), for a text that is no value of an option's type.
+/// @throws imr::exception from notify(), if a text cannot be parsed as the option's type.
 inline boost::program_options::options_description& boost_args_add_options(
     CConfig& config, const std::string& prefix, boost::program_options::options_description& desc) {
   for (const CConfig::OptionInfo& option : config.options()) {

@@ -8,11 +8,11 @@
 #include "imr-h/imr_exceptions.h"
 
 /// @file
-/// Checks for course code that throw imr::exception with the place in the source.
+/// Checks for course code. A failed check throws imr::exception with the source file and line.
 ///
-/// Unlike assert() of the C library they are never compiled out and never abort: a failed check
-/// can be caught, logged, and the robot stopped. A condition is evaluated once; a message is put
-/// together with << and only if the check fails.
+/// Unlike the C library's assert(), these checks are never compiled out and never abort the
+/// process. A program can catch the exception, log it and stop the robot. A condition is evaluated
+/// exactly once. A message is composed with <<, and only if the check fails.
 ///
 ///   IMR_ASSERT(left < right);
 ///   IMR_ASSERT_MSG(count > 0, "scan of " << count << " beams");
@@ -21,23 +21,23 @@
 namespace imr {
 namespace detail {
 
-/// What a check is of.
+/// The kind of a check.
 enum class Check { kAssertion, kArgument, kIo };
 
 /// Throws the exception of a failed check: "file:line: kind 'condition' failed: message".
 ///
 /// @param file       source file, as the compiler names it.
 /// @param line       line of the check.
-/// @param check      tells the kind: "assertion", "argument check" or "i/o check".
+/// @param check      the kind, printed as "assertion", "argument check" or "i/o check".
 /// @param condition  text of the condition.
-/// @param message    may be empty; then the part after "failed" is left out.
-/// @throws imr::exception always; argument_error or io_error for these kinds.
+/// @param message    may be empty; the text then ends after "failed".
+/// @throws imr::exception always: argument_error for kArgument, io_error for kIo.
 [[noreturn]] void throw_failed_check(const char* file, int line, Check check, const char* condition,
                                      const std::string& message);
 
 }  // namespace detail
 
-/// Throws an exception of any type that is made of a text unless the condition holds.
+/// Throws an Exception, constructed from the message, unless the condition holds.
 template <typename Exception>
 void assert_exception(bool condition, const std::string& message) {
   if (!condition) throw Exception(message);
@@ -55,7 +55,7 @@ inline void assert_io(bool condition, const std::string& message) {
 
 }  // namespace imr
 
-/// Common part of the two checks with a message; for use by the macros below only.
+/// Implementation of the checks with a message; for the macros below only.
 #define IMR_DETAIL_CHECK(check, condition, ...)                                          \
   do {                                                                                   \
     if (!static_cast<bool>(condition)) {                                                 \
@@ -78,9 +78,8 @@ inline void assert_io(bool condition, const std::string& message) {
 /// Throws imr::exception with a message unless the condition holds.
 #define IMR_ASSERT_MSG(condition, ...) IMR_DETAIL_CHECK(kAssertion, condition, __VA_ARGS__)
 
-/// Throws imr::argument_error with a message unless the condition, which judges an argument, holds.
+/// Checks an argument: throws imr::argument_error with a message unless the condition holds.
 #define ASSERT_ARGUMENT(condition, ...) IMR_DETAIL_CHECK(kArgument, condition, __VA_ARGS__)
 
-/// Throws imr::io_error with a message unless the condition, which judges a file or a device,
-/// holds.
+/// Checks a file or a device: throws imr::io_error with a message unless the condition holds.
 #define ASSERT_IO(condition, ...) IMR_DETAIL_CHECK(kIo, condition, __VA_ARGS__)

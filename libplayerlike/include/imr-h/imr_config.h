@@ -16,13 +16,13 @@
 namespace imr {
 namespace detail {
 
-/// How reading a value from text went.
+/// Result of parsing a value from text.
 enum class ParseResult { kOk, kMalformed, kOutOfRange };
 
-/// @name Reading a value from the whole of a text
-/// Independent of the locale; the value is unchanged unless the result is kOk. Whole numbers are
-/// decimal; real numbers may be infinite but not NaN; bool is true/false, yes/no, on/off or 1/0 in
-/// any case.
+/// @name Parsing a value from a complete text
+/// Parsing does not depend on the locale. The value is unchanged unless the result is kOk. Integers
+/// are decimal. Floating-point numbers may be infinite but not NaN. A bool is true/false, yes/no,
+/// on/off or 1/0, in upper or lower case.
 /// @{
 ParseResult parse_text(const std::string& text, bool& value);
 ParseResult parse_text(const std::string& text, short& value);
@@ -37,7 +37,8 @@ ParseResult parse_text(const std::string& text, float& value);
 ParseResult parse_text(const std::string& text, double& value);
 ParseResult parse_text(const std::string& text, std::string& value);
 
-/// Any other type: by its operator>>, which must use up the text but for white space.
+/// Parses any other type with its operator>>, which must consume the whole text except for trailing
+/// white space.
 template <typename T>
 ParseResult parse_text(const std::string& text, T& value) {
   std::istringstream in(text);
@@ -46,7 +47,7 @@ ParseResult parse_text(const std::string& text, T& value) {
   if (!(in >> read)) {
     return ParseResult::kMalformed;
   }
-  // At the end of the text there is no further character but white space.
+  // Only white space may follow the value.
   in >> std::ws;
   if (!in.eof()) {
     return ParseResult::kMalformed;
@@ -72,7 +73,7 @@ auto print_text(const T& value, int /*preferred*/)
   return out.str();
 }
 
-// For a type that can be read but not printed.
+// Fallback for a type that has operator>> but no operator<<.
 template <typename T>
 std::string print_text(const T& /*value*/, long /*fallback*/) {
   return "(set)";
@@ -84,13 +85,13 @@ std::string to_text(const T& value) {
 }
 /// @}
 
-/// A value of some type that never changes, so that it can be read without a lock.
+/// An immutable value of any type. Because it never changes, it can be read without a lock.
 class ConfigValue {
  public:
   virtual ~ConfigValue();
   virtual const std::type_info& type() const noexcept = 0;
   virtual std::string text() const = 0;
-  /// A new value of the same type, read from text; null unless result becomes kOk.
+  /// Parses a new value of the same type from text. Returns null unless result becomes kOk.
   virtual std::shared_ptr<const ConfigValue> parsed(const std::string& text,
                                                     ParseResult& result) const = 0;
 
@@ -124,8 +125,8 @@ class TypedConfigValue final : public ConfigValue {
 
 }  // namespace detail
 
-/// The named settings of a program: declared once in code, then filled from a file, from the
-/// command line and by the program itself.
+/// The named settings of a program. The program declares them once in code; their values then come
+/// from a file, from the command line and from the program itself.
 ///
 ///   imr::CConfig config;
 ///   config.add<std::string>("host", "server to connect to", "localhost");
@@ -135,28 +136,29 @@ class TypedConfigValue final : public ConfigValue {
 ///   const double speed = config.get<double>("speed");
 ///
 /// Types: bool, short, int, long, long long and their unsigned forms, float, double, std::string,
-/// and any other copyable type with a default value and an operator>>. The type is part of the
-/// declaration: reading an int as a double is an error.
+/// and any other copyable type with a default constructor and an operator>>. The type is part of
+/// the declaration: reading an int as a double is an error.
 ///
-/// Which value holds: a later one replaces an earlier one, but a value from the command line is
-/// not replaced by one from a file, so that the file may be loaded before or after.
+/// Precedence: a later value replaces an earlier one, except that a value from a file never
+/// replaces one from the command line. The file may therefore be loaded before or after the command
+/// line is parsed.
 ///
-/// Errors are reported as imr::exception with a sentence for the user; the settings are then
-/// unchanged, also by a file or a command line of which only a part is wrong.
+/// Errors: members throw imr::exception with a message for the user. A call that throws leaves all
+/// settings unchanged, even if only a part of the file or command line is wrong.
 ///
-/// Threads: all members may be called from any thread. Objects can't be copied; pass references.
+/// Threads: all members may be called from any thread. Objects cannot be copied; pass references.
 class CConfig {
  public:
-  /// What parse_command_line() does with arguments that are no options of this configuration.
+  /// How parse_command_line() handles arguments that are not options of this configuration.
   enum class UnknownArguments {
-    kError,  ///< An exception.
-    kKeep    ///< They are kept, in order; see positional().
+    kError,  ///< Throws an exception.
+    kKeep    ///< Keeps them, in order; see positional().
   };
 
-  /// What parse_command_line() does when a required option has no value afterwards.
+  /// How parse_command_line() handles required options that still have no value.
   enum class MissingOptions {
-    kError,  ///< An exception that names them.
-    kAllow   ///< Nothing; call check_required() after the last source.
+    kError,  ///< Throws an exception that names them.
+    kAllow   ///< Does nothing; call check_required() after the last source.
   };
 
   CConfig();
@@ -166,18 +168,19 @@ class CConfig {
 
   /// Declares a required option: get() throws until it has a value.
   ///
-  /// @param name         letters, digits, '-', '_' and '.'; begins with none of the marks. "help"
-  ///                     and "h" are taken.
+  /// @param name         letters, digits, '-', '_' and '.'; the first character is a letter or a
+  ///                     digit. "help" and "h" are reserved.
   /// @param description  for --help.
   /// @return this configuration.
-  /// @throws imr::exception if the name is not allowed, or was added before.
+  /// @throws imr::exception if the name is invalid or was added before.
   template <typename T>
   CConfig& add(const std::string& name, const std::string& description) {
     add_option(name, description, std::make_shared<detail::TypedConfigValue<T>>(T()), false);
     return *this;
   }
 
-  /// Declares an option with a default value; the rest as above.
+  /// Declares an option with a default value. Parameters and errors are those of the overload
+  /// above.
   template <typename T>
   CConfig& add(const std::string& name, const std::string& description, const T& default_value) {
     add_option(name, description, std::make_shared<detail::TypedConfigValue<T>>(default_value),
@@ -185,9 +188,9 @@ class CConfig {
     return *this;
   }
 
-  /// The value of an option.
+  /// Returns the value of an option.
   ///
-  /// @tparam T  the type that the option was added with.
+  /// @tparam T  the type with which the option was added.
   /// @throws imr::exception if there is no such option, if it has another type, or if it is
   ///         required and has no value yet.
   template <typename T>
@@ -196,83 +199,87 @@ class CConfig {
     return static_cast<const detail::TypedConfigValue<T>&>(*find_value(name, typeid(T))).value();
   }
 
-  /// Sets an option from text, as if it stood on the command line.
+  /// Sets an option from text, with the syntax of a value on the command line.
   ///
-  /// @throws imr::exception if there is no such option, or the text is no value of its type.
+  /// @throws imr::exception if there is no such option, or if the text cannot be parsed as its
+  ///         type.
   void set(const std::string& name, const std::string& text);
 
-  /// As above.
+  /// Overload for string literals. A null pointer also throws imr::exception.
   void set(const std::string& name, const char* text);
 
-  /// Sets an option to a value of its own type. set<std::string>() sets an option of any type from
-  /// text.
+  /// Sets an option to a value of its own type. For T = std::string, the option may have any type;
+  /// the text is then parsed.
   ///
-  /// @throws imr::exception if there is no such option, or it has another type.
+  /// @throws imr::exception if there is no such option, or if it has another type.
   template <typename T>
   void set(const std::string& name, const T& value) {
     set_typed(name, value, std::is_same<T, std::string>());
   }
 
-  /// What is declared of an option.
+  /// The declaration of an option.
   struct OptionInfo {
     std::string name;
     std::string description;
-    std::string type;          ///< in words, as in the help table: "int", "string", ...
-    bool has_default = false;  ///< and default_text is one that set() understands
+    std::string type;          ///< type name, as in the help table: "int", "string", ...
+    bool has_default = false;  ///< if true, set() accepts default_text
     std::string default_text;
   };
-  /// All options, in the order of their declaration.
+  /// Returns all options in the order of their declaration.
   std::vector<OptionInfo> options() const;
 
-  /// Prints a line "name=value" for each option, in that order; nothing after the "=" of one
-  /// without a value.
+  /// Prints a line "name=value" for each option, in the order of declaration. For an option without
+  /// a value, nothing follows the "=".
   void print(std::ostream& out) const;
 
-  /// Whether an option of this name was added.
+  /// Returns whether an option of this name was added.
   bool has(const std::string& name) const;
 
   /// Fills the options from the arguments of main().
   ///
-  /// Understood are `--name value` and `--name=value`; for bool options also `--name` (true),
-  /// `--no-name` (false), and `--name value` if the value is one of bool's words. A value that
-  /// begins with "--", or is "-h", must be joined by "="; negative numbers need not. `--` ends the
-  /// options: what follows is positional. The last of several values of an option holds.
+  /// The syntax is `--name value` or `--name=value`. Bool options also accept `--name` (true),
+  /// `--no-name` (false), and `--name value` if the value is one of the words for bool. A value
+  /// that begins with "--" or equals "-h" needs the form with "="; a negative number does not. `--`
+  /// ends the options: all arguments after it are positional. If an option occurs several times,
+  /// the last value is used.
   ///
-  /// `-h` or `--help` anywhere among the options prints help() on standard output, and nothing
-  /// else is looked at.
+  /// `-h` or `--help` anywhere among the options prints help() on standard output; all other
+  /// arguments are then ignored.
   ///
   /// @param argc     number of arguments, the program's name included.
   /// @param argv     the arguments; argv[0] is the program's name, which the help shows.
-  /// @param unknown  what to do with arguments that are no options of this configuration.
-  /// @param missing  what to do about required options without a value.
-  /// @return whether the program should go on; false after --help.
-  /// @throws imr::exception for an unknown option (the nearest known one is named), a value that
-  ///         is missing or of the wrong type, a missing required option.
+  /// @param unknown  how to handle arguments that are not options of this configuration.
+  /// @param missing  how to handle required options without a value.
+  /// @return whether the program should continue; false after --help.
+  /// @throws imr::exception for an unknown option (the message names the most similar known one), a
+  ///         missing value, a value of the wrong type, or a missing required option.
   bool parse_command_line(int argc, const char* const* argv,
                           UnknownArguments unknown = UnknownArguments::kError,
                           MissingOptions missing = MissingOptions::kError);
 
-  /// The arguments that the last parse_command_line() with UnknownArguments::kKeep kept, in order.
+  /// Returns the arguments that the last parse_command_line() with UnknownArguments::kKeep kept, in
+  /// order.
   std::vector<std::string> positional() const;
 
   /// Fills options from a text file.
   ///
-  /// A line is empty, or `name = value`; `#` at the start of a line or after white space begins a
-  /// comment. A value in double quotes is taken as it stands, '#' and white space included; within
-  /// it \" is a quote and \\ a backslash. An empty text is written "".
+  /// Each line is empty or has the form `name = value`. `#` at the start of a line or after white
+  /// space begins a comment. A value in double quotes is taken literally, including '#' and white
+  /// space; within it \" is a quote and \\ a backslash. An empty text is written as "".
   ///
   /// @param path  the file.
-  /// @throws imr::exception that begins with "path:line: " for a line that is no such line, an
-  ///         unknown or repeated name, a value of the wrong type; or if the file can't be read.
+  /// @throws imr::exception if the file cannot be read; or, with a message that begins with
+  ///         "path:line: ", for a malformed line, an unknown or repeated name, or a value of the
+  ///         wrong type.
   void load_file(const std::string& path);
 
-  /// @throws imr::exception that names all required options without a value, if there are any.
+  /// @throws imr::exception if required options have no value; the message names all of them.
   void check_required() const;
 
-  /// The table that --help prints: each option's name, type, default and description, in the order
-  /// of their declaration, at most 100 columns wide where words allow.
+  /// Returns the table that --help prints: name, type, default and description of each option, in
+  /// the order of declaration. Lines are at most 100 columns wide unless a single word is longer.
   ///
-  /// @param program  name of the program for the first line.
+  /// @param program  name of the program, shown in the first line.
   std::string help(const std::string& program = "program") const;
 
  private:

@@ -6,67 +6,66 @@
 #include <string>
 
 /// @file
-/// Log lines on standard error, by the stream macros DEBUG, INFO, WARN and ERROR.
+/// The stream macros DEBUG, INFO, WARN and ERROR write log lines to standard error.
 ///
 ///   INFO("robot at " << x << " " << y);      // prints: [INFO] robot at 1.5 2
 ///
-/// Lines below the current level are neither printed nor put together: what stands in the
-/// parentheses is evaluated only when the line is on. The level is INFO at first; the environment
-/// variable IMR_LOG_LEVEL (debug, info, warn, error or off, in any case) sets another one, and
-/// imr::logging::set_level() overrides both.
+/// The macro arguments are evaluated only if the line's level is enabled. The initial level is
+/// INFO. The environment variable IMR_LOG_LEVEL (debug, info, warn, error or off, in upper or lower
+/// case) sets another one; imr::logging::set_level() overrides both.
 ///
-/// Threads: lines may be written from any thread. Each line is one write, so lines never mix.
+/// Threads: any thread may write lines. Each line is a single write, so lines never interleave.
 ///
-/// The short names and other libraries. The four macros take arguments, so a plain word ERROR or
-/// DEBUG in other code (an enumerator, say) is left alone. If another header, or -DDEBUG on the
-/// command line, has defined a macro of the same name before, this header takes the name over
-/// silently: course programs mean these macros. A header included later that defines the name
-/// again gets the compiler's usual redefinition warning, and its meaning holds from there on. A
-/// file that needs the other meaning defines IMR_LOGGING_NO_SHORT_NAMES before it includes this
-/// header, then no short name is touched; the long names IMR_LOG_DEBUG, IMR_LOG_INFO,
-/// IMR_LOG_WARN and IMR_LOG_ERROR always exist.
+/// Conflicts of the short names with other libraries. The four macros take arguments, so they do
+/// not affect a plain identifier ERROR or DEBUG in other code, such as an enumerator. If an earlier
+/// header, or -DDEBUG on the command line, has defined a macro with one of these names, this header
+/// replaces it silently. If a later header defines such a macro, the compiler prints its usual
+/// redefinition warning and uses the later definition. To keep the other definitions, define
+/// IMR_LOGGING_NO_SHORT_NAMES before including this header: it then defines only the long names
+/// IMR_LOG_DEBUG, IMR_LOG_INFO, IMR_LOG_WARN and IMR_LOG_ERROR.
 
 namespace imr {
 namespace logging {
 
-/// Importance of a line, in rising order; kOff as the current level silences all.
+/// Severity of a line, in ascending order. kOff as the current level disables all lines.
 enum class Level { kDebug = 0, kInfo = 1, kWarn = 2, kError = 3, kOff = 4 };
 
-/// Sets the least important level that is still printed. Safe from any thread.
+/// Sets the lowest level that is printed. May be called from any thread.
 void set_level(Level level) noexcept;
 
-/// The level in force. Safe from any thread.
+/// Returns the current level. May be called from any thread.
 Level current_level() noexcept;
 
-/// Sets the level from IMR_LOG_LEVEL, as happens at the first use; INFO if it is unset or empty.
-/// A value that is no level gives INFO too, and a warning. Not while another thread changes the
-/// environment.
+/// Sets the level from IMR_LOG_LEVEL, as the first use of the log does. The level is INFO if the
+/// variable is unset or empty. An unknown value also gives INFO, with a warning. Do not call it
+/// while another thread changes the environment.
 void set_level_from_environment() noexcept;
 
-/// Understands debug, info, warn, warning, error, off and none, in any case.
+/// Parses one of the words debug, info, warn, warning, error, off and none, in upper or lower case.
 ///
 /// @param text   the word.
-/// @param level  receives the level; unchanged if the word is not known.
+/// @param level  receives the level; unchanged if the word is unknown.
 /// @return whether the word is known.
 bool parse_level(const std::string& text, Level& level);
 
-/// Whether a line of this level is printed now. Safe from any thread.
+/// Returns whether lines of this level are currently printed. May be called from any thread.
 bool enabled(Level level) noexcept;
 
-/// Prints "[LEVEL] text" and a line end on standard error in one write, whatever the current
-/// level. Line ends at the end of the text are dropped. A line that can't be written, or for which
-/// there is no memory, is lost. Safe from any thread.
+/// Prints "[LEVEL] text" and a line end to standard error in a single write, regardless of the
+/// current level. Line ends at the end of the text are removed. If the write fails or memory runs
+/// out, the line is lost. May be called from any thread.
 void write_line(Level level, const std::string& text) noexcept;
 
 }  // namespace logging
 
-/// @name Loggers with names
-/// As course programs set them up and name them (names and signatures: J. Faigl,
-/// github.com/comrob/gsoa, crl/src/logging.h). There all lines went through log4cxx; here INFO()
-/// and the rest go where they always go, and a name only matters to INFO_M() and the like.
+/// @name Named loggers
+/// These functions let course programs create and name loggers (names and signatures: J. Faigl,
+/// github.com/comrob/gsoa, crl/src/logging.h). The original library sent all lines through log4cxx.
+/// Here all lines go to standard error, and only DEBUG_M(), INFO_M(), WARN_M() and ERROR_M() print
+/// the logger's name.
 /// @{
 
-/// A logger; it has a name and nothing else.
+/// A logger. Its name is its only property.
 class CLogger {
  public:
   explicit CLogger(const std::string& name) : name_(name) {}
@@ -76,34 +75,34 @@ class CLogger {
   std::string name_;
 };
 
-/// Lives until the process ends.
+/// Pointer to a logger. The logger lives until the process ends.
 typedef const CLogger* CLoggerPtr;
 
-/// The logger of the program, called "root" until initLogger() names it.
+/// The program's logger. Its name is "root" until initLogger() sets another one.
 extern CLoggerPtr logger;
 
-/// The logger of a name; the same one each time. Safe from any thread.
+/// Returns the logger of this name; repeated calls return the same logger. May be called from any
+/// thread.
 CLoggerPtr getLogger(const char* loggerName);
 
-/// Names the logger of the program. Not while other threads use it.
+/// Sets the name of the program's logger. Do not call it while other threads use that logger.
 void initLogger(const std::string& loggerName);
-/// As above.
+/// Overload for string literals.
 void initLogger(const char* loggerName);
-/// Also takes the level from a configuration file of log4cxx: that of the line
-/// "log4j.rootLogger=LEVEL, ..." (ALL, TRACE, DEBUG, INFO, WARN, ERROR, FATAL, OFF). The rest of
-/// the file, which tells where lines go, does not count; nor does the level if IMR_LOG_LEVEL is
-/// set. A file that can't be read, or has no such line, is told of in a WARN line, and the level
-/// stays.
-/// @param configName  null or "": no file.
+/// Also reads the level from a log4cxx configuration file: the line "log4j.rootLogger=LEVEL, ..."
+/// (ALL, TRACE, DEBUG, INFO, WARN, ERROR, FATAL, OFF). The rest of the file, which configures
+/// log4cxx's output, is ignored. If IMR_LOG_LEVEL is set, the file is not read. If the file cannot
+/// be read or has no such line, a WARN line says so and the level does not change.
+/// @param configName  path of the file; null or "" for none.
 void initLogger(const char* loggerName, const char* configName);
 
-/// Nothing is left to be done at the end.
+/// Does nothing; it exists for programs that call it.
 void shutdownLogger();
 /// @}
 
 }  // namespace imr
 
-/// Common part of the four macros; for their use only.
+/// Implementation of the four macros below; for their use only.
 #define IMR_DETAIL_LOG(level, ...)                            \
   do {                                                        \
     if (::imr::logging::enabled(level)) {                     \
@@ -113,13 +112,13 @@ void shutdownLogger();
     }                                                         \
   } while (false)
 
-/// Logs a line of level DEBUG, put together with <<.
+/// Logs a line of level DEBUG, composed with <<.
 #define IMR_LOG_DEBUG(...) IMR_DETAIL_LOG(::imr::logging::Level::kDebug, __VA_ARGS__)
-/// Logs a line of level INFO, put together with <<.
+/// Logs a line of level INFO, composed with <<.
 #define IMR_LOG_INFO(...) IMR_DETAIL_LOG(::imr::logging::Level::kInfo, __VA_ARGS__)
-/// Logs a line of level WARN, put together with <<.
+/// Logs a line of level WARN, composed with <<.
 #define IMR_LOG_WARN(...) IMR_DETAIL_LOG(::imr::logging::Level::kWarn, __VA_ARGS__)
-/// Logs a line of level ERROR, put together with <<.
+/// Logs a line of level ERROR, composed with <<.
 #define IMR_LOG_ERROR(...) IMR_DETAIL_LOG(::imr::logging::Level::kError, __VA_ARGS__)
 
 #ifndef IMR_LOGGING_NO_SHORT_NAMES
@@ -139,7 +138,8 @@ void shutdownLogger();
 #define WARN(...) IMR_LOG_WARN(__VA_ARGS__)
 /// Short for IMR_LOG_ERROR.
 #define ERROR(...) IMR_LOG_ERROR(__VA_ARGS__)
-/// The same with a logger's name in front: "[DEBUG] name: text".
+/// Logs a line with the logger's name before the text: "[DEBUG] name: text". INFO_M(), WARN_M() and
+/// ERROR_M() do so for their levels.
 #define DEBUG_M(logger, ...) IMR_LOG_DEBUG((logger)->getName() << ": " << __VA_ARGS__)
 #define INFO_M(logger, ...) IMR_LOG_INFO((logger)->getName() << ": " << __VA_ARGS__)
 #define WARN_M(logger, ...) IMR_LOG_WARN((logger)->getName() << ": " << __VA_ARGS__)

@@ -9,20 +9,21 @@
 namespace imr {
 namespace concurrent {
 
-/// A plain, not recursive, mutual exclusion lock.
+/// A non-recursive mutex.
 typedef std::mutex Mutex;
 
-/// Holds a Mutex from its construction to the end of its scope: `ScopedLock lk(mtx);`. It may be
+/// Locks a Mutex from its construction to the end of its scope: `ScopedLock lk(mtx);`. It can be
 /// unlocked earlier, and a Condition can wait with it.
 typedef std::unique_lock<std::mutex> ScopedLock;
 
-/// Lets threads wait, under a ScopedLock, for something that another thread announces.
+/// A condition variable. A thread that holds a ScopedLock waits on it until another thread notifies
+/// it.
 typedef std::condition_variable Condition;
 
-/// Base class of an object that runs its threadBody() in a thread of its own.
+/// Base class of objects that run their threadBody() in a separate thread.
 ///
-/// A derived class implements threadBody() and, in its destructor, asks the body to end and calls
-/// join(), before its members go away:
+/// A derived class implements threadBody(). Its destructor must ask the body to end and then call
+/// join(), before its members are destroyed:
 ///
 ///   class CRobot : public imr::concurrent::CThread {
 ///    public:
@@ -31,52 +32,53 @@ typedef std::condition_variable Condition;
 ///     void threadBody() { ... }
 ///   };
 ///
-/// Exceptions. The C++ runtime ends the whole process (std::terminate) when an exception leaves a
-/// thread's function. Here an exception that leaves threadBody() ends that thread only: it is
-/// logged as ERROR with its type and what(), and the process goes on; join() returns as usual.
-/// One case is no fault: at the end of a simulated run Read() throws PlayerError (also called
-/// MorseError), so an exception of a class of that name, in whatever namespace, is logged as INFO.
-/// A thread that is cancelled, or that ends by pthread_exit(), ends as usual on the platform.
+/// Exceptions. The C++ runtime terminates the whole process (std::terminate) when an exception
+/// leaves a thread's function. Here an exception that leaves threadBody() ends only that thread: it
+/// is logged as ERROR with its type and what(), the process continues, and join() returns normally.
+/// PlayerError (also named MorseError) with code kRunIsOver or kDisconnected is logged as INFO,
+/// because Read() throws it at the regular end of a run. Thread cancellation and pthread_exit()
+/// work as usual on the platform.
 ///
-/// Threads: execute() and join() may be called from any thread, also at the same time. Objects
-/// can't be copied or moved.
+/// Threads: execute() and join() may be called from any thread, even concurrently. Objects cannot
+/// be copied or moved.
 class CThread {
  public:
-  typedef imr::concurrent::Mutex Mutex;            ///< For members of derived classes.
-  typedef imr::concurrent::ScopedLock ScopedLock;  ///< For members of derived classes.
-  typedef imr::concurrent::Condition Condition;    ///< For members of derived classes.
+  typedef imr::concurrent::Mutex Mutex;            ///< Short name for derived classes.
+  typedef imr::concurrent::ScopedLock ScopedLock;  ///< Short name for derived classes.
+  typedef imr::concurrent::Condition Condition;    ///< Short name for derived classes.
 
   CThread();
 
-  /// Waits for the body to end, if it still runs, after a WARN line: the derived part, which the
-  /// body uses, is destroyed by then, so this is a fault of the derived class. Destroyed by its
-  /// own thread, as exit() in the body does to a static object, it waits for nothing.
+  /// Waits for the body if it is still running, after logging a WARN line. A running body is an
+  /// error of the derived class: the derived part, which the body uses, is already destroyed. If
+  /// the object's own thread destroys it (exit() in the body does so for a static object), the
+  /// destructor does not wait.
   virtual ~CThread();
 
   CThread(const CThread&) = delete;
   CThread& operator=(const CThread&) = delete;
 
-  /// Starts threadBody() in a new thread and returns at once. A thread whose body has ended may be
-  /// executed again, whether it was joined or not. Not for use in a constructor: the derived
+  /// Starts threadBody() in a new thread and returns immediately. Once the body has ended, it may
+  /// be executed again, whether or not it was joined. Do not call it in a constructor: the derived
   /// object does not exist yet.
   ///
-  /// @throws imr::exception if the body is running, or if the system can't start a thread.
+  /// @throws imr::exception if the body is running, or if the system cannot start a thread.
   void execute();
 
-  /// Waits until the body has ended; what it wrote is visible to the caller then. Returns at once
-  /// if it was never executed or has been joined. Called by the body's own thread, which could
-  /// wait forever, it logs a WARN line and returns.
+  /// Waits until the body has ended. Everything that the body wrote is then visible to the caller.
+  /// Returns immediately if the body was never executed or has been joined. If the body's own
+  /// thread calls it, it logs a WARN line and returns, because waiting would be a deadlock.
   void join();
 
-  /// Whether the body runs now.
+  /// Returns whether the body is running.
   bool isRunning() const;
-  /// Whether the body has run and ended since it was last executed.
+  /// Returns whether the body has ended since the last execute().
   bool isFinished() const;
-  /// Lets other threads run first.
+  /// Yields the processor to other threads.
   void yield();
 
  protected:
-  /// What the thread does; it ends when this returns.
+  /// The code of the thread. The thread ends when this function returns.
   virtual void threadBody() = 0;
 
  private:
@@ -84,7 +86,8 @@ class CThread {
 
   static void run(CThread* self, std::shared_ptr<State> state);
 
-  // Shared with the running thread, which so may outlive an object that it destroys itself.
+  // Shared with the running thread, so that the thread can outlive an object that it destroys
+  // itself.
   std::shared_ptr<State> state_;
 };
 

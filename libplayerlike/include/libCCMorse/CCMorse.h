@@ -2,8 +2,9 @@
 #pragma once
 
 /// @file
-/// The CCMorse library: the one header that client programs include. It brings in what
-/// libplayerc++/playerc++.h does, Player's classes under CCMorse's name too, and PI.
+/// The CCMorse library: the only header that client programs need to include. It includes
+/// libplayerc++/playerc++.h, makes Player's classes available in namespace CCMorse too, and defines
+/// PI.
 
 #include "libCCMorse/ClientProxy.h"
 #include "libCCMorse/Drawing.h"

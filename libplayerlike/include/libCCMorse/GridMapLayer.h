@@ -14,49 +14,50 @@
 namespace CCMorse {
 
 /// A layer of the grid-map: a grid of cells with a name, a colour, a transparency, a transparent
-/// colour and a priority, drawn over the layers below it. Made by WindowProxy::CreateLayer() and
-/// owned by the window; other clients see it in pictures, but cannot draw on it. The layer "canvas"
-/// is there from the start, is shared by all clients, and can neither be removed nor renamed.
+/// colour and a priority. It is drawn over the layers below it. WindowProxy::CreateLayer() creates
+/// a layer, and the window owns it. Other clients see it in pictures but cannot draw on it. The
+/// layer "canvas" always exists and is shared by all clients; it cannot be removed or renamed.
 ///
-/// The settings act when layers are put over one another: they may be changed at any time, and hold
-/// for all of the layer, whenever it was drawn.
+/// The settings are applied when the layers are composed. They can be changed at any time and apply
+/// to the whole layer, including earlier drawings.
 ///
-/// After WindowProxy::RemoveLayer() a layer throws PlayerError kNotAvailable, until the window goes
-/// and it with it.
+/// After WindowProxy::RemoveLayer(), the members of the layer throw PlayerError kNotAvailable. The
+/// object itself lives as long as the window.
 class GridMapLayer : public Drawing {
  public:
-  /// What a cell holds.
+  /// Type of the cells.
   enum Kind {
-    RGBA,    ///< a colour with alpha; at first transparent
-    BINARY,  ///< set, and so drawn in the layer's colour, or not (as at first)
-    GREY,    ///< occupancy: from 0, free and white, over 0.5, unknown and grey (at first), to 1,
-             ///< occupied and black
+    RGBA,    ///< a colour with alpha; initially transparent
+    BINARY,  ///< set or not set (initially not set); set cells have the layer's colour
+    GREY,    ///< occupancy in 0..1: 0 is free (white), 0.5 unknown (grey, the initial value), 1
+             ///< occupied (black)
   };
 
   ~GridMapLayer() override;
 
   Kind GetKind() const { return static_cast<Kind>(Cells()); }
   std::string GetName() const;
-  /// Renames the layer; WindowProxy finds it under the new name only.
-  /// @throws PlayerError kBadArgument for a name that another layer of this client has, that is
-  ///         empty, longer than 64 bytes or not printable; kNotAvailable for the layer "canvas".
+  /// Renames the layer. WindowProxy then finds it only by the new name.
+  /// @throws PlayerError kBadArgument if the name is empty, longer than 64 bytes, not printable, or
+  ///         the name of another layer of this client; kNotAvailable for the layer "canvas".
   void SetName(const std::string& aName);
 
-  /// Of a binary layer's cells; and of drawings that name no colour, opaque black at first. Also
-  /// the colour by which legends show the layer.
+  /// Colour of a binary layer's set cells, of drawings without a colour, and of the layer in
+  /// legends. Initially opaque black.
   ImageColour_t GetColour() const;
   template <typename... Colour>
   void SetColour(const Colour&... aColour) {
     SetOwnColour(detail::make_colour(aColour...));
   }
 
-  /// How much of what lies below shines through: 0 (at first) nothing, 1 all. Clamped.
+  /// Sets the transparency: 0 (initial value) is opaque, 1 is invisible. Values outside are
+  /// clamped.
   /// @throws PlayerError kBadArgument for NaN.
   void SetTransparency(double aTransparency);
   double GetTransparency() const;
 
-  /// Cells that look so (alpha does not matter) are left out. There is none at first. For a grey
-  /// layer, e.g., white lets what is under free cells shine through.
+  /// Makes all cells of this colour transparent, whatever their alpha. Initially there is no
+  /// transparent colour. Example: white makes the free cells of a grey layer transparent.
   template <typename... Colour>
   void SetTransparentColour(const Colour&... aColour) {
     SetSeeThrough(true, detail::make_colour(aColour...));
@@ -64,23 +65,25 @@ class GridMapLayer : public Drawing {
   /// Undoes SetTransparentColour().
   void ResetTransparentColour();
   bool HasTransparentColour() const;
-  /// Opaque black if there is none.
+  /// Returns the transparent colour, or opaque black if there is none.
   ImageColour_t GetTransparentColour() const;
 
-  /// Place among layers: higher ones lie above lower ones; the layer "canvas" has 0 at first. Among
-  /// equals, "canvas" is the lowest, then come those of clients on lower ports, then older ones.
+  /// Sets the priority: layers of higher priority lie above layers of lower priority. The initial
+  /// priority of "canvas" is 0. For equal priorities the order is, from the bottom: "canvas", then
+  /// the other layers sorted by their client's port, then by their order of creation.
   void SetPriority(int aPriority);
   int GetPriority() const;
 
-  void Show();  ///< Pictures show it (at first they do).
-  void Hide();  ///< Pictures leave it out; it may still be drawn on.
+  void Show();  ///< Shows the layer in pictures (initial state).
+  void Hide();  ///< Hides the layer in pictures; drawing still works.
   bool IsVisible() const;
 
   using Drawing::SetLine;
   using Drawing::SetLineMetres;
   using Drawing::SetPixel;
   using Drawing::SetPixelMetres;
-  /// In the layer's own colour; in a grey layer: occupied.
+  /// Draws in the layer's own colour; in a grey layer, marks as occupied. This applies to all
+  /// following overloads.
   void SetPixel(int aX, int aY) { PutPixel(aX, aY, OwnValue()); }
   void SetPixel(const ImagePoint_t& aPoint) { SetPixel(aPoint.x, aPoint.y); }
   void SetLine(int aX0, int aY0, int aX1, int aY1) { PutLine(aX0, aY0, aX1, aY1, OwnValue()); }
@@ -93,14 +96,18 @@ class GridMapLayer : public Drawing {
   }
 
   /// @name Cells as numbers
-  /// In a binary layer 0 is not set, anything else is; in a grey layer floating point numbers,
-  /// and all numbers given to SetCell(), are occupancies in 0..1, but std::uint8_t in 0..255
-  /// counts 255ths; both are clamped. In an RGBA layer a cell has 3 (RGB) or 4 (RGBA) numbers,
-  /// std::uint8_t in 0..255 or floating point in 0..1. NaN is refused with PlayerError
-  /// kBadArgument.
+  /// Binary layer: 0 is a cell that is not set, any other number is a set cell.
+  ///
+  /// Grey layer: std::uint8_t is an occupancy in 0..255; any other type is an occupancy in 0..1.
+  /// Numbers outside are clamped.
+  ///
+  /// RGBA layer: a cell has 3 (RGB) or 4 (RGBA) numbers, either std::uint8_t in 0..255 or
+  /// floating-point in 0..1.
+  ///
+  /// NaN throws PlayerError kBadArgument.
   /// @{
-  /// One cell of a binary or grey layer; outside nothing happens.
-  /// @throws PlayerError kNotAvailable for an RGBA layer: it has SetPixel().
+  /// Sets one cell of a binary or grey layer. Outside the grid-map it does nothing.
+  /// @throws PlayerError kNotAvailable for an RGBA layer; use SetPixel() there.
   template <typename T>
   detail::if_numbers<T> SetCell(int aX, int aY, T aValue) {
     PutCell(aX, aY,
@@ -108,14 +115,16 @@ class GridMapLayer : public Drawing {
                 ? static_cast<double>(aValue) / 255.0
                 : static_cast<double>(aValue));
   }
-  /// A cell of a binary (0 or 1) or grey (0..1) layer.
-  /// @throws PlayerError kBadArgument outside; kNotAvailable for an RGBA layer: it has GetPixel().
+  /// Returns a cell of a binary (0 or 1) or grey (0..1) layer.
+  /// @throws PlayerError kBadArgument outside the grid-map; kNotAvailable for an RGBA layer: use
+  ///         GetPixel() there.
   double GetCell(int aX, int aY) const;
 
-  /// All cells, row by row from the top, without blending.
+  /// Sets all cells, row by row from the top, without blending.
   /// @tparam T  std::uint8_t, float or double.
-  /// @param aCount  of numbers: as many as cells, or 3 or 4 times as many for an RGBA layer; else
-  ///                PlayerError kBadArgument.
+  /// @param aCount  number of elements: the number of cells, or 3 or 4 times that for an RGBA
+  ///                layer.
+  /// @throws PlayerError kBadArgument for any other count.
   template <typename T>
   void SetCells(const T* aCells, std::size_t aCount) {
     PutCells(aCells, aCount);
@@ -124,7 +133,8 @@ class GridMapLayer : public Drawing {
   void SetCells(const std::vector<T>& aCells) {
     PutCells(aCells.data(), aCells.size());
   }
-  /// The reverse; 4 numbers a cell for an RGBA layer, else one. A binary layer gives 0 and 1.
+  /// Reads all cells, row by row from the top: 4 numbers per cell for an RGBA layer, otherwise one.
+  /// Cells of a binary layer are 0 or 1.
   template <typename T>
   void GetCells(std::vector<T>& aCells) const {
     TakeCells(aCells);
@@ -132,30 +142,32 @@ class GridMapLayer : public Drawing {
   /// @}
 
   /// @name Files
-  /// What is saved goes into the run's output folder (`playpen run --out FOLDER`, PLAYPEN_OUT), on
-  /// a server into that of the server; names are plain file names, with or without the ending.
+  /// Files are saved to the run's output folder (`playpen run --out FOLDER`, PLAYPEN_OUT); if the
+  /// simulation runs on a server, to the server's output folder. Names are plain file names, with
+  /// or without the extension.
   /// @{
-  /// Writes this layer alone, also if it is hidden, as a PNG with aScale x aScale pixels a cell;
-  /// with its transparency, and white where nothing is drawn.
+  /// Writes only this layer, even if it is hidden, as a PNG file with aScale x aScale pixels per
+  /// cell. Its transparency is applied over a white background.
   /// @throws PlayerError kBadArgument for a name that is not a plain file name or a scale outside
   ///         1..64; kNotAvailable if the run has no output folder.
   void SaveImage(const std::string& aName, int aScale = 1) const;
 
-  /// What a map file tells of a cell: see sim::io::MapMode.
+  /// Cell values in a map file; see sim::io::MapMode.
   enum MapMode {
-    TRINARY,  ///< occupied (over 0.65), free (below 0.196) or unknown
-    SCALE     ///< the occupancy, to within 1/500
+    TRINARY,  ///< occupied (above 0.65), free (below 0.196) or unknown
+    SCALE     ///< the occupancy, with an error of at most 1/500
   };
-  /// Writes a grey layer as a map of ROS's map_server: NAME.yaml and the picture NAME.pgm.
-  /// @throws PlayerError as SaveImage(); kNotAvailable too if the layer is not grey.
+  /// Writes a grey layer as a map for ROS's map_server: NAME.yaml and the image NAME.pgm.
+  /// @throws PlayerError for the same errors as SaveImage(); also kNotAvailable if the layer is not
+  ///         grey.
   void SaveMap(const std::string& aName, MapMode aMode = TRINARY) const;
-  /// Reads a map of map_server into a grey layer: each cell whose middle the map covers gets the
-  /// occupancy that the map has there, wherever in the world and of whatever size the map and its
-  /// cells are; all other cells stay as they are.
-  /// @param aFile  the YAML file, a path on the machine of the program.
-  /// @return how many cells the map covers.
-  /// @throws PlayerError kBadArgument for files that are not there or not right, saying where and
-  ///         what; kNotAvailable if the layer is not grey.
+  /// Reads a map_server map into a grey layer. The map may have any origin, size and resolution.
+  /// Each cell whose centre lies on the map gets the map's occupancy there; all other cells keep
+  /// their values.
+  /// @param aFile  path of the YAML file, on the machine where the program runs.
+  /// @return the number of cells that the map covers.
+  /// @throws PlayerError kBadArgument for a missing or invalid file, with the place and the fault
+  ///         in the text; kNotAvailable if the layer is not grey.
   int LoadMap(const std::string& aFile);
   /// @}
 
@@ -185,8 +197,8 @@ class GridMapLayer : public Drawing {
   void TakeCells(std::vector<float>& aCells) const;
   void TakeCells(std::vector<double>& aCells) const;
 
-  mutable std::mutex mStyleMutex;  // so that no change of a setting undoes another
-  std::string mLastName;           // under it
+  mutable std::mutex mStyleMutex;  // makes changes of settings atomic
+  std::string mLastName;           // guarded by mStyleMutex
 };
 
 }  // namespace CCMorse

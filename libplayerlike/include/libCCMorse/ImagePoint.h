@@ -5,7 +5,8 @@
 
 namespace CCMorse {
 
-/// A cell of the grid-map: column x counted from the left, row y from the top; both from 0.
+/// A cell of the grid-map: column x, counted from the left, and row y, counted from the top. Both
+/// start at 0.
 struct ImagePoint_t {
   int x;
   int y;
@@ -22,7 +23,7 @@ struct ImagePoint_t {
   }
 };
 
-/// A colour, 8 bits a channel; alpha 255 is opaque, 0 lets all through.
+/// A colour with 8 bits per channel. Alpha 255 is opaque, 0 is fully transparent.
 struct ImageColour_t {
   std::uint8_t r;
   std::uint8_t g;
@@ -43,7 +44,7 @@ struct ImageColour_t {
   }
 };
 
-/// A cell and the colour it is given, for lists of them.
+/// A cell and its new colour, an element of the list for Drawing::UpdateImage().
 struct ImagePixel_t {
   int x;
   int y;

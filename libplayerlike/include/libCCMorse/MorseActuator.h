@@ -5,7 +5,7 @@
 
 namespace CCMorse {
 
-/// A device that acts: on its robot, or on the world.
+/// Base class of devices that act on their robot or on the world.
 class MorseActuator : public MorseDevice {
  public:
   ~MorseActuator() override;

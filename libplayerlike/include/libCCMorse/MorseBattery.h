@@ -7,21 +7,22 @@
 
 namespace CCMorse {
 
-/// The robot's battery. All values are of the newest reading; before the first they are 0, the
-/// status is "", and only the capacity is known.
+/// The robot's battery. All values come from the newest reading. Before the first reading they are
+/// 0 and the status is ""; only the capacity is already known.
 class MorseBattery : public MorseSensor {
  public:
-  /// @param aName  device; "": the robot's first of type "battery".
+  /// @param aName  name of the device; "" for the robot's first device of type "battery".
   explicit MorseBattery(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseBattery() override;
 
-  double GetCharge() const;    ///< percent of the capacity, in [0, 100]
+  double GetCharge() const;    ///< charge in percent of the capacity, in [0, 100]
   double GetVoltage() const;   ///< [V]
-  double GetEnergy() const;    ///< what is left [W h]
-  double GetCapacity() const;  ///< of a full battery [W h]
-  /// As MORSE says it: "Charging" in a dock, "Charged" in a dock and full, else "Discharging".
+  double GetEnergy() const;    ///< remaining energy [W h]
+  double GetCapacity() const;  ///< energy of a full battery [W h]
+  /// Returns MORSE's status: "Charging" in a dock, "Charged" when it is full in a dock, otherwise
+  /// "Discharging".
   std::string GetStatus() const;
-  bool IsDocked() const;  ///< "Charging" or "Charged"
+  bool IsDocked() const;  ///< whether the status is "Charging" or "Charged"
 };
 
 }  // namespace CCMorse

@@ -17,20 +17,24 @@ class Session;
 
 namespace CCMorse {
 
-/// A connection to a simulation, the lowest layer of this library: its robots and their devices.
+/// A connection to a simulation; gives access to its robots and their devices. This is the lowest
+/// layer of the library.
 ///
-/// Host names and time are as in PlayerCc::PlayerClient. The port is 4000, where all robots are
-/// seen, or a robot's own, where only that one is. Devices (MorseLaser, MorseMotionVW, ...) are
-/// made with a MorseRobot; Read() fills those that sense.
+/// Host names and time work as in PlayerCc::PlayerClient. Port 4000 gives access to all robots; a
+/// robot's own port gives access to that robot only. Devices (MorseLaser, MorseMotionVW, ...) are
+/// constructed with a MorseRobot. Read() updates the sensors.
 ///
-/// Clients may be destroyed before or after their devices; devices without client are not
-/// valid and their calls throw MorseError. Threads: all members may be called from any thread.
+/// A client may be destroyed before or after its devices. Devices without a client are not valid,
+/// and their members throw MorseError.
+///
+/// Threads: all members may be called from any thread.
 class MorseClient {
  public:
-  /// Connects.
-  /// @throws MorseError as PlayerClient.
+  /// Connects to a simulation.
+  /// @throws MorseError for the same errors as PlayerClient's constructor.
   explicit MorseClient(const std::string& aHostname = "localhost", uint32_t aPort = 4000);
-  /// A client of a session that the program has opened itself; must not be null.
+  /// Creates a client for a session that the program has opened itself. The session must not be
+  /// null.
   explicit MorseClient(std::unique_ptr<playerlike::Session> aSession);
   MorseClient(const MorseClient&) = delete;
   MorseClient& operator=(const MorseClient&) = delete;
@@ -39,20 +43,22 @@ class MorseClient {
 
   bool Connected() const;
 
-  /// Waits until a sensor has new data, then hands it to all sensors that have some. In lockstep
-  /// this lets time pass. Without any sensor it lets a tenth of a simulated second pass.
-  /// @throws MorseError kRunIsOver, text "the simulated run is over", at the end of the run.
+  /// Waits until at least one sensor has new data, then updates all sensors that have new data. In
+  /// lockstep, simulated time advances meanwhile. If the client has no sensors, simulated time
+  /// advances by 0.1 s.
+  /// @throws MorseError kRunIsOver with the text "the simulated run is over" at the end of the run.
   void Read();
-  /// Whether data waits; see PlayerClient::Peek(). @param aTimeout  [ms].
+  /// Returns whether data is available; see PlayerClient::Peek().
+  /// @param aTimeout  longest time to wait [ms].
   bool Peek(uint32_t aTimeout = 0);
-  /// Read() if Peek(0), else nothing.
+  /// Calls Read() if Peek(0) returns true.
   void ReadIfWaiting();
 
-  /// Names of the robots seen on this port, in the world's order.
+  /// Returns the names of the robots on this port, in the world's order.
   std::vector<std::string> GetRobotNames() const;
   bool HasRobot(const std::string& aName) const;
-  /// A robot by its name; "": the first.
-  /// @throws MorseError kNoSuchDevice if there is none; the text names those there are.
+  /// Returns the robot of this name; "" for the first robot.
+  /// @throws MorseError kNoSuchDevice if there is no such robot; the text names the existing ones.
   MorseRobot GetRobot(const std::string& aName = "") const;
 
  private:
@@ -63,6 +69,6 @@ class MorseClient {
 }  // namespace CCMorse
 
 namespace std {
-/// Prints the robots and their devices, one a line.
+/// Prints the robots and their devices, one per line.
 std::ostream& operator<<(std::ostream& os, const CCMorse::MorseClient& c);
 }  // namespace std

@@ -8,20 +8,20 @@
 
 namespace CCMorse {
 
-/// Bumpers: what the robot has touched since the reading before, this moment included. A contact
-/// that begins and ends between two readings is in the second one. Before the first reading nothing
-/// is touched.
+/// Bumpers. A reading contains all contacts since the previous reading, including the current ones.
+/// A contact that begins and ends between two readings is in the second reading. Before the first
+/// reading there are no contacts.
 class MorseCollision : public MorseSensor {
  public:
-  /// @param aName  device; "": the robot's first of type "collision".
+  /// @param aName  name of the device; "" for the robot's first device of type "collision".
   explicit MorseCollision(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseCollision() override;
 
-  bool GetCollision() const;  ///< whether anything was touched
-  /// Names of what was touched: of obstacles, dock separators and robots; "border" and "wall" (of a
-  /// map). Sorted, each once.
+  bool GetCollision() const;  ///< whether there was any contact
+  /// Returns the names of the touched objects: obstacles, dock separators and robots; also "border"
+  /// and "wall" (of a map). Sorted, without duplicates.
   std::vector<std::string> GetObjects() const;
-  bool Touches(const std::string& aName) const;  ///< whether that name is among GetObjects()
+  bool Touches(const std::string& aName) const;  ///< whether GetObjects() contains the name
 };
 
 }  // namespace CCMorse

@@ -5,10 +5,10 @@
 
 namespace CCMorse {
 
-/// The one class under both names; see PlayerCc::PlayerError.
+/// The same class in both namespaces; see PlayerCc::PlayerError.
 using PlayerCc::PlayerError;
 
-/// What everything in this library throws: PlayerError, as CCMorse programs call it.
+/// Name of PlayerError in CCMorse programs. All functions of this library throw it.
 typedef PlayerCc::PlayerError MorseError;
 
 }  // namespace CCMorse

@@ -7,36 +7,38 @@
 
 namespace CCMorse {
 
-/// Two paddles before the robot that take obstacles, carry them and put them down
-/// (docs/devices/gripper.md). Orders are carried out from the next step on. All values are of the
-/// newest reading; before the first the status is "", nothing is held, and no beam is broken.
+/// Two paddles at the front of the robot that grip obstacles, carry them and put them down
+/// (docs/devices/gripper.md). Commands take effect at the next step. All values come from the
+/// newest reading. Before the first reading the status is "", nothing is held, and no beam is
+/// broken.
 class MorseGripper : public MorseSensor {
  public:
-  /// @param aName  device; "": the robot's first of type "gripper".
+  /// @param aName  name of the device; "" for the robot's first device of type "gripper".
   explicit MorseGripper(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseGripper() override;
 
-  /// Opens the paddles and puts down what they hold. Where that has no room the status becomes
-  /// "error", and it is held on.
+  /// Opens the paddles and puts down the held object. If there is no room for the object, the
+  /// gripper keeps it and the status becomes "error".
   void Open();
-  /// Closes the paddles, until they hold something or meet.
+  /// Closes the paddles until they hold an object or touch each other.
   void Close();
   /// Stops the paddles where they are.
   void Stop();
-  /// Puts what is held into the store, if there is room, and opens the paddles.
+  /// Moves the held object to the store, if there is room, and opens the paddles.
   void Store();
-  /// Takes what was stored last between the paddles.
+  /// Moves the last stored object from the store to the paddles.
   void Retrieve();
 
-  /// "open" (also stopped on the way), "closed" (also round something), "moving" or "error".
+  /// Returns "open" (also if stopped halfway), "closed" (also around an object), "moving" or
+  /// "error".
   std::string GetStatus() const;
-  bool IsHolding() const;          ///< something moves with the robot
-  bool IsOuterBeamBroken() const;  ///< near the paddles' tips
-  bool IsInnerBeamBroken() const;  ///< near the robot
-  int GetStored() const;           ///< things in the store
-  int GetCapacity() const;         ///< of the store
-  double GetGap() const;           ///< between the paddles [m]
-  double GetOpening() const;       ///< between the open paddles [m]
+  bool IsHolding() const;          ///< whether an object is held
+  bool IsOuterBeamBroken() const;  ///< whether the beam near the paddles' tips is broken
+  bool IsInnerBeamBroken() const;  ///< whether the beam near the robot is broken
+  int GetStored() const;           ///< number of objects in the store
+  int GetCapacity() const;         ///< capacity of the store [objects]
+  double GetGap() const;           ///< current distance between the paddles [m]
+  double GetOpening() const;       ///< distance between the fully open paddles [m]
 };
 
 }  // namespace CCMorse

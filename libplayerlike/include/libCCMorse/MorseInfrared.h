@@ -11,26 +11,28 @@
 
 namespace CCMorse {
 
-/// What MorseInfrared and MorseSonar have in common: a few transducers, each with a place of its
-/// own on the body B (the middle of the wheels' axle; x forward, y left) and a direction, its x
-/// axis. One that meets nothing reads GetMaxRange(). How many there are and where they sit is
-/// known from the start; before the first reading all ranges are GetMaxRange(). An index that is
-/// not below GetCount() is refused with MorseError kBadArgument.
+/// Common base of MorseInfrared and MorseSonar: several transducers, each with its own mount pose
+/// in the body frame B (origin at the centre of the wheel axle; x forward, y left). A transducer
+/// looks along the x axis of its mount pose and reads GetMaxRange() if it detects nothing.
+///
+/// The number of transducers and their mount poses are known from the start. Before the first
+/// reading all ranges are GetMaxRange(). An index of GetCount() or more throws MorseError
+/// kBadArgument.
 class MorseRanger : public MorseSensor {
  public:
   ~MorseRanger() override;
 
-  uint32_t GetCount() const;                            ///< transducers
+  uint32_t GetCount() const;                            ///< number of transducers
   double GetRange(uint32_t aIndex) const;               ///< [m], in [0, GetMaxRange()]
   double operator[](uint32_t aIndex) const;             ///< GetRange()
-  std::vector<double> GetRanges() const;                ///< all of them
-  player_pose2d_t GetMountPose(uint32_t aIndex) const;  ///< of a transducer in B [m, rad]
-  player_point_2d_t GetPoint(uint32_t aIndex) const;    ///< GetRange() ahead of it, in B [m]
+  std::vector<double> GetRanges() const;                ///< all ranges [m]
+  player_pose2d_t GetMountPose(uint32_t aIndex) const;  ///< pose of a transducer in B [m, rad]
+  player_point_2d_t GetPoint(uint32_t aIndex) const;    ///< measured point, in B [m]
   double GetMaxRange() const;                           ///< [m]
-  double GetFieldOfView() const;                        ///< of each, full angle [rad]; 0: a ray
+  double GetFieldOfView() const;                        ///< full angle of a cone [rad]; 0: a ray
 
-  double GetLeastRange() const;    ///< of all transducers [m]
-  uint32_t GetLeastIndex() const;  ///< of the transducer that has it; of several, the first
+  double GetLeastRange() const;    ///< shortest range of all transducers [m]
+  uint32_t GetLeastIndex() const;  ///< first transducer with the shortest range
 
  protected:
   MorseRanger(const MorseRobot& aRobot, const std::string& aName, const char* aType,
@@ -41,10 +43,10 @@ class MorseRanger : public MorseSensor {
   std::vector<player_pose2d_t> mMounts;
 };
 
-/// A ring of infrared rangers, single rays.
+/// A ring of infrared rangers. Each of them measures along a single ray.
 class MorseInfrared : public MorseRanger {
  public:
-  /// @param aName  device; "": the robot's first of type "infrared".
+  /// @param aName  name of the device; "" for the robot's first device of type "infrared".
   explicit MorseInfrared(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseInfrared() override;
 };

@@ -7,21 +7,23 @@
 
 namespace CCMorse {
 
-/// The motors of a differential drive, commanded by forward speed and turn rate.
+/// The motors of the robot's drive, commanded by forward speed and turn rate.
 class MorseMotionVW : public MorseActuator {
  public:
-  /// @param aName  device; "": the robot's first of type "motion".
+  /// @param aName  name of the device; "" for the robot's first device of type "motion".
   explicit MorseMotionVW(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseMotionVW() override;
 
-  /// Drive so from the next step on, until the next command. Beyond the limits it is clamped.
-  /// @param aSpeed     forward [m/s].
-  /// @param aTurnRate  counter-clockwise [rad/s].
+  /// Sets the speed. It takes effect at the next step and holds until the next command. Values
+  /// beyond the robot's limits are clamped.
+  /// @param aSpeed     forward speed [m/s].
+  /// @param aTurnRate  turn rate, counter-clockwise [rad/s].
   /// @throws MorseError kBadArgument for NaN or infinity.
   void SetSpeed(double aSpeed, double aTurnRate);
-  /// SetSpeed(0, 0).
+  /// Stops the robot; same as SetSpeed(0, 0).
   void Stop();
-  /// Off stops the robot and lets speeds be ignored until on again.
+  /// Enables or disables the motors. Disabled motors stop the robot and ignore speed commands until
+  /// they are enabled again.
   void SetMotorEnable(bool aEnable);
 
   double GetMaxSpeed() const;     ///< [m/s]

@@ -7,14 +7,15 @@
 
 namespace CCMorse {
 
-/// Wheel odometry: the pose of B in the frame where B was at the start, or when last reset.
+/// Wheel odometry: the pose of the body frame B relative to its pose at the start or at the last
+/// reset.
 class MorseOdometry : public MorseLocalization {
  public:
-  /// @param aName  device; "": the robot's first of type "odometry".
+  /// @param aName  name of the device; "" for the robot's first device of type "odometry".
   explicit MorseOdometry(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseOdometry() override;
 
-  /// Starts anew: SetPose(0, 0, 0).
+  /// Resets the odometry; same as SetPose(0, 0, 0).
   void Reset() { SetPose(0.0, 0.0, 0.0); }
 };
 

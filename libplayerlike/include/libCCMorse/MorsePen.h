@@ -8,15 +8,15 @@
 
 namespace CCMorse {
 
-/// The pen by which a robot draws on the grid-map that all robots share. See Drawing for cells and
-/// colours, and CanvasDrawing for what concerns the whole grid-map.
+/// The pen with which a robot draws on the grid-map that all robots share. See Drawing for cells
+/// and colours, and CanvasDrawing for operations on the whole grid-map.
 class MorsePen : public MorseActuator, public CanvasDrawing {
  public:
-  /// @param aName  device; "": the robot's first of type "pen".
+  /// @param aName  name of the device; "" for the robot's first device of type "pen".
   explicit MorsePen(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorsePen() override;
 
-  /// Colour of drawings that name none; the robot's colour at first.
+  /// Colour of drawings without a colour argument; initially the robot's colour.
   ImageColour_t GetColour() const { return MarkColour(); }
   template <typename... Colour>
   void SetColour(const Colour&... aColour) {
@@ -27,7 +27,7 @@ class MorsePen : public MorseActuator, public CanvasDrawing {
   using Drawing::SetLineMetres;
   using Drawing::SetPixel;
   using Drawing::SetPixelMetres;
-  /// In the pen's own colour.
+  /// Draws in the pen's own colour, like the following overloads.
   void SetPixel(int aX, int aY) { Drawing::SetPixel(aX, aY, GetColour()); }
   void SetPixel(const ImagePoint_t& aPoint) { SetPixel(aPoint.x, aPoint.y); }
   void SetLine(int aX0, int aY0, int aX1, int aY1) {

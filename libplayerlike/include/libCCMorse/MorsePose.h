@@ -8,24 +8,25 @@
 
 namespace CCMorse {
 
-/// What MorsePose and MorseOdometry have in common: where the body B is (the middle of the wheels'
-/// axle; x forward, y left) and how it moves. All values are of the newest reading, 0 before the
-/// first.
+/// Common base of MorsePose and MorseOdometry: pose and twist of the body frame B (origin at the
+/// centre of the wheel axle; x forward, y left). All values come from the newest reading; before
+/// the first reading they are 0.
 class MorseLocalization : public MorseSensor {
  public:
   ~MorseLocalization() override;
 
-  player_pose2d_t GetPose() const;  ///< position [m] and yaw [rad], in (-pi, pi]
+  player_pose2d_t GetPose() const;  ///< position [m] and yaw in (-pi, pi] [rad]
   double GetX() const;              ///< [m]
   double GetY() const;              ///< [m]
-  double GetYaw() const;            ///< [rad], counter-clockwise
-  double GetSpeed() const;          ///< achieved forward speed [m/s]
-  double GetLateralSpeed() const;   ///< achieved speed to the left, as when shoved [m/s]
-  double GetTurnRate() const;       ///< achieved, counter-clockwise [rad/s]
-  bool GetStall() const;            ///< the commanded speed has not been achieved for 0.2 s
+  double GetYaw() const;            ///< heading, counter-clockwise [rad]
+  double GetSpeed() const;          ///< actual forward speed [m/s]
+  double GetLateralSpeed() const;   ///< actual speed to the left, e.g. if pushed [m/s]
+  double GetTurnRate() const;       ///< actual turn rate, counter-clockwise [rad/s]
+  bool GetStall() const;            ///< whether the commanded speed was not reached for 0.2 s
 
-  /// Makes it report this pose for where the robot is now, from the next step on; the robot does
-  /// not move. @throws MorseError kBadArgument for NaN or infinity.
+  /// From the next step on, reports this pose for the robot's current position. The robot does not
+  /// move.
+  /// @throws MorseError kBadArgument for NaN or infinity.
   void SetPose(double aX, double aY, double aYaw);
 
  protected:
@@ -33,10 +34,10 @@ class MorseLocalization : public MorseSensor {
                     const char* aClass);
 };
 
-/// The arena's localisation: the pose of B in the world.
+/// The arena's localisation: the pose of B in the world frame.
 class MorsePose : public MorseLocalization {
  public:
-  /// @param aName  device; "": the robot's first of type "pose".
+  /// @param aName  name of the device; "" for the robot's first device of type "pose".
   explicit MorsePose(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorsePose() override;
 };

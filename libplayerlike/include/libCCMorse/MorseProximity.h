@@ -8,23 +8,23 @@
 
 namespace CCMorse {
 
-/// Which robots are near, and obstacles if the world asks for them; walls hide nobody. Distances go
-/// from the middle of this robot's axle to that of the other, or to the middle of an obstacle.
-/// Before the first reading nobody is near.
+/// Detects nearby robots, and nearby obstacles if the world file enables them. Walls do not block
+/// detection. A distance is measured from the centre of this robot's axle to that of the other
+/// robot, or to the centre of an obstacle. Before the first reading nothing is near.
 class MorseProximity : public MorseSensor {
  public:
-  /// @param aName  device; "": the robot's first of type "proximity".
+  /// @param aName  name of the device; "" for the robot's first device of type "proximity".
   explicit MorseProximity(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseProximity() override;
 
-  /// Distances of all that are near, by name [m]. Should a robot and an obstacle have one name, the
-  /// nearer one's.
+  /// Returns the distances of all nearby objects by name [m]. If a robot and an obstacle have the
+  /// same name, the result contains the nearer one.
   std::map<std::string, double> GetNearObjects() const;
   bool IsNear(const std::string& aName) const;
-  /// Distance of one that is near [m]. @throws MorseError kBadArgument if it is not; the text names
-  /// those that are.
+  /// Returns the distance of a nearby object [m].
+  /// @throws MorseError kBadArgument if the object is not near; the text names the nearby ones.
   double GetDistance(const std::string& aName) const;
-  double GetMaxRange() const;  ///< how far it sees [m]
+  double GetMaxRange() const;  ///< detection range [m]
 };
 
 }  // namespace CCMorse

@@ -17,11 +17,11 @@ class ClientCore;
 
 namespace CCMorse {
 
-/// What is known of a robot's device.
+/// Description of a robot's device.
 struct MorseDeviceInfo {
-  std::string name;                          ///< in its robot, e.g. "laser"
+  std::string name;                          ///< name within the robot, e.g. "laser"
   std::string type;                          ///< e.g. "laser", "pose", "motion"
-  std::map<std::string, double> properties;  ///< its numeric settings, SI units and radians
+  std::map<std::string, double> properties;  ///< numeric settings, in SI units and radians
 };
 
 /// A robot of the world, as a client sees it. A small value: copies stand for the same robot. Made
@@ -31,18 +31,18 @@ class MorseRobot {
  public:
   std::string GetName() const;
   std::string GetModel() const;            ///< e.g. "s1r"
-  uint32_t GetPort() const;                ///< its Player port
-  player_pose2d_t GetInitialPose() const;  ///< in the world, at the start
-  double GetLength() const;                ///< of the body, along x [m]
-  double GetWidth() const;                 ///< along y [m]
+  uint32_t GetPort() const;                ///< the robot's Player port
+  player_pose2d_t GetInitialPose() const;  ///< pose in the world at the start
+  double GetLength() const;                ///< size of the body along x [m]
+  double GetWidth() const;                 ///< size of the body along y [m]
   double GetHeight() const;                ///< [m]
   double GetMaxSpeed() const;              ///< [m/s]
   double GetMaxTurnRate() const;           ///< [rad/s]
   std::vector<std::string> GetDeviceNames() const;
   bool HasDevice(const std::string& aName) const;
-  /// @throws MorseError kNoSuchDevice if there is none; the text names those there are.
+  /// @throws MorseError kNoSuchDevice if there is no such device; the text names the existing ones.
   MorseDeviceInfo GetDevice(const std::string& aName) const;
-  /// All devices, in order of name.
+  /// Returns all devices, sorted by name.
   std::vector<MorseDeviceInfo> GetDevices() const;
 
  private:

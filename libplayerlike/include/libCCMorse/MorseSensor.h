@@ -10,10 +10,10 @@
 
 namespace CCMorse {
 
-/// A device that makes readings, which MorseClient::Read() brings.
+/// Base class of devices that produce readings. MorseClient::Read() updates them.
 ///
-/// The valid flag belongs to the library: up from the first reading on, down when the client is
-/// gone. The fresh flag is raised by new data and lowered by the program with NotFresh().
+/// The library sets the valid flag at the first reading and clears it when the client is gone. New
+/// data sets the fresh flag; the program clears it with NotFresh().
 class MorseSensor : public MorseDevice {
  public:
   ~MorseSensor() override;
@@ -23,29 +23,31 @@ class MorseSensor : public MorseDevice {
   void NotFresh();       ///< Never throws.
   /// Simulated time of the newest reading [s]; 0 before the first.
   double GetTime() const;
-  /// Readings a simulated second [Hz].
+  /// Number of readings per simulated second [Hz].
   double GetFrequency() const;
 
  protected:
   MorseSensor(const MorseRobot& aRobot, const std::string& aName, const char* aType,
               const char* aClass);
 
-  /// Starts and ends the flow of readings: called by constructors and destructors of sensors.
+  /// Attach() subscribes to readings, Detach() unsubscribes. Constructors and destructors of
+  /// sensors call them.
   void Attach();
   void Detach();
-  /// The newest reading is another one; called with the client's data locked.
+  /// Called for each new reading, with the client's data locked.
   virtual void HandleReading();
-  /// What aLook makes of the newest reading, of type Reading; before the first one, of one as it is
-  /// made. Locks as Lock(). Defined in the library's own sources, as are the readings.
+  /// Returns the result of aLook for the newest reading, of type Reading; before the first reading,
+  /// for a default-constructed one. Calls Lock(). Defined in the library's sources, like the
+  /// reading types.
   template <typename Reading, typename Function>
   auto Look(const char* aFunction, Function aLook) const
       -> decltype(aLook(std::declval<const Reading&>()));
-  /// The same for a member of the reading.
+  /// Returns a member of the newest reading; see above.
   template <typename Reading, typename T>
   T Look(const char* aFunction, T Reading::*aMember) const;
 
   struct Receiver;
-  mutable PlayerCc::detail::Elements mElements;  ///< of rangefinders; mReceiver binds it
+  mutable PlayerCc::detail::Elements mElements;  ///< beams of rangefinders; set by mReceiver
   std::unique_ptr<Receiver> mReceiver;
 };
 

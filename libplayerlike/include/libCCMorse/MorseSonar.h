@@ -7,10 +7,10 @@
 
 namespace CCMorse {
 
-/// A sonar array: each transducer reads the nearest that is in its cone, wherever in it.
+/// A sonar array. Each transducer measures the distance to the nearest object anywhere in its cone.
 class MorseSonar : public MorseRanger {
  public:
-  /// @param aName  device; "": the robot's first of type "sonar".
+  /// @param aName  name of the device; "" for the robot's first device of type "sonar".
   explicit MorseSonar(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseSonar() override;
 };

@@ -7,24 +7,25 @@
 
 namespace CCMorse {
 
-/// Puts its robot somewhere else at once, at rest (docs/devices/teleport.md).
+/// Moves its robot to another place instantly; the robot is then at rest
+/// (docs/devices/teleport.md).
 ///
-/// Orders are carried out from the next step on. A place that is taken is refused: a warning says
-/// by what, and the robot goes on as before.
+/// Commands take effect at the next step. If the place is occupied, the command is rejected: a
+/// warning names the obstacle, and the robot continues as before.
 class MorseTeleport : public MorseActuator {
  public:
-  /// @param aName  device; "": the robot's first of type "teleport".
+  /// @param aName  name of the device; "" for the robot's first device of type "teleport".
   explicit MorseTeleport(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseTeleport() override;
 
-  /// @param aX, aY  place in the world [m].
+  /// @param aX, aY  position in the world [m].
   /// @param aYaw    heading, counter-clockwise [rad].
   /// @throws MorseError kBadArgument for NaN or infinity.
   void Place(double aX, double aY, double aYaw);
-  /// From where the robot is, along the world's axes, heading unchanged [m].
+  /// Moves the robot by an offset along the world's axes [m]. The heading does not change.
   /// @throws MorseError kBadArgument for NaN or infinity.
   void Translate(double aX, double aY = 0.0);
-  /// Where it stands, counter-clockwise [rad].
+  /// Turns the robot in place by an angle, counter-clockwise [rad].
   /// @throws MorseError kBadArgument for NaN or infinity.
   void Rotate(double aYaw);
 };

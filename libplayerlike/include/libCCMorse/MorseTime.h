@@ -10,19 +10,19 @@
 
 namespace CCMorse {
 
-/// How far a simulation is.
+/// Progress of a simulation.
 struct MorseTimeStatistics {
   double sim_time;          ///< simulated time [s]
-  uint64_t steps;           ///< steps made
+  uint64_t steps;           ///< number of completed steps
   double step;              ///< length of a step [s]
-  double wall_time;         ///< since the first step [s]
-  double real_time_factor;  ///< simulated over wall time; 0 before the first step
-  double duration;          ///< of the run [s]; negative if it has no end
+  double wall_time;         ///< wall time since the first step [s]
+  double real_time_factor;  ///< simulated time / wall time; 0 before the first step
+  double duration;          ///< simulated duration of the run [s]; negative if unlimited
   std::string mode;         ///< "lockstep" or "paced"
-  bool finished;            ///< the run is over
+  bool finished;            ///< whether the run is over
 };
 
-/// Simulated time.
+/// The simulation's clock.
 class MorseTime {
  public:
   explicit MorseTime(const MorseClient& aClient);
@@ -30,14 +30,15 @@ class MorseTime {
 
   double Now() const;             ///< simulated time [s]
   double Step() const;            ///< length of a step [s]
-  double RealTimeFactor() const;  ///< simulated over wall time; 0 before the first step
+  double RealTimeFactor() const;  ///< simulated time / wall time; 0 before the first step
   std::string Mode() const;       ///< "lockstep" or "paced"
   MorseTimeStatistics Statistics() const;
 
-  /// Sleeps for a span of simulated time; in lockstep this lets time pass. Readings that arrive
-  /// meanwhile wait for Read().
-  /// @param aSeconds  in [0, 1e9].
-  /// @throws MorseError kRunIsOver if the run ends meanwhile, kBadArgument for another number.
+  /// Sleeps for a span of simulated time. In lockstep, simulated time advances meanwhile. Readings
+  /// that arrive during the sleep are queued for Read().
+  /// @param aSeconds  duration [s], in [0, 1e9].
+  /// @throws MorseError kRunIsOver if the run ends meanwhile; kBadArgument for a value outside the
+  ///         range.
   void Sleep(double aSeconds);
 
  private:

@@ -9,46 +9,50 @@
 
 namespace CCMorse {
 
-/// Drives its robot to a point of the world, straight on, round nothing (docs/devices/waypoint.md).
+/// Drives its robot to a point of the world in a straight line, without avoiding obstacles
+/// (docs/devices/waypoint.md).
 ///
-/// Orders are carried out from the next step on, and return at once; Read() lets the robot drive
-/// and brings how it goes. What was ordered is told as done until a reading shows what came of it.
-/// Whoever spoke last steers: SetSpeed() of the motors, or another program, ends the transit with
-/// "Stop".
+/// Commands return immediately and take effect at the next step. The robot drives while Read()
+/// advances time; Read() also updates the status. After a command, GetStatus() returns the
+/// commanded status until the first reading that reflects the command. The last command to the
+/// motors wins: SetSpeed(), or a command from another program, ends the transit with status "Stop".
 class MorseWaypoint : public MorseSensor {
  public:
-  /// @param aName  device; "": the robot's first of type "waypoint".
+  /// @param aName  name of the device; "" for the robot's first device of type "waypoint".
   explicit MorseWaypoint(const MorseRobot& aRobot, const std::string& aName = "");
   ~MorseWaypoint() override;
 
-  /// Drive to a point of the world.
+  /// Starts driving to a point of the world.
   /// @param aX, aY      goal [m].
-  /// @param aTolerance  so near to it the robot has arrived [m], > 0.
-  /// @param aSpeed      at most [m/s], > 0; the motors' limits hold too.
-  /// @throws MorseError kBadArgument for NaN, infinity, or what is not positive.
+  /// @param aTolerance  distance to the goal within which the robot has arrived [m], > 0.
+  /// @param aSpeed      maximum speed [m/s], > 0; the motors' limits apply too.
+  /// @throws MorseError kBadArgument for NaN or infinity, and for a tolerance or speed that is not
+  ///         positive.
   void Goto(double aX, double aY, double aTolerance, double aSpeed);
-  /// The same with the device's own tolerance and speed, see GetTolerance() and GetSpeed().
+  /// Goto() with the device's own tolerance and speed; see GetTolerance() and GetSpeed().
   void Goto(double aX, double aY);
-  /// As Goto(), unless the robot is there already by the newest reading: then nothing is ordered.
-  /// @return whether it was ordered.
+  /// Calls Goto(), unless the robot is already within the tolerance according to the newest
+  /// reading.
+  /// @return whether Goto() was called.
   bool SetDest(double aX, double aY, double aTolerance, double aSpeed);
   bool SetDest(double aX, double aY);
-  /// Stop; the goal is kept.
+  /// Stops the robot and keeps the goal.
   void Stop();
-  /// Go on to the goal that was given last.
+  /// Continues to the last goal.
   void Resume();
 
-  /// MORSE's words: "Arrived" (also before the first goal), "Transit" or "Stop".
+  /// Returns MORSE's status: "Arrived" (also before the first goal), "Transit" or "Stop".
   std::string GetStatus() const;
-  bool IsArrived() const;             ///< GetStatus() is "Arrived"
-  player_point_2d_t GetGoal() const;  ///< [m]; before the first: where the robot started
-  /// From the robot to the goal [m]; 0 before the first reading.
+  bool IsArrived() const;             ///< whether GetStatus() is "Arrived"
+  player_point_2d_t GetGoal() const;  ///< goal [m]; before the first goal, the robot's start
+  /// Distance from the robot to the goal [m]; 0 before the first reading.
   double GetDistance() const;
-  /// How many goals, of all programs together, the device had by the newest reading.
+  /// Number of goals that the device has received from all programs, according to the newest
+  /// reading.
   uint32_t GetGoalNumber() const;
 
-  double GetTolerance() const;  ///< what Goto(x, y) takes [m]
-  double GetSpeed() const;      ///< the same [m/s]
+  double GetTolerance() const;  ///< tolerance of Goto(x, y) [m]
+  double GetSpeed() const;      ///< maximum speed of Goto(x, y) [m/s]
 
  protected:
   void HandleReading() override;
@@ -57,7 +61,7 @@ class MorseWaypoint : public MorseSensor {
   void Ordered(const char* aStatus);
 
   std::string mStatus;
-  double mOrderTime;  // readings up to then do not know of the last order
+  double mOrderTime;  // readings up to this time [s] do not reflect the last command
   player_point_2d_t mGoal;
   player_point_2d_t mPosition;
   double mDistance;

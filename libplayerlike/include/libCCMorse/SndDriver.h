@@ -20,42 +20,43 @@ struct SndSettings {
   double safety_distance = 0.15;  ///< what comes nearer to the disc deflects and slows [m]; 10
   double max_speed = 0.3;         ///< [m/s]; 10
   double max_turn_rate = 1.5;     ///< [rad/s]; 20 pi
-  double goal_distance = 0.05;    ///< a goal's position is reached within this [m]; 10
-  double goal_angle = 0.1;        ///< its heading is reached within this [rad]; pi
-  double patience = 20.0;         ///< blocked after so long without coming nearer to the goal
-                                  ///< (simulated time) [s]; 1e6
+  double goal_distance = 0.05;    ///< tolerance of the goal's position [m]; maximum 10
+  double goal_angle = 0.1;        ///< tolerance of the goal's heading [rad]; maximum pi
+  double patience = 20.0;         ///< simulated time without progress towards the goal after which
+                                  ///< the status is BLOCKED [s]; maximum 1e6
 };
 
-/// Drives a robot to goals and round what stands in the way, by Smooth Nearness-Diagram navigation
-/// (J. W. Durham and F. Bullo, IROS 2008; docs/snd.md), in a thread with a client of its own.
+/// Drives a robot to goals and avoids obstacles, with Smooth Nearness-Diagram navigation (J. W.
+/// Durham and F. Bullo, IROS 2008; docs/snd.md). It runs in its own thread with its own client.
 ///
-/// The method is local: it knows what the laser sees and has just seen, no map. A goal behind a
-/// deep dead end may end as BLOCKED; planning a way round is another program's matter.
+/// The method is local: it uses current and recent laser scans, but no map. A goal behind a deep
+/// dead end may end as BLOCKED; use a path planner for such goals.
 ///
-/// Frames: goals are in the frame of the position device: index 0 is the arena's localisation, so
-/// the world.
+/// Frames: goals are in the frame of the position device. Index 0 is the arena's localisation,
+/// whose frame is the world.
 ///
-/// Time: in lockstep the driver's thread takes part, and simulated time goes on only as the
-/// program's own clients wait. Goals, cancellations and settings given at simulated time t count
-/// from the driver's first reading after t, so a run is repeatable, threads and all.
+/// Time: in lockstep the driver's thread takes part, and simulated time advances only while the
+/// program's own clients wait. Goals, cancellations and settings given at simulated time t take
+/// effect at the driver's first reading after t. A run is therefore repeatable although it has
+/// several threads.
 ///
-/// Errors: members throw PlayerError kDisconnected once the client is gone, kRunIsOver as the
-/// client's proxies do, kBadArgument for values that cannot be meant.
+/// Errors: members throw PlayerError kDisconnected once the client is gone, kRunIsOver in the same
+/// cases as the client's proxies, and kBadArgument for invalid values.
 ///
 /// Threads: all members may be called from any thread.
 class SndDriver {
  public:
-  /// How far the newest goal has been pursued.
+  /// State of the newest goal.
   enum Status {
-    IDLE,     ///< there was none, or it was cancelled
-    MOVING,   ///< on the way
-    REACHED,  ///< arrived; the robot stands within the tolerances
-    BLOCKED   ///< given up, see SndSettings::patience; the robot stands
+    IDLE,     ///< there is no goal, or it was cancelled
+    MOVING,   ///< the robot is driving to the goal
+    REACHED,  ///< the robot has stopped within the tolerances
+    BLOCKED   ///< the driver has given up and stopped the robot; see SndSettings::patience
   };
 
-  /// Starts the driver's thread, which has joined the lockstep when this returns.
-  /// @param aClient    a client on the robot's port; it must live as long as the driver is used.
-  /// @param aPosition  index of the position2d that tells where the robot is and drives it.
+  /// Starts the driver's thread. When the constructor returns, the thread has joined the lockstep.
+  /// @param aClient    a client on the robot's port; it must outlive all uses of the driver.
+  /// @param aPosition  index of the position2d that measures the robot's pose and drives it.
   /// @param aLaser     index of the laser.
   /// @throws PlayerError kNoSuchDevice for an index that the port does not have, kNotAvailable if
   ///         the robot has no motors, kBadArgument for a null pointer or settings out of range.
@@ -63,25 +64,26 @@ class SndDriver {
                      const SndSettings& aSettings = SndSettings());
   SndDriver(const SndDriver&) = delete;
   SndDriver& operator=(const SndDriver&) = delete;
-  /// Ends the thread; a robot on its way is stopped. No simulated time passes.
+  /// Ends the thread and stops a moving robot. Simulated time does not advance.
   ~SndDriver();
 
-  /// Drives to a place [m], whatever the heading there.
+  /// Drives to a position [m], with any final heading.
   void SetGoal(double aX, double aY);
-  /// Drives to a place [m] and turns to a heading [rad].
+  /// Drives to a position [m] and turns to a heading [rad].
   void SetGoal(double aX, double aY, double aYaw);
   /// Drops the goal and stops the robot.
   void Cancel();
   Status GetStatus() const;
 
-  /// Reads the client, so that time goes on, until the goal is reached, blocked or cancelled.
+  /// Reads the client, so that simulated time advances, until the goal is reached, blocked or
+  /// cancelled.
   /// @param aTimeout  longest simulated time to wait [s]; negative: no limit.
-  /// @return the status then; MOVING after a timeout.
+  /// @return the final status; MOVING after a timeout.
   /// @throws PlayerError kRunIsOver if the run ends meanwhile.
   Status WaitForGoal(double aTimeout = -1.0);
 
   SndSettings GetSettings() const;
-  /// From now on, also for a goal that is being pursued.
+  /// Changes the settings, also for the current goal.
   void SetSettings(const SndSettings& aSettings);
   void SetRobotRadius(double aRadius);                      ///< [m]
   void SetSafetyDistance(double aDistance);                 ///< [m]
@@ -99,7 +101,7 @@ class SndDriver {
 
 namespace PlayerCc {
 
-/// The one classes under both names; see CCMorse::SndDriver.
+/// The same classes in both namespaces; see CCMorse::SndDriver.
 using CCMorse::SndDriver;
 using CCMorse::SndSettings;
 

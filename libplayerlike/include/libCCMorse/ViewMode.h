@@ -5,9 +5,9 @@ namespace CCMorse {
 
 /// How pictures, films and windows show the grid-map.
 enum ViewMode {
-  GROUND,       ///< it lies on the arena's floor; obstacles and robots stand on it
-  MINI_MAP,     ///< in a corner of the picture of the arena
-  FULL_SCREEN,  ///< instead of the arena, its cells crisp, the robots on it
+  GROUND,       ///< the grid-map is the arena's floor; obstacles and robots are drawn on it
+  MINI_MAP,     ///< the grid-map is in a corner of the arena's picture
+  FULL_SCREEN,  ///< the grid-map replaces the arena, with sharp cells; robots are drawn on it
 };
 
 }  // namespace CCMorse

@@ -14,52 +14,55 @@
 
 namespace CCMorse {
 
-/// The grid-map of the world that a client is connected to, as a window to draw in: a shared canvas
-/// and, over or under it, a multitude of layers.
+/// A drawing window on the grid-map of the client's world: a shared canvas and up to 64 layers per
+/// client above or below it.
 ///
-/// A program has one, made by GetInstance(client, width, height) and found again by GetInstance();
-/// it may be deleted ("delete &WindowProxy::GetInstance()") and made anew. A program with several
-/// clients may make one for each; GetInstance() then returns the one made last whose client is
-/// still there. Destroying the client before the window is fine: the window's calls throw then.
+/// GetInstance(client, width, height) creates the program's window, and GetInstance() returns it.
+/// The program may delete it ("delete &WindowProxy::GetInstance()") and create a new one. A program
+/// with several clients may create one window per client; GetInstance() then returns the newest
+/// window whose client still exists. The client may be destroyed before the window; the window's
+/// members then throw.
 ///
-/// What is drawn on the window itself is drawn on the layer "canvas", which all clients of the
-/// world share. Layers belong to their client. They stay in the world when window and client go, so
-/// that the run's pictures show them; a later client on the same port that makes a layer of the
-/// same name gets a fresh one in its place.
+/// Members of the window draw on the layer "canvas", which all clients of the world share. Other
+/// layers belong to their client. They stay in the world after the window and the client are
+/// destroyed, so that the run's pictures show them. If a later client on the same port creates a
+/// layer of the same name, an empty layer replaces the old one.
 class WindowProxy : public CanvasDrawing {
  public:
-  /// Makes the client's window, or returns it if the client has one.
-  /// @param aClient  not null.
-  /// @param aWidth, aHeight  cells, > 0. The window shows the world's whole grid-map, whatever its
-  ///                 size ("canvas": {"size": [width, height]} in the world file, 172 x 186 in the
-  ///                 SyRoTek arena), so that one program serves worlds of all sizes: GetWidth()
-  ///                 and GetHeight() tell the true size, GetX() and GetY() find the cells.
+  /// Creates the client's window, or returns it if it already exists.
+  /// @param aClient  the client; must not be null.
+  /// @param aWidth, aHeight  size in cells, > 0; otherwise ignored. The window always shows the
+  ///                 world's whole grid-map ("canvas": {"size": [width, height]} in the world file,
+  ///                 172 x 186 in the SyRoTek arena), so that one program works in worlds of all
+  ///                 sizes. GetWidth() and GetHeight() return the actual size; GetX() and GetY()
+  ///                 convert positions to cells.
   /// @throws PlayerError kBadArgument for a null client or a size that is not positive.
   static WindowProxy& GetInstance(PlayerClient* aClient, int aWidth, int aHeight);
-  /// The window.
+  /// Returns the window.
   /// @throws PlayerError kNotAvailable if there is none.
   static WindowProxy& GetInstance();
 
-  /// GetInstance() forgets it. Handles of layers end here, the layers do not.
+  /// Deletes the window and its GridMapLayer objects. The layers stay in the world.
   ~WindowProxy() override;
 
-  /// Makes a layer.
-  /// @param aName  1 to 64 printable characters, none that a layer of this client has.
-  /// @throws PlayerError kBadArgument for another name; kNotAvailable if the client has 64 layers,
-  ///         or all clients' together would get too large.
-  /// @return the layer; valid until the window goes, also if it is removed.
+  /// Creates a layer.
+  /// @param aName  1 to 64 printable characters; no other layer of this client may have this name.
+  /// @throws PlayerError kBadArgument for an invalid name; kNotAvailable if the client has 64
+  ///         layers, or if all clients' layers together would be too large.
+  /// @return the layer; the reference is valid until the window is deleted, even if the layer is
+  ///         removed.
   GridMapLayer& CreateLayer(const std::string& aName, GridMapLayer::Kind aKind = GridMapLayer::RGBA,
                             int aPriority = 0);
-  /// The layer of that name.
-  /// @throws PlayerError kBadArgument if there is none; the text names those there are.
+  /// Returns the layer of this name.
+  /// @throws PlayerError kBadArgument if there is no such layer; the text names the existing ones.
   GridMapLayer& GetLayer(const std::string& aName = "canvas");
-  /// The same; null if there is none.
+  /// Returns the layer of this name, or null if there is none.
   GridMapLayer* FindLayer(const std::string& aName);
   bool HasLayer(const std::string& aName) { return FindLayer(aName) != nullptr; }
-  /// Takes a layer out of the world; references to it stay safe, see GridMapLayer.
-  /// @throws PlayerError kBadArgument if there is none of that name; kNotAvailable for "canvas".
+  /// Removes a layer from the world. References to it remain valid; see GridMapLayer.
+  /// @throws PlayerError kBadArgument if there is no such layer; kNotAvailable for "canvas".
   void RemoveLayer(const std::string& aName);
-  /// "canvas" and this client's layers, lowest first.
+  /// Returns the names of "canvas" and of this client's layers, lowest first.
   std::vector<std::string> GetLayerNames() const;
 
  private:
@@ -68,7 +71,7 @@ class WindowProxy : public CanvasDrawing {
   GridMapLayer& Handle(int aLayer, GridMapLayer::Kind aKind);
 
   mutable std::mutex mLayersMutex;
-  // Also those of layers that were removed: somebody may hold a reference.
+  // Includes removed layers, because the program may still hold references to them.
   std::vector<std::unique_ptr<GridMapLayer>> mHandles;
 };
 
@@ -76,12 +79,12 @@ class WindowProxy : public CanvasDrawing {
 
 namespace PlayerCc {
 
-/// The one class under both names.
+/// The same class in both namespaces.
 using CCMorse::WindowProxy;
 
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints size, size of a cell and the layers, lowest first.
+/// Prints the size, the cell size and the layers, lowest first.
 std::ostream& operator<<(std::ostream& os, const CCMorse::WindowProxy& w);
 }  // namespace std

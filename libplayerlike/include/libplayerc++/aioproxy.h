@@ -9,17 +9,16 @@
 
 namespace PlayerCc {
 
-/// Analog inputs and outputs of a robot; what stands at the inputs is told in docs/devices/aio.md.
+/// Analog inputs and outputs of a robot; docs/devices/aio.md lists the signals of the inputs.
 class AioProxy : public ClientProxy {
  public:
-  /// @param aIndex  on a robot's own port the robot's devices of type "aio", counted from 0; on
-  /// port
-  ///                4000 the robot.
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @param aIndex  on a robot's own port, index among its devices of type "aio";
+  ///                on port 4000, the robot's number.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   AioProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~AioProxy() override;
 
-  /// How many inputs there are; 0 before the first reading.
+  /// Number of inputs; 0 before the first reading.
   uint32_t GetCount() const;
   /// Voltage at an input [V]. An input that does not exist reads 0; a warning says how many there
   /// are, once for each proxy.
@@ -29,7 +28,7 @@ class AioProxy : public ClientProxy {
   /// @param aVoltage  [V], at most 1e6 to either side.
   /// @throws PlayerError kBadArgument if no output can have that voltage.
   void SetVoltage(uint32_t aIndex, double aVoltage);
-  /// As GetVoltage().
+  /// Same as GetVoltage().
   double operator[](uint32_t aIndex) const { return GetVoltage(aIndex); }
 };
 

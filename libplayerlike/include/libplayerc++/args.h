@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// The command line of Player's example programs, which many programs take over without bringing
-/// the header along. It defines variables, so one source of a program may include it. Names,
+/// The command line of Player's example programs. Many programs include this header without
+/// shipping it. It defines variables, so only one source file of a program may include it. Names,
 /// options and defaults are those of examples/libplayerc++/args.h in Player 2 and 3.
 
 #include <getopt.h>
@@ -15,17 +15,17 @@
 
 #include "libplayerc++/playerc++.h"
 
-// NOLINTBEGIN(misc-definitions-in-headers,cert-err58-cpp): that is what programs expect
+// NOLINTBEGIN(misc-definitions-in-headers,cert-err58-cpp): programs expect these definitions
 std::string gHostname(PlayerCc::PLAYER_HOSTNAME);  ///< -h
 uint32_t gPort(PlayerCc::PLAYER_PORTNUM);          ///< -p
-uint32_t gIndex(0);                                ///< -i: of devices
-uint32_t gDebug(0);                                ///< -d: for the program, as it likes
-uint32_t gFrequency(10);                           ///< -u [Hz], as gDebug
+uint32_t gIndex(0);                                ///< -i: index of the devices
+uint32_t gDebug(0);                                ///< -d: free for use by the program
+uint32_t gFrequency(10);                           ///< -u: free for use by the program [Hz]
 uint32_t gDataMode(PLAYER_DATAMODE_PUSH);          ///< -m, PLAYER_DATAMODE_PUSH or _PULL
-bool gUseLaser(false);                             ///< -l: by its laser rather than its sonars
+bool gUseLaser(false);                             ///< -l: use the laser instead of the sonars
 // NOLINTEND(misc-definitions-in-headers,cert-err58-cpp)
 
-/// Prints on standard error which options there are.
+/// Prints the list of options to standard error.
 inline void print_usage(int argc, char** argv) {
   std::cerr << "Usage: " << (argc > 0 ? argv[0] : "program") << " [options]\n"
             << "  -h <host>   name of the host [" << PlayerCc::PLAYER_HOSTNAME << "]\n"
@@ -38,8 +38,9 @@ inline void print_usage(int argc, char** argv) {
             << PLAYER_DATAMODE_PULL << " pull\n";
 }
 
-/// Sets the variables from a command line; prints the usage and exits with -1 for an option that
-/// there is not. @return 0.
+/// Sets the variables from a command line. For an unknown option, it prints the usage and exits
+/// with -1.
+/// @return 0.
 inline int parse_args(int argc, char** argv) {
   const auto number = [] { return static_cast<uint32_t>(std::strtoul(optarg, nullptr, 10)); };
   for (int option = 0; (option = getopt(argc, argv, "h:p:i:d:u:lm:")) != -1;) {

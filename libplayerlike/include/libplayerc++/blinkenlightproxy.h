@@ -8,32 +8,31 @@
 
 namespace PlayerCc {
 
-/// A light on a robot, for pictures (docs/devices/blinkenlight.md). Player 2 had such a class, with
-/// GetEnable(), SetEnable() and SetPeriod(); the rest is as in its C library.
+/// A light on a robot, visible in pictures (docs/devices/blinkenlight.md). GetEnable(), SetEnable()
+/// and SetPeriod() come from Player 2's class of this name; the other members follow its C library.
 ///
-/// What is set holds from the next step on; what is told is the newest reading's, and 0, false or
-/// black before the first.
+/// Settings take effect at the next step. Getters return values of the newest reading; before the
+/// first reading they return 0, false or black.
 class BlinkenLightProxy : public ClientProxy {
  public:
-  /// @param aIndex  on a robot's own port the robot's devices of type "blinkenlight", counted from
-  /// 0; on port
-  ///                4000 the robot.
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @param aIndex  on a robot's own port, index among its devices of type "blinkenlight";
+  ///                on port 4000, the robot's number.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   BlinkenLightProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~BlinkenLightProxy() override;
 
-  bool GetEnable() const;       ///< whether it is on, be it lit or dark at this moment
-  double GetPeriod() const;     ///< of one on and off [s]; 0: it does not blink
-  double GetDutyCycle() const;  ///< share of the period that it is lit, in [0, 1]
+  bool GetEnable() const;       ///< whether the light is on, even if a blinking light is dark now
+  double GetPeriod() const;     ///< length of a blink cycle [s]; 0: no blinking
+  double GetDutyCycle() const;  ///< lit fraction of the period, in [0, 1]
   uint8_t GetRed() const;
   uint8_t GetGreen() const;
   uint8_t GetBlue() const;
-  bool IsLit() const;  ///< whether it was lit at the moment of the reading
+  bool IsLit() const;  ///< whether the light was lit at the time of the reading
 
   void SetEnable(bool aSet);
-  /// @throws PlayerError kBadArgument for a period that is not in 0..1e6 s.
+  /// @throws PlayerError kBadArgument for a period outside 0..1e6 s.
   void SetPeriod(double aPeriod);
-  /// @throws PlayerError kBadArgument for a share that is not in 0..1.
+  /// @throws PlayerError kBadArgument for a fraction outside 0..1.
   void SetDutyCycle(double aDutyCycle);
   void SetColor(uint8_t aRed, uint8_t aGreen, uint8_t aBlue);
 
@@ -52,6 +51,6 @@ class BlinkenLightProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints how the light is set, and whether it is lit.
+/// Prints the settings of the light and whether it is lit.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::BlinkenLightProxy& c);
 }  // namespace std

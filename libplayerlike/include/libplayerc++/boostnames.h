@@ -11,13 +11,13 @@
 
 namespace PlayerCc {
 
-/// Names of Boost that programs use without including Boost, since Player's headers brought them:
+/// Boost names that programs use without including Boost, because Player's headers included it:
 /// boost::bind, ref, cref, function, shared_ptr, mutex, thread, and signals::connection. Here they
-/// are the standard library's and our own.
+/// refer to the standard library and to this library.
 ///
-/// A program that includes a Boost header itself gets Boost's names of that header and these for
-/// the rest: what namespace boost declares itself is found before what it only uses. Its
-/// boost::mutex::scoped_lock can lock PlayerClient::mMutex, too.
+/// If a program includes a Boost header itself, it gets Boost's own declarations from that header
+/// and these names for the rest: name lookup prefers declarations in namespace boost to names from
+/// its using-directive. Boost's own boost::mutex::scoped_lock can also lock PlayerClient::mMutex.
 namespace boost_names {
 
 using std::bind;
@@ -29,8 +29,7 @@ using std::shared_ptr;
 /// The type of PlayerClient::mMutex.
 typedef PlayerCc::mutex_t mutex;
 
-/// A thread that goes on by itself when this object is destroyed before it has ended, as Boost's
-/// does.
+/// A thread that is detached if this object is destroyed while it is running, like Boost's.
 class thread : public std::thread {
  public:
   thread() = default;
@@ -49,16 +48,16 @@ class thread : public std::thread {
   }
 };
 
-/// Of Boost.Signals, which Player used.
+/// Names of Boost.Signals, which Player used.
 namespace signals {
-/// What ClientProxy::ConnectReadSignal() returns.
+/// Return type of ClientProxy::ConnectReadSignal().
 typedef PlayerCc::read_connection_t connection;
 }  // namespace signals
 
 }  // namespace boost_names
 }  // namespace PlayerCc
 
-/// Boost's, with PlayerCc::boost_names for what Boost does not declare.
+/// Boost's namespace, extended by PlayerCc::boost_names for names that Boost does not declare.
 namespace boost {
-using namespace ::PlayerCc::boost_names;  // NOLINT(google-build-using-namespace): see there
+using namespace ::PlayerCc::boost_names;  // NOLINT(google-build-using-namespace): see boost_names
 }  // namespace boost

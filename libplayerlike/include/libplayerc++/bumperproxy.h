@@ -9,29 +9,30 @@
 
 namespace PlayerCc {
 
-/// A bumper of several segments round the robot.
+/// A bumper with several segments around the robot.
 ///
-/// A segment counts as pressed if it was so at any time since the reading before. Before the first
-/// reading there are 0 segments, and each reads 0; where they are is known from the start.
+/// A segment counts as pressed if it was pressed at any time since the previous reading. Before the
+/// first reading there are 0 segments, and each of them reads 0. The geometry is known from the
+/// start.
 ///
 /// An element whose index is not below its count reads 0; after the first reading a warning on
 /// standard error says so, once for each proxy.
 class BumperProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   BumperProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~BumperProxy() override;
 
-  uint32_t GetCount() const;                 ///< segments of the newest reading
-  uint32_t IsBumped(uint32_t aIndex) const;  ///< 1 if the segment is pressed, else 0
+  uint32_t GetCount() const;                 ///< number of segments in the newest reading
+  uint32_t IsBumped(uint32_t aIndex) const;  ///< 1 if the segment is pressed, otherwise 0
   bool IsAnyBumped();                        ///< whether any segment is pressed
-  /// Asks for the places of the segments; known from the start.
+  /// Requests the geometry of the segments. It is known from the start, so nothing changes.
   void RequestBumperConfig();
-  uint32_t GetPoseCount() const;  ///< segments whose place is known
-  /// Where a segment is: the pose of its middle in the robot's body, whose x axis looks outwards,
-  /// its length and the radius of its arc [m]; 0: straight.
+  uint32_t GetPoseCount() const;  ///< number of segments with known geometry
+  /// Geometry of a segment: the pose of its centre in the robot's body frame (its x axis points
+  /// outwards), its length [m] and the radius of its arc [m]; radius 0 is a straight segment.
   player_bumper_define_t GetPose(uint32_t aIndex) const;
-  /// IsBumped().
+  /// Same as IsBumped().
   bool operator[](uint32_t aIndex) const;
 
  private:
@@ -41,6 +42,6 @@ class BumperProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints the segments, one a line: x, y, yaw, length, radius, whether it is pressed.
+/// Prints the segments, one per line: x, y, yaw, length, radius, whether it is pressed.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::BumperProxy& c);
 }  // namespace std

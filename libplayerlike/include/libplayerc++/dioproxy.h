@@ -8,19 +8,18 @@
 
 namespace PlayerCc {
 
-/// Digital inputs and outputs of a robot; what stands at the inputs is told in docs/devices/dio.md.
+/// Digital inputs and outputs of a robot; docs/devices/dio.md lists the signals of the inputs.
 class DioProxy : public ClientProxy {
  public:
-  /// @param aIndex  on a robot's own port the robot's devices of type "dio", counted from 0; on
-  /// port
-  ///                4000 the robot.
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @param aIndex  on a robot's own port, index among its devices of type "dio";
+  ///                on port 4000, the robot's number.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   DioProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~DioProxy() override;
 
-  /// How many inputs there are; 0 before the first reading.
+  /// Number of inputs; 0 before the first reading.
   uint32_t GetCount() const;
-  /// All inputs: input i is bit i.
+  /// All inputs as a bit mask: bit i is input i.
   uint32_t GetDigin() const;
   /// One input. An input that does not exist reads false; a warning says how many there are, once
   /// for each proxy.
@@ -30,7 +29,7 @@ class DioProxy : public ClientProxy {
   ///                 so, once for each proxy.
   /// @param aDigout  output i gets bit i.
   void SetOutput(uint32_t aCount, uint32_t aDigout);
-  /// As GetInput().
+  /// GetInput() as 0 or 1.
   uint32_t operator[](uint32_t aIndex) const { return GetInput(aIndex) ? 1 : 0; }
 
  private:
@@ -40,6 +39,6 @@ class DioProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints the inputs, each as 0 or 1, the first one first.
+/// Prints the inputs in ascending order, each as 0 or 1.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::DioProxy& c);
 }  // namespace std

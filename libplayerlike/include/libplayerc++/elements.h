@@ -8,30 +8,33 @@
 namespace PlayerCc {
 namespace detail {
 
-/// Tells threads apart: a number that no two of them ever have; 0 for one that has changed nothing
-/// yet. Looked at for every beam, so it must not cost a call in a shared library.
+/// Unique number of the calling thread; no other thread ever has it. 0 for a thread that has
+/// changed nothing yet. It is read for every beam, so the TLS model avoids a function call in a
+/// shared library.
 #ifdef __ELF__
 __attribute__((tls_model("initial-exec")))
 #endif
 extern __thread std::uint64_t thread_number;
 
-/// Numbers of the newest reading that programs look at one by one: beams. Part of LaserProxy and
-/// the like, for this library's own use.
+/// Lock-free access to the elements (beams) of the newest reading, which programs read one by one.
+/// Part of the proxies of rangefinders; for internal use.
 ///
-/// Written by one thread only, the sole user of the client, and read by it without a lock. When
-/// another thread changes anything, this stays as it is, and everybody looks under the client's
-/// mutex. See docs/architecture.md.
+/// Only one thread, the sole user of the client, writes this object, and that thread reads it
+/// without a lock. Once another thread changes anything, the object is no longer updated, and all
+/// threads read under the client's mutex. See docs/architecture.md.
 class Elements {
  public:
-  /// As sole_user of a client that has none, or several users.
+  /// Value of sole_user for a client with no user or with several users.
   static constexpr std::uint64_t kNobody = ~std::uint64_t{0};
 
-  /// Gives a number. False if it is to be looked at under the mutex: there may be none, the calling
-  /// thread may not be the sole user, or its looks are to be noted.
+  /// Reads an element. Returns false if the caller must read it under the mutex instead: the
+  /// element may not exist, the calling thread may not be the sole user, or accesses have to be
+  /// reported.
   ///
-  /// To count each look would take longer than the look. Of looks in ascending order those at every
-  /// eighth number are counted, for eight; all others count singly. So looks at whole scans are
-  /// counted as often as they are made, and any look counts for eight at most.
+  /// Counting every access would cost more than the access itself. Accesses in ascending order are
+  /// therefore counted at every eighth index, as eight accesses; all other accesses are counted one
+  /// by one. A pass over a whole scan is thus counted exactly, and a single access counts as eight
+  /// at most.
   bool Find(std::uint32_t aIndex, double& aValue) {
     if (!IsSoleUser() || aIndex >= mCount) return false;
     if (aIndex <= mLast || aIndex % kCounted == 0) {
@@ -42,15 +45,16 @@ class Elements {
     aValue = mValues[aIndex];
     return true;
   }
-  /// What the numbers are part of, as given to Show().
+  /// The owner of the elements, as given to Show().
   const void* Owner() const { return mOwner.get(); }
 
-  // The rest is called with the client's mutex locked.
+  // The following functions are called with the client's mutex locked.
 
-  /// Comes before everything else.
-  /// @param aSoleUser  the number of the thread that may look without a lock; outlives this.
+  /// Must be called before all other functions.
+  /// @param aSoleUser  number of the thread that may read without a lock; must outlive this object.
   void Bind(const std::atomic<std::uint64_t>* aSoleUser) { mSoleUser = aSoleUser; }
-  /// What there is to look at from now on. Does nothing unless the calling thread is the sole user.
+  /// Sets the elements to be read from now on. Does nothing unless the calling thread is the sole
+  /// user.
   void Show(const std::shared_ptr<const void>& aOwner, const double* aValues,
             std::uint32_t aCount) {
     if (!IsSoleUser()) return;
@@ -58,7 +62,7 @@ class Elements {
     mValues = aValues;
     mCount = aCount;
   }
-  /// How many looks are to be noted when Find() has returned false.
+  /// Number of accesses to report after Find() has returned false.
   int Looks() {
     if (!IsSoleUser() || mLooksLeft >= 0) return 1;
     mLooksLeft += kNotedAtOnce;
@@ -73,7 +77,7 @@ class Elements {
   const std::atomic<std::uint64_t>* mSoleUser = nullptr;
   const double* mValues = nullptr;
   std::uint32_t mCount = 0;
-  std::uint32_t mLast = 0;  // index of the last look
+  std::uint32_t mLast = 0;  // index of the last access
   int mLooksLeft = kNotedAtOnce;
   std::shared_ptr<const void> mOwner;
 };

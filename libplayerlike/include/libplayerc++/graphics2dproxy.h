@@ -11,39 +11,45 @@ namespace PlayerCc {
 
 /// Drawing in metres on the arena's floor.
 ///
-/// Points are positions in the world W [m], whatever robot the proxy belongs to (in Stage they move
-/// with the robot). Each proxy draws on a layer of the grid-map of its own, called "graphics2d", or
-/// "graphics2d_1", "graphics2d_2", ... if that name is taken; so Clear() leaves alone what others
-/// have drawn. The layer has priority 100, above those of WindowProxy unless told otherwise. It
-/// stays for the run's pictures when the proxy goes; the client's next proxy that gets its name
+/// Points are positions in the world frame W [m], for the proxies of all robots. (In Stage they
+/// move with the robot.)
+///
+/// Each proxy draws on its own layer of the grid-map, named "graphics2d", or "graphics2d_1",
+/// "graphics2d_2", ... if that name is taken. Clear() therefore does not affect other drawings. The
+/// layer has priority 100, which is above the default priority of WindowProxy's layers. It stays in
+/// the run's pictures after the proxy is destroyed; the client's next proxy with this layer name
 /// clears it.
 ///
-/// What lies outside the grid-map is clipped. Points that are not finite, a null array with a
-/// count, and a negative count are refused with PlayerError kBadArgument; a call whose client is
-/// gone throws kDisconnected. Threads: all members may be called from any thread.
+/// Drawings are clipped to the grid-map.
+///
+/// Errors: PlayerError kBadArgument for points that are not finite, for a null array with a count
+/// above 0, and for a negative count; kDisconnected if the client is gone.
+///
+/// Threads: all members may be called from any thread.
 class Graphics2dProxy : public ClientProxy {
  public:
-  /// @param aIndex  on a robot's own port the robot's pens, counted from 0; on port 4000 the robot.
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @param aIndex  on a robot's own port, index among its pens; on port 4000, the robot's number.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   Graphics2dProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~Graphics2dProxy() override;
 
-  /// Colour of what is drawn from now on, alpha 255 opaque; at first opaque black. Alpha 0 is taken
-  /// as opaque too: nothing could be seen of it, and programs written for Stage leave it at 0.
+  /// Sets the colour of the following drawings; initially opaque black. Alpha 255 is opaque. Alpha
+  /// 0 is opaque too, because programs written for Stage leave it at 0 and would draw nothing
+  /// visible.
   void Color(player_color_t col);
   void Color(uint8_t red, uint8_t green, uint8_t blue, uint8_t alpha);
 
-  /// Wipes the proxy's layer.
+  /// Clears the proxy's layer.
   void Clear();
-  /// The cell of each point.
+  /// Draws the cell of each point.
   void DrawPoints(player_point_2d_t pts[], int count);
-  /// A closed polygon: its inside in fill_color, if filled (by the even-odd rule), then its outline
-  /// in the proxy's colour.
+  /// Draws a closed polygon: first its interior in fill_color, if filled is true (even-odd rule),
+  /// then its outline in the proxy's colour.
   void DrawPolygon(player_point_2d_t pts[], int count, bool filled, player_color_t fill_color);
-  /// Lines from each point to the next.
+  /// Draws lines from each point to the next.
   void DrawPolyline(player_point_2d_t pts[], int count);
-  /// A line for each pair of points: the first with the second, the third with the fourth, ... An
-  /// odd one out at the end is left out.
+  /// Draws a line for each pair of points: the first and second, the third and fourth, ... The last
+  /// point of an odd count is ignored.
   void DrawMultiline(player_point_2d_t pts[], int count);
 
  protected:

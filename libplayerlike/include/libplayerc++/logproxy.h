@@ -9,39 +9,40 @@
 
 namespace PlayerCc {
 
-/// Writes the readings of the port's robots into a file, or lets such a file take the place of
-/// their devices, so that a program meets a run once more (docs/log.md).
+/// Writes the readings of the port's robots to a log file, or replays such a file instead of the
+/// readings of their devices (docs/log.md).
 ///
-/// It is one for all clients of a port: index 0 on every port; on port 4000 of all robots. At first
-/// it writes, is stopped, and its file is "log_PORT.jsonl" in the run's output folder. What is set
-/// holds from the next step on.
+/// All clients of a port share one log. It has index 0 on every port; on port 4000 it covers all
+/// robots. Initially it is in write mode, stopped, and its file is "log_PORT.jsonl" in the run's
+/// output folder. Settings take effect at the next step.
 ///
-/// Calls that set something throw PlayerError: kNotAvailable if the run has no output folder or the
-/// file cannot be opened, kBadArgument for changes that a running log does not take, and for a file
-/// that is no log (the text names the line); kDisconnected if the client is gone.
+/// Errors: setters throw PlayerError kNotAvailable if the run has no output folder or the file
+/// cannot be opened; kBadArgument for changes that are not possible while the log runs, and for a
+/// file that is not a log (the text names the line); kDisconnected if the client is gone.
 class LogProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice for an index that is not 0, or a port without robots.
+  /// @throws PlayerError kNoSuchDevice for an index other than 0, or on a port without robots.
   LogProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~LogProxy() override;
 
-  /// PLAYER_LOG_TYPE_READ or _WRITE, as of the last call of another member; 0 before any.
+  /// PLAYER_LOG_TYPE_READ or _WRITE at the last call of another member; 0 before the first such
+  /// call.
   int GetType() const;
-  /// 1 if it runs, 0 if it is stopped; as of the last call of another member.
+  /// 1 if the log ran at the last call of another member, 0 if it was stopped.
   int GetState() const;
-  /// Asks for type and state. A log that is read stops by itself where it ends.
+  /// Requests type and state. A replayed log stops automatically at its end.
   void QueryState();
-  /// Starts (not 0) or stops it, to read or write as set last.
+  /// Starts (not 0) or stops (0) the log in its current mode.
   void SetState(int aState);
-  /// Makes it one that writes, and starts or stops it. A new start goes on in the same file.
+  /// Selects write mode, and starts or stops the log. A restart appends to the same file.
   void SetWriteState(int aState);
-  /// Makes it one that reads, and starts or stops it. A new start goes on where it stopped, and
-  /// from the beginning once it has come to the end.
+  /// Selects read mode, and starts or stops the replay. A restart continues where the replay
+  /// stopped, or at the beginning if it had reached the end.
   void SetReadState(int aState);
-  /// Begins anew, if it reads.
+  /// In read mode, continues at the beginning of the log.
   void Rewind();
-  /// @param aFilename  a plain file name in the run's output folder; ".jsonl" is added unless it is
-  ///                   there.
+  /// @param aFilename  a plain file name in the run's output folder; ".jsonl" is appended if it is
+  ///                   missing.
   void SetFilename(const std::string aFilename);
 
  private:

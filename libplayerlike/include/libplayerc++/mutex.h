@@ -9,7 +9,7 @@
 namespace PlayerCc {
 
 namespace detail {
-/// Whether a type is nothing but the system's mutex, as std::mutex and boost::mutex are.
+/// Whether a type consists of a pthread mutex only, like std::mutex and boost::mutex.
 template <typename T, typename = void>
 struct IsPlainMutex : std::false_type {};
 template <typename T>
@@ -19,18 +19,19 @@ struct IsPlainMutex<T, typename std::enable_if<std::is_same<typename T::native_h
                                        sizeof(T) == sizeof(pthread_mutex_t)> {};
 }  // namespace detail
 
-/// The lock that protects a client's data, as Player's programs know it: not recursive, with a
-/// nested scoped_lock that holds it until the end of a scope and can unlock earlier.
+/// The mutex that guards a client's data, with Player's interface. It is not recursive. The nested
+/// scoped_lock holds it until the end of a scope and can unlock it earlier.
 ///
 ///   PlayerClient::mutex_t::scoped_lock lock(client.mMutex);
 ///
-/// Proxies lock it in every call, so a program that holds it must not call them.
+/// Every member of a proxy locks it, so a program that holds it must not call proxies.
 class mutex_t : public std::mutex {
  public:
   typedef std::unique_lock<mutex_t> scoped_lock;
 
-  /// The same mutex as a program's own kind: Player's was boost::mutex, so programs that include
-  /// Boost say boost::mutex::scoped_lock lock(client.mMutex).
+  /// Converts to another mutex type that consists of a pthread mutex only. Player's type was
+  /// boost::mutex, so programs that include Boost write boost::mutex::scoped_lock
+  /// lock(client.mMutex).
   template <typename T, typename = typename std::enable_if<!std::is_base_of<T, mutex_t>::value &&
                                                            detail::IsPlainMutex<T>::value>::type>
   operator T&() {

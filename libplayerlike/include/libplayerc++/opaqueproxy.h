@@ -9,28 +9,27 @@
 
 namespace PlayerCc {
 
-/// Messages of any bytes between robots, or back to the sender: docs/devices/opaque.md tells who
-/// hears whom. The newest message stays until the next one arrives; the proxy is fresh only when
-/// one has.
+/// Binary messages between robots, or back to the sender; docs/devices/opaque.md describes the
+/// receivers. The newest message is kept until the next one arrives. The proxy becomes fresh only
+/// when a message arrives.
 class OpaqueProxy : public ClientProxy {
  public:
-  /// @param aIndex  on a robot's own port the robot's devices of type "opaque", counted from 0; on
-  /// port
-  ///                4000 the robot.
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @param aIndex  on a robot's own port, index among its devices of type "opaque";
+  ///                on port 4000, the robot's number.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   OpaqueProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~OpaqueProxy() override;
 
   /// Length of the newest message [bytes]; 0 before the first.
   uint32_t GetCount() const;
   /// Copies the newest message.
-  /// @param aDest  room for GetCount() bytes.
-  /// @throws PlayerError kBadArgument for a null pointer, unless there is nothing to copy.
+  /// @param aDest  buffer for GetCount() bytes.
+  /// @throws PlayerError kBadArgument for a null pointer, unless GetCount() is 0.
   void GetData(uint8_t* aDest) const;
-  /// Sends a message of at most 65536 bytes, in the next step. An empty one is not sent.
-  /// @throws PlayerError kBadArgument for a longer one, and null pointers.
+  /// Sends a message of at most 65536 bytes in the next step. An empty message is not sent.
+  /// @throws PlayerError kBadArgument for a longer message or a null pointer.
   void SendCmd(player_opaque_data_t* aData);
-  /// The same. What answers it, if anything does, arrives as other messages do.
+  /// Same as SendCmd(). An answer, if there is one, arrives like any other message.
   /// @return 0
   int SendReq(player_opaque_data_t* aRequest);
 
@@ -51,6 +50,6 @@ class OpaqueProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints the length of the newest message and its bytes, in hexadecimal.
+/// Prints the length of the newest message and its bytes in hexadecimal.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::OpaqueProxy& c);
 }  // namespace std

@@ -2,10 +2,9 @@
 #pragma once
 
 /// @file
-/// What client programs take for granted once they have included playerc++.h: the standard headers
-/// that half of them rely on without naming them, the type `uint` (sys/types.h), and Player's
-/// macros, those of libplayercommon/playercommon.h too. A macro that the program has defined before
-/// is left alone.
+/// Declarations that client programs expect from playerc++.h: standard headers that many of them
+/// use without including them, the type `uint` (sys/types.h), and Player's macros, including those
+/// of libplayercommon/playercommon.h. A macro that the program has already defined is not changed.
 
 #include <sys/time.h>
 #include <sys/types.h>
@@ -27,11 +26,12 @@
 #include <string>
 #include <vector>
 
-/// The same direction as z [rad], in [-pi, pi]. Not as in C: a program may have an atan2 of its
-/// own.
+/// Normalizes the angle z [rad] to [-pi, pi]. It calls std::atan2 and not the C function, because a
+/// program may define its own atan2.
 #ifndef NORMALIZE
 #define NORMALIZE(z) (std::atan2(std::sin(z), std::cos(z)))
 #endif
 
-// Last, since it leaves alone what is defined above. The other macros are there.
+// Defines the other macros. It must be last, because it does not change the macros that are defined
+// above.
 #include "libplayercommon/playercommon.h"

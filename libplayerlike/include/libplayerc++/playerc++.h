@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Player's C++ client library: the one header that client programs include.
+/// Player's C++ client library: the only header that client programs need to include.
 
 #include "libplayerc++/aioproxy.h"
 #include "libplayerc++/armproxies.h"

@@ -2,14 +2,14 @@
 #pragma once
 
 /// @file
-/// What old programs ask the preprocessor before they use threads and read signals. Both work here,
+/// Feature macros that old programs test before they use threads and read signals. Both work here,
 /// without Boost.
 
-/// PlayerClient::StartThread(), StopThread() and a mutex that locks are there.
+/// PlayerClient::StartThread(), StopThread() and a working mutex are available.
 #ifndef HAVE_BOOST_THREAD
 #define HAVE_BOOST_THREAD 1
 #endif
-/// ClientProxy::ConnectReadSignal() and DisconnectReadSignal() are there.
+/// ClientProxy::ConnectReadSignal() and DisconnectReadSignal() are available.
 #ifndef HAVE_BOOST_SIGNALS
 #define HAVE_BOOST_SIGNALS 1
 #endif

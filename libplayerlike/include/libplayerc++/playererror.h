@@ -7,34 +7,34 @@
 
 namespace PlayerCc {
 
-/// What the client library throws: what went wrong, in which function, and a code.
+/// The exception class of the client library: error text, function name and code.
 ///
-/// In CCMorse programs the same class is called MorseError. It is no std::exception, as Player's is
-/// none: programs catch it by value as often as by reference, and compilers warn of that for
-/// classes with virtual functions. One that nobody catches is printed before the program aborts.
+/// CCMorse programs call this class MorseError. Like Player's class, it does not derive from
+/// std::exception: many programs catch it by value, and compilers warn about that for classes with
+/// virtual functions. An uncaught PlayerError is printed before the program aborts.
 class PlayerError {
  public:
-  /// Codes by which a program can tell errors apart. All are negative; -1 is Player's own default.
+  /// Error codes. All are negative; -1 is Player's default.
   enum Code {
-    kFailed = -1,     ///< anything without a code of its own
+    kFailed = -1,     ///< any error without a code of its own
     kRunIsOver = -2,  ///< the simulated duration is over; the text says "the simulated run is over"
-    kDisconnected = -3,  ///< the connection, or the client of a proxy, is gone
-    kNoSuchDevice = -4,  ///< the world has no such port or device; the text names those it has
+    kDisconnected = -3,  ///< the connection is lost, or a proxy's client is gone
+    kNoSuchDevice = -4,  ///< the world has no such port or device; the text names the existing ones
     kNotAvailable = -5,  ///< not possible with this kind of simulation or device
-    kBadArgument = -6,   ///< a value that cannot be meant: NaN, an index beyond the end, ...
-    kBadWorld = -7,      ///< the world file is not sound; the text holds every issue, one a line
+    kBadArgument = -6,   ///< an invalid value: NaN, an index out of range, ...
+    kBadWorld = -7,      ///< the world file is invalid; the text lists every issue, one per line
   };
 
-  /// @param aFun   function that failed, e.g. "LaserProxy::GetRange".
-  /// @param aStr   what is wrong, a sentence for a person.
-  /// @param aCode  one of Code, or a program's own.
+  /// @param aFun   name of the function that failed, e.g. "LaserProxy::GetRange".
+  /// @param aStr   error text for the user.
+  /// @param aCode  one of Code, or a code defined by the program.
   PlayerError(const std::string aFun = "", const std::string aStr = "", const int aCode = -1);
 
-  /// What is wrong.
+  /// Error text.
   std::string GetErrorStr() const { return mStr; }
-  /// The function that failed.
+  /// Name of the function that failed.
   std::string GetErrorFun() const { return mFun; }
-  /// One of Code.
+  /// Error code, usually one of Code.
   int GetErrorCode() const { return mCode; }
 
  private:

@@ -9,90 +9,96 @@
 
 namespace PlayerCc {
 
-/// A robot that drives in a plane: where it is, and how it is told to move.
+/// A robot that drives in a plane: reads its pose and twist, and commands its motion.
 ///
-/// Frames: positions are of the body B (x forward, y left; its origin is the middle of the wheels'
-/// axle, of a car the rear one) in the frame that the index's localisation reports in. Which device
-/// has index 0 is up to the robot's model and the world (docs/robot_models.md): of an S1R the
-/// arena's localisation, so the world W, then, as index 1, the odometry; of Pioneers and the other
-/// models the odometry, so the pose B had at the start, then the localisation. Yaw is
-/// counter-clockwise in (-pi, pi].
+/// Frames: the pose is that of the body frame B (x forward, y left; its origin is the centre of the
+/// wheel axle, for a car the rear axle). It is given in the reference frame of the localisation
+/// device with this index. The robot's model and the world define the order of these devices
+/// (docs/robot_models.md). For an S1R, index 0 is the arena's localisation, whose frame is the
+/// world W, and index 1 the odometry. For Pioneers and the other models, index 0 is the odometry,
+/// whose frame is B at the start, and index 1 the localisation. Yaw is counter-clockwise, in (-pi,
+/// pi].
 ///
-/// Commands are carried out from the next step on and hold until the next one, which ends them;
-/// they need no Read(). Values beyond the robot's limits are clamped to them; NaN and infinity are
-/// refused with PlayerError kBadArgument. Speeds to the left are for omnidirectional drives; others
-/// ignore them. The control behind SetVelHead() and GoTo() runs in the simulation, once a step
-/// (docs/devices/motion.md says by which law).
+/// Commands: a command takes effect at the next step, without a Read(), and holds until the next
+/// command. Values beyond the robot's limits are clamped. NaN and infinity throw PlayerError
+/// kBadArgument. Only omnidirectional drives use speeds to the left; others ignore them. The
+/// controller of SetVelHead() and GoTo() runs in the simulation, once per step;
+/// docs/devices/motion.md gives its control law.
 ///
-/// An index that the world's `drivers` table gives a driver (docs/snd.md) reports what that
-/// driver's own position device does. Its GoTo() hands the goal to the driver, which drives round
-/// obstacles in a thread of its own, and stops when it is blocked; any other command goes straight
-/// to the motors and drops the goal.
+/// Drivers: the world's `drivers` table can assign an index to a driver (docs/snd.md). Such an
+/// index reports the readings of the driver's position device. Its GoTo() passes the goal to the
+/// driver, which avoids obstacles, runs in its own thread, and stops when it is blocked. Any other
+/// command goes directly to the motors and cancels the goal.
 class Position2dProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   Position2dProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   Position2dProxy(const Position2dProxy& aOther);  ///< see ClientProxy
   ~Position2dProxy() override;
 
-  /// Drive.
-  /// @param aXSpeed    forward [m/s].
-  /// @param aYSpeed    to the left [m/s], if the drive is omnidirectional.
-  /// @param aYawSpeed  counter-clockwise [rad/s]; a car steers to get it, standing it cannot.
+  /// Sets the speeds.
+  /// @param aXSpeed    speed forward [m/s].
+  /// @param aYSpeed    speed to the left [m/s], for omnidirectional drives.
+  /// @param aYawSpeed  turn rate, counter-clockwise [rad/s]. A car steers to achieve it, and cannot
+  ///                   turn at standstill.
   void SetSpeed(double aXSpeed, double aYSpeed, double aYawSpeed);
-  void SetSpeed(double aXSpeed, double aYawSpeed);  ///< the same without a speed to the left
-  void SetSpeed(player_pose2d_t vel);               ///< the same: px, py, pa are the speeds
+  void SetSpeed(double aXSpeed, double aYawSpeed);  ///< without a speed to the left
+  void SetSpeed(player_pose2d_t vel);               ///< SetSpeed() with the speeds px, py, pa
 
-  /// Drive at these speeds [m/s], turning to the heading aYawHead [rad], in the frame that GetYaw()
-  /// is in, and holding it: the turn rate is `turn_gain` times what is missing.
+  /// Drives at these speeds [m/s], turns to the heading aYawHead [rad] and holds it. The heading is
+  /// in the frame of GetYaw(). The turn rate is `turn_gain` times the heading error.
   void SetVelHead(double aXSpeed, double aYSpeed, double aYawHead);
-  void SetVelHead(double aXSpeed, double aYawHead);  ///< the same without a speed to the left
+  void SetVelHead(double aXSpeed, double aYawHead);  ///< without a speed to the left
 
-  /// Drive to a pose in the frame that GetXPos() is in: turn towards it, drive there straight (to
-  /// within the `tolerance` of the motors), turn to the heading (to within
-  /// `heading_tolerance_deg`), stand. An omnidirectional robot does both at once; a car comes to
-  /// the point with the heading where that lies on its way, else with whatever heading its arc
-  /// ends. It goes on until it is there, also against obstacles, unless the index is a driver's.
-  /// @param pos  where to.
-  /// @param vel  speeds on the way, as in Player: px and py the highest speed as a vector [m/s], pa
-  ///             the highest turn rate [rad/s]; 0 for the motors' own limits. Signs do not matter.
+  /// Drives to a pose in the frame of GetXPos(). The robot turns towards the position, drives there
+  /// in a straight line (to within the motors' `tolerance`), turns to the heading (to within
+  /// `heading_tolerance_deg`) and stops. An omnidirectional robot drives and turns at the same
+  /// time. A car reaches the heading only if its arc allows it; otherwise it arrives with the
+  /// heading at the end of its arc. The robot does not avoid obstacles and does not give up, unless
+  /// the index belongs to a driver.
+  /// @param pos  goal pose [m, rad].
+  /// @param vel  maximum speeds, as in Player: px and py are the maximum speed as a vector [m/s],
+  ///             pa is the maximum turn rate [rad/s]; 0 for the motors' own limits. Signs are
+  ///             ignored.
   void GoTo(player_pose2d_t pos, player_pose2d_t vel);
-  void GoTo(player_pose2d_t pos);                ///< the same at the motors' own speeds
-  void GoTo(double aX, double aY, double aYaw);  ///< the same, [m, m, rad]
+  void GoTo(player_pose2d_t pos);                ///< GoTo() at the motors' own limits
+  void GoTo(double aX, double aY, double aYaw);  ///< GoTo() at the motors' own limits [m, m, rad]
 
-  /// Drive as a car does. A robot that is none turns as one with a wheelbase of its own length
-  /// would: at aXSpeed tan(aDriveAngle) / length [rad/s].
-  /// @param aXSpeed      forward [m/s].
-  /// @param aDriveAngle  steering angle, counter-clockwise [rad]; clamped to what the car's
-  ///                     steering allows, of others to 80 degrees either way.
+  /// Drives like a car. A robot that is not a car turns like a car whose wheelbase is the robot's
+  /// length, with the turn rate aXSpeed * tan(aDriveAngle) / length [rad/s].
+  /// @param aXSpeed      speed forward [m/s].
+  /// @param aDriveAngle  steering angle, counter-clockwise [rad]; clamped to the limits of the
+  ///                     car's steering, for other robots to +-80 degrees.
   void SetCarlike(double aXSpeed, double aDriveAngle);
 
-  /// Asks for the geometry. It is known from the start, so nothing changes.
+  /// Requests the geometry. It is known from the start, so nothing changes.
   void RequestGeom();
-  /// Pose of the middle of the body's bounding box in B [m].
+  /// Pose of the centre of the body's bounding box in B [m].
   player_pose3d_t GetOffset();
-  /// Name of GetOffset() in Player 2.0. @deprecated Use GetOffset().
+  /// Same as GetOffset().
+  /// @deprecated Player 2.0's name of GetOffset().
   player_pose3d_t GetPose();
   /// Size of the body's bounding box [m].
   player_bbox3d_t GetSize();
 
-  /// Switches the motors on or off. Off stops the robot, ends GoTo() and SetVelHead(), and lets
-  /// speeds be ignored until they are on again.
+  /// Enables or disables the motors. Disabled motors stop the robot, end GoTo() and SetVelHead(),
+  /// and ignore speed commands until they are enabled again.
   void SetMotorEnable(bool enable);
 
-  /// Makes the position read zero where the robot is now, from the next step on. In the
-  /// simulation the robot does not move.
+  /// From the next step on, reports the pose (0, 0, 0) for the robot's current position. The robot
+  /// does not move.
   void ResetOdometry();
-  /// Makes the position read so where the robot is now [m, rad], from the next step on.
+  /// From the next step on, reports this pose [m, rad] for the robot's current position. The robot
+  /// does not move.
   void SetOdometry(double aX, double aY, double aYaw);
 
-  double GetXPos() const;      ///< [m]; like all that follow, of the newest reading, 0 before
+  double GetXPos() const;      ///< [m]; these getters use the newest reading, 0 before the first
   double GetYPos() const;      ///< [m]
   double GetYaw() const;       ///< [rad], in (-pi, pi]
-  double GetXSpeed() const;    ///< achieved forward speed [m/s]
-  double GetYSpeed() const;    ///< achieved speed to the left, as when shoved [m/s]
-  double GetYawSpeed() const;  ///< achieved turn rate, counter-clockwise [rad/s]
-  bool GetStall() const;       ///< the commanded speed has not been achieved for 0.2 s
+  double GetXSpeed() const;    ///< actual forward speed [m/s]
+  double GetYSpeed() const;    ///< actual speed to the left, e.g. if pushed [m/s]
+  double GetYawSpeed() const;  ///< actual turn rate, counter-clockwise [rad/s]
+  bool GetStall() const;       ///< whether the commanded speed was not reached for 0.2 s
 
  protected:
   void HandleReading() override;

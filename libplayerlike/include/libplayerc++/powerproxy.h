@@ -8,24 +8,25 @@
 
 namespace PlayerCc {
 
-/// The robot's battery. All values are of the newest reading; before the first they are 0.
+/// The robot's battery. All values come from the newest reading; before the first reading they are
+/// 0.
 class PowerProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   PowerProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~PowerProxy() override;
 
-  double GetCharge() const;   ///< voltage, as Player has it [V]
-  double GetPercent() const;  ///< what is left of the capacity, [0, 100]
-  double GetJoules() const;   ///< energy that is left [J]
-  double GetWatts() const;    ///< power that goes into the battery; negative: that it gives [W]
-  bool GetCharging() const;   ///< whether it stands in a dock and is not full yet
-  bool IsValid() const;       ///< whether there has been a reading
+  double GetCharge() const;   ///< voltage [V]; the name is Player's
+  double GetPercent() const;  ///< charge in percent of the capacity, in [0, 100]
+  double GetJoules() const;   ///< remaining energy [J]
+  double GetWatts() const;    ///< charging power [W]; negative while the battery discharges
+  bool GetCharging() const;   ///< whether the robot is in a dock and the battery is not full
+  bool IsValid() const;       ///< whether a reading has arrived
 };
 
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints voltage, percent, energy, power and whether it is being charged.
+/// Prints voltage, percent, energy, power and whether the battery is charging.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::PowerProxy& c);
 }  // namespace std

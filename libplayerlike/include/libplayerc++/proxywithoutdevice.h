@@ -7,13 +7,13 @@
 
 namespace PlayerCc {
 
-/// What the proxies have in common whose interface no device of Playpen carries. Programs that use
-/// them compile, and get the same error from their constructors as Player gives for a device that
-/// its configuration lacks: PlayerError kNoSuchDevice, which says what there is instead. So there
-/// is never an object whose other members could be called.
+/// Common base of the proxies whose interface no device of Playpen provides. Programs that use such
+/// a proxy compile. The constructor always throws PlayerError kNoSuchDevice, like Player's does for
+/// a device that is not in its configuration; the text names the existing devices. The other
+/// members can therefore never be called.
 class ProxyWithoutDevice : public ClientProxy {
  protected:
-  /// Stands for the result of any member, of whatever type.
+  /// Placeholder that converts to the return type of any member.
   struct NoResult {
     /// Throws PlayerError kNotAvailable.
     template <typename T>
@@ -22,7 +22,7 @@ class ProxyWithoutDevice : public ClientProxy {
     }
   };
 
-  /// @throws PlayerError kNoSuchDevice, in the name of aFun.
+  /// @throws PlayerError kNoSuchDevice, with function name aFun.
   ProxyWithoutDevice(PlayerClient* aPc, uint32_t aIndex, uint32_t aInterface, const char* aFun);
 
   /// @throws PlayerError kNotAvailable.

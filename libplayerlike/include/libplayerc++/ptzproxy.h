@@ -8,33 +8,34 @@
 
 namespace PlayerCc {
 
-/// A head that turns and zooms what sits on it, a blobfinder or a camera (docs/devices/ptz.md).
-/// Angles are to the left and upwards.
+/// A pan-tilt-zoom head that carries a blobfinder or a camera (docs/devices/ptz.md). Pan is
+/// positive to the left, tilt is positive upwards.
 ///
-/// SetCam() and SetSpeed() work at any time, in either control mode; what was said last holds.
+/// SetCam() and SetSpeed() work in both control modes; the last call wins.
 class PtzProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   PtzProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~PtzProxy() override;
 
-  /// Turns to a pan and a tilt [rad] and zooms to a field of view [rad], as fast as the head can
-  /// and as far as its limits let it. A zoom of 0 or less leaves the field of view as it is.
-  /// @throws PlayerError kBadArgument for what is no finite number.
+  /// Turns to a pan and tilt angle [rad] and zooms to a field of view [rad], at maximum speed and
+  /// within the head's limits. A zoom of 0 or less keeps the field of view.
+  /// @throws PlayerError kBadArgument for values that are not finite.
   void SetCam(double aPan, double aTilt, double aZoom);
-  /// Not of Player: the same at speeds for pan and tilt [rad/s]; 0: as fast as it can.
+  /// Extension to Player: SetCam() with given speeds of pan and tilt [rad/s]; 0 for the maximum
+  /// speed.
   void SetCam(double aPan, double aTilt, double aZoom, double aPanSpeed, double aTiltSpeed);
-  /// Turns and zooms at these speeds [rad/s] until told otherwise, or at a limit.
-  /// @throws PlayerError kBadArgument for what is no finite number.
+  /// Turns and zooms at these speeds [rad/s], until the next command or a limit.
+  /// @throws PlayerError kBadArgument for values that are not finite.
   void SetSpeed(double aPanSpeed = 0, double aTiltSpeed = 0, double aZoomSpeed = 0);
-  /// Changes nothing here.
+  /// Has no effect here.
   /// @param aMode  PLAYER_PTZ_POSITION_CONTROL or PLAYER_PTZ_VELOCITY_CONTROL.
-  /// @throws PlayerError kBadArgument for another one.
+  /// @throws PlayerError kBadArgument for any other mode.
   void SelectControlMode(uint32_t aMode);
   double GetPan() const;   ///< [rad]
   double GetTilt() const;  ///< [rad]
-  double GetZoom() const;  ///< field of view from side to side [rad]
-  int GetStatus();         ///< 1: on its way, 0: at rest
+  double GetZoom() const;  ///< horizontal field of view [rad]
+  int GetStatus();         ///< 1 while moving, 0 at rest
 
  private:
   struct State {
@@ -48,6 +49,6 @@ class PtzProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints where the head points.
+/// Prints the direction of the head.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::PtzProxy& c);
 }  // namespace std

@@ -7,15 +7,15 @@
 
 namespace PlayerCc {
 
-/// One subscriber of a read signal, as ClientProxy::ConnectReadSignal() returns it. Copies stand
-/// for the same subscriber; one made without arguments stands for none.
+/// A handle to a subscriber of a read signal; ClientProxy::ConnectReadSignal() returns it. Copies
+/// refer to the same subscriber. A default-constructed handle refers to none.
 class read_connection_t {
  public:
   read_connection_t() = default;
 
   /// Whether the subscriber is still called.
   bool connected() const;
-  /// From now on the subscriber is not called. Waits for a call that is running in another thread.
+  /// Removes the subscriber. Waits for a call that is running in another thread.
   void disconnect();
 
  private:
@@ -27,8 +27,8 @@ class read_connection_t {
 
 /// A list of functions that are called when a proxy has new data.
 ///
-/// Safe from many threads: one call of the list runs at a time, and a subscriber may connect and
-/// disconnect subscribers (itself too) while it is called.
+/// Threads: all members may be called from any thread. Only one call of the list runs at a time. A
+/// subscriber may connect and disconnect subscribers, including itself, while it is called.
 class read_signal_t {
  public:
   typedef read_connection_t connection_t;
@@ -36,22 +36,24 @@ class read_signal_t {
   read_signal_t();
   read_signal_t(const read_signal_t&) = delete;
   read_signal_t& operator=(const read_signal_t&) = delete;
-  /// Disconnects all. Waits for a call that is running in another thread.
+  /// Removes all subscribers. Waits for a call that is running in another thread.
   ~read_signal_t();
 
-  /// Adds a subscriber; they are called in the order in which they came.
+  /// Adds a subscriber. Subscribers are called in the order in which they were added.
   read_connection_t connect(std::function<void()> aSubscriber);
-  /// Removes a subscriber; nothing happens if it was removed before, or is another signal's.
+  /// Removes a subscriber. Does nothing if it was already removed or belongs to another signal.
   void disconnect(read_connection_t aConnection);
   void disconnect_all_slots();
-  /// Whether there is no subscriber; never waits.
+  /// Returns whether there are no subscribers. Never waits.
   bool empty() const;
-  /// How many there are; never waits.
+  /// Returns the number of subscribers. Never waits.
   std::size_t num_slots() const;
 
-  /// Calls every subscriber. What one throws goes to the caller, and those after it are left out.
+  /// Calls every subscriber. An exception of a subscriber is passed to the caller, and the
+  /// remaining subscribers are not called.
   void operator()() const;
-  /// A function that does the same, also once the signal is gone: then it calls nobody.
+  /// Returns a function that calls every subscriber. After the signal is destroyed, the function
+  /// does nothing.
   std::function<void()> call() const;
 
  private:

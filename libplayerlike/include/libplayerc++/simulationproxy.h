@@ -10,55 +10,58 @@
 
 namespace PlayerCc {
 
-/// Robots and obstacles by name: where they are, in truth and not as any sensor has it, and how
-/// they look.
+/// Access to robots and obstacles by name: their true poses and their properties.
 ///
-/// It is one for all robots: index 0 on every port. Names are those of the world's robots,
-/// obstacles and dock separators, "border" and "wall". Poses are in the world W [m, rad]: of the
-/// middle of a robot's axle, and of the middle of anything else. What is set is so at once, before
-/// the call returns; a robot's motors go on as they were told last. Nothing here lets simulated
-/// time pass.
+/// All robots share one simulation device, with index 0 on every port. Names are those of the
+/// world's robots, obstacles and dock separators, and "border" and "wall". Poses are in the world
+/// frame W [m, rad]; the reference point is the centre of the axle for a robot, and the centre for
+/// any other object.
 ///
-/// What cannot be done is left undone, and a warning on standard error tells why: there is no such
-/// name or property (it lists what there is), an obstacle stands where the robot was to be put, the
-/// value_len does not fit, the world or the server does not allow it. It does not throw, as
-/// Player's does not: programs name things of worlds of their own. Where something was asked for,
-/// what is there stays as it is. A proxy tells each such thing once.
+/// A change takes effect before the call returns. A robot's motors continue with their last
+/// command. No member advances simulated time.
 ///
-/// All calls throw PlayerError: kBadArgument for a null pointer, and a number that is none;
-/// kDisconnected if the client is gone.
+/// A request that fails does not throw, as in Player, because programs use names of their own
+/// worlds. It changes nothing, leaves output arguments unchanged, and prints a warning to standard
+/// error. Reasons are: an unknown name or property (the warning lists the known ones), an obstacle
+/// at a robot's new place, a value_len that does not fit, or a request that the world or the server
+/// does not allow. Each proxy prints each warning once.
+///
+/// Errors: all members throw PlayerError kBadArgument for a null pointer or a number that is not
+/// finite; kDisconnected if the client is gone.
 class SimulationProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice for an index that is not 0, or a port without robots.
+  /// @throws PlayerError kNoSuchDevice for an index other than 0, or on a port without robots.
   SimulationProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~SimulationProxy() override;
 
-  /// Puts a robot, or an obstacle that is no part of the walls, somewhere.
+  /// Moves a robot, or an obstacle that is not part of the walls, to a pose.
   void SetPose2d(char* identifier, double x, double y, double a);
   void GetPose2d(char* identifier, double& x, double& y, double& a);
-  /// The same: the world is flat, so z, roll and pitch do not matter.
+  /// Same as SetPose2d(). The world is flat, so z, roll and pitch are ignored.
   void SetPose3d(char* identifier, double x, double y, double z, double roll, double pitch,
                  double yaw);
-  /// z, roll and pitch are 0. @param time  simulated [s].
+  /// Same as GetPose2d(). z, roll and pitch are 0.
+  /// @param time  simulated time [s].
   void GetPose3d(char* identifier, double& x, double& y, double& z, double& roll, double& pitch,
                  double& yaw, double& time);
 
-  /// Copies a property; docs/simulation.md lists them, and the forms that each has.
-  /// @param value      room for it.
-  /// @param value_len  of that room [bytes]: it tells the form, e.g. 4 for a colour as 0xAARRGGBB.
+  /// Copies a property; docs/simulation.md lists the properties and their formats.
+  /// @param value      receives the property.
+  /// @param value_len  size of value [bytes]; it selects the format, e.g. 4 for a colour as
+  ///                   0xAARRGGBB.
   void GetProperty(char* identifier, char* name, void* value, size_t value_len);
-  /// Changes a property; forms as for GetProperty().
+  /// Changes a property; the formats are those of GetProperty().
   void SetProperty(char* identifier, char* name, void* value, size_t value_len);
 
-  /// Saves the state of the whole simulation under a name, in place of the one that had it: for
-  /// programs that try something and then something else. Player has no such call.
+  /// Saves the state of the whole simulation under a name; replaces an earlier state of this name.
+  /// Use it in programs that try several alternatives. Extension to Player.
   /// @param name  1 to 64 printable bytes.
   void SaveState(const std::string& name);
-  /// Lets the world go back to a saved state, at once and for all clients; time goes on. See
-  /// docs/simulation.md for what that means.
+  /// Restores a saved state immediately, for all clients. Simulated time is not reset.
+  /// docs/simulation.md describes the details.
   void RestoreState(const std::string& name);
 
-  // The same for names that are literals.
+  // Overloads for names that are string literals.
   void SetPose2d(const char* identifier, double x, double y, double a) {
     SetPose2d(const_cast<char*>(identifier), x, y, a);
   }
@@ -73,7 +76,7 @@ class SimulationProxy : public ClientProxy {
                  double& pitch, double& yaw, double& time) {
     GetPose3d(const_cast<char*>(identifier), x, y, z, roll, pitch, yaw, time);
   }
-  // Templates, as either name may be a literal.
+  // Templates, because either name may be a string literal.
   template <typename Identifier, typename Name, typename Value>
   void GetProperty(Identifier identifier, Name name, Value* value, size_t value_len) {
     GetProperty(Text(identifier), Text(name), static_cast<void*>(value), value_len);
@@ -89,7 +92,7 @@ class SimulationProxy : public ClientProxy {
   void Try(const char* aFun, Action aAction);
   void Tell(const char* aFun, const std::string& aWhy);
 
-  std::vector<std::string> mTold;  // under the client's mutex
+  std::vector<std::string> mTold;  // guarded by the client's mutex
 
   static char* Text(const char* aText) { return const_cast<char*>(aText); }
 };
@@ -97,6 +100,6 @@ class SimulationProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints what every proxy prints.
+/// Prints interface, index and flags, like every proxy.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::SimulationProxy& c);
 }  // namespace std

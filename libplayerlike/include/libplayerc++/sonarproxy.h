@@ -9,12 +9,12 @@
 
 namespace PlayerCc {
 
-/// An array of sonar transducers. Each reads how far the nearest thing in its cone is; one that
-/// meets nothing reads the array's greatest range. Before the first reading there are 0 ranges,
-/// while the places of the transducers are known from the start.
+/// An array of sonar transducers. Each of them measures the distance to the nearest object in its
+/// cone, and reads the array's maximum range if it detects nothing. Before the first reading there
+/// are 0 ranges; the poses of the transducers are known from the start.
 class SonarProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   SonarProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~SonarProxy() override;
 
@@ -22,13 +22,13 @@ class SonarProxy : public ClientProxy {
   /// A range [m]; -1 for an index that is not below GetCount(), as Player has it. After the first
   /// reading a warning on standard error says so, once for each proxy.
   double GetScan(uint32_t aIndex) const;
-  /// GetScan().
+  /// Same as GetScan().
   double operator[](uint32_t aIndex) const;
-  uint32_t GetPoseCount() const;  ///< transducers whose place is known
+  uint32_t GetPoseCount() const;  ///< number of transducers with known pose
   /// Where a transducer is, in the robot's body; it looks along its x axis.
   /// Zeros for an index that is not below GetPoseCount(); see GetScan().
   player_pose3d_t GetPose(uint32_t aIndex) const;
-  /// Asks for the places; known from the start.
+  /// Requests the poses. They are known from the start, so nothing changes.
   void RequestGeom();
 
  private:
@@ -38,6 +38,6 @@ class SonarProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints the transducers, one a line: x, y, yaw, range.
+/// Prints the transducers, one per line: x, y, yaw, range.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::SonarProxy& c);
 }  // namespace std

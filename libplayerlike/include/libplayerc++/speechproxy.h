@@ -9,27 +9,26 @@
 
 namespace PlayerCc {
 
-/// A robot's voice: what it says stands over it in pictures for some seconds, and in the log and
-/// the report of the run (docs/devices/speech.md).
+/// A robot's speech output. Pictures show the text above the robot for some seconds; the run's log
+/// and report contain it too (docs/devices/speech.md).
 class SpeechProxy : public ClientProxy {
  public:
-  /// @param aIndex  on a robot's own port the robot's devices of type "speech", counted from 0; on
-  /// port
-  ///                4000 the robot.
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @param aIndex  on a robot's own port, index among its devices of type "speech";
+  ///                on port 4000, the robot's number.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   SpeechProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~SpeechProxy() override;
 
-  /// Says something, from the next step on.
-  /// @param aStr  of more than 255 bytes the first ones are said, and '?' for what is no UTF-8 or
-  /// no
-  ///              printable character. Empty: the robot is quiet at once.
+  /// Says a text, from the next step on.
+  /// @param aStr  the text; only the first 255 bytes are used. Bytes that are not UTF-8 and
+  ///              characters that are not printable are replaced by '?'. An empty text ends the
+  ///              speech.
   void Say(std::string aStr);
 };
 
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints what every proxy prints.
+/// Prints interface, index and flags, like every proxy.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::SpeechProxy& c);
 }  // namespace std

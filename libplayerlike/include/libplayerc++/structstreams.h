@@ -6,8 +6,8 @@
 #include "libplayerc/playerc.h"
 #include "libplayerinterface/player.h"
 
-// Player's data types print themselves, as Player's do: all fields on one line, with commas between
-// them, and a device as interface, index and driver.
+// Stream operators of Player's data types, in Player's format: all fields on one line, separated by
+// commas. A device is printed as interface, index and driver.
 namespace std {
 std::ostream& operator<<(std::ostream& os, const player_point_2d_t& c);
 std::ostream& operator<<(std::ostream& os, const player_point_3d_t& c);

@@ -5,38 +5,38 @@
 
 namespace PlayerCc {
 
-/// Port of a world's first robot, where clients look by default.
+/// Default port of clients: the port of the world's first robot.
 const int PLAYER_PORTNUM = 6665;
-/// Host that clients look on by default: the simulation of this process.
+/// Default host of clients: the simulation of this process.
 const std::string PLAYER_HOSTNAME = "localhost";
 
-// Templates without need: when a program has a plain function of the same name, the compiler
-// prefers that one instead of calling the two ambiguous.
+// These functions are templates, so that overload resolution prefers a program's own non-template
+// function of the same name and the call is not ambiguous.
 
-/// Radians to degrees.
+/// Converts radians to degrees.
 template <typename = void>
 inline double rtod(double aVal) {
   return aVal * 180.0 / M_PI;
 }
 
-/// Degrees to radians.
+/// Converts degrees to radians.
 template <typename = void>
 inline double dtor(double aVal) {
   return aVal * M_PI / 180.0;
 }
 
-/// The same direction as an angle [rad], in [-pi, pi]; not a number for an infinite angle or NaN.
+/// Normalizes an angle [rad] to [-pi, pi]. Returns NaN for an infinite angle or NaN.
 template <typename = void>
 inline double normalize(double aVal) {
   return std::remainder(aVal, 2.0 * M_PI);
 }
 
-// The standard's own, not functions beside them: with `using namespace` for std and for PlayerCc
-// together, min(a, b) means one function.
+// These are the standard functions, not new ones, so that min(a, b) is not ambiguous in a program
+// with `using namespace` for both std and PlayerCc.
 using std::max;
 using std::min;
 
-/// The value nearest to `value` in [min, max].
+/// Clamps `value` to [min, max].
 /// @pre min <= max; otherwise the result is one of the two.
 template <typename T>
 inline T limit(T value, T min, T max) {

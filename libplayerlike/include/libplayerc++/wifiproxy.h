@@ -9,29 +9,29 @@
 
 namespace PlayerCc {
 
-/// A wireless network card: links to robots and access points in reach. Before the first reading
-/// there are 0 links, and the own address is "".
+/// A wireless network card with links to the robots and access points in range. Before the first
+/// reading there are 0 links, and the own address is "".
 ///
-/// Texts and links that are returned by pointer belong to the proxy and hold until the next Read().
+/// Returned pointers to texts and links belong to the proxy and are valid until the next Read().
 ///
 /// A link whose index is not below GetLinkCount() reads 0 and "", and a warning on standard error
 /// says so, once for each proxy; GetLink() gives a null pointer there.
 class WiFiProxy : public ClientProxy {
  public:
-  /// @throws PlayerError kNoSuchDevice if there is no such device; the text names those there are.
+  /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
   WiFiProxy(PlayerClient* aPc, uint32_t aIndex = 0);
   ~WiFiProxy() override;
 
-  const playerc_wifi_link_t* GetLink(int aLink);  ///< all of a link
-  int GetLinkCount() const;                       ///< robots and access points in reach
+  const playerc_wifi_link_t* GetLink(int aLink);  ///< all data of a link
+  int GetLinkCount() const;                       ///< number of robots and access points in range
   char* GetOwnIP() const;                         ///< this robot's address
   char* GetLinkIP(int index) const;               ///< address of the other end
-  char* GetLinkMAC(int index) const;              ///< its hardware address
-  char* GetLinkESSID(int index) const;            ///< its name, cut after 31 letters
-  double GetLinkFreq(int index) const;            ///< carrier [MHz]
+  char* GetLinkMAC(int index) const;              ///< hardware address of the other end
+  char* GetLinkESSID(int index) const;            ///< name of the other end, at most 31 bytes
+  double GetLinkFreq(int index) const;            ///< carrier frequency [MHz]
   int GetLinkMode(int index) const;               ///< PLAYER_WIFI_MODE_ADHOC; _MASTER: access point
-  int GetLinkEncrypt(int index) const;            ///< 0: none is encrypted
-  int GetLinkQuality(int index) const;            ///< percent
+  int GetLinkEncrypt(int index) const;            ///< always 0: links are not encrypted
+  int GetLinkQuality(int index) const;            ///< [%]
   int GetLinkLevel(int index) const;              ///< [dBm], rounded
   int GetLinkNoise(int index) const;              ///< [dBm], rounded
 
@@ -49,6 +49,6 @@ class WiFiProxy : public ClientProxy {
 }  // namespace PlayerCc
 
 namespace std {
-/// Prints the links, one a line: name, address, level, quality.
+/// Prints the links, one per line: name, address, level, quality.
 std::ostream& operator<<(std::ostream& os, const PlayerCc::WiFiProxy& c);
 }  // namespace std

@@ -2,15 +2,15 @@
 #pragma once
 
 /// @file
-/// Player's macros for messages of programs: PLAYER_ERROR, PLAYER_WARN and PLAYER_MSG, with a digit
-/// for the number of values that their text prints as printf() does. Errors and warnings go to
-/// standard error, and messages of level 0 or 1 to standard output; those of higher levels, meant
-/// for those who look for faults, to nowhere. For C and C++.
+/// Player's message macros PLAYER_ERROR, PLAYER_WARN and PLAYER_MSG, for C and C++. The digit in a
+/// name is the number of arguments of the printf() format. Errors and warnings are printed to
+/// standard error. Messages of level 0 or 1 are printed to standard output; debug messages of
+/// higher levels are discarded.
 
 #include <errno.h>
 #include <stdio.h>
 
-/// Prints an error, or a warning, on a line of its own.
+/// Prints an error or a warning on a separate line.
 #define PLAYER_ERROR(msg) ((void)fprintf(stderr, "error   : " msg "\n"))
 #define PLAYER_ERROR1(msg, a) ((void)fprintf(stderr, "error   : " msg "\n", a))
 #define PLAYER_ERROR2(msg, a, b) ((void)fprintf(stderr, "error   : " msg "\n", a, b))
@@ -31,7 +31,7 @@
 #define PLAYER_WARN7(msg, a, b, c, d, e, f, g) \
   ((void)fprintf(stderr, "warning : " msg "\n", a, b, c, d, e, f, g))
 
-/// Prints a message on a line of its own, unless its level is above 1.
+/// Prints a message on a separate line, unless its level is above 1.
 #define PLAYER_MSG0(level, msg) ((level) > 1 ? (void)0 : (void)printf("" msg "\n"))
 #define PLAYER_MSG1(level, msg, a) ((level) > 1 ? (void)0 : (void)printf("" msg "\n", a))
 #define PLAYER_MSG2(level, msg, a, b) ((level) > 1 ? (void)0 : (void)printf("" msg "\n", a, b))

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// Player's odds and ends for programs in C and C++: macros of angles and numbers, and those for
-/// messages (libplayercommon/error.h). One that the program has defined before is left alone.
+/// Player's common macros for angles, numbers and messages (libplayercommon/error.h), for C and
+/// C++. A macro that the program has already defined is not changed.
 
 #include <assert.h>
 #include <limits.h>
@@ -17,22 +17,22 @@
 #define M_PI 3.14159265358979323846
 #endif
 
-/// Radians to degrees.
+/// Converts radians to degrees.
 #ifndef RTOD
 #define RTOD(r) ((r)*180.0 / M_PI)
 #endif
 
-/// Degrees to radians.
+/// Converts degrees to radians.
 #ifndef DTOR
 #define DTOR(d) ((d)*M_PI / 180.0)
 #endif
 
-/// The same direction as z [rad], in [-pi, pi].
+/// Normalizes the angle z [rad] to [-pi, pi].
 #ifndef NORMALIZE
 #define NORMALIZE(z) (atan2(sin(z), cos(z)))
 #endif
 
-/// The type of truth values in C.
+/// Boolean type in C.
 #ifndef BOOL
 #define BOOL int
 #endif
@@ -57,22 +57,22 @@
 #define MAX(a, b) (((a) > (b)) ? (a) : (b))
 #endif
 
-/// How many elements an array has.
+/// Number of elements of an array.
 #ifndef ARRAYSIZE
 #define ARRAYSIZE(x) ((int)(sizeof(x) / sizeof((x)[0])))
 #endif
 
-/// Whether an index lies in an array, asserted.
+/// Asserts that an index is within an array.
 #ifndef ASSERT_INDEX
 #define ASSERT_INDEX(index, array) assert((size_t)(index) < sizeof(array) / sizeof((array)[0]));
 #endif
 
-/// The same as assert().
+/// Same as assert().
 #ifndef VERIFY
 #define VERIFY(m) assert(m)
 #endif
 
-/// The first number of a kind in bytes that a pointer leads to.
+/// Reads a number of the given type at the address in a pointer.
 #ifndef GETFIRSTUINT8
 #define GETFIRSTUINT8(x) (*((uint8_t*)(x)))
 #define GETFIRSTINT8(x) (*((int8_t*)(x)))
@@ -82,7 +82,7 @@
 #define GETFIRSTINT32(x) (*((int32_t*)(x)))
 #endif
 
-/// The lower and the upper byte of a number of 16 bits, and such a number made of both.
+/// Lower byte and upper byte of a 16-bit number; MAKEUINT16 combines two bytes.
 #ifndef LOBYTE
 #define LOBYTE(w) ((uint8_t)((w)&0xFF))
 #endif
@@ -93,7 +93,7 @@
 #define MAKEUINT16(lo, hi) ((uint16_t)((((uint16_t)(hi)) << 8) | ((uint16_t)(lo))))
 #endif
 
-/// Longest name of a file.
+/// Maximum length of a file name.
 #ifndef MAX_FILENAME_SIZE
 #define MAX_FILENAME_SIZE PATH_MAX
 #endif

@@ -2,7 +2,7 @@
 #pragma once
 
 /// @file
-/// Addresses of hosts as device addresses hold them (player_devaddr_t::host): IPv4, in network
+/// Conversion of host addresses in device addresses (player_devaddr_t::host): IPv4 in network byte
 /// order. For C and C++.
 
 #include <stddef.h>
@@ -12,11 +12,12 @@
 extern "C" {
 #endif
 
-/// Writes an address as text, "127.0.0.1" for instance. @param dest  room for `len` bytes; what
-/// does not fit is cut off.
+/// Writes an address as text, for example "127.0.0.1".
+/// @param dest  buffer of `len` bytes; the text is truncated if it does not fit.
 void packedaddr_to_dottedip(char* dest, size_t len, uint32_t addr);
-/// Looks up a host by its name, or takes dotted text as it is. May wait for a name server.
-/// @param dest  is written if the host is known. @return 0, or -1 if it is not.
+/// Resolves a host name or parses an address in dotted notation. May wait for a name server.
+/// @param dest  receives the address; unchanged if the host is unknown.
+/// @return 0, or -1 if the host is unknown.
 int hostname_to_packedaddr(uint32_t* dest, const char* hostname);
 
 #ifdef __cplusplus

@@ -2,9 +2,9 @@
 #pragma once
 
 /// @file
-/// Names of Player's interfaces and of kinds of messages, and their codes. For C and C++. Texts
-/// that are returned are the library's own: they stay, and must not be altered. May be called by
-/// any thread at any time.
+/// Names and codes of Player's interfaces and message types. For C and C++. Returned texts belong
+/// to the library: they remain valid and must not be modified. All functions may be called from any
+/// thread at any time.
 
 #include <stdint.h>
 
@@ -14,31 +14,34 @@ extern "C" {
 
 /// An interface.
 typedef struct {
-  uint16_t interf;  ///< its code, PLAYER_..._CODE
-  char* name;       ///< "laser", for instance
+  uint16_t interf;  ///< interface code, PLAYER_..._CODE
+  char* name;       ///< interface name, e.g. "laser"
 } player_interface_t;
 
-/// There is nothing to prepare: the table is part of the library. @return 0.
+/// Does nothing, because the table is part of the library.
+/// @return 0.
 int itable_init(void);
-/// For programs that tidy up; does nothing.
+/// Does nothing; it exists for programs that call it.
 void itable_destroy(void);
 
-/// Looks for an interface by its name. @param interf  is filled in, if there is such one.
-/// @return 0, or -1 if there is none or a pointer is null.
+/// Looks up an interface by its name.
+/// @param interf  receives the interface if it exists.
+/// @return 0, or -1 if there is no such interface or a pointer is null.
 int lookup_interface(const char* name, player_interface_t* interf);
-/// Looks for an interface by its code; as lookup_interface().
+/// Looks up an interface by its code, like lookup_interface().
 int lookup_interface_code(int code, player_interface_t* interf);
-/// Name of an interface. @param startpos  interfaces with a lesser code are not looked at.
-/// @return null if there is none.
+/// Name of an interface by its code.
+/// @param startpos  interfaces with a lower code are ignored.
+/// @return the name, or null if there is no such interface.
 const char* lookup_interface_name(unsigned int startpos, int code);
-/// Name of an interface by its code; "unknown" if there is none.
+/// Name of an interface by its code; "unknown" for an unknown code.
 const char* interf_to_str(uint16_t code);
-/// Code of an interface by its name; 0xFFFF if there is none.
+/// Code of an interface by its name; 0xFFFF for an unknown name.
 uint16_t str_to_interf(const char* name);
 
-/// Name of a kind of message (PLAYER_MSGTYPE_...); "unknown" if there is none.
+/// Name of a message type (PLAYER_MSGTYPE_...); "unknown" for an unknown code.
 const char* msgtype_to_str(uint8_t code);
-/// Code of a kind of message by its name; 0xFF if there is none.
+/// Code of a message type by its name; 0xFF for an unknown name.
 uint8_t str_to_msgtype(const char* name);
 
 #ifdef __cplusplus

@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file replace/replace.h
-/// What programs include for functions that some systems lack, for which Player had replacements.
-/// Linux has them all: this header includes those that declare them. For C and C++.
+/// Player's replacements for functions that some systems lack. Linux has all of them, so this
+/// header only includes the system headers that declare them. For C and C++.
 
 #include <dirent.h>
 #include <getopt.h>

@@ -19,13 +19,13 @@
 namespace playerlike {
 namespace {
 
-// The process's embedded simulations. Never destroyed: clients at namespace scope may outlive any
-// static object. The results of runs are written by an exit handler instead.
+// The process's embedded simulations. The object is never destroyed, because clients at namespace
+// scope may outlive any static object. An exit handler writes the results of runs instead.
 struct Registry {
   std::mutex mutex;
-  std::map<std::string, std::shared_ptr<Host>> hosts;  // by the world file's full path
-  int results = 0;                                     // hosts that write results
-  std::set<std::string> replaced_hosts;                // that meant the run's world
+  std::map<std::string, std::shared_ptr<Host>> hosts;  // key: full path of the world file
+  int results = 0;                                     // number of hosts that write results
+  std::set<std::string> replaced_hosts;                // host names that the run's world replaced
   const pid_t process = getpid();
 
   static Registry& instance() {
@@ -43,7 +43,7 @@ struct Registry {
 
   static void finish_all(int status) {
     Registry& registry = instance();
-    if (getpid() != registry.process) return;  // a forked child: the run is not its own
+    if (getpid() != registry.process) return;  // a forked child does not own the run
     const std::lock_guard lock(registry.mutex);
     for (const auto& [key, host] : registry.hosts) {
       host->note_program_ends(status);
@@ -52,8 +52,8 @@ struct Registry {
   }
 };
 
-/// What draws the pictures of a run must outlive the exit handler that may draw the last of them:
-/// it is loaded now, and the handler registered again, so that it runs first. Twice does no harm.
+/// Loads the drawing libraries now, and registers the exit handler again, so that it runs before
+/// their static destructors: it may draw the last pictures. Registering it twice is harmless.
 void prepare_drawing(const RunSettings& settings) {
   const bool draws = !settings.output_folder.empty() || settings.view_socket;
   if (!draws && settings.film.empty()) return;
@@ -73,8 +73,8 @@ std::shared_ptr<Host> host_of(const std::string& file) {
   if (host) return host;
   try {
     RunSettings settings = RunSettings::from_environment();
-    // The first world of a program writes its results into the folder that was asked for, each
-    // further one into a numbered folder in it; only the first can be filmed or watched.
+    // The first world of a program writes its results into the requested folder. Each further world
+    // uses a numbered subfolder and is neither filmed nor watched.
     if (registry.results > 0) {
       settings.film.clear();
       settings.view_socket.reset();
@@ -85,10 +85,10 @@ std::shared_ptr<Host> host_of(const std::string& file) {
       }
     }
     prepare_drawing(settings);
-    // A program has one clock, the first world's.
+    // A program has one virtual clock, which belongs to the first world.
     const bool virtual_time_wanted = settings.virtual_time && registry.results == 0;
     settings.virtual_time = virtual_time_wanted && virtual_time::active();
-    // The window is this process's own: programs that it starts must not take it for theirs.
+    // The window belongs to this process: programs that it starts must not connect to it.
     unsetenv("PLAYPEN_VIEW");
     const sim::LogHook log = log_to_stderr();
     sim::WorldDescription world = sim::load_world(file);
@@ -126,7 +126,7 @@ std::string_view variable(const char* name) {
 }
 
 std::unique_ptr<Session> connect_to_server(const std::string& server, int port) {
-  // What the server does takes the time it takes.
+  // A server runs in real time, so this program cannot use virtual time.
   if (virtual_time::active()) virtual_time::give_up();
   SocketSettings settings = SocketSettings::from_environment(parse_server_address(server), port);
   const std::string_view run = variable("PLAYPEN_RUN");
@@ -135,13 +135,14 @@ std::unique_ptr<Session> connect_to_server(const std::string& server, int port) 
   return std::make_unique<SocketSession>(std::move(settings));
 }
 
-// PLAYPEN_VIEW is taken out by the library itself; the others do not touch what is simulated.
+// Whether a variable may change after the start. The library itself removes PLAYPEN_VIEW; the
+// others do not affect the simulation.
 bool may_change(std::string_view name) {
   return name == "PLAYPEN_VIEW" || name == "PLAYPEN_TOKEN" || name == "PLAYPEN_ENCODING" ||
          name == "PLAYPEN_LIBRARIES";
 }
 
-// The PLAYPEN_ variables that runs depend on.
+// The PLAYPEN_ variables that affect runs.
 std::map<std::string, std::string> run_variables() {
   std::map<std::string, std::string> variables;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -154,8 +155,8 @@ std::map<std::string, std::string> run_variables() {
   return variables;
 }
 
-// Those that the program was started with: read before main(), where programs change them. Never
-// destroyed, as clients at namespace scope may need them.
+// The values at the start of the program, read before main(), where programs may change them. Never
+// destroyed, since clients at namespace scope may need them.
 const std::map<std::string, std::string>& variables_at_start() {
   static const auto* const variables = new std::map(run_variables());
   return *variables;
@@ -171,7 +172,8 @@ const std::map<std::string, std::string>& variables_at_start() {
   throw SessionError(SessionError::Code::kBadArgument, message);
 }
 
-// Under `playpen grade` the grader has chosen the world and its settings.
+// Under `playpen grade` the grader has chosen the world and its settings; a program must not change
+// them.
 void refuse_other_worlds(const std::string& host) {
   const std::map<std::string, std::string>& before = variables_at_start();
   if (!before.contains("PLAYPEN_GRADE")) return;
@@ -194,10 +196,10 @@ void refuse_other_worlds(const std::string& host) {
   }
 }
 
-// Whether a host is named as programs for real robots do: no "tcp://", no port of a server.
+// Whether a host is named as in programs for real robots: without "tcp://" and without a port.
 bool is_plain_name(std::string_view host) { return host.find_first_of(":/[") == host.npos; }
 
-// Once for each host.
+// Warns once for each host.
 void warn_of_host(const std::string& host, const std::string& world) {
   Registry& registry = Registry::instance();
   {

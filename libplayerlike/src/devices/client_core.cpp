@@ -56,7 +56,7 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
   try {
     session_->request(UnsubscribeRequest{device});
   } catch (const std::exception&) {
-    // The session has ended meanwhile, and with it all subscriptions.
+    // The session has ended, and with it all its subscriptions.
   }
 }
 
@@ -68,15 +68,15 @@ void ClientCore::read(const std::atomic<bool>* stop) {
     const std::lock_guard lock(mutex_);
     if (stop != nullptr && *stop) return;
     const int count = hand_out(notifications);
-    // Another thread of this client may have taken the round: then there is one more to wait for,
-    // but not for ever, as that thread may always be first. The data are new all the same.
+    // Another thread of this client may have taken the round; then wait for the next one. Limited,
+    // since the other thread may win every time. The data are new in any case.
     constexpr int kMostRounds = 3;
     done = count > 0 || entries_.empty() || ++rounds == kMostRounds;
   }
   for (const auto& call : notifications) call();
 }
 
-bool ClientCore::read_what_waits() {
+bool ClientCore::read_pending() {
   Notifications notifications;
   int count = 0;
   {
@@ -155,7 +155,7 @@ std::optional<sim::Pose> ClientCore::last_pose(int robot) const {
   return it->second.pose;
 }
 
-sim::LayerId ClientCore::take_sheet() {
+sim::LayerId ClientCore::acquire_layer() {
   constexpr int kPriority = 100;
   require_usable();
   const std::vector<sim::LayerInfo> layers = session_->request(LayersRequest{});
@@ -183,7 +183,7 @@ sim::LayerId ClientCore::take_sheet() {
   }
 }
 
-void ClientCore::give_back_sheet(sim::LayerId layer) noexcept {
+void ClientCore::release_layer(sim::LayerId layer) noexcept {
   const std::lock_guard lock(mutex_);
   const auto sheet = sheets_.find(layer);
   if (sheet != sheets_.end()) sheet->second = false;

@@ -44,7 +44,7 @@ std::string text_of_colour(const ImageColour_t& c) {
 
 namespace {
 
-// As sim::Canvas does, so that far away positions stay far away.
+// Clamped as in sim::Canvas, so that far positions stay outside of the canvas.
 constexpr double kFar = 1 << 30;
 
 int cell_number(double cells) {
@@ -70,7 +70,7 @@ ImageColour_t colour_of_bits(std::uint32_t bits) {
   return {c.r, c.g, c.b, c.a};
 }
 
-// Leaves the alpha of RGBA bytes out, if three channels are wanted.
+// Drops the alpha channel of RGBA bytes if three channels are wanted.
 std::vector<std::uint8_t> with_channels(const char* fun, std::vector<std::uint8_t> rgba,
                                         int channels) {
   if (channels == 4) return rgba;
@@ -112,7 +112,8 @@ Drawing::Drawing(std::shared_ptr<playerlike::ClientCore> aCore, const char* aNam
       mOriginY(0.0) {
   translated(aName, [&] {
     mCore->require_usable();
-    // The count first: if somebody resizes in between, the next look finds another one.
+    // Reads the generation first: if another client resizes in between, the next Refresh() sees a
+    // newer one.
     mGeneration = mCore->session().canvas_generation();
     const playerlike::CanvasInfo canvas = mCore->session().request(playerlike::CanvasInfoRequest{});
     mWidth = canvas.width;
@@ -136,7 +137,7 @@ void Drawing::RequireUsable(const char* aFunction) const {
   translated(mName, [&] { mCore->require_usable(); });
 }
 
-// Follows resizes.
+// Updates the size after a resize.
 void Drawing::Refresh() const {
   playerlike::Session& session = mCore->session();
   if (session.canvas_generation() == mGeneration.load(std::memory_order_acquire)) return;
@@ -206,8 +207,7 @@ ImageColour_t Drawing::ColourOf(std::uint32_t aValue) const {
 
 // --- Drawing
 
-// On the way of every cell: nothing here takes a lock, but for the queue's own, and errors are
-// dealt with elsewhere.
+// Hot path of every cell: the only lock is the queue's own, and errors are handled elsewhere.
 template <typename Write>
 void Drawing::Put(Write aWrite) {
   if (Retired() || !mCore->usable()) RequireUsable("SetPixel");
@@ -249,7 +249,7 @@ void Drawing::Fill(const ImageColour_t& aColour) {
   });
 }
 
-// Columns first .. last of a row, clipped; nothing if there are none.
+// Draws the columns first .. last of a row, clipped to the canvas; an empty range draws nothing.
 void Drawing::PutSpan(double aFirst, double aLast, int aY, std::uint32_t aValue) {
   const int first = static_cast<int>(std::clamp(aFirst, 0.0, static_cast<double>(mWidth)));
   const int last = static_cast<int>(std::clamp(aLast, -1.0, static_cast<double>(mWidth - 1)));
@@ -273,15 +273,15 @@ void Drawing::DrawPolyline(const player_point_2d_t* aPoints, std::size_t aCount,
   }
 }
 
-// Row by row through the middles of the cells: a cell is drawn if an odd number of edges cross the
-// row left of its middle.
+// Scan-line fill at the cells' centres: a cell is filled if an odd number of edges cross its row to
+// the left of its centre.
 void Drawing::FillPolygon(const player_point_2d_t* aPoints, std::size_t aCount,
                           const ImageColour_t& aColour) {
   require_points(Fun("SetPolygonMetres"), aPoints, aCount);
   RequireUsable("SetPolygonMetres");
   if (aCount == 0) return;
   struct Corner {
-    double column, row;  // in cells from the top left corner of the picture
+    double column, row;  // in cells from the top left corner
   };
   const int height = GetHeight();
   std::vector<Corner> corners(aCount);

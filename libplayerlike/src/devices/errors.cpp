@@ -41,7 +41,7 @@ std::terminate_handler previous_handler = nullptr;
     } catch (const PlayerError& e) {
       std::cerr << "PlayerError that nobody catches: " << e << std::endl;
     } catch (...) {
-      // Not ours: the previous handler describes it.
+      // Another type of exception: the previous handler describes it.
     }
   }
   if (previous_handler != nullptr) previous_handler();

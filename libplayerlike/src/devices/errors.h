@@ -11,15 +11,16 @@
 
 namespace playerlike {
 
-/// The code under which a client sees a session's error.
+/// Converts a session's error code to the client's.
 [[nodiscard]] PlayerCc::PlayerError::Code player_code(SessionError::Code code) noexcept;
 
-/// From now on a PlayerError that nobody catches is printed on standard error before the program
-/// aborts; one that says the run is over ends `playpen run` as the SessionError would.
+/// Installs a terminate handler. An uncaught PlayerError is printed on standard error before the
+/// program aborts. If it says that the run is over, it ends the program like the SessionError, see
+/// end_of_program.h.
 void prepare_for_uncaught_errors() noexcept;
 
-/// Does something, and turns what sessions throw into PlayerError in the name of `fun`. Anything
-/// else, as what a program's own callback throws, passes.
+/// Runs an action and converts SessionError to PlayerError in the name of `fun`. Other exceptions,
+/// such as those of a program's callback, pass through.
 template <typename Action>
 auto translated(const char* fun, Action action) -> decltype(action()) {
   try {
@@ -31,7 +32,7 @@ auto translated(const char* fun, Action action) -> decltype(action()) {
   }
 }
 
-/// The same for any std::exception, e.g. while a world is loaded.
+/// As translated(), but converts every std::exception, e.g. while a world is loaded.
 template <typename Action>
 auto translated_all(const char* fun, Action action) -> decltype(action()) {
   try {
@@ -48,7 +49,7 @@ auto translated_all(const char* fun, Action action) -> decltype(action()) {
   throw PlayerCc::PlayerError(fun, text, PlayerCc::PlayerError::kBadArgument);
 }
 
-/// Refuses NaN and infinity: throws PlayerError kBadArgument, naming the value.
+/// Throws PlayerError kBadArgument for NaN and infinity; the error names the value.
 struct NamedValue {
   const char* name;
   double value;

@@ -21,7 +21,7 @@ namespace {
 sim::Colour sim_colour(const ImageColour_t& c) { return {c.r, c.g, c.b, c.a}; }
 ImageColour_t image_colour(const sim::Colour& c) { return {c.r, c.g, c.b, c.a}; }
 
-// Numbers of cells as programs write them: bytes count 255ths, others are shares of 1.
+// Converts a cell's number: bytes are divided by 255, doubles are fractions already.
 double share_of(std::uint8_t number) { return number / 255.0; }
 double share_of(double number) { return number; }
 
@@ -62,7 +62,7 @@ void require_numbers(const std::string& fun, const T* cells, std::size_t count) 
   }
 }
 
-// The cells of a layer from numbers: 1 each, or 3 or 4 if they are colours.
+// Converts numbers to the cells of a layer; colours take 3 or 4 numbers per cell, others take 1.
 template <typename T>
 std::vector<sim::CellValue> values_of(GridMapLayer::Kind kind, const T* numbers, std::size_t cells,
                                       std::size_t channels) {
@@ -137,7 +137,7 @@ GridMapLayer::Style GridMapLayer::GetStyle(const char* aFunction) const {
       fun.c_str(), [&] { return Core()->session().request(playerlike::LayersRequest{}); });
   const auto it = std::find_if(layers.begin(), layers.end(),
                                [&](const sim::LayerInfo& l) { return l.id == LayerNumber(); });
-  if (it == layers.end()) {  // another thread has removed it meanwhile
+  if (it == layers.end()) {  // another thread has removed it
     throw PlayerError(fun, "this layer was removed", PlayerError::kNotAvailable);
   }
   return {it->style};
@@ -327,7 +327,7 @@ int GridMapLayer::LoadMap(const std::string& aFile) {
   } catch (const sim::ConfigError& e) {
     playerlike::refuse(fun, e.what());
   }
-  // Which cells lie in the map, and where: one place for each column and row, -1 for none.
+  // Maps each column and row of the canvas to one of the map; -1: outside of the map.
   const playerlike::CanvasInfo canvas = Core()->session().request(playerlike::CanvasInfoRequest{});
   const auto places = [&](int cells, double origin, int places_there, double map_origin) {
     std::vector<int> there(static_cast<std::size_t>(cells), -1);
@@ -342,7 +342,7 @@ int GridMapLayer::LoadMap(const std::string& aFile) {
   };
   const std::vector<int> columns =
       places(canvas.width, canvas.origin_x_m, map.width, map.origin.x());
-  std::vector<int> rows =  // from the bottom
+  std::vector<int> rows =  // rows counted from the bottom
       places(canvas.height, canvas.origin_y_m, map.height, map.origin.y());
   const auto covered = [](const std::vector<int>& there) {
     const auto is_in = [](int place) { return place >= 0; };

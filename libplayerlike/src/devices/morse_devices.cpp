@@ -70,9 +70,9 @@ std::string MorseDevice::Fun(const char* aFunction) const {
 
 PlayerCc::mutex_t::scoped_lock MorseDevice::Lock(const char* aFunction, int aLooks) const {
   PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  // The name is put together only when it is needed.
+  // Builds the function's name only for an error.
   if (!Core()->usable()) translated(Fun(aFunction).c_str(), [&] { Core()->require_usable(); });
-  Core()->note_looks(aLooks, /*has_data=*/true);
+  Core()->count_data_reads(aLooks, /*has_data=*/true);
   return lock;
 }
 
@@ -124,13 +124,13 @@ void MorseSensor::Detach() { Core()->remove(*mReceiver); }
 
 bool MorseSensor::IsValid() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  Core()->note_looks(1, mReceiver->newest.valid);
+  Core()->count_data_reads(1, mReceiver->newest.valid);
   return mReceiver->newest.valid;
 }
 
 bool MorseSensor::IsFresh() const {
   const PlayerCc::mutex_t::scoped_lock lock(Core()->mutex());
-  Core()->note_looks(1, mReceiver->newest.valid);
+  Core()->count_data_reads(1, mReceiver->newest.valid);
   return mReceiver->fresh;
 }
 
@@ -339,7 +339,7 @@ bool MorseBattery::IsDocked() const {
 
 namespace {
 
-// Of one name the nearer comes first, and stays.
+// If several neighbours have one name, emplace() keeps the nearest, which comes first.
 std::map<std::string, double> distances(const sim::ProximityReading& reading) {
   std::map<std::string, double> near;
   for (const auto& neighbour : reading.near_objects) {
@@ -382,7 +382,7 @@ double MorseProximity::GetMaxRange() const { return GetProperty("range", 0.0); }
 MorseRanger::MorseRanger(const MorseRobot& aRobot, const std::string& aName, const char* aType,
                          const char* aClass)
     : MorseSensor(aRobot, aName, aType, aClass) {
-  // What a server says is not believed without bounds.
+  // Bounds the value that a server sends.
   const auto count = static_cast<std::size_t>(
       std::clamp(GetProperty("count", 0.0), 0.0, double{sim::RangerParams::kMaxTransducers}));
   for (std::size_t i = 0; i < count; ++i) {
@@ -399,7 +399,7 @@ MorseRanger::MorseRanger(const MorseRobot& aRobot, const std::string& aName, con
 
 MorseRanger::~MorseRanger() { Detach(); }
 
-// With the client's data locked: the range of a transducer that there is.
+// The range of a transducer; throws if there is none. The client's mutex is held.
 double MorseRanger::Checked(uint32_t aIndex, const char* aFunction) const {
   const std::vector<double>& ranges = mReceiver->newest.as<RangerReading>().ranges_m;
   const std::size_t count = std::min(ranges.size(), mMounts.size());

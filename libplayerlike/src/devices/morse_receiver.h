@@ -8,7 +8,7 @@
 
 namespace CCMorse {
 
-/// The end of a sensor that sessions see.
+/// The session side of a sensor.
 struct MorseSensor::Receiver final : playerlike::ReadingListener {
   explicit Receiver(MorseSensor& owner) : sensor(owner) {
     sensor.mElements.Bind(&sensor.Core()->sole_user());
@@ -17,7 +17,7 @@ struct MorseSensor::Receiver final : playerlike::ReadingListener {
   void on_reading(const sim::SharedReading& reading) override;
   void on_close() override { newest.valid = false; }
 
-  /// Locks for a look that Elements::Find() has not answered.
+  /// Locks for an access that Elements::Find() could not answer without the mutex.
   [[nodiscard]] PlayerCc::mutex_t::scoped_lock lock_element(const char* function) {
     return sensor.Lock(function, sensor.mElements.Looks());
   }

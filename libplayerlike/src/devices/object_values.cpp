@@ -45,7 +45,7 @@ Numbers get(const void* bytes, std::size_t count) {
   return numbers;
 }
 
-// A text that ends at a NUL or where the bytes do.
+// Reads a text up to a NUL or the end of the bytes.
 std::string get_text(const void* bytes, std::size_t length) {
   const auto* in = static_cast<const char*>(bytes);
   return {in, std::find(in, in + length, '\0')};
@@ -61,8 +61,8 @@ void put_text(const std::string& property, const std::string& text, void* bytes,
   std::memcpy(bytes, text.data(), text.size());
 }
 
-// --- colours: 4 bytes 0xAARRGGBB, four floats or doubles in 0..1 (red, green, blue, alpha), or a
-// text.
+// --- Colours: 4 bytes 0xAARRGGBB, four floats or doubles in 0..1 (red, green, blue, alpha), or a
+// text
 
 constexpr std::size_t kFloats = 4 * sizeof(float);
 constexpr std::size_t kDoubles = 4 * sizeof(double);
@@ -92,7 +92,7 @@ std::string get_colour(const void* bytes, std::size_t length) {
     const auto channel = [&](unsigned shift) {
       return static_cast<std::uint8_t>((packed >> shift) & 0xffU);
     };
-    // Programs leave the alpha out: they write 0xFF00 for green.
+    // Programs omit the alpha: they write 0xFF00 for green.
     return sim::to_string(sim::Colour{channel(16), channel(8), channel(0), 255});
   }
   if (length != kFloats && length != kDoubles) return get_text(bytes, length);
@@ -104,7 +104,7 @@ std::string get_colour(const void* bytes, std::size_t length) {
   return sim::to_string(sim::Colour{channel(0), channel(1), channel(2), 255});
 }
 
-// --- words that stand for off and on
+// --- Words for off and on
 
 struct Switch {
   std::string_view property;
@@ -119,7 +119,7 @@ const Switch* switch_of(const std::string& property) {
   return it == std::end(kSwitches) ? nullptr : it;
 }
 
-// Bytes as a whole number, if it has the length of one.
+// Whether the bytes have the length of a whole number.
 bool is_whole(std::size_t length) { return length == 1 || length == sizeof(std::int32_t); }
 
 void put_whole(int number, void* bytes, std::size_t length) {
@@ -136,8 +136,7 @@ int get_whole(const void* bytes, std::size_t length) {
   return static_cast<int>(number);
 }
 
-// --- poses: x, y, yaw; x, y, z, yaw as Stage has them; x, y, z, roll, pitch, yaw as Player has
-// them
+// --- Poses: x, y, yaw; or x, y, z, yaw (Stage); or x, y, z, roll, pitch, yaw (Player)
 
 Numbers spread_pose(const Numbers& pose, std::size_t count) {
   if (count == 4) return {pose[0], pose[1], 0.0, pose[2]};

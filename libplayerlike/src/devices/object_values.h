@@ -6,20 +6,20 @@
 
 #include "playerlike/messages/messages.h"
 
-/// Properties of robots and obstacles as Player's programs hand them over: bytes, of which nothing
-/// is known but how many there are. docs/simulation.md lists the forms.
+/// Converts properties of robots and obstacles to and from the untyped bytes of Player's programs;
+/// only the number of bytes is known. docs/simulation.md lists the formats.
 namespace playerlike {
 
-/// A property's own name: programs for Stage put "_mp_" in front, and write "color".
+/// The name of a property in Playpen: programs for Stage prepend "_mp_" and write "color".
 [[nodiscard]] std::string property_name(const std::string& name);
 
-/// Writes a property's value into a program's memory, in the form that its length tells.
-/// @throws SessionError kBadArgument for a length that no form of it has.
+/// Writes a property's value to a program's memory; the length determines the format. @throws
+/// SessionError kBadArgument for a length that fits none of the property's formats.
 void write_property(const std::string& property, const PropertyValue& value, void* bytes,
                     std::size_t length);
 
-/// Reads what a program wants a property to be.
-/// @param now  its present value, which tells whether it is numbers or a text, and how many.
+/// Reads a property's new value from a program's memory.
+/// @param now  the present value; it determines the type (numbers or text) and the count.
 /// @throws SessionError kBadArgument as write_property().
 [[nodiscard]] PropertyValue read_property(const std::string& property, const PropertyValue& now,
                                           const void* bytes, std::size_t length);

@@ -6,7 +6,7 @@
 namespace playerlike {
 
 void warn(const std::string& text) {
-  // Never destroyed: programs have proxies at namespace scope, which may still be used then.
+  // Never destroyed: proxies at namespace scope may still warn during static destruction.
   static const auto* const log = new sim::LogHook(log_to_stderr(sim::LogLevel::kWarning));
   (*log)(sim::LogLevel::kWarning, text);
 }

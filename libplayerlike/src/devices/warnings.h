@@ -5,8 +5,8 @@
 
 namespace playerlike {
 
-/// Tells the user on standard error what a program asks for in vain, where Player's library would
-/// say nothing at all. Callers see to it that nothing is told over and over. Threads: any.
+/// Prints a warning on standard error about a call without effect, where Player's library would be
+/// silent. Callers must not repeat a warning. Threads: any.
 void warn(const std::string& text);
 
 }  // namespace playerlike

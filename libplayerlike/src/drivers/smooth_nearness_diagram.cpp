@@ -12,42 +12,41 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// Directions are looked at a degree apart: sector s looks at (s - 180) degrees.
+// Sectors are one degree wide: sector s is centred on (s - 180) degrees.
 constexpr int kSectors = 360;
 constexpr double kSector_rad = 2.0 * kPi / kSectors;
 constexpr double kUnseen = -1.0;
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
-// What has left the laser's view is remembered for so long, no denser than this, and at most so
-// much of it.
+// Memory of points outside of the laser's view: duration, minimum spacing, maximum number.
 constexpr double kMemory_s = 60.0;
 constexpr double kMemorySpacing_m = 0.01;
 constexpr std::size_t kMemories = 2000;
-// Free depths are looked at no further than this: what is beyond is decided when it comes nearer.
+// Free depths are clipped here: what is beyond is considered when the robot is nearer.
 constexpr double kHorizon_m = 3.0;
-// The disc that may not meet anything is larger than the robot by this.
+// Margin that is added to the robot's radius.
 constexpr double kMargin_m = 0.01;
-// A turn by a radian counts as so much of a way.
+// Cost of turning by one radian, as a path length.
 constexpr double kTurnCost_m = 0.1;
-// How much longer a way through another gap may be than through the one chosen last.
-constexpr double kLoyalty_m = 1.0;
-// How much of that goes for each metre by which the way through it has become longer since.
-constexpr double kDisappointment = 2.0;
-// A gap this near to where the one chosen last was is the same.
+// Hysteresis: another gap is chosen only if the path through it is shorter by this.
+constexpr double kGapHysteresis_m = 1.0;
+// The hysteresis shrinks by this for each metre by which the chosen path has become longer.
+constexpr double kDetourPenalty = 2.0;
+// A gap within this distance of the one chosen last counts as the same gap.
 constexpr double kSameGap_m = 0.3;
-// Coming nearer by less than this is no progress.
+// Minimum approach to the goal that counts as progress.
 constexpr double kProgress_m = 0.02;
-// Turn rate for each radian that is missing; a command holds for a period of the readings, so
-// the gain is bounded by kGainPerPeriod a period too, lest it swings.
+// Turn rate per radian of heading error. A command holds for a period of the readings, so
+// kGainPerPeriod / period limits the gain to avoid oscillation.
 constexpr double kTurnGain_per_s = 3.0;
 constexpr double kGainPerPeriod = 0.5;
-// Headings further off than this are turned to on the spot.
+// Beyond this heading error the robot turns on the spot.
 constexpr double kTurnOnSpot_rad = kPi / 3.0;
-// Share of the speed that the greatest threat leaves.
+// Fraction of the speed that remains under the greatest threat.
 constexpr double kLeastShare = 0.25;
-// Speed for each metre to the goal, and the least one on the way to it.
+// Speed per metre of distance to the goal, and the minimum speed of the approach.
 constexpr double kApproach_per_s = 2.0;
 constexpr double kLeastApproach_mps = 0.05;
-// How far ahead a twist must be free of collisions, beyond its own period.
+// A twist must be free of collisions for its period plus this time.
 constexpr double kBraking_s = 0.15;
 
 double bearing_of(int sector) {
@@ -97,7 +96,7 @@ sim::Twist SmoothNearnessDiagram::step(double time_s, const sim::Pose& X_WB, con
     return {0.0, std::clamp(gain_per_s * error_rad, -settings_.max_turn_rate_radps,
                             settings_.max_turn_rate_radps)};
   }
-  see(time_s, X_WB, scan);
+  update_obstacles(time_s, X_WB, scan);
   measure_depths(time_s, X_WB);
   return drive(choose_heading(X_WB, p_BG), goal_m, period_s);
 }
@@ -106,10 +105,11 @@ bool SmoothNearnessDiagram::View::covers(double bearing_rad) const {
   return std::abs(sim::normalize_angle(bearing_rad - middle_rad)) <= half_rad;
 }
 
-// What the laser sees, from the middle of the body, and what it has seen where it does not look
-// now: a laser that does not look all around would forget the wall behind the robot as soon as
-// it turns, and turn back when the goal draws it there again.
-void SmoothNearnessDiagram::see(double time_s, const sim::Pose& X_WB, const SndScan& scan) {
+// Collects the points that the laser sees, relative to the body's centre, and remembered points
+// outside of its view. Without memory, a laser with a limited field of view would lose the wall
+// behind the robot in a turn, and the goal would draw the robot back to the wall.
+void SmoothNearnessDiagram::update_obstacles(double time_s, const sim::Pose& X_WB,
+                                             const SndScan& scan) {
   const double span_rad = scan.resolution_rad * static_cast<double>(scan.ranges_m.size());
   view_ = {scan.angle_min_rad + 0.5 * (span_rad - scan.resolution_rad) + scan.X_BL.yaw_rad,
            std::min(0.5 * span_rad, kPi)};
@@ -146,30 +146,30 @@ void SmoothNearnessDiagram::see(double time_s, const sim::Pose& X_WB, const SndS
   std::stable_sort(obstacles_.begin(), obstacles_.end(), [](const Obstacle& a, const Obstacle& b) {
     return a.bearing_rad < b.bearing_rad;
   });
-  looked_s_.resize(kSectors, -kMemory_s);
+  last_seen_s_.resize(kSectors, -kMemory_s);
   for (int s = 0; s < kSectors; ++s) {
     if (!view_.covers(bearing_of(s))) continue;
-    looked_s_[static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad))] = time_s;
+    last_seen_s_[static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad))] = time_s;
   }
 }
 
-// How far the robot's disc could go straight in each direction: a disc of radius r that moves along
-// a line which passes an obstacle at the distance h < r meets it sqrt(r^2 - h^2) before the
-// obstacle's foot on the line.
+// Measures how far the robot's disc can move straight in each direction. If the line passes an
+// obstacle at the distance h < r, a disc of radius r touches it sqrt(r^2 - h^2) before the foot of
+// the perpendicular.
 void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB) {
   const double radius_m = settings_.robot_radius_m + kMargin_m;
-  depths_m_.assign(kSectors, kHorizon_m);
-  blockers_.assign(kSectors, kNobody);
+  free_depths_m_.assign(kSectors, kHorizon_m);
+  blocking_obstacles_.assign(kSectors, kNobody);
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     const Obstacle& o = obstacles_[i];
     if (o.distance_m > kHorizon_m + radius_m) continue;
-    // Round one that the disc overlaps already, half of all directions lead further into it.
+    // If the disc overlaps an obstacle already, half of all directions lead further into it.
     const double half_rad =
         o.distance_m <= radius_m ? 0.5 * kPi : asin_of_share(radius_m / o.distance_m);
     const int middle = sector_of(o.bearing_rad);
     const int reach = static_cast<int>(half_rad / kSector_rad) + 1;
     for (int s = middle - reach; s <= middle + reach; ++s) {
-      double& depth_m = depths_m_[static_cast<std::size_t>(wrapped(s))];
+      double& depth_m = free_depths_m_[static_cast<std::size_t>(wrapped(s))];
       const double off_rad = bearing_of(s) - o.bearing_rad;
       const double across_m = o.distance_m * std::sin(off_rad);
       const double along_m = o.distance_m * std::cos(off_rad);
@@ -177,26 +177,27 @@ void SmoothNearnessDiagram::measure_depths(double time_s, const sim::Pose& X_WB)
       const double free_m = along_m - std::sqrt(radius_m * radius_m - across_m * across_m);
       if (free_m >= depth_m) continue;
       depth_m = std::max(0.0, free_m);
-      blockers_[static_cast<std::size_t>(wrapped(s))] = i;
+      blocking_obstacles_[static_cast<std::size_t>(wrapped(s))] = i;
     }
   }
   for (int s = 0; s < kSectors; ++s) {
     const auto in_world = static_cast<std::size_t>(sector_of(bearing_of(s) + X_WB.yaw_rad));
-    if (time_s - looked_s_[in_world] > kMemory_s) depths_m_[static_cast<std::size_t>(s)] = kUnseen;
+    if (time_s - last_seen_s_[in_world] > kMemory_s)
+      free_depths_m_[static_cast<std::size_t>(s)] = kUnseen;
   }
 }
 
 double SmoothNearnessDiagram::depth_at(double bearing_rad) const {
-  return depths_m_[static_cast<std::size_t>(sector_of(bearing_rad))];
+  return free_depths_m_[static_cast<std::size_t>(sector_of(bearing_rad))];
 }
 
-// The rising gaps: sectors from which on, to one side, the robot could go further than on the
-// other side by over its diameter. What is not seen counts as not free.
+// Finds rising gaps: sectors where the free depth rises by more than the robot's radius, towards
+// one side. Unseen sectors count as not free.
 std::vector<SmoothNearnessDiagram::Gap> SmoothNearnessDiagram::find_gaps(
     const sim::Pose& X_WB) const {
   const double jump_m = 1.0 * settings_.robot_radius_m;
   const auto depth = [this](int sector) {
-    return depths_m_[static_cast<std::size_t>(wrapped(sector))];
+    return free_depths_m_[static_cast<std::size_t>(wrapped(sector))];
   };
   const auto is_gap = [&](int sector) {
     return depth(sector) != kUnseen && depth(sector + 1) != kUnseen &&
@@ -221,7 +222,7 @@ std::vector<SmoothNearnessDiagram::Gap> SmoothNearnessDiagram::find_gaps(
   return gaps;
 }
 
-// Whether nothing stands between the body's middle and a point.
+// Whether no obstacle lies between the body's centre and a point.
 bool SmoothNearnessDiagram::sees(const sim::Vec2& p_BQ) const {
   const double bearing_rad = std::atan2(p_BQ.y(), p_BQ.x());
   return std::none_of(obstacles_.begin(), obstacles_.end(), [&](const Obstacle& o) {
@@ -230,16 +231,16 @@ bool SmoothNearnessDiagram::sees(const sim::Vec2& p_BQ) const {
   });
 }
 
-// Whether there may be a way on behind a gap: not if what blocks the near side and what blocks the
-// far side belong to one surface, seen at a flat angle, through which the robot does not fit.
+// Whether a gap may lead to free space. It does not if near and far obstacle belong to one surface,
+// seen at a flat angle, whose points are too close together for the robot to pass.
 bool SmoothNearnessDiagram::hides_something(int near_sector, int far_sector, int side) const {
-  const std::size_t near = blockers_[static_cast<std::size_t>(near_sector)];
-  const std::size_t far = blockers_[static_cast<std::size_t>(far_sector)];
+  const std::size_t near = blocking_obstacles_[static_cast<std::size_t>(near_sector)];
+  const std::size_t far = blocking_obstacles_[static_cast<std::size_t>(far_sector)];
   if (near == kNobody || far == kNobody) return true;
   const std::size_t count = obstacles_.size();
   std::size_t at = near;
   for (std::size_t steps = 0; at != far; ++steps) {
-    if (steps > count / 2) return true;  // the far one lies on the other side: no one surface
+    if (steps > count / 2) return true;  // on different sides: they form no single surface
     const std::size_t next = side > 0 ? (at + 1) % count : (at + count - 1) % count;
     if ((obstacles_[next].p_BO - obstacles_[at].p_BO).norm() > 2.0 * settings_.robot_radius_m) {
       return true;
@@ -249,7 +250,7 @@ bool SmoothNearnessDiagram::hides_something(int near_sector, int far_sector, int
   return false;
 }
 
-// Direction to strive for, in B.
+// The desired direction in B.
 double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::Vec2& p_BG) {
   const double goal_m = p_BG.norm();
   const double goal_rad = std::atan2(p_BG.y(), p_BG.x());
@@ -265,10 +266,10 @@ double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::V
   for (const Gap& gap : gaps) {
     const double way_m = (gap.p_WG - X_WB.position()).norm() + (goal_.position - gap.p_WG).norm();
     double cost_m = way_m + kTurnCost_m * std::abs(gap.bearing_rad);
-    // Loyal to the gap chosen last, but not as it leads further and further away: the side of a
-    // round thing recedes for ever.
+    // Hysteresis keeps the gap chosen last. It shrinks as the path through that gap grows, since
+    // the edge of a round obstacle recedes for ever.
     const bool same = p_WG_ && (gap.p_WG - *p_WG_).norm() < kSameGap_m;
-    if (same) cost_m -= std::max(0.0, kLoyalty_m - kDisappointment * (way_m - least_way_m_));
+    if (same) cost_m -= std::max(0.0, kGapHysteresis_m - kDetourPenalty * (way_m - least_way_m_));
     if (cost_m >= best_cost_m) continue;
     best = &gap;
     best_cost_m = cost_m;
@@ -287,7 +288,7 @@ double SmoothNearnessDiagram::choose_heading(const sim::Pose& X_WB, const sim::V
 }
 
 sim::Twist SmoothNearnessDiagram::drive(double heading_rad, double goal_m, double period_s) const {
-  // Near the goal only what is between it and the robot matters.
+  // Near the goal only obstacles on the way to it matter.
   const double safety_m = std::min(settings_.safety_distance_m, std::max(0.02, goal_m));
   double greatest = 0.0;
   double weights = 0.0;
@@ -318,8 +319,8 @@ sim::Twist SmoothNearnessDiagram::drive(double heading_rad, double goal_m, doubl
   return {0.0, turn_radps};
 }
 
-// Whether the robot's disc, driven so, stays clear of what was seen until it could have stopped;
-// what it overlaps already may be left.
+// Whether the robot's disc stays clear of all obstacles under this twist until it could have
+// stopped. Leaving an obstacle that the disc overlaps already is safe.
 bool SmoothNearnessDiagram::is_safe(const sim::Twist& twist, double period_s) const {
   constexpr int kPlaces = 5;
   const double radius_m = settings_.robot_radius_m + kMargin_m;
@@ -346,7 +347,7 @@ bool SmoothNearnessDiagram::is_safe(const sim::Twist& twist, double period_s) co
   return true;
 }
 
-// Whether the robot has come no nearer to the goal for longer than its patience lasts.
+// Whether the robot has made no progress towards the goal for longer than its patience.
 bool SmoothNearnessDiagram::gives_up(double time_s, double goal_m) {
   if (arrived_ || goal_m < nearest_m_ - kProgress_m) {
     nearest_m_ = std::min(nearest_m_, goal_m);

@@ -29,33 +29,33 @@ SndThread::SndThread(std::unique_ptr<Session> session, int position, int laser,
   }
   const player_pose3d_t mount = laser_.GetPose();
   scan_.X_BL = {mount.px, mount.py, mount.pyaw};
-  const virtual_time::Inside inside;  // it is not the program's thread
-  // Not before the thread has joined may the caller go on, and with it time.
+  const virtual_time::Inside inside;  // this is not the program's own thread
+  // The caller, and with it simulated time, must not continue before the thread has joined.
   std::unique_lock lock(mutex_);
   thread_ = std::thread([this] { run(); });
   started_changed_.wait(lock, [this] { return started_; });
 }
 
 SndThread::~SndThread() {
-  // Opened while the session is: once that is closed, it opens no other.
+  // Opened now, because a closed session cannot open another one.
   std::unique_ptr<Session> last;
   try {
     if (state() == SndState::kMoving) last = session().open_follower();
   } catch (const SessionError&) {
-    // The server has gone.
+    // The connection to the server is lost.
   }
-  PlayerCc::detail::CoreAccess::get(client_)->close();  // the thread finds its connection closed
+  PlayerCc::detail::CoreAccess::get(client_)->close();  // the thread's next call fails and ends it
   {
-    const virtual_time::Inside inside;  // and ends without simulated time
+    const virtual_time::Inside inside;  // the thread ends without simulated time
     thread_.join();
   }
   if (!last || state() != SndState::kMoving) return;
   try {
-    // What a session asked for last is still done when it closes.
+    // Closing a session still executes its last command.
     PlayerCc::PlayerClient client(std::move(last));
     PlayerCc::Position2dProxy(&client, position_.GetIndex()).SetSpeed(0.0, 0.0);
   } catch (const PlayerError&) {
-    // The run is over: there is nobody left to be stopped.
+    // The run is over, so no robot needs to be stopped.
   }
 }
 
@@ -78,7 +78,7 @@ void SndThread::run() {
   } catch (const PlayerError&) {
     // The run is over, or the driver is being destroyed.
   } catch (const SessionError&) {
-    // The same, before the first round.
+    // The run is over or the driver is being destroyed, before the first round.
   }
   const std::lock_guard lock(mutex_);
   started_ = true;
@@ -88,7 +88,7 @@ void SndThread::run() {
 void SndThread::round() {
   const sim::SimTime now_ns = session().request(TimeRequest{}).sim_time_ns;
   take_requests(now_ns);
-  // Without a scan and a pose there is nothing to go by yet.
+  // Navigation needs both a scan and a pose.
   if (navigation_.state() == SndState::kMoving && laser_.IsFresh() && position_.IsValid()) {
     laser_.NotFresh();
     const uint32_t count = laser_.GetCount();
@@ -105,7 +105,7 @@ void SndThread::round() {
   newest_.state = navigation_.state();
 }
 
-// Takes over what was asked for before this round, and lets others see the round before.
+// Takes the requests made before this round, and publishes the outcome of the previous round.
 void SndThread::take_requests(sim::SimTime before_ns) {
   const std::lock_guard lock(mutex_);
   if (newest_.time_ns < before_ns) before_ = newest_;
@@ -165,7 +165,7 @@ SndState SndThread::state() const {
   try {
     now_ns = session().request(TimeRequest{}).sim_time_ns;
   } catch (const SessionError&) {
-    // The connection is closed: no further round comes.
+    // The connection is closed, so there are no further rounds.
   }
   const Outcome& outcome = newest_.time_ns < now_ns ? newest_ : before_;
   return outcome.number == last_number_ ? outcome.state : asked_for_;

@@ -17,43 +17,43 @@
 
 namespace playerlike {
 
-/// SmoothNearnessDiagram at work: a thread with a PlayerClient of its own that reads laser and
-/// position, and commands speeds.
+/// Runs SmoothNearnessDiagram in a thread with its own PlayerClient, which reads laser and position
+/// and commands speeds.
 ///
-/// Lockstep. The thread takes part from the constructor on, as a follower (see
-/// Session::open_follower()). Whatever other threads ask for is stamped with the simulated time of
-/// the asking, and a round at time r takes what was asked before r: what is asked at r itself may
-/// or may not have come in yet. For the same reason state() tells what a round before now has
-/// made of it. So results do not hang on which thread is faster.
+/// Lockstep: the thread takes part from the constructor on, as a follower (see
+/// Session::open_follower()). Requests of other threads are stamped with the simulated time. A
+/// round at time r takes the requests made before r, because a request made at r may or may not
+/// have arrived yet. For the same reason state() returns the outcome of an earlier round. So
+/// results do not depend on the relative speed of threads.
 class SndThread final : public GoalDriver {
  public:
   /// @param session   a follower; not null.
-  /// @param position  index of the position2d that tells where the robot is, and drives it.
+  /// @param position  index of the position2d that measures and drives the robot.
   /// @param laser     index of the laser.
   /// @throws PlayerCc::PlayerError kNoSuchDevice for an index that the port does not have,
-  ///         kNotAvailable if the robot has no motors.
+  /// kNotAvailable if the robot has no motors.
   SndThread(std::unique_ptr<Session> session, int position, int laser, const SndSettings& settings);
   ~SndThread() override;
 
   void go_to(const Goal& goal) override;
   void cancel() override;
-  /// Settings for this goal and those that follow. @pre fault_of(settings) is empty.
+  /// Sets the settings of the current goal and later goals. @pre fault_of(settings) is empty.
   void set_settings(const SndSettings& settings);
   [[nodiscard]] SndSettings settings() const;
   [[nodiscard]] SndState state() const;
 
  private:
   struct Cancel {};
-  /// Something that was asked for.
+  /// A request of another thread.
   struct Request {
     sim::SimTime time_ns;
     std::uint64_t number;
     std::variant<Goal, Cancel, SndSettings> what;
   };
-  /// What a round has made of it.
+  /// The outcome of a round.
   struct Outcome {
     sim::SimTime time_ns = -1;
-    std::uint64_t number = 0;  ///< of the last request that it knew
+    std::uint64_t number = 0;  ///< of the last request that the round took
     SndState state = SndState::kIdle;
   };
 
@@ -68,18 +68,18 @@ class SndThread final : public GoalDriver {
   PlayerCc::Position2dProxy position_;
   PlayerCc::LaserProxy laser_;
 
-  // Of the thread alone.
+  // Used by the thread only.
   SndSettings in_use_;
   SmoothNearnessDiagram navigation_;
   SndScan scan_;
 
-  mutable std::mutex mutex_;  // over what follows; the host's mutex is taken under it
+  mutable std::mutex mutex_;  // guards the members below; the host's mutex is locked under it
   std::condition_variable started_changed_;
   bool started_ = false;
   SndSettings settings_;
   std::vector<Request> requests_;
   std::uint64_t last_number_ = 0;
-  SndState asked_for_ = SndState::kIdle;  ///< the state that the last request leads to
+  SndState asked_for_ = SndState::kIdle;  ///< the state to which the last request leads
   Outcome newest_;
   Outcome before_;
 

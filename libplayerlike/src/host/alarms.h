@@ -9,8 +9,8 @@
 
 namespace playerlike {
 
-/// What event loops wait for besides readings, see Alarm. An alarm that was notified is gone.
-/// Not thread-safe: guarded by the host's mutex.
+/// The alarms of event clients, see Alarm. An alarm is removed when it has been notified. Not
+/// thread-safe: guarded by the host's mutex.
 class Alarms {
  public:
   AlarmId set(Alarm alarm) {
@@ -21,13 +21,13 @@ class Alarms {
   bool cancel(AlarmId alarm) {
     return std::erase_if(alarms_, [alarm](const auto& a) { return a.first == alarm; }) > 0;
   }
-  /// Whether lockstep time goes on for one of them.
+  /// Whether an alarm lets lockstep time advance.
   [[nodiscard]] bool let_time_pass() const {
     return std::any_of(alarms_.begin(), alarms_.end(),
                        [](const auto& alarm) { return alarm.second.lets_time_pass; });
   }
-  /// Notifies those that are due, in order of number; the others stay.
-  /// @param all  the run is over: all are due.
+  /// Notifies and removes the alarms that are due, in order of their ids.
+  /// @param all  the run is over: all alarms are due.
   void ring(const sim::Simulation& simulation, bool all) {
     std::erase_if(alarms_, [&](const auto& numbered) {
       const Alarm& alarm = numbered.second;
@@ -39,7 +39,7 @@ class Alarms {
   }
 
  private:
-  std::vector<std::pair<AlarmId, Alarm>> alarms_;  ///< in order of number
+  std::vector<std::pair<AlarmId, Alarm>> alarms_;  ///< in order of id
   AlarmId next_ = 1;
 };
 

@@ -14,15 +14,15 @@
 namespace playerlike {
 namespace {
 
-constinit std::mutex mutex;  // over timer
+constinit std::mutex mutex;  // guards timer
 constinit timer_t timer{};
 constinit std::atomic<bool> timer_runs{false};
-// What the handler writes.
+// Read and written by the signal handler.
 constinit std::atomic<const std::string*> alarm_text{nullptr};
 constinit std::atomic<bool> rang{false};
 
-/// A text that stays where it is until the process ends: the handler may be running whenever its
-/// text would be freed. There are few different ones.
+/// Stores a text until the process ends, since the handler may run at any time. There are few
+/// different texts.
 const std::string& kept(const std::string& text) {
   static auto* const texts = new std::set<std::string>;
   return *texts->insert(text).first;

@@ -5,18 +5,17 @@
 
 namespace playerlike {
 
-/// For programs that call nothing any more: writes a text to standard error, once, when this
-/// process has used so much processor time from now on. Whether it does not depend on how busy the
-/// machine is.
+/// For programs that no longer call the library: writes a text to standard error, once, when this
+/// process has used a given processor time from now on. Processor time makes this independent of
+/// the machine's load.
 ///
-/// It is written by a signal handler. The signal is SIGURG, which does nothing where nobody handles
-/// it; if the program handles it, nothing is done here. There is one alarm in a process: further
-/// ones are left out until the first was dismissed.
+/// A handler of SIGURG writes the text; by default that signal is ignored. If the program handles
+/// it, no alarm is set. A process has one alarm: calls before it is dismissed are ignored.
 /// @param cpu_s  of all threads [s], > 0.
 void set_busy_alarm(double cpu_s, const std::string& text);
-/// Takes the alarm back, if there is one.
+/// Cancels the alarm, if there is one.
 void dismiss_busy_alarm() noexcept;
-/// Whether an alarm was written.
+/// Whether the alarm's text was written.
 [[nodiscard]] bool busy_alarm_rang() noexcept;
 
 }  // namespace playerlike

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/idle_calls.h"
-#include "playerlike/process/thinker.h"
+#include "host/polling_detector.h"
+#include "playerlike/process/thread_id.h"
 #include "playerlike/session/draw_queue.h"
 #include "playerlike/session/session.h"
 #include "sim/core/time.h"
@@ -21,64 +21,65 @@
 namespace playerlike {
 
 using WallClock = std::chrono::steady_clock;
-/// Writes a warning into the run's log.
+/// Logs a warning of the run.
 using Warn = std::function<void(const std::string&)>;
 
-/// A number of seconds as a duration of the wall clock.
+/// Converts seconds to a duration of the wall clock.
 [[nodiscard]] inline WallClock::duration wall(double seconds) {
   return std::chrono::duration_cast<WallClock::duration>(std::chrono::duration<double>(seconds));
 }
 
-/// What the host knows of one session. Guarded by the host's mutex, but for what says otherwise.
+/// The host's state of a session. The host's mutex guards it unless stated otherwise.
 struct Client {
   struct Subscription {
     DeviceId device{-1, -1};
     int count = 0;
     bool replace = true;
-    bool fresh = false;  ///< replace: the device's newest reading was not taken yet
-    std::vector<sim::SharedReading> queue;  ///< not replace: readings not taken yet
+    bool fresh = false;                     ///< if `replace`: the newest reading was not taken yet
+    std::vector<sim::SharedReading> queue;  ///< if not `replace`: readings not taken yet
   };
 
-  int number = 0;  ///< in order of connection; fixes the order of commands
+  int number = 0;  ///< in order of connection; determines the order of commands
   int port = 0;
   bool follower = false;  ///< see Session::open_follower()
-  /// Of a server, which sees itself to what its clients may read.
+  /// Belongs to a server, which checks itself what its clients may read.
   bool served = false;
-  ThinkerId creator = 0;                    ///< who connected it
+  ThreadId creator = 0;                     ///< the thread that connected it
   std::vector<Subscription> subscriptions;  ///< in order of device
   bool replace_by_default = true;
   std::uint32_t overflow = 0;
   bool has_data = false;
-  sim::SimTime empty_round_ns = 0;  ///< without subscriptions: when the next round is over
-  int looks = 0;                    ///< peek(0) calls in a row
+  sim::SimTime empty_round_ns = 0;  ///< without subscriptions: end of the present round
+  int zero_peeks = 0;               ///< consecutive calls of peek(0)
 
-  ThinkerId owner = 0;      ///< who last waited; 0: nobody
+  ThreadId owner = 0;       ///< the thread that waited last; 0: none
   bool joined = false;      ///< takes part in the lockstep
-  bool silent = false;      ///< thought for too long: does not count until it waits again
-  bool waiting = false;     ///< its owner waits, and nothing has ended that yet
-  bool wants_data = false;  ///< data ends the wait
-  std::optional<sim::SimTime> wake_ns;  ///< the wait ends then, if set
+  bool silent = false;      ///< exceeded the silence limit: not counted until it waits again
+  bool waiting = false;     ///< its owner waits, and the wait is not over
+  bool wants_data = false;  ///< data end the wait
+  std::optional<sim::SimTime> wake_ns;  ///< if set, this time ends the wait
 
-  /// Of an EventClient: told when its wait is over. Empty: a thread waits in a call.
+  /// Of an EventClient: called when its wait is over. Empty: a thread waits inside of a call.
   std::function<void()> notify;
   std::atomic<bool> closed{false};
   std::atomic<WallClock::rep> last_seen{0};
 
-  std::mutex input_mutex;  ///< guards the commands and idle; taken after the host's mutex
+  /// Guards the commands and the detector; locked after the host's mutex.
+  std::mutex input_mutex;
   std::vector<std::pair<DeviceId, sim::Command>> commands;
-  IdleCalls idle;
-  DrawQueue drawings;  ///< any thread may push; the rest under the host's mutex
+  PollingDetector polling_detector;
+  DrawQueue drawings;  ///< any thread may push; the host's mutex guards the rest
 
-  /// Whether it is a client of this process's program: neither a driver's nor a server's.
+  /// Whether it belongs to this process's program, not to a driver or a server.
   [[nodiscard]] bool is_programs() const noexcept { return !follower && !notify; }
-  /// Any thread, without the lock.
+  /// Any thread, without the mutex.
   void touch() {
     last_seen.store(WallClock::now().time_since_epoch().count(), std::memory_order_relaxed);
   }
   [[nodiscard]] WallClock::time_point seen() const {
     return WallClock::time_point(WallClock::duration(last_seen.load()));
   }
-  /// Any thread, without the lock. @throws SessionError kDisconnected.
+  /// Any thread, without the mutex. @throws SessionError kDisconnected.
   void require_open() const {
     if (closed) throw SessionError(SessionError::Code::kDisconnected, "the connection is closed");
   }

@@ -8,25 +8,25 @@
 
 namespace playerlike {
 
-/// Keeps book of what clients let a host write into its output folder: the bytes that files hold
-/// now, so that overwriting a file costs only what it grows by. Threads may share one.
+/// Accounts for the bytes that clients have written into the host's output folder. It counts the
+/// present sizes of the files, so overwriting a file costs only its growth. Thread-safe.
 class ClientFiles {
  public:
-  /// @param session_limit  bytes for the files of one client.
-  /// @param total_limit    bytes for the files of all clients.
+  /// @param session_limit  bytes of the files of one client.
+  /// @param total_limit    bytes of the files of all clients.
   ClientFiles(std::uint64_t session_limit, std::uint64_t total_limit)
       : session_limit_(session_limit), total_limit_(total_limit) {}
 
-  /// Called before a client's file is written.
+  /// Must be called before a client's file is written.
   /// @param client  its number.
-  /// @throws SessionError kNotAvailable, saying what is used up, if nothing more may be written.
+  /// @throws SessionError kNotAvailable, naming the limit, if nothing more may be written.
   void require_room(int client) const;
-  /// Called when a client's file was written: from now on it is the client's, and as large as it
-  /// is.
+  /// Must be called after a client's file was written: the file now belongs to the client, with its
+  /// present size.
   void note(int client, const std::string& file);
-  /// The same for one whose size is known.
+  /// As above, for a file whose size is known.
   void note(int client, const std::string& file, std::uint64_t size);
-  /// Whether a file of this size may go on growing, whatever else its client has written.
+  /// Whether a file of this size may grow further, regardless of its client's other files.
   [[nodiscard]] bool may_grow(std::uint64_t size) const;
 
  private:
@@ -37,7 +37,7 @@ class ClientFiles {
 
   const std::uint64_t session_limit_;
   const std::uint64_t total_limit_;
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::map<std::string, File> files_;
   std::map<int, std::uint64_t> sizes_;  ///< by client
   std::uint64_t total_ = 0;

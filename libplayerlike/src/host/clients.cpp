@@ -27,11 +27,11 @@ std::shared_ptr<Client> Clients::add(int port, bool follower, std::function<void
   client->number = next_number_++;
   client->port = port;
   client->follower = follower;
-  client->creator = this_thinker();
+  client->creator = this_thread_id();
   client->touch();
   begin_round(*client);
-  // Most often it is the last, so the search begins there. In virtual time threads may begin at the
-  // same moment: the order is that in which they were started, not that in which they come here.
+  // The place is usually the last, so the search begins there. In virtual time several threads may
+  // begin at the same moment: the order is that of their start, not of their arrival here.
   auto place = clients_.end();
   while (place != clients_.begin()) {
     const Client& before = **std::prev(place);
@@ -83,7 +83,7 @@ void Clients::set_replace(Client& client, std::optional<DeviceId> device, bool r
   for (Client::Subscription& s : client.subscriptions) {
     if (device && !(s.device == *device)) continue;
     s.replace = replace;
-    // What waits keeps waiting, in the form that the new rule takes.
+    // Unread readings are kept, in the form that the new rule needs.
     if (replace && !s.queue.empty()) {
       s.queue.erase(s.queue.begin(), s.queue.end() - 1);
     } else if (!replace && s.fresh) {
@@ -129,7 +129,7 @@ void Clients::distribute(const std::map<int, RunLog>& logs) {
 
 std::vector<std::pair<DeviceId, sim::SharedReading>> Clients::take(Client& client) {
   std::vector<std::pair<DeviceId, sim::SharedReading>> taken;
-  client.looks = 0;
+  client.zero_peeks = 0;
   if (!client.has_data) return taken;
   client.has_data = false;
   begin_round(client);
@@ -175,8 +175,9 @@ void Clients::give(const sim::SharedReading& reading, Client::Subscription& subs
 }
 
 sim::SharedReading Clients::reading(DeviceId device) const {
-  // Only sensors can be subscribed to; to ask for the type costs as much as the rest of this.
-  return static_cast<const sim::Sensor&>(simulation_.device(device.robot, device.device)).share();
+  // Only sensors can be subscribed to. A dynamic cast would cost as much as the rest of this
+  // function.
+  return simulation_.device(device.robot, device.device).sensor()->share();
 }
 
 }  // namespace playerlike

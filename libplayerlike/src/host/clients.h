@@ -15,15 +15,15 @@
 
 namespace playerlike {
 
-/// The clients of a run and their subscriptions: who is given which reading.
+/// The clients of a run and their subscriptions; distributes readings.
 ///
-/// Clients are in the order in which their inputs are applied: followers first, each kind in order
-/// of number. subscribers_ lists, for each device, exactly the clients that have subscribed to it.
-/// Not thread-safe: guarded by the host's mutex.
+/// Clients are in the order in which their inputs are applied: followers first, then the others,
+/// each group in order of number. subscribers_ lists the subscribed clients of each device. Not
+/// thread-safe: guarded by the host's mutex.
 class Clients {
  public:
-  /// Both must live as long as this.
-  /// @param by_creator  virtual time: of one kind, clients are in the order in which the threads
+  /// Both arguments must outlive this object.
+  /// @param by_creator  virtual time: within a group, clients are in the order in which the threads
   ///                    that connect them were started.
   Clients(const sim::Simulation& simulation, const std::vector<RobotInfo>& robots, bool by_creator);
 
@@ -36,18 +36,18 @@ class Clients {
 
   void subscribe(Client& client, DeviceId device);
   void unsubscribe(Client& client, DeviceId device);
-  /// @param device  one of the client's; nullopt: all of them, and those to come.
+  /// @param device  one of the client's; nullopt: all devices, also those subscribed to later.
   void set_replace(Client& client, std::optional<DeviceId> device, bool replace);
 
-  /// Gives the readings of a step to those who have subscribed to their devices.
-  /// @param logs  by port; those that are replayed take the place of their port's devices.
+  /// Gives the readings of a step to the subscribed clients.
+  /// @param logs  by port; a log that is replayed replaces the devices of its port.
   void distribute(const std::map<int, RunLog>& logs);
-  /// Takes what waits for a client, in order of device.
+  /// Takes a client's unread readings, in order of device.
   std::vector<std::pair<DeviceId, sim::SharedReading>> take(Client& client);
 
  private:
   [[nodiscard]] std::vector<Client*>& subscribers(DeviceId device);
-  /// @return null if the client has none for that device.
+  /// @return null if the client has no subscription to this device.
   [[nodiscard]] static Client::Subscription* find(Client& client, DeviceId device);
   void forget_subscriber(const Client& client, DeviceId device) noexcept;
   void begin_round(Client& client) const;

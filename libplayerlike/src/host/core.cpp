@@ -14,7 +14,7 @@
 namespace playerlike {
 namespace {
 
-// A program that ignores the end of the run this often is ended.
+// The program is ended after so many reads beyond the end of the run.
 constexpr int kReadsAfterEnd = 1000;
 
 void require_duration(double sleep_s) {
@@ -25,7 +25,7 @@ void require_duration(double sleep_s) {
 
 }  // namespace
 
-// --- Construction, and the lock
+// --- Construction and the mutex
 
 Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook log)
     : settings_(std::move(settings)),
@@ -47,7 +47,7 @@ Host::Core::Core(sim::WorldDescription world, RunSettings settings, sim::LogHook
                 settings_.silence_limit_s, warn_),
       pace_(sim::to_seconds(step_ns_), simulation_.world().simulation.time_factor),
       inputs_(simulation_, warn_),
-      standing_time_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
+      stalled_time_warning_(robots_.size(), turns_, settings_.silence_limit_s, warn_),
       results_(
           settings_, simulation_, [this] { return time_locked(); }, warn_),
       clock_(std::make_unique<VirtualClock>(*this)),
@@ -57,7 +57,7 @@ Host::Core::~Core() { stop(); }
 
 void Host::Core::start() {
   if (settings_.view_socket) window_ = std::make_unique<Window>(*this, *settings_.view_socket);
-  const Lock lock = lock_soon();  // the window's thread may look already
+  const Lock lock = lock_with_priority();  // the window's thread may be running already
   if (simulation_.world().simulation.time_mode != sim::TimeMode::kPaced) return;
   pace_.follow_wall_clock();
   pacer_ = std::thread([this] { pace(); });
@@ -73,20 +73,20 @@ void Host::Core::stop() noexcept {
   if (pacer_.joinable() && pacer_.get_id() != std::this_thread::get_id()) pacer_.join();
 }
 
-Host::Core::Lock Host::Core::lock_soon() const {
-  knocking_.fetch_add(1);
+Host::Core::Lock Host::Core::lock_with_priority() const {
+  priority_waiters_.fetch_add(1);
   Lock lock(mutex_);
-  knocking_.fetch_sub(1);
+  priority_waiters_.fetch_sub(1);
   return lock;
 }
 
-Host::Core::Lock Host::Core::lock_politely() const {
-  while (knocking_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+Host::Core::Lock Host::Core::lock_for_stepping() const {
+  while (priority_waiters_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
   return Lock(mutex_);
 }
 
 void Host::Core::give_way(Lock& lock) const {
-  if (knocking_.load(std::memory_order_relaxed) == 0) return;
+  if (priority_waiters_.load(std::memory_order_relaxed) == 0) return;
   lock.unlock();
   std::this_thread::yield();
   lock.lock();
@@ -96,51 +96,51 @@ void Host::Core::give_way(Lock& lock) const {
 
 std::shared_ptr<Client> Host::Core::add_client(int port, bool follower,
                                                std::function<void()> notify) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   auto client = clients_.add(port, follower, std::move(notify));
   changed_.notify_all();  // a paced clock may wait for its first client
   return client;
 }
 
 void Host::Core::remove_client(Client& client) noexcept {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   if (client.closed.exchange(true)) return;
-  // What it asked for last still happens.
+  // Its last commands are still applied.
   if (!ended_) inputs_.apply(client);
   client.drawings.close();
-  inputs_.book.leave(client.number);
-  if (turns_) Turns::instance().let_go(&client);
+  inputs_.registry.leave(client.number);
+  if (turns_) Turns::instance().resume_client_thread(&client);
   clients_.remove(client);
   changed_.notify_all();
 }
 
-void Host::Core::thinker_ended(ThinkerId thinker) noexcept {
-  if (turns_ && thinker == this_thinker() && virtual_time::process_ends()) return;
-  const Lock lock = lock_soon();
-  lockstep_.forget(thinker);
-  if (turns_) Turns::instance().remove(thinker);
+void Host::Core::thread_ended(ThreadId thread_id) noexcept {
+  if (turns_ && thread_id == this_thread_id() && virtual_time::process_ends()) return;
+  const Lock lock = lock_with_priority();
+  lockstep_.forget(thread_id);
+  if (turns_) Turns::instance().remove(thread_id);
   changed_.notify_all();
 }
 
-void Host::Core::adopt(Client& client, ThinkerId thinker) {
+void Host::Core::adopt(Client& client, ThreadId thread_id) {
   client.require_open();
-  if (!turns_) client.touch();  // else it is known when the thread's turn began
-  lockstep_.adopt(client, thinker);
+  if (!turns_) client.touch();  // in virtual time, Turns knows when the thread began to run
+  lockstep_.adopt(client, thread_id);
 }
 
-void Host::Core::join(Client& client, ThinkerId thinker) {
-  const Lock lock = lock_soon();
-  adopt(client, thinker);
+void Host::Core::join(Client& client, ThreadId thread_id) {
+  const Lock lock = lock_with_priority();
+  adopt(client, thread_id);
   if (in_turns()) static_cast<void>(Turns::instance().self());
   changed_.notify_all();  // the start gate may have waited for it
 }
 
 void Host::Core::subscribe(Client& client, DeviceId device) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.require_open();
   require_readable(client, device.robot);
   clients_.subscribe(client, device);
-  if (client.is_programs() && standing_time_.note_wish()) set_busy_alarm();
+  if (client.is_programs() && stalled_time_warning_.note_needs_time()) set_busy_alarm();
 }
 
 void Host::Core::require_readable(const Client& client, int robot) const {
@@ -161,50 +161,51 @@ void Host::Core::send(Client& client, DeviceId device, const sim::Command& comma
   client.require_open();
   client.touch();
   const bool is_programs = client.is_programs();
-  if (is_programs && standing_time_.note_wish()) locked([this] { set_busy_alarm(); });
-  bool look = false;
+  if (is_programs && stalled_time_warning_.note_needs_time()) locked([this] { set_busy_alarm(); });
+  bool must_check = false;
   bool full = false;
   {
     const std::lock_guard input(client.input_mutex);
-    look = is_programs && standing_time_.note_command(client, now_ns());
+    must_check = is_programs && stalled_time_warning_.note_command(client, now_ns());
     full = inputs_.add(client, device, command);
   }
-  if (look) check_standing_time(client);
+  if (must_check) check_stalled_time(client);
   if (!full) return;
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   inputs_.apply(client);
 }
 
-// --- Programs that let no time pass
+// --- Programs that do not advance time
 
 void Host::Core::set_busy_alarm() {
-  if (!paced() && !over() && simulation_.now_ns() == 0) standing_time_.set_alarm();
+  if (!paced() && !over() && simulation_.now_ns() == 0) stalled_time_warning_.set_alarm();
 }
 
-void Host::Core::note_looks(Client& client, int count, bool has_data) {
+void Host::Core::count_data_reads(Client& client, int count, bool has_data) {
   if (!client.is_programs()) return;
-  bool look = false;
+  bool must_check = false;
   {
     const std::lock_guard input(client.input_mutex);
-    look = StandingTime::note_looks(client, now_ns(), count, has_data);
+    must_check = StalledTimeWarning::count_data_reads(client, now_ns(), count, has_data);
   }
-  if (look) check_standing_time(client);
+  if (must_check) check_stalled_time(client);
 }
 
-void Host::Core::check_standing_time(Client& client) {
-  const Lock lock = lock_soon();
-  const ThinkerId self = this_thinker();
+void Host::Core::check_stalled_time(Client& client) {
+  const Lock lock = lock_with_priority();
+  const ThreadId self = this_thread_id();
   const bool others =
       in_turns() ? VirtualClock::others_take_turns(self) : lockstep_.others_may_wait(self);
-  standing_time_.check(client, simulation_.now_ns(), paced() || over() || others);
+  stalled_time_warning_.check(client, simulation_.now_ns(), paced() || over() || others);
 }
 
 void Host::Core::note_program_ends(int status) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   results_.program_status = status;
-  standing_time_.dismiss_alarm();
-  // A program that gives up because of an error knows why.
-  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0) standing_time_.note_end();
+  stalled_time_warning_.dismiss_alarm();
+  // A program that ends with an error status needs no advice.
+  if (!paced() && !ended_ && simulation_.now_ns() == 0 && status == 0)
+    stalled_time_warning_.note_end();
 }
 
 // --- Waiting
@@ -213,9 +214,9 @@ bool Host::Core::program_takes_part() const {
   return pace_.limited() || lockstep_.program_takes_part() || alarms_.let_time_pass();
 }
 
-bool Host::Core::may_advance(bool all_wait_still) {
-  return !paced() && !over() && !pace_.used_up() && lockstep_.gate_open() && program_takes_part() &&
-         (all_wait_still || lockstep_.all_wait());
+bool Host::Core::may_advance(bool all_known_waiting) {
+  return !paced() && !over() && !pace_.step_limit_reached() && lockstep_.gate_open() &&
+         program_takes_part() && (all_known_waiting || lockstep_.all_wait());
 }
 
 bool Host::Core::wait_is_over(const Client& client) const {
@@ -225,33 +226,34 @@ bool Host::Core::wait_is_over(const Client& client) const {
 
 void Host::Core::wait_until(Lock& lock, Client& client, bool wants_data,
                             std::optional<sim::SimTime> wake_ns) {
-  adopt(client, this_thinker());
+  adopt(client, this_thread_id());
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   if (in_turns()) clock_->wait_for_turn(lock, client);
-  // Until somebody is let go, nothing changes about who waits while this thread has the mutex.
-  bool all_wait_still = false;
+  // While this thread holds the mutex, the set of waiting clients changes only when
+  // release_waiters() ends a wait.
+  bool all_known_waiting = false;
   while (!wait_is_over(client)) {
     client.require_open();
-    // Said once: threads that all only tell each other that they wait would never sleep.
+    // Notified once: otherwise threads would keep waking each other and never sleep.
     const bool began = !std::exchange(client.waiting, true);
     if (paced()) {
       if (began) changed_.notify_all();
       changed_.wait(lock);
-    } else if (may_advance(all_wait_still)) {
-      all_wait_still = !advance();
+    } else if (may_advance(all_known_waiting)) {
+      all_known_waiting = !advance();
     } else {
       if (began) changed_.notify_all();
       wait_for_others(lock, client);
-      all_wait_still = false;
+      all_known_waiting = false;
     }
   }
   client.waiting = false;
 }
 
-// Waits for a change, and no longer than until a client has been silent for too long.
+// Waits for a change, at most until the silence limit of a client.
 void Host::Core::wait_for_others(Lock& lock, const Client& client) {
-  // A follower does not mind how long programs take.
+  // A follower waits for programs without a time limit.
   if (client.follower) return changed_.wait(lock);
   const auto deadline = lockstep_.silence_deadline(WallClock::now());
   if (changed_.wait_until(lock, deadline) == std::cv_status::timeout) {
@@ -260,10 +262,10 @@ void Host::Core::wait_for_others(Lock& lock, const Client& client) {
 }
 
 void Host::Core::wait(Client& client) {
-  Lock lock = lock_politely();
+  Lock lock = lock_for_stepping();
   wait_until(lock, client, /*wants_data=*/true, std::nullopt);
   if (client.has_data) return;
-  end_told_ = true;
+  end_reported_ = true;
   if (settings_.quiet_end && ++reads_after_end_ > kReadsAfterEnd) {
     lock.unlock();
     end_program_quietly();
@@ -283,11 +285,11 @@ int Host::Core::take(Client& client, ReadingSink& sink) {
 }
 
 bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
-  Lock lock = lock_politely();
+  Lock lock = lock_for_stepping();
   client.require_open();
   if (client.has_data || over()) return true;
   if (paced()) {
-    adopt(client, this_thinker());
+    adopt(client, this_thread_id());
     client.wants_data = true;
     client.wake_ns.reset();
     client.waiting = true;
@@ -296,7 +298,7 @@ bool Host::Core::peek(Client& client, std::chrono::milliseconds timeout) {
     client.waiting = false;
     return client.has_data || over();
   }
-  if (timeout.count() == 0 && ++client.looks < 2) return false;
+  if (timeout.count() == 0 && ++client.zero_peeks < 2) return false;
   wait_until(lock, client, /*wants_data=*/true, end_of_peek(timeout));
   return client.has_data || over();
 }
@@ -315,9 +317,9 @@ void Host::Core::sleep(Client& client, double duration_s) {
 
 // --- Event clients
 
-EventClient::Outcome Host::Core::begin(Client& client, ThinkerId thinker, bool wants_data,
+EventClient::Outcome Host::Core::begin(Client& client, ThreadId thread_id, bool wants_data,
                                        std::optional<sim::SimTime> wake_ns) {
-  adopt(client, thinker);
+  adopt(client, thread_id);
   client.wants_data = wants_data;
   client.wake_ns = wake_ns;
   client.waiting = !wait_is_over(client);
@@ -325,33 +327,33 @@ EventClient::Outcome Host::Core::begin(Client& client, ThinkerId thinker, bool w
   return outcome(client);
 }
 
-EventClient::Outcome Host::Core::begin_wait(Client& client, ThinkerId thinker) {
-  const Lock lock = lock_soon();
-  return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+EventClient::Outcome Host::Core::begin_wait(Client& client, ThreadId thread_id) {
+  const Lock lock = lock_with_priority();
+  return begin(client, thread_id, /*wants_data=*/true, std::nullopt);
 }
 
-EventClient::Outcome Host::Core::begin_peek(Client& client, ThinkerId thinker,
+EventClient::Outcome Host::Core::begin_peek(Client& client, ThreadId thread_id,
                                             std::chrono::milliseconds timeout) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.require_open();
   client.wants_data = true;
-  client.wake_ns = simulation_.now_ns();  // over at once, unless decided otherwise below
+  client.wake_ns = simulation_.now_ns();  // over at once, unless it is set below
   if (client.has_data || over()) return outcome(client);
   if (paced()) {
     if (timeout.count() == 0) {
-      adopt(client, thinker);
+      adopt(client, thread_id);
       return outcome(client);
     }
-    return begin(client, thinker, /*wants_data=*/true, std::nullopt);
+    return begin(client, thread_id, /*wants_data=*/true, std::nullopt);
   }
-  if (timeout.count() == 0 && ++client.looks < 2) return outcome(client);
-  return begin(client, thinker, /*wants_data=*/true, end_of_peek(timeout));
+  if (timeout.count() == 0 && ++client.zero_peeks < 2) return outcome(client);
+  return begin(client, thread_id, /*wants_data=*/true, end_of_peek(timeout));
 }
 
-EventClient::Outcome Host::Core::begin_sleep(Client& client, ThinkerId thinker, double seconds) {
+EventClient::Outcome Host::Core::begin_sleep(Client& client, ThreadId thread_id, double seconds) {
   require_duration(seconds);
-  const Lock lock = lock_soon();
-  return begin(client, thinker, /*wants_data=*/false,
+  const Lock lock = lock_with_priority();
+  return begin(client, thread_id, /*wants_data=*/false,
                simulation_.now_ns() + sim::from_seconds(seconds));
 }
 
@@ -365,12 +367,12 @@ EventClient::Outcome Host::Core::outcome(const Client& client) const {
 }
 
 EventClient::Outcome Host::Core::outcome_of(const Client& client) const {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   return outcome(client);
 }
 
 void Host::Core::cancel_wait(Client& client) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   client.waiting = false;
   client.wants_data = false;
   client.wake_ns.reset();
@@ -378,30 +380,30 @@ void Host::Core::cancel_wait(Client& client) {
 }
 
 bool Host::Core::advance_for(std::chrono::microseconds slice) {
-  Lock lock = lock_soon();
+  Lock lock = lock_with_priority();
   if (in_turns() || !may_advance()) return false;
   const auto end = WallClock::now() + slice;
   do {
     advance();
     if (!may_advance()) return false;
-    // Others want a word.
-    if (knocking_.load(std::memory_order_relaxed) > 0) return true;
+    // Another thread waits in lock_with_priority().
+    if (priority_waiters_.load(std::memory_order_relaxed) > 0) return true;
   } while (WallClock::now() < end);
   return true;
 }
 
 void Host::Core::check_silence() {
-  const Lock lock = lock_soon();
-  // Nobody waits in vain while time goes on by itself, or while there is nobody for whom it would.
+  const Lock lock = lock_with_priority();
+  // Silence matters only if clients wait for lockstep time that could advance.
   if (paced() || over()) return;
   if (lockstep_.somebody_waits() || program_takes_part()) lockstep_.note_silence(WallClock::now());
 }
 
 AlarmId Host::Core::set_alarm(Alarm alarm) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   const AlarmId number = alarms_.set(std::move(alarm));
   alarms_.ring(simulation_, over());
-  changed_.notify_all();  // lockstep time may go on for it
+  changed_.notify_all();  // lockstep time may advance for it
   return number;
 }
 
@@ -409,7 +411,7 @@ AlarmId Host::Core::set_alarm(Alarm alarm) {
 
 bool Host::Core::advance() {
   const auto now = WallClock::now();
-  if (progress_.note_step(now)) standing_time_.dismiss_alarm();
+  if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
   inputs_.before_step(clients_);
   simulation_.step();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
@@ -427,7 +429,7 @@ bool Host::Core::advance() {
   return release_waiters();
 }
 
-// A waiting thread that has what it waits for no longer counts as waiting, even before it wakes.
+// A thread whose wait is over no longer counts as waiting, even before it wakes up.
 bool Host::Core::release_waiters() {
   if (in_turns()) {
     clock_->make_ready();
@@ -443,7 +445,7 @@ bool Host::Core::release_waiters() {
     if (client->notify) {
       client->notify();
     } else {
-      released = released || client->owner != this_thinker();
+      released = released || client->owner != this_thread_id();
     }
   }
   if (released) changed_.notify_all();
@@ -454,7 +456,7 @@ bool Host::Core::release_waiters() {
 // --- Pacing
 
 std::optional<std::string> Host::Core::set_time_factor(double factor) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   if (!paced()) {
     return "time has no speed in lockstep: it goes on when all clients wait";
   }
@@ -467,15 +469,15 @@ std::optional<std::string> Host::Core::set_time_factor(double factor) {
 }
 
 void Host::Core::change_step_limit(const std::function<void(Pace&)>& change) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   change(pace_);
   changed_.notify_all();
 }
 
 void Host::Core::prefer_real_time(const std::string& reason) {
-  const Lock lock = lock_soon();
+  const Lock lock = lock_with_priority();
   if (in_turns()) {
-    // The caller's sleeps are part of the lockstep, from now on.
+    // The caller's sleeps are part of the lockstep from now on.
     Turns::instance().self().starts_background = true;
     virtual_time::note_background();
     return;
@@ -489,7 +491,7 @@ void Host::Core::prefer_real_time(const std::string& reason) {
 
 void Host::Core::start_pacing(const std::string& warning) {
   pace_.follow_wall_clock();
-  standing_time_.dismiss_alarm();
+  stalled_time_warning_.dismiss_alarm();
   if (turns_) virtual_time::give_up_locked();
   warn_(warning);
   pacer_ = std::thread([this] { pace(); });
@@ -511,11 +513,12 @@ void Host::Core::pace() {
       pace_.begin_at(WallClock::now());
       continue;
     }
-    if (pace_.used_up()) {
-      changed_.wait(
-          lock, [this] { return !pace_.used_up() || pace_.paused() || stop_pacing_ || over(); });
-      // Whoever synchronises the clock may be slow.
-      pace_.forgive(WallClock::now());
+    if (pace_.step_limit_reached()) {
+      changed_.wait(lock, [this] {
+        return !pace_.step_limit_reached() || pace_.paused() || stop_pacing_ || over();
+      });
+      // The client that synchronises the clock may be slow.
+      pace_.skip_lost_time(WallClock::now());
       continue;
     }
     const auto due = pace_.due();
@@ -534,7 +537,7 @@ void Host::Core::pace() {
 void Host::Core::wait_while_paused(Lock& lock) {
   while (pace_.paused() && !stop_pacing_ && !over()) {
     changed_.wait_for(lock, std::chrono::milliseconds(50));
-    // Without a step nobody else would see the signal.
+    // No step follows that would notice the signal.
     if (settings_.quiet_end && interrupted() != 0 && !ended_) {
       end_run();
       release_waiters();
@@ -542,18 +545,18 @@ void Host::Core::wait_while_paused(Lock& lock) {
   }
 }
 
-// --- The end
+// --- End of the run
 
 void Host::Core::finish() noexcept {
   try {
-    const Lock lock = lock_soon();
-    standing_time_.dismiss_alarm();
+    const Lock lock = lock_with_priority();
+    stalled_time_warning_.dismiss_alarm();
     ended_by_program_ = true;
     if (!ended_) {
       for (const auto& client : clients_) inputs_.apply(*client);
       end_run();
       release_waiters();
-      if (in_turns()) Turns::instance().kick();
+      if (in_turns()) Turns::instance().schedule_next();
     }
     stop_pacing_ = true;
     changed_.notify_all();
@@ -565,7 +568,7 @@ void Host::Core::finish() noexcept {
 void Host::Core::end_run() {
   ended_ = true;
   results_.begin_end();
-  // Threads that take no part in the lockstep may have drawn since the last step.
+  // Threads outside of the lockstep may have drawn since the last step.
   for (const auto& client : clients_) inputs_.apply_drawings(*client);
   if (settings_.progress) progress_.show(time_locked(), true);
   results_.write();

@@ -22,7 +22,7 @@
 #include "host/progress.h"
 #include "host/results.h"
 #include "host/saved_states.h"
-#include "host/standing_time.h"
+#include "host/stalled_time_warning.h"
 #include "playerlike/host/event_client.h"
 #include "playerlike/host/host.h"
 #include "virtual_time/turns.h"
@@ -30,13 +30,12 @@
 
 namespace playerlike {
 
-/// The body of a Host: one mutex, and what it guards. See docs/architecture.md for the rules of
-/// time.
+/// The implementation of Host: one mutex and the state that it guards. docs/architecture.md
+/// describes the rules of time.
 ///
-/// What a run consists of is divided among the classes of the members below. This one waits and
-/// steps: it has the mutex, the threads and the order in which things are done. Commands go through
-/// each client's own input mutex and drawings through its own queue, so that senders do not wait
-/// for a step.
+/// The members below divide the work of a run. This class waits and steps: it owns the mutex, the
+/// threads and the order of actions. Each client has its own mutex for commands and its own queue
+/// for drawings, so senders do not wait for a step.
 class Host::Core {
  public:
   using Lock = std::unique_lock<std::mutex>;
@@ -48,19 +47,18 @@ class Host::Core {
   Core& operator=(const Core&) = delete;
   ~Core();
 
-  /// Connects the run with its window, if the settings name one, and starts the pacer of a paced
-  /// run.
+  /// Connects the run to its window, if the settings name one, and starts the pacer of a paced run.
   void start();
-  /// Ends the run and its threads. Not to be called with the lock held.
+  /// Ends the run and its threads. The mutex must not be held.
   void stop() noexcept;
 
   std::shared_ptr<Client> add_client(int port, bool follower = false,
                                      std::function<void()> notify = {});
   void remove_client(Client& client) noexcept;
-  void thinker_ended(ThinkerId thinker) noexcept;
-  void join(Client& client, ThinkerId thinker);
+  void thread_ended(ThreadId thread_id) noexcept;
+  void join(Client& client, ThreadId thread_id);
 
-  /// What a client asks for; in requests.cpp.
+  /// Answers a client's request; see requests.cpp.
   Answer answer(Client& client, const Request& request);
   void send(Client& client, DeviceId device, const sim::Command& command);
 
@@ -69,116 +67,116 @@ class Host::Core {
   bool peek(Client& client, std::chrono::milliseconds timeout);
   void sleep(Client& client, double seconds);
 
-  // The same for event clients; see EventClient and Host.
-  EventClient::Outcome begin_wait(Client& client, ThinkerId thinker);
-  EventClient::Outcome begin_peek(Client& client, ThinkerId thinker,
+  // The counterparts for event clients, see EventClient and Host.
+  EventClient::Outcome begin_wait(Client& client, ThreadId thread_id);
+  EventClient::Outcome begin_peek(Client& client, ThreadId thread_id,
                                   std::chrono::milliseconds timeout);
-  EventClient::Outcome begin_sleep(Client& client, ThinkerId thinker, double seconds);
+  EventClient::Outcome begin_sleep(Client& client, ThreadId thread_id, double seconds);
   EventClient::Outcome outcome_of(const Client& client) const;
   void cancel_wait(Client& client);
   bool advance_for(std::chrono::microseconds slice);
   void check_silence();
   AlarmId set_alarm(Alarm alarm);
-  /// Calls action() with the lock held.
+  /// Calls action() with the mutex held.
   template <typename Action>
   auto locked(Action action) const {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     return action();
   }
   void change_step_limit(const std::function<void(Pace&)>& change);
   std::optional<std::string> set_time_factor(double factor);
   void note_program_ends(int status);
 
-  /// Does something with the layers, after what the client has drawn so far: calls
-  /// action(layers, book) under the mutex.
+  /// Applies the client's pending drawings, then calls action(layers, registry); all under the
+  /// mutex.
   template <typename Action>
   auto with_layers(Client& client, Action action) {
-    const Lock lock = lock_soon();
+    const Lock lock = lock_with_priority();
     client.require_open();
     inputs_.apply_drawings(client);
-    return action(simulation_.layers(), inputs_.book);
+    return action(simulation_.layers(), inputs_.registry);
   }
-  // In canvas_work.cpp: what may take long on a large canvas, in pieces, between which others use
-  // the simulation.
+  // In canvas_work.cpp: work that takes long on a large canvas. It is done in pieces, between which
+  // other threads can lock the mutex.
   /// See EventClient::draw_some().
   bool draw_some(Client& client, DrawWork& work, std::size_t cells);
   /// All cells of a layer.
   std::vector<sim::CellValue> cells(Client& client, sim::LayerId layer);
-  /// One layer's picture, or that of all, and size and place of the canvas then.
+  /// The picture of one layer, or of all, with size and position of the canvas at that time.
   std::vector<std::uint8_t> picture(Client& client, std::optional<sim::LayerId> layer,
                                     sim::CanvasDescription& canvas);
   void resize_canvas(Client& client, int width, int height);
 
   void finish() noexcept;
   [[nodiscard]] bool own_sensors_only() const noexcept {
-    return simulation_.world().simulation.own_sensors_only;  // does not change
+    return simulation_.world().simulation.own_sensors_only;  // constant
   }
   const std::vector<RobotInfo>& robots() const noexcept { return robots_; }
   std::uint64_t canvas_generation() const noexcept {
     return canvas_generation_.load(std::memory_order_acquire);
   }
-  /// As the clock of those who take turns.
+  /// This simulation as the clock of Turns.
   [[nodiscard]] TurnClock& clock() noexcept;
 
  private:
   friend class Host;
   struct RequestHandler;
 
-  /// A lock for calls that must not starve behind a thread that steps without pause.
-  [[nodiscard]] Lock lock_soon() const;
-  /// A lock for calls that let time pass: threads that only want a quick word go first.
-  [[nodiscard]] Lock lock_politely() const;
-  /// Lets those in that want a quick word.
+  /// Locks the mutex for a short call; a thread that steps the simulation lets it in first.
+  [[nodiscard]] Lock lock_with_priority() const;
+  /// Locks the mutex for a call that steps the simulation; callers with priority go first.
+  [[nodiscard]] Lock lock_for_stepping() const;
+  /// Releases the mutex until all callers with priority have had it.
   void give_way(Lock& lock) const;
-  void let_others_in() const;
-  void adopt(Client& client, ThinkerId thinker);
+  void yield_to_priority_waiters() const;
+  void adopt(Client& client, ThreadId thread_id);
   [[nodiscard]] bool over() const { return ended_ || simulation_.finished(); }
   [[nodiscard]] bool paced() const { return pace_.by_wall_clock(); }
   [[nodiscard]] bool in_turns() const noexcept {
     return turns_ && !paced() && Turns::instance().active();
   }
-  /// The simulation's time, also without the lock.
+  /// Simulated time; the mutex is not needed.
   [[nodiscard]] sim::SimTime now_ns() const noexcept {
     return now_ns_.load(std::memory_order_acquire);
   }
 
   void subscribe(Client& client, DeviceId device);
-  /// Throws SessionError kNotAvailable if the world keeps something private from this client.
-  /// @param robot  whose sensors are to be read; -1: what is nobody's, objects and the map.
+  /// Throws SessionError kNotAvailable if the world hides something from this client.
+  /// @param robot  whose sensors to read; -1: data of no robot, such as objects and the map.
   void require_readable(const Client& client, int robot) const;
-  void note_looks(Client& client, int count, bool has_data);
-  void check_standing_time(Client& client);
+  void count_data_reads(Client& client, int count, bool has_data);
+  void check_stalled_time(Client& client);
   void set_busy_alarm();
   void prefer_real_time(const std::string& reason);
 
-  /// Waits until the client has data (if wants_data), simulated time wake_ns has come (if set) or
-  /// the run is over.
+  /// Waits until the client has data (if wants_data), until simulated time wake_ns (if set) or
+  /// until the end of the run.
   void wait_until(Lock& lock, Client& client, bool wants_data, std::optional<sim::SimTime> wake_ns);
-  /// Whether what the client waits for is there.
+  /// Whether the client's wait is over.
   [[nodiscard]] bool wait_is_over(const Client& client) const;
   [[nodiscard]] bool program_takes_part() const;
-  /// Whether lockstep time may go on by a step now.
-  /// @param all_wait_still  all are known to wait.
-  [[nodiscard]] bool may_advance(bool all_wait_still = false);
+  /// Whether lockstep time may advance by a step now.
+  /// @param all_known_waiting  the caller knows that all clients wait.
+  [[nodiscard]] bool may_advance(bool all_known_waiting = false);
   void wait_for_others(Lock& lock, const Client& client);
   [[nodiscard]] EventClient::Outcome outcome(const Client& client) const;
-  EventClient::Outcome begin(Client& client, ThinkerId thinker, bool wants_data,
+  EventClient::Outcome begin(Client& client, ThreadId thread_id, bool wants_data,
                              std::optional<sim::SimTime> wake_ns);
-  /// When a peek of lockstep that begins now is over.
+  /// The end of a peek that begins now in lockstep.
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
 
-  /// Makes a step. @return release_waiters()
+  /// Makes a step. @return the result of release_waiters().
   bool advance();
-  /// @return whether somebody who waited may no longer do so.
+  /// Ends the waits that are over. @return whether a client may have stopped waiting.
   bool release_waiters();
   void end_run();
   [[nodiscard]] TimeStatistics time_locked() const;
-  /// Why another run may differ.
+  /// Reasons why another run may differ.
   [[nodiscard]] std::vector<std::string> unrepeatable() const;
 
   void start_pacing(const std::string& warning);
   void pace();
-  /// Holds the pacer while the user has paused the run.
+  /// Blocks the pacer while the user has paused the run.
   void wait_while_paused(Lock& lock);
 
   template <typename Copy>
@@ -190,12 +188,12 @@ class Host::Core {
   sim::Simulation simulation_;
   const std::vector<RobotInfo> robots_;
   const sim::SimTime step_ns_;
-  const bool turns_;  ///< virtual time: threads go on one by one, in a fixed order
+  const bool turns_;  ///< virtual time: threads take turns in a fixed order
   mutable std::mutex own_mutex_;
-  std::mutex& mutex_;                     ///< its own, or that of those who take turns
-  mutable std::atomic<int> knocking_{0};  ///< threads in lock_soon()
+  std::mutex& mutex_;                             ///< its own, or that of Turns
+  mutable std::atomic<int> priority_waiters_{0};  ///< threads in lock_with_priority()
   std::condition_variable changed_;
-  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's, for those without the lock
+  std::atomic<sim::SimTime> now_ns_{0};  ///< the simulation's time; needs no mutex
   std::atomic<std::uint64_t> canvas_generation_{0};
   ClientFiles client_files_;
   SavedStates saved_states_;
@@ -205,23 +203,23 @@ class Host::Core {
   Pace pace_;
   Inputs inputs_;
   Alarms alarms_;
-  StandingTime standing_time_;
+  StalledTimeWarning stalled_time_warning_;
   Progress progress_;
   Results results_;
   std::unique_ptr<VirtualClock> clock_;
   std::unique_ptr<Window> window_;
   std::thread pacer_;
 
-  bool mode_chosen_ = false;  ///< the world, or a setting, has said how time goes on
+  bool mode_chosen_ = false;  ///< the world or a setting has set the time mode
   bool stop_pacing_ = false;
   bool ended_ = false;
   bool ended_by_program_ = false;
-  bool end_told_ = false;  ///< a session has thrown because the run is over
+  bool end_reported_ = false;  ///< a session has thrown because the run is over
   int reads_after_end_ = 0;
-  bool driven_by_hand_ = false;  ///< at the window
+  bool driven_by_hand_ = false;  ///< a user has driven a robot in the window
 };
 
-/// A call of a host's body by a thread of a program: what that does with clocks and locks is real.
+/// A program's thread inside of the host: its clocks and locks are real during the call.
 class InsideCore {
  public:
   explicit InsideCore(Host::Core& core) noexcept : core_(core) {}

@@ -15,19 +15,20 @@ EventClient::EventClient(std::shared_ptr<Host> host, std::shared_ptr<Client> cli
 
 EventClient::~EventClient() = default;
 
-EventClient::Outcome EventClient::begin_wait(ThinkerId thinker) {
-  return host_->core_->begin_wait(*client_, thinker);
+EventClient::Outcome EventClient::begin_wait(ThreadId thread_id) {
+  return host_->core_->begin_wait(*client_, thread_id);
 }
 
-EventClient::Outcome EventClient::begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout) {
-  return host_->core_->begin_peek(*client_, thinker, timeout);
+EventClient::Outcome EventClient::begin_peek(ThreadId thread_id,
+                                             std::chrono::milliseconds timeout) {
+  return host_->core_->begin_peek(*client_, thread_id, timeout);
 }
 
-EventClient::Outcome EventClient::begin_sleep(ThinkerId thinker, double seconds) {
-  return host_->core_->begin_sleep(*client_, thinker, seconds);
+EventClient::Outcome EventClient::begin_sleep(ThreadId thread_id, double seconds) {
+  return host_->core_->begin_sleep(*client_, thread_id, seconds);
 }
 
-void EventClient::join(ThinkerId thinker) { host_->core_->join(*client_, thinker); }
+void EventClient::join(ThreadId thread_id) { host_->core_->join(*client_, thread_id); }
 
 bool EventClient::draw_some(DrawWork& work, std::size_t cells) {
   return host_->core_->draw_some(*client_, work, cells);

@@ -5,8 +5,9 @@
 
 namespace playerlike {
 
-/// As long as it lives, a write beyond the limit of a file's size (ulimit -f) fails with an error
-/// instead of ending the process by SIGXFSZ, unless the program handles that signal itself.
+/// While an object exists, a write beyond the file size limit (ulimit -f) fails with an error
+/// instead of ending the process by SIGXFSZ. If the program handles that signal itself, nothing
+/// changes.
 class FileLimitErrors {
  public:
   FileLimitErrors() noexcept {

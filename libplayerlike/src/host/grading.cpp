@@ -16,26 +16,19 @@ using nlohmann::ordered_json;
 constexpr const char* kEntry = "graded";
 constexpr const char* kSignature = "signature";
 
-std::string hash_text(std::uint64_t value) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t i = text.size(); i > 0; value >>= 4U) text[--i] = kDigits[value & 15U];
-  return text;
-}
-
-/// Of a report with its entry "graded", which has no signature yet.
+/// The signature of a report that has its entry "graded", but no signature yet.
 std::string signature_of(const ordered_json& report, const std::string& nonce) {
   sim::StateHash hash;
   hash.add(nonce);
   hash.add(report.dump());
   hash.add(nonce);
-  return hash_text(hash.value());
+  return sim::hexadecimal_text(hash.value(), 16);
 }
 
 ordered_json entry_of(const Grading& grading) {
   ordered_json entry = {{"nonce", grading.nonce},
                         {"world_name", grading.world_name},
-                        {"world", hash_text(grading.world)},
+                        {"world", sim::hexadecimal_text(grading.world, 16)},
                         {"seed", grading.seed},
                         {"duration", nullptr},
                         {"time", grading.time}};

@@ -49,7 +49,7 @@ std::unique_ptr<EventClient> Host::connect_events(int port, std::function<void()
 bool Host::advance(std::chrono::microseconds slice) { return core_->advance_for(slice); }
 void Host::check_silence() { core_->check_silence(); }
 void Host::watch_program() {
-  core_->locked([this] { core_->standing_time_.watch(); });
+  core_->locked([this] { core_->stalled_time_warning_.watch(); });
 }
 void Host::note_program_ends(int status) { InsideCore(*core_)->note_program_ends(status); }
 void Host::note_end_request(int signal) {
@@ -58,7 +58,9 @@ void Host::note_end_request(int signal) {
     if (request == 0) request = signal;
   });
 }
-void Host::thinker_ended(ThinkerId thinker) noexcept { InsideCore(*core_)->thinker_ended(thinker); }
+void Host::thread_ended(ThreadId thread_id) noexcept {
+  InsideCore(*core_)->thread_ended(thread_id);
+}
 AlarmId Host::set_alarm(Alarm alarm) { return core_->set_alarm(std::move(alarm)); }
 bool Host::cancel_alarm(AlarmId alarm) {
   return core_->locked([&] { return core_->alarms_.cancel(alarm); });

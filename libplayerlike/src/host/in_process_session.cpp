@@ -16,12 +16,12 @@ InProcessSession::~InProcessSession() { close(); }
 InsideCore InProcessSession::core() const noexcept { return InsideCore(*host_->core_); }
 
 void InProcessSession::note_wait() const {
-  // Nobody is to wait for a thread that has ended.
+  // When this thread ends, the host must not wait for it.
   if (ThreadEnd* const end = ThreadEnd::mine()) {
     end->say_goodbye(host_,
-                     [](void* host) { static_cast<Host*>(host)->thinker_ended(this_thinker()); });
+                     [](void* host) { static_cast<Host*>(host)->thread_ended(this_thread_id()); });
   }
-  // Drivers are Playpen's own.
+  // Drivers are not threads of the program.
   if (client_->follower || !virtual_time::active()) return;
   virtual_time::remember_thread();
   virtual_time::note_wait();

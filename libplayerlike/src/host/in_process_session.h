@@ -8,7 +8,7 @@
 
 namespace playerlike {
 
-/// A session with a simulation in this process: calls, not messages.
+/// A session with a simulation in this process; it calls the host directly.
 class InProcessSession final : public Session {
  public:
   InProcessSession(std::shared_ptr<Host> host, std::shared_ptr<Client> client);

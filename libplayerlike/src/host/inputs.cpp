@@ -8,8 +8,8 @@
 namespace playerlike {
 namespace {
 
-// A client may command this much ahead of the next step before it is applied, so that one that
-// never reads does not fill memory.
+// Maximum number of a client's commands per step. Further ones are applied early, so that a client
+// that never reads does not use up memory.
 constexpr std::size_t kCommandLimit = 1 << 12;
 
 template <typename... Kinds>
@@ -17,8 +17,8 @@ bool is_one_of(const sim::Command& command) {
   return (std::holds_alternative<Kinds>(command) || ...);
 }
 
-// Whether a command undoes an earlier one of its kind that has not been applied yet. Those that
-// move a robot by some way, or are counted, do not.
+// Whether a command replaces an earlier one of its kind that has not been applied yet. Relative
+// movements and counted commands do not.
 bool replaces_earlier_ones(const sim::Command& command) {
   return is_one_of<sim::TwistCommand, sim::HeadingCommand, sim::PositionCommand, sim::CarCommand,
                    sim::MotorEnableCommand, sim::SetPoseCommand>(command);
@@ -56,15 +56,15 @@ void Inputs::apply(Client& client) {
   apply_drawings(client);
 }
 
-// Drawings on layers that are not the client's are left out; one look for each run of drawings on
-// the same layer sees to that. Most often all are its own, and are drawn from where they are.
+// Drops drawings on layers of other clients, with one check for each run of drawings on one layer.
+// Usually all drawings are on the client's own layers and are drawn without a copy.
 void Inputs::apply_drawings(Client& client) {
   client.drawings.drain([&](std::span<const sim::DrawOperation> operations) {
     std::optional<sim::LayerId> layer;
     const bool all_own = std::all_of(operations.begin(), operations.end(), [&](const auto& o) {
       if (layer == o.layer) return true;
       layer = o.layer;
-      return book.may_use(client.number, o.layer);
+      return registry.may_use(client.number, o.layer);
     });
     if (all_own) return simulation_.layers().draw(operations);
     std::vector<sim::DrawOperation> own(operations.begin(), operations.end());
@@ -83,7 +83,7 @@ void Inputs::keep_own_drawings(const Client& client,
   std::optional<sim::LayerId> layer;
   bool own = false;
   std::erase_if(operations, [&](const sim::DrawOperation& o) {
-    if (layer != o.layer) own = book.may_use(client.number, o.layer);
+    if (layer != o.layer) own = registry.may_use(client.number, o.layer);
     layer = o.layer;
     return !own;
   });

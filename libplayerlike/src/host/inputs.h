@@ -7,42 +7,42 @@
 
 #include "host/clients.h"
 #include "host/view_controls.h"
-#include "playerlike/session/layer_book.h"
+#include "playerlike/session/layer_registry.h"
 
 namespace playerlike {
 
-/// What clients want done with the simulation, and how that is applied: commands before each step,
-/// drawings then or earlier. Guarded by the host's mutex, but for what says otherwise.
+/// The clients' commands and drawings, and how they are applied to the simulation: commands before
+/// each step, drawings then or earlier. The host's mutex guards it unless stated otherwise.
 class Inputs {
  public:
-  /// @param simulation  must live as long as this.
+  /// @param simulation  must outlive this object.
   Inputs(sim::Simulation& simulation, Warn warn)
       : simulation_(simulation), warn_(std::move(warn)) {}
 
-  /// Keeps a command for the next step; with the client's input mutex, without the host's. Of
-  /// commands in a row to one device that replace each other, the last is kept.
-  /// @return whether there are so many that they are to be applied now.
+  /// Stores a command for the next step; the caller holds the client's input mutex, not the host's.
+  /// Of successive commands to one device that replace each other, only the last is stored. @return
+  /// whether there are too many: then they must be applied now.
   [[nodiscard]] bool add(Client& client, DeviceId device, const sim::Command& command);
 
-  /// Applies what clients have sent for the next step, and the hand at the window after that.
+  /// Applies the clients' commands for the next step, then the user's commands from the window.
   void before_step(const Clients& clients);
   void apply(Client& client);
   void apply_drawings(Client& client);
-  /// Makes room for a client's drawings, from now on.
+  /// Allocates a client's draw queue.
   void reserve_drawings(Client& client);
-  /// Keeps those drawings that are on the shared canvas or on one of the client's layers.
+  /// Removes drawings except those on the shared canvas or on one of the client's layers.
   void keep_own_drawings(const Client& client, std::vector<sim::DrawOperation>& operations) const;
 
-  /// Whose layers are which.
-  LayerBook book;
-  /// Of a run with a window.
+  /// The owners of the layers.
+  LayerRegistry registry;
+  /// Steering by hand; only in a run with a window.
   std::optional<HandDrive> hand;
 
  private:
   sim::Simulation& simulation_;
   const Warn warn_;
-  std::atomic<bool> commands_wait_{false};  ///< some client has sent some since the last step
-  bool somebody_draws_ = false;             ///< some client has had a queue for drawings
+  std::atomic<bool> commands_wait_{false};  ///< a client has sent commands since the last step
+  bool somebody_draws_ = false;             ///< a client has had a draw queue
 };
 
 }  // namespace playerlike

@@ -34,7 +34,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-/// The memory of a KeptRun. It may hold anything.
+/// The memory of a KeptRun, which may contain anything.
 class KeptMemory {
  public:
   explicit KeptMemory(int descriptor) {
@@ -50,7 +50,7 @@ class KeptMemory {
     if (bytes_ != nullptr) munmap(const_cast<std::byte*>(bytes_), size_);
   }
 
-  /// @return null unless so many things lie there as a whole.
+  /// @return null unless `count` objects fit into the memory at this place.
   template <typename T>
   [[nodiscard]] const T* at(std::uint64_t place, std::uint64_t count = 1) const {
     if (bytes_ == nullptr || place % alignof(T) != 0 || place > size_ ||
@@ -60,7 +60,7 @@ class KeptMemory {
     return reinterpret_cast<const T*>(bytes_ + place);
   }
 
-  /// @return null unless JSON lies there.
+  /// @return null unless this place holds valid JSON.
   template <typename Json>
   [[nodiscard]] Json text(std::uint64_t text) const {
     const char* const bytes = at<char>(place_of_text(text), size_of_text(text));
@@ -73,7 +73,7 @@ class KeptMemory {
   std::size_t size_ = 0;
 };
 
-/// What was kept of the newest step.
+/// The data of the newest step.
 struct LastStep {
   KeptStep step;
   std::vector<KeptRobot> robots;
@@ -94,14 +94,14 @@ std::optional<LastStep> last_step(const KeptMemory& memory, const KeptHeader& he
   return sound ? std::optional(std::move(last)) : std::nullopt;
 }
 
-/// "ended" of a report whose program ended like this.
+/// "ended" of the report of a program with this end.
 RunEnd run_end(const ProgramEnd& end) {
   if (end.request) return {.by = RunEnd::By::kRequest, .signal = end.request};
   if (end.signal) return {.by = RunEnd::By::kSignal, .signal = end.signal};
   return {.by = RunEnd::By::kProgram, .status = end.status};
 }
 
-/// The report, with the numbers of the last step.
+/// Updates the report's numbers to the last step.
 std::string completed_report(ordered_json report, const LastStep& last, const ProgramEnd& end) {
   ordered_json& run = report.at("run");
   if (run.at("steps") != last.step.steps) run["state_hash"] = nullptr;
@@ -152,7 +152,7 @@ Enum choice(const json& value, Enum last) {
   return static_cast<Enum>(number);
 }
 
-/// The layers as they were. @throws std::exception for what cannot be.
+/// Restores the layers. @throws std::exception for invalid data.
 sim::LayerStack layers_of(const json& scene, const sim::CanvasDescription& canvas,
                           const KeptMemory& memory) {
   sim::CanvasDescription place = canvas;
@@ -164,7 +164,7 @@ sim::LayerStack layers_of(const json& scene, const sim::CanvasDescription& canva
   }
   sim::LayerStack stack(place);
   std::vector<json> layers = scene.at("layers").get<std::vector<json>>();
-  // In the order in which they were made, as that decides between equal ones.
+  // Sorted by age, which decides between layers of equal priority.
   std::sort(layers.begin(), layers.end(), [](const json& a, const json& b) {
     return a.at("id").get<int>() < b.at("id").get<int>();
   });
@@ -194,7 +194,7 @@ sim::LayerStack layers_of(const json& scene, const sim::CanvasDescription& canva
   return stack;
 }
 
-/// What the robot's devices looked like.
+/// Restores the appearance of a robot's devices.
 void take_looks(const json& looks, sim::RobotSnapshot& robot) {
   robot.says = looks.at("says").get<std::string>();
   const auto each = [&looks](const char* key, auto action) {
@@ -242,7 +242,7 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
   }
 }
 
-/// Draws what was kept. @throws std::exception for what cannot be.
+/// Draws the pictures from the memory. @throws std::exception for invalid data.
 void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const LastStep& last,
                        const sim::WorldDescription& world, const std::string& folder) {
   const json kept = memory.text<json>(header.scene);
@@ -288,7 +288,7 @@ bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
   const KeptRun::Phase phase = kept.phase();
   if (phase == KeptRun::Phase::kNone || phase == KeptRun::Phase::kDone) return false;
   const FileLimitErrors limit_errors;
-  if (!film.empty()) std::remove(sim::part_name(film).c_str());
+  if (!film.empty()) std::remove(sim::part_file_name(film).c_str());
   const KeptMemory memory(kept.descriptor());
   const auto* const header = memory.at<KeptHeader>(0);
   const std::optional<LastStep> last =

@@ -25,7 +25,7 @@ KeptHeader* map_header(int descriptor) {
 }  // namespace
 
 KeptRun::KeptRun() : descriptor_(memfd_create("playpen-run", MFD_CLOEXEC)) {
-  // Where files may not be so long (ulimit -f), only the beginning can be kept.
+  // If the limit of file sizes (ulimit -f) is too low, only the header is kept.
   const FileLimitErrors limit_errors;
   if (descriptor_ >= 0 && (ftruncate(descriptor_, static_cast<off_t>(kKeptSize)) == 0 ||
                            ftruncate(descriptor_, kKeptHeaderSize) == 0)) {

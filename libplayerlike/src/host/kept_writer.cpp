@@ -32,7 +32,7 @@ json to_json(const std::vector<sim::Vec2>& points) {
   return all;
 }
 
-/// What a picture shows of a robot's devices, but for its laser.
+/// The appearance of a robot's devices in pictures, except for its laser.
 json looks_of(const sim::RobotSnapshot& robot) {
   json looks = {{"says", robot.says}};
   for (const sim::LightSnapshot& light : robot.lights) {
@@ -75,8 +75,7 @@ std::unique_ptr<KeptWriter> KeptWriter::open(const std::string& file) {
   close(descriptor);
   if (memory == MAP_FAILED) return nullptr;
   auto* const header = static_cast<KeptHeader*>(memory);
-  // Programs may start others that simulate, too: the memory is of the run of one of them at a
-  // time.
+  // A program may start other programs that simulate too. The memory holds one run at a time.
   std::int32_t owner = header->process;
   const bool done = header->phase == static_cast<std::uint32_t>(KeptRun::Phase::kDone);
   const bool is_free = owner == 0 || done || (kill(owner, 0) != 0 && errno == ESRCH);
@@ -93,7 +92,7 @@ std::unique_ptr<KeptWriter> KeptWriter::open(const std::string& file) {
   return std::unique_ptr<KeptWriter>(new KeptWriter(header, size));
 }
 
-// The header stays: a signal's handler may write to it at any time.
+// The header stays mapped, since a signal handler may write to it at any time.
 KeptWriter::~KeptWriter() {
   if (size_ > kKeptHeaderSize) munmap(at<std::byte>(kKeptHeaderSize), size_ - kKeptHeaderSize);
 }
@@ -136,7 +135,7 @@ void KeptWriter::begin(const sim::Simulation& simulation) {
       at<KeptRobot>(place + sizeof(KeptStep))[i] = KeptRobot{};
     }
   }
-  revision_ = simulation.layers().revision() + 1;  // that is, none yet
+  revision_ = simulation.layers().revision() + 1;  // so that the first step stores the layers
   header_->robots = static_cast<std::uint32_t>(robots);
 }
 
@@ -175,7 +174,7 @@ void KeptWriter::keep_trail(std::size_t robot, const std::vector<sim::Vec2>& poi
   auto* const to = at<double>(header_->trails) + robot * kMostTrailPoints * 2;
   const std::size_t count = std::min(points.size(), kMostTrailPoints);
   std::size_t& done = trail_points_[robot];
-  if (count < done) done = 0;  // it was thinned
+  if (count < done) done = 0;  // the trail was thinned
   for (; done < count; ++done) {
     to[2 * done] = points[done].x();
     to[2 * done + 1] = points[done].y();
@@ -203,7 +202,7 @@ void KeptWriter::keep_scan(std::size_t robot, const sim::Simulation& simulation,
   kept.scan = next + 1;
 }
 
-// Gives each layer a place, and those that have a new one all their cells.
+// Assigns memory to each layer, and copies all cells of layers with new memory.
 void KeptWriter::place_layers(const sim::LayerStack& layers) {
   for (const auto& [layer, cells] : cells_) free_cells_.push_back(cells);
   cells_.clear();
@@ -218,7 +217,7 @@ void KeptWriter::place_layers(const sim::LayerStack& layers) {
     } else {
       cells.place = allocate(bytes.size());
     }
-    if (cells.place == 0) continue;  // too large to be kept
+    if (cells.place == 0) continue;  // too large to store
     std::memcpy(at<std::byte>(cells.place), bytes.data(), bytes.size());
     cells_[info.id] = cells;
   }

@@ -18,34 +18,35 @@
 
 namespace playerlike {
 
-/// A host's side of a KeptRun. Not thread-safe: the host serialises.
+/// The host's side of a KeptRun. Not thread-safe: guarded by the host's mutex.
 class KeptWriter {
  public:
-  /// @param file  RunSettings::kept_run.
-  /// @return null if there is none, or if it belongs to the host of another living process.
+  /// @param file  RunSettings::kept_run. @return null if there is no such file or it belongs to the
+  ///              host of another running process.
   [[nodiscard]] static std::unique_ptr<KeptWriter> open(const std::string& file);
   KeptWriter(const KeptWriter&) = delete;
   KeptWriter& operator=(const KeptWriter&) = delete;
   ~KeptWriter();
 
   void set_phase(KeptRun::Phase phase) noexcept;
-  /// Where a signal's handler writes its number. Stays there as long as the process lives.
+  /// Where the signal handler stores the signal's number. Valid until the process ends.
   [[nodiscard]] std::atomic<std::uint32_t>& noted() const noexcept { return header_->noted; }
 
-  /// Keeps the simulation's state after a step, but for what keep_looks() keeps.
+  /// Stores the simulation's state after a step, except for the data of keep_looks().
   void keep_step(const TimeStatistics& time, const Recorder& recorder, sim::Simulation& simulation);
-  /// Keeps the report, and what a picture shows beside robots, trails, scans and cells. It is
-  /// called now and then.
+  /// Stores the report and the contents of a picture besides robots, trails, scans and cells.
+  /// Called periodically.
   void keep_looks(const std::string& report, const sim::Simulation& simulation);
 
  private:
-  /// A text that is replaced again and again: the new one is written beside the one before.
+  /// A text that is replaced repeatedly (double buffer): the new text does not overwrite the
+  /// previous one.
   struct Text {
     std::array<std::uint64_t, 2> places{};
-    std::array<std::uint64_t, 2> sizes{};  ///< that there is room for
+    std::array<std::uint64_t, 2> sizes{};  ///< capacities
     std::size_t next = 0;
   };
-  /// Where a layer's cells are.
+  /// The memory of a layer's cells.
   struct Cells {
     std::uint64_t place = 0;
     std::uint64_t size = 0;
@@ -57,7 +58,7 @@ class KeptWriter {
   [[nodiscard]] T* at(std::uint64_t place) const noexcept {
     return reinterpret_cast<T*>(reinterpret_cast<std::byte*>(header_) + place);
   }
-  /// A place for so many bytes; 0: there is no room.
+  /// Allocates memory; 0: the memory is full.
   [[nodiscard]] std::uint64_t allocate(std::uint64_t size) noexcept;
   void begin(const sim::Simulation& simulation);
   void keep_trail(std::size_t robot, const std::vector<sim::Vec2>& points, KeptRobot& kept);
@@ -71,9 +72,9 @@ class KeptWriter {
   std::size_t size_;
   std::uint64_t used_ = kKeptHeaderSize;
   bool begun_ = false;
-  std::vector<std::size_t> trail_points_;      ///< kept, robot by robot
-  std::vector<int> lasers_;                    ///< index of each robot's first one; -1: none
-  std::vector<std::uint64_t> scan_sequences_;  ///< of the scans kept
+  std::vector<std::size_t> trail_points_;      ///< points stored, by robot
+  std::vector<int> lasers_;                    ///< index of each robot's first laser; -1: none
+  std::vector<std::uint64_t> scan_sequences_;  ///< of the stored scans
   std::map<sim::LayerId, Cells> cells_;
   std::vector<Cells> free_cells_;
   std::uint64_t revision_ = 0;

@@ -10,18 +10,18 @@ namespace playerlike {
 Lockstep::Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn)
     : clients_(clients), gate_(gate), silence_limit_s_(silence_limit_s), warn_(std::move(warn)) {}
 
-void Lockstep::adopt(Client& client, ThinkerId thinker) {
-  client.owner = thinker;
+void Lockstep::adopt(Client& client, ThreadId thread_id) {
+  client.owner = thread_id;
   client.joined = true;
   client.silent = false;
   if (client.follower) return;
-  if (first_owner_ == 0) first_owner_ = thinker;
-  several_owners_ = several_owners_ || thinker != first_owner_;
+  if (first_owner_ == 0) first_owner_ = thread_id;
+  several_owners_ = several_owners_ || thread_id != first_owner_;
 }
 
-void Lockstep::forget(ThinkerId thinker) noexcept {
+void Lockstep::forget(ThreadId thread_id) noexcept {
   for (const auto& client : clients_) {
-    if (client->owner != thinker) continue;
+    if (client->owner != thread_id) continue;
     client->owner = 0;
     client->joined = false;
   }
@@ -46,7 +46,7 @@ bool Lockstep::somebody_waits() const {
   return std::any_of(clients_.begin(), clients_.end(), [](const auto& c) { return c->waiting; });
 }
 
-// One thread may read many clients: it waits if one of them does.
+// One thread may own many clients: it waits if one of them does.
 bool Lockstep::all_wait() const {
   waiting_.clear();
   for (const auto& c : clients_) {
@@ -58,9 +58,9 @@ bool Lockstep::all_wait() const {
   });
 }
 
-bool Lockstep::others_may_wait(ThinkerId thinker) {
+bool Lockstep::others_may_wait(ThreadId thread_id) {
   return std::any_of(clients_.begin(), clients_.end(), [&](const auto& c) {
-    if (!c->joined || c->silent || c->follower || c->owner == thinker) return false;
+    if (!c->joined || c->silent || c->follower || c->owner == thread_id) return false;
     return !c->waiting || !gate_open();
   });
 }
@@ -84,8 +84,8 @@ WallClock::time_point Lockstep::silence_deadline(WallClock::time_point now) cons
 void Lockstep::note_silence(WallClock::time_point now) {
   const auto limit = wall(silence_limit_s_);
   if (!gate_opened_) {
-    if (now - gate_told_ < limit) return;
-    gate_told_ = now;
+    if (now - gate_warned_at_ < limit) return;
+    gate_warned_at_ = now;
     return warn_("the start gate waits for " + std::to_string(gate_) + " clients; " +
                  std::to_string(joined_programs()) + " have joined so far");
   }
@@ -98,9 +98,9 @@ void Lockstep::note_silence(WallClock::time_point now) {
   }
 }
 
-void Lockstep::note_silent_thread(ThinkerId thinker) const {
+void Lockstep::note_silent_thread(ThreadId thread_id) const {
   for (const auto& c : clients_) {
-    if (c->owner != thinker) continue;
+    if (c->owner != thread_id) continue;
     return warn_of_silence("client " + std::to_string(c->number + 1) + " (port " +
                            std::to_string(c->port) + ") has not called Read()");
   }
@@ -116,9 +116,9 @@ WallClock::duration Lockstep::silence_limit() const {
   return gate_opened_ ? wall(silence_limit_s_) : WallClock::duration::max();
 }
 
-WallClock::time_point Lockstep::last_seen(ThinkerId thinker, WallClock::time_point seen) const {
+WallClock::time_point Lockstep::last_seen(ThreadId thread_id, WallClock::time_point seen) const {
   for (const auto& client : clients_) {
-    if (client->owner == thinker) seen = std::max(seen, client->seen());
+    if (client->owner == thread_id) seen = std::max(seen, client->seen());
   }
   return seen;
 }

@@ -8,45 +8,46 @@
 
 namespace playerlike {
 
-/// Who takes part in the lockstep, and whether time waits for somebody.
+/// Membership in the lockstep, and whether time waits for a client.
 ///
-/// A client takes part from its first wait on. It belongs to the thread that last waited with it,
-/// and a thread waits if one of its clients does. Time waits for those who think, but not for those
-/// who have been silent for too long. The start gate, once open, stays open.
-/// Not thread-safe: guarded by the host's mutex.
+/// A client takes part from its first wait on. The thread that last waited with it owns it, and a
+/// thread waits if one of its clients does. Time waits for all threads that do not wait themselves,
+/// except for those that have exceeded the silence limit. The start gate stays open once it is
+/// open. Not thread-safe: guarded by the host's mutex.
 class Lockstep {
  public:
-  /// @param clients  must live as long as this.
+  /// @param clients  must outlive this object.
   /// @param gate     how many programs' clients must have joined before time begins.
   Lockstep(const Clients& clients, int gate, double silence_limit_s, Warn warn);
 
-  /// The client waits, by this thread; from now on it takes part.
-  void adopt(Client& client, ThinkerId thinker);
+  /// This thread waits with the client, which takes part from now on.
+  void adopt(Client& client, ThreadId thread_id);
   /// A thread has ended: nobody waits for its clients.
-  void forget(ThinkerId thinker) noexcept;
+  void forget(ThreadId thread_id) noexcept;
 
   [[nodiscard]] bool gate_open();
-  /// Whether a program is there for which time may go on.
+  /// Whether a program's client takes part, so that time may advance for it.
   [[nodiscard]] bool program_takes_part() const;
   [[nodiscard]] bool somebody_waits() const;
-  /// Whether all who take part wait.
+  /// Whether all clients that take part wait.
   [[nodiscard]] bool all_wait() const;
-  /// Whether a client of another thread than this one may come to let time pass.
-  [[nodiscard]] bool others_may_wait(ThinkerId thinker);
+  /// Whether a client of another thread may still let time advance.
+  [[nodiscard]] bool others_may_wait(ThreadId thread_id);
 
-  /// When it is to be looked whether a client has been silent for too long, if nothing changes.
+  /// When note_silence() must be called if nothing changes before.
   [[nodiscard]] WallClock::time_point silence_deadline(WallClock::time_point now) const;
-  /// Says for whom the others wait, and no longer waits for those who have been silent too long.
+  /// Warns about clients that hold up the others, and stops waiting for those that have exceeded
+  /// the silence limit.
   void note_silence(WallClock::time_point now);
-  /// In virtual time: a thread has been silent for too long.
-  void note_silent_thread(ThinkerId thinker) const;
-  /// How long a thread may think.
+  /// In virtual time: a thread has exceeded the silence limit.
+  void note_silent_thread(ThreadId thread_id) const;
+  /// How long a thread may run without waiting.
   [[nodiscard]] WallClock::duration silence_limit() const;
-  /// When a thread was last seen by its clients, or `seen` if that is later.
-  [[nodiscard]] WallClock::time_point last_seen(ThinkerId thinker,
+  /// When a client of a thread was last active, or `seen` if that is later.
+  [[nodiscard]] WallClock::time_point last_seen(ThreadId thread_id,
                                                 WallClock::time_point seen) const;
 
-  /// Whether the others have gone on without a client.
+  /// Whether time has advanced without a silent client.
   [[nodiscard]] bool silence_noted() const noexcept { return silence_noted_; }
   /// Whether several threads have waited with programs' clients.
   [[nodiscard]] bool several_owners() const noexcept { return several_owners_; }
@@ -61,11 +62,12 @@ class Lockstep {
   const double silence_limit_s_;
   const Warn warn_;
   bool gate_opened_ = false;
-  WallClock::time_point gate_told_ = WallClock::now();  ///< when it was last said who is missing
+  /// When missing clients were last reported.
+  WallClock::time_point gate_warned_at_ = WallClock::now();
   bool silence_noted_ = false;
-  ThinkerId first_owner_ = 0;               ///< who waited first, and ...
-  bool several_owners_ = false;             ///< ... whether another one has
-  mutable std::vector<ThinkerId> waiting_;  ///< of all_wait()
+  ThreadId first_owner_ = 0;               ///< the first thread that waited, and ...
+  bool several_owners_ = false;            ///< ... whether another one has waited
+  mutable std::vector<ThreadId> waiting_;  ///< scratch memory of all_wait()
 };
 
 }  // namespace playerlike

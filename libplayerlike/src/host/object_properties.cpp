@@ -23,7 +23,7 @@ using Numbers = std::vector<double>;
   throw SessionError(SessionError::Code::kBadArgument, message);
 }
 
-// An object as its properties need it: of the world's lists it is in one at most.
+// An object with the data for its properties: the robot or the box that it is, if any.
 struct Subject {
   SceneObject object;
   const sim::RobotDescription* robot = nullptr;
@@ -51,7 +51,7 @@ double height_m(const Simulation& simulation, const Subject& s) {
   if (s.robot != nullptr) return simulation.model(s.robot_index).height_m;
   if (s.box != nullptr) return s.box->height_m;
   if (s.object.kind == "border") return simulation.world().arena.border_height_m;
-  return 0.0;  // walls of a map have none of their own
+  return 0.0;  // walls of a map have no height of their own
 }
 
 const Numbers& numbers(const PropertyValue& value, const std::string& property, std::size_t least,
@@ -76,7 +76,7 @@ void require_done(const std::optional<std::string>& refusal) {
   if (refusal) refuse(*refusal);
 }
 
-// One property: which objects have it, how it is read and (unless it cannot be) changed.
+// A property: which objects have it, its getter and its setter (null: read-only).
 struct Property {
   std::string_view name;
   bool (*has)(const Subject& s);
@@ -93,7 +93,7 @@ constexpr Property kProperties[] = {
     {"colour", is_robot_or_block,
      [](const Simulation&, const Subject& s) -> PropertyValue {
        if (s.robot != nullptr) return sim::to_string(s.robot->colour);
-       // As pictures have them.
+       // The default colours of pictures.
        const sim::Colour by_type = s.box->type == sim::ObstacleType::kDynamic
                                        ? sim::Colour{0xd6, 0x45, 0x41, 0xff}
                                        : sim::Colour{0xcd, 0xd1, 0xd6, 0xff};
@@ -202,7 +202,7 @@ sim::SceneObject require_object(const Simulation& simulation, const std::string&
 }
 
 void place_object(Simulation& simulation, const std::string& name, const sim::Pose& pose) {
-  // Farther than this nothing can be meant, and Box2D would lose its wits.
+  // Coordinates beyond this are errors, and Box2D's arithmetic would fail.
   constexpr double kFarthest_m = 1e6;
   for (const double x : {pose.x_m, pose.y_m, pose.yaw_rad}) {
     if (!(std::abs(x) <= kFarthest_m)) {

@@ -31,12 +31,12 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLayerFolder = "layers";
 
-// Pixels a cell: a whole number, so that cells are crisp.
+// Pixels per cell: a whole number, so that cells have sharp edges.
 int cell_scale(const sim::CanvasDescription& canvas) {
   return std::max(1, kCanvasMostSize_px / std::max(canvas.width, canvas.height));
 }
 
-// A layer's name as that of a file: other characters than these could be a path, or trouble.
+// A file name for a layer. Other characters could form a path or cause problems.
 std::string safe_name(const std::string& name) {
   std::string safe = name;
   for (char& c : safe) {
@@ -47,8 +47,8 @@ std::string safe_name(const std::string& name) {
   return safe.empty() ? "_" : safe;
 }
 
-// The files' names of layers, without ending. Those that would be the same, also where case does
-// not count, get their owner's port behind them, and a number if that does not tell them apart.
+// The file names of layers, without endings. Names that would be equal, ignoring case, get their
+// owner's port as a suffix, and a number if they are still equal.
 std::vector<std::string> file_names(const std::vector<sim::LayerInfo>& layers) {
   const auto folded = [](std::string name) {
     for (char& c : name) {
@@ -78,7 +78,7 @@ std::vector<std::string> file_names(const std::vector<sim::LayerInfo>& layers) {
   return names;
 }
 
-// Removes the files of a folder that `is_ours` says are ours.
+// Removes the files of a folder for which `is_ours` is true.
 template <typename Predicate>
 void remove_files(const fs::path& folder, Predicate is_ours) {
   std::error_code error;
@@ -98,7 +98,7 @@ void remove_files(const fs::path& folder, Predicate is_ours) {
 
 void remove_if_empty(const fs::path& folder) {
   std::error_code ignored;
-  fs::remove(folder, ignored);  // fails, as it should, unless it is empty
+  fs::remove(folder, ignored);  // fails, as intended, unless the folder is empty
 }
 
 void remove_layers(const fs::path& folder) {
@@ -148,7 +148,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
     }
   }
   nlohmann::ordered_json said = nlohmann::ordered_json::array();
-  for (const sim::Utterance& u : simulation.said()) {
+  for (const sim::SpokenText& u : simulation.spoken_texts()) {
     said.push_back({{"time", sim::to_seconds(u.time_ns)},
                     {"robot", simulation.world().robots[static_cast<std::size_t>(u.robot)].name},
                     {"text", u.text}});
@@ -168,8 +168,8 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
   return whole;
 }
 
-// The path, without ending, of files that a client wants saved in the output folder: a "picture" or
-// a "map". The first ending may stand in the name.
+// The path, without ending, of a client's "picture" or "map" in the output folder. The name may
+// include the first ending.
 std::string saved_stem(const std::string& folder, const std::string& what, const std::string& name,
                        std::initializer_list<std::string_view> endings) {
   const std::string_view first = *endings.begin();
@@ -191,7 +191,7 @@ std::string saved_stem(const std::string& folder, const std::string& what, const
   std::string stem = (fs::path(folder) / plain).string();
   for (const std::string_view ending : endings) {
     const std::string file = stem + std::string(ending);
-    std::error_code ignored;  // what cannot be looked at cannot be written either
+    std::error_code ignored;  // if the file cannot be checked, writing it fails too
     if (fs::is_symlink(file, ignored)) {
       throw SessionError(SessionError::Code::kNotAvailable,
                          file + " is a link, which may lead out of the output folder");
@@ -225,7 +225,7 @@ void remove_results(const std::string& folder) {
   }
   remove_layers(folder);
   remove_snapshots(folder);
-  // Those that a user saved from the live window.
+  // Pictures that a user saved from the live window.
   remove_files(folder, [](const fs::path& file) {
     const std::string name = file.filename().string();
     return name.starts_with("view_") && name.ends_with(".png");
@@ -266,7 +266,7 @@ std::string report_text(const sim::Simulation& simulation, const Recorder& recor
                         const TimeStatistics& time, const RunEnd& end) {
   nlohmann::ordered_json whole = report(simulation, recorder, time);
   whole["ended"] = to_json(end);
-  // What robots said may be any bytes.
+  // Texts of robots may be invalid UTF-8.
   return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
 }
 
@@ -280,7 +280,7 @@ void write_report(const std::string& folder, const std::string& text) {
 void write_pictures(const std::string& folder, const sim::LayerStack& layers,
                     const sim::SceneSnapshot& scene) {
   const fs::path out(folder);
-  // One that fails is no reason to keep back the others.
+  // A failure must not prevent the other writes.
   std::exception_ptr failure;
   const auto attempt = [&failure](const auto& write) {
     try {

@@ -22,27 +22,27 @@ class Recorder;
 /// Folder of the pictures that are made while a run goes on, in its output folder.
 inline constexpr const char* kSnapshotFolder = "snapshots";
 
-/// Removes the pictures of earlier runs from an output folder's snapshots/.
-/// @throws std::runtime_error naming the file that can't be removed and the reason.
+/// Removes the pictures of earlier runs from an output folder's snapshots/. @throws
+/// std::runtime_error with the file that can't be removed and the reason.
 void remove_snapshots(const std::string& folder);
 
-/// How a run came to its end, as its report tells.
+/// How a run ended, for its report.
 struct RunEnd {
   enum class By {
-    kNothing,   ///< it goes on; a report says so that was written meanwhile
-    kDuration,  ///< its time was over
-    kProgram,   ///< the program ended, or had enough
-    kRequest,   ///< a signal asked for it
-    kWindow,    ///< its window was closed
-    kSignal,    ///< a signal ended the program: it crashed, or was killed
+    kNothing,   ///< the run continues; in reports that are written during the run
+    kDuration,  ///< the simulated duration is over
+    kProgram,   ///< the program ended, or stopped using the simulation
+    kRequest,   ///< a signal requested the end
+    kWindow,    ///< the user closed the window
+    kSignal,    ///< a signal ended the program: it crashed or was killed
   };
   By by = By::kNothing;
-  std::optional<int> status = {};  ///< exit status of the program, where that ended the run
+  std::optional<int> status = {};  ///< exit status of the program, if that ended the run
   std::optional<int> signal = {};  ///< number of the signal of kRequest and kSignal
 };
 
-/// The report's "ended": null, or an object with "by" and, where they are known, "status" and
-/// "signal" (its name, such as "SIGINT").
+/// The report's "ended": null, or an object with "by" and, if known, "status" and "signal" (its
+/// name, such as "SIGINT").
 [[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
 
 /// The text of report.json.
@@ -52,38 +52,37 @@ struct RunEnd {
 /// @throws std::runtime_error naming the file if it could not be written.
 void write_report(const std::string& folder, const std::string& text);
 
-/// Writes scene.png, canvas.png and, for each layer, layers/NAME.png (and NAME.pgm with NAME.yaml
-/// for grey ones, see sim::io::write_map) into `folder`.
+/// Writes scene.png, canvas.png and, for each layer, layers/NAME.png (for grey layers also NAME.pgm
+/// and NAME.yaml, see sim::io::write_map) into `folder`.
 ///
-/// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
-/// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
-/// layers of one name get their clients' ports behind it, and a number if that is not enough.
-/// @throws std::runtime_error naming the first file that could not be written; the others are.
+/// scene.png shows the ground, or the mini-map if that is the view mode. canvas.png shows all
+/// visible layers, composed. In a layer's NAME, characters other than letters, digits, '-' and '_'
+/// become '_'. Equal names get their client's port as a suffix, and a number if they are still
+/// equal. @throws std::runtime_error with the first file that could not be written; the other files
+/// are written nevertheless.
 void write_pictures(const std::string& folder, const sim::LayerStack& layers,
                     const sim::SceneSnapshot& scene);
 
 inline constexpr std::size_t kMaxFileName = 100;  ///< bytes
-/// Whether a name is that of a file in a folder, and no way out of it: 1 to kMaxFileName bytes
-/// without separators and control characters, and no dot in front.
+/// Whether a name is a plain file name that cannot leave its folder: 1 to kMaxFileName bytes
+/// without separators and control characters, and no dot at the beginning.
 [[nodiscard]] bool is_plain_file_name(const std::string& name);
 
-/// A grey layer's cells as an occupancy grid. @pre stack.contains(layer)
+/// Converts a grey layer to an occupancy grid. @pre stack.contains(layer)
 [[nodiscard]] sim::OccupancyMap occupancy_map(const sim::LayerStack& stack, sim::LayerId layer);
 
-/// Where a picture goes that a client wants saved.
-/// @throws SessionError as SaveImageRequest.
+/// The path of a picture that a client saves. @throws SessionError as SaveImageRequest.
 [[nodiscard]] std::string picture_file(const std::string& folder, const std::string& name,
                                        int scale);
-/// Writes the canvas as a PNG, scale x scale pixels a cell.
-/// @throws SessionError kNotAvailable if it cannot be written.
+/// Writes the canvas as a PNG with scale x scale pixels per cell. @throws SessionError
+/// kNotAvailable if writing fails.
 void write_picture(const sim::CanvasDescription& canvas, const std::vector<std::uint8_t>& rgba,
                    int scale, const std::string& file);
 
-/// Where the two files of a map go that a client wants saved, without their endings.
-/// @throws SessionError as SaveMapRequest.
+/// The path, without ending, of the two files of a map that a client saves. @throws SessionError as
+/// SaveMapRequest.
 [[nodiscard]] std::string map_stem(const std::string& folder, const std::string& name);
-/// Writes a map as sim::io::write_map() does.
-/// @throws SessionError kNotAvailable if it cannot be written.
+/// Writes a map, see sim::io::write_map(). @throws SessionError kNotAvailable if writing fails.
 void write_map_files(const sim::OccupancyMap& map, const std::string& stem, sim::io::MapMode mode);
 
 }  // namespace playerlike

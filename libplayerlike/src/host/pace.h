@@ -8,29 +8,30 @@
 
 namespace playerlike {
 
-/// How fast a run may go: its speed and pauses when it follows the wall clock, and how many steps
-/// it may still make. Step number n + 1 since a moment is due n + 1 steps' time after it, so a run
-/// neither drifts nor catches up. Not thread-safe: guarded by the host's mutex.
+/// The pace of a run: speed and pauses if it follows the wall clock, and an optional limit of
+/// steps. Step n + 1 after a base time is due n + 1 step durations after it, so there is no drift.
+/// Not thread-safe: guarded by the host's mutex.
 class Pace {
  public:
   using Time = WallClock::time_point;
 
-  /// @param factor  simulated seconds a wall second, > 0.
+  /// @param factor  simulated seconds per wall-clock second, > 0.
   Pace(double step_s, double factor) : step_s_(step_s), factor_(factor) {}
 
   /// Whether the run follows the wall clock.
   [[nodiscard]] bool by_wall_clock() const noexcept { return by_wall_clock_; }
   [[nodiscard]] double factor() const noexcept { return factor_; }
   [[nodiscard]] bool paused() const noexcept { return paused_; }
-  /// Whether the steps that may be made are limited, and whether none is left.
+  /// limited: whether the number of further steps is limited; step_limit_reached: whether none is
+  /// left.
   [[nodiscard]] bool limited() const noexcept { return credit_.has_value(); }
-  [[nodiscard]] bool used_up() const noexcept { return credit_ == 0U; }
-  /// Counts the changes below, and of the limit.
+  [[nodiscard]] bool step_limit_reached() const noexcept { return credit_ == 0U; }
+  /// Number of changes of factor, pause and limit.
   [[nodiscard]] int changes() const noexcept { return changes_; }
 
   void follow_wall_clock() noexcept { by_wall_clock_ = true; }
   void set_factor(double factor) {
-    // From the newest step on at the new speed: nothing is caught up with, nothing lost.
+    // The base moves to the newest step, so the change neither skips nor repeats time.
     begin_at(base_ + after(done_));
     factor_ = factor;
     ++changes_;
@@ -47,23 +48,24 @@ class Pace {
     if (credit_) set_limit(*credit_ + steps);
   }
 
-  /// The next step is due a step's time after this.
+  /// Sets the base: the next step is due one step duration after it.
   void begin_at(Time now) {
     base_ = now;
     done_ = 0;
   }
   [[nodiscard]] Time due() const { return base_ + after(done_ + 1); }
-  /// The limit was waited for. Nothing is caught up with, but a step that is late comes at once.
-  void forgive(Time now) {
+  /// The run has waited for the limit. The lost time is not made up for, but a step that is late is
+  /// due at once.
+  void skip_lost_time(Time now) {
     if (now > due()) begin_at(now - after(1));
   }
-  /// A step is made now. Far behind (a suspended machine, a factor beyond what it can do) the run
-  /// goes on from here instead of rushing after.
+  /// A step begins now. If the run is far behind (after a suspension, or with a factor that the
+  /// machine cannot reach), it does not try to catch up.
   void begin_step(Time now) {
     if (now - due() > std::chrono::milliseconds(200)) begin_at(now);
     ++done_;
   }
-  /// Of any run: a step was made.
+  /// A step was made, in any time mode.
   void count_step() noexcept {
     if (credit_) --*credit_;
   }
@@ -77,7 +79,7 @@ class Pace {
   bool by_wall_clock_ = false;
   double factor_;
   bool paused_ = false;
-  std::optional<std::uint64_t> credit_;  ///< steps that may still be made, if limited
+  std::optional<std::uint64_t> credit_;  ///< remaining steps, if limited
   int changes_ = 0;
   Time base_{};
   std::uint64_t done_ = 0;  ///< steps since base_

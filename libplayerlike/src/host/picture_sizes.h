@@ -5,7 +5,6 @@ namespace playerlike {
 
 inline constexpr int kFilmSize_px = 800;         ///< longer side of a film
 inline constexpr int kSceneSize_px = 1200;       ///< longer side of a run's pictures of the scene
-inline constexpr int kCanvasMostSize_px = 1200;  ///< of pictures of cells alone, if that leaves
-                                                 ///< each cell a pixel
+inline constexpr int kCanvasMostSize_px = 1200;  ///< pictures of cells; at least a pixel per cell
 
 }  // namespace playerlike

@@ -12,7 +12,7 @@
 namespace playerlike {
 namespace {
 
-// So many scenes may wait, to even out fast and slow ones, but not more memory than that.
+// Limits of the queue, which evens out fast and slow scenes: jobs and memory.
 constexpr std::size_t kMostJobs = 8;
 constexpr std::size_t kMostBytes = 64 << 20;
 
@@ -78,7 +78,7 @@ void PictureThread::work() {
       failure = std::current_exception();
     }
     lock.lock();
-    // Only now: a job in work counts, so that no more memory is taken than meant.
+    // The job is removed only now, so that its memory counts while it is drawn.
     jobs_.pop_front();
     if (failure) {
       failure_ = failure;

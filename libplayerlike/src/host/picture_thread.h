@@ -16,29 +16,29 @@
 
 namespace playerlike {
 
-/// Draws a run's film and its pictures on a thread of its own, so that the simulation goes on
-/// meanwhile. What is written depends on the scenes given alone, not on how fast it is.
+/// Draws a run's film and pictures on its own thread, so that the simulation does not wait. The
+/// files depend on the scenes only, not on timing.
 class PictureThread {
  public:
-  /// What to do with a scene.
+  /// A scene and what to draw of it.
   struct Job {
     sim::SceneSnapshot scene;
-    int film_frames = 0;  ///< how many frames of the film show it
-    std::string picture;  ///< PNG to write; "": none
+    int film_frames = 0;  ///< number of film frames that show it
+    std::string picture;  ///< file name of a PNG; "": none
   };
 
   /// @param film  takes the frames; may be null if no job has any.
-  /// @param film_limit  bytes at which the film ends; finish() tells.
+  /// @param film_limit  bytes at which the film ends; finish() reports it.
   PictureThread(std::unique_ptr<sim::render::FilmWriter> film, std::uint64_t film_limit);
-  /// Does what is left.
+  /// Completes the queued jobs.
   ~PictureThread();
   PictureThread(const PictureThread&) = delete;
   PictureThread& operator=(const PictureThread&) = delete;
 
-  /// Takes a job; waits while too many are waiting. After a failure jobs are dropped.
+  /// Adds a job; waits while the queue is full. After a failure jobs are dropped.
   void add(Job job);
-  /// Does what is left and completes the film.
-  /// @throws std::runtime_error, the first failure, naming the file and the reason.
+  /// Completes the queued jobs and the film. @throws std::runtime_error for the first failure, with
+  /// the file and the reason.
   void finish();
 
  private:
@@ -48,15 +48,15 @@ class PictureThread {
 
   const std::uint64_t film_limit_;
   bool film_is_full_ = false;
-  std::unique_ptr<sim::render::FilmWriter> film_;  // the rest is the thread's, too, until it ends
+  std::unique_ptr<sim::render::FilmWriter> film_;  // used by the thread only, like the renderers
   sim::render::SceneRenderer film_renderer_;
   sim::render::SceneRenderer picture_renderer_;
 
-  std::mutex mutex_;  // guards what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::deque<Job> jobs_;  // the first one may be in work
+  std::deque<Job> jobs_;  // the first one may be in progress
   std::exception_ptr failure_;
-  bool last_ = false;  // no more jobs come
+  bool last_ = false;  // no more jobs will be added
 
   std::thread thread_;
 };

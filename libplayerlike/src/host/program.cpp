@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 std::string in_quotes(const std::string& text) { return "'" + text + "'"; }
 
-/// Why a path can't be run; nullopt if it can.
+/// The reason why a path can't be run; nullopt if it can.
 std::optional<std::string> obstacle_to_running(const std::string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) != 0) {
@@ -50,20 +50,18 @@ std::string absolute_path(const std::string& path) {
 
 using Clock = std::chrono::steady_clock;
 
-// A program that was asked to end, and whose simulated run has not ended by then, is killed, and so
-// is one that goes on for so long after its results are complete; what is to be written afterwards
-// takes the rest of the two seconds that are promised.
+// How long a program may continue after a request to end, or after its results are complete, before
+// it is killed. The documented limit is two seconds; the rest is for writing the results.
 constexpr std::chrono::milliseconds kTimeToEnd(1500);
-constexpr std::chrono::milliseconds kLook(20);
-constexpr std::chrono::milliseconds kSeldomLook(200);
+constexpr std::chrono::milliseconds kPollPeriod(20);
+constexpr std::chrono::milliseconds kSlowPollPeriod(200);
 
-/// Holds back, in this thread, the signals that matter while a program runs, so that they can be
-/// taken one by one instead of interrupting anything. Those that this process ignores, as under
-/// nohup, stay ignored.
+/// Blocks the relevant signals in this thread while a program runs, so that they can be read one by
+/// one from a descriptor. Signals that this process ignores, as under nohup, stay ignored.
 class HeldSignals {
  public:
   HeldSignals() {
-    // Were SIGCHLD ignored, as some parents leave it, the program's status would be lost.
+    // If SIGCHLD were ignored, as inherited from some parents, the program's status would be lost.
     struct sigaction by_default {};
     by_default.sa_handler = SIG_DFL;
     sigaction(SIGCHLD, &by_default, &old_child_action_);
@@ -82,7 +80,7 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
   ~HeldSignals() {
-    // What came too late for the program is dropped: this process ends by itself in a moment.
+    // Signals that arrived too late for the program are dropped; this process ends anyway.
     while (take()) {
     }
     close(descriptor_);
@@ -90,14 +88,14 @@ class HeldSignals {
     pthread_sigmask(SIG_SETMASK, &old_mask_, nullptr);
   }
 
-  /// The mask as it was, for the program to start with.
+  /// The original mask, for the program.
   [[nodiscard]] const sigset_t& old_mask() const noexcept { return old_mask_; }
 
   struct Signal {
     int number = 0;
-    bool from_system = false;  ///< the terminal's
+    bool from_system = false;  ///< from the terminal
   };
-  /// The next signal that has come.
+  /// The next pending signal.
   [[nodiscard]] std::optional<Signal> take() const {
     signalfd_siginfo info{};
     if (read(descriptor_, &info, sizeof info) != sizeof info) return std::nullopt;
@@ -105,7 +103,7 @@ class HeldSignals {
     return Signal{static_cast<int>(info.ssi_signo), !from_process};
   }
 
-  /// Waits until a signal has come or one of the descriptors is readable, no longer than told.
+  /// Waits until a signal is pending or a descriptor is readable, at most for a given time.
   void wait(const std::vector<int>& descriptors, Clock::duration at_most) const {
     std::vector<pollfd> polls = {{descriptor_, POLLIN, 0}};
     for (const int descriptor : descriptors) polls.push_back({descriptor, POLLIN, 0});
@@ -121,10 +119,10 @@ class HeldSignals {
   struct sigaction old_child_action_ {};
 };
 
-/// Tells one request to end from the next.
+/// Tells copies of a request to end from further requests.
 class EndRequests {
  public:
-  enum class Meaning { kFirst, kCopy, kAgain };
+  enum class Meaning { kFirst, kCopy, kRepeated };
 
   Meaning note(int signal) {
     const Clock::time_point now = Clock::now();
@@ -133,7 +131,7 @@ class EndRequests {
       time_ = now;
       return Meaning::kFirst;
     }
-    return is_same_request(*first_, signal, now - time_) ? Meaning::kCopy : Meaning::kAgain;
+    return is_same_request(*first_, signal, now - time_) ? Meaning::kCopy : Meaning::kRepeated;
   }
   [[nodiscard]] std::optional<int> first() const noexcept { return first_; }
   [[nodiscard]] Clock::duration age() const {
@@ -145,23 +143,23 @@ class EndRequests {
   Clock::time_point time_;
 };
 
-/// Whether the program has got a signal, too: the terminal's go to all in the foreground, but that
-/// it was closed only the leader of its session is told.
+/// Whether the program has received a signal too. The terminal's signals go to the whole foreground
+/// group, except for SIGHUP, which goes to the session leader only.
 bool is_programs_too(const HeldSignals::Signal& signal) {
   const bool leads_session = getsid(0) == getpid();
   return signal.from_system && !(signal.number == SIGHUP && leads_session);
 }
 
-/// The bytes of all files in a folder; what is over the limit need not be counted.
+/// The total size of the files in a folder; counting may stop beyond the limit.
 std::uint64_t size_of(const std::string& folder, std::uint64_t limit) {
   std::uint64_t size = 0;
   std::error_code error;
-  // What vanishes meanwhile is no error.
+  // Files that disappear meanwhile are no error.
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     struct stat info {};
     if (lstat(entry->path().c_str(), &info) != 0 || !S_ISREG(info.st_mode)) continue;
-    // What is on the disk: a file may have holes.
+    // Size on disk, since a file may have holes.
     size += std::min(static_cast<std::uint64_t>(info.st_size),
                      static_cast<std::uint64_t>(info.st_blocks) * 512);
     if (size > limit) break;
@@ -169,8 +167,8 @@ std::uint64_t size_of(const std::string& folder, std::uint64_t limit) {
   return size;
 }
 
-/// A program that runs in a group of its own. Killed, with all that it has started, if it is let
-/// go.
+/// A program in its own process group. The destructor kills it and all processes that it has
+/// started.
 class GroupedProgram {
  public:
   GroupedProgram(const ProgramJob& job, std::size_t index, const sigset_t& mask)
@@ -190,7 +188,7 @@ class GroupedProgram {
     return JobEnd{kind_, *end, std::chrono::duration<double>(Clock::now() - start_).count()};
   }
 
-  /// Asks it to end, for this reason, and sees to it that it does after the grace.
+  /// Sends SIGTERM for this reason; the program is killed if it still runs after the grace period.
   void ask_to_end(JobEnd::Kind reason, Clock::duration grace) {
     if (kill_time_) return;
     kind_ = reason;
@@ -198,21 +196,21 @@ class GroupedProgram {
     program_.send_signal(SIGTERM);
   }
 
-  /// Does what is due by now.
-  /// @param timeout  how long it may run.
-  /// @return when something is due next.
-  Clock::time_point look_after(Clock::duration timeout, Clock::duration grace) {
+  /// Applies the time limits.
+  /// @param timeout  how long the program may run.
+  /// @return when to call this again.
+  Clock::time_point enforce_limits(Clock::duration timeout, Clock::duration grace) {
     const Clock::time_point now = Clock::now();
     if (now - start_ >= timeout) ask_to_end(JobEnd::Kind::kTimedOut, grace);
-    if (!folder_.empty() && !kill_time_ && now >= next_look_) {
-      next_look_ = now + kSeldomLook;
+    if (!folder_.empty() && !kill_time_ && now >= next_check_) {
+      next_check_ = now + kSlowPollPeriod;
       if (size_of(folder_, folder_limit_) > folder_limit_) {
         ask_to_end(JobEnd::Kind::kTooMuchOutput, Clock::duration::zero());
       }
     }
     if (kill_time_ && now >= *kill_time_ && !std::exchange(killed_, true)) program_.kill_all();
     if (kill_time_) return killed_ ? Clock::time_point::max() : *kill_time_;
-    return folder_.empty() ? start_ + timeout : std::min(start_ + timeout, next_look_);
+    return folder_.empty() ? start_ + timeout : std::min(start_ + timeout, next_check_);
   }
 
   void end_grace() { kill_time_ = Clock::now(); }
@@ -231,11 +229,11 @@ class GroupedProgram {
   std::size_t index_;
   std::string folder_;
   std::uint64_t folder_limit_;
-  Clock::time_point next_look_ = Clock::now() + kSeldomLook;
+  Clock::time_point next_check_ = Clock::now() + kSlowPollPeriod;
   SupervisedProgram program_;
   Clock::time_point start_ = Clock::now();
   JobEnd::Kind kind_ = JobEnd::Kind::kEnded;
-  std::optional<Clock::time_point> kill_time_;  ///< set once it was asked to end
+  std::optional<Clock::time_point> kill_time_;  ///< set after the request to end
   bool killed_ = false;
 };
 
@@ -257,7 +255,7 @@ std::string find_program(const std::string& name) {
   for (;;) {
     const std::size_t colon = rest.find(':');
     const std::string folder(rest.substr(0, colon));
-    // An empty entry of PATH means the folder we are in.
+    // An empty entry of PATH means the current folder.
     std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
     if (!obstacle_to_running(candidate)) return candidate;
     if (colon == std::string_view::npos) break;
@@ -272,7 +270,7 @@ std::string find_program(const std::string& name) {
 
 bool is_same_request(int first, int signal, std::chrono::nanoseconds age) noexcept {
   constexpr std::chrono::milliseconds kOneRequest(500);
-  // A terminal that is closed may hang up twice: its shell does, too.
+  // A closed terminal may cause two SIGHUPs: one from the system and one from the shell.
   return signal == first && (signal == SIGHUP || age < kOneRequest);
 }
 
@@ -349,12 +347,12 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       watch.tell("the program has stopped itself (SIGSTOP): kill -CONT " +
                  std::to_string(program.program()) + " lets it go on, Ctrl-C ends the run");
     }
-    // Whether the simulated run is to end by the signal, and not by a handler of the program's own.
+    // Nonzero if the simulated run ends because of the signal, and not in a handler of the program.
     const int noted = watch.kept != nullptr ? watch.kept->interrupt_noted() : 0;
     while (const std::optional<HeldSignals::Signal> signal = signals.take()) {
       const EndRequests::Meaning meaning = requests.note(signal->number);
       if (meaning == EndRequests::Meaning::kCopy) continue;
-      if (meaning == EndRequests::Meaning::kAgain && noted != 0) {
+      if (meaning == EndRequests::Meaning::kRepeated && noted != 0) {
         program.kill_all();
         killed = true;
       } else {
@@ -364,10 +362,10 @@ ProgramEnd run_program(const std::vector<std::string>& command,
     const KeptRun::Phase now = watch.kept != nullptr ? watch.kept->phase() : KeptRun::Phase::kNone;
     if (now != phase) phase_begin = Clock::now();
     phase = now;
-    // Not while results are written, however long that takes.
+    // Writing results may take any time.
     const bool goes_on =
         noted != 0 && (now == KeptRun::Phase::kRunning || now == KeptRun::Phase::kDone);
-    // Somebody may have sent it to the program alone.
+    // The signal may have been sent to the program only.
     if (noted != 0 && !requests.first()) static_cast<void>(requests.note(noted));
     if (requests.first() && goes_on &&
         std::min(requests.age(), Clock::now() - phase_begin) > kTimeToEnd &&
@@ -375,8 +373,8 @@ ProgramEnd run_program(const std::vector<std::string>& command,
       program.kill_all();
     }
     signals.wait({program.descriptor()}, requests.first() && !killed
-                                             ? Clock::duration(kLook)
-                                             : Clock::duration(kSeldomLook));
+                                             ? Clock::duration(kPollPeriod)
+                                             : Clock::duration(kSlowPollPeriod));
   }
 }
 
@@ -406,7 +404,7 @@ std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobL
     Clock::time_point wake = Clock::now() + std::chrono::minutes(1);
     std::vector<int> descriptors;
     for (GroupedProgram& program : running) {
-      wake = std::min(wake, program.look_after(timeout, grace));
+      wake = std::min(wake, program.enforce_limits(timeout, grace));
       descriptors.push_back(program.descriptor());
     }
     signals.wait(descriptors, wake - Clock::now());
@@ -414,7 +412,7 @@ std::vector<JobEnd> run_programs(const std::vector<ProgramJob>& jobs, const JobL
       const EndRequests::Meaning meaning = requests.note(signal->number);
       for (GroupedProgram& program : running) {
         program.ask_to_end(JobEnd::Kind::kInterrupted, grace);
-        if (meaning == EndRequests::Meaning::kAgain) program.end_grace();
+        if (meaning == EndRequests::Meaning::kRepeated) program.end_grace();
       }
     }
     for (auto program = running.begin(); program != running.end();) {

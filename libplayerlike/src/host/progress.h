@@ -9,19 +9,20 @@
 
 namespace playerlike {
 
-/// How long a run has taken on the wall clock, and the line on the terminal that shows how far it
-/// is. Not thread-safe: guarded by the host's mutex.
+/// Measures a run's wall-clock time and shows its progress on the terminal. Not thread-safe:
+/// guarded by the host's mutex.
 class Progress {
  public:
-  /// A step is made. @return whether it is the first.
+  /// A step begins. @return whether it is the first.
   bool note_step(WallClock::time_point now);
   /// The last step has ended.
   void note_end() { last_step_ = WallClock::now(); }
-  /// Adds wall_time_s and real_time_factor.
+  /// Sets wall_time_s and real_time_factor.
   /// @param ended  no step will follow.
   void add_times(TimeStatistics& time, bool ended) const;
 
-  /// Shows the line, if standard error is a terminal, and if the last time is 0.1 s ago.
+  /// Shows the line if standard error is a terminal and at least 0.1 s have passed since the last
+  /// time.
   /// @param last  the run is over: the line stays, if there is one.
   void show(const TimeStatistics& time, bool last);
   /// The line, e.g. "[######........]     1.2 / 2 s simulated, 300 x real time, 0 s left ".

@@ -50,16 +50,16 @@ Recorder::Recorder(const RunSettings& settings, const sim::Simulation& simulatio
 
 std::uint64_t Recorder::Clock::due(sim::SimTime now_ns) {
   if (period_s_ <= 0.0) return 0;
-  // The tolerance takes what rounding makes of whole numbers: it is far less than a step.
+  // The tolerance covers rounding errors; it is far smaller than a step.
   const double periods = sim::to_seconds(now_ns) / period_s_ * (1.0 + 1e-12) + 1e-9;
   const std::uint64_t past = static_cast<std::uint64_t>(periods) + 1;
-  const std::uint64_t count = past - std::min(told_, past);
-  told_ = past;
+  const std::uint64_t count = past - std::min(reported_, past);
+  reported_ = past;
   return count;
 }
 
 std::string Recorder::picture_file(sim::SimTime now_ns) const {
-  constexpr std::size_t kDigits = 10;  // so that the order of names is that of times
+  constexpr std::size_t kDigits = 10;  // leading zeros make the names sort by time
   const std::string time = sim::fixed_text(sim::to_seconds(now_ns), 3);
   const std::string zeros(kDigits - std::min(kDigits, time.size()), '0');
   return (fs::path(snapshot_folder_) / ("scene_" + zeros + time + "s.png")).string();
@@ -72,10 +72,10 @@ void Recorder::observe(const sim::Simulation& simulation) {
   if (trajectory_.is_open() && now_ns >= next_row_ns_) {
     next_row_ns_ += kRowPeriod_ns;
     write_rows(simulation);
-    flush_trajectory();  // a program may die at any time
+    flush_trajectory();  // the program may be killed at any time
   }
   if (!pictures_) return;
-  // A step longer than a frame's time fills more than one frame.
+  // A step that is longer than a frame's period fills several frames.
   const auto frames = static_cast<int>(film_clock_.due(now_ns));
   const bool picture = snapshot_clock_.due(now_ns) > 0;
   if (frames == 0 && !picture) return;
@@ -104,7 +104,7 @@ void Recorder::write_rows(const sim::Simulation& simulation) {
   const std::string time = sim::fixed_text(sim::to_seconds(simulation.now_ns()), 3);
   for (int i = 0; i < simulation.robot_count(); ++i) {
     const sim::BodyState& body = simulation.body(i);
-    // Robot names hold no comma (the world reader sees to it).
+    // The world reader refuses commas in robot names.
     std::string line = time + ',' + simulation.world().robots[static_cast<std::size_t>(i)].name;
     for (const double value : {body.X_WB.x_m, body.X_WB.y_m, body.X_WB.yaw_rad, body.twist.v_mps,
                                body.twist.omega_radps}) {
@@ -137,7 +137,7 @@ void Recorder::close_trajectory() {
 }
 
 void Recorder::close_film() {
-  // The thread is gone afterwards whatever happens, and a second call does nothing.
+  // The thread is released even if finish() throws; a second call does nothing.
   const std::unique_ptr<PictureThread> pictures = std::move(pictures_);
   if (pictures) pictures->finish();
 }

@@ -15,21 +15,22 @@
 
 namespace playerlike {
 
-/// Keeps a run's past for its results: the trails of the robots, trajectory.csv, the film and the
-/// pictures in snapshots/. Called after each step by the thread that steps; film and pictures are
-/// drawn and written on another.
+/// Records a run for its results: trails of the robots, trajectory.csv, the film, and the pictures
+/// in snapshots/. The thread that steps calls it after each step; another thread draws and writes
+/// film and pictures.
 ///
-/// A film's frame k shows the scene at k * film_speed / film_fps simulated seconds or, if that lies
-/// between two steps, after the later one. So a run of D seconds has floor(D * fps / speed) + 1
-/// frames. Pictures are made likewise every snapshot_period_s, but one a step at most.
+/// Frame k of a film shows the scene at k * film_speed / film_fps simulated seconds, or after the
+/// next step if that time lies between two steps. So a run of D seconds has floor(D * fps / speed)
+/// + 1 frames. Pictures are taken at multiples of snapshot_period_s in the same way, but at most
+/// one per step.
 class Recorder {
  public:
-  /// @throws std::runtime_error if a file or folder cannot be made.
+  /// @throws std::runtime_error if a file or folder cannot be created.
   Recorder(const RunSettings& settings, const sim::Simulation& simulation);
 
   void observe(const sim::Simulation& simulation);
 
-  /// Where a robot has been; see kMostTrailPoints.
+  /// The path of a robot; see kMostTrailPoints.
   [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
     return trails_[robot].points;
   }
@@ -41,11 +42,11 @@ class Recorder {
   /// The scene now, with trails.
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
-  /// Completes trajectory.csv. observe() must not be called afterwards.
-  /// @throws std::runtime_error if it could not be written.
+  /// Completes trajectory.csv. observe() must not be called afterwards. @throws std::runtime_error
+  /// if writing fails.
   void close_trajectory();
   /// Completes the film and the pictures in snapshots/. observe() must not be called afterwards.
-  /// @throws std::runtime_error if something could not be written.
+  /// @throws std::runtime_error if writing fails.
   void close_film();
 
  private:
@@ -58,17 +59,17 @@ class Recorder {
   void write_rows(const sim::Simulation& simulation);
   void flush_trajectory();
 
-  /// What recurs at times k * period, k = 0, 1, ...
+  /// Times k * period, k = 0, 1, ...
   class Clock {
    public:
     Clock() = default;
     explicit Clock(double period_s) : period_s_(period_s) {}
-    /// How many of the times have come since the last call.
+    /// Number of these times that have come since the last call.
     [[nodiscard]] std::uint64_t due(sim::SimTime now_ns);
 
    private:
-    double period_s_ = 0.0;  // 0: it never recurs
-    std::uint64_t told_ = 0;
+    double period_s_ = 0.0;  // 0: never due
+    std::uint64_t reported_ = 0;
   };
   [[nodiscard]] std::string picture_file(sim::SimTime now_ns) const;
 
@@ -76,7 +77,7 @@ class Recorder {
   std::string trajectory_file_;
   std::ofstream trajectory_;
   std::string snapshot_folder_;
-  std::unique_ptr<PictureThread> pictures_;  // none without film and pictures
+  std::unique_ptr<PictureThread> pictures_;  // null without film and pictures
   std::vector<Trail> trails_;
   sim::SimTime next_row_ns_ = 0;
   Clock film_clock_;

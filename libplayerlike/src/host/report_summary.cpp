@@ -15,7 +15,7 @@
 namespace playerlike {
 namespace {
 
-/// A column of numbers: its heading names the unit, its width fits the heading.
+/// A column of numbers. Its heading names the unit and sets its width.
 struct Column {
   const char* heading;
   const char* key;

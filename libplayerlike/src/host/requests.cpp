@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What clients ask for: one function a request.
+// The clients' requests, one function for each.
 #include "playerlike/messages/requests.h"
 
 #include <algorithm>
@@ -54,8 +54,7 @@ struct Host::Core::RequestHandler {
   void operator()(const SubscribeRequest& what) const {
     const DeviceInfo& info = require_device(core.robots_, what.device);
     const bool is_sensor = core.locked([&] {
-      return dynamic_cast<const sim::Sensor*>(
-                 &core.simulation_.device(what.device.robot, what.device.device)) != nullptr;
+      return core.simulation_.device(what.device.robot, what.device.device).sensor() != nullptr;
     });
     if (!is_sensor) {
       throw SessionError(SessionError::Code::kBadArgument,
@@ -67,31 +66,31 @@ struct Host::Core::RequestHandler {
     core.locked([&] { core.clients_.unsubscribe(client, what.device); });
   }
   void operator()(const ReplaceRequest& what) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     client.require_open();
     core.clients_.set_replace(client, what.device, what.replace);
   }
   std::uint32_t operator()(const OverflowRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     return client.overflow;
   }
-  void operator()(const JoinRequest&) const { core.join(client, this_thinker()); }
+  void operator()(const JoinRequest&) const { core.join(client, this_thread_id()); }
   void operator()(const SleepRequest& what) const { core.sleep(client, what.seconds); }
   TimeStatistics operator()(const TimeRequest&) const {
     return core.locked([this] { return core.time_locked(); });
   }
   void operator()(const PreferRealTimeRequest& what) const { core.prefer_real_time(what.reason); }
   void operator()(const NoteLooksRequest& what) const {
-    core.note_looks(client, what.count, what.has_data);
+    core.count_data_reads(client, what.count, what.has_data);
   }
-  // There is no connection that could be slow or lost.
+  // An embedded simulation has no connection that could be slow or lost.
   void operator()(const AnswerTimeoutRequest&) const {}
   void operator()(const RetriesRequest&) const {}
 
   // --- The canvas
 
   void operator()(const FlushDrawingsRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     client.require_open();
     client.touch();
     core.inputs_.apply_drawings(client);
@@ -99,14 +98,14 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const SetCellsRequest& what) const {
     require_cells(what.rect, what.cells.size());
-    core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-      book.require(client.number, what.layer);
+    core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+      registry.require(client.number, what.layer);
       layers.set_cells(what.layer, what.rect, what.cells);
     });
   }
   std::optional<sim::CellValue> operator()(const CellRequest& what) const {
-    return core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-      book.require(client.number, what.layer);
+    return core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+      registry.require(client.number, what.layer);
       return layers.cell(what.layer, what.column, what.row);
     });
   }
@@ -114,24 +113,25 @@ struct Host::Core::RequestHandler {
     return core.cells(client, what.layer);
   }
   sim::LayerId operator()(const CreateLayerRequest& what) const {
-    return core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
-      return book.create(layers, client.number, client.port, what.kind, what.style);
+    return core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
+      return registry.create(layers, client.number, client.port, what.kind, what.style);
     });
   }
   void operator()(const RemoveLayerRequest& what) const {
-    core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
-      book.remove(layers, client.number, what.layer);
+    core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
+      registry.remove(layers, client.number, what.layer);
     });
   }
   void operator()(const SetLayerStyleRequest& what) const {
-    core.with_layers(client, [&](sim::LayerStack& layers, LayerBook& book) {
-      book.set_style(layers, client.number, what.layer, what.style);
+    core.with_layers(client, [&](sim::LayerStack& layers, LayerRegistry& registry) {
+      registry.set_style(layers, client.number, what.layer, what.style);
     });
   }
   std::vector<sim::LayerInfo> operator()(const LayersRequest&) const {
-    return core.with_layers(client, [&](const sim::LayerStack& layers, const LayerBook& book) {
-      return book.list(layers, client.number);
-    });
+    return core.with_layers(client,
+                            [&](const sim::LayerStack& layers, const LayerRegistry& registry) {
+                              return registry.list(layers, client.number);
+                            });
   }
   CanvasImage operator()(const CanvasImageRequest&) const {
     sim::CanvasDescription canvas;
@@ -139,7 +139,7 @@ struct Host::Core::RequestHandler {
     return {std::move(rgba), info_of(canvas)};
   }
   CanvasInfo operator()(const CanvasInfoRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     return info_of(core.simulation_.layers().description());
   }
   CanvasInfo operator()(const ResizeCanvasRequest& what) const {
@@ -147,7 +147,7 @@ struct Host::Core::RequestHandler {
     return (*this)(CanvasInfoRequest{});
   }
 
-  // Files are written without the mutex: that may take a while.
+  // Files are written without the mutex, since this may take long.
   void operator()(const SaveImageRequest& what) const {
     const std::string file = picture_file(core.settings_.output_folder, what.name, what.scale);
     core.client_files_.require_room(client.number);
@@ -160,8 +160,8 @@ struct Host::Core::RequestHandler {
     const std::string stem = map_stem(core.settings_.output_folder, what.name);
     core.client_files_.require_room(client.number);
     sim::OccupancyMap map;
-    core.with_layers(client, [&](sim::LayerStack& layers, const LayerBook& book) {
-      book.require(client.number, what.layer);
+    core.with_layers(client, [&](sim::LayerStack& layers, const LayerRegistry& registry) {
+      registry.require(client.number, what.layer);
       if (layers.kind(what.layer) != sim::LayerKind::kGrey) {
         throw SessionError(SessionError::Code::kBadArgument,
                            "only grey layers can be saved as maps, but \"" +
@@ -176,11 +176,11 @@ struct Host::Core::RequestHandler {
   }
 
   sim::ViewMode operator()(const ViewModeRequest&) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     return core.simulation_.view_mode();
   }
   void operator()(const SetViewModeRequest& what) const {
-    const Lock lock = core.lock_soon();
+    const Lock lock = core.lock_with_priority();
     client.require_open();
     if (const auto refusal = core.simulation_.set_view_mode(what.mode)) {
       throw SessionError(SessionError::Code::kNotAvailable, *refusal);
@@ -188,9 +188,9 @@ struct Host::Core::RequestHandler {
   }
   WorldMap operator()(const WorldMapRequest& what) const {
     core.require_readable(client, -1);
-    // A map of many cells takes a while: it is made of a copy, without the mutex.
+    // A large map takes long, so it is made from a copy without the mutex.
     const sim::ArenaDescription arena = [&] {
-      const Lock lock = core.lock_soon();
+      const Lock lock = core.lock_with_priority();
       return core.simulation_.world().arena;
     }();
     return map_of(arena, what);
@@ -214,7 +214,7 @@ struct Host::Core::RequestHandler {
   }
   void operator()(const SetObjectPropertyRequest& what) const {
     const Lock lock = lock_readable();
-    static_cast<void>(object_property(core.simulation_, what.name, what.property));  // is it there?
+    static_cast<void>(object_property(core.simulation_, what.name, what.property));  // must exist
     require_unlocked();
     set_object_property(core.simulation_, what.name, what.property, what.value);
   }
@@ -227,12 +227,12 @@ struct Host::Core::RequestHandler {
     core.saved_states_.restore(what.name, core.simulation_);
   }
   LogStatus operator()(const LogRequest& what) const {
-    // A file to be replayed is read without the mutex: that may take seconds.
+    // A file to replay is read without the mutex: this may take seconds.
     std::optional<RunLog::Loaded> loaded;
     for (;;) {
       std::optional<std::string> file;
       {
-        const Lock lock = core.lock_soon();
+        const Lock lock = core.lock_with_priority();
         client.require_open();
         RunLog& log = core.results_.logs
                           .try_emplace(client.port, core.settings_.output_folder, client.port,
@@ -248,14 +248,14 @@ struct Host::Core::RequestHandler {
   }
 
  private:
-  /// The host's mutex, for what is kept from programs in a private world.
+  /// Locks the host's mutex, and throws if the world is private.
   [[nodiscard]] Lock lock_readable() const {
-    Lock lock = core.lock_soon();
+    Lock lock = core.lock_with_priority();
     client.require_open();
     core.require_readable(client, -1);
     return lock;
   }
-  /// The same for the state of all, with what the client has drawn so far.
+  /// As lock_readable(), for changes of the world: also applies the client's pending drawings.
   [[nodiscard]] Lock lock_changeable() const {
     Lock lock = lock_readable();
     require_unlocked();

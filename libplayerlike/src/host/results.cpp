@@ -10,9 +10,9 @@
 namespace playerlike {
 namespace {
 
-// How often the files of the results follow the run, at most.
+// Minimum period of writing the result files during the run.
 constexpr std::chrono::seconds kKeepingPeriod(1);
-// The same for what `playpen run` is left beside the state of each step.
+// Minimum period of KeptWriter::keep_looks(); the state is stored after each step.
 constexpr std::chrono::milliseconds kLooksPeriod(50);
 
 }  // namespace
@@ -57,13 +57,13 @@ void Results::keep_report(WallClock::time_point now) {
     const FileLimitErrors limit_errors;
     write_report(settings_.output_folder, signed_report(report_now(), settings_.grading));
   } catch (const std::exception& e) {
-    if (!std::exchange(keeping_told_, true)) {
+    if (!std::exchange(write_failure_warned_, true)) {
       warn_(std::string("results of the run cannot be written at present: ") + e.what());
     }
   }
 }
 
-// What matters most comes first, and what fails keeps back nothing else.
+// The most important result comes first, and a failure does not prevent the others.
 void Results::write() {
   const FileLimitErrors limit_errors;
   const auto attempt = [this](const char* problem, const auto& write) {

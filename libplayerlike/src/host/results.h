@@ -15,32 +15,31 @@
 
 namespace playerlike {
 
-/// What a run leaves behind: report, pictures, film, trajectory and logs in its output folder, and
-/// what follows it while it runs, for when the program dies.
-/// Not thread-safe: guarded by the host's mutex.
+/// The results of a run: report, pictures, film, trajectory and logs in its output folder, and the
+/// data that complete them if the program dies. Not thread-safe: guarded by the host's mutex.
 class Results {
  public:
-  /// @param settings, simulation  must live as long as this.
-  /// @param time  tells the run's figures.
-  /// @throws std::runtime_error if the output folder cannot be made.
+  /// @param settings, simulation  must outlive this object.
+  /// @param time  returns the run's statistics.
+  /// @throws std::runtime_error if the output folder cannot be created.
   Results(const RunSettings& settings, sim::Simulation& simulation,
           std::function<TimeStatistics()> time, Warn warn);
 
-  /// A step was made.
+  /// Must be called after each step.
   void observe();
-  /// Lets what is left when the program dies follow the run.
+  /// Updates the data that remain if the program dies.
   void keep(WallClock::time_point now);
-  /// The run is over: no step follows. What it leaves is still to be written.
+  /// The run is over, no step follows; the results are still to be written.
   void begin_end() noexcept { set_phase(KeptRun::Phase::kEnded); }
-  /// Writes all results, once. What fails is a warning.
+  /// Writes all results once. A failure is logged as a warning.
   void write();
 
   [[nodiscard]] sim::SceneSnapshot scene() const { return recorder_->scene(simulation_); }
 
-  std::map<int, RunLog> logs;  ///< by port; those that somebody has asked for
+  std::map<int, RunLog> logs;  ///< by port; the logs that clients have asked for
 
   // Why the run ends, for the report.
-  int end_request = 0;  ///< the signal that asked for it; 0: none
+  int end_request = 0;  ///< the signal that requested the end; 0: none
   bool window_closed = false;
   std::optional<int> program_status;
 
@@ -55,10 +54,10 @@ class Results {
   const std::function<TimeStatistics()> time_;
   const Warn warn_;
   std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<KeptWriter> kept_;                ///< none unless the settings name one
-  WallClock::time_point last_looks_{};              ///< when kept_ last got what rarely changes
+  std::unique_ptr<KeptWriter> kept_;                ///< null unless the settings name a file
+  WallClock::time_point last_looks_{};              ///< when keep_looks() was last called
   std::optional<WallClock::time_point> last_kept_;  ///< when the report was last written
-  bool keeping_told_ = false;                       ///< that they cannot be written
+  bool write_failure_warned_ = false;               ///< about files that cannot be written
 };
 
 }  // namespace playerlike

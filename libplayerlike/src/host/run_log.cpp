@@ -46,7 +46,7 @@ std::string RunLog::path_of(const std::string& file) const {
 std::string RunLog::path() const { return path_of(status_.file); }
 
 std::optional<std::string> RunLog::file_to_read(const LogRequest& changes) const {
-  // What is running takes no other file; what is wrong otherwise is told by control().
+  // A running log cannot change its file. control() reports other errors.
   if (status_.running || !changes.running.value_or(false) || folder_.empty()) return std::nullopt;
   if (!changes.replay.value_or(status_.replay)) return std::nullopt;
   if (changes.file && !is_plain_file_name(*changes.file)) return std::nullopt;
@@ -102,7 +102,7 @@ void RunLog::start(const sim::Simulation& simulation, Loaded* loaded) {
   }
   if (status_.replay) {
     if (entries_.empty()) {
-      // Only if it was changed between the two calls.
+      // The file is read here only if it was changed between the two calls.
       Loaded now;
       if (loaded == nullptr || loaded->path != path()) {
         now = read_file(path(), port_, *robots_);
@@ -114,13 +114,13 @@ void RunLog::start(const sim::Simulation& simulation, Loaded* loaded) {
       next_ = 0;
       played_ns_ = 0;
     }
-    if (next_ == entries_.size()) {  // once more from the beginning
+    if (next_ == entries_.size()) {  // start again from the beginning
       next_ = 0;
       played_ns_ = 0;
     }
     return;
   }
-  if (out_.is_open()) return;  // goes on where it stopped
+  if (out_.is_open()) return;  // resume where it stopped
   files_->require_room(-port_);
   out_.clear();
   out_.open(path(), std::ios::trunc);
@@ -138,7 +138,7 @@ void RunLog::start(const sim::Simulation& simulation, Loaded* loaded) {
 
 namespace {
 
-// Takes a line of a file; its number counts from 1.
+// Parses a line of a file; numbers begin at 1.
 void read_line(const std::string& line, int number, int port, const std::vector<RobotInfo>& robots,
                RunLog::Loaded& loaded) {
   json message = protocol::decode(line, Encoding::kJson);
@@ -162,12 +162,12 @@ void read_line(const std::string& line, int number, int port, const std::vector<
   }
 }
 
-// Reads the whole file: what is wrong with it is told before it begins.
+// Reads the whole file, so that errors are reported before the replay begins.
 void read_all(int port, const std::vector<RobotInfo>& robots, RunLog::Loaded& loaded) {
   using Code = SessionError::Code;
   const std::string& path = loaded.path;
   std::error_code error;
-  if (fs::is_symlink(path, error)) return;  // start() says so
+  if (fs::is_symlink(path, error)) return;  // start() reports this
   std::string text;
   if (const auto problem = sim::read_whole_file(path, {.most_bytes = kMostRead}, text)) {
     refuse(Code::kNotAvailable, problem->fault == sim::FileFault::kTooLarge
@@ -233,7 +233,7 @@ void RunLog::write(const sim::Simulation& simulation) {
     const RobotInfo& robot = (*robots_)[static_cast<std::size_t>(id.robot)];
     if (port_ != kMorsePort && robot.port != port_) continue;
     const DeviceInfo& device = robot.devices[static_cast<std::size_t>(id.device)];
-    const auto& sensor = dynamic_cast<const sim::Sensor&>(simulation.device(id.robot, id.device));
+    const auto& sensor = *simulation.device(id.robot, id.device).sensor();
     json line = protocol::encode_reading(id, device.type, sensor.reading(), Encoding::kJson);
     line["robot"] = robot.name;
     line["device"] = device.name;
@@ -247,7 +247,7 @@ void RunLog::find_due(sim::SimTime now_ns) {
   while (next_ < entries_.size() && entries_[next_].offset_ns <= played_ns_) {
     Entry& entry = entries_[next_++];
     if (std::exchange(entry.given, true)) {
-      // Those who got it before keep it as it was then.
+      // A copy, because clients still share the earlier reading with its own time stamp.
       const RobotInfo& robot = (*robots_)[static_cast<std::size_t>(entry.device.robot)];
       const DeviceInfo& device = robot.devices[static_cast<std::size_t>(entry.device.device)];
       const json again =
@@ -257,7 +257,7 @@ void RunLog::find_due(sim::SimTime now_ns) {
     entry.reading->time_ns = now_ns - (played_ns_ - entry.offset_ns);
     due_.push_back(&entry);
   }
-  // From the next step on the devices are read again.
+  // Readings come from the devices again from the next step on.
   if (next_ == entries_.size()) status_.running = false;
 }
 

@@ -16,52 +16,53 @@
 
 namespace playerlike {
 
-/// The log of a port: writes the readings of the port's robots into a file, or lets such a file
-/// take the place of their devices. Lines of JSON; docs/log.md tells what is in them.
+/// The log of a port: writes the readings of the port's robots to a file, or replays such a file in
+/// place of their devices. The files are JSON lines; docs/log.md describes them.
 class RunLog {
  public:
-  /// A reading of a file.
+  /// A reading in a file.
   struct Entry {
-    sim::SimTime offset_ns = 0;  ///< after the log's beginning
+    sim::SimTime offset_ns = 0;  ///< since the beginning of the log
     DeviceId device{-1, -1};
     std::shared_ptr<sim::Reading> reading;
-    bool given = false;  ///< to whoever was there when it was last due
+    bool given = false;  ///< whether clients have received it
   };
 
-  /// @param folder  of the run's results; "": there is none.
-  /// @param robots  all of the world; must live as long as this.
-  /// @param files   has a limit for what is written; must live as long as this.
+  /// @param folder  of the run's results; "": none.
+  /// @param robots  all robots of the world; must outlive this object.
+  /// @param files   limits what is written; must outlive this object.
   RunLog(std::string folder, int port, const std::vector<RobotInfo>& robots, ClientFiles& files);
 
-  /// A file of readings as it was read, or why it could not be.
+  /// The contents of a file, or the error of reading it.
   struct Loaded {
     std::string path;
-    sim::SimTime begin_ns = 0;   ///< of the log, in its own time
+    sim::SimTime begin_ns = 0;   ///< beginning of the log, in its own time
     std::vector<Entry> entries;  ///< oldest first
     std::optional<SessionError> problem;
   };
 
-  /// The file that has to be read before control() can make these changes; nullopt if none.
+  /// The file that must be read before control() can make these changes; nullopt: none.
   [[nodiscard]] std::optional<std::string> file_to_read(const LogRequest& changes) const;
-  /// Reads a file of readings of the port's robots, which may take seconds: not under a lock.
+  /// Reads a file with readings of the port's robots. It may take seconds, so no mutex should be
+  /// held.
   [[nodiscard]] static Loaded read_file(const std::string& path, int port,
                                         const std::vector<RobotInfo>& robots);
-  /// Makes changes, in the order that LogRequest lists them in, and tells what is then.
+  /// Makes changes in the order of LogRequest's members. @return the state afterwards.
   /// @param loaded  the file that file_to_read() has named; may be null if none.
-  /// @throws SessionError as LogRequest; what came before the change in question is
-  /// done.
+  /// @throws SessionError as LogRequest; earlier changes stay in effect.
   LogStatus control(const LogRequest& changes, const sim::Simulation& simulation, Loaded* loaded);
 
-  /// Called after each step: writes the step's readings, or finds those that are due.
-  /// @return what has gone wrong, once; the log is then stopped.
+  /// Called after each step: writes the step's readings, or finds the readings that are due.
+  /// @return an error, once; it stops the log.
   std::optional<std::string> observe(const sim::Simulation& simulation);
 
-  /// Whether readings are to come from due() now, and not from the devices.
+  /// Whether readings now come from due() instead of the devices.
   [[nodiscard]] bool replaying() const noexcept { return replaying_step_; }
-  /// Readings that were due in the last step, oldest first, stamped with the present run's time.
+  /// The readings that were due in the last step, oldest first, with time stamps of the present
+  /// run.
   [[nodiscard]] const std::vector<const Entry*>& due() const noexcept { return due_; }
 
-  /// Completes the file. @return what has gone wrong.
+  /// Completes the file. @return the error, if there is one.
   std::optional<std::string> close();
 
  private:
@@ -79,9 +80,9 @@ class RunLog {
   std::ofstream out_;
   std::size_t written_ = 0;  ///< bytes
   std::vector<Entry> entries_;
-  std::size_t next_ = 0;        ///< of entries_
-  sim::SimTime begin_ns_ = 0;   ///< of the log, in its own time
-  sim::SimTime played_ns_ = 0;  ///< since then
+  std::size_t next_ = 0;        ///< index in entries_
+  sim::SimTime begin_ns_ = 0;   ///< beginning of the log, in its own time
+  sim::SimTime played_ns_ = 0;  ///< time since then
   bool replaying_step_ = false;
   std::vector<const Entry*> due_;
 };

@@ -23,12 +23,12 @@ bool parse_whole(std::string_view text, T& value) {
   return error == std::errc() && end == text.data() + text.size() && !text.empty();
 }
 
-// Longest run that simulated time can count.
+// Longest run that simulated time can represent.
 constexpr double kLongest_s = 1e9;
 
 bool positive(double value) { return std::isfinite(value) && value > 0.0; }
 
-// Reads a number in [least, most].
+// Parses a number in [least, most].
 bool parse_within(const std::string& text, double least, double most, double& value) {
   double read = 0.0;
   if (!parse_whole(text, read) || !(read >= least && read <= most)) return false;
@@ -50,7 +50,7 @@ bool parse_positive_seconds(const std::string& text, double& value) {
   return parse_whole(text, value) && positive(value) && value <= kLongest_s;
 }
 
-// What reads a text into the target if parse(text, value) understands it.
+// A function that parses a text with parse(text, value) and stores the value in the target.
 template <typename T, typename Target>
 auto into(Target& target, bool (*parse)(const std::string&, T&)) {
   return [&target, parse](const std::string& text) {
@@ -67,7 +67,8 @@ constexpr const char* kInterfaceChoicesExpected =
 // Variables of the environment, and what is wrong with them.
 class Variables {
  public:
-  // @param read  takes the text of a variable that is set; false: something else was expected.
+  // @param read  takes the text of a variable that is set; returns false if it expected something
+  //              else.
   template <typename Read>
   void read(const char* name, const char* expected, Read read) {
     const std::string text(environment(name));
@@ -77,7 +78,7 @@ class Variables {
     issues_.push_back(
         {"run/environment", name, "", expected, '"' + std::string(environment(name)) + '"', ""});
   }
-  // @throws sim::ConfigError if something is wrong.
+  // @throws sim::ConfigError if there were errors.
   void check() {
     if (!issues_.empty()) throw sim::ConfigError(std::move(issues_));
   }

@@ -9,24 +9,23 @@
 
 namespace playerlike {
 
-/// States of a simulation that clients have saved, by name; all clients have them in common.
+/// States of a simulation that clients have saved by name; all clients share them.
 class SavedStates {
  public:
   static constexpr std::size_t kMostStates = 64;
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< of all together
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< of all states together
   static constexpr std::size_t kLongestName = 64;
 
-  /// Saves a state, in place of the one that had this name.
-  /// @throws SessionError kBadArgument for a name that is not 1 to kLongestName printable bytes;
-  ///         kNotAvailable if there is no room.
+  /// Saves a state; replaces an earlier one of this name. @throws SessionError kBadArgument for a
+  /// name that is not 1 to kLongestName printable bytes; kNotAvailable if there is no room.
   void save(const std::string& name, const sim::Simulation& simulation);
-  /// Lets the world go back, see sim::RestoreScope::kWorld.
-  /// @throws SessionError kBadArgument if there is no state of that name.
+  /// Restores a state of the world, see sim::RestoreScope::kWorld. @throws SessionError
+  /// kBadArgument if there is no state of this name.
   void restore(const std::string& name, sim::Simulation& simulation) const;
 
  private:
   std::map<std::string, sim::Snapshot> states_;
-  std::size_t bytes_ = 0;  ///< of all
+  std::size_t bytes_ = 0;  ///< total size
 };
 
 }  // namespace playerlike

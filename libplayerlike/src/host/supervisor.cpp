@@ -30,22 +30,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// From the polite signal to those that a program has left behind to the one that cannot be refused.
+// Time between SIGTERM and SIGKILL for processes that the program has left behind.
 constexpr std::chrono::milliseconds kLeftoversGrace(1000);
-// The same for all, when the process that wanted the program is gone.
+// The same grace period for all processes, when the process that started the program is gone.
 constexpr std::chrono::milliseconds kOrphansGrace(2000);
-// How long to try to get rid of processes that the system does not end.
+// How long to try to end processes that the system does not end.
 constexpr std::chrono::seconds kPatience(10);
 
-/// What the supervisor tells.
-struct News {
+/// A message from the supervisor.
+struct SupervisorEvent {
   enum Kind { kStarted, kFailed, kStopped, kEnded };
   int kind = kStarted;
-  int value = 0;  ///< the program's number, an errno, or a wait state
+  int value = 0;  ///< the program's process id, an errno, or a wait status
 };
 
-/// What the supervisor is told.
-struct Order {
+/// A message to the supervisor.
+struct SupervisorCommand {
   enum Kind { kSignal, kKill, kRelease };
   int kind = kSignal;
   int value = 0;
@@ -63,7 +63,7 @@ ProgramEnd program_end(int wait_state) {
   return end;
 }
 
-/// "NAME=value" of this process's environment with the changes made.
+/// The environment of this process with changes, as "NAME=value".
 std::vector<std::string> changed_environment(const EnvironmentChanges& changes) {
   std::vector<std::string> result;
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
@@ -76,7 +76,7 @@ std::vector<std::string> changed_environment(const EnvironmentChanges& changes) 
   return result;
 }
 
-/// Pointers to the texts, ended by a null pointer, as exec wants them.
+/// Pointers to the texts with a null pointer at the end, for exec.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
   result.reserve(texts.size() + 1);
@@ -85,7 +85,7 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
   return result;
 }
 
-/// The living processes, each with its parent.
+/// The parents of all living processes.
 std::map<pid_t, pid_t> parents_of_processes() {
   std::map<pid_t, pid_t> parents;
   DIR* const folder = opendir("/proc");
@@ -95,7 +95,7 @@ std::map<pid_t, pid_t> parents_of_processes() {
     if (number <= 0) continue;
     std::ifstream file("/proc/" + std::to_string(number) + "/stat");
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    // "NUMBER (NAME) STATE PARENT ..."; the name may hold anything.
+    // "PID (NAME) STATE PARENT ..."; the name may contain any characters.
     const std::size_t name_end = text.rfind(')');
     if (name_end == std::string::npos || text.size() < name_end + 5) continue;
     if (text[name_end + 2] == 'Z') continue;
@@ -106,7 +106,7 @@ std::map<pid_t, pid_t> parents_of_processes() {
   return parents;
 }
 
-/// The living processes below this one, but for some of its children and what is below them.
+/// The living descendants of this process, except for the spared children and their descendants.
 std::vector<pid_t> descendants(const std::set<pid_t>& spared) {
   const std::map<pid_t, pid_t> parents = parents_of_processes();
   std::vector<pid_t> found = {getpid()};
@@ -119,8 +119,8 @@ std::vector<pid_t> descendants(const std::set<pid_t>& spared) {
   return found;
 }
 
-/// Ends all processes below this one, but for some children: politely, and after the grace by
-/// force. @pre SIGCHLD is blocked.
+/// Ends all descendants except for the spared children and theirs: with SIGTERM, and after the
+/// grace period with SIGKILL. @pre SIGCHLD is blocked.
 void end_descendants(const std::set<pid_t>& spared, Clock::duration grace) {
   const Clock::time_point begin = Clock::now();
   bool told = grace <= Clock::duration::zero();
@@ -144,7 +144,7 @@ void end_descendants(const std::set<pid_t>& spared, Clock::duration grace) {
     const timespec moment{0, 10'000'000};
     sigtimedwait(&children, nullptr, &moment);
   }
-  if (!spared.empty()) return;  // they are waited for by those who know them
+  if (!spared.empty()) return;  // other code waits for the spared children
   while (waitpid(-1, nullptr, WNOHANG) > 0) {
   }
 }
@@ -161,7 +161,7 @@ void close_all_but(std::vector<int> kept) {
   syscall(SYS_close_range, next, ~0U, 0);
 }
 
-/// Copies what comes out of a pipe into a file, up to a limit.
+/// Copies a pipe to a file, up to a limit.
 class LimitedLog {
  public:
   LimitedLog(int from, int file, std::uint64_t limit) : from_(from), file_(file), limit_(limit) {
@@ -170,7 +170,7 @@ class LimitedLog {
 
   [[nodiscard]] int descriptor() const noexcept { return from_; }
 
-  /// Takes what is there.
+  /// Copies the available bytes.
   void copy() {
     std::array<char, 1 << 16> bytes{};
     while (from_ >= 0) {
@@ -186,11 +186,11 @@ class LimitedLog {
       const std::uint64_t fitting = std::min(size, limit_ - std::min(limit_, taken_));
       put({bytes.data(), static_cast<std::size_t>(fitting)});
       taken_ += size;
-      if (taken_ % (1 << 22) < size) return;  // lets others have a word
+      if (taken_ % (1 << 22) < size) return;  // now and then, to handle other events
     }
   }
 
-  /// Takes the rest, and says what was dropped.
+  /// Copies the rest, and appends how much was dropped.
   void finish() {
     for (int i = 0; i < 1000 && from_ >= 0; ++i) {
       const std::uint64_t before = taken_;
@@ -207,7 +207,7 @@ class LimitedLog {
     while (!text.empty()) {
       const ssize_t written = write(file_, text.data(), text.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return;  // a full disk is no reason to hold up the program
+      if (written <= 0) return;  // a full disk must not block the program
       text.remove_prefix(static_cast<std::size_t>(written));
     }
   }
@@ -218,7 +218,7 @@ class LimitedLog {
   std::uint64_t taken_ = 0;
 };
 
-/// The supervisor's side.
+/// Runs in the supervisor's process.
 class Supervisor {
  public:
   Supervisor(const SupervisedStart& start, int channel, int output_file)
@@ -229,7 +229,7 @@ class Supervisor {
     sigset_t all;
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, nullptr);
-    // Its writes to a file that has reached a limit are to fail, and not to end it.
+    // Writes beyond a file size limit must fail and not end the supervisor.
     old_limit_action_ = signal(SIGXFSZ, SIG_IGN);
     sigset_t children;
     sigemptyset(&children);
@@ -242,13 +242,14 @@ class Supervisor {
     LimitedLog log(pipe_, output_file_, start_.output_limit);
     while (!end_) wait(log);
     const bool orphaned = channel_ < 0;
-    // Those that the program has left behind are this process's children by now, if there are any.
+    // As a subreaper, this process is now the parent of all processes that the program has left
+    // behind.
     if (waitpid(-1, nullptr, WNOHANG) >= 0) {
       end_descendants({}, killed_ || orphaned ? Clock::duration::zero() : kLeftoversGrace);
     }
     log.finish();
     if (!orphaned) {
-      send(News::kEnded, end_state_);
+      send(SupervisorEvent::kEnded, end_state_);
       if (is_released()) return;
     }
     if (start_.on_orphaned) start_.on_orphaned(*end_);
@@ -256,18 +257,19 @@ class Supervisor {
 
  private:
   void send(int kind, int value) const {
-    const News news{kind, value};
-    static_cast<void>(::send(channel_, &news, sizeof news, MSG_NOSIGNAL));
+    const SupervisorEvent event{kind, value};
+    static_cast<void>(::send(channel_, &event, sizeof event, MSG_NOSIGNAL));
   }
 
-  /// Waits for what comes of the end. @return whether the other process has taken it.
+  /// Waits for the other process's release() after the program's end. @return false if that process
+  /// is gone.
   [[nodiscard]] bool is_released() const {
     for (;;) {
-      Order order;
-      const ssize_t size = recv(channel_, &order, sizeof order, 0);
+      SupervisorCommand command;
+      const ssize_t size = recv(channel_, &command, sizeof command, 0);
       if (size < 0 && errno == EINTR) continue;
-      if (size != static_cast<ssize_t>(sizeof order)) return false;
-      if (order.kind == Order::kRelease) return true;
+      if (size != static_cast<ssize_t>(sizeof command)) return false;
+      if (command.kind == SupervisorCommand::kRelease) return true;
     }
   }
 
@@ -281,7 +283,7 @@ class Supervisor {
     std::array<int, 2> go{-1, -1};
     if (pipe2(failure.data(), O_CLOEXEC) != 0 || pipe2(go.data(), O_CLOEXEC) != 0 ||
         (start_.output_file && pipe2(output.data(), O_CLOEXEC) != 0)) {
-      send(News::kFailed, errno);
+      send(SupervisorEvent::kFailed, errno);
       return false;
     }
     const pid_t supervisor = getpid();
@@ -289,7 +291,7 @@ class Supervisor {
     if (program_ == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != supervisor) _exit(127);
-      // It must not end its group before the supervisor has left that.
+      // The program must not end its process group before the supervisor has left that group.
       close(go[1]);
       char byte = 0;
       static_cast<void>(!read(go[0], &byte, 1));
@@ -308,7 +310,7 @@ class Supervisor {
       _exit(127);
     }
     const int fork_error = errno;
-    setpgid(0, 0);  // not before: the program is to be in the group that this process was in
+    setpgid(0, 0);  // not before: the program must join the group in which this process was
     close(go[0]);
     close(go[1]);
     close(failure[1]);
@@ -322,15 +324,15 @@ class Supervisor {
     }
     close(failure[0]);
     if (error == 0) {
-      send(News::kStarted, program_);
+      send(SupervisorEvent::kStarted, program_);
       return true;
     }
     if (program_ > 0) waitpid(program_, nullptr, 0);
-    send(News::kFailed, error);
+    send(SupervisorEvent::kFailed, error);
     return false;
   }
 
-  /// Waits for something to do, and does it.
+  /// Waits for an event and handles it.
   void wait(LimitedLog& log) {
     std::array<pollfd, 3> polls{
         {{children_, POLLIN, 0}, {channel_, POLLIN, 0}, {log.descriptor(), POLLIN, 0}}};
@@ -360,10 +362,10 @@ class Supervisor {
       if (child <= 0) return;
       if (child != program_) continue;
       if (WIFSTOPPED(state)) {
-        if (WSTOPSIG(state) == SIGSTOP) send(News::kStopped, 0);
+        if (WSTOPSIG(state) == SIGSTOP) send(SupervisorEvent::kStopped, 0);
         continue;
       }
-      // Before its number is given to others.
+      // Before the pid is released for reuse.
       end_state_ = state;
       end_ = program_end(state);
       return;
@@ -371,15 +373,15 @@ class Supervisor {
   }
 
   void take_order() {
-    Order order;
-    const ssize_t size = recv(channel_, &order, sizeof order, MSG_DONTWAIT);
-    if (size == static_cast<ssize_t>(sizeof order)) {
-      if (order.kind == Order::kKill) return kill_all();
-      pass_on(order.value);
+    SupervisorCommand command;
+    const ssize_t size = recv(channel_, &command, sizeof command, MSG_DONTWAIT);
+    if (size == static_cast<ssize_t>(sizeof command)) {
+      if (command.kind == SupervisorCommand::kKill) return kill_all();
+      forward_signal(command.value);
       return;
     }
     if (size < 0 && (errno == EAGAIN || errno == EINTR)) return;
-    // Whoever wanted the program is gone.
+    // The process that started the program is gone.
     close(channel_);
     channel_ = -1;
     for (const pid_t process : descendants({})) {
@@ -389,14 +391,14 @@ class Supervisor {
     kill_time_ = Clock::now() + kOrphansGrace;
   }
 
-  void pass_on(int signal) const {
+  void forward_signal(int signal) const {
     if (start_.output_file) {
       kill(-program_, signal);
       kill(-program_, SIGCONT);
       return;
     }
     sigval mark{};
-    mark.sival_int = kPassedOn;
+    mark.sival_int = kForwarded;
     if (signal != SIGCONT && sigqueue(program_, signal, mark) != 0) kill(program_, signal);
     kill(program_, SIGCONT);
   }
@@ -435,7 +437,7 @@ std::set<pid_t> children() {
   return found;
 }
 
-/// The supervisors that this process has. For one thread.
+/// The supervisors of this process. For one thread.
 std::set<pid_t>& supervisors() {
   static std::set<pid_t> all;
   return all;
@@ -466,7 +468,7 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   supervisor_ = fork();
   if (supervisor_ == 0) {
-    // No destructors: what they would end is the other process's.
+    // No destructors: they would end what belongs to the parent process.
     try {
       Supervisor supervisor(start, ends[1], output);
       close(ends[0]);
@@ -484,20 +486,20 @@ SupervisedProgram::SupervisedProgram(const SupervisedStart& start) {
     close(channel_);
     refuse(fork_error);
   }
-  News news{News::kFailed, ECHILD};
+  SupervisorEvent event{SupervisorEvent::kFailed, ECHILD};
   ssize_t size = 0;
   do {
-    size = recv(channel_, &news, sizeof news, 0);
+    size = recv(channel_, &event, sizeof event, 0);
   } while (size < 0 && errno == EINTR);
-  // Without a word it was killed, maybe by the program: poll() tells.
-  if (size != static_cast<ssize_t>(sizeof news) || news.kind == News::kStarted) {
-    if (size == static_cast<ssize_t>(sizeof news)) program_ = news.value;
+  // Without a message the supervisor was killed, perhaps by the program; poll() reports it.
+  if (size != static_cast<ssize_t>(sizeof event) || event.kind == SupervisorEvent::kStarted) {
+    if (size == static_cast<ssize_t>(sizeof event)) program_ = event.value;
     supervisors().insert(supervisor_);
     return;
   }
   close(channel_);
   reap_supervisor();
-  refuse(news.value);
+  refuse(event.value);
 }
 
 SupervisedProgram::SupervisedProgram(SupervisedProgram&& other) noexcept
@@ -522,26 +524,26 @@ SupervisedProgram::~SupervisedProgram() {
   if (channel_ < 0) return;
   if (!end_) kill_all();
   while (!poll()) {
-    pollfd news{channel_, POLLIN, 0};
-    static_cast<void>(::poll(&news, 1, -1));
+    pollfd event{channel_, POLLIN, 0};
+    static_cast<void>(::poll(&event, 1, -1));
   }
   release();
 }
 
 void SupervisedProgram::release() {
   if (channel_ < 0) return;
-  send(Order::kRelease, 0);
+  send(SupervisorCommand::kRelease, 0);
   close(std::exchange(channel_, -1));
   reap_supervisor();
 }
 
 void SupervisedProgram::send(int kind, int value) {
-  const Order order{kind, value};
-  static_cast<void>(::send(channel_, &order, sizeof order, MSG_NOSIGNAL));
+  const SupervisorCommand command{kind, value};
+  static_cast<void>(::send(channel_, &command, sizeof command, MSG_NOSIGNAL));
 }
 
-void SupervisedProgram::send_signal(int signal) { send(Order::kSignal, signal); }
-void SupervisedProgram::kill_all() { send(Order::kKill, 0); }
+void SupervisedProgram::send_signal(int signal) { send(SupervisorCommand::kSignal, signal); }
+void SupervisedProgram::kill_all() { send(SupervisorCommand::kKill, 0); }
 
 void SupervisedProgram::reap_supervisor() {
   while (waitpid(supervisor_, nullptr, 0) < 0 && errno == EINTR) {
@@ -553,17 +555,17 @@ bool SupervisedProgram::take_stopped() noexcept { return std::exchange(stopped_,
 
 std::optional<ProgramEnd> SupervisedProgram::poll() {
   while (!end_) {
-    News news;
-    const ssize_t size = recv(channel_, &news, sizeof news, MSG_DONTWAIT);
+    SupervisorEvent event;
+    const ssize_t size = recv(channel_, &event, sizeof event, MSG_DONTWAIT);
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && errno == EAGAIN) return std::nullopt;
-    if (size == static_cast<ssize_t>(sizeof news)) {
-      if (news.kind == News::kStopped) stopped_ = true;
-      if (news.kind != News::kEnded) continue;
-      end_ = program_end(news.value);
+    if (size == static_cast<ssize_t>(sizeof event)) {
+      if (event.kind == SupervisorEvent::kStopped) stopped_ = true;
+      if (event.kind != SupervisorEvent::kEnded) continue;
+      end_ = program_end(event.value);
       continue;
     }
-    // The supervisor was killed: what it would have ended has come to this process.
+    // The supervisor was killed. This process ends what the supervisor would have ended.
     close(std::exchange(channel_, -1));
     reap_supervisor();
     std::set<pid_t> spared = supervisors();

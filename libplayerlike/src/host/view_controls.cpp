@@ -11,7 +11,7 @@
 namespace playerlike {
 namespace {
 
-// X11 keysyms (X.Org, keysymdef.h) of keys that have no character.
+// X11 keysyms (X.Org, keysymdef.h) of keys without a character.
 constexpr std::uint32_t kTab = 0xff09;
 constexpr std::uint32_t kEscape = 0xff1b;
 constexpr std::uint32_t kLeftArrow = 0xff51;
@@ -24,15 +24,15 @@ constexpr std::uint32_t kF1 = 0xffbe;
 
 constexpr double kFullSpeedAfter_s = 0.5;
 constexpr double kFullTurnAfter_s = 0.25;
-// The turn rate that motors allow is more than a hand can steer by.
+// The motors' maximum turn rate is too fast for steering by hand.
 constexpr double kTurnShare = 0.5;
 constexpr sim::SimTime kStillFor_ns = 3 * sim::kNanosecondsPerSecond / 10;
 
 constexpr double kLeastFactor = 1.0 / 16.0;
 constexpr double kGreatestFactor = 64.0;
 
-// From `now` towards `wanted`, by `by` at most. Towards a standstill, and when turning round, at
-// once.
+// Moves from `now` towards `wanted` by at most `by`. A stop is immediate, and a reversal starts at
+// zero.
 double approach(double now, double wanted, double by) {
   if (wanted == 0.0) return 0.0;
   if (now * wanted < 0.0) now = 0.0;
@@ -69,7 +69,7 @@ std::optional<ViewAction> view_action(std::uint32_t keysym, bool control) noexce
     case ' ':
       return ViewAction::kPause;
     case '+':
-    case '=':  // plus without Shift where both are on one key
+    case '=':  // '+' without Shift on keyboards with both on one key
     case kKeypadPlus:
       return ViewAction::kFaster;
     case '-':
@@ -91,8 +91,8 @@ std::optional<ViewAction> view_action(std::uint32_t keysym, bool control) noexce
   }
 }
 
-// Made anew each time: the window's thread asks for it until the process ends, when static objects
-// may be gone.
+// Built on each call: the window's thread calls it until the process ends, when static objects may
+// be destroyed.
 std::vector<std::string> view_help() {
   return {"W A D X, arrows  drive  Tab  next robot  Ctrl+Up, Ctrl+Down  view mode  S  save picture",
           "Space  pause  +, -  speed  H  hide help  Q, Esc  end the run"};
@@ -164,7 +164,7 @@ void HandDrive::before_step(sim::Simulation& simulation) {
   const double speed = limits.max_speed_mps;
   const double turn = kTurnShare * limits.max_turn_rate_radps;
   const double ahead = direction(ViewAction::kForward, ViewAction::kBackward);
-  // Backwards too, the left key turns the robot to its left.
+  // The left key turns the robot to its left, also when it drives backwards.
   const double left = direction(ViewAction::kLeft, ViewAction::kRight);
   twist_.v_mps = approach(twist_.v_mps, ahead * speed, speed * dt_s / kFullSpeedAfter_s);
   twist_.omega_radps = approach(twist_.omega_radps, left * turn, turn * dt_s / kFullTurnAfter_s);

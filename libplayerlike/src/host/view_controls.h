@@ -12,9 +12,9 @@
 
 namespace playerlike {
 
-/// What a key of the live window asks for.
+/// The action of a key in the live window.
 enum class ViewAction {
-  kForward,       ///< W, Up: drive while it is held
+  kForward,       ///< W, Up: drive while held
   kBackward,      ///< X, Down
   kLeft,          ///< A, Left
   kRight,         ///< D, Right
@@ -29,39 +29,39 @@ enum class ViewAction {
   kEnd,           ///< Q, Esc
 };
 
-/// Meaning of a key; nullopt if it has none.
+/// The action of a key; nullopt if it has none.
 /// @param keysym   X11 keysym, e.g. 0x77 for w.
 /// @param control  whether a Ctrl key is held.
 [[nodiscard]] std::optional<ViewAction> view_action(std::uint32_t keysym, bool control) noexcept;
 
-/// Lines that tell the keys, for the window: keys and what they do in turn, two blanks apart.
+/// Help text for the window: keys and their actions alternate, separated by two blanks.
 [[nodiscard]] std::vector<std::string> view_help();
 
-/// Steering of one robot by hand, against what its program says.
+/// Steering of one robot by hand; it overrides the robot's program.
 ///
-/// While a direction is held, the robot's motors get a twist of ours, last in every step. Speed
-/// grows to its full value within half a simulated second and turn rate within a quarter. After the
-/// last key is released the robot is held still for 0.3 simulated seconds; then its motors get back
-/// what the program told them last, in the meantime or before.
-/// Not thread-safe: guarded by the host's lock.
+/// While a direction is held, the robot's motors get a twist from here, after all other commands of
+/// a step. Speed reaches its maximum within half a simulated second, turn rate within a quarter.
+/// After the last key is released the robot stands still for 0.3 simulated seconds. Then its motors
+/// get the program's last command, which may be older than the steering. Not thread-safe: guarded
+/// by the host's mutex.
 class HandDrive {
  public:
   explicit HandDrive(const std::vector<RobotInfo>& robots);
 
-  /// Index of the chosen robot; -1 if there is none.
+  /// Index of the chosen robot; -1: none.
   [[nodiscard]] int chosen() const noexcept { return chosen_; }
-  /// Chooses the next robot that has motors; the one steered so far goes back to its program.
+  /// Chooses the next robot with motors; returns the previous one to its program.
   void choose_next(sim::Simulation& simulation);
 
-  /// A direction's key went down or up. @pre action is one of the four directions.
+  /// A direction's key was pressed or released. @pre action is one of the four directions.
   void hold(ViewAction action, bool pressed) noexcept;
   void release_all() noexcept { held_.fill(false); }
   /// Whether the chosen robot is steered by hand now.
   [[nodiscard]] bool active() const noexcept { return program_command_.has_value(); }
 
-  /// To be told of every command of a program before it is applied.
+  /// Must be called for every command of a program before it is applied.
   void note_command(DeviceId device, const sim::Command& command);
-  /// To be called between the programs' commands and the step.
+  /// Must be called between the programs' commands and the step.
   void before_step(sim::Simulation& simulation);
 
  private:
@@ -80,13 +80,13 @@ class HandDrive {
   std::vector<Motors> motors_;  ///< by robot
   int chosen_ = -1;
   std::array<bool, 4> held_{};                   ///< forward, backward, left, right
-  std::optional<sim::Command> program_command_;  ///< what the program wants; set while we steer
-  sim::Twist twist_;                             ///< ours
+  std::optional<sim::Command> program_command_;  ///< the program's last command; set while steering
+  sim::Twist twist_;                             ///< of the steering
   sim::SimTime still_ns_ = 0;                    ///< how long no key has been held
 };
 
-/// The next faster or slower time factor, twice or half the present one, within 1/16 .. 64.
-/// @return `factor` itself if the next one were beyond.
+/// Twice or half of a time factor, within 1/16 .. 64. @return `factor` itself if the result would
+/// be outside.
 [[nodiscard]] double next_time_factor(double factor, bool faster) noexcept;
 
 /// A factor for the status line: "x 2", "x 0.25".

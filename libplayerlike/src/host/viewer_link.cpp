@@ -20,7 +20,7 @@ namespace playerlike {
 namespace {
 
 constexpr std::chrono::milliseconds kFramePeriod{33};
-constexpr std::size_t kReceiveLimit = 1 << 16;  // a viewer sends 16 bytes a key
+constexpr std::size_t kReceiveLimit = 1 << 16;  // a viewer sends 16 bytes per key
 
 bool is_stream_socket(int descriptor) {
   int type = 0;
@@ -39,7 +39,7 @@ ViewerLink::ViewerLink(int socket, ViewedRun& run) : socket_(socket), run_(run) 
   fcntl(socket_, F_SETFL, fcntl(socket_, F_GETFL) | O_NONBLOCK);
   stop_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
   if (stop_ < 0) throw std::runtime_error(std::string("eventfd: ") + std::strerror(errno));
-  // Signals are for the program's own threads.
+  // Signals are left to the program's own threads.
   sigset_t all;
   sigset_t old;
   sigfillset(&all);
@@ -65,7 +65,7 @@ void ViewerLink::serve() {
       open = receive();
       if (open && frame_is_due()) draw_frame();
       if (open) send_some();
-      // The last picture has been seen: closing the connection closes the window.
+      // The last picture is on the screen: closing the connection closes the window.
       if (last_frame_ && shown_ == number_) break;
     }
   } catch (const std::exception& error) {
@@ -102,7 +102,7 @@ bool ViewerLink::receive() {
     ended = count <= 0;
     if (!ended) received_.append(buffer.data(), static_cast<std::size_t>(count));
   }
-  // What the viewer said last still counts: that it was closed, for one.
+  // The viewer's last messages still count, e.g. that the user closed it.
   bool garbage = false;
   while (const auto message = view::take_message(received_, garbage)) {
     if (!handle(*message)) return false;
@@ -121,7 +121,7 @@ bool ViewerLink::handle(const view::ViewerMessage& message) {
       break;
     }
     case view::ViewerMessageKind::kShown:
-      // Only what has been sent in full can be on the screen.
+      // Only a frame that was sent completely can be on the screen.
       if (message.a == number_ && sent_ == outgoing_.size()) shown_ = number_;
       break;
     case view::ViewerMessageKind::kKey: {
@@ -166,7 +166,7 @@ void ViewerLink::send_some() {
     const ssize_t count =
         send(socket_, outgoing_.data() + sent_, outgoing_.size() - sent_, MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
-    // Full for now, or closed at the other end: then receive() meets the end, too.
+    // The buffer is full, or the viewer has closed; receive() detects the latter.
     if (count <= 0) return;
     sent_ += static_cast<std::size_t>(count);
   }

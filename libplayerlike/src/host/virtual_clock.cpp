@@ -8,32 +8,32 @@
 namespace playerlike {
 namespace {
 
-// A program that sleeps this often after the end of the run is ended, a millisecond each; it may
-// have others to wait for.
+// The program is ended after so many sleeps beyond the end of the run. Each takes a millisecond,
+// since other threads may still be working.
 constexpr int kSleepsAfterEnd = 1000;
 
 }  // namespace
 
 void Host::Core::VirtualClock::begin_turns(sim::SimTime before_ns) {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   Turns::instance().set_clock(this, before_ns, 0);
 }
 
 void Host::Core::VirtualClock::end_turns(sim::SimTime before_ns) {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   Turns::instance().set_clock(nullptr, 0, before_ns);
 }
 
-// One thread at a time: what programs do between two steps, with what their threads share, then
-// does not depend on which of them the system lets run first.
+// One thread runs at a time, so the effects of threads on shared data between two steps do not
+// depend on the system's scheduling.
 void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
   Turns& turns = Turns::instance();
   TurnThread& self = turns.self();
-  // After the end nobody waits for anything, but each is to have its turn.
+  // After the end no wait takes time, but each thread gets its turn.
   for (bool waited = false; core_.in_turns(); waited = true) {
     client.require_open();
     const bool is_over = core_.wait_is_over(client);
-    if (is_over && self.state != TurnThread::State::kAside && (waited || !core_.over())) return;
+    if (is_over && self.state != TurnThread::State::kDetached && (waited || !core_.over())) return;
     self.client = &client;
     self.wake_ns = is_over ? 0 : client.wake_ns;
     static_cast<void>(turns.wait(lock, self));
@@ -41,7 +41,7 @@ void Host::Core::VirtualClock::wait_for_turn(Lock& lock, Client& client) {
 }
 
 bool Host::Core::VirtualClock::step(Lock& lock) {
-  if (core_.over() || core_.pace_.used_up() || !core_.lockstep_.gate_open() ||
+  if (core_.over() || core_.pace_.step_limit_reached() || !core_.lockstep_.gate_open() ||
       !Turns::instance().somebody_waits_for_time()) {
     return false;
   }
@@ -50,15 +50,15 @@ bool Host::Core::VirtualClock::step(Lock& lock) {
   return true;
 }
 
-// Those who wait for data before those who sleep: a program that sleeps while another of its
-// threads reads finds the data of that moment.
+// Threads that wait for data become ready before threads that sleep: a program that sleeps in one
+// thread and reads in another finds the data of that time.
 void Host::Core::VirtualClock::make_ready() {
   using State = TurnThread::State;
   Turns& turns = Turns::instance();
   for (const auto& client : core_.clients_) {
     for (const auto& thread : turns.threads()) {
       if (thread->state != State::kWaits || thread->client != client.get()) continue;
-      if (core_.wait_is_over(*client)) turns.make_ready(*thread, TurnThread::Wake::kThere);
+      if (core_.wait_is_over(*client)) turns.make_ready(*thread, TurnThread::Wake::kObjectReady);
     }
   }
   for (const auto& thread : turns.threads()) {
@@ -71,12 +71,12 @@ bool Host::Core::VirtualClock::has_come(sim::SimTime wake_ns) const {
   return core_.over() || core_.simulation_.now_ns() >= wake_ns;
 }
 
-void Host::Core::VirtualClock::look_at_start() {
+void Host::Core::VirtualClock::check_silent_clients() {
   if (!core_.lockstep_.gate_open()) core_.lockstep_.note_silence(WallClock::now());
 }
 
 WallClock::time_point Host::Core::VirtualClock::last_seen(const TurnThread& thread) const {
-  return core_.lockstep_.last_seen(thread.thinker, thread.seen);
+  return core_.lockstep_.last_seen(thread.thread_id, thread.seen);
 }
 
 WallClock::duration Host::Core::VirtualClock::silence_limit() const {
@@ -84,7 +84,7 @@ WallClock::duration Host::Core::VirtualClock::silence_limit() const {
 }
 
 void Host::Core::VirtualClock::on_silent(const TurnThread& thread) {
-  core_.lockstep_.note_silent_thread(thread.thinker);
+  core_.lockstep_.note_silent_thread(thread.thread_id);
 }
 
 bool Host::Core::VirtualClock::on_blocked(const TurnThread& thread) {
@@ -100,13 +100,13 @@ bool Host::Core::VirtualClock::on_blocked(const TurnThread& thread) {
 std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime target_ns,
                                                                 bool& interrupted) {
   interrupted = false;
-  const ThinkerId thinker = this_thinker();
-  Lock lock = core_.lock_politely();
+  const ThreadId thread_id = this_thread_id();
+  Lock lock = core_.lock_for_stepping();
   if (!core_.in_turns() || core_.ended_by_program_) return std::nullopt;
-  // A program that never reads takes part with the clients it has made.
+  // A program that never reads takes part with the clients that it has created.
   for (const auto& client : core_.clients_) {
-    if (client->creator == thinker && client->owner == 0 && !client->follower) {
-      core_.adopt(*client, thinker);
+    if (client->creator == thread_id && client->owner == 0 && !client->follower) {
+      core_.adopt(*client, thread_id);
     }
   }
   const sim::SimTime wake_ns = target_ns - target_ns % core_.step_ns_;
@@ -119,27 +119,28 @@ std::optional<sim::SimTime> Host::Core::VirtualClock::pass_time(sim::SimTime tar
   if (!core_.over()) return core_.in_turns() ? std::optional(left_ns) : std::nullopt;
   if (core_.simulation_.now_ns() < wake_ns) {
     if (core_.ended_by_program_) return std::nullopt;
-    sleep_after_end(lock, thinker);
+    sleep_after_end(lock, thread_id);
   }
   return left_ns;
 }
 
 void Host::Core::VirtualClock::note_timed_wait(Lock& lock, sim::SimTime left_ns) {
   if (!core_.over() || left_ns < core_.step_ns_ || core_.ended_by_program_) return;
-  sleep_after_end(lock, this_thinker());
+  sleep_after_end(lock, this_thread_id());
 }
 
-// Nobody can throw out of a sleep. A program that only sleeps ends here; one that reads as well, or
-// has threads that do, is told by that, and is left some time to end by itself.
-void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThinkerId thinker) {
+// A sleep cannot throw. A program that only sleeps is ended here. If it also reads, or has threads
+// that do, they get the error, and it has some time to end by itself.
+void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThreadId thread_id) {
   const auto& threads = Turns::instance().threads();
   const bool others = std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
-    if (thread->thinker == thinker || thread->state == TurnThread::State::kAside) return false;
+    if (thread->thread_id == thread_id || thread->state == TurnThread::State::kDetached)
+      return false;
     return thread->state != TurnThread::State::kWaits || thread->waits_for_time();
   });
   const RunSettings& settings = core_.settings_;
   if (settings.quiet_end &&
-      (!(core_.end_told_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
+      (!(core_.end_reported_ || others) || ++sleeps_after_end_ > kSleepsAfterEnd)) {
     if (settings.progress && core_.log_) {
       core_.log_(sim::LogLevel::kInfo, "the run is over: the program was ended in its sleep");
     }
@@ -150,12 +151,12 @@ void Host::Core::VirtualClock::sleep_after_end(Lock& lock, ThinkerId thinker) {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-bool Host::Core::VirtualClock::others_take_turns(ThinkerId thinker) {
+bool Host::Core::VirtualClock::others_take_turns(ThreadId thread_id) {
   const auto& threads = Turns::instance().threads();
   return std::any_of(threads.begin(), threads.end(), [&](const auto& thread) {
     using State = TurnThread::State;
-    if (thread->thinker == thinker) return false;
-    return thread->state == State::kReady || thread->state == State::kBeside ||
+    if (thread->thread_id == thread_id) return false;
+    return thread->state == State::kReady || thread->state == State::kConcurrent ||
            (thread->state == State::kWaits && thread->waits_for_time());
   });
 }

@@ -7,20 +7,21 @@
 
 namespace playerlike {
 
-/// The simulation as the clock of threads that take turns (virtual time, see Turns): they let its
-/// steps pass, and sleep in its time.
+/// The simulation as the clock of virtual time (see Turns): threads that take turns make its steps
+/// and sleep in its time.
 class Host::Core::VirtualClock final : public TurnClock {
  public:
   explicit VirtualClock(Core& core) : core_(core) {}
 
-  /// As Core::wait_until(), for a thread that takes turns. Returns as well when it no longer does.
+  /// As Core::wait_until(), for a thread that takes turns. Also returns when virtual time has
+  /// ended.
   void wait_for_turn(Lock& lock, Client& client);
-  /// Makes ready those threads whose wait is over, in their order.
+  /// Makes the threads ready whose wait is over, in their order.
   void make_ready();
 
   bool step(Lock& lock) override;
   [[nodiscard]] bool has_come(sim::SimTime wake_ns) const override;
-  void look_at_start() override;
+  void check_silent_clients() override;
   [[nodiscard]] WallClock::time_point last_seen(const TurnThread& thread) const override;
   void on_silent(const TurnThread& thread) override;
   bool on_blocked(const TurnThread& thread) override;
@@ -32,11 +33,11 @@ class Host::Core::VirtualClock final : public TurnClock {
   void note_timed_wait(Lock& lock, sim::SimTime left_ns) override;
   [[nodiscard]] WallClock::duration silence_limit() const override;
 
-  /// Whether threads besides this one may go on without a step.
-  [[nodiscard]] static bool others_take_turns(ThinkerId thinker);
+  /// Whether other threads can run without a step.
+  [[nodiscard]] static bool others_take_turns(ThreadId thread_id);
 
  private:
-  void sleep_after_end(Lock& lock, ThinkerId thinker);
+  void sleep_after_end(Lock& lock, ThreadId thread_id);
 
   Core& core_;
   int sleeps_after_end_ = 0;

@@ -20,12 +20,12 @@ Host::Core::Window::Window(Core& core, int socket)
 
 void Host::Core::Window::close() {
   std::unique_ptr<ViewerLink> link;
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   std::swap(link, link_);
 }
 
 ViewScene Host::Core::Window::view_scene() {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   ViewScene view;
   view.scene = core_.results_.scene();
   view.finished = core_.over();
@@ -48,14 +48,14 @@ ViewScene Host::Core::Window::view_scene() {
 }
 
 std::string Host::Core::Window::on_key(std::uint32_t keysym, bool pressed, bool control) {
-  // A key that went down without Ctrl may come up with it.
+  // Ctrl may be pressed between the press and the release of a key.
   const auto action = view_action(keysym, control && pressed);
   if (!action) return "";
   if (*action == ViewAction::kEnd) {
     if (pressed) on_closed();
     return "";
   }
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   if (*action <= ViewAction::kRight) {
     hand_.hold(*action, pressed);
     core_.driven_by_hand_ = true;
@@ -86,7 +86,7 @@ void Host::Core::Window::act(ViewAction action) {
       help_ = !help_;
       return;
     default:
-      return;  // driving, saving and ending are done by on_key
+      return;  // on_key() handles driving, saving and ending
   }
 }
 
@@ -123,7 +123,7 @@ std::string Host::Core::Window::next_picture_file() {
   }
   std::array<char, 32> name{};
   std::filesystem::path file;
-  std::error_code ignored;  // in a folder that cannot be looked at writing fails, and says why
+  std::error_code ignored;  // if the folder cannot be checked, writing fails with the reason
   do {
     std::snprintf(name.data(), name.size(), "view_%06d.png", ++pictures_);
     file = std::filesystem::path(core_.settings_.output_folder) / name.data();
@@ -132,25 +132,25 @@ std::string Host::Core::Window::next_picture_file() {
 }
 
 void Host::Core::Window::on_keys_released() {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   hand_.release_all();
 }
 
 void Host::Core::Window::on_saved(const std::string& file, const std::string& problem) {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   tell(problem.empty() ? "saved " + std::filesystem::path(file).filename().string() : problem);
 }
 
 void Host::Core::Window::on_closed() {
   {
-    const Lock lock = core_.lock_soon();
+    const Lock lock = core_.lock_with_priority();
     core_.results_.window_closed = true;
   }
   core_.finish();
 }
 
 void Host::Core::Window::on_lost(const std::string& reason) {
-  const Lock lock = core_.lock_soon();
+  const Lock lock = core_.lock_with_priority();
   hand_.release_all();
   if (core_.pace_.paused()) change_pause();
   if (!core_.over())

@@ -10,12 +10,12 @@
 
 namespace playerlike {
 
-/// A run's live window: what it shows, and what its keys do. Called by the link's thread, without
-/// the host's lock.
+/// A run's live window: its contents and the actions of its keys. The link's thread calls it
+/// without the host's mutex.
 class Host::Core::Window final : public ViewedRun {
  public:
   Window(Core& core, int socket);
-  /// Closes the window. Not to be called with the lock held.
+  /// Closes the window. The mutex must not be held.
   void close();
 
   ViewScene view_scene() override;
@@ -26,21 +26,21 @@ class Host::Core::Window final : public ViewedRun {
   void on_lost(const std::string& reason) override;
 
  private:
-  /// Carries out a pressed key that drives no robot.
+  /// Executes the action of a pressed key that does not drive a robot.
   void act(ViewAction action);
   void change_view_mode(int by);
   void change_speed(bool faster);
   void change_pause();
   [[nodiscard]] std::string next_picture_file();
-  /// Puts a passing message into the window.
+  /// Shows a temporary message in the window.
   void tell(const std::string& text);
 
   Core& core_;
   HandDrive& hand_;
   bool help_ = true;     ///< shown
-  std::string message_;  ///< shown until then
+  std::string message_;  ///< shown until the time below
   WallClock::time_point message_end_{};
-  int pictures_ = 0;  ///< number of the newest picture that the user saved
+  int pictures_ = 0;  ///< number of the last picture that the user saved
   std::unique_ptr<ViewerLink> link_;
 };
 

@@ -44,7 +44,7 @@ template <typename Number>
 ParseResult parse_number(const std::string& text, Number& value) {
   const char* first = text.data();
   const char* const last = first + text.size();
-  // std::from_chars() knows no plus sign.
+  // std::from_chars() rejects a plus sign.
   if (last - first > 1 && *first == '+' && first[1] != '-') {
     ++first;
   }
@@ -156,7 +156,7 @@ void throw_if_missing(const std::vector<Option>& options) {
 
 using Assignments = std::map<std::string, ValuePointer>;
 
-// What a command line says; nothing is stored before all of it is understood.
+// Parses a command line. Nothing is stored before all of it is valid.
 class CommandLineReader {
  public:
   CommandLineReader(const std::vector<Option>& options, std::vector<std::string> arguments,
@@ -214,7 +214,7 @@ class CommandLineReader {
     take_unknown(argument, unknown_option_text(options_, "--" + name, name, "--"));
   }
 
-  // The value of an option whose argument has no '=': the next argument, if it can be one.
+  // The value of an option whose argument has no '=': the next argument, if that can be a value.
   std::string separate_value(const Option& option) {
     const bool has_next = next_ < arguments_.size();
     if (option.is_bool()) {
@@ -234,7 +234,7 @@ class CommandLineReader {
     assignments_[option.name] = parse_value(option, text, kWhere, "--");
   }
 
-  // Why an argument that does not begin with "--" is not understood.
+  // The error text for an argument that does not begin with "--".
   std::string stray_text(const std::string& argument) const {
     const bool is_dashed_word = argument.size() > 1 && argument[0] == '-' &&
                                 std::isalpha(static_cast<unsigned char>(argument[1])) != 0;
@@ -261,7 +261,7 @@ class CommandLineReader {
   std::vector<std::string> positional_;
 };
 
-// The value on the right of '=' in a file's line, without comment and quotes.
+// The value to the right of '=' in a line of a file, without its comment and quotes.
 std::string file_value(const std::string& where, const std::string& text) {
   const std::string value = trimmed(text);
   if (!value.empty() && value[0] == '"') {
@@ -347,7 +347,7 @@ std::string program_name(int argc, const char* const* argv) {
   return slash == std::string::npos ? path : path.substr(slash + 1);
 }
 
-// Breaks a text into lines of at most `columns` characters between words; keeps its line ends.
+// Wraps a text between words into lines of at most `columns` characters; keeps its line breaks.
 std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
   std::vector<std::string> lines;
   std::istringstream paragraphs(text);
@@ -437,7 +437,7 @@ ConfigValue::~ConfigValue() = default;
 
 namespace {
 
-// A value as set() takes it: texts without the marks that the help table has.
+// A value in the form that set() takes: texts without the quotes of the help table.
 std::string plain_text(const ConfigValue& value) {
   if (value.type() != typeid(std::string)) return value.text();
   return static_cast<const detail::TypedConfigValue<std::string>&>(value).value();
@@ -446,7 +446,7 @@ std::string plain_text(const ConfigValue& value) {
 }  // namespace
 
 struct CConfig::Impl {
-  mutable std::mutex mutex;  // Guards all below.
+  mutable std::mutex mutex;  // Guards all members below.
   std::vector<Option> options;
   std::vector<std::string> positional;
 
@@ -455,7 +455,7 @@ struct CConfig::Impl {
     return options;
   }
 
-  // Needs the lock.
+  // The caller must hold the mutex.
   Option& known_option(const std::string& name) {
     const auto option = find_option(options, name);
     if (option == options.end()) {
@@ -528,7 +528,7 @@ void CConfig::set_value(const std::string& name, std::shared_ptr<const detail::C
 }
 
 void CConfig::set(const std::string& name, const std::string& text) {
-  // A user's operator>> runs without the lock; an option never changes its type.
+  // A user's operator>> runs without the mutex; an option never changes its type.
   Option option;
   {
     const std::lock_guard<std::mutex> lock(impl_->mutex);

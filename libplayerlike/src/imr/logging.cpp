@@ -28,11 +28,12 @@ Level level_from_environment() noexcept {
     }
     return level;
   } catch (const std::exception&) {
-    return kDefaultLevel;  // No memory for the words; logging goes on.
+    return kDefaultLevel;  // Out of memory: use the default level, so that logging works.
   }
 }
 
-// A function's static: lines may be logged while other files' static objects are constructed.
+// A static variable of the function, since static objects of other files may log while they are
+// constructed.
 std::atomic<Level>& stored_level() noexcept {
   static std::atomic<Level> level{level_from_environment()};
   return level;
@@ -88,10 +89,10 @@ void write_line(Level level, const std::string& text) noexcept {
       line.pop_back();
     }
     line += '\n';
-    // stderr has no buffer and a lock of its own, so this is one uninterrupted write.
+    // stderr is unbuffered and has its own lock, so this is one uninterrupted write.
     std::fwrite(line.data(), 1, line.size(), stderr);
   } catch (const std::exception&) {
-    // No memory for the line: it is lost, as the header says.
+    // Out of memory: the line is lost, as the header says.
   }
 }
 
@@ -100,7 +101,7 @@ void write_line(Level level, const std::string& text) noexcept {
 namespace imr {
 namespace {
 
-// The level of a word of log4cxx.
+// Converts a log4cxx level name.
 bool parse_log4cxx_level(const std::string& word, logging::Level& level) {
   const std::string lower = detail::lower_case(word);
   if (lower == "all" || lower == "trace") return logging::parse_level("debug", level);
@@ -108,7 +109,7 @@ bool parse_log4cxx_level(const std::string& word, logging::Level& level) {
   return logging::parse_level(lower, level);
 }
 
-// The root logger's level of a properties file of log4cxx; says what is wrong if there is none.
+// Reads the root logger's level from a log4cxx properties file; sets `problem` if there is none.
 bool read_level(const std::string& file, logging::Level& level, std::string& problem) {
   std::string text;
   if (const auto error = sim::read_whole_file(file, {.pipes = true}, text)) {
@@ -136,7 +137,7 @@ bool read_level(const std::string& file, logging::Level& level, std::string& pro
 CLoggerPtr logger = getLogger("root");
 
 CLoggerPtr getLogger(const char* loggerName) {
-  // Never destroyed: lines may be logged to the very end.
+  // Never destroyed: programs may log until the process ends.
   static std::mutex* const mutex = new std::mutex;
   static auto* const loggers = new std::map<std::string, CLogger>;
   const std::string name = loggerName == nullptr ? "" : loggerName;

@@ -11,7 +11,7 @@ namespace imr::detail {
 
 inline constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 
-/// A text without white space at its ends.
+/// Removes white space at both ends of a text.
 inline std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kWhiteSpace);
   if (first == std::string_view::npos) {
@@ -21,7 +21,7 @@ inline std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, last - first + 1));
 }
 
-/// A text with small letters for the capital ones of ASCII.
+/// Converts a text's ASCII letters to lower case.
 inline std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char character) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(character)));

@@ -29,7 +29,7 @@ struct CThread::State {
 
 namespace {
 
-// Logs the exception being handled, whose text is given if it has one.
+// Logs the exception that is being handled, with its text if it has one.
 void log_escaped_exception(const char* what) {
   const std::type_info* type = abi::__cxa_current_exception_type();
   const std::string name = type != nullptr ? detail::type_name(*type) : "an unknown type";
@@ -37,7 +37,7 @@ void log_escaped_exception(const char* what) {
   IMR_LOG_ERROR("thread ended by an exception of type " << name << detail_text);
 }
 
-// That of the client library: at the end of a run Read() throws it, which is no fault.
+// At the end of a run Read() throws this library's PlayerError, which is no fault.
 void log_player_error(const PlayerCc::PlayerError& error) {
   const int code = error.GetErrorCode();
   if (code == PlayerCc::PlayerError::kRunIsOver || code == PlayerCc::PlayerError::kDisconnected) {
@@ -71,7 +71,7 @@ void CThread::execute() {
     throw exception("CThread::execute(): the thread is running already");
   }
   if (state_->thread.joinable()) {
-    // An earlier run whose body has ended; it needs the lock no more.
+    // The body of an earlier run has ended and needs the mutex no more.
     state_->thread.join();
   }
   state_->running = true;
@@ -88,7 +88,8 @@ void CThread::execute() {
 void CThread::join() {
   // A copy, because exit() in the body may destroy this object while another thread waits here.
   const std::shared_ptr<State> state = state_;
-  // Moved out and joined without the lock, so that two threads may join at the same time.
+  // The thread is moved out and joined without the mutex, so that two threads may call join() at
+  // once.
   std::thread ended;
   {
     std::unique_lock<std::mutex> lock(state->mutex);
@@ -117,7 +118,7 @@ bool CThread::isFinished() const {
 void CThread::yield() { std::this_thread::yield(); }
 
 void CThread::run(CThread* self, std::shared_ptr<State> state) {
-  // Announces the end on every way out, the platform's thread cancellation included.
+  // Announces the end on every way out, including cancellation of the thread.
   struct EndAnnouncer {
     State& state;
     ~EndAnnouncer() {
@@ -136,8 +137,8 @@ void CThread::run(CThread* self, std::shared_ptr<State> state) {
     log_escaped_exception(error.what());
   } catch (...) {
     if (std::current_exception() == nullptr) {
-      // Not a C++ exception but pthread_exit() or pthread_cancel() unwinding the stack: the C
-      // library insists on seeing it again.
+      // Not a C++ exception: pthread_exit() or pthread_cancel() unwinds the stack. The C library
+      // requires that it is rethrown.
       throw;
     }
     log_escaped_exception(nullptr);

@@ -10,7 +10,7 @@ namespace imr::detail {
 
 std::string type_name(const std::type_info& type) {
   int status = 0;
-  // The function allocates its result with malloc().
+  // __cxa_demangle() allocates its result with malloc().
   const std::unique_ptr<char, void (*)(void*)> name(
       abi::__cxa_demangle(type.name(), nullptr, nullptr, &status), &std::free);
   return status == 0 && name != nullptr ? name.get() : type.name();

@@ -6,8 +6,8 @@
 
 namespace imr::detail {
 
-/// Name of a type as a person writes it, such as "PlayerCc::PlayerError"; the compiler's internal
-/// name if it can't be translated.
+/// The readable name of a type, such as "PlayerCc::PlayerError"; the mangled name if it can't be
+/// demangled.
 std::string type_name(const std::type_info& type);
 
 }  // namespace imr::detail

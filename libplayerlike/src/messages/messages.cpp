@@ -15,7 +15,7 @@
 namespace playerlike {
 namespace {
 
-// Which kinds of device carry an interface, most wanted first.
+// The device types that implement an interface, in order of preference.
 struct InterfaceRow {
   std::string_view interface;
   std::string_view device_type;
@@ -26,7 +26,7 @@ const std::vector<InterfaceRow>& interface_table() {
   static const auto* const table = [] {
     auto* rows = new std::vector<InterfaceRow>();
     for (const sim::DeviceKind& kind : sim::device_kinds()) {
-      for (const sim::CarriedInterface& interface : kind.interfaces) {
+      for (const sim::ProvidedInterface& interface : kind.interfaces) {
         rows->push_back({interface.name, kind.name, interface.rank});
       }
     }
@@ -59,7 +59,7 @@ std::vector<const Device*> carriers(const Robot& robot, std::string_view interfa
   return found;
 }
 
-// What the world itself offers, whatever robots are in it.
+// Interfaces of the world itself, independent of its robots.
 constexpr std::string_view kWorldInterfaces[] = {"log", "map", "simulation"};
 
 bool is_of_world(std::string_view interface) {
@@ -101,8 +101,8 @@ std::vector<std::size_t> sharing(const std::vector<RobotInfo>& robots, int port)
   return found;
 }
 
-// Calls visit(interface, index, robot, device, driver) for every address of a port; driver is null
-// but for the positions that a robot's drivers offer, which only its own port has.
+// Calls visit(interface, index, robot, device, driver) for every address of a port. `driver` is
+// null except for the positions of a robot's drivers, which only the robot's own port offers.
 template <typename Visit>
 void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visit) {
   const std::vector<std::size_t> shown = sharing(robots, port);
@@ -170,7 +170,7 @@ std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, in
 
 const RobotInfo* robot_at(const std::vector<RobotInfo>& robots, int port) {
   if (robots.empty()) return nullptr;
-  // Most worlds number them in order.
+  // Most worlds number their robots in order.
   const std::size_t guess =
       static_cast<std::size_t>(port) - static_cast<std::size_t>(robots.front().port);
   if (guess < robots.size() && robots[guess].port == port) return &robots[guess];
@@ -214,7 +214,7 @@ std::vector<std::string> device_order(const sim::RobotDescription& robot,
 }
 
 std::string example_world(std::string_view interface) {
-  // Each kind of device has a world of its name; the tests see to it.
+  // Each device type has a world of its name; the tests check this.
   for (const InterfaceRow& row : interface_table()) {
     if (row.interface == interface) return "devices/" + std::string(row.device_type) + ".json";
   }
@@ -347,7 +347,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
 
 sim::CanvasDescription map_grid(const sim::ArenaDescription& arena, double cell_size_m) {
   constexpr int kMaxSide = 8192;
-  // A side that is a whole number of cells long is not to get another one by rounding.
+  // The tolerance keeps rounding from adding a cell to a side that is a whole number of cells long.
   const sim::Vec2 cells = ((arena.size / cell_size_m).array() - 1e-6).ceil().max(1.0);
   if (!(cell_size_m > 0.0) || !(cells.maxCoeff() <= kMaxSide)) {
     throw SessionError(SessionError::Code::kBadArgument,
@@ -369,7 +369,7 @@ SessionError no_such_device(const std::vector<RobotInfo>& robots, int port,
                             std::string_view interface, int index) {
   std::ostringstream known;
   known.imbue(std::locale::classic());
-  bool has_others = is_of_world(interface);  // of the interface, with another index
+  bool has_others = is_of_world(interface);  // whether the interface exists under another index
   for_each_address(robots, port,
                    [&](std::string_view name, int i, int robot, const DeviceInfo& device,
                        const SndDriverDescription* driver) {

@@ -21,7 +21,7 @@ constexpr int kMaxIndex = 65535;
 
 std::string number_text(double value) { return sim::rounded_text(value, 6); }
 
-// A setting's value as it stands in a world file, for one unit there.
+// The unit of a setting in a world file, in SI units.
 double unit_of(const SndSettingRow& row) {
   return std::string_view(row.key).ends_with("_deg") ? kDegree_rad : 1.0;
 }
@@ -44,7 +44,7 @@ std::optional<Number> parsed(const std::string& text) {
   return value;
 }
 
-// Reads one driver, and notes what is wrong with it.
+// Reads one driver and collects its errors.
 class DriverReader {
  public:
   DriverReader(const sim::DriverDescription& driver, std::string file, std::string pointer,

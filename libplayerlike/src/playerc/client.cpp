@@ -21,8 +21,8 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// How long a peek without end waits at a time, and how long one client of several is waited for
-// before the others are looked at: a step of most worlds.
+// kLong: the slice of a peek without time limit. kShort: how long one client of several is polled
+// before the next; it is the step of most worlds.
 constexpr milliseconds kLong(1000);
 constexpr milliseconds kShort(10);
 
@@ -78,7 +78,7 @@ void Client::connect() {
 void Client::disconnect() noexcept {
   for (Device* entry : devices_) entry->unsubscribe();
   player_.reset();
-  arrived_.clear();
+  pending_.clear();
   qlen = 0;
   connected = 0;
 }
@@ -91,15 +91,15 @@ PlayerClient& Client::player() const {
   return *player_;
 }
 
-bool Client::look() {
-  if (!arrived_.empty()) return true;
+bool Client::poll() {
+  if (!pending_.empty()) return true;
   const std::shared_ptr<ClientCore>& core = PlayerCc::detail::CoreAccess::get(player());
-  if (translated("", [&] { return core->read_what_waits(); })) end_round();
-  return !arrived_.empty();
+  if (translated("", [&] { return core->read_pending(); })) end_round();
+  return !pending_.empty();
 }
 
 bool Client::peek(milliseconds timeout) {
-  if (!arrived_.empty()) return true;
+  if (!pending_.empty()) return true;
   if (timeout.count() >= 0) return player().Peek(static_cast<uint32_t>(timeout.count()));
   while (!player().Peek(static_cast<uint32_t>(kLong.count()))) {
   }
@@ -112,17 +112,18 @@ void Client::read_round() {
 }
 
 void Client::end_round() {
-  // A round without data is one of a client without subscriptions.
-  if (mode == PLAYERC_DATAMODE_PULL || arrived_.empty()) arrived_.push_back(nullptr);
+  // Even a round without data is delivered (as the client's own struct): the client has no
+  // subscriptions then.
+  if (mode == PLAYERC_DATAMODE_PULL || pending_.empty()) pending_.push_back(nullptr);
   overflow_count = player().GetOverflowCount();
-  qlen = static_cast<int>(arrived_.size());
+  qlen = static_cast<int>(pending_.size());
 }
 
 void* Client::deliver() {
-  if (arrived_.empty()) return nullptr;
-  Device* const entry = arrived_.front();
-  arrived_.pop_front();
-  qlen = static_cast<int>(arrived_.size());
+  if (pending_.empty()) return nullptr;
+  Device* const entry = pending_.front();
+  pending_.pop_front();
+  qlen = static_cast<int>(pending_.size());
   return entry == nullptr ? id : entry->deliver();
 }
 
@@ -133,11 +134,11 @@ void Client::remove(Device& entry) noexcept {
   forget_arrival(entry);
 }
 
-void Client::note_arrival(Device& entry) { arrived_.push_back(&entry); }
+void Client::note_arrival(Device& entry) { pending_.push_back(&entry); }
 
 void Client::forget_arrival(const Device& entry) noexcept {
-  arrived_.erase(std::remove(arrived_.begin(), arrived_.end(), &entry), arrived_.end());
-  qlen = static_cast<int>(arrived_.size());
+  pending_.erase(std::remove(pending_.begin(), pending_.end(), &entry), pending_.end());
+  qlen = static_cast<int>(pending_.size());
 }
 
 Device* Client::find(const playerc_device_t* common) const noexcept {
@@ -170,7 +171,7 @@ void Client::apply_replace_rules(Device& entry) {
     return (rule.code == -1 || rule.code == addr.interf) &&
            (rule.index == -1 || rule.index == addr.index);
   };
-  // The last one that was said of it.
+  // The latest matching rule wins.
   const auto it = std::find_if(replace_rules_.rbegin(), replace_rules_.rend(), fits);
   if (it != replace_rules_.rend() && entry.proxy() != nullptr) {
     entry.proxy()->SetReplaceRule(it->replace);
@@ -181,7 +182,8 @@ void Client::leave(const playerc_mclient_t& group) noexcept { erase(groups_, &gr
 
 namespace {
 
-// Readies clients for reading: each that has data, else (after letting time go on) the run's end.
+// Waits until clients can be read. Returns each client that has data. If there is none, simulated
+// time advances; returns one client whose run is over, or an empty list after the timeout.
 std::vector<Client*> wait_for_any(const playerc_mclient_t& group, int timeout_ms) {
   std::vector<Client*> clients;
   for (int i = 0; i < group.client_count; ++i) {
@@ -193,14 +195,15 @@ std::vector<Client*> wait_for_any(const playerc_mclient_t& group, int timeout_ms
   for (std::size_t turn = 0;; ++turn) {
     std::vector<Client*> ready;
     std::copy_if(clients.begin(), clients.end(), std::back_inserter(ready),
-                 [](Client* client) { return client->look(); });
+                 [](Client* client) { return client->poll(); });
     if (!ready.empty()) return ready;
     if (timeout_ms >= 0 && left.count() <= 0) return {};
-    // All clients of a thread wait while one of them does, so any will do; but they may belong to
-    // different simulations, each of which must go on.
+    // When one client of a thread waits, all of its clients count as waiting, so peeking at any of
+    // them is enough in one simulation. Clients may belong to different simulations, so the loop
+    // takes turns.
     Client* const client = clients[turn % clients.size()];
     const milliseconds wait = timeout_ms < 0 ? kShort : std::min(kShort, left);
-    if (client->peek(wait) && !client->look()) return {client};  // the run is over
+    if (client->peek(wait) && !client->poll()) return {client};  // the run is over
     left -= wait;
   }
 }
@@ -219,7 +222,7 @@ using std::chrono::milliseconds;
 
 namespace {
 
-// A list that is being read in this thread. A callback may destroy it, and its clients.
+// A list that this thread is reading. A callback may destroy the list and its clients.
 class Reading {
  public:
   explicit Reading(playerc_mclient_t& group) : group_(&group), outer_(innermost) {
@@ -229,7 +232,7 @@ class Reading {
   Reading(const Reading&) = delete;
   Reading& operator=(const Reading&) = delete;
 
-  /// Whether the list is there, and the client in it.
+  /// Whether the list still exists and contains the client.
   [[nodiscard]] bool has(const Client* client) const {
     if (group_ == nullptr) return false;
     auto** const end = group_->client + group_->client_count;
@@ -290,12 +293,12 @@ int playerc_mclient_read(playerc_mclient_t* mclient, int timeout) {
     const Reading reading(group);
     int count = 0;
     for (Client* client : playerlike::clib::wait_for_any(group, timeout)) {
-      // A callback of one may have destroyed the next, or itself, or the list.
+      // A callback of one client may have destroyed the next client, its own client or the list.
       if (!reading.has(client)) continue;
-      if (client->look()) {
+      if (client->poll()) {
         client->deliver();
       } else {
-        client->read_round();  // says why there is nothing more
+        client->read_round();  // throws the reason why there is no more data
       }
       if (reading.has(client)) group.time = std::max(group.time, client->datatime);
       ++count;

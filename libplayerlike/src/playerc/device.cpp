@@ -68,7 +68,7 @@ void* Device::deliver() {
     client_->lasttime = client_->datatime;
     client_->datatime = common_.datatime;
   }
-  // A callback may take callbacks out, or destroy the device: its last look at that is this copy.
+  // A callback may remove callbacks or destroy the device, so the loop works on a copy.
   const playerc_device_t told = common_;
   for (int i = 0; i < told.callback_count; ++i) told.callback[i](told.callback_data[i]);
   return id;
@@ -86,7 +86,7 @@ std::string driver_at(PlayerCc::PlayerClient& player, int code, int index) {
 
 namespace {
 
-// The device behind a common part; nullptr for null, and for what a program has made itself.
+// The device of a common part; null for a null pointer and for a struct that a program made itself.
 Device* behind(const playerc_device_t* device) {
   if (device == nullptr || device->client == nullptr) return nullptr;
   return Client::of(device->client).find(device);
@@ -107,7 +107,7 @@ ClientProxy& require_proxy(const playerc_device_t* device) {
   return *proxy;
 }
 
-// 0 of a proxy's call about a property passes, -1 is explained.
+// Throws with an explanation unless a proxy's property call returned 0.
 void require_done(int result, const char* property) {
   if (result == 0) return;
   refuse("the device has no property \"" + std::string(property == nullptr ? "" : property) +

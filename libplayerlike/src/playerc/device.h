@@ -16,8 +16,8 @@
 
 namespace playerlike::clib {
 
-/// What the library keeps beside the struct of a device: the proxy that does its work while it is
-/// subscribed to.
+/// The private part of a device of the C library: it owns the proxy that does the device's work
+/// while it is subscribed to.
 class Device {
  public:
   Device(const Device&) = delete;
@@ -30,23 +30,23 @@ class Device {
   /// Null while it is not subscribed to.
   [[nodiscard]] virtual PlayerCc::ClientProxy* proxy() noexcept = 0;
 
-  /// Belongs to a client from now on; null: to none.
+  /// Sets the client that owns this device from now on; null: none.
   void begin(playerc_client_t* client, int code, int index);
-  /// @throws PlayerError, which names the devices there are if there is no such one.
+  /// @throws PlayerError for an address without a device; the error names the devices that exist.
   void subscribe(int access);
   void unsubscribe() noexcept;
   void client_is_gone() noexcept;
 
-  /// Takes over what the proxy has, and calls the callbacks. @return the struct.
+  /// Copies the proxy's data to the struct and calls the callbacks. @return the struct.
   void* deliver();
 
  protected:
   explicit Device(playerc_device_t& common) : common_(common) {}
 
-  /// Makes the proxy, for the address in the common part.
+  /// Makes the proxy for the address in the common part.
   virtual void attach(PlayerCc::PlayerClient& player) = 0;
   virtual void detach() noexcept = 0;
-  /// Whether what the proxy has read is to be told of; called after each round.
+  /// Whether the proxy has new data to deliver; called after each round.
   [[nodiscard]] virtual bool has_news() { return true; }
   /// Copies new data from the proxy to the struct.
   virtual void refresh() = 0;
@@ -56,17 +56,17 @@ class Device {
   Client* client_ = nullptr;
 };
 
-/// A struct of the C library over a proxy of libplayerc++.
+/// A struct of the C library, backed by a proxy of libplayerc++.
 template <typename CStruct, typename Proxy>
-class Backed : public CStruct, public Device {
+class ProxyBacked : public CStruct, public Device {
  public:
   using Struct = CStruct;
 
-  Backed() : CStruct(), Device(static_cast<CStruct*>(this)->info) {}
+  ProxyBacked() : CStruct(), Device(static_cast<CStruct*>(this)->info) {}
 
   [[nodiscard]] Proxy* proxy() noexcept override { return proxy_.get(); }
   /// @throws PlayerError if the device is not subscribed to.
-  [[nodiscard]] Proxy& used() const {
+  [[nodiscard]] Proxy& proxy_or_throw() const {
     if (proxy_ == nullptr) refuse("the device is not subscribed to");
     return *proxy_;
   }
@@ -82,8 +82,8 @@ class Backed : public CStruct, public Device {
   std::unique_ptr<Proxy> proxy_;
 };
 
-/// The kind of device at an address of the client's port.
-/// @throws PlayerError kNoSuchDevice, naming the devices that there are.
+/// The driver name of the device at an address of the client's port. @throws PlayerError
+/// kNoSuchDevice; the error names the devices that exist.
 [[nodiscard]] std::string driver_at(PlayerCc::PlayerClient& player, int code, int index);
 
 /// The device behind a struct. @throws PlayerError for a null pointer.
@@ -93,22 +93,23 @@ template <typename T>
   return static_cast<T&>(*device);
 }
 
-/// action(device) for the device behind a struct, as reported().
+/// Runs action(device) with the device behind a struct; handles errors like reported().
 template <typename T, typename Action>
 auto with_device(const char* fun, typename T::Struct* device, Action action) {
-  virtual_time::note_looks();
+  virtual_time::count_data_reads();
   return reported(fun, [&] { return action(device_of<T>(device)); });
 }
 
-/// How long an array of readings must be. Beyond its end there is room, at first zeros, up to the
-/// length that such arrays had in Player 2: programs look at the beams that their own laser had.
+/// Length to allocate for an array of `count` readings. Beyond the readings the array is padded, at
+/// first with zeros, to the length that such arrays had in Player 2, because programs index it with
+/// the beam numbers of their own laser.
 [[nodiscard]] inline std::size_t with_room(std::size_t count) noexcept {
   constexpr std::size_t kLeast = 1024;
   return std::max(count, kLeast);
 }
 
-/// Fills an array that a struct points to, with_room().
-/// @return where it is; null if it is empty.
+/// Fills the array behind a struct's pointer and pads it, see with_room(). @return its address;
+/// null if `count` is 0.
 template <typename T, typename Element>
 [[nodiscard]] T* copied(std::vector<T>& array, uint32_t count, Element element) {
   array.resize(with_room(count));
@@ -116,9 +117,9 @@ template <typename T, typename Element>
   return count == 0 ? nullptr : array.data();
 }
 
-/// Gives a result to a caller who has said where, or not.
+/// Stores a result unless the caller passed a null pointer.
 template <typename T, typename Value>
-void tell(T* where, Value value) {
+void store_result(T* where, Value value) {
   if (where != nullptr) *where = static_cast<T>(value);
 }
 

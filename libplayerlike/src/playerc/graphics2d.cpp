@@ -5,12 +5,12 @@
 namespace {
 
 class Graphics2d final
-    : public playerlike::clib::Backed<playerc_graphics2d_t, PlayerCc::Graphics2dProxy> {};
+    : public playerlike::clib::ProxyBacked<playerc_graphics2d_t, PlayerCc::Graphics2dProxy> {};
 
 template <typename Action>
 int with_proxy(const char* fun, playerc_graphics2d_t* device, Action action) {
-  return playerlike::clib::with_device<Graphics2d>(fun, device,
-                                                   [&](Graphics2d& self) { action(self.used()); });
+  return playerlike::clib::with_device<Graphics2d>(
+      fun, device, [&](Graphics2d& self) { action(self.proxy_or_throw()); });
 }
 
 }  // namespace

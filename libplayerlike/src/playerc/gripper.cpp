@@ -6,24 +6,24 @@
 
 namespace {
 
-using playerlike::clib::Backed;
+using playerlike::clib::ProxyBacked;
 using playerlike::clib::with_device;
 
-class Gripper final : public Backed<playerc_gripper_t, PlayerCc::GripperProxy> {
+class Gripper final : public ProxyBacked<playerc_gripper_t, PlayerCc::GripperProxy> {
  public:
   void refresh_geometry() {
-    pose = used().GetPose();
-    outer_size = used().GetOuterSize();
-    inner_size = used().GetInnerSize();
-    num_beams = static_cast<uint8_t>(used().GetNumBeams());
-    capacity = static_cast<uint8_t>(used().GetCapacity());
+    pose = proxy_or_throw().GetPose();
+    outer_size = proxy_or_throw().GetOuterSize();
+    inner_size = proxy_or_throw().GetInnerSize();
+    num_beams = static_cast<uint8_t>(proxy_or_throw().GetNumBeams());
+    capacity = static_cast<uint8_t>(proxy_or_throw().GetCapacity());
   }
 
  private:
   void refresh() override {
-    state = static_cast<uint8_t>(used().GetState());
-    beams = used().GetBeams();
-    stored = static_cast<uint8_t>(used().GetStored());
+    state = static_cast<uint8_t>(proxy_or_throw().GetState());
+    beams = proxy_or_throw().GetBeams();
+    stored = static_cast<uint8_t>(proxy_or_throw().GetStored());
   }
 };
 
@@ -32,23 +32,28 @@ class Gripper final : public Backed<playerc_gripper_t, PlayerCc::GripperProxy> {
 PLAYERLIKE_CLIB_FRAME(gripper, Gripper, PLAYER_GRIPPER_CODE)
 
 int playerc_gripper_open_cmd(playerc_gripper_t* device) {
-  return with_device<Gripper>(__func__, device, [](Gripper& self) { self.used().Open(); });
+  return with_device<Gripper>(__func__, device,
+                              [](Gripper& self) { self.proxy_or_throw().Open(); });
 }
 
 int playerc_gripper_close_cmd(playerc_gripper_t* device) {
-  return with_device<Gripper>(__func__, device, [](Gripper& self) { self.used().Close(); });
+  return with_device<Gripper>(__func__, device,
+                              [](Gripper& self) { self.proxy_or_throw().Close(); });
 }
 
 int playerc_gripper_stop_cmd(playerc_gripper_t* device) {
-  return with_device<Gripper>(__func__, device, [](Gripper& self) { self.used().Stop(); });
+  return with_device<Gripper>(__func__, device,
+                              [](Gripper& self) { self.proxy_or_throw().Stop(); });
 }
 
 int playerc_gripper_store_cmd(playerc_gripper_t* device) {
-  return with_device<Gripper>(__func__, device, [](Gripper& self) { self.used().Store(); });
+  return with_device<Gripper>(__func__, device,
+                              [](Gripper& self) { self.proxy_or_throw().Store(); });
 }
 
 int playerc_gripper_retrieve_cmd(playerc_gripper_t* device) {
-  return with_device<Gripper>(__func__, device, [](Gripper& self) { self.used().Retrieve(); });
+  return with_device<Gripper>(__func__, device,
+                              [](Gripper& self) { self.proxy_or_throw().Retrieve(); });
 }
 
 void playerc_gripper_printout(playerc_gripper_t* device, const char* prefix) {

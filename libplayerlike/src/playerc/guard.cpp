@@ -11,7 +11,7 @@
 namespace playerlike::clib {
 namespace {
 
-// Each thread has its own, so that a text does not change while its reader looks at it.
+// One text for each thread, so that it does not change while its reader uses it.
 std::string& last_error() {
   thread_local std::string text;
   return text;
@@ -26,7 +26,7 @@ void set_error(const char* fun, const std::string& why) {
 void report_error(const char* fun, const std::string& why) {
   set_error(fun, why);
   constexpr std::size_t kMostTexts = 100;
-  // Never destroyed: programs may call from the destructors of static objects.
+  // Never destroyed: destructors of static objects may call this library.
   static auto* const mutex = new std::mutex;
   static auto* const told = new std::set<std::string>;
   {

@@ -9,16 +9,15 @@
 
 namespace playerlike::clib {
 
-/// Notes why a function of the C library fails, for playerc_error_str() in this thread.
+/// Stores why a function of the C library failed, for playerc_error_str() in this thread.
 void set_error(const char* fun, const std::string& why);
-/// Also tells the user on standard error, once for each text: many programs only end with a status
-/// then, or go on.
+/// Also prints the error on standard error, each text once: many programs ignore errors, or only
+/// end with a status.
 void report_error(const char* fun, const std::string& why);
 
-/// Does what a function of the C library is for, and turns errors into its way to tell them.
-/// @param note  what is done with the text of an error that is not the end of the run.
-/// @return what the action returns, 0 for one that returns nothing. If it throws, null where that
-///         is a pointer, else -1.
+/// Runs the body of a function of the C library and converts exceptions to its error results.
+/// @param note  receives the text of an error, except for the end of the run.
+/// @return the action's result, 0 if it returns nothing. If it throws: null for a pointer, else -1.
 template <typename Action>
 auto guarded(const char* fun, Action action,
              void (*note)(const char*, const std::string&) = set_error) {
@@ -43,14 +42,14 @@ auto guarded(const char* fun, Action action,
   }
 }
 
-/// The same for what a program cannot do without, as connecting, subscribing and commanding: the
-/// user is told, see report_error().
+/// As guarded(), for calls that a program depends on, such as connecting, subscribing and
+/// commanding: errors go to report_error().
 template <typename Action>
 auto reported(const char* fun, Action action) {
   return guarded(fun, action, report_error);
 }
 
-/// Throws PlayerError kBadArgument, for guarded().
+/// Throws PlayerError kBadArgument, which guarded() converts.
 [[noreturn]] void refuse(const std::string& why);
 
 }  // namespace playerlike::clib

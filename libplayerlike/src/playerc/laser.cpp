@@ -11,29 +11,29 @@
 
 namespace {
 
-using playerlike::clib::tell;
+using playerlike::clib::store_result;
 using playerlike::clib::with_device;
 
-class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::LaserProxy> {
+class Laser final : public playerlike::clib::ProxyBacked<playerc_laser_t, PlayerCc::LaserProxy> {
  public:
-  // What is known without a scan, and with each one.
+  // Fields that are known without a scan, refreshed with each one.
   void refresh_settings() {
-    intensity_on = used().IntensityOn() ? 1 : 0;
-    scan_start = used().GetMinAngle();
-    scan_res = used().GetScanRes();
-    range_res = used().GetRangeRes();
-    max_range = used().GetMaxRange();
-    scanning_frequency = used().GetScanningFrequency();
+    intensity_on = proxy_or_throw().IntensityOn() ? 1 : 0;
+    scan_start = proxy_or_throw().GetMinAngle();
+    scan_res = proxy_or_throw().GetScanRes();
+    range_res = proxy_or_throw().GetRangeRes();
+    max_range = proxy_or_throw().GetMaxRange();
+    scanning_frequency = proxy_or_throw().GetScanningFrequency();
   }
 
  private:
   void refresh() override {
     refresh_settings();
-    const player_pose3d_t robot = used().GetRobotPose();
+    const player_pose3d_t robot = proxy_or_throw().GetRobotPose();
     robot_pose[0] = robot.px;
     robot_pose[1] = robot.py;
     robot_pose[2] = robot.pyaw;
-    const uint32_t count = used().GetCount();
+    const uint32_t count = proxy_or_throw().GetCount();
     scan_count = static_cast<int>(count);
     const std::size_t length = playerlike::clib::with_room(count);
     ranges_.resize(length);
@@ -41,7 +41,7 @@ class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::L
     points_.resize(length);
     intensities_.assign(length, 0);
     for (uint32_t i = 0; i < count; ++i) {
-      const double range_m = used().GetRange(i);
+      const double range_m = proxy_or_throw().GetRange(i);
       const double bearing_rad = scan_start + i * scan_res;
       ranges_[i] = range_m;
       scan_[i].pair[0] = range_m;
@@ -52,8 +52,8 @@ class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::L
     scan = count == 0 ? nullptr : &scan_[0].pair;
     point = points_.data();
     intensity = intensities_.data();
-    min_right = used().GetMinRight();
-    min_left = used().GetMinLeft();
+    min_right = proxy_or_throw().GetMinRight();
+    min_left = proxy_or_throw().GetMinLeft();
     ++scan_id;
   }
 
@@ -68,7 +68,7 @@ class Laser final : public playerlike::clib::Backed<playerc_laser_t, PlayerCc::L
   std::vector<int> intensities_;
 };
 
-// What LaserProxy::Configure() counts in.
+// Units of LaserProxy::Configure().
 constexpr double kHundredthsOfDegree = 100.0 * 180.0 / std::numbers::pi;
 constexpr double kMillimetres = 1000.0;
 
@@ -88,10 +88,10 @@ int playerc_laser_set_config(playerc_laser_t* device, double min_angle, double m
                              double resolution, double range_res, unsigned char intensity,
                              double scanning_frequency) {
   return with_device<Laser>(__func__, device, [&](Laser& self) {
-    self.used().Configure(min_angle, max_angle,
-                          in_units("the angle between beams", resolution, kHundredthsOfDegree),
-                          in_units("the resolution of ranges", range_res, kMillimetres),
-                          intensity != 0, scanning_frequency);
+    self.proxy_or_throw().Configure(
+        min_angle, max_angle, in_units("the angle between beams", resolution, kHundredthsOfDegree),
+        in_units("the resolution of ranges", range_res, kMillimetres), intensity != 0,
+        scanning_frequency);
     self.refresh_settings();
   });
 }
@@ -100,23 +100,23 @@ int playerc_laser_get_config(playerc_laser_t* device, double* min_angle, double*
                              double* resolution, double* range_res, unsigned char* intensity,
                              double* scanning_frequency) {
   return with_device<Laser>(__func__, device, [&](Laser& self) {
-    self.used().RequestConfigure();
+    self.proxy_or_throw().RequestConfigure();
     self.refresh_settings();
-    tell(min_angle, self.used().GetMinAngle());
-    tell(max_angle, self.used().GetMaxAngle());
-    tell(resolution, self.scan_res);
-    tell(range_res, self.range_res);
-    tell(intensity, self.intensity_on);
-    tell(scanning_frequency, self.scanning_frequency);
+    store_result(min_angle, self.proxy_or_throw().GetMinAngle());
+    store_result(max_angle, self.proxy_or_throw().GetMaxAngle());
+    store_result(resolution, self.scan_res);
+    store_result(range_res, self.range_res);
+    store_result(intensity, self.intensity_on);
+    store_result(scanning_frequency, self.scanning_frequency);
     self.info.freshconfig = 1;
   });
 }
 
 int playerc_laser_get_geom(playerc_laser_t* device) {
   return with_device<Laser>(__func__, device, [](Laser& self) {
-    self.used().RequestGeom();
-    const player_pose3d_t pose = self.used().GetPose();
-    const player_bbox3d_t size = self.used().GetSize();
+    self.proxy_or_throw().RequestGeom();
+    const player_pose3d_t pose = self.proxy_or_throw().GetPose();
+    const player_bbox3d_t size = self.proxy_or_throw().GetSize();
     self.pose[0] = pose.px;
     self.pose[1] = pose.py;
     self.pose[2] = pose.pyaw;
@@ -128,8 +128,8 @@ int playerc_laser_get_geom(playerc_laser_t* device) {
 
 int playerc_laser_get_id(playerc_laser_t* device) {
   return with_device<Laser>(__func__, device, [](Laser& self) {
-    self.used().RequestID();
-    self.laser_id = self.used().GetID();
+    self.proxy_or_throw().RequestID();
+    self.laser_id = self.proxy_or_throw().GetID();
   });
 }
 

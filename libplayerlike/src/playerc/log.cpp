@@ -6,19 +6,19 @@ namespace {
 
 using playerlike::clib::with_device;
 
-class Log final : public playerlike::clib::Backed<playerc_log_t, PlayerCc::LogProxy> {
+class Log final : public playerlike::clib::ProxyBacked<playerc_log_t, PlayerCc::LogProxy> {
  public:
   void refresh_state() {
-    type = used().GetType();
-    state = used().GetState();
+    type = proxy_or_throw().GetType();
+    state = proxy_or_throw().GetState();
   }
 };
 
-// A call that changes the log, after which its state is known.
+// Changes the log, then refreshes the struct's state.
 template <typename Action>
 int change(const char* fun, playerc_log_t* device, Action action) {
   return with_device<Log>(fun, device, [&](Log& self) {
-    action(self.used());
+    action(self.proxy_or_throw());
     self.refresh_state();
   });
 }

@@ -8,22 +8,22 @@ namespace {
 
 using playerlike::clib::with_device;
 
-class Map final : public playerlike::clib::Backed<playerc_map_t, PlayerCc::MapProxy> {
+class Map final : public playerlike::clib::ProxyBacked<playerc_map_t, PlayerCc::MapProxy> {
  public:
   void request() {
-    used().RequestMap();
-    resolution = used().GetResolution();
-    width = static_cast<int>(used().GetWidth());
-    height = static_cast<int>(used().GetHeight());
-    origin[0] = used().GetOriginX();
-    origin[1] = used().GetOriginY();
-    data_range = used().GetDataRange();
+    proxy_or_throw().RequestMap();
+    resolution = proxy_or_throw().GetResolution();
+    width = static_cast<int>(proxy_or_throw().GetWidth());
+    height = static_cast<int>(proxy_or_throw().GetHeight());
+    origin[0] = proxy_or_throw().GetOriginX();
+    origin[1] = proxy_or_throw().GetOriginY();
+    data_range = proxy_or_throw().GetDataRange();
     std::vector<int8_t> all(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    used().GetMap(all.data());
+    proxy_or_throw().GetMap(all.data());
     cells_.assign(all.begin(), all.end());
     cells = cells_.data();
     info.lasttime = info.datatime;
-    info.datatime = used().GetDataTime();
+    info.datatime = proxy_or_throw().GetDataTime();
   }
 
  private:

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Devices that no world has: their structs can be made, and all that is asked of them is refused.
+// Devices that no world provides: programs can create their structs, but all their functions fail.
 #include <string>
 #include <type_traits>
 
@@ -7,23 +7,23 @@
 
 namespace {
 
-// Never made: what is missing cannot be subscribed to.
+// Never constructed: an unsupported device cannot be subscribed to.
 class NoProxy final : public PlayerCc::ClientProxy {
  public:
   NoProxy(PlayerCc::PlayerClient* client, uint32_t index) : ClientProxy(client, index) {}
 };
 
 template <typename CStruct>
-class Missing final : public playerlike::clib::Backed<CStruct, NoProxy> {
+class Missing final : public playerlike::clib::ProxyBacked<CStruct, NoProxy> {
   void attach(PlayerCc::PlayerClient& player) override {
     const player_devaddr_t& addr = this->info.addr;
-    // Says what there is instead.
+    // The error names the kind of device at this address.
     playerlike::clib::refuse("the C library cannot use a device of the kind \"" +
                              playerlike::clib::driver_at(player, addr.interf, addr.index) + '"');
   }
 };
 
-// The result of a function that fails: -1, or nothing in a struct or a pointer.
+// Result of an unsupported function: -1, or a value-initialized struct or pointer.
 template <typename Result>
 Result refused(const char* fun) {
   playerlike::clib::set_error(fun, "no world has such a device");
@@ -33,4 +33,4 @@ Result refused(const char* fun) {
 
 }  // namespace
 
-#include "playerc/missing_functions.inc"  // made from libplayerlike/player/playerc.txt
+#include "playerc/missing_functions.inc"  // generated from libplayerlike/player/playerc.txt

@@ -19,14 +19,14 @@ namespace {
 constexpr const char* kUnknown = "unknown";
 constexpr std::uint16_t kNoInterface = 0xFFFF;
 constexpr std::uint8_t kNoMessageType = 0xFF;
-// By their codes, from PLAYER_MSGTYPE_DATA on.
+// Indexed by code, from PLAYER_MSGTYPE_DATA on.
 constexpr std::array<const char*, 6> kMessageTypes{"data",     "command", "request",
                                                    "resp_ack", "sync",    "resp_nack"};
 
 int fill(player_interface_t* interf, int code) {
   const char* name = PlayerCc::interface_name(code);
   if (interf == nullptr || name == nullptr) return -1;
-  // Player's struct is not const, though its contract is.
+  // The field of Player's struct is not const, but programs must not write through it.
   *interf = {static_cast<std::uint16_t>(code), const_cast<char*>(name)};
   return 0;
 }

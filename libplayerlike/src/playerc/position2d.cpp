@@ -5,22 +5,22 @@
 namespace {
 
 class Position2d final
-    : public playerlike::clib::Backed<playerc_position2d_t, PlayerCc::Position2dProxy> {
+    : public playerlike::clib::ProxyBacked<playerc_position2d_t, PlayerCc::Position2dProxy> {
   void refresh() override {
-    px = used().GetXPos();
-    py = used().GetYPos();
-    pa = used().GetYaw();
-    vx = used().GetXSpeed();
-    vy = used().GetYSpeed();
-    va = used().GetYawSpeed();
-    stall = used().GetStall() ? 1 : 0;
+    px = proxy_or_throw().GetXPos();
+    py = proxy_or_throw().GetYPos();
+    pa = proxy_or_throw().GetYaw();
+    vx = proxy_or_throw().GetXSpeed();
+    vy = proxy_or_throw().GetYSpeed();
+    va = proxy_or_throw().GetYawSpeed();
+    stall = proxy_or_throw().GetStall() ? 1 : 0;
   }
 };
 
 template <typename Action>
 int with_proxy(const char* fun, playerc_position2d_t* device, Action action) {
-  return playerlike::clib::with_device<Position2d>(fun, device,
-                                                   [&](Position2d& self) { action(self.used()); });
+  return playerlike::clib::with_device<Position2d>(
+      fun, device, [&](Position2d& self) { action(self.proxy_or_throw()); });
 }
 
 }  // namespace

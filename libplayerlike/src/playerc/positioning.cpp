@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Sensors of place, motion and what is near: gps, imu, localize, fiducial, wifi.
+// Sensors of position, motion and neighbourhood: gps, imu, localize, fiducial, wifi.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -14,59 +14,60 @@
 
 namespace {
 
-using playerlike::clib::Backed;
 using playerlike::clib::copied;
+using playerlike::clib::ProxyBacked;
 using playerlike::clib::with_device;
 
-class Fiducial final : public Backed<playerc_fiducial_t, PlayerCc::FiducialProxy> {
+class Fiducial final : public ProxyBacked<playerc_fiducial_t, PlayerCc::FiducialProxy> {
  public:
   void refresh_geometry() {
-    fiducial_geom.pose = used().GetSensorPose();
-    fiducial_geom.size = used().GetSensorSize();
-    fiducial_geom.fiducial_size = used().GetFiducialSize();
+    fiducial_geom.pose = proxy_or_throw().GetSensorPose();
+    fiducial_geom.size = proxy_or_throw().GetSensorSize();
+    fiducial_geom.fiducial_size = proxy_or_throw().GetFiducialSize();
   }
 
  private:
   void refresh() override {
-    const uint32_t count = used().GetCount();
+    const uint32_t count = proxy_or_throw().GetCount();
     fiducials_count = static_cast<int>(count);
-    fiducials = copied(items_, count, [this](uint32_t i) { return used().GetFiducialItem(i); });
+    fiducials =
+        copied(items_, count, [this](uint32_t i) { return proxy_or_throw().GetFiducialItem(i); });
   }
 
   std::vector<player_fiducial_item_t> items_;
 };
 
-class Gps final : public Backed<playerc_gps_t, PlayerCc::GpsProxy> {
+class Gps final : public ProxyBacked<playerc_gps_t, PlayerCc::GpsProxy> {
   void refresh() override {
-    utc_time = used().GetTime();
-    lat = used().GetLatitude();
-    lon = used().GetLongitude();
-    alt = used().GetAltitude();
-    speed = used().GetSpeed();
-    course = used().GetCourse();
-    utm_e = used().GetUtmEasting();
-    utm_n = used().GetUtmNorthing();
-    hdop = used().GetHdop();
-    vdop = used().GetVdop();
-    err_horz = used().GetErrHorizontal();
-    err_vert = used().GetErrVertical();
-    quality = static_cast<int>(used().GetQuality());
-    sat_count = static_cast<int>(used().GetSatellites());
+    utc_time = proxy_or_throw().GetTime();
+    lat = proxy_or_throw().GetLatitude();
+    lon = proxy_or_throw().GetLongitude();
+    alt = proxy_or_throw().GetAltitude();
+    speed = proxy_or_throw().GetSpeed();
+    course = proxy_or_throw().GetCourse();
+    utm_e = proxy_or_throw().GetUtmEasting();
+    utm_n = proxy_or_throw().GetUtmNorthing();
+    hdop = proxy_or_throw().GetHdop();
+    vdop = proxy_or_throw().GetVdop();
+    err_horz = proxy_or_throw().GetErrHorizontal();
+    err_vert = proxy_or_throw().GetErrVertical();
+    quality = static_cast<int>(proxy_or_throw().GetQuality());
+    sat_count = static_cast<int>(proxy_or_throw().GetSatellites());
   }
 };
 
-class Imu final : public Backed<playerc_imu_t, PlayerCc::ImuProxy> {
+class Imu final : public ProxyBacked<playerc_imu_t, PlayerCc::ImuProxy> {
   void refresh() override {
-    pose = used().GetPose();
-    calib_data = used().GetRawValues();
-    acc.px = used().GetXAccel();
-    acc.py = used().GetYAccel();
-    acc.pz = used().GetZAccel();
-    vel.proll = used().GetXGyro();
-    vel.ppitch = used().GetYGyro();
-    vel.pyaw = used().GetZGyro();
-    // Turns about z, then y, then x, as quaternions (Diebel, Representing Attitude, 2006,
-    // sec. 8.10).
+    pose = proxy_or_throw().GetPose();
+    calib_data = proxy_or_throw().GetRawValues();
+    acc.px = proxy_or_throw().GetXAccel();
+    acc.py = proxy_or_throw().GetYAccel();
+    acc.pz = proxy_or_throw().GetZAccel();
+    vel.proll = proxy_or_throw().GetXGyro();
+    vel.ppitch = proxy_or_throw().GetYGyro();
+    vel.pyaw = proxy_or_throw().GetZGyro();
+    // Quaternion of rotations about z, then y, then x (Diebel, Representing Attitude, 2006, sec.
+    // 8.10).
     const double cr = std::cos(0.5 * pose.proll);
     const double sr = std::sin(0.5 * pose.proll);
     const double cp = std::cos(0.5 * pose.ppitch);
@@ -80,47 +81,48 @@ class Imu final : public Backed<playerc_imu_t, PlayerCc::ImuProxy> {
   }
 };
 
-class Localize final : public Backed<playerc_localize_t, PlayerCc::LocalizeProxy> {
+class Localize final : public ProxyBacked<playerc_localize_t, PlayerCc::LocalizeProxy> {
  public:
   void refresh_particles() {
-    const player_localize_hypoth_t best = used().GetHypoth(0);
+    const player_localize_hypoth_t best = proxy_or_throw().GetHypoth(0);
     mean[0] = best.mean.px;
     mean[1] = best.mean.py;
     mean[2] = best.mean.pa;
     variance = 0.5 * (best.cov[0] + best.cov[1]);
-    const uint32_t count = used().GetNumParticles();
+    const uint32_t count = proxy_or_throw().GetNumParticles();
     num_particles = static_cast<int>(count);
     particles = copied(particles_, count, [&](uint32_t i) {
-      const player_pose2d_t pose = used().GetParticlePose(static_cast<int>(i));
+      const player_pose2d_t pose = proxy_or_throw().GetParticlePose(static_cast<int>(i));
       return playerc_localize_particle_t{{pose.px, pose.py, pose.pa}, 1.0 / count};
     });
   }
 
  private:
   void refresh() override {
-    map_size_x = static_cast<int>(used().GetMapSizeX());
-    map_size_y = static_cast<int>(used().GetMapSizeY());
-    map_tile_x = static_cast<int>(used().GetMapTileX());
-    map_tile_y = static_cast<int>(used().GetMapTileY());
-    map_scale = used().GetMapScale();
-    pending_count = static_cast<int>(used().GetPendingCount());
+    map_size_x = static_cast<int>(proxy_or_throw().GetMapSizeX());
+    map_size_y = static_cast<int>(proxy_or_throw().GetMapSizeY());
+    map_tile_x = static_cast<int>(proxy_or_throw().GetMapTileX());
+    map_tile_y = static_cast<int>(proxy_or_throw().GetMapTileY());
+    map_scale = proxy_or_throw().GetMapScale();
+    pending_count = static_cast<int>(proxy_or_throw().GetPendingCount());
     pending_time = info.datatime;
-    const uint32_t count = used().GetHypothCount();
+    const uint32_t count = proxy_or_throw().GetHypothCount();
     hypoth_count = static_cast<int>(count);
-    hypoths = copied(hypotheses_, count, [this](uint32_t i) { return used().GetHypoth(i); });
+    hypoths =
+        copied(hypotheses_, count, [this](uint32_t i) { return proxy_or_throw().GetHypoth(i); });
   }
 
   std::vector<player_localize_hypoth_t> hypotheses_;
   std::vector<playerc_localize_particle_t> particles_;
 };
 
-class Wifi final : public Backed<playerc_wifi_t, PlayerCc::WiFiProxy> {
+class Wifi final : public ProxyBacked<playerc_wifi_t, PlayerCc::WiFiProxy> {
   void refresh() override {
-    link_count = std::max(used().GetLinkCount(), 0);
+    link_count = std::max(proxy_or_throw().GetLinkCount(), 0);
     links = copied(links_, static_cast<uint32_t>(link_count),
-                   [this](uint32_t i) { return *used().GetLink(static_cast<int>(i)); });
+                   [this](uint32_t i) { return *proxy_or_throw().GetLink(static_cast<int>(i)); });
     std::fill(std::begin(ip), std::end(ip), '\0');
-    if (const char* const own = used().GetOwnIP()) std::strncpy(ip, own, sizeof ip - 1);
+    if (const char* const own = proxy_or_throw().GetOwnIP()) std::strncpy(ip, own, sizeof ip - 1);
   }
 
   std::vector<playerc_wifi_link_t> links_;
@@ -136,34 +138,36 @@ PLAYERLIKE_CLIB_FRAME(wifi, Wifi, PLAYER_WIFI_CODE)
 
 int playerc_fiducial_get_geom(playerc_fiducial_t* device) {
   return with_device<Fiducial>(__func__, device, [](Fiducial& self) {
-    self.used().RequestGeometry();
+    self.proxy_or_throw().RequestGeometry();
     self.refresh_geometry();
     self.info.freshgeom = 1;
   });
 }
 
 int playerc_imu_datatype(playerc_imu_t* device, int value) {
-  return with_device<Imu>(__func__, device, [&](Imu& self) { self.used().SetDatatype(value); });
+  return with_device<Imu>(__func__, device,
+                          [&](Imu& self) { self.proxy_or_throw().SetDatatype(value); });
 }
 
 int playerc_imu_reset_orientation(playerc_imu_t* device, int value) {
   return with_device<Imu>(__func__, device,
-                          [&](Imu& self) { self.used().ResetOrientation(value); });
+                          [&](Imu& self) { self.proxy_or_throw().ResetOrientation(value); });
 }
 
 int playerc_imu_reset_euler(playerc_imu_t* device, float roll, float pitch, float yaw) {
   return with_device<Imu>(__func__, device,
-                          [&](Imu& self) { self.used().ResetEuler(roll, pitch, yaw); });
+                          [&](Imu& self) { self.proxy_or_throw().ResetEuler(roll, pitch, yaw); });
 }
 
 int playerc_localize_set_pose(playerc_localize_t* device, double pose[3], double cov[6]) {
   return with_device<Localize>(__func__, device,
-                               [&](Localize& self) { self.used().SetPose(pose, cov); });
+                               [&](Localize& self) { self.proxy_or_throw().SetPose(pose, cov); });
 }
 
 int playerc_localize_get_particles(playerc_localize_t* device) {
   return with_device<Localize>(__func__, device, [](Localize& self) {
-    if (self.used().GetParticles() != 0) playerlike::clib::refuse("there is no reading yet");
+    if (self.proxy_or_throw().GetParticles() != 0)
+      playerlike::clib::refuse("there is no reading yet");
     self.refresh_particles();
   });
 }

@@ -4,15 +4,15 @@
 
 namespace {
 
-class Power final : public playerlike::clib::Backed<playerc_power_t, PlayerCc::PowerProxy> {
+class Power final : public playerlike::clib::ProxyBacked<playerc_power_t, PlayerCc::PowerProxy> {
   void refresh() override {
     valid = PLAYER_POWER_MASK_VOLTS | PLAYER_POWER_MASK_WATTS | PLAYER_POWER_MASK_JOULES |
             PLAYER_POWER_MASK_PERCENT | PLAYER_POWER_MASK_CHARGING;
-    charge = used().GetCharge();
-    percent = used().GetPercent();
-    joules = used().GetJoules();
-    watts = used().GetWatts();
-    charging = used().GetCharging() ? 1 : 0;
+    charge = proxy_or_throw().GetCharge();
+    percent = proxy_or_throw().GetPercent();
+    joules = proxy_or_throw().GetJoules();
+    watts = proxy_or_throw().GetWatts();
+    charging = proxy_or_throw().GetCharging() ? 1 : 0;
   }
 };
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Inputs and outputs of all sorts: aio, dio, blinkenlight, speech, opaque.
+// Other inputs and outputs: aio, dio, blinkenlight, speech, opaque.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -13,50 +13,51 @@
 
 namespace {
 
-using playerlike::clib::Backed;
 using playerlike::clib::copied;
+using playerlike::clib::ProxyBacked;
 using playerlike::clib::refuse;
 using playerlike::clib::with_device;
 
-class Aio final : public Backed<playerc_aio_t, PlayerCc::AioProxy> {
+class Aio final : public ProxyBacked<playerc_aio_t, PlayerCc::AioProxy> {
   void refresh() override {
     constexpr uint32_t kMost = std::numeric_limits<decltype(voltages_count)>::max();
-    const uint32_t count = std::min(used().GetCount(), kMost);
+    const uint32_t count = std::min(proxy_or_throw().GetCount(), kMost);
     voltages_count = static_cast<uint8_t>(count);
-    voltages = copied(voltages_, count,
-                      [this](uint32_t i) { return static_cast<float>(used().GetVoltage(i)); });
+    voltages = copied(voltages_, count, [this](uint32_t i) {
+      return static_cast<float>(proxy_or_throw().GetVoltage(i));
+    });
   }
 
   std::vector<float> voltages_;
 };
 
-class Dio final : public Backed<playerc_dio_t, PlayerCc::DioProxy> {
+class Dio final : public ProxyBacked<playerc_dio_t, PlayerCc::DioProxy> {
   void refresh() override {
-    count = static_cast<uint8_t>(used().GetCount());
-    digin = used().GetDigin();
+    count = static_cast<uint8_t>(proxy_or_throw().GetCount());
+    digin = proxy_or_throw().GetDigin();
   }
 };
 
-class Blinkenlight final : public Backed<playerc_blinkenlight_t, PlayerCc::BlinkenLightProxy> {
+class Blinkenlight final : public ProxyBacked<playerc_blinkenlight_t, PlayerCc::BlinkenLightProxy> {
   void refresh() override {
-    enabled = used().GetEnable() ? 1 : 0;
-    duty_cycle = used().GetDutyCycle();
-    period = used().GetPeriod();
-    red = used().GetRed();
-    green = used().GetGreen();
-    blue = used().GetBlue();
+    enabled = proxy_or_throw().GetEnable() ? 1 : 0;
+    duty_cycle = proxy_or_throw().GetDutyCycle();
+    period = proxy_or_throw().GetPeriod();
+    red = proxy_or_throw().GetRed();
+    green = proxy_or_throw().GetGreen();
+    blue = proxy_or_throw().GetBlue();
   }
 };
 
-class Speech final : public Backed<playerc_speech_t, PlayerCc::SpeechProxy> {};
+class Speech final : public ProxyBacked<playerc_speech_t, PlayerCc::SpeechProxy> {};
 
-class Opaque final : public Backed<playerc_opaque_t, PlayerCc::OpaqueProxy> {
-  // Readings without a message are no news.
-  [[nodiscard]] bool has_news() override { return used().IsFresh(); }
+class Opaque final : public ProxyBacked<playerc_opaque_t, PlayerCc::OpaqueProxy> {
+  // A reading without a message is not delivered.
+  [[nodiscard]] bool has_news() override { return proxy_or_throw().IsFresh(); }
   void refresh() override {
-    bytes_.resize(used().GetCount());
-    used().GetData(bytes_.data());
-    used().NotFresh();
+    bytes_.resize(proxy_or_throw().GetCount());
+    proxy_or_throw().GetData(bytes_.data());
+    proxy_or_throw().NotFresh();
     data_count = static_cast<int>(bytes_.size());
     data = bytes_.empty() ? nullptr : bytes_.data();
   }
@@ -64,7 +65,7 @@ class Opaque final : public Backed<playerc_opaque_t, PlayerCc::OpaqueProxy> {
   std::vector<uint8_t> bytes_;
 };
 
-// This world's lights have one lamp each.
+// Lights of this library have one lamp each.
 void require_lamp(uint32_t id) {
   if (id != 0) refuse("there is one lamp, with the number 0, but not " + std::to_string(id));
 }
@@ -78,7 +79,8 @@ PLAYERLIKE_CLIB_FRAME(speech, Speech, PLAYER_SPEECH_CODE)
 PLAYERLIKE_CLIB_FRAME(opaque, Opaque, PLAYER_OPAQUE_CODE)
 
 int playerc_aio_set_output(playerc_aio_t* device, uint8_t id, float volt) {
-  return with_device<Aio>(__func__, device, [&](Aio& self) { self.used().SetVoltage(id, volt); });
+  return with_device<Aio>(__func__, device,
+                          [&](Aio& self) { self.proxy_or_throw().SetVoltage(id, volt); });
 }
 
 float playerc_aio_get_data(playerc_aio_t* device, uint32_t index) {
@@ -87,20 +89,20 @@ float playerc_aio_get_data(playerc_aio_t* device, uint32_t index) {
 }
 
 int playerc_dio_set_output(playerc_dio_t* device, uint8_t output_count, uint32_t digout) {
-  return with_device<Dio>(__func__, device,
-                          [&](Dio& self) { self.used().SetOutput(output_count, digout); });
+  return with_device<Dio>(
+      __func__, device, [&](Dio& self) { self.proxy_or_throw().SetOutput(output_count, digout); });
 }
 
 int playerc_blinkenlight_enable(playerc_blinkenlight_t* device, uint32_t enable) {
-  return with_device<Blinkenlight>(__func__, device,
-                                   [&](Blinkenlight& self) { self.used().SetEnable(enable != 0); });
+  return with_device<Blinkenlight>(
+      __func__, device, [&](Blinkenlight& self) { self.proxy_or_throw().SetEnable(enable != 0); });
 }
 
 int playerc_blinkenlight_color(playerc_blinkenlight_t* device, uint32_t id, uint8_t red,
                                uint8_t green, uint8_t blue) {
   return with_device<Blinkenlight>(__func__, device, [&](Blinkenlight& self) {
     require_lamp(id);
-    self.used().SetColor(red, green, blue);
+    self.proxy_or_throw().SetColor(red, green, blue);
   });
 }
 
@@ -108,20 +110,21 @@ int playerc_blinkenlight_blink(playerc_blinkenlight_t* device, uint32_t id, floa
                                float duty_cycle) {
   return with_device<Blinkenlight>(__func__, device, [&](Blinkenlight& self) {
     require_lamp(id);
-    self.used().SetPeriod(period);
-    self.used().SetDutyCycle(duty_cycle);
+    self.proxy_or_throw().SetPeriod(period);
+    self.proxy_or_throw().SetDutyCycle(duty_cycle);
   });
 }
 
 int playerc_speech_say(playerc_speech_t* device, char* text) {
   return with_device<Speech>(__func__, device, [&](Speech& self) {
     if (text == nullptr) refuse("the text is a null pointer");
-    self.used().Say(text);
+    self.proxy_or_throw().Say(text);
   });
 }
 
 int playerc_opaque_cmd(playerc_opaque_t* device, player_opaque_data_t* data) {
-  return with_device<Opaque>(__func__, device, [&](Opaque& self) { self.used().SendCmd(data); });
+  return with_device<Opaque>(__func__, device,
+                             [&](Opaque& self) { self.proxy_or_throw().SendCmd(data); });
 }
 
 int playerc_opaque_req(playerc_opaque_t* device, player_opaque_data_t* /*request*/,

@@ -6,16 +6,16 @@
 namespace {
 
 using playerlike::clib::refuse;
-using playerlike::clib::tell;
+using playerlike::clib::store_result;
 
 class Simulation final
-    : public playerlike::clib::Backed<playerc_simulation_t, PlayerCc::SimulationProxy> {};
+    : public playerlike::clib::ProxyBacked<playerc_simulation_t, PlayerCc::SimulationProxy> {};
 
 template <typename Action>
 int with_proxy(const char* fun, playerc_simulation_t* device, Action action) {
   return playerlike::clib::with_device<Simulation>(fun, device, [&](Simulation& self) {
     const playerlike::StrictSimulation strict;
-    action(self.used());
+    action(self.proxy_or_throw());
   });
 }
 
@@ -34,9 +34,9 @@ int playerc_simulation_get_pose2d(playerc_simulation_t* device, char* identifier
   return with_proxy(__func__, device, [&](PlayerCc::SimulationProxy& proxy) {
     player_pose2d_t pose = {0.0, 0.0, 0.0};
     proxy.GetPose2d(identifier, pose.px, pose.py, pose.pa);
-    tell(x, pose.px);
-    tell(y, pose.py);
-    tell(a, pose.pa);
+    store_result(x, pose.px);
+    store_result(y, pose.py);
+    store_result(a, pose.pa);
   });
 }
 
@@ -55,13 +55,13 @@ int playerc_simulation_get_pose3d(playerc_simulation_t* device, char* identifier
     double now_s = 0.0;
     proxy.GetPose3d(identifier, pose.px, pose.py, pose.pz, pose.proll, pose.ppitch, pose.pyaw,
                     now_s);
-    tell(x, pose.px);
-    tell(y, pose.py);
-    tell(z, pose.pz);
-    tell(roll, pose.proll);
-    tell(pitch, pose.ppitch);
-    tell(yaw, pose.pyaw);
-    tell(time, now_s);
+    store_result(x, pose.px);
+    store_result(y, pose.py);
+    store_result(z, pose.pz);
+    store_result(roll, pose.proll);
+    store_result(pitch, pose.ppitch);
+    store_result(yaw, pose.pyaw);
+    store_result(time, now_s);
   });
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What looks: blobfinder, camera, and the head that turns them.
+// Vision: blobfinder, camera, and the pan-tilt-zoom head.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -11,23 +11,23 @@
 
 namespace {
 
-using playerlike::clib::Backed;
 using playerlike::clib::copied;
+using playerlike::clib::ProxyBacked;
 using playerlike::clib::refuse;
 using playerlike::clib::with_device;
 
-class Blobfinder final : public Backed<playerc_blobfinder_t, PlayerCc::BlobfinderProxy> {
+class Blobfinder final : public ProxyBacked<playerc_blobfinder_t, PlayerCc::BlobfinderProxy> {
   void refresh() override {
-    width = used().GetWidth();
-    height = used().GetHeight();
-    blobs_count = used().GetCount();
-    blobs = copied(blobs_, blobs_count, [this](uint32_t i) { return used().GetBlob(i); });
+    width = proxy_or_throw().GetWidth();
+    height = proxy_or_throw().GetHeight();
+    blobs_count = proxy_or_throw().GetCount();
+    blobs = copied(blobs_, blobs_count, [this](uint32_t i) { return proxy_or_throw().GetBlob(i); });
   }
 
   std::vector<playerc_blobfinder_blob_t> blobs_;
 };
 
-class Camera final : public Backed<playerc_camera_t, PlayerCc::CameraProxy> {
+class Camera final : public ProxyBacked<playerc_camera_t, PlayerCc::CameraProxy> {
  public:
   void require_image() const {
     if (image == nullptr) refuse("there is no picture yet");
@@ -44,14 +44,14 @@ class Camera final : public Backed<playerc_camera_t, PlayerCc::CameraProxy> {
 
  private:
   void refresh() override {
-    width = static_cast<int>(used().GetWidth());
-    height = static_cast<int>(used().GetHeight());
-    bpp = static_cast<int>(used().GetDepth());
-    format = static_cast<int>(used().GetFormat());
+    width = static_cast<int>(proxy_or_throw().GetWidth());
+    height = static_cast<int>(proxy_or_throw().GetHeight());
+    bpp = static_cast<int>(proxy_or_throw().GetDepth());
+    format = static_cast<int>(proxy_or_throw().GetFormat());
     fdiv = 1;
-    compression = static_cast<int>(used().GetCompression());
-    pixels_.resize(used().GetImageSize());
-    if (!pixels_.empty()) used().GetImage(pixels_.data());
+    compression = static_cast<int>(proxy_or_throw().GetCompression());
+    pixels_.resize(proxy_or_throw().GetImageSize());
+    if (!pixels_.empty()) proxy_or_throw().GetImage(pixels_.data());
     image_count = static_cast<int>(pixels_.size());
     image = pixels_.empty() ? nullptr : pixels_.data();
   }
@@ -59,16 +59,16 @@ class Camera final : public Backed<playerc_camera_t, PlayerCc::CameraProxy> {
   std::vector<uint8_t> pixels_;
 };
 
-class Ptz final : public Backed<playerc_ptz_t, PlayerCc::PtzProxy> {
+class Ptz final : public ProxyBacked<playerc_ptz_t, PlayerCc::PtzProxy> {
  public:
   int mode = PLAYER_PTZ_POSITION_CONTROL;
-  void refresh_status() { status = used().GetStatus(); }
+  void refresh_status() { status = proxy_or_throw().GetStatus(); }
 
  private:
   void refresh() override {
-    pan = used().GetPan();
-    tilt = used().GetTilt();
-    zoom = used().GetZoom();
+    pan = proxy_or_throw().GetPan();
+    tilt = proxy_or_throw().GetTilt();
+    zoom = proxy_or_throw().GetZoom();
     refresh_status();
   }
 };
@@ -129,7 +129,7 @@ unsigned playerc_camera_get_pixel_component(playerc_camera_t* device, unsigned i
 
 int playerc_ptz_set(playerc_ptz_t* device, double pan, double tilt, double zoom) {
   return with_device<Ptz>(__func__, device,
-                          [&](Ptz& self) { self.used().SetCam(pan, tilt, zoom); });
+                          [&](Ptz& self) { self.proxy_or_throw().SetCam(pan, tilt, zoom); });
 }
 
 int playerc_ptz_query_status(playerc_ptz_t* device) {
@@ -140,16 +140,16 @@ int playerc_ptz_set_ws(playerc_ptz_t* device, double pan, double tilt, double zo
                        double tiltspeed) {
   return with_device<Ptz>(__func__, device, [&](Ptz& self) {
     if (self.mode == PLAYER_PTZ_VELOCITY_CONTROL) {
-      self.used().SetSpeed(panspeed, tiltspeed);
+      self.proxy_or_throw().SetSpeed(panspeed, tiltspeed);
     } else {
-      self.used().SetCam(pan, tilt, zoom, panspeed, tiltspeed);
+      self.proxy_or_throw().SetCam(pan, tilt, zoom, panspeed, tiltspeed);
     }
   });
 }
 
 int playerc_ptz_set_control_mode(playerc_ptz_t* device, int mode) {
   return with_device<Ptz>(__func__, device, [&](Ptz& self) {
-    self.used().SelectControlMode(static_cast<uint32_t>(mode));
+    self.proxy_or_throw().SelectControlMode(static_cast<uint32_t>(mode));
     self.mode = mode;
   });
 }

@@ -23,12 +23,12 @@ std::atomic<std::terminate_handler> previous{nullptr};
 
 constexpr std::int64_t kOneRequest_ns = 500'000'000;
 
-// What the handler of signals uses.
+// State of the signal handler.
 constinit std::atomic<int> first_interrupt{0};
 constinit std::atomic<std::int64_t> first_time_ns{0};
 constinit std::atomic<std::atomic<std::uint32_t>*> place_to_note{nullptr};
 
-/// The machine's clock, also where that of the C library shows simulated time.
+/// CLOCK_MONOTONIC by a raw system call: the C library's clock may show simulated time.
 std::int64_t machine_time_ns() noexcept {
   timespec time{};
   syscall(SYS_clock_gettime, CLOCK_MONOTONIC, &time);
@@ -44,12 +44,12 @@ extern "C" void on_interrupt(int signal, siginfo_t* info, void* /*context*/) {
       *place = static_cast<std::uint32_t>(signal);
     }
   } else {
-    const bool passed_on = info->si_code == SI_QUEUE && info->si_value.sival_int == kPassedOn;
-    const bool hung_up_again = signal == SIGHUP && first_interrupt == SIGHUP;
+    const bool forwarded = info->si_code == SI_QUEUE && info->si_value.sival_int == kForwarded;
+    const bool repeated_sighup = signal == SIGHUP && first_interrupt == SIGHUP;
     const bool copy = machine_time_ns() - first_time_ns < kOneRequest_ns;
-    if (!passed_on && !hung_up_again && !copy) {
+    if (!forwarded && !repeated_sighup && !copy) {
       ::signal(signal, SIG_DFL);
-      raise(signal);  // comes when this handler has returned
+      raise(signal);  // delivered when this handler returns
     }
   }
   errno = error;

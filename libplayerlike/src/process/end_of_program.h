@@ -7,30 +7,31 @@
 
 namespace playerlike {
 
-/// Flushes the standard streams and ends the process with status 0, at once: no destructors run,
-/// since other threads may still use what they would destroy.
+/// Flushes the standard streams and ends the process at once with status 0. No destructor runs,
+/// since other threads may still use the objects.
 [[noreturn]] void end_program_quietly() noexcept;
 
-/// From now on an exception that says the run is over, and that nobody catches, ends the
-/// process with status 0 instead of aborting it. Other uncaught exceptions abort as before.
+/// Installs a terminate handler: an uncaught exception that says that the run is over ends the
+/// process with status 0. Other uncaught exceptions abort as before.
 void end_program_quietly_if_uncaught() noexcept;
 
-/// What comes with a signal that `playpen run` passes on, as its value: the program may have got
-/// the same signal from somebody else.
-inline constexpr int kPassedOn = 0x706c6179;
+/// The value (si_value) of a signal that `playpen run` forwards. It tells a forwarded signal from
+/// one that the program got from elsewhere.
+inline constexpr int kForwarded = 0x706c6179;
 
-/// From now on the first SIGINT, SIGTERM or SIGHUP only sets a flag, so that the run can be ended
-/// in good order. A second one ends the process, if it comes more than half a second after the
-/// first, was not passed on by `playpen run` (which sees to the end itself), and is no further
-/// SIGHUP after a first one. Signals that the program handles itself, or ignores, are left to it.
-/// @param noted  gets the first signal's number as well; must live as long as the process. May be
-///               null.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP. The first of these signals only sets a flag,
+/// so that the run can end in an orderly way. A later one ends the process, except if it comes
+/// within half a second of the first, is forwarded by `playpen run` (which ends the program
+/// itself), or is a SIGHUP after a SIGHUP. Signals that the program handles or ignores keep their
+/// disposition.
+/// @param noted  also receives the number of the first signal; must live as long as the process.
+///               May be null.
 void note_interrupts(std::atomic<std::uint32_t>* noted) noexcept;
-/// The first of these signals that has come; 0: none.
+/// The number of the first such signal that arrived; 0: none.
 [[nodiscard]] int interrupted() noexcept;
 
-/// Adds a test of whether an exception says that the run is over (SessionError kFinished is
-/// known). The layer above registers the exception type that it turns that into.
+/// Adds a test that says whether an exception means that the run is over. SessionError kFinished
+/// needs no test. A layer above registers the exception type into which it converts that error.
 using EndOfRunTest = bool (*)(const std::exception_ptr&);
 void add_end_of_run_test(EndOfRunTest test) noexcept;
 

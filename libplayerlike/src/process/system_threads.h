@@ -8,9 +8,9 @@
 
 namespace playerlike {
 
-/// Number of the calling thread for the system.
+/// Id of the calling thread in the system (gettid).
 [[nodiscard]] pid_t this_thread() noexcept;
-/// How often a thread of this process has gone to sleep by itself; nullopt unless it sleeps now.
+/// Number of voluntary context switches of a thread of this process; nullopt unless it sleeps now.
 [[nodiscard]] std::optional<std::uint64_t> sleeps_since(pid_t thread);
 
 }  // namespace playerlike

@@ -4,7 +4,7 @@
 namespace playerlike {
 namespace {
 
-constinit thread_local bool ended = false;  // outlives the other
+constinit thread_local bool ended = false;  // no destructor: valid during thread exit
 thread_local ThreadEnd own_end;
 
 }  // namespace

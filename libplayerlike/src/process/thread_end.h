@@ -6,8 +6,8 @@
 
 namespace playerlike {
 
-/// What is done as a thread ends: it leaves virtual time, then it says goodbye to those that it has
-/// waited on, so that nobody waits for it.
+/// Actions at the end of a thread: it leaves virtual time, then says goodbye to the peers that it
+/// has waited on, so that nobody waits for it.
 class ThreadEnd {
  public:
   ThreadEnd() = default;
@@ -15,12 +15,13 @@ class ThreadEnd {
   ThreadEnd& operator=(const ThreadEnd&) = delete;
   ~ThreadEnd();
 
-  /// The calling thread's; null once it has ended: what is destroyed later is not remembered.
+  /// The calling thread's object; null once it has been destroyed at thread exit.
   [[nodiscard]] static ThreadEnd* mine();
 
-  /// Calls that before any goodbye.
+  /// Sets a function to call before all goodbyes.
   void leave_by(void (*leave)()) noexcept { leave_ = leave; }
-  /// Calls say(peer), unless nothing of the peer is left then. Once for each peer.
+  /// Registers say(peer) for the end of the thread, once for each peer. It is skipped if the peer
+  /// has been destroyed by then.
   /// @param say  must not throw.
   template <typename Peer>
   void say_goodbye(const std::shared_ptr<Peer>& peer, void (*say)(void* peer)) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// CBOR (RFC 8949). Written by nlohmann's library, read by a reader of our own: nlohmann's takes
-// bytes one by one, calls itself without bound, and lets NaN and duplicate keys pass.
+// CBOR (RFC 8949). nlohmann's library writes it. The parser is our own, because nlohmann's reads
+// single bytes, recurses without limit, and accepts NaN and duplicate keys.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -21,43 +21,43 @@ bool is_utf8(std::string_view text) noexcept {
   return sim::find_invalid_utf8(text) == std::string_view::npos;
 }
 
-/// Whether all texts of a value are UTF-8.
-bool is_sound(const json& value) {
+/// Whether all texts of a value are valid UTF-8.
+bool is_valid_utf8(const json& value) {
   if (const auto* text = value.get_ptr<const std::string*>()) return is_utf8(*text);
   if (const auto* object = value.get_ptr<const json::object_t*>()) {
     for (const auto& [key, member] : *object) {
-      if (!is_utf8(key) || !is_sound(member)) return false;
+      if (!is_utf8(key) || !is_valid_utf8(member)) return false;
     }
   } else if (const auto* list = value.get_ptr<const json::array_t*>()) {
     for (const json& element : *list) {
-      if (!is_sound(element)) return false;
+      if (!is_valid_utf8(element)) return false;
     }
   }
   return true;
 }
 
-std::string mended(const std::string& text) {
+std::string with_valid_utf8(const std::string& text) {
   return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace))
       .get<std::string>();
 }
 
-/// The value with U+FFFD in place of what is no UTF-8.
-json mended(const json& value) {
-  if (const auto* text = value.get_ptr<const std::string*>()) return mended(*text);
+/// Replaces invalid UTF-8 in a value's texts by U+FFFD.
+json with_valid_utf8(const json& value) {
+  if (const auto* text = value.get_ptr<const std::string*>()) return with_valid_utf8(*text);
   if (const auto* object = value.get_ptr<const json::object_t*>()) {
     json copy = json::object();
-    for (const auto& [key, member] : *object) copy[mended(key)] = mended(member);
+    for (const auto& [key, member] : *object) copy[with_valid_utf8(key)] = with_valid_utf8(member);
     return copy;
   }
   if (const auto* list = value.get_ptr<const json::array_t*>()) {
     json copy = json::array();
-    for (const json& element : *list) copy.push_back(mended(element));
+    for (const json& element : *list) copy.push_back(with_valid_utf8(element));
     return copy;
   }
   return value;
 }
 
-/// Half precision (IEEE 754 binary16), finite, as RFC 8949, appendix D has it.
+/// Decodes a finite half-precision number (IEEE 754 binary16), as in RFC 8949, appendix D.
 double half(std::uint64_t bits) {
   const int exponent = static_cast<int>(bits >> 10U & 0x1fU);
   const double mantissa = static_cast<double>(bits & 0x3ffU);
@@ -67,7 +67,7 @@ double half(std::uint64_t bits) {
   return (bits & 0x8000U) != 0 ? -value : value;
 }
 
-/// Reads one message. Calls itself once a level, and levels are bounded.
+/// Parses one message. It recurses once per level; the number of levels is limited.
 class CborReader {
  public:
   explicit CborReader(std::string_view bytes) : rest_(bytes) {}
@@ -89,7 +89,7 @@ class CborReader {
     kTag,
     kSimple,
   };
-  /// How an item begins (RFC 8949, section 3).
+  /// The head of an item (RFC 8949, section 3).
   struct Head {
     Major major;
     std::uint8_t info;       ///< low five bits of the first byte
@@ -159,7 +159,8 @@ class CborReader {
     return read_simple(head);
   }
 
-  // Counts may be lies: each element takes a byte at least, so the message's end is the bound.
+  // The count may be false. Each element takes at least one byte, so the end of the message bounds
+  // the loop.
   json read_list(std::uint64_t count, int depth) {
     require_depth(depth);
     json::array_t list;
@@ -196,7 +197,8 @@ class CborReader {
       refuse("a typed array that is no byte string of whole doubles");
     }
     std::vector<std::uint8_t> bytes = read_bytes(head.argument);
-    // Little-endian: sign and exponent are the last two bytes. All ones: infinite or no number.
+    // Little-endian: the last two bytes hold sign and exponent. An exponent of all ones means
+    // infinity or NaN.
     for (std::size_t i = 6; i < bytes.size(); i += sizeof(double)) {
       if ((bytes[i] & 0xf0U) == 0xf0U && (bytes[i + 1] & 0x7fU) == 0x7fU) refuse_number();
     }
@@ -238,10 +240,10 @@ class CborReader {
 }  // namespace
 
 void append_cbor(const json& value, std::string& out) {
-  if (is_sound(value)) {
+  if (is_valid_utf8(value)) {
     json::to_cbor(value, out);
   } else {
-    json::to_cbor(mended(value), out);
+    json::to_cbor(with_valid_utf8(value), out);
   }
 }
 

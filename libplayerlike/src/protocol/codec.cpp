@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// All messages but readings and commands, which are in field_codec.cpp.
+// All messages except readings and commands, which are in field_codec.cpp.
 #include "protocol/codec.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace playerlike::protocol {
 namespace {
 
-// Arrays of numbers are little-endian on the wire, and copied as they lie in memory.
+// Arrays of numbers are little-endian on the wire and are copied by memcpy.
 static_assert(std::endian::native == std::endian::little,
               "bytes must be swapped where this file uses memcpy");
 
@@ -42,7 +42,7 @@ std::string described(const json& value) {
   }
 }
 
-/// A whole number that an integer or a float holds; nullopt for anything else.
+/// The whole number in an integer or a float; nullopt for anything else.
 std::optional<std::int64_t> whole_number(const json& value) {
   if (value.is_number_unsigned()) {
     const auto number = value.get<std::uint64_t>();
@@ -90,7 +90,7 @@ std::string to_base64(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
-/// nullopt unless the text is base64 as to_base64() would write it.
+/// Decodes base64; nullopt unless to_base64() could have written the text.
 std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   static constexpr std::array<std::int8_t, 256> kValues = digit_values();
   if (text.size() % 4 != 0) return std::nullopt;
@@ -110,7 +110,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
     for (std::size_t b = 0; b < digits - 1; ++b) {
       bytes[out++] = static_cast<std::uint8_t>(group >> (16U - 8U * static_cast<unsigned>(b)));
     }
-    // What the padding cuts off must be zero.
+    // The unused bits before the padding must be zero.
     if ((group & ((1U << (8U * static_cast<unsigned>(4 - digits))) - 1U)) != 0) {
       return std::nullopt;
     }
@@ -118,7 +118,7 @@ std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
   return bytes;
 }
 
-/// Bytes of a value, which calls itself `key` in messages.
+/// The bytes of a value. @param key  names the value in errors.
 std::vector<std::uint8_t> bytes_of(const json& value, const char* key, Encoding encoding) {
   if (encoding == Encoding::kCbor) {
     if (value.is_binary() && !value.get_binary().has_subtype()) return value.get_binary();
@@ -130,7 +130,7 @@ std::vector<std::uint8_t> bytes_of(const json& value, const char* key, Encoding 
   refuse_value(key, "bytes as a text in base64", value);
 }
 
-/// Calls use(span of bytes) with the bytes of a value; in CBOR without copying them.
+/// Calls use(span) with the bytes of a value; in CBOR without a copy.
 template <typename Use>
 auto with_bytes(const json& value, const char* key, Encoding encoding, Use use) {
   if (encoding == Encoding::kCbor && value.is_binary() && !value.get_binary().has_subtype()) {
@@ -140,7 +140,7 @@ auto with_bytes(const json& value, const char* key, Encoding encoding, Use use) 
   return use(std::span<const std::uint8_t>(copy));
 }
 
-/// Bytes of numbers as they lie in memory.
+/// The bytes of numbers in memory order.
 template <typename Number>
 std::vector<std::uint8_t> memory_of(std::span<const Number> numbers) {
   const auto* begin = reinterpret_cast<const std::uint8_t*>(numbers.data());
@@ -160,7 +160,7 @@ std::vector<Number> numbers_in(std::span<const std::uint8_t> bytes) {
 
 using DrawKind = sim::DrawOperation::Kind;
 
-/// A drawing in CBOR: whole numbers of 32 bits.
+/// A drawing in CBOR: fields of 32 bits.
 struct WireDrawing {
   std::int32_t kind;
   std::int32_t layer;
@@ -370,7 +370,7 @@ std::vector<double> require_doubles(const json& object, const char* key, Encodin
       numbers.push_back(element.get<double>());
     }
   }
-  // decode() gives no others, but who knows where a value comes from.
+  // decode() makes finite numbers only, but the value may come from elsewhere.
   const auto is_finite = [](double number) { return std::isfinite(number); };
   if (!std::all_of(numbers.begin(), numbers.end(), is_finite)) {
     refuse_value(key, "a list of finite numbers", value);

@@ -16,12 +16,12 @@
 #include "sim/canvas/layers.h"
 #include "sim/world/occupancy_map.h"
 
-/// What passes between client and server, as JSON values; docs/protocol.md is the reference.
-/// Everything that decodes throws ProtocolError protocol/bad-value, which names the key, what was
-/// expected and what was found. Doubles and whole numbers come out as they went in, to the bit.
+/// Messages between client and server as JSON values; docs/protocol.md is the reference. All
+/// decoders throw ProtocolError protocol/bad-value, which names the key, the expected value and the
+/// value found. Doubles and whole numbers survive encoding and decoding exactly.
 ///
-/// What clients send (commands, drawings, styles) is refused with keys that are not known; in what
-/// servers send, those are passed over, so that later versions can add to it.
+/// Decoders of what clients send (commands, drawings, styles) refuse unknown keys. Decoders of what
+/// servers send ignore unknown keys, so that later versions can add keys.
 namespace playerlike::protocol {
 
 using nlohmann::json;
@@ -29,7 +29,7 @@ using nlohmann::json;
 /// @name Reading objects that came from outside
 /// @{
 
-/// The member of that name. @throws ProtocolError also if `object` is none.
+/// The member `key`. @throws ProtocolError also if `object` is not an object.
 [[nodiscard]] const json& require(const json& object, const char* key);
 [[nodiscard]] double require_number(const json& object, const char* key);  ///< finite
 /// A whole number from `least` to `most`; 3.0 is whole, 3.5 is not.
@@ -37,11 +37,11 @@ using nlohmann::json;
                                            std::int64_t most);
 [[nodiscard]] bool require_bool(const json& object, const char* key);
 [[nodiscard]] std::string require_text(const json& object, const char* key);
-/// A list. @param expected  what it is, for the message: "a list of robots".
+/// Checks that a value is a list. @param expected  describes it in errors: "a list of robots".
 [[nodiscard]] const json::array_t& require_list(const json& value, const char* key,
                                                 const char* expected = "a list");
-/// Refuses an object (or anything that is none) with keys that are not among those known.
-/// @param what  the object is, for the message: "a command twist".
+/// Refuses a value that is not an object or has keys that are not in `known`.
+/// @param what  describes the object in errors: "a command twist".
 void refuse_unknown_keys(const json& object, std::span<const std::string_view> known,
                          std::string_view what);
 inline void refuse_unknown_keys(const json& object, std::initializer_list<std::string_view> known,
@@ -62,7 +62,7 @@ inline void refuse_unknown_keys(const json& object, std::initializer_list<std::s
 /// @name Doubles: in CBOR a typed array of little-endian doubles (RFC 8746, tag 86), in JSON a list
 /// @{
 [[nodiscard]] json doubles(std::span<const double> values, Encoding encoding);
-/// Takes lists and typed arrays in both encodings.
+/// Accepts lists and typed arrays in both encodings.
 [[nodiscard]] std::vector<double> require_doubles(const json& object, const char* key,
                                                   Encoding encoding);
 /// @}
@@ -72,19 +72,19 @@ inline void refuse_unknown_keys(const json& object, std::initializer_list<std::s
 [[nodiscard]] json encode_pose(const sim::Pose& pose);  ///< {"x", "y", "yaw"}
 [[nodiscard]] sim::Pose decode_pose(const json& pose);
 
-/// A reading: {"device", "seq", "t" [ns], "type", ...what its type has}.
+/// Encodes a reading: {"device", "seq", "t" [ns], "type", ...fields of its type}.
 /// @param type  of the device, e.g. "laser".
 /// @throws ProtocolError protocol/bad-value if devices of that type make no readings.
 [[nodiscard]] json encode_reading(DeviceId device, std::string_view type,
                                   const sim::Reading& reading, Encoding encoding);
-/// What decode_reading() gives.
+/// The result of decode_reading().
 struct DecodedReading {
   DeviceId device{-1, -1};
   std::unique_ptr<sim::Reading> reading;
 };
 [[nodiscard]] DecodedReading decode_reading(const json& reading, Encoding encoding);
 
-/// A command: {"kind": "twist", ...}.
+/// Encodes a command: {"kind": "twist", ...}.
 [[nodiscard]] json encode_command(const sim::Command& command);
 [[nodiscard]] sim::Command decode_command(const json& command);
 
@@ -97,7 +97,7 @@ struct DecodedReading {
 [[nodiscard]] json encode_time(const TimeStatistics& time);
 [[nodiscard]] TimeStatistics decode_time(const json& time);
 [[nodiscard]] json encode_style(const sim::LayerStyle& style);
-/// Keys that are left out get the defaults of sim::LayerStyle.
+/// Missing keys get the defaults of sim::LayerStyle.
 [[nodiscard]] sim::LayerStyle decode_style(const json& style);
 [[nodiscard]] json encode_layers(const std::vector<sim::LayerInfo>& layers);
 [[nodiscard]] std::vector<sim::LayerInfo> decode_layers(const json& layers);
@@ -109,20 +109,20 @@ struct DecodedReading {
 [[nodiscard]] json encode_property(const PropertyValue& value);
 [[nodiscard]] PropertyValue require_property(const json& object, const char* key);
 
-/// Drawings: in CBOR bytes, 28 a drawing; in JSON a list of lists. What a drawing's kind does not
-/// use is neither looked at nor sent; it comes out as 0.
+/// Drawings: in CBOR bytes, 28 per drawing; in JSON a list of lists. Fields that the drawing's kind
+/// does not use are neither checked nor sent; they decode as 0.
 [[nodiscard]] json encode_drawings(std::span<const sim::DrawOperation> drawings, Encoding encoding);
 [[nodiscard]] std::vector<sim::DrawOperation> decode_drawings(const json& drawings,
                                                               Encoding encoding);
-/// Cells of a rectangle: bytes, four a cell, little-endian (see docs/protocol.md).
+/// Cells of a rectangle: four bytes per cell, little-endian (see docs/protocol.md).
 [[nodiscard]] json encode_cells(std::span<const sim::CellValue> cells, Encoding encoding);
 [[nodiscard]] std::vector<sim::CellValue> decode_cells(const json& cells, Encoding encoding);
-/// Cells of a map: bytes, four a cell, floats in 0..1.
+/// Cells of a map: four bytes per cell, floats in 0..1.
 [[nodiscard]] json encode_occupancy(std::span<const float> cells, Encoding encoding);
 [[nodiscard]] std::vector<float> decode_occupancy(const json& cells, std::size_t count,
                                                   Encoding encoding);
 
-/// The stable name of an error that a session can throw, e.g. "session/finished"; and back.
+/// Maps an error code of a session to its stable name, e.g. "session/finished", and back.
 [[nodiscard]] std::string_view error_id(SessionError::Code code) noexcept;
 [[nodiscard]] std::optional<SessionError::Code> session_error_code(std::string_view id) noexcept;
 

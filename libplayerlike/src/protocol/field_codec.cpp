@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Readings and commands, by the tables of their fields.
+// Readings and commands, encoded by their field tables.
 #include "protocol/field_codec.h"
 
 #include <array>
@@ -45,7 +45,7 @@ json octets(const std::vector<std::uint8_t>& numbers, Encoding encoding) {
   return doubles(std::vector<double>(numbers.begin(), numbers.end()), encoding);
 }
 
-/// The value of a field that has a name.
+/// Encodes a field that has a name.
 json written(const Field& field, const void* value, Encoding encoding) {
   switch (field.type) {
     case FieldType::kNumber:
@@ -91,13 +91,13 @@ json written(const Field& field, const void* value, Encoding encoding) {
     }
     case FieldType::kInclude:
     case FieldType::kCustom:
-      break;  // of world files only
+      break;  // only in world files
   }
   SIM_ASSERT(false);
   return nullptr;
 }
 
-/// The parts of a vector or a pose, as members of the message itself.
+/// Writes the components of a vector or a pose as members of the message itself.
 void write_in_place(const Field& field, const void* value, json& out) {
   if (field.type == FieldType::kVec2) {
     out["x"] = as<sim::Vec2>(value).x();
@@ -213,14 +213,14 @@ void read_value(const Field& field, const json& in, const char* key, Encoding en
       return read_fields(field.table(), require(in, key), encoding, value);
     case FieldType::kInclude:
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // of world files only
+      SIM_ASSERT(false);  // only in world files
   }
 }
 
-/// Where the dot of "own.ip" is; nullptr if there is none.
+/// The position of the dot in "own.ip"; null if there is none.
 const char* dot_in(const Field& field) { return std::strchr(field.name, '.'); }
 
-/// The object that has a field: "own" of "own.ip".
+/// The object that holds a field: "own" for "own.ip".
 const json& require_owner(const Field& field, const char* dot, const json& in) {
   const std::string owner(field.name, dot);
   const json& object = require(in, owner.c_str());
@@ -265,8 +265,8 @@ void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding
     read_value(field, from, dot == nullptr ? field.name : dot + 1, encoding, field.set(owner));
   });
   if (table.check == nullptr) return;
-  if (const std::optional<sim::FieldFault> fault = table.check(object)) {
-    refuse_value(fault->key, fault->expected, require(in, fault->key));
+  if (const std::optional<sim::FieldError> error = table.check(object)) {
+    refuse_value(error->key, error->expected, require(in, error->key));
   }
 }
 

@@ -11,20 +11,20 @@
 
 namespace playerlike::protocol {
 
-/// Adds the fields of a struct to a message; of a std::optional nothing if it has no value.
+/// Adds the fields of a struct to a message. An empty std::optional adds nothing.
 ///
-/// A vector or pose without a name is "x", "y" (and "yaw") of the message itself, one with a name
-/// an object of these; "own.ip" is the member "ip" of an object "own".
+/// A vector or pose without a name becomes the members "x", "y" (and "yaw") of the message itself.
+/// With a name, it becomes an object of these. "own.ip" is the member "ip" of an object "own".
 void write_fields(const sim::FieldTable& table, const void* object, json& out, Encoding encoding);
 
-/// Reads what write_fields() has written; keys that are not of the table are passed over.
-/// @throws ProtocolError protocol/bad-value, as codec.h says, also if the table's check fails.
+/// Reads the fields that write_fields() writes; ignores keys that are not in the table. @throws
+/// ProtocolError protocol/bad-value (see codec.h), also if the table's check fails.
 void read_fields(const sim::FieldTable& table, const json& in, Encoding encoding, void* object);
 
-/// The keys of a struct's message, in the table's order.
+/// The keys of a struct's message in the table's order.
 [[nodiscard]] std::vector<std::string_view> keys_of(const sim::FieldTable& table);
 
-/// The message of a variant's alternative: its fields, and its name as "kind".
+/// Encodes an alternative of a variant: its name as "kind", and its fields.
 template <typename Variant>
 [[nodiscard]] json encode_alternative(std::span<const sim::AlternativeKind<Variant>> kinds,
                                       const Variant& value) {
@@ -34,8 +34,8 @@ template <typename Variant>
   return out;
 }
 
-/// Understands what encode_alternative() gives, and refuses unknown kinds and keys.
-/// @param what  the message is: "a command".
+/// Decodes the messages of encode_alternative(); refuses unknown kinds and keys.
+/// @param what  describes the message in errors: "a command".
 template <typename Variant>
 [[nodiscard]] Variant decode_alternative(std::span<const sim::AlternativeKind<Variant>> kinds,
                                          const json& in, const std::string& what) {

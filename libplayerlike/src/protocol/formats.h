@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-/// The two encodings of a message, for framing.cpp, which documents them.
+/// The two encodings of messages; framing.h documents them.
 namespace playerlike::protocol {
 
 void append_json(const nlohmann::json& value, std::string& out);

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Bytes of a frame's length.
+/// Number of bytes that hold a frame's length.
 constexpr std::size_t kHead = 4;
 
 std::size_t frame_length(const char* head) {

@@ -10,23 +10,23 @@
 #include <string>
 #include <string_view>
 
-/// Playpen's protocol (docs/protocol.md) as bytes: shared by the server and by socket sessions.
+/// Playpen's protocol (docs/protocol.md) as bytes; the server and socket sessions share it.
 namespace playerlike::protocol {
 
 /// The version that `hello` negotiates.
 inline constexpr int kVersion = 1;
-/// The server's TCP port unless told otherwise; MORSE's.
+/// The server's default TCP port, equal to MORSE's.
 inline constexpr int kDefaultTcpPort = 4000;
-/// Levels of lists and objects that a message may have.
+/// Maximum nesting depth of lists and objects in a message.
 inline constexpr int kMaxDepth = 32;
-/// Tag of a typed array of little-endian doubles in CBOR (RFC 8746). In a message that is a json
-/// value, such an array is a binary value of this subtype.
+/// CBOR tag of a typed array of little-endian doubles (RFC 8746). As a json value, such an array is
+/// a binary value with this subtype.
 inline constexpr std::uint8_t kDoublesTag = 86;
 
-/// How messages look on the wire.
+/// Encodings of messages on the wire.
 enum class Encoding {
-  kJson,  ///< one JSON object a line, ended by \n (an \r before it is ignored)
-  kCbor,  ///< four bytes length (big-endian, of what follows), then one CBOR object
+  kJson,  ///< one JSON object per line, ended by \n (a preceding \r is ignored)
+  kCbor,  ///< four bytes with the length of the rest (big-endian), then one CBOR object
 };
 [[nodiscard]] std::string_view to_string(Encoding encoding) noexcept;
 [[nodiscard]] std::optional<Encoding> parse_encoding(std::string_view text) noexcept;
@@ -43,27 +43,27 @@ class ProtocolError : public std::runtime_error {
   std::string id_;
 };
 
-/// Cuts a stream of bytes into messages, whatever the pieces in which it comes.
+/// Splits a byte stream into messages; the chunks may be cut anywhere.
 class MessageSplitter {
  public:
-  /// @param limit  of one message's bytes, without its length or line end.
+  /// @param limit  maximum bytes of a message, without its length or line end.
   MessageSplitter(Encoding encoding, std::size_t limit) : encoding_(encoding), limit_(limit) {}
 
-  /// Where the next bytes are to be written: `size` bytes of room, valid until the next call.
+  /// A buffer of `size` bytes for the next input, valid until the next call.
   [[nodiscard]] std::span<char> room(std::size_t size);
-  /// So many of them have been.
+  /// Takes the first `size` bytes that were written to room().
   void added(std::size_t size);
-  /// For those who have the bytes elsewhere.
+  /// Adds bytes from another buffer.
   void add(std::string_view bytes);
 
-  /// The next whole message (without length or line end), valid until the next call of any other
-  /// member; nullopt if there is none yet.
-  /// @throws ProtocolError protocol/too-long, as soon as it is known; nothing more can be read.
+  /// The next complete message (without length or line end), valid until the next call of any other
+  /// member; nullopt if there is none yet. @throws ProtocolError protocol/too-long as soon as the
+  /// length is known; nothing more can be read then.
   [[nodiscard]] std::optional<std::string_view> next();
 
-  /// Whether part of a message waits for its rest.
+  /// Whether an incomplete message is buffered.
   [[nodiscard]] bool partial() const noexcept;
-  /// What follows is encoded so. Bytes that were added already are kept.
+  /// Sets the encoding of the following messages. Bytes already added are kept.
   void set_encoding(Encoding encoding) noexcept { encoding_ = encoding; }
   void set_limit(std::size_t limit) noexcept { limit_ = limit; }
 
@@ -74,32 +74,31 @@ class MessageSplitter {
   Encoding encoding_;
   std::size_t limit_;
   std::string buffer_;
-  std::size_t begin_ = 0;    ///< of what next() has not given yet
-  std::size_t end_ = 0;      ///< of what was added
-  std::size_t scanned_ = 0;  ///< no line end before here
+  std::size_t begin_ = 0;    ///< start of the bytes that next() has not returned yet
+  std::size_t end_ = 0;      ///< end of the bytes added
+  std::size_t scanned_ = 0;  ///< there is no line end before this position
 };
 
-/// A message as bytes, with its length or line end. Texts that are no UTF-8 come out with U+FFFD in
-/// place of what is wrong. Numbers are written so that decode() gives them back to the bit.
-/// @pre numbers are finite: JSON has no others (null is written), and decode() refuses them.
+/// Encodes a message, with its length or line end. Invalid UTF-8 in texts is replaced by U+FFFD.
+/// decode() restores numbers exactly. @pre numbers are finite: JSON cannot represent others (null
+/// is written), and decode() refuses them.
 [[nodiscard]] std::string encode(const nlohmann::json& message, Encoding encoding);
 
-/// The message that bytes (from MessageSplitter) hold: an object.
+/// Decodes the bytes of one message (from MessageSplitter), which must be an object.
 ///
-/// CBOR: integers, finite floats, texts, byte strings, lists, objects with texts as keys, true,
-/// false, null, and byte strings with kDoublesTag whose doubles are finite; lengths must be
-/// definite, other tags and values are refused. Nothing is set aside for a length that is claimed
-/// but not there.
-/// JSON: a list of kLongList or more numbers and nothing else comes out as a typed array of
-/// doubles, see kDoublesTag; require_doubles() takes both.
+/// CBOR accepts integers, finite floats, texts, byte strings, lists, objects with texts as keys,
+/// true, false, null, and byte strings with kDoublesTag whose doubles are finite. Lengths must be
+/// definite; other tags and values are refused. No memory is allocated for claimed lengths that
+/// exceed the message. In JSON a list of at least kLongList elements, all numbers, becomes a typed
+/// array of doubles, see kDoublesTag; require_doubles() accepts both forms.
 /// @throws ProtocolError protocol/syntax, protocol/too-deep (more than kMaxDepth levels),
-///         protocol/duplicate-key, protocol/not-an-object, protocol/number (not finite, or too
-///         large).
+/// protocol/duplicate-key, protocol/not-an-object, protocol/number (not finite, or too large).
 [[nodiscard]] nlohmann::json decode(std::string_view bytes, Encoding encoding);
-/// See decode().
+/// Minimum length of a list that decode() converts to a typed array.
 inline constexpr std::size_t kLongList = 16;
 
-/// As decode(), for any JSON value of a line (MORSE's lists of arguments); long lists stay lists.
+/// Like decode(), but accepts any JSON value (MORSE's argument lists) and keeps long lists as
+/// lists.
 [[nodiscard]] nlohmann::json decode_json_value(std::string_view text);
 
 }  // namespace playerlike::protocol

@@ -35,7 +35,7 @@ constexpr bool kIsMap = false;
 template <typename Value>
 constexpr bool kIsMap<std::map<std::string, Value>> = true;
 
-constexpr int kMaxSide = 1 << 14;  // of a rectangle; canvases have no more than 8192
+constexpr int kMaxSide = 1 << 14;  // of a rectangle; canvases have at most 8192
 
 sim::CellRect require_rect(const json& object, const char* key) {
   const json& rect = require(object, key);
@@ -50,7 +50,7 @@ sim::CellRect require_rect(const json& object, const char* key) {
           number(3, 0, kMaxSide)};
 }
 
-// --- Fields of structs that are no requests
+// --- Fields of structs that are not requests
 
 constexpr WholeRange kAnyInt{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
@@ -129,7 +129,7 @@ concept HasFields = requires {
   fields_of(std::type_identity<Struct>{});
 };
 
-/// What a list is called in messages.
+/// Describes a list in errors.
 template <typename Element>
 constexpr const char* kListOf = "a list";
 template <>
@@ -144,7 +144,7 @@ constexpr const char* kListOf<sim::LayerInfo> = "a list of layers";
 constexpr std::string_view kLayerKinds[] = {"colour", "binary", "grey"};
 constexpr std::string_view kTimeModes[] = {"lockstep", "paced"};
 
-/// The key of a driver's setting on the wire, where angles are in radians.
+/// The key of a driver's setting on the wire, where angles are in radians (no "_deg").
 std::string wire_key(const SndSettingRow& row) {
   std::string_view key = row.key;
   if (key.ends_with("_deg")) key.remove_suffix(4);
@@ -196,7 +196,7 @@ json encode_value(const Value& value, Encoding encoding) {
   }
 }
 
-/// A value by its word. @param expected  the words, for the message.
+/// The index of a word in `words`. @param expected  describes the words in errors.
 std::size_t decode_word(const json& value, const char* key, std::span<const std::string_view> words,
                         const char* expected) {
   const auto word = std::find(words.begin(), words.end(), value);
@@ -377,7 +377,7 @@ Struct decode_fields(const json& message, Encoding encoding) {
   return to;
 }
 
-// --- Requests by their types
+// --- Requests by type
 
 template <typename One>
 Request decode_one(const json& message, Encoding encoding) {
@@ -389,7 +389,7 @@ Request decode_one(const json& message, Encoding encoding) {
 }
 
 struct RequestType {
-  std::string_view name;  ///< empty: never leaves the process
+  std::string_view name;  ///< empty: never sent
   Request (*decode)(const json& message, Encoding encoding) = nullptr;
 };
 
@@ -463,7 +463,7 @@ Answer decode_answer(const Request& request, const json& answer, Encoding encodi
       request);
 }
 
-// --- Structs for those who send no requests
+// --- Structs outside of requests
 
 json encode_robots(const std::vector<RobotInfo>& robots) {
   return encode_value(robots, Encoding::kJson);

@@ -9,24 +9,23 @@
 #include "playerlike/messages/requests.h"
 #include "protocol/framing.h"
 
-/// Requests and their answers as messages, by the fields that they list.
+/// Encodes requests and their answers from their lists of fields.
 namespace playerlike::protocol {
 
-/// The request of that name, as an index into the types of Request; nullopt if there is none.
+/// The index of a request's name in the types of Request; nullopt if there is none.
 [[nodiscard]] std::optional<std::size_t> find_request(std::string_view name) noexcept;
 
-/// A request as a client sends it, but for its `id`.
-/// @pre it has a name.
+/// Encodes a request as a client sends it, without `id`. @pre it has a name.
 [[nodiscard]] nlohmann::json encode_request(const Request& request, Encoding encoding);
-/// @param type  as find_request() gives it.
-/// @throws ProtocolError protocol/bad-value, also for keys that the request has not.
+/// @param type  from find_request(). @throws ProtocolError protocol/bad-value, also for unknown
+///              keys.
 [[nodiscard]] Request decode_request(std::size_t type, const nlohmann::json& message,
                                      Encoding encoding);
 
-/// What a request is answered with, but for the `id`.
+/// Encodes the answer to a request, without `id`.
 [[nodiscard]] nlohmann::json encode_answer(const Request& request, const Answer& answer,
                                            Encoding encoding);
-/// @throws ProtocolError protocol/bad-value. Keys that are not known are passed over.
+/// Ignores unknown keys. @throws ProtocolError protocol/bad-value.
 [[nodiscard]] Answer decode_answer(const Request& request, const nlohmann::json& answer,
                                    Encoding encoding);
 

@@ -22,16 +22,16 @@ inline constexpr double kRangeResolution_m = 0.001;
 
 /// What a laser's settings say before its first scan.
 struct ScannerSettings {
-  std::size_t count = 0;    ///< of beams
+  std::size_t count = 0;    ///< number of beams
   double least_rad = 0.0;   ///< angle of the first beam
-  double native_rad = 0.0;  ///< between neighbouring ones
+  double native_rad = 0.0;  ///< between neighbouring beams
   double range_max_m = 0.0;
   double frequency_hz = 0.0;
-  player_pose3d_t pose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< on the body
-  player_bbox3d_t size = {0.0, 0.0, 0.0};                 ///< of its case
+  player_pose3d_t pose = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< of the laser on the body
+  player_bbox3d_t size = {0.0, 0.0, 0.0};                 ///< of the laser's case
 };
 
-/// Reads them from a laser's properties.
+/// Reads the settings from a laser's properties.
 inline ScannerSettings scanner_settings(const std::map<std::string, double>& settings) {
   const auto property = [&](const char* name) { return setting_of(settings, name); };
   ScannerSettings scanner;
@@ -49,19 +49,21 @@ inline ScannerSettings scanner_settings(const std::map<std::string, double>& set
   return scanner;
 }
 
-/// Which of a scanner's beams a proxy shows: `shown` of them from `first` on, each `stride`-th.
+/// The beams of a scanner that a proxy exposes: `shown` beams, beginning at `first`, every
+/// `stride`-th.
 struct BeamWindow {
   std::size_t first = 0;
   std::size_t stride = 1;
   std::size_t shown = 0;
 };
 
-/// The beams within [min_rad, max_rad], as near to `resolution_rad` apart as there are (0: all).
-/// @param count, least_rad, native_rad  of the scanner's beams: number, first angle, difference.
+/// The beams within [min_rad, max_rad] with a spacing as close to `resolution_rad` as the scanner
+/// allows (0: all beams).
+/// @param count, least_rad, native_rad  the scanner's number of beams, first angle and spacing.
 /// @throws PlayerError kBadArgument in the name of `fun` if no beam lies there.
 inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, double resolution_rad,
                             std::size_t count, double least_rad, double native_rad) {
-  // Angles that differ by less than this part of a beam are the same.
+  // Tolerance for equal angles, as a fraction of the beam spacing.
   constexpr double kSameBeam = 1e-6;
   const double last = static_cast<double>(count) - 1.0;
   const double begin = std::max(0.0, std::ceil((min_rad - least_rad) / native_rad - kSameBeam));
@@ -72,14 +74,14 @@ inline BeamWindow window_of(const char* fun, double min_rad, double max_rad, dou
                                 std::to_string(least_rad) + " to " +
                                 std::to_string(least_rad + last * native_rad) + " rad");
   }
-  // A server may say that neighbouring beams are no angle apart: then all are shown.
+  // A server may report a spacing of zero: then the window has all beams.
   const double ratio = std::round(resolution_rad / native_rad);
   const auto stride = static_cast<std::size_t>(ratio >= 1.0 ? std::min(ratio, last + 1.0) : 1.0);
   return {static_cast<std::size_t>(begin), stride,
           static_cast<std::size_t>(end - begin) / stride + 1};
 }
 
-/// What a laser shows before its first scan: no beams.
+/// The scan that a proxy exposes before the first reading: no beams.
 inline sim::SharedReading announced_scan(const ScannerSettings& scanner) {
   auto scan = std::make_shared<sim::LaserReading>();
   scan->angle_min_rad = scanner.least_rad;
@@ -88,7 +90,7 @@ inline sim::SharedReading announced_scan(const ScannerSettings& scanner) {
   return scan;
 }
 
-/// The beams of a window of a scan; none if it has none.
+/// The beams of a scan that lie in a window; empty if there are none.
 inline std::shared_ptr<sim::LaserReading> part_of(const sim::LaserReading& scan,
                                                   const BeamWindow& window) {
   auto part = std::make_shared<sim::LaserReading>();
@@ -106,13 +108,13 @@ inline std::shared_ptr<sim::LaserReading> part_of(const sim::LaserReading& scan,
   return part;
 }
 
-/// The reading that elements are shown of, by its type.
+/// The reading to which the elements belong, as its own type.
 template <typename Reading>
 const Reading& owner_of(const Elements& elements) {
   return static_cast<const Reading&>(*static_cast<const sim::Reading*>(elements.Owner()));
 }
 
-/// Angle of a beam that is shown [rad].
+/// Angle of a beam of the window [rad].
 inline double bearing_rad(const sim::LaserReading& scan, std::size_t beam) {
   return scan.angle_min_rad + static_cast<double>(beam) * scan.resolution_rad;
 }

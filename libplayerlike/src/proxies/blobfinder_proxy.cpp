@@ -35,7 +35,7 @@ BlobfinderProxy::BlobfinderProxy(PlayerClient* aPc, uint32_t aIndex) : ClientPro
   Attach(PLAYER_BLOBFINDER_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
   const auto pixels = [this](const char* name) {
-    constexpr double kMost = 1 << 20U;  // servers may say what they like
+    constexpr double kMost = 1 << 20U;  // bounds the values that a server sends
     return static_cast<int>(std::clamp(mLink->property(name, 0.0), 0.0, kMost));
   };
   const auto announced = std::make_shared<BlobfinderReading>();

@@ -19,7 +19,7 @@ CameraProxy::CameraProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, 
   const char* fun = "CameraProxy::CameraProxy";
   Attach(PLAYER_CAMERA_CODE, aIndex, fun);
   const scoped_lock_t lock(LockData(fun));
-  // A server may say anything.
+  // Bounds the values that a server sends.
   const auto side = [this](const char* name, int most) {
     return static_cast<int>(std::clamp(mLink->property(name, 0.0), 0.0, 1.0 * most));
   };

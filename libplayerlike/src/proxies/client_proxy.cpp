@@ -30,9 +30,9 @@ void ClientProxy::Link::show(const sim::SharedReading& reading) {
 }
 
 ClientProxy::scoped_lock_t ClientProxy::Link::lock_anyway(int looks) const {
-  playerlike::virtual_time::note_looks(looks);
+  playerlike::virtual_time::count_data_reads(looks);
   scoped_lock_t lock(core->mutex());
-  if (has_readings) core->note_looks(looks, newest.valid);
+  if (has_readings) core->count_data_reads(looks, newest.valid);
   return lock;
 }
 
@@ -43,7 +43,7 @@ ClientProxy::scoped_lock_t ClientProxy::Link::lock(const char* fun, int looks) c
 }
 
 void ClientProxy::Link::refresh(double time_s) {
-  // The first data have none before them, so no time has elapsed.
+  // Before the first data there are none, so the elapsed time is zero.
   device.lasttime = newest.valid ? device.datatime : time_s;
   device.datatime = time_s;
   device.fresh = 1;
@@ -130,7 +130,7 @@ void ClientProxy::Subscribe(uint32_t aIndex) { mIndex = aIndex; }
 
 void ClientProxy::Unsubscribe() {
   mLink->core->remove(*mLink);
-  mReadSignal.disconnect_all_slots();  // none may see a proxy that is half gone
+  mReadSignal.disconnect_all_slots();  // no slot may use a partly destroyed proxy
   const scoped_lock_t lock(mLink->core->mutex());
   mLink->attached = false;
   mLink->newest.valid = false;
@@ -234,7 +234,7 @@ int ClientProxy::HasCapability(uint32_t aType, uint32_t aSubtype) {
       aType == PLAYER_MSGTYPE_REQ &&
       (aSubtype == PLAYER_CAPABILITIES_REQ || aSubtype == PLAYER_GET_BOOLPROP_REQ ||
        aSubtype == PLAYER_GET_INTPROP_REQ || aSubtype == PLAYER_GET_DBLPROP_REQ);
-  // A robot without motors has positions, too.
+  // A robot without motors still has position2d devices.
   const bool needs_motors =
       GetInterface() == PLAYER_POSITION2D_CODE &&
       (aType == PLAYER_MSGTYPE_CMD ||

@@ -32,7 +32,7 @@ player_fiducial_item_t FiducialProxy::GetFiducialItem(uint32_t aIndex) const {
   const FiducialReading::Mark& mark = marks[aIndex];
   item.id = mark.id;
   item.pose = {mark.X_ST.x_m, mark.X_ST.y_m, 0.0, 0.0, 0.0, mark.X_ST.yaw_rad};
-  // Along the line of sight the distance is uncertain, across it the direction.
+  // The distance is uncertain along the line of sight, the bearing across it.
   const double along = mLink->property("noise", 0.0);
   const double across =
       mLink->property("noise_bearing", 0.0) * std::hypot(mark.X_ST.x_m, mark.X_ST.y_m);

@@ -24,7 +24,7 @@ class Graphics2dProxy::Sheet final : public CCMorse::Drawing {
       : Drawing(core, "Graphics2dProxy", layer) {}
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;
-  ~Sheet() override { Core()->give_back_sheet(LayerNumber()); }
+  ~Sheet() override { Core()->release_layer(LayerNumber()); }
 
   using Drawing::MarkColour;
   using Drawing::SetMarkColour;
@@ -42,7 +42,7 @@ class Graphics2dProxy::Sheet final : public CCMorse::Drawing {
     FillPolygon(all.data(), all.size(), colour);
   }
 
-  /// A checked copy of an array of points.
+  /// Checks an array of points and copies it.
   std::vector<player_point_2d_t> checked(const char* function, const player_point_2d_t* points,
                                          int count) const {
     RequireUsable(function);
@@ -74,12 +74,12 @@ void Graphics2dProxy::Subscribe(uint32_t aIndex) {
   const std::shared_ptr<playerlike::ClientCore>& core = mLink->core;
   const sim::LayerId layer = playerlike::translated(fun, [&] {
     const scoped_lock_t lock(core->mutex());
-    return core->take_sheet();
+    return core->acquire_layer();
   });
   try {
     mSheet = std::make_unique<Sheet>(core, layer);
   } catch (...) {
-    core->give_back_sheet(layer);
+    core->release_layer(layer);
     throw;
   }
 }

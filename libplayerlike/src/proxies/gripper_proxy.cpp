@@ -15,7 +15,7 @@ using sim::GripperReading;
 
 namespace {
 
-// As Player's drivers for Pioneers have them.
+// The bits of Player's drivers for Pioneers.
 constexpr uint32_t kOuterBeam = 0x04;
 constexpr uint32_t kInnerBeam = 0x08;
 
@@ -119,7 +119,7 @@ uint32_t GripperProxy::GetGripperError() const {
 
 void GripperProxy::SetGrip(uint8_t aCmd, uint8_t /*aArg*/) {
   const char* fun = "GripperProxy::SetGrip";
-  switch (aCmd) {  // as the Pioneers' manuals number them
+  switch (aCmd) {  // command numbers of the Pioneer manuals
     case 1:
       return Grip(fun, PLAYER_GRIPPER_CMD_OPEN);
     case 2:

@@ -19,7 +19,7 @@ ImuProxy::ImuProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex
 ImuProxy::~ImuProxy() { ClientProxy::Unsubscribe(); }
 
 player_pose3d_t ImuProxy::GetPose() const {
-  // A reading is of one of the two kinds; of the other one there is none, and it counts as 0.
+  // The device is a compass or an IMU; the reading of the other type counts as 0.
   const double yaw_rad = Look(&sim::CompassReading::heading_rad) + Look(&sim::ImuReading::yaw_rad);
   return {0.0, 0.0, 0.0, 0.0, 0.0, yaw_rad};
 }

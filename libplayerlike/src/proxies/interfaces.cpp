@@ -14,14 +14,14 @@ struct InterfaceRow {
   const char* name;
 };
 constexpr InterfaceRow kInterfaceNames[] = {
-#include "proxies/interface_names.inc"  // made from libplayerlike/player/interfaces.txt
+#include "proxies/interface_names.inc"  // generated from libplayerlike/player/interfaces.txt
 };
 
-/// Which messages an interface's proxies understand or send.
+/// The messages that the proxies of an interface receive or send.
 struct MessageRow {
   uint32_t interface;
   uint32_t type;
-  std::uint64_t subtypes;  ///< as bits
+  std::uint64_t subtypes;  ///< a bit set
 };
 
 constexpr std::uint64_t subtypes_of(std::initializer_list<unsigned> subtypes) {

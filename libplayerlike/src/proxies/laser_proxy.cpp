@@ -41,7 +41,7 @@ void LaserProxy::HandleReading() {
   if (scan == nullptr) return View();
   mLink->measured = mLink->newest.reading;
   if (scan->ranges_m.size() != mCount) {
-    // Another geometry than announced: show all of it.
+    // The scan differs from the announced geometry: expose all of it.
     mCount = scan->ranges_m.size();
     mFirst = 0;
     mStride = 1;
@@ -50,7 +50,7 @@ void LaserProxy::HandleReading() {
   View();
 }
 
-// Shows what was measured, or a part of it.
+// Exposes the measured scan or a part of it.
 void LaserProxy::View() {
   if (mStride == 1 && mShown == mCount && mRangeRes == 0.0) return mLink->show(mLink->measured);
   const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
@@ -63,7 +63,7 @@ void LaserProxy::View() {
   mLink->show(shown);
 }
 
-// With the client's mutex held.
+// The caller holds the client's mutex.
 double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
   return mLink->element_or_zero(aFun, kBeams, aIndex, mLink->newest.as<LaserReading>().ranges_m);
 }
@@ -157,7 +157,7 @@ void LaserProxy::Configure(double aMinAngle, double aMaxAngle, uint32_t aScanRes
                              {{"the least angle", aMinAngle}, {"the greatest angle", aMaxAngle}});
   const scoped_lock_t lock(LockData(fun));
   const auto& scan = static_cast<const LaserReading&>(*mLink->measured);
-  // Beams are numbered from the first measured one; a window may reach beyond the scan.
+  // Beams are numbered from the first measured one; the angles may extend beyond the scan.
   const detail::BeamWindow window =
       detail::window_of(fun, aMinAngle, aMaxAngle, aScanRes * 0.01 * M_PI / 180.0, mCount,
                         scan.angle_min_rad, scan.resolution_rad);

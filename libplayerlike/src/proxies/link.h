@@ -36,18 +36,18 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   std::function<void()> notification() override;
   void on_close() override;
 
-  /// Locks the client's mutex, and notes that the program looks at the data.
-  /// @throws PlayerError as LockData().
+  /// Locks the client's mutex and counts `looks` accesses to data. @throws PlayerError as
+  /// LockData().
   [[nodiscard]] scoped_lock_t lock(const char* fun, int looks = 1) const;
-  /// The same without looking whether the client is there.
+  /// As lock(), without the check that the client is usable.
   [[nodiscard]] scoped_lock_t lock_anyway(int looks = 1) const;
-  /// Locks for a look that Elements::Find() has not answered.
+  /// Locks for an access that Elements::Find() could not answer without the mutex.
   [[nodiscard]] scoped_lock_t lock_element(const char* fun) const {
     return lock(fun, proxy.mElements.Looks());
   }
-  /// The reading that is shown is another one; with the client's mutex held, after begin_change().
+  /// Replaces the exposed reading. The client's mutex is held, and begin_change() was called.
   void show(const sim::SharedReading& reading);
-  /// Notes that there are data of this time [s]; with the client's mutex held.
+  /// Notes new data with this time stamp [s]. The client's mutex is held.
   void refresh(double time_s);
 
   [[nodiscard]] const playerlike::RobotInfo& robot() const {
@@ -56,7 +56,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   [[nodiscard]] const playerlike::DeviceInfo& info() const {
     return core->info_of(binding.reading);
   }
-  /// A setting of the device that readings come from.
+  /// A property of the device that makes the readings.
   [[nodiscard]] double property(const std::string& name, double otherwise) const;
 
   /// Whether `index` is below `count`: the check of all getters and setters of one element.
@@ -85,9 +85,9 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   const std::shared_ptr<playerlike::ClientCore> core;
   playerlike::InterfaceBinding binding;
   bool attached = false;
-  bool has_readings = false;    ///< of the device behind it, which it is subscribed to
-  playerlike::Newest newest;    ///< as it is shown
-  sim::SharedReading measured;  ///< of rangefinders: what it is a part of
+  bool has_readings = false;    ///< whether it is subscribed to a device that makes readings
+  playerlike::Newest newest;    ///< the exposed reading
+  sim::SharedReading measured;  ///< of rangefinders: the whole scan
   playerc_device_t device = {};
   /// Shared by copies: programs pass proxies by value in loops.
   std::shared_ptr<bool> has_warned = std::make_shared<bool>(false);
@@ -106,7 +106,7 @@ T ClientProxy::Look(T Reading::*aMember, const char* aFun) const {
   return mLink->newest.as<Reading>().*aMember;
 }
 
-/// What a client's calls go through, for the rest of the library.
+/// Gives the rest of the library access to a client's core.
 struct detail::CoreAccess {
   [[nodiscard]] static const std::shared_ptr<playerlike::ClientCore>& get(
       const PlayerClient& client) {
@@ -114,18 +114,18 @@ struct detail::CoreAccess {
   }
 };
 
-/// What Player calls the driver behind an address: the kind of device, or "world".
+/// Player's name of the driver at an address: the type of device, "snd" or "world".
 [[nodiscard]] inline std::string driver_name(const playerlike::ClientCore& core,
                                              const playerlike::InterfaceBinding& binding) {
   if (binding.is_world()) return "world";
   return binding.driver != nullptr ? "snd" : core.info_of(binding.reading).type;
 }
 
-/// Whether the proxies of an interface understand, or send, such messages.
+/// Whether the proxies of an interface receive or send such messages.
 [[nodiscard]] bool has_message(uint32_t interface, uint32_t type, uint32_t subtype) noexcept;
-/// Name of an interface by its code; nullptr if there is none.
+/// The name of an interface code; null if there is none.
 [[nodiscard]] const char* interface_name(int code) noexcept;
-/// Code of an interface by its name; nullopt if there is none.
+/// The code of an interface name; nullopt if there is none.
 [[nodiscard]] std::optional<int> interface_code(const std::string& name) noexcept;
 
 }  // namespace PlayerCc

@@ -8,7 +8,7 @@
 
 namespace PlayerCc {
 
-/// What is to change.
+/// The changes to make.
 struct LogProxy::Change : playerlike::LogRequest {};
 
 LogProxy::LogProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int8_t kDataRange = 1;
 
-// A cell as Player's map interface has it.
+// Converts an occupancy to a cell of Player's map interface.
 int8_t player_cell(float occupancy) {
   if (occupancy > 0.5F) return kDataRange;
   return occupancy < 0.5F ? static_cast<int8_t>(-kDataRange) : int8_t{0};
@@ -41,7 +41,7 @@ void MapProxy::RequestMap() {
             .map;
     const auto width = static_cast<std::size_t>(map.width);
     mCells.resize(map.cells.size());
-    // Ours begins with the top row, Player's with the bottom one.
+    // The first row is the top row here, and the bottom row in Player.
     for (int row = 0; row < map.height; ++row) {
       const auto from = map.cells.begin() + row * map.width;
       const auto y = static_cast<std::size_t>(map.height - 1 - row);

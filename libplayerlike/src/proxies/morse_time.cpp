@@ -39,7 +39,7 @@ void MorseTime::Sleep(double aSeconds) {
   translated("MorseTime::Sleep", [&] {
     mCore->require_usable();
     mCore->session().request(playerlike::SleepRequest{aSeconds});
-    // A session wakes sleepers at the end of the run, so a program that only sleeps learns of it
+    // A session wakes sleepers at the end of the run. A program that only sleeps gets the error
     // here.
     if (mCore->session().request(playerlike::TimeRequest{}).finished) {
       throw SessionError(SessionError::Code::kFinished, "the simulated run is over");

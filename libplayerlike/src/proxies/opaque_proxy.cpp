@@ -31,7 +31,7 @@ void OpaqueProxy::HandleReading() {
   mArrived = true;
 }
 
-// A reading without a message is nothing new.
+// A reading without a message does not make the proxy fresh.
 void OpaqueProxy::HandleRound() {
   mInRound = false;
   if (!mArrived) mFresh = mWasFresh;

@@ -24,28 +24,29 @@ using playerlike::translated_all;
 
 namespace {
 
-// How long the thread in the background waits for data before it looks whether it should stop.
-constexpr std::chrono::milliseconds kLook(10);
-// How long StopThread() waits for it. It can take longer only in a lockstep simulation that waits
-// for the very thread that called StopThread(); it ends by itself then, without touching anything.
+// How long the background thread waits for data before it checks whether to stop.
+constexpr std::chrono::milliseconds kPollPeriod(10);
+// How long StopThread() waits for the thread. It takes longer only in a lockstep simulation that
+// waits for the caller of StopThread(). In that case the thread ends later by itself and touches
+// nothing.
 constexpr std::chrono::milliseconds kPatience(1000);
 
-// A thread that reads, and what it shares with the client that started it.
+// State that the reading thread shares with the client that started it.
 struct Reader {
   std::atomic<bool> stop{false};
   std::mutex mutex;
   std::condition_variable changed;
-  bool joined = false;  // the lockstep, if it is to do that before the program goes on
+  bool joined = false;  // has joined the lockstep, if it must join before the caller goes on
   bool ended = false;
 };
 
-// In virtual time the program's own thread is part of the lockstep, too. Only when the one that
-// reads has joined it as well may that go on, or it would be chance when the first round comes.
+// In virtual time the program's own thread is in the lockstep too. It must not go on before the
+// reading thread has joined, otherwise the time of the first round would depend on scheduling.
 void join_lockstep(ClientCore& core, Reader& reader) {
   try {
     core.session().request(playerlike::JoinRequest{});
   } catch (const SessionError&) {
-    // The client is being destroyed: so the first look will find.
+    // The client is being destroyed; the first peek() will report that.
   }
   const std::lock_guard lock(reader.mutex);
   reader.joined = true;
@@ -63,11 +64,11 @@ void read_in_background(const std::shared_ptr<ClientCore>& core,
                         const std::shared_ptr<Reader>& reader) {
   bool over = false;
   try {
-    read_until_stopped(*core, reader->stop, kLook);
+    read_until_stopped(*core, reader->stop, kPollPeriod);
   } catch (const SessionError& e) {
     over = e.code() == SessionError::Code::kFinished;
   } catch (const PlayerError& e) {
-    // Of a subscriber of a read signal. Its other errors end the program, as in any thread.
+    // From a subscriber of a read signal. Its other errors end the program, as in any thread.
     over = e.GetErrorCode() == PlayerError::kRunIsOver;
     if (!over && e.GetErrorCode() != PlayerError::kDisconnected) throw;
   }
@@ -84,16 +85,16 @@ struct PlayerClient::Impl {
   uint32_t port = 0;
   int retry_limit = 0;
   double retry_time_s = 10.0;
-  std::vector<playerc_device_info_t> devices;  // under the client's mutex
+  std::vector<playerc_device_info_t> devices;  // guarded by the client's mutex
 
-  std::atomic<int> copies{1};  // of the client, with the first
+  std::atomic<int> copies{1};  // of the client, including the first
 
   std::atomic<bool> stop_run{false};
 
-  std::mutex thread_mutex;  // over what follows; never held while waiting for a thread
+  std::mutex thread_mutex;  // guards the members below; never held while waiting for a thread
   std::thread thread;
   std::shared_ptr<Reader> reader;
-  std::vector<std::thread> leaving;  // told to stop, not joined yet
+  std::vector<std::thread> leaving;  // asked to stop, not joined yet
 };
 
 PlayerClient::PlayerClient(std::unique_ptr<playerlike::Session> aSession,
@@ -139,7 +140,7 @@ PlayerClient::PlayerClient(const PlayerClient& aOther)
 PlayerClient::~PlayerClient() {
   if (--mImpl->copies > 0) return;
   Stop();
-  mCore->close();  // wakes the threads that wait
+  mCore->close();  // wakes the waiting threads
   std::vector<std::thread> threads;
   {
     const std::lock_guard lock(mImpl->thread_mutex);
@@ -148,7 +149,8 @@ PlayerClient::~PlayerClient() {
   }
   const playerlike::virtual_time::Inside inside;  // these threads need no simulated time to end
   for (std::thread& thread : threads) {
-    // Destroyed by a subscriber of a read signal: that thread shares all it still needs.
+    // A subscriber of a read signal destroys the client. Its thread shares ownership of all that it
+    // still needs.
     if (thread.get_id() == std::this_thread::get_id()) {
       thread.detach();
     } else {
@@ -172,7 +174,7 @@ void PlayerClient::StartThread() {
         playerlike::PreferRealTimeRequest{"a client reads in a thread of its own (StartThread)"});
     auto reader = std::make_shared<Reader>();
     const bool join = playerlike::virtual_time::active();
-    const playerlike::virtual_time::Inside inside;  // the thread is not the program's
+    const playerlike::virtual_time::Inside inside;  // the thread does not belong to the program
     mImpl->thread = std::thread([core = mCore, reader, join] {
       if (join) join_lockstep(*core, *reader);
       read_in_background(core, reader);
@@ -192,7 +194,7 @@ void PlayerClient::StopThread() {
   lock.unlock();
   if (!reader) return;
   {
-    // With the data locked: a round that is being handed out ends first, none follows.
+    // With the data locked, a round that is being delivered ends first, and no other follows.
     const mutex_t::scoped_lock data(mMutex);
     reader->stop = true;
   }
@@ -202,7 +204,8 @@ void PlayerClient::StopThread() {
   };
   bool ended = false;
   if (thread.get_id() != std::this_thread::get_id()) {
-    // It looks for that when simulated time goes on; in virtual time, that is up to this thread.
+    // The thread checks for that when simulated time advances; in virtual time the caller must let
+    // it.
     static_cast<void>(
         playerlike::virtual_time::wait_until(mCore->session().simulation(), has_ended));
     const playerlike::virtual_time::Inside inside;

@@ -17,15 +17,15 @@ using playerlike::translated;
 using sim::PoseReading;
 
 struct Position2dProxy::Control {
-  // What the motors let the robot do, for drivers.
+  // Limits of the robot's motors, for drivers.
   double robot_speed_mps = 0.0;
   double robot_turn_rate_radps = 0.0;
 
-  // Of an index that a driver offers: who takes the goals. What else the program commands ends
-  // its pursuit.
+  // The driver that pursues goals, if this index belongs to one. Other commands of the program
+  // cancel its goal.
   std::shared_ptr<playerlike::GoalDriver> driver;
 
-  // With the client's mutex held.
+  // The caller holds the client's mutex.
   static void send(Position2dProxy& proxy, const sim::Command& command, const char* fun) {
     const auto& link = *proxy.mLink;
     translated(fun, [&] {
@@ -39,10 +39,10 @@ struct Position2dProxy::Control {
     });
   }
 
-  // The frame that the proxy's readings are in, as commands name it.
+  // The frame of the proxy's readings, as a command field.
   static int frame(const Position2dProxy& proxy) { return proxy.mLink->binding.reading.device; }
 
-  // What makes the robot drive; ends what a driver does.
+  // Sends a command that moves the robot; cancels the driver's goal.
   static void drive(Position2dProxy& proxy, const sim::Command& command, const char* fun) {
     const scoped_lock_t lock(proxy.LockData(fun));
     if (proxy.mControl->driver != nullptr) proxy.mControl->driver->cancel();
@@ -176,7 +176,8 @@ void Position2dProxy::SetMotorEnable(bool enable) {
   const scoped_lock_t lock(LockData(fun));
   if (!enable && mControl->driver != nullptr) {
     mControl->driver->cancel();
-    // Else the driver's last speeds would go on when the motors are on again before the next step.
+    // Otherwise the driver's last speeds would apply again if the motors are re-enabled before the
+    // next step.
     Control::send(*this, sim::TwistCommand{}, fun);
   }
   Control::send(*this, sim::MotorEnableCommand{enable}, fun);

@@ -57,7 +57,7 @@ void RangerProxy::HandleReading() {
   }
   mLink->measured = newest.reading;
   const std::size_t count = ranges_of(newest).size();
-  if (count != mCount) {  // another geometry than announced: show all of it
+  if (count != mCount) {  // differs from the announced geometry: expose all of it
     mCount = count;
     mFirst = 0;
     mStride = 1;
@@ -66,7 +66,7 @@ void RangerProxy::HandleReading() {
   View();
 }
 
-// Shows what was measured, or a part of it.
+// Exposes the measured ranges or a part of them.
 void RangerProxy::View() {
   mLink->show(mLink->measured);
   if (mStride == 1 && mShown == mCount && mRangeRes == 0.0 && mMinRange == 0.0 &&

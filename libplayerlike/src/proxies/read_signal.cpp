@@ -9,17 +9,17 @@
 namespace PlayerCc {
 
 struct read_signal_t::State {
-  // Recursive: a subscriber may connect, disconnect and even call the signal.
+  // Recursive, since a subscriber may connect, disconnect and even call the signal.
   mutable std::recursive_mutex mutex;
   std::vector<std::shared_ptr<read_connection_t::Slot>> slots;
-  // Their number, to be asked without waiting for a subscriber that runs.
+  // Number of slots, readable while a subscriber runs and holds the mutex.
   std::atomic<std::size_t> count{0};
 };
 
 struct read_connection_t::Slot {
   std::weak_ptr<read_signal_t::State> owner;
   std::function<void()> call;
-  bool connected = true;  // under the owner's mutex
+  bool connected = true;  // guarded by the owner's mutex
 };
 
 bool read_connection_t::connected() const {
@@ -73,10 +73,10 @@ bool read_signal_t::empty() const { return num_slots() == 0; }
 std::size_t read_signal_t::num_slots() const { return mState->count; }
 
 std::function<void()> read_signal_t::call() const {
-  // The state is held, so that the signal itself may be gone when this is called.
+  // Captures the state, so that the signal may be destroyed before this function is called.
   return [state = mState] {
     const std::lock_guard lock(state->mutex);
-    const auto slots = state->slots;  // subscribers may change the list
+    const auto slots = state->slots;  // a copy, since subscribers may change the list
     for (const auto& slot : slots) {
       if (slot->connected) slot->call();
     }

@@ -14,26 +14,25 @@
 #include "proxies/link.h"
 #include "sim/devices/rangers.h"
 
-/// What the proxies of sensors with several elements have in common.
+/// Shared helpers of the proxies of sensors with several elements.
 namespace PlayerCc::detail {
 
 /// Of sonars and infrared rings.
 inline constexpr ElementWords kTransducers{"transducer", "transducers"};
 
-/// How many ranges a reading has.
+/// The number of ranges in a reading.
 inline uint32_t count_of_ranges(const sim::RangerReading& reading) {
   return static_cast<uint32_t>(reading.ranges_m.size());
 }
 
-/// One of a device's settings; 0 if it has none of that name.
+/// A property of a device; 0 if it has none of that name.
 inline double setting_of(const std::map<std::string, double>& settings, const std::string& name) {
   const auto it = settings.find(name);
   return it == settings.end() ? 0.0 : it->second;
 }
 
-/// One of a device's settings that counts something; 0 if it has none of that name.
-/// @throws PlayerError kNotAvailable if it is no whole number up to kMostElements: servers may say
-///         what they like.
+/// A property of a device that is a count; 0 if it has none of that name. @throws PlayerError
+/// kNotAvailable unless it is a whole number up to kMostElements, since servers may send anything.
 inline constexpr std::size_t kMostElements = std::size_t{1} << 20U;
 inline std::size_t count_of(const std::map<std::string, double>& settings,
                             const std::string& name) {
@@ -48,8 +47,8 @@ inline std::size_t count_of(const std::map<std::string, double>& settings,
                     PlayerError::kNotAvailable);
 }
 
-/// Poses on the body of the elements of a device that has the properties count, mount_x_0,
-/// mount_y_0, mount_yaw_0, ... and height.
+/// Poses on the body of a device's elements, from its properties count, mount_x_0, mount_y_0,
+/// mount_yaw_0, ... and height.
 inline std::vector<player_pose3d_t> element_poses(const std::map<std::string, double>& settings) {
   const auto setting = [&](const std::string& name) { return setting_of(settings, name); };
   std::vector<player_pose3d_t> poses(count_of(settings, "count"));
@@ -62,7 +61,7 @@ inline std::vector<player_pose3d_t> element_poses(const std::map<std::string, do
   return poses;
 }
 
-/// Prints a pose as proxies do: "x y yaw", with tabs.
+/// Prints a pose in the format of proxies: "x y yaw", separated by tabs.
 inline void print_pose(std::ostream& os, const player_pose3d_t& pose) {
   os << pose.px << '\t' << pose.py << '\t' << pose.pyaw;
 }

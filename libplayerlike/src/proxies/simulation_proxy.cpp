@@ -26,10 +26,11 @@ bool StrictSimulation::holds() noexcept { return strict > 0; }
 namespace PlayerCc {
 namespace {
 
-// A proxy tells so many different things at most, for programs that make names up for ever.
+// Maximum number of different warnings of a proxy; it bounds memory if a program makes up names
+// forever.
 constexpr std::size_t kMostTold = 20;
 
-// What a name that must be given says.
+// Checks that a required name is not a null pointer.
 std::string text(const char* fun, const char* what, const char* given) {
   if (given != nullptr) return given;
   playerlike::refuse(fun, std::string(what) + " is a null pointer");
@@ -48,7 +49,7 @@ SimulationProxy::SimulationProxy(PlayerClient* aPc, uint32_t aIndex) : ClientPro
 
 SimulationProxy::~SimulationProxy() { ClientProxy::Unsubscribe(); }
 
-// With the client's mutex held.
+// The caller holds the client's mutex.
 template <typename Action>
 void SimulationProxy::Try(const char* aFun, Action aAction) {
   playerlike::translated(aFun, [&] {

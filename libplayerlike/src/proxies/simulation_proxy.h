@@ -3,8 +3,8 @@
 
 namespace playerlike {
 
-/// While one lives, SimulationProxy throws in its thread what it otherwise only warns of: for who
-/// has a way of telling it, such as the C library.
+/// While an object exists, SimulationProxy throws errors in this thread that it otherwise only logs
+/// as warnings. For callers that report errors in another way, such as the C library.
 class StrictSimulation {
  public:
   StrictSimulation() noexcept;
@@ -12,7 +12,7 @@ class StrictSimulation {
   StrictSimulation& operator=(const StrictSimulation&) = delete;
   ~StrictSimulation();
 
-  /// Whether one lives in the calling thread.
+  /// Whether an object exists in the calling thread.
   [[nodiscard]] static bool holds() noexcept;
 };
 

@@ -12,7 +12,7 @@
 namespace PlayerCc {
 namespace {
 
-// What of a text can be said.
+// Removes the characters of a text that cannot be said (control characters, invalid UTF-8).
 std::string sayable(std::string_view text) {
   std::string said;
   while (!text.empty()) {

@@ -12,7 +12,7 @@
 namespace PlayerCc {
 namespace {
 
-// Copies a text into an array of bytes, with a zero at its end.
+// Copies a text into an array of bytes and terminates it with a zero.
 template <std::size_t size>
 void put(const std::string& text, uint8_t (&into)[size]) {
   const std::size_t length = std::min(text.size(), size - 1);
@@ -55,7 +55,7 @@ void WiFiProxy::HandleReading() {
   mOwnIp[length] = '\0';
 }
 
-// With the client's mutex held.
+// The caller holds the client's mutex.
 playerc_wifi_link_t& WiFiProxy::Link(int aIndex, const char* aFun) const {
   if (mLink->has_element(aFun, {"link", "links"}, aIndex, mLinks.size())) {
     return mLinks[static_cast<std::size_t>(aIndex)];

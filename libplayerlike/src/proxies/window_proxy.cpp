@@ -17,16 +17,16 @@ using playerlike::translated;
 
 namespace {
 
-// The windows of this process, in the order in which they were made.
+// The windows of this process in order of creation.
 struct Windows {
   struct Entry {
-    const ClientCore* core;  // of a window that lives, so it lives too
+    const ClientCore* core;  // its window exists, so it is valid
     WindowProxy* window;
   };
   std::mutex mutex;
   std::vector<Entry> entries;
 
-  // Never destroyed: programs may delete windows while static objects are destroyed.
+  // Never destroyed: programs may delete windows during static destruction.
   static Windows& instance() {
     static auto* windows = new Windows;
     return *windows;
@@ -71,7 +71,7 @@ WindowProxy& WindowProxy::GetInstance(PlayerClient* aClient, int aWidth, int aHe
     if (entry.core == core.get()) return *entry.window;
   }
   windows.entries.reserve(windows.entries.size() + 1);
-  auto* window = new WindowProxy(core);  // the program deletes it
+  auto* window = new WindowProxy(core);  // owned by the program
   windows.entries.push_back({core.get(), window});
   return *window;
 }
@@ -99,7 +99,7 @@ WindowProxy::~WindowProxy() {
   std::erase_if(windows.entries, [this](const Windows::Entry& e) { return e.window == this; });
 }
 
-// With mLayersMutex held, as the next one.
+// Handle() and Find() need mLayersMutex.
 GridMapLayer& WindowProxy::Handle(int aLayer, GridMapLayer::Kind aKind) {
   for (const auto& handle : mHandles) {
     if (handle->LayerNumber() == aLayer) return *handle;
@@ -108,8 +108,8 @@ GridMapLayer& WindowProxy::Handle(int aLayer, GridMapLayer::Kind aKind) {
   return *mHandles.back();
 }
 
-// Mostly finds the name among the handles, so that asking for a layer again and again is cheap;
-// the others were made by an earlier window or another proxy of the client.
+// Looks among the handles first, so that repeated calls with a layer's name are cheap. Other layers
+// belong to an earlier window or to another proxy of the client.
 GridMapLayer* WindowProxy::Find(const std::string& aName) {
   for (const auto& handle : mHandles) {
     if (!handle->Retired() && handle->GetName() == aName) return handle.get();

@@ -30,17 +30,17 @@ using protocol::ProtocolError;
 using Clock = Connection::Clock;
 using std::chrono::milliseconds;
 
-// Longest answer: all cells that a simulation may have, in base64.
+// Limit of an answer: all cells that a simulation may have, in base64.
 constexpr std::size_t kAnswerLimit = std::size_t{512} << 20U;
 constexpr std::size_t kRoom = std::size_t{256} << 10U;
-// The id of requests whose answers nobody waits for.
+// The id of requests whose answers are ignored.
 constexpr std::uint64_t kNobody = 0;
 
 std::string seconds_text(Clock::duration duration) {
   return sim::rounded_text(std::chrono::duration<double>(duration).count(), 6) + " s";
 }
 
-/// Waits until something can be read (or written). @return whether it can, before the deadline.
+/// Waits until the socket is readable (or writable). @return false at the deadline.
 bool wait_for(int socket, short events, Clock::time_point deadline) {
   for (;;) {
     const auto left = std::chrono::ceil<milliseconds>(deadline - Clock::now());
@@ -52,13 +52,13 @@ bool wait_for(int socket, short events, Clock::time_point deadline) {
   }
 }
 
-/// One end after which there is no other: the whole attempt has so long.
+/// A deadline for the whole attempt to connect.
 class Deadline {
  public:
   Deadline(Clock::duration timeout, const std::function<bool()>& give_up)
       : end_(Clock::now() + timeout), give_up_(give_up) {}
   [[nodiscard]] Clock::time_point end() const noexcept { return end_; }
-  /// Waits until `ready(until)` is true. @param share  of the time that is left.
+  /// Waits until `ready(until)` is true. @param share  the wait may use 1/share of the time left.
   template <typename Ready>
   [[nodiscard]] bool wait(Ready ready, std::size_t share = 1) const {
     const auto now = Clock::now();
@@ -80,13 +80,13 @@ class Deadline {
                      "cannot connect to " + address.text() + ": " + why);
 }
 
-/// The addresses of a host.
+/// Resolves a host name.
 std::vector<asio::ip::address> look_up(const ServerAddress& server, Clock::duration timeout,
                                        const Deadline& deadline) {
   asio::error_code error;
   if (const auto numeric = asio::ip::make_address(server.host, error); !error) return {numeric};
   using Found = std::pair<asio::error_code, std::vector<asio::ip::address>>;
-  // The system's look-up cannot be ended from outside: one that takes too long is left to itself.
+  // A resolver call cannot be cancelled. If it takes too long, its thread is abandoned.
   const auto promise = std::make_shared<std::promise<Found>>();
   std::future<Found> future = promise->get_future();
   std::thread([promise, host = server.host] {
@@ -111,7 +111,7 @@ std::vector<asio::ip::address> look_up(const ServerAddress& server, Clock::durat
   return found.second;
 }
 
-/// Connects a socket, or says why not.
+/// Connects a socket. @return the error text, nullopt if it is connected.
 std::optional<std::string> connect(tcp::socket& socket, const tcp::endpoint& endpoint,
                                    const Deadline& deadline, std::size_t share) {
   asio::error_code error;
@@ -139,19 +139,19 @@ std::optional<std::string> connect(tcp::socket& socket, const tcp::endpoint& end
   return error.message();
 }
 
-/// A text of a message; `otherwise` if it has none of that name, or something else.
+/// A message's text member; `otherwise` if it is missing or not a text.
 std::string text_or(const json& message, const char* key, const std::string& otherwise) {
   if (!message.is_object()) return otherwise;
   const auto text = message.find(key);
   return text != message.end() && text->is_string() ? text->get<std::string>() : otherwise;
 }
 
-/// The error that an answer tells of, as sessions have it.
+/// Converts an error answer to a SessionError.
 SessionError error_of(const json& message) {
   const std::string id = text_or(message, "error", "");
   const std::string text = text_or(message, "message", id);
   if (const auto code = protocol::session_error_code(id)) return {*code, text};
-  // What the client library lets through of what the server's checks do not.
+  // The server's checks are stricter than the client library's in a few cases.
   const bool bad = id == "protocol/bad-value" || id == "protocol/number";
   return {bad ? SessionError::Code::kBadArgument : SessionError::Code::kNotAvailable,
           text + " [" + id + ']'};
@@ -175,23 +175,23 @@ struct Connection::Impl {
   asio::io_context context;
   tcp::socket socket{context};
   Encoding encoding = Encoding::kJson;
-  MessageSplitter splitter{Encoding::kJson, kAnswerLimit};  // the leader's
+  MessageSplitter splitter{Encoding::kJson, kAnswerLimit};  // used by the leader only
   json welcome;
   std::size_t message_limit = 0;
   std::atomic<Clock::rep> timeout{};
 
-  std::mutex send_mutex;  // over writing to the socket; never taken with `mutex` held
+  std::mutex send_mutex;  // guards writes to the socket; never locked while `mutex` is held
 
-  std::mutex mutex;  // over what follows
+  std::mutex mutex;  // guards the members below
   std::condition_variable changed;
   std::uint64_t next_id = kNobody + 1;
   std::map<std::uint64_t, Slot> slots;
-  bool led = false;   // somebody reads the socket
-  int followers = 0;  // those who wait for the leader
+  bool led = false;   // a leader is reading the socket
+  int followers = 0;  // threads that wait for the leader
   Clock::time_point heard{};
-  Clock::time_point asked{};  // when it was last asked whether it lives
-  std::optional<SessionError> complaint;
-  std::string farewell;  // of the server
+  Clock::time_point asked{};  // when the server was last asked for a sign of life
+  std::optional<SessionError> async_error;
+  std::string bye_message;  // the server's last message
   bool lost = false;
   std::string reason;
 
@@ -202,10 +202,11 @@ struct Connection::Impl {
       const std::lock_guard lock(mutex);
       if (lost) return;
       lost = true;
-      reason =
-          farewell.empty() ? why : "the server at " + address.text() + " has ended: " + farewell;
+      reason = bye_message.empty()
+                   ? why
+                   : "the server at " + address.text() + " has ended: " + bye_message;
     }
-    // Not closed: another thread may be waiting on it.
+    // Not closed: another thread may be polling it.
     ::shutdown(socket.native_handle(), SHUT_RDWR);
     changed.notify_all();
   }
@@ -245,7 +246,7 @@ struct Connection::Impl {
     throw_lost();
   }
 
-  /// Reads once, if something comes before the deadline. The leader's alone.
+  /// Reads once if data arrive before the deadline. Only the leader may call it.
   std::vector<json> receive(Clock::time_point deadline) {
     std::vector<json> messages;
     const auto take = [&] {
@@ -253,7 +254,7 @@ struct Connection::Impl {
         messages.push_back(protocol::decode(*message, encoding));
       }
     };
-    take();  // what came together with the answer to hello
+    take();  // messages that arrived together with the answer to hello
     if (!messages.empty() || !wait_for(socket.native_handle(), POLLIN, deadline)) return messages;
     const std::span<char> room = splitter.room(kRoom);
     asio::error_code error;
@@ -272,13 +273,13 @@ struct Connection::Impl {
     return messages;
   }
 
-  /// Whether something waits to be read.
+  /// Whether the socket has data to read.
   [[nodiscard]] bool has_unread() {
     pollfd polled{socket.native_handle(), POLLIN, 0};
     return poll(&polled, 1, 0) > 0;
   }
 
-  /// Leads for one look at the socket; `lock` is held before and after.
+  /// Reads the socket once as the leader; `lock` is held before and after.
   void lead(std::unique_lock<std::mutex>& lock, Clock::time_point deadline) {
     led = true;
     lock.unlock();
@@ -310,11 +311,11 @@ struct Connection::Impl {
       return;
     }
     const std::string event = text_or(message, "event", "");
-    if (event == "error" && !complaint) complaint = error_of(message);
-    if (event == "bye") farewell = text_or(message, "message", "good-bye");
+    if (event == "error" && !async_error) async_error = error_of(message);
+    if (event == "bye") bye_message = text_or(message, "message", "good-bye");
   }
 
-  /// Says hello on the new connection. @throws SessionError.
+  /// Sends hello on the new connection and checks the answer. @throws SessionError.
   void say_hello(const json& hello, const Deadline& deadline) {
     const auto no_playpen = [&](const std::string& what) {
       fail_to_connect(address, "there is no Playpen server: " + what);
@@ -373,7 +374,7 @@ std::shared_ptr<Connection> Connection::open(const ServerAddress& address, const
   std::string reasons;
   for (std::size_t i = 0; i < hosts.size(); ++i) {
     const tcp::endpoint endpoint(hosts[i], static_cast<asio::ip::port_type>(address.tcp_port));
-    // Each of those that are left gets an equal share of the time that is left.
+    // Each remaining address gets an equal share of the time left.
     const auto problem = connect(impl->socket, endpoint, deadline, hosts.size() - i);
     if (!problem) {
       impl->say_hello(hello, deadline);
@@ -415,14 +416,14 @@ std::uint64_t Connection::ask(json& request, std::string before) {
   return id;
 }
 
-json Connection::answer(std::uint64_t id, Patience patience,
+json Connection::answer(std::uint64_t id, WaitPolicy policy,
                         std::optional<Clock::duration> at_most) {
   Impl& c = *impl_;
   std::unique_lock lock(c.mutex);
   const auto began = Clock::now();
   c.heard = std::max(c.heard, began);
   const auto slot = c.slots.find(id);
-  bool looked = false;  // into the splitter, when the time was over
+  bool looked = false;  // whether the splitter was searched after the time limit
   for (;;) {
     if (slot->second.answer) {
       json answer = std::move(*slot->second.answer);
@@ -435,10 +436,10 @@ json Connection::answer(std::uint64_t id, Patience patience,
       throw ConnectionLost(c.reason);
     }
     const auto timeout = std::min(c.request_timeout(), at_most.value_or(Clock::duration::max()));
-    const bool living = patience == Patience::kLiving;
+    const bool living = policy == WaitPolicy::kWhileAlive;
     const auto limit = (living ? c.heard : began) + timeout;
     const auto now = Clock::now();
-    // What lies there already counts, however late this thread gets to look.
+    // Data that arrived in time count, even if this thread was scheduled late.
     if (now >= limit && now < limit + std::max<Clock::duration>(timeout, milliseconds(1000)) &&
         (c.has_unread() || !std::exchange(looked, true))) {
       if (!c.led) {
@@ -468,7 +469,7 @@ json Connection::answer(std::uint64_t id, Patience patience,
         try {
           c.send(question);
         } catch (const ConnectionLost&) {
-          // Seen at the head of the loop.
+          // The start of the loop handles it.
         }
         lock.lock();
         continue;
@@ -493,9 +494,9 @@ void Connection::tell(std::string_view bytes) {
   impl_->send(bytes);
 }
 
-std::optional<SessionError> Connection::complaint() {
+std::optional<SessionError> Connection::async_error() {
   const std::lock_guard lock(impl_->mutex);
-  return std::exchange(impl_->complaint, std::nullopt);
+  return std::exchange(impl_->async_error, std::nullopt);
 }
 
 bool Connection::lost() const noexcept {
@@ -508,6 +509,6 @@ bool Connection::lost() const noexcept {
   return count == 0;
 }
 
-void Connection::shut(const std::string& reason) noexcept { impl_->lose(reason); }
+void Connection::close(const std::string& reason) noexcept { impl_->lose(reason); }
 
 }  // namespace playerlike

@@ -18,29 +18,30 @@
 
 namespace playerlike {
 
-/// A connection that is no more: what the messages of a lost one are told by.
+/// A lost connection; the message says why it was lost.
 class ConnectionLost : public SessionError {
  public:
   explicit ConnectionLost(const std::string& message)
       : SessionError(Code::kDisconnected, message) {}
 };
 
-/// The client's end of one connection that speaks Playpen's protocol (docs/protocol.md).
+/// The client's end of a connection in Playpen's protocol (docs/protocol.md).
 ///
-/// There is no thread behind it: of the threads that wait for answers one at a time, the leader,
-/// reads the socket and hands the others what is theirs; when its own answer is there, another one
-/// leads. All members may be called from any thread. Whatever goes wrong with the connection ends
-/// it, for all of them.
+/// It has no thread of its own. One of the threads that wait for answers, the leader, reads the
+/// socket and hands the other threads their answers. When the leader has its own answer, another
+/// thread becomes the leader. All members may be called from any thread. Any failure ends the
+/// connection for all threads.
 class Connection {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Looks the host up, tries all its addresses in turn, and says hello.
-  /// @param hello    its argument, encoding included.
-  /// @param timeout  of all that together.
-  /// @param give_up  asked now and then; true ends the attempt.
-  /// @throws SessionError kDisconnected that names host, port and reason; what the server has
-  ///         against it.
+  /// Resolves the host, tries all its addresses in turn, and sends hello.
+  ///
+  /// @param hello    the argument of hello, encoding included.
+  /// @param timeout  of the whole attempt.
+  /// @param give_up  polled; true ends the attempt.
+  /// @throws SessionError kDisconnected that names host, port and reason; the server's error if it
+  /// refuses.
   [[nodiscard]] static std::shared_ptr<Connection> open(const ServerAddress& address,
                                                         const nlohmann::json& hello,
                                                         Clock::duration timeout,
@@ -49,38 +50,37 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// What the server has answered to hello.
+  /// The server's answer to hello.
   [[nodiscard]] const nlohmann::json& welcome() const noexcept;
   [[nodiscard]] protocol::Encoding encoding() const noexcept;
-  /// Of a message to the server [bytes].
+  /// Maximum length of a message to the server [bytes].
   [[nodiscard]] std::size_t message_limit() const noexcept;
-  /// How long an answer may take.
+  /// Sets the maximum time to wait for an answer.
   void set_request_timeout(Clock::duration timeout) noexcept;
 
-  /// How long the answer to a request is waited for.
-  enum class Patience {
-    kTimeout,  ///< the request timeout
-    kLiving,   ///< as long as the server shows within each request timeout that it lives; it is
-               ///< asked for the time when it has been silent for half of that
+  /// How long to wait for the answer to a request.
+  enum class WaitPolicy {
+    kTimeout,     ///< the request timeout
+    kWhileAlive,  ///< as long as the server is alive: after half of a request timeout without data
+                  ///< it is asked for the time; a whole timeout without data ends the connection
   };
-  /// Sends bytes (messages), then a request, in one piece. Gives the request its `id`.
-  /// @return the id, for answer(), which must be called.
-  /// @throws ConnectionLost.
+  /// Sends `before` (encoded messages) and a request in one piece. Sets the `id` of the request.
+  /// @return the id for answer(), which must be called. @throws ConnectionLost.
   [[nodiscard]] std::uint64_t ask(nlohmann::json& request, std::string before = {});
   /// Waits for an answer.
-  /// @param at_most  instead of the request timeout, if shorter.
-  /// @throws ConnectionLost; SessionError for an answer that is an error.
-  [[nodiscard]] nlohmann::json answer(std::uint64_t id, Patience patience = Patience::kTimeout,
+  /// @param at_most  replaces the request timeout if it is shorter.
+  /// @throws ConnectionLost; SessionError for an error answer.
+  [[nodiscard]] nlohmann::json answer(std::uint64_t id, WaitPolicy policy = WaitPolicy::kTimeout,
                                       std::optional<Clock::duration> at_most = std::nullopt);
-  /// Sends a message that is not answered, or several. @throws ConnectionLost.
+  /// Sends one or more messages that have no answers. @throws ConnectionLost.
   void tell(std::string_view bytes);
-  /// The first error since the last call that such a message has met with.
-  [[nodiscard]] std::optional<SessionError> complaint();
+  /// The first error of such messages since the last call.
+  [[nodiscard]] std::optional<SessionError> async_error();
 
-  /// Whether nothing can be sent any more; looks at the socket too.
+  /// Whether the connection is lost; checks the socket too.
   [[nodiscard]] bool lost() const noexcept;
-  /// Ends the connection, waking all who wait.
-  void shut(const std::string& reason) noexcept;
+  /// Ends the connection and wakes all threads that wait.
+  void close(const std::string& reason) noexcept;
 
  private:
   struct Impl;

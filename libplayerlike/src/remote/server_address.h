@@ -8,7 +8,7 @@
 
 namespace playerlike {
 
-/// Where a server is.
+/// The address of a server.
 struct ServerAddress {
   std::string host;  ///< a name, or an IPv4 or IPv6 address without brackets
   int tcp_port = protocol::kDefaultTcpPort;
@@ -17,11 +17,11 @@ struct ServerAddress {
   [[nodiscard]] std::string text() const;
 };
 
-/// What host names that mean a server may begin with.
+/// Optional prefix of host names that mean a Playpen server.
 inline constexpr std::string_view kTcpPrefix = "tcp://";
 
-/// Reads "tcp://HOST[:PORT]" or "HOST[:PORT]"; an IPv6 address is in brackets.
-/// @throws SessionError kBadArgument, saying what is wrong.
+/// Parses "tcp://HOST[:PORT]" or "HOST[:PORT]"; an IPv6 address is in brackets. @throws
+/// SessionError kBadArgument with the reason.
 [[nodiscard]] ServerAddress parse_server_address(const std::string& text);
 
 }  // namespace playerlike

@@ -1,23 +1,23 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Requests with more cells than a message holds: they go in pieces.
+// Requests whose cells do not fit one message, and are sent in pieces.
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
 
-#include "playerlike/session/layer_book.h"
-#include "remote/socket_line.h"
+#include "playerlike/session/layer_registry.h"
+#include "remote/message_sender.h"
 #include "remote/socket_session.h"
 #include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
 
-// Of a message that sets cells, besides the cells [bytes].
+// Room in a message for everything except the cells [bytes].
 constexpr std::size_t kMessageOverhead = 512;
-// Longest side of a rectangle in a message.
+// Maximum side of a rectangle in a message [cells].
 constexpr std::size_t kMaxMapSide = 8192;
-// Sides of the tiles in which maps are fetched [cells]: 4 MiB each.
+// Sides of the tiles in which maps are fetched [cells]; a tile takes 4 MiB.
 constexpr int kTileSide = 1024;
 
 }  // namespace
@@ -25,9 +25,9 @@ constexpr int kTileSide = 1024;
 void SocketSession::set_cells(const SetCellsRequest& what) const {
   const sim::CellRect& rect = what.rect;
   require_cells(rect, what.cells.size());
-  const std::shared_ptr<Connection> connection = line_->connection();
+  const std::shared_ptr<Connection> connection = sender_->connection();
   const protocol::Encoding encoding = connection->encoding();
-  // Pieces that fit a message: rows if they do, else parts of rows.
+  // Pieces must fit a message: whole rows if possible, otherwise parts of rows.
   const std::size_t most =
       std::max<std::size_t>((connection->message_limit() - kMessageOverhead) /
                                 (encoding == protocol::Encoding::kCbor ? 4 : 6),

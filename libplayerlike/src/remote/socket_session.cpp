@@ -10,11 +10,11 @@
 #include <random>
 #include <utility>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "process/end_of_program.h"
 #include "process/thread_end.h"
 #include "protocol/request_codec.h"
-#include "remote/socket_line.h"
+#include "remote/message_sender.h"
 #include "session/checks.h"
 #include "sim/core/error.h"
 
@@ -26,7 +26,7 @@ using protocol::Encoding;
 using std::chrono::milliseconds;
 using Seconds = std::chrono::duration<double>;
 
-// A program that ignores the end of the run this often is ended, as in an embedded simulation.
+// The program is ended after so many reads beyond the end of the run, as in an embedded simulation.
 constexpr int kReadsAfterEnd = 1000;
 constexpr double kLongest_s = 1e9;  // 30 years
 Connection::Clock::duration wall(double seconds) {
@@ -34,25 +34,26 @@ Connection::Clock::duration wall(double seconds) {
       Seconds(std::clamp(seconds, 0.0, kLongest_s)));
 }
 
-// Nobody is to wait for a thread that has ended.
-void say_goodbye(void* line) {
+// Tells the server that a thread has ended, so that nobody waits for it.
+void say_goodbye(void* sender) {
   try {
-    static_cast<SocketLine*>(line)->tell(json{{"do", "thread_ended"}, {"thread", this_thinker()}});
+    static_cast<MessageSender*>(sender)->tell(
+        json{{"do", "thread_ended"}, {"thread", this_thread_id()}});
   } catch (const std::exception&) {
-    // The server notices that it has lost the connection.
+    // The server notices the lost connection itself.
   }
 }
 
-/// What no other process calls itself.
+/// A name that no other process has.
 std::string process_name() {
   static const std::string random = [] {
     std::random_device device;
     return std::to_string(device()) + '-' + std::to_string(device());
   }();
-  return random + '-' + std::to_string(getpid());  // not that of a process that this one forked
+  return random + '-' + std::to_string(getpid());  // the pid tells a forked child from its parent
 }
 
-/// The name of this program, as a server takes it.
+/// The program's name in the form that servers accept.
 std::string program_name() {
   constexpr std::size_t kMost = 64;
   std::string name;
@@ -63,7 +64,7 @@ std::string program_name() {
   return name.substr(0, kMost);
 }
 
-/// Reads an answer: what it should hold and does not is the server's fault.
+/// Decodes an answer; an error in it is the server's fault.
 template <typename Read>
 auto understood(Read read) -> decltype(read()) {
   try {
@@ -74,7 +75,7 @@ auto understood(Read read) -> decltype(read()) {
 }
 
 json read_request(const char* wait) {
-  return {{"do", "read"}, {"wait", wait}, {"thread", this_thinker()}};
+  return {{"do", "read"}, {"wait", wait}, {"thread", this_thread_id()}};
 }
 
 json read_request(const char* wait, double timeout_s) {
@@ -91,7 +92,7 @@ bool same(const CanvasInfo& a, const CanvasInfo& b) {
          a.origin_x_m == b.origin_x_m && a.origin_y_m == b.origin_y_m;
 }
 
-/// Whether clients could not tell two worlds from one another by their devices.
+/// Whether two worlds have equal devices, so that clients cannot tell them apart.
 bool same(const std::vector<RobotInfo>& a, const std::vector<RobotInfo>& b) {
   const auto same_device = [](const DeviceInfo& x, const DeviceInfo& y) {
     return x.id == y.id && x.name == y.name && x.type == y.type;
@@ -153,11 +154,12 @@ SocketSession::SocketSession(SocketSettings settings, std::optional<std::string>
   understood([&] {
     robots_ = protocol::decode_robots(protocol::require(welcome, "robots"));
     canvas_ = protocol::decode_canvas(protocol::require(welcome, "canvas"));
-    line_ = std::make_shared<SocketLine>(connection, protocol::require_text(welcome, "simulation"));
+    sender_ =
+        std::make_shared<MessageSender>(connection, protocol::require_text(welcome, "simulation"));
     const TimeStatistics time = protocol::decode_time(protocol::require(welcome, "time"));
-    line_->set_paced(time.mode == sim::TimeMode::kPaced);
+    sender_->set_paced(time.mode == sim::TimeMode::kPaced);
   });
-  line_->simulation()->add(line_);
+  sender_->simulation()->add(sender_);
   resumed_ = connection;
 }
 
@@ -192,7 +194,7 @@ template <typename Use>
 auto SocketSession::with_connection(Use use) const {
   for (;;) {
     require_open();
-    const std::shared_ptr<Connection> connection = line_->connection();
+    const std::shared_ptr<Connection> connection = sender_->connection();
     try {
       return use();
     } catch (const ConnectionLost&) {
@@ -204,7 +206,7 @@ auto SocketSession::with_connection(Use use) const {
 
 bool SocketSession::pause(double seconds) const {
   Lock lock(mutex_);
-  // Not at once in any case: a server that refuses is not to be asked without pause.
+  // Always wait a little, so that a server that refuses is not asked in a tight loop.
   changed_.wait_for(lock, std::max(wall(seconds), wall(0.01)), [&] { return closed_.load(); });
   return !closed_;
 }
@@ -232,7 +234,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
   const int limit = retry_limit_;
   if (limit == 0) return false;
   const Lock lock(recover_mutex_);
-  if (line_->connection() != lost) return true;
+  if (sender_->connection() != lost) return true;
   std::string reason;
   int attempts = 0;
   while ((limit < 0 || attempts < limit) && (attempts == 0 || pause(retry_time_s_))) {
@@ -246,7 +248,7 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
                              "the server has robots now that this client does not know");
         }
         resume(connection);
-        line_->replace(connection, protocol::require_text(welcome, "simulation"));
+        sender_->replace(connection, protocol::require_text(welcome, "simulation"));
         note(welcome);
       });
       return true;
@@ -261,22 +263,22 @@ bool SocketSession::recover(const std::shared_ptr<Connection>& lost) const {
                          " to connect again failed: " + reason);
 }
 
-// --- Saying and asking
+// --- Messages and requests
 
 json SocketSession::ask(json request) const {
-  json answer = with_connection([&] { return line_->ask(request); });
+  json answer = with_connection([&] { return sender_->ask(request); });
   note(answer);
-  throw_complaint();
+  throw_async_error();
   return answer;
 }
 
 json SocketSession::read(json request) const {
-  if (ThreadEnd* const end = ThreadEnd::mine()) end->say_goodbye(line_, say_goodbye);
-  return with_connection([&] { return line_->wait(request); });
+  if (ThreadEnd* const end = ThreadEnd::mine()) end->say_goodbye(sender_, say_goodbye);
+  return with_connection([&] { return sender_->wait(request); });
 }
 
 void SocketSession::tell(const json& message) const {
-  with_connection([&] { line_->tell(message); });
+  with_connection([&] { sender_->tell(message); });
 }
 
 void SocketSession::note(const json& answer) const {
@@ -289,28 +291,30 @@ void SocketSession::note(const json& answer) const {
   canvas_generation_.fetch_add(1, std::memory_order_release);
 }
 
-void SocketSession::throw_complaint() const {
-  if (const auto complaint = line_->connection()->complaint()) throw *complaint;
+void SocketSession::throw_async_error() const {
+  if (const auto async_error = sender_->connection()->async_error()) throw *async_error;
 }
 
 const std::vector<RobotInfo>& SocketSession::robots() const noexcept { return robots_; }
 int SocketSession::port() const noexcept { return settings_.port; }
 
-bool SocketSession::connected() const noexcept { return !closed_ && !line_->connection()->lost(); }
+bool SocketSession::connected() const noexcept {
+  return !closed_ && !sender_->connection()->lost();
+}
 
 template <typename Note>
-void SocketSession::request_for_good(const Request& request, Note note_it) {
+void SocketSession::request_persistently(const Request& request, Note note_it) {
   for (;;) {
     std::shared_ptr<Connection> answered_by;
     const json answer = with_connection([&] {
-      json message = protocol::encode_request(request, line_->connection()->encoding());
-      return line_->ask(message, answered_by);
+      json message = protocol::encode_request(request, sender_->connection()->encoding());
+      return sender_->ask(message, answered_by);
     });
     note(answer);
-    throw_complaint();
+    throw_async_error();
     const Lock lock(mutex_);
-    // Another thread may have made another connection since the answer, and told it of all but
-    // this.
+    // After the answer another thread may have made a new connection, and resumed on it without
+    // this request.
     if (resumed_ != answered_by) continue;
     note_it();
     return;
@@ -331,14 +335,14 @@ void SocketSession::unsubscribe(DeviceId device) {
     }
   }
   json request =
-      protocol::encode_request(UnsubscribeRequest{device}, line_->connection()->encoding());
+      protocol::encode_request(UnsubscribeRequest{device}, sender_->connection()->encoding());
   for (;;) {
     require_open();
-    const std::shared_ptr<Connection> connection = line_->connection();
+    const std::shared_ptr<Connection> connection = sender_->connection();
     std::shared_ptr<Connection> answered_by = connection;
     std::optional<ConnectionLost> lost;
     try {
-      note(line_->ask(request, answered_by));
+      note(sender_->ask(request, answered_by));
     } catch (const ConnectionLost& e) {
       lost = e;
     }
@@ -348,22 +352,22 @@ void SocketSession::unsubscribe(DeviceId device) {
       newest = resumed_ == answered_by;
     }
     if (newest) {
-      // Not worth another connection: that will not have the subscription.
+      // No new connection is needed: it would not have the subscription.
       if (lost) throw *lost;
       return;
     }
-    // Another thread is making a connection, which was told of the subscription before.
+    // Another thread is making a connection; it copied the subscriptions before this change.
     { const Lock made(recover_mutex_); }
-    if (line_->connection() != subscribed) return;
+    if (sender_->connection() != subscribed) return;
   }
 }
 
 // --- Time
 
-/// The right to send a `read`, which one thread has at a time.
+/// The right to send a `read`; one thread has it at a time.
 class SocketSession::ReadTurn {
  public:
-  /// @param lock  of `mutex_`, held.
+  /// @param lock  of `mutex_`, locked.
   ReadTurn(SocketSession& session, Lock& lock) : session_(session) {
     session_.reading_ = true;
     lock.unlock();
@@ -380,14 +384,14 @@ class SocketSession::ReadTurn {
   SocketSession& session_;
 };
 
-void SocketSession::accept(const json& answer, bool round) {
+void SocketSession::store_answer(const json& answer, bool round) {
   note(answer);
   understood([&] {
     std::vector<protocol::DecodedReading> readings;
     if (const auto list = answer.find("readings"); list != answer.end()) {
       if (!list->is_array()) protocol::refuse_value("readings", "a list", *list);
       readings.reserve(list->size());
-      const Encoding encoding = line_->connection()->encoding();
+      const Encoding encoding = sender_->connection()->encoding();
       for (const json& reading : *list) {
         readings.push_back(protocol::decode_reading(reading, encoding));
       }
@@ -423,13 +427,13 @@ void SocketSession::wait() {
   {
     const ReadTurn turn(*this, lock);
     try {
-      accept(read(read_request("data")), /*round=*/true);
+      store_answer(read(read_request("data")), /*round=*/true);
     } catch (const SessionError& e) {
       if (e.code() != SessionError::Code::kFinished) throw;
       throw_finished();
     }
   }
-  throw_complaint();
+  throw_async_error();
 }
 
 int SocketSession::take(ReadingSink& sink) {
@@ -438,7 +442,7 @@ int SocketSession::take(ReadingSink& sink) {
   if (!round_ && !reading_ && !over_) {
     {
       const ReadTurn turn(*this, lock);
-      accept(ask(read_request("none")), /*round=*/false);
+      store_answer(ask(read_request("none")), /*round=*/false);
     }
     lock.lock();
   }
@@ -456,7 +460,7 @@ bool SocketSession::peek(milliseconds timeout) {
   Lock lock(mutex_);
   require_open();
   if (reading_ && !round_) {
-    // What the other thread waits for will do.
+    // The round that the other thread waits for serves this one as well.
     changed_.wait_for(lock, std::min<milliseconds>(timeout, std::chrono::hours(1)),
                       [&] { return closed_ || round_ || !reading_; });
     require_open();
@@ -465,8 +469,8 @@ bool SocketSession::peek(milliseconds timeout) {
   if (round_ || over_) return true;
   const ReadTurn turn(*this, lock);
   try {
-    accept(read(read_request("peek", std::chrono::duration<double>(timeout).count())),
-           /*round=*/false);
+    store_answer(read(read_request("peek", std::chrono::duration<double>(timeout).count())),
+                 /*round=*/false);
   } catch (const SessionError& e) {
     if (e.code() != SessionError::Code::kFinished) throw;
     const Lock again(mutex_);
@@ -481,7 +485,7 @@ void SocketSession::join() {
   changed_.wait(lock, [&] { return closed_ || !reading_; });
   require_open();
   const ReadTurn turn(*this, lock);
-  accept(read(read_request("join")), /*round=*/false);
+  store_answer(read(read_request("join")), /*round=*/false);
 }
 
 void SocketSession::sleep(double seconds) {
@@ -489,30 +493,31 @@ void SocketSession::sleep(double seconds) {
     throw SessionError(SessionError::Code::kBadArgument,
                        "sleep takes a number of seconds in [0, 1e9]");
   }
-  if (line_->paced()) return sleep_by_the_wall_clock(seconds);
+  if (sender_->paced()) return sleep_by_the_wall_clock(seconds);
   Lock lock(mutex_);
   changed_.wait(lock, [&] { return closed_ || !reading_; });
   require_open();
   const ReadTurn turn(*this, lock);
   try {
-    accept(read(read_request("sleep", seconds)), /*round=*/false);
+    store_answer(read(read_request("sleep", seconds)), /*round=*/false);
   } catch (const SessionError& e) {
     if (e.code() != SessionError::Code::kFinished) throw;
   }
 }
 
-// Another thread may read this session meanwhile, so the server is not asked to wait.
+// Another thread may read in this session meanwhile, so the sleep happens here and not at the
+// server.
 void SocketSession::sleep_by_the_wall_clock(double seconds) {
   {
     Lock lock(mutex_);
     const bool other_reads = reading_;
     lock.unlock();
-    if (!other_reads) join();  // the start gate may wait for it
+    if (!other_reads) join();  // the start gate may wait for this client
   }
   TimeStatistics now = time();
   const sim::SimTime end_ns = now.sim_time_ns + sim::from_seconds(seconds);
   while (now.sim_time_ns < end_ns && !now.finished) {
-    // A little less than what is left, and not for long: the factor may change.
+    // A little less than the time left, and not for long, since the real-time factor may change.
     const double left_s =
         sim::to_seconds(end_ns - now.sim_time_ns) / std::max(now.real_time_factor, 0.01);
     Lock lock(mutex_);
@@ -526,11 +531,11 @@ void SocketSession::sleep_by_the_wall_clock(double seconds) {
 TimeStatistics SocketSession::time() const {
   auto time = std::get<TimeStatistics>(ask_for(TimeRequest{}));
   const bool paced = time.mode == sim::TimeMode::kPaced;
-  if (paced != line_->paced()) line_->set_paced(paced);
+  if (paced != sender_->paced()) sender_->set_paced(paced);
   return time;
 }
 
-// --- Commands, and other sessions
+// --- Commands and other sessions
 
 void SocketSession::send(DeviceId device, const sim::Command& command) {
   require_open();
@@ -544,35 +549,35 @@ void SocketSession::send(DeviceId device, const sim::Command& command) {
 std::unique_ptr<Session> SocketSession::open_follower() {
   require_open();
   const std::string key =
-      understood([&] { return protocol::require_text(line_->connection()->welcome(), "key"); });
+      understood([&] { return protocol::require_text(sender_->connection()->welcome(), "key"); });
   SocketSettings settings = settings_;
   settings.request_timeout_s = request_timeout_s_;
   return std::unique_ptr<Session>(new SocketSession(std::move(settings), key));
 }
 
-const void* SocketSession::simulation() const noexcept { return line_->simulation().get(); }
+const void* SocketSession::simulation() const noexcept { return sender_->simulation().get(); }
 
 // --- The canvas
 
-DrawQueue& SocketSession::draw_queue() noexcept { return line_->drawings(); }
+DrawQueue& SocketSession::draw_queue() noexcept { return sender_->drawings(); }
 
 std::uint64_t SocketSession::canvas_generation() const noexcept {
   return canvas_generation_.load(std::memory_order_acquire);
 }
 
-// --- Requests; those with cells in pieces are in socket_canvas.cpp
+// --- Requests; socket_canvas.cpp has those that send cells in pieces
 
-/// Those that are more than a message and its answer.
+/// Handles the requests that need more than one message and its answer.
 struct SocketSession::RequestHandler {
   SocketSession& session;
 
   void operator()(const SubscribeRequest& what) const {
     require_device(session.robots_, what.device);
-    session.request_for_good(what, [&] { ++session.subscriptions_[key_of(what.device)]; });
+    session.request_persistently(what, [&] { ++session.subscriptions_[key_of(what.device)]; });
   }
   void operator()(const UnsubscribeRequest& what) const { session.unsubscribe(what.device); }
   void operator()(const ReplaceRequest& what) const {
-    session.request_for_good(what, [&] {
+    session.request_persistently(what, [&] {
       if (what.device) {
         session.replace_[key_of(*what.device)] = what.replace;
       } else {
@@ -589,17 +594,17 @@ struct SocketSession::RequestHandler {
     static_cast<void>(session.ask_for(what));
     static_cast<void>(session.time());
   }
-  void operator()(const NoteLooksRequest&) const {}  // time may pass at the server
+  void operator()(const NoteLooksRequest&) const {}  // the server may let time pass
   void operator()(const AnswerTimeoutRequest& what) const {
     session.request_timeout_s_ = what.seconds;
-    session.line_->connection()->set_request_timeout(wall(what.seconds));
+    session.sender_->connection()->set_request_timeout(wall(what.seconds));
   }
   void operator()(const RetriesRequest& what) const {
     session.retry_time_s_ = what.time_s;
     session.retry_limit_ = what.limit;
   }
   void operator()(const FlushDrawingsRequest&) const {
-    session.with_connection([&] { session.line_->flush(); });
+    session.with_connection([&] { session.sender_->flush(); });
   }
   void operator()(const SetCellsRequest& what) const { session.set_cells(what); }
   CanvasInfo operator()(const CanvasInfoRequest&) const {
@@ -607,7 +612,7 @@ struct SocketSession::RequestHandler {
     return session.canvas_;
   }
   CanvasInfo operator()(const ResizeCanvasRequest& what) const {
-    session.line_->settle_others();  // what they drew is meant for the size before
+    session.sender_->confirm_others();  // earlier drawings of other sessions belong to the old size
     return std::get<CanvasInfo>(session.ask_for(what));
   }
   WorldMap operator()(const WorldMapRequest& what) const {
@@ -615,7 +620,7 @@ struct SocketSession::RequestHandler {
     return session.world_map(what.cell_size_m);
   }
 
-  // JSON has only finite numbers.
+  // JSON has finite numbers only.
   static void check(const CreateLayerRequest& what) { require_style(what.style); }
   static void check(const SetLayerStyleRequest& what) { require_style(what.style); }
   static void check(const PlaceObjectRequest& what) {
@@ -642,7 +647,7 @@ Answer SocketSession::answer(const Request& request) {
 }
 
 Answer SocketSession::ask_for(const Request& request) const {
-  const Encoding encoding = line_->connection()->encoding();
+  const Encoding encoding = sender_->connection()->encoding();
   const json answer = ask(protocol::encode_request(request, encoding));
   return understood([&] { return protocol::decode_answer(request, answer, encoding); });
 }
@@ -653,7 +658,7 @@ void SocketSession::close() noexcept {
     const Lock lock(mutex_);
     changed_.notify_all();
   }
-  line_->close();
+  sender_->close();
 }
 
 }  // namespace playerlike

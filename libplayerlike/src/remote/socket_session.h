@@ -20,7 +20,7 @@
 
 namespace playerlike {
 
-/// How a session with a server is opened.
+/// How to open a session with a server.
 struct SocketSettings {
   ServerAddress server;
   int port = kMorsePort;  ///< Player port
@@ -31,22 +31,22 @@ struct SocketSettings {
   /// An end-of-run error that nobody catches ends the program with status 0, see end_of_program.h.
   bool quiet_end = false;
 
-  /// With what the environment says: PLAYPEN_ENCODING (cbor or json) and PLAYPEN_TOKEN (tokens,
-  /// separated by commas). @throws sim::ConfigError run/environment.
+  /// Reads the environment: PLAYPEN_ENCODING (cbor or json) and PLAYPEN_TOKEN (tokens, separated by
+  /// commas). @throws sim::ConfigError run/environment.
   [[nodiscard]] static SocketSettings from_environment(ServerAddress server, int port);
 };
 
-/// What is said of an answer that makes no sense.
+/// The error for an answer that cannot be decoded.
 [[nodiscard]] SessionError misunderstood(const std::string& why);
 
-class SocketLine;
+class MessageSender;
 
-/// A session with a simulation across a network, in Playpen's protocol (docs/protocol.md).
+/// A session with a simulation on a server, in Playpen's protocol (docs/protocol.md).
 ///
-/// Has no thread: who waits for an answer reads the socket, see Connection. Only a session that
-/// draws in a paced simulation gets one, which sends what waits in its draw queue.
-/// What answers tell of is remembered, so overflow, size and generation of the canvas are as of
-/// the last answer. A round that was waited for and not taken yet stays as it is.
+/// It has no thread: a thread that waits for an answer reads the socket, see Connection. The
+/// exception is a session that draws in a paced simulation; its thread sends the draw queue.
+/// Overflow, size and generation of the canvas are cached from the last answer. A round that peek()
+/// or wait() has fetched is kept until take().
 class SocketSession final : public Session {
  public:
   /// Connects. @throws SessionError as Connection::open().
@@ -78,35 +78,35 @@ class SocketSession final : public Session {
   void require_open() const;
   [[noreturn]] static void throw_closed();
   [[nodiscard]] nlohmann::json hello() const;
-  /// Does something with the connection, again if that is lost and another one made.
+  /// Calls use(); repeats it after a reconnection if the connection is lost.
   template <typename Use>
   auto with_connection(Use use) const;
-  /// Makes another connection in place of a lost one. @return whether there is one.
+  /// Replaces a lost connection. @return whether there is one now.
   bool recover(const std::shared_ptr<Connection>& lost) const;
   [[nodiscard]] std::shared_ptr<Connection> connect() const;
-  /// Has on a new connection what the lost one had. @throws SessionError.
+  /// Restores the session's state on a new connection. @throws SessionError.
   void resume(const std::shared_ptr<Connection>& connection) const;
-  /// Asks for something that every connection to come is to be asked for as well, and notes that it
-  /// is (note(), under `mutex_`), unless the connection was replaced meanwhile: then once more.
+  /// Sends a request that must be repeated on every later connection, and records it with note_it()
+  /// under `mutex_`. Repeats the request if the connection was replaced meanwhile.
   template <typename Note>
-  void request_for_good(const Request& request, Note note_it);
-  /// Waits between two attempts. @return whether the session is still open.
+  void request_persistently(const Request& request, Note note_it);
+  /// Waits between two attempts to connect. @return whether the session is still open.
   bool pause(double seconds) const;
 
   /// Sends drawings and a request; waits for the answer.
   nlohmann::json ask(nlohmann::json request) const;
-  /// Has the server answer a request.
+  /// Sends a request to the server and decodes its answer.
   [[nodiscard]] Answer ask_for(const Request& request) const;
-  /// A `read` that may let time pass.
+  /// Sends a `read`, which may let time pass.
   nlohmann::json read(nlohmann::json request) const;
   void tell(const nlohmann::json& message) const;
-  /// Remembers what any answer may tell.
+  /// Caches the values that any answer may contain.
   void note(const nlohmann::json& answer) const;
-  /// Remembers what the answer to a `read` tells.
-  /// @param round  whether it is a round in any case.
-  void accept(const nlohmann::json& answer, bool round);
-  /// Throws what the server has said against a message that is not answered.
-  void throw_complaint() const;
+  /// Stores the contents of an answer to a `read`.
+  /// @param round  whether it counts as a round even without readings.
+  void store_answer(const nlohmann::json& answer, bool round);
+  /// Throws the server's error for a message without an answer.
+  void throw_async_error() const;
   void unsubscribe(DeviceId device);
   void set_cells(const SetCellsRequest& what) const;
   [[nodiscard]] WorldMap world_map(double cell_size_m) const;
@@ -119,25 +119,25 @@ class SocketSession final : public Session {
   const SocketSettings settings_;
   const std::optional<std::string> follow_;  ///< key of the session that this one follows
   std::vector<RobotInfo> robots_;
-  std::shared_ptr<SocketLine> line_;
+  std::shared_ptr<MessageSender> sender_;
   std::atomic<bool> closed_{false};
   std::atomic<double> request_timeout_s_;
   std::atomic<int> retry_limit_{0};
   std::atomic<double> retry_time_s_{0.0};
-  mutable std::mutex recover_mutex_;  ///< one attempt to connect again at a time
+  mutable std::mutex recover_mutex_;  ///< allows one reconnection at a time
 
-  /// Over what follows; never held while waiting for the server.
+  /// Guards the members below; never held while waiting for the server.
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  /// The newest connection that was told of all that is noted in the next three.
+  /// The newest connection that has the state of the next three members.
   mutable std::shared_ptr<const Connection> resumed_;
   std::map<std::pair<int, int>, int> subscriptions_;  ///< device -> count
   bool replace_by_default_ = true;
-  std::map<std::pair<int, int>, bool> replace_;  ///< told since the last rule for all devices
-  bool reading_ = false;                         ///< a `read` is on its way
-  bool round_ = false;                           ///< a round was waited for and not taken yet
+  std::map<std::pair<int, int>, bool> replace_;  ///< set since the last rule for all devices
+  bool reading_ = false;                         ///< a `read` is in progress
+  bool round_ = false;                           ///< a round was fetched and not taken yet
   std::vector<protocol::DecodedReading> readings_;
-  bool over_ = false;  ///< the run is
+  bool over_ = false;  ///< the run is over
   int reads_after_end_ = 0;
   mutable CanvasInfo canvas_;
   std::atomic<std::uint32_t> overflow_{0};

@@ -11,18 +11,18 @@ namespace {
 
 using PaddedToken = std::array<unsigned char, kMaxToken>;
 
-/// The first bytes of a token, with zeros behind.
+/// The first bytes of a token, padded with zeros.
 PaddedToken padded(const std::string& token) {
   PaddedToken bytes{};
   std::copy_n(token.begin(), std::min(token.size(), bytes.size()), bytes.begin());
   return bytes;
 }
 
-/// Whether two tokens are equal, in a time that tells nothing of either, not even of the length.
+/// Compares two tokens in constant time, so that timing reveals nothing, not even the length.
 bool equal(const std::string& a, const std::string& b) {
   const PaddedToken left = padded(a);
   const PaddedToken right = padded(b);
-  // Volatile, so that no compiler leaves the loop early.
+  // Volatile, so that the compiler cannot leave the loop early.
   volatile std::size_t difference = a.size() ^ b.size();
   for (std::size_t i = 0; i < left.size(); ++i) {
     difference = difference | static_cast<std::size_t>(left[i] ^ right[i]);
@@ -79,7 +79,7 @@ Access::Access(const AccessSettings& settings, const std::vector<RobotInfo>& rob
 }
 
 Rights Access::rights(const std::vector<std::string>& tokens, int port) const {
-  // Bounds the work that a long list can ask for.
+  // Limits the work for a long list.
   const std::size_t count = std::min(tokens.size(), robot_tokens_.size() + 16);
   const bool may_connect = server_token_.empty() || presented(server_token_, tokens, count);
   Rights rights;
@@ -117,11 +117,11 @@ bool Access::has_wrong(const std::vector<std::string>& tokens) const {
   return wrong;
 }
 
-Hub::TokenVerdict Hub::judge_tokens(const Peer& peer, const std::vector<std::string>& tokens) {
-  const TokenGuard::Clock::time_point now = TokenGuard::Clock::now();
+Hub::TokenVerdict Hub::check_tokens(const Peer& peer, const std::vector<std::string>& tokens) {
+  const TokenThrottle::Clock::time_point now = TokenThrottle::Clock::now();
   if (tokens.empty()) return {};
-  if (!access().has_wrong(tokens)) return {false, guard_.delay_of_right(peer.name(), now)};
-  const TokenGuard::Cost cost = guard_.note_wrong(peer.name(), now);
+  if (!access().has_wrong(tokens)) return {false, throttle_.delay_of_right(peer.name(), now)};
+  const TokenThrottle::Cost cost = throttle_.note_wrong(peer.name(), now);
   if (cost.tell) {
     log(sim::LogLevel::kWarning,
         peer.name() + ": a wrong token, " + std::to_string(cost.count) +
@@ -136,7 +136,7 @@ void Hub::answer_after(std::chrono::milliseconds delay, Peer& peer, std::weak_pt
   peer.set_busy(true);
   after(delay, [&peer, handler = std::move(handler), action = std::move(action)] {
     if (handler.expired()) return;
-    peer.set_busy(false);  // what is read now is looked at afterwards
+    peer.set_busy(false);  // messages in the read buffer are handled after the action
     action();
   });
 }

@@ -19,11 +19,12 @@ namespace {
 
 constexpr std::size_t kSmallestRoom = std::size_t{8} << 10U;
 constexpr std::size_t kLargestRoom = std::size_t{256} << 10U;
-// Then others get their turn.
+// Messages that are handled before other connections get a turn.
 constexpr int kMessagesATurn = 64;
-// What the system takes in one call.
+// Maximum number of buffers in one system call.
 constexpr std::size_t kBuffersAWrite = 64;
-// From the decision to close to the end: for a peer that reads the farewell slowly, or not at all.
+// Time from the decision to close to the forced end, for a peer that reads the farewell slowly or
+// not at all.
 constexpr auto kCloseTime = std::chrono::seconds(2);
 
 Connection::Clock::duration wall(double seconds) {
@@ -61,7 +62,7 @@ void Connection::refuse(std::string farewell) {
 void Connection::hand_over(std::unique_ptr<Handler> handler) {
   if (state_ != State::kOpen) return;
   next_handler_ = std::move(handler);
-  // Outside of on_message() the old one may still be the caller.
+  // Outside of on_message() the old handler may be the caller, so it is replaced later.
   if (!processing_) process_soon();
 }
 
@@ -96,7 +97,7 @@ void Connection::on_read(const asio::error_code& error, std::size_t size) {
     peer_left_ = true;
     if (error != asio::error::eof) return end("the connection was lost: " + error.message());
     if (write_ended_) return end(reason_);
-    return close("", "it left");  // what was answered already is still sent
+    return close("", "it left");  // answers that are queued are still sent
   }
   if (state_ == State::kClosing) return read();
   bytes_in_ += size;
@@ -110,7 +111,7 @@ void Connection::on_read(const asio::error_code& error, std::size_t size) {
   process();
 }
 
-// Does what a handler may fail in; then the connection is closed, and the others go on.
+// Runs an action of a handler. If it throws, the connection is closed; the others are not affected.
 template <typename Action>
 void Connection::guarded(Action action) {
   try {
@@ -127,7 +128,7 @@ void Connection::process() {
   process_posted_ = false;
   if (processing_ || state_ != State::kOpen) return;
   if (next_handler_) handler_ = std::move(next_handler_);
-  // While a read is under way its room is not to be touched; all that came before was processed.
+  // An asynchronous read owns the splitter's room. All earlier bytes have been processed.
   if (reading_) return;
   processing_ = true;
   const std::uint64_t requests_before = requests_;
@@ -264,7 +265,7 @@ void Connection::written(std::size_t size) {
 
 void Connection::fail(const protocol::ProtocolError& error) {
   if (state_ != State::kOpen) return;
-  // What has not begun to be written would only make it wait longer for the reason.
+  // Drop queued items that have not been started: they would only delay the reason.
   if (queued_bytes_ > owner_.limits().queued_bytes) {
     const std::size_t kept = queue_begin_ > 0 ? 1 : 0;
     queue_.resize(kept);
@@ -291,8 +292,9 @@ void Connection::close(std::string farewell, std::string reason) {
   flush();
 }
 
-// Were the socket closed while the peer still sends, the system would throw away what the peer has
-// not read yet. So it is told that no more follows, and read until it closes, or the time is over.
+// If the socket were closed while the peer still sends, the system would discard data that the peer
+// has not read yet. So only the sending direction is shut down. The connection is read until the
+// peer closes it or the time is over.
 void Connection::close_when_read() {
   if (write_ended_) return;
   if (peer_left_) return end(reason_);
@@ -333,13 +335,13 @@ void Connection::hurry(Clock::time_point deadline) {
   if (state_ == State::kClosing) close_deadline_ = std::min(*close_deadline_, deadline);
 }
 
-void Connection::look_after(Clock::time_point now) {
+void Connection::enforce_limits(Clock::time_point now) {
   if (state_ == State::kClosing && now >= *close_deadline_) end(reason_);
   if (state_ != State::kOpen) return;
   if (!reading_) {
     if (process_posted_ || queued_bytes_ > 0) return;
-    // Too many requests are in flight for further ones to be read, so this is how it shows that
-    // the peer has gone.
+    // Reading is paused because too many requests are in flight, so only poll() shows that the peer
+    // has left.
     pollfd state{socket_.native_handle(), POLLRDHUP, 0};
     if (poll(&state, 1, 0) > 0) {
       peer_left_ = true;
@@ -376,7 +378,7 @@ std::string Connection::summary() const {
                      std::to_string(requests_) + (requests_ == 1 ? " request, " : " requests, ") +
                      bytes_text(bytes_in_) + " in, " + bytes_text(bytes_out_) + " out";
   if (records_lost_ > 0) text += ", " + std::to_string(records_lost_) + " records lost";
-  // Some of it is in the client's words, which must not look like lines of the log.
+  // Parts of the text come from the client; control characters could forge lines of the log.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
   return text;

@@ -62,7 +62,7 @@ MorseComponent component(const RobotInfo& robot, int index, const std::string& n
   return made;
 }
 
-// A pose of the flat world in MORSE's words.
+// Writes a planar pose with MORSE's keys.
 void put_pose(json& object, const sim::Pose& pose) {
   object["x"] = pose.x_m;
   object["y"] = pose.y_m;
@@ -76,7 +76,7 @@ void put_odometry(json& object, const sim::PoseReading& reading, sim::OdometryLe
   switch (level) {
     case sim::OdometryLevel::kIntegrated: {
       put_pose(object, reading.pose);
-      // MORSE's speeds are along the axes of x and y, so not the robot's own.
+      // MORSE's velocities are in the world's axes, not in the robot's.
       const double c = std::cos(reading.pose.yaw_rad);
       const double s = std::sin(reading.pose.yaw_rad);
       object["vx"] = c * reading.twist.v_mps - s * reading.twist.lateral_mps;
@@ -103,7 +103,7 @@ void put_odometry(json& object, const sim::PoseReading& reading, sim::OdometryLe
   }
 }
 
-// Ranges, and where they end in the frame that X_FS stands in; (0, 0, 0) where nothing was met.
+// Writes ranges and the points where the beams end, in the frame of end_of(); (0, 0, 0) for no hit.
 void put_ranges(json& object, const std::vector<double>& ranges_m, double range_max_m,
                 const std::function<sim::Vec2(std::size_t, double)>& end_of) {
   json points = json::array();
@@ -198,12 +198,12 @@ json morse_record(const sim::Reading& reading, std::optional<sim::OdometryLevel>
     object["magnetic_field"] = imu->field_ut;
   } else if (const auto* proximity = dynamic_cast<const sim::ProximityReading*>(&reading)) {
     json near = json::object();
-    // Of two things of one name the nearer one comes first, and stays.
+    // If several objects have one name, emplace() keeps the nearest, which comes first.
     for (const auto& object_near : proximity->near_objects) {
       near.emplace(object_near.name, object_near.distance_m);
     }
     object["near_objects"] = near;
-    object["near_robots"] = std::move(near);  // MORSE's older name for the same
+    object["near_robots"] = std::move(near);  // MORSE's older name of near_objects
   } else if (const auto* waypoint = dynamic_cast<const sim::WaypointReading*>(&reading)) {
     object["status"] = std::string(to_string(waypoint->status));
     object["x"] = waypoint->goal_m.x();
@@ -245,7 +245,7 @@ std::optional<sim::OdometryLevel> odometry_level(const sim::Simulation& simulati
           .robots.at(static_cast<std::size_t>(device.robot))
           .devices.at(static_cast<std::size_t>(device.device));
   if (description.type != "odometry") return std::nullopt;
-  // A device that the world leaves as it is has no settings of its own.
+  // A device without settings in the world has no params; it has the default level.
   const auto* params = std::any_cast<sim::OdometryParams>(&description.params);
   return params != nullptr ? params->level : sim::OdometryParams{}.level;
 }

@@ -11,12 +11,12 @@ namespace {
 
 using nlohmann::json;
 
-/// Of an id, as in MORSE.
+/// Maximum length of an id, as in MORSE.
 constexpr std::size_t kMaxId = 80;
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
 
-/// Takes the first word off a text, with the blanks round it.
+/// Removes the first word of a text and the white space around it.
 std::string_view take_word(std::string_view& text) {
   const auto begin = std::min(text.find_first_not_of(kBlanks), text.size());
   const auto end = std::min(text.find_first_of(kBlanks, begin), text.size());
@@ -29,15 +29,15 @@ std::string_view without_blanks_behind(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// An id that can be sent back as it is.
-bool is_sound_id(std::string_view id) {
+/// Whether an id can be echoed unchanged.
+bool is_valid_id(std::string_view id) {
   return id.size() <= kMaxId &&
          std::all_of(id.begin(), id.end(), [](char c) { return c > 0x20 && c < 0x7f; });
 }
 
 constexpr const char* kTooManyWrong = "too many wrong tokens came through this connection";
 
-/// The tokens that a hello presents, as far as they are texts.
+/// The tokens in a hello; ignores elements that are not texts.
 std::vector<std::string> tokens_in(const json& hello) {
   std::vector<std::string> tokens;
   if (!hello.is_object() || !hello.contains("tokens") || !hello["tokens"].is_array()) return tokens;
@@ -47,7 +47,7 @@ std::vector<std::string> tokens_in(const json& hello) {
   return tokens;
 }
 
-/// The arguments of a request.
+/// Parses the arguments of a request.
 json arguments_of(std::string_view text) {
   if (text.empty()) return json::array();
   json list = protocol::decode_json_value(text);
@@ -95,8 +95,8 @@ std::string MorseConnection::farewell(const protocol::ProtocolError& error) {
 void MorseConnection::on_message(std::string_view line) {
   std::string_view rest = without_blanks_behind(line);
   const std::string_view word = take_word(rest);
-  if (word.empty()) return;  // an empty line has no id to answer to
-  if (!is_sound_id(word)) {
+  if (word.empty()) return;  // an empty line has no id for an answer
+  if (!is_valid_id(word)) {
     return answer("-", "FAILED", "Malformed request: an id is 1 to 80 printable ASCII characters");
   }
   const std::string id(word);
@@ -108,15 +108,15 @@ void MorseConnection::on_message(std::string_view line) {
                   "Malformed request: expected id, component, service and maybe a JSON list of "
                   "arguments, or id and cancel");
   }
-  carry_out(id, component, service, rest);
+  execute(id, component, service, rest);
 }
 
-void MorseConnection::carry_out(const std::string& id, std::string_view component,
-                                std::string_view service, std::string_view arguments) {
+void MorseConnection::execute(const std::string& id, std::string_view component,
+                              std::string_view service, std::string_view arguments) {
   guarded(id, [&] {
     const json list = arguments_of(arguments);
     if (component == "playpen") return playpen(id, service, list);
-    static_cast<void>(state_->session());  // from now on a client is there, whom time may wait for
+    static_cast<void>(state_->session());  // opens the session that time may wait for
     if (auto result = call_service(*state_, *this, id, component, service, list)) {
       answer(id, "SUCCESS", *result);
     }
@@ -138,9 +138,9 @@ void MorseConnection::guarded(const std::string& id, Action action) {
 
 void MorseConnection::work(const std::string& id, const MorseService& service, const json& list) {
   peer_.set_busy(true);
-  // Of the connection, which may be gone by then, the workshop needs nothing.
+  // The job holds no reference to the connection, which may be closed before the job is done.
   const auto line = std::make_shared<std::string>();
-  const auto piece = [client = state_->client(), &service, list, id, line] {
+  const auto run_slice = [client = state_->client(), &service, list, id, line] {
     const MorseArguments arguments(service, list);
     *line = line_of(id, "SUCCESS", service.work({*client, arguments}));
     return false;
@@ -161,22 +161,22 @@ void MorseConnection::work(const std::string& id, const MorseService& service, c
     }
     from.peer_.set_busy(false);
   };
-  hub_.work({piece, done});
+  hub_.work({run_slice, done});
 }
 
 void MorseConnection::try_tokens(const std::string& id, const std::vector<std::string>& tokens,
                                  std::function<void()> action) {
-  const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, tokens);
+  const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, tokens);
   if (verdict.wrong) ++wrong_tokens_;
   hub_.answer_after(verdict.delay, peer_, self_, [this, id, action = std::move(action)] {
     guarded(id, action);
-    if (wrong_tokens_ >= TokenGuard::kMostOfAConnection) {
+    if (wrong_tokens_ >= TokenThrottle::kMostOfAConnection) {
       peer_.close(farewell(protocol::ProtocolError("access/slow-down", kTooManyWrong)));
     }
   });
 }
 
-// What is Playpen's own among the requests.
+// Handles Playpen's own requests.
 void MorseConnection::playpen(const std::string& id, std::string_view service,
                               const json& arguments) {
   if (service == "hello") {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What a pen can be asked: the canvas.
+// Requests of MORSE's protocol to a pen, about the canvas.
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -21,14 +21,14 @@ std::uint8_t channel(const MorseArguments& arguments, std::size_t index,
   return static_cast<std::uint8_t>(arguments.integer(index, 0, 255, otherwise));
 }
 
-// Red, green, blue, and maybe alpha, from an argument on.
+// Red, green, blue and optionally alpha, from the argument `first` on.
 sim::CellValue colour_from(const MorseArguments& arguments, std::size_t first) {
   return sim::CellValue::of(sim::Colour{channel(arguments, first), channel(arguments, first + 1),
                                         channel(arguments, first + 2),
                                         channel(arguments, first + 3, 255)});
 }
 
-// Cells that get_image_data lists.
+// Maximum number of cells that get_image_data lists.
 constexpr std::size_t kMostListedCells = std::size_t{1} << 22U;
 
 template <json (*kPen)(const PenCall&)>
@@ -66,7 +66,7 @@ json set_line(MorseCall& call) {
 json clear(const PenCall& call) {
   DrawWork fill;
   fill.operations.emplace_back().kind = sim::DrawOperation::Kind::kFill;
-  while (!call.client.draw_some(fill, kPieceCells)) {
+  while (!call.client.draw_some(fill, kSliceCells)) {
   }
   return nullptr;
 }
@@ -98,7 +98,7 @@ json get_image_data(const PenCall& call) {
   return data;
 }
 
-// Red, green, blue, and maybe alpha, from an element of a list on.
+// Red, green, blue and optionally alpha, from the list element `first` on.
 sim::CellValue colour_in(const MorseArguments& arguments, const json& list, std::size_t first,
                          bool has_alpha) {
   const auto channel = [&](std::size_t i) {

@@ -18,7 +18,7 @@ using Right = MorseService::Right;
 
 constexpr double kFar_m = 1e6;
 constexpr double kTurns_rad = 1e6;
-/// What a client is shown of a value that it sent.
+/// Maximum length of a client's value in error texts [bytes].
 constexpr std::size_t kShownBytes = 60;
 
 DeviceId device_of(const MorseCall& call) { return call.component->device.value(); }
@@ -154,8 +154,7 @@ json get_local_data(MorseCall& call) {
   }
   const DeviceId device = device_of(call);
   return call.state.with([&](const sim::Simulation& simulation) {
-    const auto& sensor =
-        dynamic_cast<const sim::Sensor&>(simulation.device(device.robot, device.device));
+    const sim::Sensor& sensor = *simulation.device(device.robot, device.device).sensor();
     if (sensor.reading().sequence == 0) {
       throw MorseRefusal(call.component->name +
                          " has no reading yet: simulated time has not come so far");
@@ -170,7 +169,7 @@ constexpr MorseService kSensor[] = {
 
 // --- all components
 
-// The settings of a component as the world gives them.
+// The settings of a component in the world.
 std::map<std::string, double> properties_of(const MorseCall& call) {
   if (call.component->device) return info_of(call).properties;
   return {};
@@ -266,7 +265,7 @@ double MorseArguments::number(std::size_t index, double least, double most,
 int MorseArguments::integer(std::size_t index, int least, int most,
                             std::optional<int> otherwise) const {
   if (otherwise && (!has(index) || list_[index].is_null())) return *otherwise;
-  // As doubles, so that 3.0 is a whole number too and nothing overflows.
+  // Compared as doubles, so that 3.0 counts as a whole number and nothing overflows.
   const double value =
       has(index) && list_[index].is_number() ? list_[index].get<double>() : std::nan("");
   if (!(value >= least && value <= most && value == std::floor(value))) {
@@ -309,7 +308,7 @@ std::vector<const MorseService*> services_of(const MorseComponent& component) {
   const auto add = [&all](std::string_view kind) {
     for (const MorseService& service : morse_services(kind)) all.push_back(&service);
   };
-  // By the device's type; a sensor's type has no group of its own.
+  // The services of the device's type; sensors have none of their own type.
   if (component.device) add(component.type);
   if (component.stream == StreamDirection::kOut) add("sensor");
   add("component");
@@ -354,7 +353,7 @@ std::optional<json> call_service(MorseState& state, MorseConnection& from, const
   MorseCall call{state, from, id, found, MorseArguments(chosen, list)};
   if (chosen.right == Right::kAll) require_command_all(call);
   if (chosen.right == Right::kRobot) require_command(call, found->robot);
-  if (chosen.work != nullptr && (chosen.is_heavy || canvas_cells(state.session()) > kLightCells)) {
+  if (chosen.work != nullptr && (chosen.is_heavy || canvas_cells(state.session()) > kInlineCells)) {
     from.work(id, chosen, list);
     return std::nullopt;
   }

@@ -16,8 +16,8 @@ namespace playerlike::server {
 
 struct MorseService;
 
-/// The arguments of a request, checked as they are read. All of it throws MorseRefusal, which names
-/// the argument, what was expected and what was found.
+/// The arguments of a request, checked on access. All accessors throw MorseRefusal, which names the
+/// argument, the expected value and the value found.
 class MorseArguments {
  public:
   MorseArguments(const MorseService& service, const nlohmann::json& list)
@@ -25,7 +25,7 @@ class MorseArguments {
 
   [[nodiscard]] std::size_t count() const noexcept { return list_.size(); }
   [[nodiscard]] bool has(std::size_t index) const noexcept { return index < list_.size(); }
-  /// A finite number within limits; those that are left out (or null) have their default.
+  /// A finite number in [least, most]; `otherwise` if the argument is missing or null.
   [[nodiscard]] double number(std::size_t index, double least, double most,
                               std::optional<double> otherwise = {}) const;
   [[nodiscard]] int integer(std::size_t index, int least, int most,
@@ -34,7 +34,7 @@ class MorseArguments {
   [[nodiscard]] bool boolean(std::size_t index) const;
   [[nodiscard]] const nlohmann::json& list(std::size_t index) const;
   [[nodiscard]] const nlohmann::json& any(std::size_t index) const { return list_.at(index); }
-  /// Says what is wrong with an argument.
+  /// Throws MorseRefusal for an argument.
   [[noreturn]] void refuse(std::size_t index, const std::string& expected) const;
 
  private:
@@ -42,7 +42,7 @@ class MorseArguments {
   const nlohmann::json& list_;
 };
 
-/// A request on its way to the function that answers it.
+/// A request, passed to the function that answers it.
 struct MorseCall {
   MorseState& state;
   MorseConnection& from;
@@ -51,7 +51,7 @@ struct MorseCall {
   MorseArguments arguments;
 };
 
-/// A request about the canvas, whichever thread carries it out.
+/// A request about the canvas, on the server's thread or in the worker thread.
 struct PenCall {
   EventClient& client;
   const MorseArguments& arguments;
@@ -59,25 +59,26 @@ struct PenCall {
 
 /// A row of the table of services.
 struct MorseService {
-  /// Whose right a client needs.
+  /// The right that a client needs.
   enum class Right {
-    kConnect,  ///< whoever may use the server
-    kRobot,    ///< who may command the component's robot
-    kAll,      ///< who may command all robots
+    kConnect,  ///< to use the server
+    kRobot,    ///< to command the component's robot
+    kAll,      ///< to command all robots
   };
   using Run = nlohmann::json (*)(MorseCall& call);
   using Work = nlohmann::json (*)(const PenCall& call);
 
   std::string_view name;
-  std::string_view arguments;  ///< as docs/morse.md has them: "x, y, z, tolerance=0.5"
+  std::string_view arguments;  ///< in the syntax of docs/morse.md: "x, y, z, tolerance=0.5"
   Right right;
   Run run;
-  /// What `run` does, if it may take long: for the server's workshop, on a large canvas.
+  /// Does the same as `run` for requests that may take long: the server's worker thread calls it if
+  /// the canvas is large.
   Work work = nullptr;
-  bool later = false;     ///< answered later: `run` has seen to that, its result does not count
+  bool later = false;     ///< `run` arranges for a later answer; its result is ignored
   bool is_heavy = false;  ///< `work` takes long on any canvas
 
-  /// The number of arguments, and of those that have no default.
+  /// The number of arguments; least() excludes those with a default.
   [[nodiscard]] constexpr std::size_t most() const {
     return arguments.empty() ? 0 : count_of(',') + 1;
   }
@@ -89,27 +90,27 @@ struct MorseService {
 
 /// The services of `simulation` or `time`, or of a kind of component, in the order of
 /// docs/morse.md.
-/// @param kind  "simulation", "time", "motion", "waypoint", "teleport", "pen", "sensor" (what every
-///              sensor has) or "component" (what all components have).
+/// @param kind  "simulation", "time", "motion", "waypoint", "teleport", "pen", "sensor" (services
+///              of all sensors) or "component" (services of all components).
 [[nodiscard]] std::span<const MorseService> morse_services(std::string_view kind);
 
 [[nodiscard]] std::span<const MorseService> simulation_services();
 [[nodiscard]] std::span<const MorseService> time_services();
 [[nodiscard]] std::span<const MorseService> pen_services();
 
-/// What is shown of a value that a client has sent.
+/// A client's value, shortened for error texts.
 [[nodiscard]] std::string shown(const nlohmann::json& value);
-/// Throws MorseRefusal unless the connection may command a robot, or all of them.
+/// Throws MorseRefusal unless the connection may command one robot, or all robots.
 void require_command(const MorseCall& call, int robot);
 void require_command_all(const MorseCall& call);
 
-/// The services that a component has.
+/// The services of a component.
 [[nodiscard]] std::vector<const MorseService*> services_of(const MorseComponent& component);
 
-/// Carries a request out.
+/// Executes a request.
 /// @param list  its arguments.
-/// @return the result; nullopt if it is answered later.
-/// @throws MorseRefusal; SessionError and ProtocolError of what it calls.
+/// @return the result; nullopt if the answer comes later.
+/// @throws MorseRefusal; SessionError and ProtocolError of the functions that it calls.
 [[nodiscard]] std::optional<nlohmann::json> call_service(MorseState& state, MorseConnection& from,
                                                          const std::string& id,
                                                          std::string_view component,

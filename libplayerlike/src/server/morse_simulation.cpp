@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What MORSE's components `simulation` and `time` can be asked.
+// Requests to MORSE's components `simulation` and `time`.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -27,7 +27,7 @@ void require_truth(const MorseCall& call) {
       "all robots");
 }
 
-// Throws what a simulation says against something.
+// Throws the simulation's refusal, if there is one.
 void require_done(const std::optional<std::string>& refusal) {
   if (refusal) throw MorseRefusal(*refusal);
 }
@@ -98,7 +98,7 @@ json reset_objects(MorseCall& call) {
 }
 
 json quit(MorseCall& call) {
-  // After the answer.
+  // Posted, so that the answer is sent first.
   Hub& hub = call.state.hub();
   hub.post([&hub] { hub.quit(); });
   return nullptr;
@@ -143,10 +143,10 @@ json get_scene_objects(MorseCall& call) {
 json set_object_visibility(MorseCall& call) {
   const std::string name = call.arguments.text(0);
   const bool visible = call.arguments.boolean(1);
-  static_cast<void>(call.arguments.boolean(2));  // nothing has children
+  static_cast<void>(call.arguments.boolean(2));  // checked, but not used: objects have no children
   return call.state.with([&](sim::Simulation& simulation) {
     const auto objects = simulation.scene_objects();
-    // A block before a robot of the same name: it is what can be hidden.
+    // A block takes precedence over a robot of the same name, since only blocks can be hidden.
     const auto is_block = [&](const sim::SceneObject& o) {
       return o.name == name && o.kind == "block" && o.dynamic;
     };
@@ -159,7 +159,7 @@ json set_object_visibility(MorseCall& call) {
                      [&](const sim::SceneObject& o) { return o.name == name; })) {
       throw MorseRefusal("Object '" + name + "' does not appear in the scene.");
     }
-    return json(true);  // as it was: nothing else can be hidden
+    return json(true);  // no effect: other objects cannot be hidden
   });
 }
 
@@ -184,7 +184,7 @@ json set_log_level(MorseCall& call) {
   if (component != "simulation" && component != "time") {
     static_cast<void>(require_component(call, 0));
   }
-  // Python's names, and their numbers.
+  // The names and numbers of Python's log levels.
   constexpr std::array<std::pair<std::string_view, int>, 6> kLevels{{{"NOTSET", 0},
                                                                      {"DEBUG", 10},
                                                                      {"INFO", 20},

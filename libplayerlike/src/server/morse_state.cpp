@@ -53,9 +53,9 @@ void MorseState::command(DeviceId device, const sim::Command& command) {
   if (refusal) throw MorseRefusal(*refusal);
 }
 
-// --- Requests that are answered later
+// --- Requests with a later answer
 
-void MorseState::wait_for(Pending pending, Alarm alarm) {
+void MorseState::add_pending(PendingRequest pending, Alarm alarm) {
   const Number number = ++last_number_;
   MorseConnection& from = *pending.from;
   pending_.emplace(number, std::move(pending));
@@ -63,7 +63,7 @@ void MorseState::wait_for(Pending pending, Alarm alarm) {
   alarm.lets_time_pass = true;
   alarm.notify = [box = postbox_, weak = weak_from_this(), number] {
     box->post([weak, number] {
-      if (const auto state = weak.lock()) state->ring(number);
+      if (const auto state = weak.lock()) state->on_alarm(number);
     });
   };
   pending_.at(number).alarm = host().set_alarm(std::move(alarm));
@@ -72,13 +72,13 @@ void MorseState::wait_for(Pending pending, Alarm alarm) {
 
 void MorseState::answer_after(MorseConnection& from, const std::string& id, double seconds) {
   if (host().finished()) throw MorseRefusal(kRunIsOver);
-  Pending pending;
+  PendingRequest pending;
   pending.from = &from;
   pending.id = id;
   pending.until_ns = host().time().sim_time_ns + sim::from_seconds(seconds);
   Alarm alarm;
   alarm.until_ns = pending.until_ns;
-  wait_for(std::move(pending), std::move(alarm));
+  add_pending(std::move(pending), std::move(alarm));
 }
 
 void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
@@ -94,7 +94,7 @@ void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id,
   for (auto it = pending_.begin(); it != pending_.end();) {
     it = it->second.waypoint == waypoint ? end(it, "PREEMPTED", nullptr) : std::next(it);
   }
-  Pending pending;
+  PendingRequest pending;
   pending.from = &from;
   pending.id = id;
   pending.waypoint = waypoint;
@@ -110,13 +110,13 @@ void MorseState::answer_on_arrival(MorseConnection& from, const std::string& id,
     }
     return *outcome != Outcome::kNone;
   };
-  wait_for(std::move(pending), std::move(alarm));
+  add_pending(std::move(pending), std::move(alarm));
 }
 
-void MorseState::ring(Number number) {
+void MorseState::on_alarm(Number number) {
   const auto it = pending_.find(number);
   if (it == pending_.end()) return;
-  const Pending& pending = it->second;
+  const PendingRequest& pending = it->second;
   if (!pending.waypoint) {
     const bool slept = host().time().sim_time_ns >= pending.until_ns;
     end(it, slept ? "SUCCESS" : "FAILED", slept ? nlohmann::json() : nlohmann::json(kRunIsOver));
@@ -135,8 +135,8 @@ void MorseState::ring(Number number) {
   }
 }
 
-std::map<MorseState::Number, MorseState::Pending>::iterator MorseState::end(
-    std::map<Number, Pending>::iterator pending, std::string_view status,
+std::map<MorseState::Number, MorseState::PendingRequest>::iterator MorseState::end(
+    std::map<Number, PendingRequest>::iterator pending, std::string_view status,
     const nlohmann::json& result) {
   host().cancel_alarm(pending->second.alarm);
   MorseConnection& from = *pending->second.from;
@@ -158,7 +158,7 @@ void MorseState::cancel(MorseConnection& from, const std::string& id) {
     it = end(it, "PREEMPTED", nullptr);
   }
   for (const DeviceId device : stopped) {
-    // It may be off or the run be over: then the robot does not move anyway.
+    // A refusal means that the device is off or the run is over; the robot does not move then.
     with([&](sim::Simulation& simulation) {
       return simulation.apply(device, sim::StopCommand{}).has_value();
     });
@@ -182,7 +182,7 @@ std::size_t MorseState::waiting(const MorseConnection& from) const noexcept {
                     [&](const auto& entry) { return entry.second.from == &from; }));
 }
 
-// --- The rest
+// --- Other members
 
 void MorseState::set_verbose(const std::string& component, bool verbose) {
   if (verbose) {

@@ -23,17 +23,18 @@ class MorseConnection;
 class MorseStreams;
 struct MorseService;
 
-/// A request that cannot be carried out: what MORSE's client is told after FAILED.
+/// A request that cannot be executed; the text is sent to MORSE's client after FAILED.
 class MorseRefusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Passes tasks from whatever thread steps the simulation to the server's, as long as there is one.
+/// Posts tasks from the thread that steps the simulation to the server's thread, while the server
+/// exists.
 class Postbox {
  public:
   explicit Postbox(Hub& hub) : hub_(&hub) {}
-  /// From any thread. Does nothing once the box is closed.
+  /// May be called from any thread. Does nothing after close().
   void post(std::function<void()> task) {
     const std::lock_guard lock(mutex_);
     if (hub_ != nullptr) hub_->post(std::move(task));
@@ -48,8 +49,8 @@ class Postbox {
   Hub* hub_;
 };
 
-/// What all of a server's connections in MORSE's protocol share: the components, the streams, and
-/// the requests that are answered later. Used by the server's thread only.
+/// State that all of a server's connections in MORSE's protocol share: components, streams, and
+/// requests with a later answer. Used by the server's thread only.
 class MorseState : public std::enable_shared_from_this<MorseState> {
  public:
   explicit MorseState(Hub& hub);
@@ -57,7 +58,7 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   MorseState(const MorseState&) = delete;
   MorseState& operator=(const MorseState&) = delete;
 
-  /// The hub's, made if there is none yet.
+  /// The hub's object; created by the first call.
   static std::shared_ptr<MorseState> of(Hub& hub);
 
   [[nodiscard]] Hub& hub() noexcept { return hub_; }
@@ -65,14 +66,15 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   [[nodiscard]] const std::vector<MorseComponent>& components() const noexcept {
     return components_;
   }
-  /// @return null if there is none of that name.
+  /// @return null if no component has this name.
   [[nodiscard]] const MorseComponent* find(std::string_view name) const noexcept;
   [[nodiscard]] MorseStreams& streams() noexcept { return *streams_; }
-  /// All robots', for what concerns the canvas. Takes no part in the lockstep.
+  /// The session for requests about the canvas, with the rights of all robots. It does not take
+  /// part in the lockstep.
   [[nodiscard]] Session& session() { return client()->session(); }
   [[nodiscard]] const std::shared_ptr<EventClient>& client();
 
-  /// Does something with the simulation, and gives back what that gives.
+  /// Calls action(simulation) and returns its result.
   template <typename Action>
   auto with(Action action) {
     std::optional<decltype(action(std::declval<sim::Simulation&>()))> result;
@@ -80,29 +82,28 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
         [&](sim::Simulation& simulation) { result.emplace(action(simulation)); });
     return std::move(*result);
   }
-  /// Gives a device a command, at once.
-  /// @throws MorseRefusal saying why not: the run is over, or what the device says.
+  /// Sends a command to a device at once. @throws MorseRefusal with the reason: the run is over, or
+  /// the device refuses.
   void command(DeviceId device, const sim::Command& command);
 
   /// @name Requests that are answered later
   /// @{
 
-  /// Answers when so much simulated time has passed.
+  /// Answers after a duration of simulated time.
   void answer_after(MorseConnection& from, const std::string& id, double seconds);
-  /// Sends a waypoint device to a goal, and answers when the robot has arrived. A request that
-  /// waits for the same device is answered with PREEMPTED.
-  /// @throws MorseRefusal as command().
+  /// Sends a goal to a waypoint device, and answers when the robot has arrived. An earlier request
+  /// that waits for this device is answered with PREEMPTED. @throws MorseRefusal as command().
   void answer_on_arrival(MorseConnection& from, const std::string& id, DeviceId waypoint,
                          const sim::GotoCommand& goal);
-  /// Answers the connection's requests of that id with PREEMPTED; a goto stops its robot.
+  /// Answers the connection's requests with this id with PREEMPTED; a goto also stops its robot.
   void cancel(MorseConnection& from, const std::string& id);
-  /// The connection has ended: what it waits for goes on, but nobody is answered.
+  /// Called when the connection has ended: its actions continue without an answer.
   void forget(MorseConnection& from);
-  /// Requests of a connection that have no answer yet.
+  /// Number of the connection's requests without an answer so far.
   [[nodiscard]] std::size_t waiting(const MorseConnection& from) const noexcept;
   /// @}
 
-  /// @name How much is told of the requests to a component: MORSE's set_log_level
+  /// @name Whether requests to a component are logged: MORSE's set_log_level
   /// @{
   void set_verbose(const std::string& component, bool verbose);
   [[nodiscard]] bool verbose(const std::string& component) const {
@@ -119,37 +120,38 @@ class MorseState : public std::enable_shared_from_this<MorseState> {
   [[nodiscard]] const std::shared_ptr<Postbox>& postbox() const noexcept { return postbox_; }
 
  private:
-  /// How a request that waits has come out, as the alarm finds it.
+  /// The result of a waiting request, set by its alarm.
   enum class Outcome { kNone, kArrived, kReplaced };
-  struct Pending {
+  struct PendingRequest {
     MorseConnection* from = nullptr;
     std::string id;
     std::optional<DeviceId> waypoint;
-    sim::SimTime until_ns = 0;  ///< of a sleep
+    sim::SimTime until_ns = 0;  ///< end of a sleep
     AlarmId alarm = 0;
     std::shared_ptr<std::atomic<Outcome>> outcome;
   };
   using Number = std::uint64_t;
 
-  /// Starts waiting; the answer may be given before this returns.
-  void wait_for(Pending pending, Alarm alarm);
-  void ring(Number number);
-  /// Answers and forgets. @return the entry after it.
-  std::map<Number, Pending>::iterator end(std::map<Number, Pending>::iterator pending,
-                                          std::string_view status, const nlohmann::json& result);
+  /// Registers a waiting request; the answer may be sent before this returns.
+  void add_pending(PendingRequest pending, Alarm alarm);
+  void on_alarm(Number number);
+  /// Sends the answer and removes the entry. @return the next entry.
+  std::map<Number, PendingRequest>::iterator end(std::map<Number, PendingRequest>::iterator pending,
+                                                 std::string_view status,
+                                                 const nlohmann::json& result);
 
   Hub& hub_;
   std::shared_ptr<Postbox> postbox_;
   std::vector<MorseComponent> components_;
-  std::shared_ptr<EventClient> client_;  ///< made when it is first needed
-  std::map<Number, Pending> pending_;
+  std::shared_ptr<EventClient> client_;  ///< created on first use
+  std::map<Number, PendingRequest> pending_;
   Number last_number_ = 0;
   std::set<std::string> verbose_;
   bool synchronised_ = false;
   std::unique_ptr<MorseStreams> streams_;
 };
 
-/// One client's connection to the services.
+/// A client's connection to the services.
 class MorseConnection final : public Handler {
  public:
   MorseConnection(Peer& peer, Hub& hub);
@@ -160,24 +162,24 @@ class MorseConnection final : public Handler {
 
   [[nodiscard]] Peer& peer() noexcept { return peer_; }
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
-  /// Adds a token, which may give more rights.
+  /// Adds a token, which may add rights.
   void present(std::string token);
 
-  /// Has the server's workshop carry out a request about the canvas, and answers it then. Nothing
-  /// more is read from the connection before. @param list  its arguments.
+  /// Has the server's worker thread execute a request about the canvas, then answers it. Reading
+  /// from the connection pauses until then. @param list  its arguments.
   void work(const std::string& id, const MorseService& service, const nlohmann::json& list);
 
   /// Sends an answer. @param result  null: none.
   void answer(const std::string& id, std::string_view status, const nlohmann::json& result);
 
  private:
-  void carry_out(const std::string& id, std::string_view component, std::string_view service,
-                 std::string_view arguments);
-  /// Does something for a request; what that throws is answered.
+  void execute(const std::string& id, std::string_view component, std::string_view service,
+               std::string_view arguments);
+  /// Runs an action for a request; answers its exceptions.
   template <typename Action>
   void guarded(const std::string& id, Action action);
-  /// Does what presents tokens: at once if all are known; later and later if not, and not at all
-  /// if too many were wrong.
+  /// Runs an action that presents tokens: at once if all tokens are known, after a growing delay if
+  /// not, and never after too many wrong tokens.
   void try_tokens(const std::string& id, const std::vector<std::string>& tokens,
                   std::function<void()> action);
   void playpen(const std::string& id, std::string_view service, const nlohmann::json& arguments);
@@ -185,7 +187,7 @@ class MorseConnection final : public Handler {
   Peer& peer_;
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
-  std::shared_ptr<MorseConnection*> self_;  ///< outlived by what the workshop does for it
+  std::shared_ptr<MorseConnection*> self_;  ///< expires with the connection; jobs check it
   std::vector<std::string> tokens_;
   Rights rights_;
   int wrong_tokens_ = 0;

@@ -14,14 +14,14 @@ namespace {
 
 using nlohmann::json;
 
-/// How often robot_properties is written [simulated time].
+/// Period of robot_properties [simulated time].
 constexpr sim::SimTime kPropertiesPeriod_ns = sim::kNanosecondsPerSecond;
 
 std::string line_of(const json& object) {
   return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
-/// The token that a line {"playpen_token": "..."} presents.
+/// The token in a line {"playpen_token": "..."}.
 std::optional<std::string> token_in(std::string_view line) {
   try {
     const json object = protocol::decode_json_value(line);
@@ -31,7 +31,7 @@ std::optional<std::string> token_in(std::string_view line) {
   }
 }
 
-/// A connection to a stream's port, which may have to present a token in its first line.
+/// A connection to a stream's port. Its first line may present a token.
 class StreamConnection : public Handler {
  public:
   StreamConnection(Peer& peer, Hub& hub)
@@ -44,14 +44,14 @@ class StreamConnection : public Handler {
   [[nodiscard]] Peer& peer() noexcept { return peer_; }
 
  protected:
-  /// Takes the first line if it is a token. @return whether it was.
+  /// Handles the first line if it presents a token. @return whether it does.
   bool take_token(std::string_view line) {
     const bool first = std::exchange(first_line_, false);
     if (!first) return false;
     const auto token = token_in(line);
     if (!token) return false;
-    const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, {*token});
-    // A connection has one try: with a wrong token it is closed.
+    const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, {*token});
+    // A connection has one attempt: a wrong token closes it.
     hub_.answer_after(verdict.delay, peer_, alive_, [this, wrong = verdict.wrong, token = *token] {
       if (wrong) return peer_.close("");
       rights_ = hub_.access().rights({token});
@@ -59,11 +59,11 @@ class StreamConnection : public Handler {
     });
     return true;
   }
-  /// The token has given the connection its rights.
+  /// Called when the token has changed the rights.
   virtual void on_rights() {}
   [[nodiscard]] const Rights& rights() const noexcept { return rights_; }
   [[nodiscard]] MorseState& state() noexcept { return *state_; }
-  /// Tells the log of it, the first time.
+  /// Logs a warning once per connection.
   void complain(const std::string& component, const std::string& what) {
     if (std::exchange(complained_, true)) return;
     hub_.log(sim::LogLevel::kWarning,
@@ -75,12 +75,12 @@ class StreamConnection : public Handler {
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
   Rights rights_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< outlived by timers
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< for timers; expires with this
   bool first_line_ = true;
   bool complained_ = false;
 };
 
-/// Keeps readings, to be encoded when the simulation is no longer locked.
+/// Collects readings, so that they are encoded after the simulation's mutex is released.
 struct ReadingKeeper final : ReadingSink {
   void on_reading(DeviceId /*device*/, const sim::SharedReading& reading) override {
     readings.push_back(reading);
@@ -90,8 +90,8 @@ struct ReadingKeeper final : ReadingSink {
 
 }  // namespace
 
-/// What all readers of a sensor get. While there are any it is subscribed to the sensor, and an
-/// alarm tells it of readings; it takes no part in the lockstep.
+/// The records that all readers of a sensor get. While it has readers, it is subscribed to the
+/// sensor, and an alarm announces readings. It does not take part in the lockstep.
 class MorseStreams::Source : public std::enable_shared_from_this<Source> {
  public:
   Source(MorseState& state, const MorseComponent& component)
@@ -168,7 +168,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   }
 
   void write(const std::shared_ptr<const std::string>& line) {
-    // One that cannot keep up loses it.
+    // A reader that is too slow loses the record.
     for (StreamConnection* reader : readers_) {
       static_cast<void>(reader->peer().send_record(line));
     }
@@ -180,7 +180,7 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   }
 
   static const sim::Sensor& sensor(const sim::Simulation& simulation, DeviceId device) {
-    return dynamic_cast<const sim::Sensor&>(simulation.device(device.robot, device.device));
+    return *simulation.device(device.robot, device.device).sensor();
   }
 
   MorseState& state_;
@@ -188,12 +188,12 @@ class MorseStreams::Source : public std::enable_shared_from_this<Source> {
   std::vector<StreamConnection*> readers_;
   std::unique_ptr<EventClient> client_;
   std::optional<sim::OdometryLevel> level_;
-  std::uint64_t sequence_ = 0;  ///< of the newest reading that was written
+  std::uint64_t sequence_ = 0;  ///< of the newest reading sent
   std::optional<AlarmId> alarm_;
-  std::uint64_t generation_ = 0;  ///< counts starts, so that an alarm of before is known
+  std::uint64_t generation_ = 0;  ///< number of starts; tells a stale alarm from a current one
 };
 
-/// Who reads a sensor's stream. What it writes is ignored, but for a token.
+/// A client that reads a sensor's stream. Its input is ignored, except for a token.
 class MorseStreams::Reader final : public StreamConnection {
  public:
   Reader(Peer& peer, Hub& hub, std::shared_ptr<Source> source)
@@ -225,7 +225,7 @@ class MorseStreams::Reader final : public StreamConnection {
   bool listens_ = false;
 };
 
-/// Who tells an actuator what to do, line by line.
+/// A client that writes commands for an actuator, one per line.
 class MorseStreams::Writer final : public StreamConnection {
  public:
   Writer(Peer& peer, Hub& hub, const MorseComponent& component)
@@ -263,7 +263,7 @@ int MorseStreams::port(const MorseComponent& component) {
   if (known != streams_.end()) return known->second.port;
   Stream stream;
   MakeHandler make;
-  // The components live as long as the state, which each connection holds.
+  // The components belong to the state, which every connection keeps alive.
   if (component.stream == StreamDirection::kOut) {
     stream.source = std::make_shared<Source>(state_, component);
     make = [weak = std::weak_ptr(stream.source)](Peer& peer, Hub& hub) -> std::unique_ptr<Handler> {
@@ -283,7 +283,8 @@ int MorseStreams::port(const MorseComponent& component) {
 
 namespace {
 
-/// Who lets the clock go on, a step for each message. There is one at a time, as in MORSE.
+/// A client that lets simulated time advance by one step per message. Only one at a time is
+/// allowed, as in MORSE.
 class SyncConnection final : public Handler {
  public:
   SyncConnection(Peer& peer, Hub& hub) : peer_(peer), hub_(hub), state_(MorseState::of(hub)) {
@@ -300,12 +301,12 @@ class SyncConnection final : public Handler {
 
   [[nodiscard]] bool takes_bytes() const noexcept override { return true; }
 
-  // What comes together counts as one message, as in MORSE, but for lines.
+  // Bytes that arrive together count as one message, as in MORSE; lines count separately.
   void on_message(std::string_view bytes) override {
     if (!allowed_) {
       std::vector<std::string> tokens;
       if (auto token = token_in(bytes)) tokens.push_back(std::move(*token));
-      const Hub::TokenVerdict verdict = hub_.judge_tokens(peer_, tokens);
+      const Hub::TokenVerdict verdict = hub_.check_tokens(peer_, tokens);
       return hub_.answer_after(verdict.delay, peer_, alive_, [this, tokens = std::move(tokens)] {
         allow(hub_.access().rights(tokens));
         if (!allowed_) peer_.close("access/denied: a token for all robots is needed\n");
@@ -326,7 +327,7 @@ class SyncConnection final : public Handler {
   Peer& peer_;
   Hub& hub_;
   std::shared_ptr<MorseState> state_;
-  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< outlived by timers
+  std::shared_ptr<bool> alive_ = std::make_shared<bool>(true);  ///< for timers; expires with this
   bool allowed_ = false;
 };
 

@@ -12,8 +12,8 @@ namespace playerlike::server {
 class MorseState;
 struct MorseComponent;
 
-/// The data streams of a server: one TCP port for each component that has one, opened when it is
-/// first asked for. Used by the server's thread only.
+/// The data streams of a server: one TCP port for each component with a stream, opened on the first
+/// request. Used by the server's thread only.
 class MorseStreams {
  public:
   explicit MorseStreams(MorseState& state);
@@ -21,9 +21,8 @@ class MorseStreams {
   MorseStreams(const MorseStreams&) = delete;
   MorseStreams& operator=(const MorseStreams&) = delete;
 
-  /// The port of a component's stream.
-  /// @pre it has one.
-  /// @throws protocol::ProtocolError server/no-port.
+  /// The port of a component's stream. @pre it has a stream. @throws protocol::ProtocolError
+  /// server/no-port.
   int port(const MorseComponent& component);
 
  private:
@@ -32,11 +31,11 @@ class MorseStreams {
   class Writer;
   struct Stream {
     int port = 0;
-    std::shared_ptr<Source> source;  ///< of one that is read
+    std::shared_ptr<Source> source;  ///< of a stream that clients read
   };
 
   MorseState& state_;
-  std::map<std::string, Stream> streams_;  ///< by the component's name
+  std::map<std::string, Stream> streams_;  ///< by component name
   int next_port_;
 };
 

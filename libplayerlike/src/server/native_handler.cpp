@@ -10,7 +10,7 @@
 
 #include "protocol/codec.h"
 #include "protocol/request_codec.h"
-#include "server/workshop.h"
+#include "server/worker_thread.h"
 #include "session/checks.h"
 #include "sim/core/number_text.h"
 
@@ -20,16 +20,18 @@ namespace {
 using protocol::json;
 using protocol::ProtocolError;
 
-// Whole numbers up to here are whole numbers in every language's doubles.
+// Doubles represent all whole numbers up to this one exactly.
 constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53U;
-// Cells that drawings of all sessions may write in a step, besides what the workshop draws.
+// Cells that the drawings of all sessions may write in a step, without the worker thread's
+// drawings.
 constexpr std::size_t kStepCells = std::size_t{1} << 20U;
-// Answers of more bytes need room among all that waits to be sent.
+// A larger answer needs a claim on the server's limit of queued bytes, see Hub::claim_room()
+// [bytes].
 constexpr std::size_t kSmallAnswer = std::size_t{1} << 20U;
 constexpr double kMaxTimeout_s = 1e9;
 constexpr std::size_t kMaxReason = 200;
 
-// The signal whose wait this thread is beginning: it looks at the outcome itself.
+// The handler whose wait this thread is starting; that code checks the outcome itself.
 thread_local const void* beginning = nullptr;
 
 class Beginning {
@@ -57,13 +59,13 @@ double require_timeout(const json& request) {
 
 // --- Requests
 
-/// A request that is none of a session's: its name and keys, and what carries it out.
+/// A request that is not part of Session: its name, its keys and its function.
 struct NativeHandler::OwnRequest {
-  using Carry = json (NativeHandler::*)(const json&);
+  using Method = json (NativeHandler::*)(const json&);
   std::string_view name;
-  std::initializer_list<std::string_view> keys;  ///< all that are known
-  Carry carry;                                   ///< none: `read` and `draw`
-  bool for_watchers = false;                     ///< needs no session
+  std::initializer_list<std::string_view> keys;  ///< all allowed keys
+  Method handle;                                 ///< null: `read` and `draw`, handled separately
+  bool for_watchers = false;                     ///< allowed without a session
 };
 
 const NativeHandler::OwnRequest* NativeHandler::find_own_request(std::string_view name) {
@@ -97,7 +99,7 @@ void NativeHandler::require_rights(int robot) const {
                                            " obeys only those whose hello has its token");
 }
 
-// Of an object's robot; -1 for anything else.
+// The index of the robot with this name; -1 if the object is not a robot.
 int NativeHandler::robot_named(const std::string& name) const {
   const auto& robots = hub_.host().robots();
   const auto it = std::find_if(robots.begin(), robots.end(),
@@ -105,7 +107,7 @@ int NativeHandler::robot_named(const std::string& name) const {
   return it == robots.end() ? -1 : static_cast<int>(it - robots.begin());
 }
 
-/// Refuses what a client may not ask for, and what a server does not do for anybody.
+/// Refuses requests that this client may not make, and requests that a server never executes.
 struct NativeHandler::Guard {
   const NativeHandler& handler;
 
@@ -171,7 +173,7 @@ struct NativeHandler::Guard {
     handler.require_rights(robot == robots.rend() ? -1
                                                   : static_cast<int>(robots.rend() - robot) - 1);
   }
-  // It is logged.
+  // The reason is written to the log.
   static void check(const PreferRealTimeRequest& what) {
     if (what.reason.size() <= kMaxReason && is_printable(what.reason)) return;
     protocol::refuse_value("reason", "at most 200 printable bytes", what.reason);
@@ -202,7 +204,7 @@ NativeHandler::~NativeHandler() {
   state_->watching.forget(peer_);
   if (client_) {
     state_->leaders.erase(terms_.key);
-    // The workshop may still have it.
+    // The worker thread may still hold a reference.
     client_->session().close();
   }
   if (waiting_ && waiting_->timer != 0) hub_.cancel(waiting_->timer);
@@ -216,21 +218,21 @@ json NativeHandler::tell_canvas() {
     return protocol::encode_canvas(
         {canvas.width, canvas.height, canvas.cell_size_m, canvas.origin.x(), canvas.origin.y()});
   }
-  // In this order: what changes in between is told of twice.
+  // Read the generation first: a change in between is then reported twice, but never missed.
   canvas_generation_ = session().canvas_generation();
   return protocol::encode_canvas(session().request(CanvasInfoRequest{}));
 }
 
 void NativeHandler::on_message(std::string_view bytes) {
   if (ending_) return;
-  // A wait that is over was so before this message.
+  // If a wait is over, it was over before this message.
   answer_waiting();
   json id;
   std::string name;
   guarded(id, name, [&] {
     const json message = protocol::decode(bytes, terms_.encoding);
     if (message.contains("id")) id = protocol::require_integer(message, "id", 0, kMaxInteger);
-    carry_out(message, id, name);
+    execute(message, id, name);
   });
 }
 
@@ -248,7 +250,7 @@ void NativeHandler::guarded(const json& id, const std::string& name, Action acti
   }
 }
 
-void NativeHandler::carry_out(const json& message, const json& id, std::string& name) {
+void NativeHandler::execute(const json& message, const json& id, std::string& name) {
   name = protocol::require_text(message, "do");
   const OwnRequest* own = find_own_request(name);
   const auto type = own == nullptr ? protocol::find_request(name) : std::nullopt;
@@ -262,14 +264,14 @@ void NativeHandler::carry_out(const json& message, const json& id, std::string& 
   if (type) {
     Request request = protocol::decode_request(*type, message, terms_.encoding);
     std::visit(Guard{*this}, request);
-    if (native_work_cells(request, session(), hub_.host()) > kLightCells) {
+    if (native_work_cells(request, session(), hub_.host()) > kInlineCells) {
       return answer_elsewhere(std::move(request), id, name);
     }
     return answer(id, protocol::encode_answer(request, session().answer(request), terms_.encoding));
   }
   protocol::refuse_unknown_keys(message, own->keys, "this request");
-  if (own->carry != nullptr) {
-    answer(id, (this->*own->carry)(message));
+  if (own->handle != nullptr) {
+    answer(id, (this->*own->handle)(message));
     if (ending_) peer_.close("");
     return;
   }
@@ -283,7 +285,7 @@ void NativeHandler::carry_out(const json& message, const json& id, std::string& 
 
 // --- Work
 
-void NativeHandler::work(const json& id, const std::string& name, std::function<bool()> piece,
+void NativeHandler::work(const json& id, const std::string& name, std::function<bool()> run_slice,
                          std::function<void()> then) {
   peer_.set_busy(true);
   const auto done = [weak = std::weak_ptr<NativeHandler*>(self_), id, name,
@@ -297,7 +299,7 @@ void NativeHandler::work(const json& id, const std::string& name, std::function<
     });
     handler.peer_.set_busy(false);
   };
-  hub_.work({std::move(piece), done});
+  hub_.work({std::move(run_slice), done});
 }
 
 void NativeHandler::answer_elsewhere(Request request, const json& id, const std::string& name) {
@@ -309,14 +311,14 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
   };
   const auto made = std::make_shared<Made>();
   made->canvas_generation = canvas_generation_;
-  // Of the handler, which may be gone by then, the workshop needs nothing.
-  const auto piece = [client = client_, encoding = terms_.encoding, request = std::move(request),
-                      id, made] {
+  // The job holds no reference to the handler, which may be destroyed before the job is done.
+  const auto run_slice = [client = client_, encoding = terms_.encoding,
+                          request = std::move(request), id, made] {
     Session& session = client->session();
     json answer = protocol::encode_answer(request, session.answer(request), encoding);
     if (id.is_null()) return false;
     answer["id"] = id;
-    // In this order: what changes in between is told of twice.
+    // Read the generation first: a change in between is then reported twice, but never missed.
     const std::uint64_t generation = session.canvas_generation();
     if (generation != made->canvas_generation) {
       answer["canvas"] = protocol::encode_canvas(session.request(CanvasInfoRequest{}));
@@ -325,7 +327,7 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
     made->bytes = protocol::encode(answer, encoding);
     return false;
   };
-  work(id, name, piece, [this, made, room = std::move(room)] {
+  work(id, name, run_slice, [this, made, room = std::move(room)] {
     if (made->bytes.empty()) return;
     canvas_generation_ = std::max(canvas_generation_, made->canvas_generation);
     peer_.send(std::move(made->bytes));
@@ -349,8 +351,8 @@ void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings
   }
 }
 
-// What is little waits for the next step, or for the next look at the canvas, as drawings of
-// programs do. So that it stays little for all sessions together, each has its share.
+// Light drawings wait in the draw queue for the next step or the next access to the canvas, like
+// those of embedded programs. Each session has a share of the limit, so that the sum stays small.
 bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
   if (drawings.empty()) return true;
   const CanvasInfo canvas = session().request(CanvasInfoRequest{});
@@ -360,19 +362,19 @@ bool NativeHandler::draw_here(std::vector<sim::DrawOperation>& drawings) {
     cells += sim::cells_written(drawing, canvas.width, canvas.height);
   }
   const std::size_t share = kStepCells / std::max<std::size_t>(state_->leaders.size(), 1);
-  if (light_cells_ + cells > std::min(share, 4 * kLightCells)) return false;
-  light_cells_ += cells;
+  if (queued_cells_ + cells > std::min(share, 4 * kInlineCells)) return false;
+  queued_cells_ += cells;
   session().draw(drawings);
   return true;
 }
 
 void NativeHandler::draw_elsewhere(std::vector<sim::DrawOperation> drawings, const json& id,
                                    const std::string& name, std::function<void()> then) {
-  light_cells_ = 0;
+  queued_cells_ = 0;
   const auto drawing = std::make_shared<DrawWork>();
   drawing->operations = std::move(drawings);
   work(
-      id, name, [client = client_, drawing] { return !client->draw_some(*drawing, kPieceCells); },
+      id, name, [client = client_, drawing] { return !client->draw_some(*drawing, kSliceCells); },
       std::move(then));
 }
 
@@ -407,7 +409,7 @@ std::string NativeHandler::farewell(const ProtocolError& error) {
 
 // --- Reading
 
-/// Readings as the answer to a `read` has them.
+/// The readings in the format of an answer to `read`.
 class NativeHandler::ReadingList final : public ReadingSink {
  public:
   ReadingList(const std::vector<RobotInfo>& robots, protocol::Encoding encoding)
@@ -426,9 +428,9 @@ class NativeHandler::ReadingList final : public ReadingSink {
   json list_ = json::array();
 };
 
-ThinkerId NativeHandler::thinker(const json& request) {
+ThreadId NativeHandler::thread_id(const json& request) {
   const std::int64_t thread = integer_or(request, "thread", 0, 0, kMaxInteger);
-  return hub_.thinker(terms_.process, static_cast<std::uint64_t>(thread));
+  return hub_.thread_id(terms_.process, static_cast<std::uint64_t>(thread));
 }
 
 void NativeHandler::read(const json& request, const json& id) {
@@ -447,7 +449,7 @@ void NativeHandler::read(const json& request, const json& id) {
   }
   static_cast<void>(integer_or(request, "thread", 0, 0, kMaxInteger));
 
-  // First all is looked at, then all is done: a request that fails has done nothing.
+  // Checks all commands before the first one is sent: a request that fails has no effect.
   std::vector<std::pair<DeviceId, sim::Command>> commands;
   if (request.contains("commands")) {
     const json& list = request["commands"];
@@ -467,7 +469,7 @@ void NativeHandler::read(const json& request, const json& id) {
   require_drawing(drawings);
   const auto go_on = [this, id, wait](const auto& list, const json& what) {
     for (const auto& [device, command] : list) session().send(device, command);
-    if (wait == Wait::kJoin) client_->join(thinker(what));
+    if (wait == Wait::kJoin) client_->join(thread_id(what));
     if (wait == Wait::kJoin || wait == Wait::kNone) return answer(id, round(wait, Outcome::kData));
     begin_to_wait(what, id, wait);
   };
@@ -482,14 +484,15 @@ void NativeHandler::read(const json& request, const json& id) {
 }
 
 NativeHandler::Outcome NativeHandler::begin(Wait wait, const json& request) {
-  const ThinkerId who = thinker(request);
+  const ThreadId who = thread_id(request);
   if (wait == Wait::kData) return client_->begin_wait(who);
   if (wait == Wait::kSleep) return client_->begin_sleep(who, require_timeout(request));
   const double timeout_s = request.contains("timeout") ? require_timeout(request) : 0.0;
   const std::chrono::milliseconds timeout(std::llround(timeout_s * 1e3));
   const Outcome outcome = client_->begin_peek(who, timeout);
-  // In a paced simulation it does not end by itself, see EventClient. Asked afterwards: one that
-  // becomes paced later lets it end by simulated time.
+  // In a paced simulation the host does not end a peek, see EventClient, so a timer does. The mode
+  // is checked after the start: if the simulation becomes paced later, the peek ends by simulated
+  // time.
   if (outcome != Outcome::kWaiting || hub_.host().time().mode != sim::TimeMode::kPaced) {
     return outcome;
   }
@@ -506,8 +509,7 @@ void NativeHandler::begin_to_wait(const json& request, const json& id, Wait wait
     {
       const Beginning scope(self_.get());
       outcome = begin(wait, request);
-      // Most often time can go on at once, and then the wait is over without another turn of the
-      // server's thread.
+      // Usually time can advance at once, and the wait ends without another turn of the event loop.
       if (outcome == Outcome::kWaiting) hub_.pump();
     }
     if (outcome == Outcome::kWaiting) {
@@ -547,9 +549,9 @@ void NativeHandler::on_peek_timeout() {
   answer_waiting();
 }
 
-// What a `read` is answered when its wait has come out so; one that was cancelled was by time.
+// The answer to a `read` for the outcome of its wait. A cancelled wait has timed out.
 json NativeHandler::round(Wait wait, Outcome outcome) {
-  if (outcome != Outcome::kIdle && wait != Wait::kNone) light_cells_ = 0;  // a step has drawn them
+  if (outcome != Outcome::kIdle && wait != Wait::kNone) queued_cells_ = 0;  // a step has drawn them
   if (wait == Wait::kData && outcome == Outcome::kFinished) {
     throw SessionError(SessionError::Code::kFinished, "the simulated run is over");
   }
@@ -600,7 +602,7 @@ json NativeHandler::time(const json& /*request*/) {
 
 json NativeHandler::thread_ended(const json& request) {
   static_cast<void>(protocol::require_integer(request, "thread", 0, kMaxInteger));
-  hub_.host().thinker_ended(thinker(request));
+  hub_.host().thread_ended(thread_id(request));
   hub_.pump();
   return json::object();
 }

@@ -15,7 +15,7 @@ using protocol::ProtocolError;
 
 constexpr std::size_t kMaxName = 64;
 
-/// A text that may be logged.
+/// A text that is safe to log.
 std::string name_or_empty(const json& argument, const char* key) {
   if (!argument.contains(key)) return "";
   std::string text = protocol::require_text(argument, key);
@@ -32,7 +32,7 @@ std::vector<std::string> tokens_of(const json& argument) {
   const bool good =
       list.is_array() && list.size() <= kMaxTokens &&
       std::all_of(list.begin(), list.end(), [](const json& t) { return t.is_string(); });
-  // What was found is not shown: it may be a token.
+  // The error does not show the value, which may be a token.
   if (!good) {
     throw ProtocolError("protocol/bad-value", "tokens: expected a list of up to 64 texts");
   }
@@ -57,7 +57,7 @@ void require_version(const json& argument) {
   }
 }
 
-/// Fills in what concerns a session that follows another one.
+/// Sets the terms of a session that follows another one.
 void follow(NativeHandler::Terms& terms, const NativeState& state, const json& argument) {
   const auto leader = state.leaders.find(protocol::require_text(argument, "follow"));
   if (leader == state.leaders.end()) {
@@ -100,7 +100,7 @@ NativeHandler::Terms terms_of(Hub& hub, const json& argument) {
   }
   terms.key = make_token();
   terms.process = name_or_empty(argument, "process");
-  // Not to be mistaken for another one, whatever that calls itself.
+  // A name that no client can choose for its own process.
   if (terms.process.empty()) terms.process = "session " + terms.key;
   return terms;
 }

@@ -10,19 +10,19 @@
 
 namespace playerlike::server {
 
-/// What the connections in Playpen's own protocol share, see Hub::native_state.
+/// State that the connections in Playpen's own protocol share, see Hub::native_state.
 struct NativeState {
-  /// Of a session, what matters to those who follow it.
+  /// The data of a session that its followers need.
   struct Leader {
     int port = 0;
-    std::vector<bool> command;  ///< as Rights
+    std::vector<bool> command;  ///< as in Rights
   };
 
   explicit NativeState(Hub& hub) : watching(hub) {}
 
-  std::string simulation;                 ///< a name that no other simulation has
-  std::uint64_t sessions = 0;             ///< opened so far
-  std::map<std::string, Leader> leaders;  ///< sessions that are open, by their keys
+  std::string simulation;                 ///< identifies this simulation uniquely
+  std::uint64_t sessions = 0;             ///< number of sessions opened so far
+  std::map<std::string, Leader> leaders;  ///< open sessions by key
   WatchHub watching;
 };
 

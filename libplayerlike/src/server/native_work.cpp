@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "server/workshop.h"
+#include "server/worker_thread.h"
 #include "sim/simulation/simulation.h"
 
 namespace playerlike::server {
@@ -35,9 +35,9 @@ struct WorkCells {
       cells = std::min(cells, static_cast<double>(what.tile->width) * what.tile->height);
     return static_cast<std::size_t>(std::clamp(cells, 0.0, kMaxMapCells));
   }
-  // A log that begins may have to be read first, and be long.
+  // A new log may have to read an existing, long file first.
   std::size_t operator()(const LogRequest& what) const {
-    return what.running ? kLightCells + 1 : 0;
+    return what.running ? kInlineCells + 1 : 0;
   }
   template <typename One>
   std::size_t operator()(const One&) const {

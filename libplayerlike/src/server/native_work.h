@@ -7,20 +7,20 @@
 #include "playerlike/messages/requests.h"
 #include "protocol/framing.h"
 
-/// Requests of Playpen's own protocol whose work grows with the canvas or the arena, so that it is
-/// done by the server's workshop (workshop.h) when there is much of it.
+/// Cost estimates of requests in Playpen's own protocol whose work grows with the canvas or the
+/// arena. The server's worker thread (worker_thread.h) executes expensive ones.
 namespace playerlike::server {
 
-/// Cells that a server's map has at most.
+/// Maximum number of cells of a server's map.
 inline constexpr double kMaxMapCells = 1 << 22;
 
 /// Length and width of the arena.
 [[nodiscard]] sim::Vec2 native_arena_m(Host& host);
 
-/// How much work a request is, in cells that it looks at or makes.
+/// The work of a request, as the number of cells that it reads or makes.
 [[nodiscard]] std::size_t native_work_cells(const Request& request, Session& session, Host& host);
 
-/// The most bytes that the answer to a request has, if they are many; else 0.
+/// An upper bound of the bytes of the answer to a request, if they are many; otherwise 0.
 [[nodiscard]] std::size_t native_answer_bytes(const Request& request, Session& session,
                                               protocol::Encoding encoding);
 

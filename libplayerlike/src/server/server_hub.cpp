@@ -31,24 +31,25 @@ namespace {
 using asio::ip::tcp;
 using Clock = Connection::Clock;
 
-// How long lockstep time goes on before sockets get their turn.
+// How long lockstep time may advance before sockets get a turn.
 constexpr auto kSlice = std::chrono::milliseconds(2);
 constexpr auto kTick = std::chrono::milliseconds(100);
-// How long stop() waits for what is due to clients.
+// Maximum time that stop() waits until pending output is sent.
 constexpr auto kStopTime = std::chrono::milliseconds(700);
-// Before connections are accepted again after the system could not.
+// Pause before accepting again after a failure of the system.
 constexpr auto kAcceptPause = std::chrono::milliseconds(200);
-// Between warnings of the same thing.
+// Minimum time between equal warnings.
 constexpr auto kWarningPause = std::chrono::seconds(10);
-// Connections that are told that there are too many; further ones are just closed.
+// Maximum number of connections that are refused with a message; further ones are closed without
+// one.
 constexpr std::size_t kRefused = 32;
 constexpr int kPortsTried = 1000;
-// What is remembered of clients' processes, and what one may call itself.
+// Limits for the processes of clients: number, threads per process, length of a name.
 constexpr std::size_t kProcesses = 4096;
 constexpr std::size_t kThreadsOfAProcess = 4096;
 constexpr std::size_t kProcessName = 128;
 
-// Half-open connections show after about a minute.
+// Half-open connections are detected after about a minute.
 constexpr int kKeepAliveIdle_s = 30;
 constexpr int kKeepAliveInterval_s = 10;
 constexpr int kKeepAliveProbes = 3;
@@ -68,7 +69,7 @@ std::string text_of(const tcp::endpoint& endpoint) {
   return (ip.is_v6() ? '[' + address + ']' : address) + ':' + std::to_string(endpoint.port());
 }
 
-/// The addresses of this machine that a name stands for.
+/// Resolves a name to addresses of this machine.
 std::vector<asio::ip::address> addresses_of(asio::io_context& io, const std::string& name) {
   constexpr const char* kExpected = "an IPv4 or IPv6 address of this machine, or a name of it";
   asio::error_code error;
@@ -102,24 +103,24 @@ void require_token(const ServerSettings& settings,
   }
 }
 
-/// The addresses to listen on. @throws sim::ConfigError also if they need a token.
-std::vector<asio::ip::address> sound_addresses(asio::io_context& io,
-                                               const ServerSettings& settings) {
+/// The addresses to listen on. @throws sim::ConfigError, also if they need a token.
+std::vector<asio::ip::address> checked_addresses(asio::io_context& io,
+                                                 const ServerSettings& settings) {
   std::vector<asio::ip::address> addresses = addresses_of(io, settings.bind);
   require_token(settings, addresses);
   return addresses;
 }
 
-/// A port on all addresses of the server.
+/// A port on all of the server's addresses.
 struct Listener {
   std::vector<tcp::acceptor> acceptors;
   int port = 0;
-  bool services = false;  ///< the port that clients connect to first
+  bool services = false;  ///< the services' port
   MakeHandler make;
 };
 
-/// @param alone  whether this is the only address: then "::" serves IPv4 too; a name may stand for
-///               one of each.
+/// @param alone  whether this is the only address: then "::" accepts IPv4 too. A name may resolve
+///               to an address of each protocol.
 asio::error_code open_on(asio::io_context& io, const asio::ip::address& address, bool alone,
                          Listener& listener) {
   try {
@@ -139,18 +140,18 @@ asio::error_code open_on(asio::io_context& io, const asio::ip::address& address,
   }
 }
 
-/// Opens a port on all addresses. @param port  0: any free one. @return what went wrong.
+/// Opens a port on all addresses. @param port  0: any free one. @return the error.
 asio::error_code open(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
                       int port, Listener& listener) {
   asio::error_code result;
-  // With any free port, one that is free on the first address may be taken on another.
+  // A port that is free on the first address may be in use on another, so try again.
   for (int attempt = 0; attempt < (port == 0 ? 10 : 1); ++attempt) {
     listener.acceptors.clear();
     listener.port = port;
     result.clear();
     for (const asio::ip::address& address : addresses) {
       const asio::error_code error = open_on(io, address, addresses.size() == 1, listener);
-      // A name may stand for an address of a protocol that this machine does not speak.
+      // A name may have an address of a protocol that this machine does not support.
       const bool no_such_address =
           error == asio::error::address_family_not_supported || error.value() == EADDRNOTAVAIL;
       if (error && !(no_such_address && addresses.size() > 1)) result = error;
@@ -164,7 +165,7 @@ asio::error_code open(asio::io_context& io, const std::vector<asio::ip::address>
   return result;
 }
 
-/// @param place  the setting that names the port.
+/// @param place  the setting that gives the port, for errors.
 void open_or_throw(asio::io_context& io, const std::vector<asio::ip::address>& addresses,
                    const ServerSettings& settings, int port, const char* place,
                    Listener& listener) {
@@ -193,7 +194,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
         settings_(std::move(settings)),
         log_(std::move(log)),
         access_(settings_.access, host_->robots(), host_->own_sensors_only()),
-        addresses_(sound_addresses(io_, settings_)) {
+        addresses_(checked_addresses(io_, settings_)) {
     Listener services_port;
     services_port.services = true;
     services_port.make = std::move(services);
@@ -242,7 +243,7 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
     static_cast<Connection&>(peer).hand_over(std::move(handler));
   }
   void quit() override { quit_ = true; }
-  [[nodiscard]] ThinkerId thinker(const std::string& process, std::uint64_t thread) override;
+  [[nodiscard]] ThreadId thread_id(const std::string& process, std::uint64_t thread) override;
 
  private:
   // ConnectionOwner
@@ -277,8 +278,8 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   int sync_port_ = 0;
 
   std::vector<std::unique_ptr<Listener>> listeners_;
-  std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that close
-  std::size_t refused_ = 0;  ///< of those, that were never let in
+  std::unordered_set<std::shared_ptr<Connection>> connections_;  ///< also those that are closing
+  std::size_t refused_ = 0;                                      ///< how many of them were refused
   std::atomic<std::size_t> open_connections_{0};
   std::atomic<std::size_t> claimed_bytes_{0};  ///< see claim_room()
   std::atomic<bool> quit_{false};
@@ -296,15 +297,15 @@ class ServerHub::Body final : public Hub, private ConnectionOwner {
   bool pump_again_ = false;
   bool pump_posted_ = false;
 
-  /// What is known of a process that has clients here.
+  /// The known threads of a process with clients here.
   struct Process {
-    std::map<std::uint64_t, ThinkerId> threads;
+    std::map<std::uint64_t, ThreadId> threads;
     std::uint64_t last_use = 0;
   };
   std::map<std::string, Process> processes_;
   std::uint64_t process_uses_ = 0;
 
-  Workshop workshop_;
+  WorkerThread worker_;
 
   bool stopping_ = false;
   Clock::time_point stop_deadline_{};
@@ -355,21 +356,21 @@ void ServerHub::Body::accept(Listener& listener, tcp::acceptor& acceptor) {
       [this, &listener, &acceptor](const asio::error_code& error, tcp::socket socket) {
         if (stopping_ || error == asio::error::operation_aborted) return;
         if (!error) admit(listener, std::move(socket));
-        // Those that were given up before their turn came are nobody's fault.
+        // Connections that the peer aborted before they were accepted are not an error.
         if (!error || error == asio::error::connection_aborted) return accept(listener, acceptor);
         accept_later(listener, acceptor, error);
       });
 }
 
-// The system has no room, maybe no more descriptors. What knocks waits in the system's queue;
-// trying again at once would only keep the processor busy.
+// The system has no resources, perhaps no file descriptors. New connections wait in the backlog; an
+// immediate retry would only keep the processor busy.
 void ServerHub::Body::accept_later(Listener& listener, tcp::acceptor& acceptor,
                                    const asio::error_code& error) {
   warn_of(accept_warned_, "no connection can be accepted for now: " + error.message());
   after(kAcceptPause, [this, &listener, &acceptor] { accept(listener, acceptor); });
 }
 
-// Not more often than every few seconds.
+// Limits the rate of warnings.
 void ServerHub::Body::warn_of(Clock::time_point& last, const std::string& text) {
   const Clock::time_point now = Clock::now();
   if (last != Clock::time_point{} && now - last < kWarningPause) return;
@@ -380,7 +381,7 @@ void ServerHub::Body::warn_of(Clock::time_point& last, const std::string& text) 
 void ServerHub::Body::admit(Listener& listener, tcp::socket socket) {
   asio::error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
-  if (error) return;  // gone already
+  if (error) return;  // disconnected already
   socket.non_blocking(true, error);
   socket.set_option(tcp::no_delay(true), error);
   socket.set_option(asio::socket_base::keep_alive(true), error);
@@ -425,9 +426,9 @@ void ServerHub::Body::tick() {
   ticker_.async_wait([this](const asio::error_code& error) {
     if (error) return;
     const Clock::time_point now = Clock::now();
-    // A copy: what ends is taken out.
+    // A copy, since connections that end are removed.
     const std::vector<std::shared_ptr<Connection>> all(connections_.begin(), connections_.end());
-    for (const auto& connection : all) connection->look_after(now);
+    for (const auto& connection : all) connection->enforce_limits(now);
     if (stopping_ && now >= stop_deadline_) {
       for (const auto& connection : all) connection->end("the server ended");
     }
@@ -440,7 +441,7 @@ void ServerHub::Body::tick() {
 // --- The thread
 
 void ServerHub::Body::serve() {
-  // Signals are for the program's own threads.
+  // Signals are left to the program's own threads.
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);
@@ -453,14 +454,15 @@ void ServerHub::Body::serve() {
       log(sim::LogLevel::kError, std::string("the server's thread: ") + e.what());
     }
   }
-  // All handlers are gone. Work and alarms of what they shared must not reach a hub that goes.
-  workshop_.close();
+  // All handlers are destroyed. Now end the work and the alarms of the shared state, which must not
+  // reach a destroyed hub.
+  worker_.close();
   morse_state.reset();
   native_state.reset();
 }
 
 void ServerHub::Body::post(std::function<void()> task) {
-  // While it pumps, this thread does what was posted afterwards, without another turn.
+  // pump() runs tasks that this thread posts meanwhile, so no further turn is needed.
   const bool done_soon = own_thread_.load() == std::this_thread::get_id() && pumping_;
   {
     const std::lock_guard lock(task_mutex_);
@@ -484,7 +486,7 @@ void ServerHub::Body::run_tasks_soon() {
   });
 }
 
-// Of what is posted meanwhile, the rest waits for another turn.
+// Tasks that are posted meanwhile wait for another turn.
 void ServerHub::Body::run_tasks() {
   std::vector<std::function<void()>> tasks;
   {
@@ -542,7 +544,7 @@ void ServerHub::Body::work(Job job) {
   job.done = [this, done = std::move(job.done)](const std::exception_ptr& error) {
     post([done, error] { done(error); });
   };
-  workshop_.add(std::move(job));
+  worker_.add(std::move(job));
 }
 
 std::shared_ptr<void> ServerHub::Body::claim_room(std::size_t bytes) {
@@ -558,13 +560,13 @@ std::shared_ptr<void> ServerHub::Body::claim_room(std::size_t bytes) {
   return {nullptr, [this, bytes](void*) { claimed_bytes_ -= bytes; }};
 }
 
-ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thread) {
+ThreadId ServerHub::Body::thread_id(const std::string& process, std::uint64_t thread) {
   if (process.size() > kProcessName) {
     throw protocol::ProtocolError(
         "protocol/bad-value",
         "the name of a process has at most " + std::to_string(kProcessName) + " bytes");
   }
-  // Nobody tells that a process has ended, so the one that was heard of least lately makes room.
+  // The end of a process is not announced, so the least recently used one is evicted.
   if (processes_.size() >= kProcesses && !processes_.contains(process)) {
     processes_.erase(std::min_element(
         processes_.begin(), processes_.end(),
@@ -575,8 +577,8 @@ ThinkerId ServerHub::Body::thinker(const std::string& process, std::uint64_t thr
   if (known.threads.size() >= kThreadsOfAProcess && !known.threads.contains(thread)) {
     known.threads.clear();
   }
-  ThinkerId& id = known.threads[thread];
-  if (id == 0) id = new_thinker();
+  ThreadId& id = known.threads[thread];
+  if (id == 0) id = new_thread_id();
   return id;
 }
 
@@ -615,7 +617,7 @@ void ServerHub::check(const ServerSettings& settings, const std::vector<std::str
   for (std::size_t i = 0; i < robots.size(); ++i) infos[i].name = robots[i];
   const Access access(settings.access, infos);
   asio::io_context io;
-  const std::vector<asio::ip::address> addresses = sound_addresses(io, settings);
+  const std::vector<asio::ip::address> addresses = checked_addresses(io, settings);
   Listener services;
   Listener clock;
   open_or_throw(io, addresses, settings, settings.port, "port", services);

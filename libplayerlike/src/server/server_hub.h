@@ -10,20 +10,20 @@
 
 namespace playerlike::server {
 
-/// The body of a server: ports, connections, timers, and the one thread that serves them. What is
-/// said on a connection is left to handlers.
+/// The core of a server: ports, connections, timers, and the thread that serves them. Handlers
+/// implement the protocols.
 class ServerHub {
  public:
-  /// Listens and starts the thread. @param services  makes the handlers of the services' port.
-  /// @throws sim::ConfigError as Server.
+  /// Opens the ports and starts the thread. @param services  makes the handlers of the services'
+  /// port. @throws sim::ConfigError as Server.
   ServerHub(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log,
             MakeHandler services);
-  /// As stop().
+  /// Calls stop().
   ~ServerHub();
   ServerHub(const ServerHub&) = delete;
   ServerHub& operator=(const ServerHub&) = delete;
 
-  /// @name As of Server
+  /// @name As in Server
   /// @{
   static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
   [[nodiscard]] int port() const noexcept;

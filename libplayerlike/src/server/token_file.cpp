@@ -2,10 +2,10 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <random>
 
 #include "playerlike/server/server_settings.h"
+#include "sim/core/number_text.h"
 #include "sim/io/settings_file.h"
 
 namespace playerlike {
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kTokenExpected = "16 to 256 English letters, digits or signs, without blanks";
 
-/// The token of a key, "" if there is none or it is not sound.
+/// The token of a key, "" if there is none or it is not valid.
 std::string read_token(sim::io::Reader& object, const std::string& key) {
   const auto child = object.child(key);
   if (!child) return "";
@@ -22,7 +22,7 @@ std::string read_token(sim::io::Reader& object, const std::string& key) {
     return "";
   }
   std::string token = child->scalar_text().value_or("");
-  // What is wrong is told without showing the token: messages end up in logs.
+  // The error does not show the token, since errors end up in logs.
   const bool printable =
       std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c <= '~'; });
   if (token.size() >= kMinToken && token.size() <= kMaxToken && printable) return token;
@@ -56,13 +56,9 @@ void warn_if_shared(const std::string& file, const sim::LogHook& log) {
 }  // namespace
 
 std::string make_token() {
-  constexpr const char* kDigits = "0123456789abcdef";
   std::random_device device;
   std::string text;
-  for (int i = 0; i < 4; ++i) {
-    auto bits = static_cast<std::uint32_t>(device());
-    for (int digit = 0; digit < 8; ++digit, bits >>= 4U) text += kDigits[bits & 15U];
-  }
+  for (int i = 0; i < 4; ++i) text += sim::hexadecimal_text(device(), 8);
   return text;
 }
 

@@ -11,10 +11,9 @@ namespace playerlike::server {
 namespace {
 
 constexpr std::size_t kCellBytes = sizeof(sim::CellValue);
-// Who is to be told within this time of another is told with it.
+// Watchers that are due within this time of each other are served together.
 constexpr auto kSlack = std::chrono::milliseconds(2);
-// The copying of the canvas, for which the simulation must wait, takes one part in so many of the
-// time at most.
+// Copying the canvas blocks the simulation; it may take at most 1 / kCopyShare of the time.
 constexpr int kCopyShare = 20;
 
 std::size_t tiles_across(int cells) {
@@ -68,7 +67,7 @@ std::vector<sim::CellRect> CanvasCopy::changed_since(std::uint64_t count) const 
   std::vector<sim::CellRect> done;
   if (rgba_.empty() || count == count_) return done;
   if (resized_since(count)) return {{0, 0, info_.width, info_.height}};
-  // Runs of tiles in a row; one that lies right below an equal one makes that higher.
+  // Merges changed tiles into runs within a row, and equal runs of adjacent rows into rectangles.
   const std::size_t columns = tiles_across(info_.width);
   std::vector<sim::CellRect> open;
   for (int row = 0; row < info_.height; row += kTileSide) {
@@ -189,7 +188,7 @@ WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
     if (!may_copy) return;
     sim::LayerStack& layers = simulation.layers();
     canvas = layers.description();
-    // The version alone does not tell two sizes apart of which neither was composed.
+    // The size must be compared too: the version is equal for two sizes if neither was composed.
     const CanvasInfo& known = canvas_.info();
     if (canvas_.count() != 0 && layers.version() == stack_version_ && canvas.width == known.width &&
         canvas.height == known.height) {
@@ -206,7 +205,7 @@ WatchHub::Moment WatchHub::look(bool with_canvas, Clock::time_point now) {
   });
   moment.finished = hub_.host().finished();
   if (copied) {
-    // A canvas so large that copying it would hold up the simulation is looked at less often.
+    // A canvas whose copying takes long is copied less often.
     const auto end = Clock::now();
     next_copy_ = end + kCopyShare * (end - begin);
     canvas_.take(

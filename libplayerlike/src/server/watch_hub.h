@@ -11,27 +11,28 @@
 
 namespace playerlike::server {
 
-/// A copy of the composed canvas that knows which of its tiles have changed when.
+/// A copy of the composed canvas that records when each tile changed.
 class CanvasCopy {
  public:
   static constexpr int kTileSide = 16;  ///< cells
 
-  /// Counts pictures: 0 before the first, then one more for each that differs from the last.
+  /// Number of pictures so far: 0 before the first; each picture that differs from the last adds
+  /// one.
   [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
-  /// Size and place of the newest.
+  /// Size and position of the newest picture.
   [[nodiscard]] const CanvasInfo& info() const noexcept { return info_; }
-  /// Whether picture number `count` had another size than the newest; so had none (0).
+  /// Whether picture number `count` had another size than the newest one; true for 0.
   [[nodiscard]] bool resized_since(std::uint64_t count) const noexcept { return count < resized_; }
 
-  /// Takes another picture over, by swapping it with the old one.
-  /// @param rgba  RGBA bytes, row-major from the top, four for each cell; or none, if the canvas is
-  ///              too large to be copied: then no cells are known.
+  /// Takes a new picture by swapping its buffer with the old one.
+  /// @param rgba  RGBA bytes, row-major from the top, four per cell; empty if the canvas is too
+  ///              large to copy: then no cells are known.
   void take(const CanvasInfo& info, std::vector<std::uint8_t>& rgba);
 
-  /// Rectangles that hold all that has changed since picture number `count`, apart from one
-  /// another; the whole canvas, if it had another size then or `count` is 0.
+  /// Disjoint rectangles that contain all changes since picture number `count`; the whole canvas if
+  /// the size has changed since then or `count` is 0.
   [[nodiscard]] std::vector<sim::CellRect> changed_since(std::uint64_t count) const;
-  /// RGBA bytes of a rectangle that lies inside.
+  /// RGBA bytes of a rectangle, which must lie inside the canvas.
   [[nodiscard]] std::vector<std::uint8_t> cells(const sim::CellRect& rect) const;
 
  private:
@@ -39,36 +40,35 @@ class CanvasCopy {
 
   CanvasInfo info_;
   std::uint64_t count_ = 0;
-  std::uint64_t resized_ = 0;  ///< the first picture of this size
+  std::uint64_t resized_ = 0;  ///< the first picture of the present size
   std::vector<std::uint8_t> rgba_;
-  std::vector<std::uint64_t> stamps_;  ///< of each tile: the first picture with what it holds now
+  std::vector<std::uint64_t> stamps_;  ///< by tile: the picture that brought its present contents
 };
 
-/// Sends those who `watch` (docs/protocol.md) what they watch.
+/// Sends events to connections that `watch` (docs/protocol.md).
 ///
-/// However many they are: at a moment when somebody is to be told, one look at the simulation
-/// serves all who are to be told about then, and those who are to be told the same get the same
-/// bytes. Moments are multiples of the periods, so that equal rates coincide. Used by the server's
-/// thread only.
+/// The cost is almost independent of the number of watchers: one access to the simulation serves
+/// all watchers that are due, and watchers of equal contents get the same bytes. Due times are
+/// multiples of the periods, so that equal rates coincide. Used by the server's thread only.
 class WatchHub {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr double kMinRate_hz = 0.01;
   static constexpr double kMaxRate_hz = 60.0;
-  /// A canvas of more cells is not sent.
+  /// A canvas with more cells is not sent.
   static constexpr std::int64_t kMaxCells = std::int64_t{1} << 20U;
 
-  /// @param hub  lives longer.
+  /// @param hub  must outlive this object.
   explicit WatchHub(Hub& hub);
 
-  /// Begins to tell a peer; from the start, if it was told already.
+  /// Starts to send events to a peer; restarts if it watches already.
   /// @param rate_hz  wall clock, in [kMinRate_hz, kMaxRate_hz].
-  /// @param canvas   whether of the canvas, too.
+  /// @param canvas   whether to send the canvas too.
   void watch(Peer& peer, protocol::Encoding encoding, double rate_hz, bool canvas);
-  /// Ends that. A peer must be forgotten before it goes.
+  /// Stops sending events. Must be called before the peer is destroyed.
   void forget(const Peer& peer) noexcept;
 
-  /// Tells all who are to be told by now. Called by the timer; public for tests.
+  /// Sends all events that are due. Called by the timer; public for tests.
   void tick(Clock::time_point now);
 
  private:
@@ -78,9 +78,9 @@ class WatchHub {
     Clock::duration period;
     bool canvas;
     Clock::time_point due;
-    std::uint64_t sent = 0;  ///< the picture that it has; 0: none
+    std::uint64_t sent = 0;  ///< number of the picture sent last; 0: none
   };
-  /// What is told of the simulation, but for the canvas.
+  /// The state of the simulation in an event, without the canvas.
   struct Moment {
     sim::SimTime t_ns = 0;
     bool finished = false;
@@ -99,10 +99,10 @@ class WatchHub {
   CanvasCopy canvas_;
   std::vector<std::uint8_t> scratch_;
   std::uint64_t stack_version_ = 0;  ///< sim::LayerStack::version() of canvas_
-  Clock::time_point next_copy_{};    ///< the canvas is not copied before, see look()
+  Clock::time_point next_copy_{};    ///< earliest time of the next copy of the canvas, see look()
   std::uint64_t timer_ = 0;
-  Clock::time_point timer_due_;      ///< max(): none is set
-  std::shared_ptr<WatchHub*> self_;  ///< outlived by timers that are still set
+  Clock::time_point timer_due_;      ///< max(): no timer is set
+  std::shared_ptr<WatchHub*> self_;  ///< expires with this object; pending timers check it
 };
 
 }  // namespace playerlike::server

@@ -6,14 +6,14 @@
 
 #include "playerlike/messages/messages.h"
 
-/// What all sessions check before a simulation, or a server, is bothered; see also
+/// Argument checks that all sessions make before they call a simulation or a server; see also
 /// require_finite().
 namespace playerlike {
 
-/// The device as the world has it. @throws SessionError kNoSuchDevice.
+/// Finds the device among the robots. @throws SessionError kNoSuchDevice.
 const DeviceInfo& require_device(const std::vector<RobotInfo>& robots, DeviceId device);
 
-/// Whether a text that others are shown holds no control character; it may be UTF-8.
+/// Whether a text that is shown to other users has no control character; it may be UTF-8.
 [[nodiscard]] bool is_printable(std::string_view text);
 
 }  // namespace playerlike

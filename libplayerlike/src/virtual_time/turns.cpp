@@ -21,39 +21,40 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// How often it is looked whether a thread is blocked, and when it is.
-constexpr std::chrono::milliseconds kLook(20);
+// How often to check for blocked threads, and after which time asleep a thread is blocked.
+constexpr std::chrono::milliseconds kPollPeriod(20);
 constexpr std::chrono::milliseconds kBlocked(100);
-// It has been seen so at least as often: who looks may not have run for long itself.
-constexpr int kBlockedLooks = 4;
-// Before there is a simulation, which knows the limit of the run.
+// Minimum number of such checks, since the checking thread itself may have been preempted.
+constexpr int kBlockedChecks = 4;
+// Silence limit while there is no simulation, which knows the limit of the run.
 constexpr std::chrono::seconds kSilence(5);
 
 constinit thread_local TurnThread* own = nullptr;
 
-enum class Rung { kYes, kTimeOut, kSignal };
+enum class WaitResult { kEvent, kTimeOut, kSignal };
 
-// The kernel does not restart a wait with a limit after a signal, whatever the handler asks for.
-Rung wait_for_bell(const std::atomic<unsigned>& bell, unsigned heard,
-                   std::chrono::nanoseconds limit) {
+// The kernel does not restart a FUTEX_WAIT with a timeout after a signal, even with SA_RESTART.
+WaitResult wait_for_event(const std::atomic<unsigned>& event_count, unsigned known_count,
+                          std::chrono::nanoseconds limit) {
   const auto whole = std::chrono::duration_cast<std::chrono::seconds>(limit);
   const timespec time = {whole.count(), static_cast<long>((limit - whole).count())};
-  if (syscall(SYS_futex, &bell, FUTEX_WAIT_PRIVATE, heard, &time, nullptr, 0) == 0) {
-    return Rung::kYes;
+  if (syscall(SYS_futex, &event_count, FUTEX_WAIT_PRIVATE, known_count, &time, nullptr, 0) == 0) {
+    return WaitResult::kEvent;
   }
-  if (errno == EINTR) return Rung::kSignal;
-  return errno == ETIMEDOUT ? Rung::kTimeOut : Rung::kYes;
+  if (errno == EINTR) return WaitResult::kSignal;
+  return errno == ETIMEDOUT ? WaitResult::kTimeOut : WaitResult::kEvent;
 }
 
-/// A thread that thinks, as it was when it was looked at.
-struct Seen {
-  ThinkerId thinker;
+/// State of a running thread at the time of a check.
+struct ThreadSample {
+  ThreadId thread_id;
   pid_t number;
   SteadyClock::time_point since;
   std::optional<std::uint64_t> switches;
 };
 
-/// Finds signals that come while a thread lets time pass itself. They are held back meanwhile.
+/// Detects signals that arrive while a parked thread steps the simulation. They are blocked in the
+/// meantime.
 class SignalWatch {
  public:
   SignalWatch() = default;
@@ -61,13 +62,14 @@ class SignalWatch {
   SignalWatch& operator=(const SignalWatch&) = delete;
   ~SignalWatch() { let_through(); }
 
-  /// To be called after each step. @return whether it is time for handle().
+  /// Must be called after each step. @return whether handle() is due.
   [[nodiscard]] bool is_due() {
     if (++steps_ % kSteps != 0) return false;
     if (!holds_) {
       sigset_t all;
       sigfillset(&all);
-      // Faults are the thread's own; and whoever sleeps for real uses no processor time.
+      // Fault signals must stay enabled, since the thread itself causes them. The timers of
+      // processor time do not run during a real sleep.
       for (const int signal :
            {SIGPROF, SIGVTALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS}) {
         sigdelset(&all, signal);
@@ -89,7 +91,7 @@ class SignalWatch {
     }
     return any;
   }
-  /// Without locks: lets the handlers run. @return whether there were any.
+  /// Lets the signal handlers run; no mutex may be held. @return whether there were any.
   [[nodiscard]] bool handle() {
     let_through();
     return has_handler_;
@@ -114,40 +116,39 @@ Turns& Turns::instance() {
   return *turns;
 }
 
-// --- The threads
-// ----------------------------------------------------------------------------------
+// --- Threads
 
-void Turns::ring(TurnThread& thread) {
-  thread.bell.fetch_add(1);
+void Turns::notify(TurnThread& thread) {
+  thread.event_count.fetch_add(1);
   if (&thread == own) return;
-  syscall(SYS_futex, &thread.bell, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
+  syscall(SYS_futex, &thread.event_count, FUTEX_WAKE_PRIVATE, INT_MAX, nullptr, nullptr, 0);
 }
 
 void Turns::move(TurnThread& thread, State state) {
   if (current_ == &thread) current_ = nullptr;
   if (thread.state == State::kReady) --ready_;
-  if (thread.state == State::kBeside) --beside_;
+  if (thread.state == State::kConcurrent) --concurrent_;
   thread.state = state;
   if (state == State::kReady) ++ready_;
-  if (state == State::kBeside) ++beside_;
-  if (state == State::kThinks) current_ = &thread;
-  if (state == State::kThinks || state == State::kBeside) {
+  if (state == State::kConcurrent) ++concurrent_;
+  if (state == State::kRunning) current_ = &thread;
+  if (state == State::kRunning || state == State::kConcurrent) {
     thread.seen = SteadyClock::now();
     thread.blocked_since.reset();
   }
 }
 
-TurnThread* Turns::find(ThinkerId thinker) const {
+TurnThread* Turns::find(ThreadId thread_id) const {
   const auto found = std::find_if(threads_.begin(), threads_.end(),
-                                  [&](const auto& t) { return t->thinker == thinker; });
+                                  [&](const auto& t) { return t->thread_id == thread_id; });
   return found == threads_.end() ? nullptr : found->get();
 }
 
-TurnThread& Turns::insert(ThinkerId thinker, State state) {
-  threads_.push_back(std::make_unique<TurnThread>(thinker));
+TurnThread& Turns::insert(ThreadId thread_id, State state) {
+  threads_.push_back(std::make_unique<TurnThread>(thread_id));
   TurnThread& thread = *threads_.back();
-  thread.state = State::kAside;
-  thread.place = ++last_place_;
+  thread.state = State::kDetached;
+  thread.queue_order = ++last_queue_order_;
   move(thread, state);
   return thread;
 }
@@ -156,7 +157,7 @@ TurnThread* Turns::known_self() noexcept { return own; }
 
 TurnThread& Turns::self() {
   if (own == nullptr) {
-    own = &insert(this_thinker(), State::kBeside);
+    own = &insert(this_thread_id(), State::kConcurrent);
     own->number = this_thread();
     own->handle = reinterpret_cast<const void*>(pthread_self());
   }
@@ -165,12 +166,12 @@ TurnThread& Turns::self() {
 
 void Turns::begin() {
   active_.store(true, std::memory_order_release);
-  move(self(), State::kThinks);
+  move(self(), State::kRunning);
 }
 
 void Turns::release() {
   active_.store(false, std::memory_order_release);
-  for (const auto& thread : threads_) ring(*thread);
+  for (const auto& thread : threads_) notify(*thread);
 }
 
 void Turns::set_clock(TurnClock* clock, sim::SimTime before_ns, sim::SimTime now_ns) {
@@ -178,17 +179,17 @@ void Turns::set_clock(TurnClock* clock, sim::SimTime before_ns, sim::SimTime now
   for (const auto& thread : threads_) {
     if (thread->wake_ns) *thread->wake_ns += now_ns - before_ns;
   }
-  kick();
+  schedule_next();
 }
 
-void Turns::add(ThinkerId thinker) { insert(thinker, State::kReady); }
+void Turns::add(ThreadId thread_id) { insert(thread_id, State::kReady); }
 
-void Turns::note_handle(ThinkerId thinker, const void* handle) {
-  if (TurnThread* const thread = find(thinker)) thread->handle = handle;
+void Turns::note_handle(ThreadId thread_id, const void* handle) {
+  if (TurnThread* const thread = find(thread_id)) thread->handle = handle;
 }
 
-void Turns::enter(Lock& lock, ThinkerId thinker) {
-  own = find(thinker);
+void Turns::enter(Lock& lock, ThreadId thread_id) {
+  own = find(thread_id);
   if (own == nullptr) return;
   own->number = this_thread();
   own->handle = reinterpret_cast<const void*>(pthread_self());
@@ -196,16 +197,16 @@ void Turns::enter(Lock& lock, ThinkerId thinker) {
   park(lock, *own);
 }
 
-void Turns::remove(ThinkerId thinker) {
-  TurnThread* const thread = find(thinker);
+void Turns::remove(ThreadId thread_id) {
+  TurnThread* const thread = find(thread_id);
   if (thread == nullptr) return;
   end_wait(*thread);
-  move(*thread, State::kAside);
+  move(*thread, State::kDetached);
   const void* const handle = thread->handle;
   if (own == thread) own = nullptr;
   std::erase_if(threads_, [&](const auto& t) { return t.get() == thread; });
   if (handle != nullptr) wake(handle, INT_MAX);
-  kick();
+  schedule_next();
 }
 
 bool Turns::lives(const void* handle) const {
@@ -226,7 +227,6 @@ bool Turns::is_wanted(const void* mutex) const {
 }
 
 // --- Waiting
-// ----------------------------------------------------------------------------------
 
 void Turns::begin_wait(TurnThread& self, const void* object, bool takes_mutex) {
   end_wait(self);
@@ -234,7 +234,7 @@ void Turns::begin_wait(TurnThread& self, const void* object, bool takes_mutex) {
   self.takes_mutex = takes_mutex;
   self.counted = true;
   self.wake = Wake::kNone;
-  self.place = ++last_place_;
+  self.queue_order = ++last_queue_order_;
   (takes_mutex ? mutex_waits_ : object_waits_).fetch_add(1);
 }
 
@@ -243,7 +243,7 @@ void Turns::end_wait(TurnThread& thread) {
   thread.counted = false;
   thread.takes_mutex = false;
   thread.object = nullptr;
-  thread.is_there = nullptr;
+  thread.is_ready = nullptr;
   thread.client = nullptr;
   thread.wake_ns.reset();
   thread.interruptible = false;
@@ -265,9 +265,9 @@ Turns::Wake Turns::wait(Lock& lock, TurnThread& self, bool interruptible) {
 }
 
 bool Turns::yield(Lock& lock, TurnThread& self) {
-  if (!active() || ready_ == 0 || self.state != State::kThinks) return false;
+  if (!active() || ready_ == 0 || self.state != State::kRunning) return false;
   move(self, State::kReady);
-  self.place = ++last_place_;
+  self.queue_order = ++last_queue_order_;
   park(lock, self);
   return true;
 }
@@ -275,9 +275,9 @@ bool Turns::yield(Lock& lock, TurnThread& self) {
 void Turns::make_ready(TurnThread& thread, Wake wake) {
   thread.wake = wake;
   if (!thread.takes_mutex) thread.object = nullptr;
-  if (thread.state != State::kWaits) return;  // it is about to wait, and will find it there
+  if (thread.state != State::kWaits) return;  // about to wait: wait() will see `wake`
   move(thread, State::kReady);
-  thread.place = ++last_place_;
+  thread.queue_order = ++last_queue_order_;
 }
 
 int Turns::wake(const void* object, int most) {
@@ -286,38 +286,38 @@ int Turns::wake(const void* object, int most) {
     TurnThread* first = nullptr;
     for (const auto& thread : threads_) {
       if (thread->object != object || !thread->counted) continue;
-      // Who is about to take a mutex is told so once.
+      // A thread that is about to lock the mutex is not woken twice.
       if (thread->takes_mutex && thread->wake != Wake::kNone) return woken;
-      if (first == nullptr || thread->place < first->place) first = thread.get();
+      if (first == nullptr || thread->queue_order < first->queue_order) first = thread.get();
     }
     if (first == nullptr) break;
-    make_ready(*first, Wake::kThere);
+    make_ready(*first, Wake::kObjectReady);
     ++woken;
   }
-  if (woken > 0) kick();
+  if (woken > 0) schedule_next();
   return woken;
 }
 
 void Turns::wake_later(const void* object) {
   bool kept = false;
-  for (auto& place : later_) {
+  for (auto& slot : deferred_) {
     const void* none = nullptr;
-    kept = place.load() == object || place.compare_exchange_strong(none, object);
+    kept = slot.load() == object || slot.compare_exchange_strong(none, object);
     if (kept) break;
   }
-  if (!kept) all_later_ = true;
-  any_later_ = true;
+  if (!kept) all_deferred_ = true;
+  any_deferred_ = true;
 }
 
-void Turns::wake_those_of_later() {
-  any_later_ = false;
-  const bool all = all_later_.exchange(false);
-  for (auto& place : later_) {
-    if (const void* const object = place.exchange(nullptr)) wake(object, INT_MAX);
+void Turns::flush_deferred_wakes() {
+  any_deferred_ = false;
+  const bool all = all_deferred_.exchange(false);
+  for (auto& slot : deferred_) {
+    if (const void* const object = slot.exchange(nullptr)) wake(object, INT_MAX);
   }
   if (!all) return;
   for (const auto& thread : threads_) {
-    if (thread->counted) make_ready(*thread, Wake::kThere);
+    if (thread->counted) make_ready(*thread, Wake::kObjectReady);
   }
 }
 
@@ -328,42 +328,41 @@ void Turns::interrupt(const void* handle, bool by_signal) {
       make_ready(*thread, Wake::kInterrupted);
     }
   }
-  kick();
+  schedule_next();
 }
 
-void Turns::let_go(const void* client) {
+void Turns::resume_client_thread(const void* client) {
   for (const auto& thread : threads_) {
     if (thread->client != client) continue;
     thread->wake = Wake::kNone;
     if (thread->state == State::kWaits || thread->state == State::kReady) {
-      move(*thread, State::kBeside);
-      ring(*thread);
+      move(*thread, State::kConcurrent);
+      notify(*thread);
     }
   }
 }
 
 // --- Turns
-// ------------------------------------------------------------------------------------
 
 TurnThread* Turns::first_ready() const {
   TurnThread* first = nullptr;
   if (ready_ == 0) return nullptr;
   for (const auto& thread : threads_) {
     if (thread->state != State::kReady) continue;
-    if (first == nullptr || thread->place < first->place) first = thread.get();
+    if (first == nullptr || thread->queue_order < first->queue_order) first = thread.get();
   }
   return first;
 }
 
-void Turns::kick() {
+void Turns::schedule_next() {
   if (current_ != nullptr) return;
   if (TurnThread* const next = first_ready()) {
-    move(*next, State::kThinks);
-    return ring(*next);
+    move(*next, State::kRunning);
+    return notify(*next);
   }
-  if (beside_ > 0) return;
+  if (concurrent_ > 0) return;
   for (const auto& thread : threads_) {
-    if (thread->state == State::kWaits && thread->waits_for_time()) return ring(*thread);
+    if (thread->state == State::kWaits && thread->waits_for_time()) return notify(*thread);
   }
 }
 
@@ -373,15 +372,15 @@ void Turns::park(Lock& lock, TurnThread& self) {
     return active() && (self.state == State::kReady || self.state == State::kWaits);
   };
   while (parked()) {
-    if (any_later_.load(std::memory_order_relaxed)) wake_those_of_later();
+    if (any_deferred_.load(std::memory_order_relaxed)) flush_deferred_wakes();
     if (current_ == nullptr) {
       if (TurnThread* const next = first_ready()) {
-        move(*next, State::kThinks);
+        move(*next, State::kRunning);
         if (next == &self) break;
-        ring(*next);
-      } else if (beside_ == 0) {
-        if (ask_waiting()) continue;
-        if (clock_ != nullptr ? clock_->step(lock) : wait_really(lock, self)) {
+        notify(*next);
+      } else if (concurrent_ == 0) {
+        if (poll_waits()) continue;
+        if (clock_ != nullptr ? clock_->step(lock) : wait_real_time(lock, self)) {
           if (!self.interruptible || self.state != State::kWaits || !signals.is_due()) continue;
           lock.unlock();
           const bool handled = signals.handle();
@@ -391,14 +390,14 @@ void Turns::park(Lock& lock, TurnThread& self) {
         }
       }
     }
-    const unsigned heard = self.bell.load();
+    const unsigned known_count = self.event_count.load();
     if (!parked()) break;
     lock.unlock();
     signals.let_through();
-    const Rung rung = wait_for_bell(self.bell, heard, kLook);
+    const WaitResult result = wait_for_event(self.event_count, known_count, kPollPeriod);
     lock.lock();
-    if (rung == Rung::kSignal && self.interruptible) note_signal(self);
-    if (rung == Rung::kTimeOut && parked()) look(lock);
+    if (result == WaitResult::kSignal && self.interruptible) note_signal(self);
+    if (result == WaitResult::kTimeOut && parked()) check_blocked_threads(lock);
   }
 }
 
@@ -412,20 +411,20 @@ bool Turns::has_come(sim::SimTime wake_ns) const {
   return clock_ != nullptr ? clock_->has_come(wake_ns) : virtual_time::time_before_ns() >= wake_ns;
 }
 
-// What somebody else wakes is found so, too: another process, a handler of a signal.
-bool Turns::ask_waiting() {
+// Also detects changes that come from elsewhere: another process or a signal handler.
+bool Turns::poll_waits() {
   if (object_waits_.load() == 0) return false;
   bool any = false;
   for (const auto& thread : threads_) {
-    if (thread->state != State::kWaits || thread->is_there == nullptr) continue;
-    if (thread->is_there(thread->object, thread->value) == 0) continue;
-    make_ready(*thread, Wake::kThere);
+    if (thread->state != State::kWaits || thread->is_ready == nullptr) continue;
+    if (thread->is_ready(thread->object, thread->value) == 0) continue;
+    make_ready(*thread, Wake::kObjectReady);
     any = true;
   }
   return any;
 }
 
-bool Turns::wait_really(Lock& lock, TurnThread& self) {
+bool Turns::wait_real_time(Lock& lock, TurnThread& self) {
   const auto first = [this] {
     TurnThread* earliest = nullptr;
     for (const auto& thread : threads_) {
@@ -435,17 +434,18 @@ bool Turns::wait_really(Lock& lock, TurnThread& self) {
     return earliest;
   };
   if (first() != &self) {
-    if (TurnThread* const earliest = first()) ring(*earliest);
+    if (TurnThread* const earliest = first()) notify(*earliest);
     return false;
   }
   const sim::SimTime wake_ns = *self.wake_ns;
-  const unsigned heard = self.bell.load();
+  const unsigned known_count = self.event_count.load();
   lock.unlock();
-  const Rung rung = wait_for_bell(
-      self.bell, heard, std::chrono::nanoseconds(wake_ns - virtual_time::time_before_ns()));
+  const WaitResult result =
+      wait_for_event(self.event_count, known_count,
+                     std::chrono::nanoseconds(wake_ns - virtual_time::time_before_ns()));
   lock.lock();
-  if (rung == Rung::kSignal) return note_signal(self), true;
-  if (rung != Rung::kTimeOut || clock_ != nullptr || first() != &self) return true;
+  if (result == WaitResult::kSignal) return note_signal(self), true;
+  if (result != WaitResult::kTimeOut || clock_ != nullptr || first() != &self) return true;
   virtual_time::set_time_before_ns(wake_ns);
   for (const auto& thread : threads_) {
     if (thread->state == State::kWaits && thread->wake_ns && *thread->wake_ns <= wake_ns) {
@@ -461,52 +461,51 @@ bool Turns::somebody_waits_for_time() const {
   });
 }
 
-// --- The rules of the wall clock
-// ---------------------------------------------------------------------------------
+// --- Rules of the wall clock
 
-// A thread that the system has put to sleep for something else than simulated time, a file or a
-// key, holds up nobody meanwhile. One that computes, or waits for a processor, does.
-void Turns::look(Lock& lock) {
-  if (clock_ != nullptr) clock_->look_at_start();
-  if (ready_ == 0 && !somebody_waits_for_time()) return;  // it holds up nobody
-  // The system is asked without the lock, for which they may be waiting themselves.
-  std::vector<Seen> seen_threads;
+// A thread that sleeps in the system for something other than simulated time, such as a file or a
+// key, does not hold up the others. A thread that computes or waits for a processor does.
+void Turns::check_blocked_threads(Lock& lock) {
+  if (clock_ != nullptr) clock_->check_silent_clients();
+  if (ready_ == 0 && !somebody_waits_for_time()) return;  // nobody waits for the running thread
+  // /proc is read without the mutex, because these threads may be waiting for it.
+  std::vector<ThreadSample> samples;
   for (const auto& t : threads_) {
-    if (t->state != State::kThinks && t->state != State::kBeside) continue;
-    if (t->number == 0) continue;  // only just being started
-    seen_threads.push_back({t->thinker, t->number, t->seen, std::nullopt});
+    if (t->state != State::kRunning && t->state != State::kConcurrent) continue;
+    if (t->number == 0) continue;  // not begun yet
+    samples.push_back({t->thread_id, t->number, t->seen, std::nullopt});
   }
   lock.unlock();
-  for (Seen& seen : seen_threads) seen.switches = sleeps_since(seen.number);
+  for (ThreadSample& sample : samples) sample.switches = sleeps_since(sample.number);
   lock.lock();
   if (!active()) return;
   const auto now = SteadyClock::now();
   std::vector<TurnThread*> blocked;
-  std::vector<TurnThread*> thinking;
-  for (const Seen& seen : seen_threads) {
-    TurnThread* const t = find(seen.thinker);
-    if (t == nullptr || t->seen != seen.since) return;  // it has waited meanwhile
-    if (t->state != State::kThinks && t->state != State::kBeside) return;
-    thinking.push_back(t);
-    if (!seen.switches || !t->blocked_since || *seen.switches != t->blocked_switches) {
-      t->blocked_since = seen.switches ? std::optional(now) : std::nullopt;
-      t->blocked_switches = seen.switches.value_or(0);
-      t->blocked_looks = 0;
-    } else if (now - t->blocked_last >= kLook) {
-      ++t->blocked_looks;
-      if (t->blocked_looks >= kBlockedLooks && now - *t->blocked_since >= kBlocked) {
+  std::vector<TurnThread*> running;
+  for (const ThreadSample& sample : samples) {
+    TurnThread* const t = find(sample.thread_id);
+    if (t == nullptr || t->seen != sample.since) return;  // it has waited in the meantime
+    if (t->state != State::kRunning && t->state != State::kConcurrent) return;
+    running.push_back(t);
+    if (!sample.switches || !t->blocked_since || *sample.switches != t->blocked_switches) {
+      t->blocked_since = sample.switches ? std::optional(now) : std::nullopt;
+      t->blocked_switches = sample.switches.value_or(0);
+      t->blocked_checks = 0;
+    } else if (now - t->blocked_last >= kPollPeriod) {
+      ++t->blocked_checks;
+      if (t->blocked_checks >= kBlockedChecks && now - *t->blocked_since >= kBlocked) {
         blocked.push_back(t);
       }
     } else {
-      continue;  // another one has just looked
+      continue;  // another thread has just checked it
     }
     t->blocked_last = now;
   }
-  // One that thinks may be whom the blocked ones wait for.
-  if (!blocked.empty() && blocked.size() == thinking.size()) {
+  // A thread that still runs may be the one that the blocked threads wait for.
+  if (!blocked.empty() && blocked.size() == running.size()) {
     for (TurnThread* const t : blocked) {
       if (clock_ != nullptr && clock_->on_blocked(*t)) return;
-      move(*t, State::kAside);
+      move(*t, State::kDetached);
       note_unrepeatable(
           "a thread of the program waited for 100 ms of wall time for something that is not "
           "simulated: a file, a key, a pipe or a socket");
@@ -514,10 +513,10 @@ void Turns::look(Lock& lock) {
     return;
   }
   const auto limit = clock_ != nullptr ? clock_->silence_limit() : SteadyClock::duration(kSilence);
-  for (TurnThread* const t : thinking) {
+  for (TurnThread* const t : running) {
     const auto seen = clock_ != nullptr ? clock_->last_seen(*t) : t->seen;
     if (now - seen < limit) continue;
-    move(*t, State::kAside);
+    move(*t, State::kDetached);
     note_unrepeatable("a thread of the program neither read nor slept for the silence limit");
     if (clock_ != nullptr) clock_->on_silent(*t);
   }

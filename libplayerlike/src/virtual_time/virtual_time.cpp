@@ -29,59 +29,60 @@
 namespace playerlike::virtual_time {
 namespace {
 
-// A thread is told the same moment so often; whoever asks on without reading or sleeping in between
-// waits for time to pass.
-constexpr int kFreeAsks = 4;
-// Whoever lets others go on so often, when there is nobody, waits for time to pass.
+// How often a thread may read the clock without reading data or sleeping; each further read waits
+// for a step.
+constexpr int kFreeClockReads = 4;
+// How many calls of yield() without another ready thread are free; then a step passes.
 constexpr int kFreeYields = 100;
-// The same for looks at data that a background thread changes. Programs look at all beams of a
-// scan, more than once maybe, so it takes many until it is clear that they wait.
-constexpr long long kFreeLooks = 1'000'000;
-constexpr long long kLooksAStep = 10'000;
-// Whoever looks so often may wait for what another thread does, which is to have its turn.
-constexpr long long kLooksATurn = 1'000;
-// And for calls of a program that nobody reads for: nothing will ever change for it but the end of
-// the run. It may well compute for long between two reads, so this takes more of them.
-constexpr long long kFreeLooksAlone = 3'000'000;
-constexpr long long kLooksAStepAlone = 1'000;
-// How far a look at the clock moves it while there is no simulation [ns].
+// The same limit for accesses to data that a background thread changes, and how many more accesses
+// a step costs then. The limit is high, since programs access all beams of a scan, perhaps several
+// times.
+constexpr long long kFreeDataReads = 1'000'000;
+constexpr long long kDataReadsPerStep = 10'000;
+// After this many accesses the other ready threads get a turn, since the loop may wait for one of
+// them.
+constexpr long long kDataReadsPerTurn = 1'000;
+// The limits for programs without a reading thread: only the end of the run can change anything for
+// them. They are higher, since such a program may compute for long between two reads.
+constexpr long long kFreeDataReadsAlone = 3'000'000;
+constexpr long long kDataReadsPerStepAlone = 1'000;
+// How far a read of the clock advances time before there is a simulation [ns].
 constexpr long long kStepBefore_ns = 10'000'000;
 
-/// In place of a thinker's number: a thread that a library starts on Playpen's behalf, as encoders
-/// of films do. It is Playpen's own.
+/// Used as a thread id: a thread that a library starts for Playpen, such as a film encoder's. It is
+/// not part of virtual time.
 constexpr unsigned long long kLibraryThread = ~0ULL;
 
-/// What is known of a thread. Needs no construction, nor destruction, so it can be used at any
-/// time.
+/// State of a thread. Trivially constructed and destroyed, so it is valid at any time.
 struct ThreadState {
   int inside = 0;
   int starts_for_program = 0;
   int starts_for_libraries = 0;
   bool ended = false;
   bool takes_part = false;
-  bool programs = false;        ///< started by the program's own code
-  signed char main = -1;        ///< whether it is the main thread; < 0: not looked up yet
-  signed char leaving = 0;      ///< < 0: it is about to end itself; > 0: the process
-  int asks = 0;                 ///< since it last waited
-  long long looks = 0;          ///< since it last waited
-  int yields = 0;               ///< when nobody else could go on
-  sim::SimTime ahead_ns = 0;    ///< what it has slept beyond whole steps, ...
-  sim::SimTime ahead_from = 0;  ///< ... when simulated time was this
-  long long deadline_ns = -1;   ///< of the wait that it has begun, since the program's start
+  bool programs = false;        ///< started by the program's code
+  signed char main = -1;        ///< whether it is the main thread; < 0: unknown
+  signed char leaving = 0;      ///< < 0: the thread is about to end; > 0: the process is
+  int clock_reads = 0;          ///< reads of the clock since the last wait
+  long long data_reads = 0;     ///< accesses to data since the last wait
+  int yields = 0;               ///< yields without another ready thread
+  sim::SimTime ahead_ns = 0;    ///< time slept beyond whole steps, ...
+  sim::SimTime ahead_from = 0;  ///< ... at this simulated time
+  long long deadline_ns = -1;   ///< end of the wait that has begun, since the program's start
 };
 constinit thread_local ThreadState state;
 
-// Of the process. What is here has to outlive all static objects.
+// State of the process. It must outlive all static objects.
 constinit std::atomic<bool> registered{false};
 constinit std::atomic<bool> given_up{false};
 constinit std::atomic<bool> background{false};
 constinit std::atomic<TurnClock*> attached{nullptr};
-/// Time before the simulation, and what was slept after its end [ns].
+/// Time before the simulation plus time slept after its end [ns].
 constinit std::atomic<long long> offset_ns{0};
-/// When it was given up: what the clocks showed then, and the real one.
+/// Virtual and real time when virtual time was given up.
 constinit std::atomic<long long> last_ns{0};
 constinit std::atomic<long long> last_real_ns{0};
-/// Where the program's own code lies, without its libraries.
+/// Address range of the program's executable, without libraries.
 constinit std::uintptr_t program_begin = 0;
 constinit std::uintptr_t program_end = 0;
 
@@ -102,8 +103,8 @@ bool in_program(const void* address) {
   return value >= program_begin && value < program_end;
 }
 
-/// Whether code is the program's, so that its thread is, too. What the system's libraries do in
-/// threads of their own is their affair; but some of them only sleep on behalf of who calls them.
+/// Whether code belongs to the program, so that its thread does too. Threads of system libraries
+/// are not virtual, but some libraries sleep only on behalf of their callers.
 bool is_programs_code(const void* address) {
   if (in_program(address)) return true;
   Dl_info info{};
@@ -120,21 +121,22 @@ bool is_programs_code(const void* address) {
          !name.starts_with("libspdlog.");
 }
 
-/// The code that a thread will run, as far as can be told from how it is started.
+/// The code that a thread will run, derived from how it is started.
 const void* code_of_thread(const void* caller, const void* start, const void* argument) {
   Dl_info info{};
   if (in_program(caller) || dladdr(caller, &info) == 0 || info.dli_fname == nullptr) return caller;
-  // std::thread is given an object with virtual functions, whose table lies with its code.
+  // libstdc++ passes std::thread's state object, whose virtual table lies in the module of the
+  // thread's code.
   if (std::strstr(info.dli_fname, "/libstdc++.") == nullptr || argument == nullptr) return start;
   return *static_cast<const void* const*>(argument);
 }
 
-/// Simulations that were attached. A thread may be on its way into one, so they are kept.
+/// All simulations that were attached. They are kept, because a thread may be about to enter one.
 std::vector<std::shared_ptr<TurnClock>>& kept_clocks() {
   static auto* const clocks = new std::vector<std::shared_ptr<TurnClock>>;
   return *clocks;
 }
-constinit std::mutex lists_mutex;  // over that
+constinit std::mutex lists_mutex;  // guards kept_clocks()
 
 long long elapsed(const ThreadState& thread) {
   if (given_up.load(std::memory_order_acquire)) {
@@ -148,12 +150,12 @@ long long elapsed(const ThreadState& thread) {
   return before_ns + now_ns + (ahead ? thread.ahead_ns : 0);
 }
 
-enum class Passed { kNo, kYes, kInterrupted };
+enum class SleepResult { kNo, kYes, kInterrupted };
 
-/// Lets simulated time pass for the calling thread.
-/// @param left_ns  set to what is left if a signal ends that.
-Passed pass(ThreadState& thread, TurnClock& clock, long long duration_ns,
-            long long* left_ns = nullptr) {
+/// Advances simulated time for the calling thread.
+/// @param left_ns  receives the remaining time if a signal ends the wait.
+SleepResult advance_time(ThreadState& thread, TurnClock& clock, long long duration_ns,
+                         long long* left_ns = nullptr) {
   const Inside inside;
   try {
     thread.takes_part = true;
@@ -162,21 +164,21 @@ Passed pass(ThreadState& thread, TurnClock& clock, long long duration_ns,
     const sim::SimTime start_ns = from_ns + (thread.ahead_from == from_ns ? thread.ahead_ns : 0);
     bool interrupted = false;
     const auto ahead_ns = clock.pass_time(start_ns + duration_ns, interrupted);
-    if (!ahead_ns) return Passed::kNo;
+    if (!ahead_ns) return SleepResult::kNo;
     if (interrupted) {
       if (left_ns != nullptr) *left_ns = std::max<sim::SimTime>(*ahead_ns, 0);
-      return Passed::kInterrupted;
+      return SleepResult::kInterrupted;
     }
     thread.ahead_from = clock.now_ns();
     thread.ahead_ns = *ahead_ns;
-    return Passed::kYes;
+    return SleepResult::kYes;
   } catch (const std::exception&) {
-    return Passed::kNo;  // there is no memory, or no simulation any more
+    return SleepResult::kNo;  // out of memory, or the simulation has ended
   }
 }
 
-/// A sleep before there is a simulation, while other threads take turns.
-/// @return as a hook.
+/// A sleep before there is a simulation, while other threads take turns. @return the result of the
+/// sleep hook.
 int sleep_before(long long duration_ns, long long* left_ns) {
   TurnThread* const self = Turns::known_self();
   if (self == nullptr) return 0;
@@ -205,20 +207,20 @@ int on_sleep(long long duration_ns, const void* caller, long long* left_ns) {
   TurnClock* const clock = attached.load(std::memory_order_acquire);
   if (clock == nullptr) {
     if (const int slept = sleep_before(duration_ns, left_ns); slept != 0) return slept;
-    // There is nothing yet that could go on instead. But the clock is not to stand still.
+    // No other thread could run. The clock must advance nevertheless.
     if (is_main(thread)) offset_ns.fetch_add(duration_ns);
     return 0;
   }
   if (!thread.takes_part && !thread.programs && !is_main(thread) && !is_programs_code(caller)) {
     return 0;
   }
-  thread.asks = 0;
-  thread.looks = 0;
+  thread.clock_reads = 0;
+  thread.data_reads = 0;
   thread.yields = 0;
-  switch (pass(thread, *clock, duration_ns, left_ns)) {
-    case Passed::kNo:
+  switch (advance_time(thread, *clock, duration_ns, left_ns)) {
+    case SleepResult::kNo:
       return 0;
-    case Passed::kYes:
+    case SleepResult::kYes:
       return 1;
     default:
       return 2;
@@ -230,26 +232,26 @@ int on_now(long long* elapsed_ns, int ask, const void* caller) {
   if (thread.inside > 0 || thread.ended) return 0;
   const bool programs = thread.takes_part || thread.programs || is_main(thread);
   if (!programs && !in_program(caller)) return 0;
-  // In other threads code that is linked into the program may be a library's, which waits for
-  // nothing: that of a sanitizer, say, which asks while a thread of Playpen's ends.
+  // Only the program's threads are counted. In other threads, code that is linked into the program
+  // may belong to a library that does not wait, such as a sanitizer at the end of a thread.
   if (ask != 0 && programs && !given_up.load(std::memory_order_acquire) &&
-      ++thread.asks > kFreeAsks) {
-    thread.asks = kFreeAsks;
+      ++thread.clock_reads > kFreeClockReads) {
+    thread.clock_reads = kFreeClockReads;
     TurnClock* const clock = attached.load(std::memory_order_acquire);
     if (clock == nullptr) {
       offset_ns.fetch_add(kStepBefore_ns);
     } else {
-      pass(thread, *clock, clock->step_ns());
+      advance_time(thread, *clock, clock->step_ns());
     }
   }
   *elapsed_ns = elapsed(thread);
   return 1;
 }
 
-/// The lock over those who take turns. A thread that is none of them does not wait for it.
+/// Locks the mutex of Turns. A thread without a thread id only tries to.
 Turns::Lock lock_turns() {
   Turns& turns = Turns::instance();
-  if (is_thinker()) return Turns::Lock(turns.mutex());
+  if (has_thread_id()) return Turns::Lock(turns.mutex());
   return Turns::Lock(turns.mutex(), std::try_to_lock);
 }
 
@@ -264,15 +266,16 @@ unsigned long long on_begin_thread(const void* caller, const void* start, const 
         !is_programs_code(code_of_thread(caller, start, argument))) {
       return 0;
     }
-    const ThinkerId thinker = new_thinker();
+    const ThreadId thread_id = new_thread_id();
     remember_thread();
     Turns& turns = Turns::instance();
     const Turns::Lock lock(turns.mutex());
     if (!turns.active()) return 0;
-    // The one that starts it, too, or it would be chance how far the new one gets meanwhile.
+    // The starting thread takes turns too; otherwise the progress of the new thread would depend on
+    // scheduling.
     static_cast<void>(turns.self());
-    turns.add(thinker);
-    return thinker;
+    turns.add(thread_id);
+    return thread_id;
   } catch (const std::exception&) {
     return 0;
   }
@@ -296,14 +299,14 @@ void on_thread_failed(unsigned long long number) {
 
 void on_thread_begun(unsigned long long number) {
   if (number == kLibraryThread) {
-    // Until it ends. What it starts is the library's, too.
+    // Until the thread ends. The threads that it starts belong to the library too.
     ++state.inside;
     ++state.starts_for_libraries;
     return;
   }
   state.programs = true;
   const Inside inside;
-  set_this_thinker(number);
+  set_this_thread_id(number);
   remember_thread();
   Turns& turns = Turns::instance();
   Turns::Lock lock(turns.mutex());
@@ -311,26 +314,26 @@ void on_thread_begun(unsigned long long number) {
 }
 
 int on_begin_wait(const void* object, int kind, long long deadline_ns,
-                  int (*is_there)(const void*, unsigned), unsigned value) {
+                  int (*is_ready)(const void*, unsigned), unsigned value) {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended) return 0;
   TurnThread* const self = Turns::known_self();
-  if (self == nullptr) return 0;  // a library's thread holds up nobody
+  if (self == nullptr) return 0;  // nobody waits for a library's thread
   const Inside inside;
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
   if (!turns.active()) return 0;
   const bool takes_mutex = kind == kPlaypenWaitMutex;
-  if (takes_mutex && self->state == TurnThread::State::kAside) return 0;
-  if (is_there != nullptr && is_there(object, value) != 0) return 2;
+  if (takes_mutex && self->state == TurnThread::State::kDetached) return 0;
+  if (is_ready != nullptr && is_ready(object, value) != 0) return 2;
   if (kind == kPlaypenWaitThread && !turns.lives(object)) return 2;
   turns.begin_wait(*self, object, takes_mutex);
-  self->is_there = is_there;
+  self->is_ready = is_ready;
   self->value = value;
   thread.yields = 0;
   thread.deadline_ns = -1;
   if (deadline_ns >= 0) {
-    // At least a little, so that a loop of waits for no time at all ends.
+    // At least 1 us, so that a loop of zero-length waits ends.
     thread.deadline_ns = std::max(deadline_ns, elapsed(thread) + 1'000);
     self->wake_ns = thread.deadline_ns;
     if (TurnClock* const clock = attached.load()) {
@@ -349,10 +352,10 @@ int on_finish_wait() {
   TurnThread& self = turns.self();
   const bool timed = thread.deadline_ns >= 0;
   switch (turns.wait(lock, self)) {
-    case TurnThread::Wake::kThere:
-      thread.asks = 0;
-      thread.looks = 0;
-      return kPlaypenWaitThere;
+    case TurnThread::Wake::kObjectReady:
+      thread.clock_reads = 0;
+      thread.data_reads = 0;
+      return kPlaypenWaitReady;
     case TurnThread::Wake::kInterrupted:
       return kPlaypenWaitInterrupted;
     case TurnThread::Wake::kNone:
@@ -360,8 +363,8 @@ int on_finish_wait() {
     case TurnThread::Wake::kTime:
       break;
   }
-  thread.asks = 0;
-  thread.looks = 0;
+  thread.clock_reads = 0;
+  thread.data_reads = 0;
   TurnClock* const clock = attached.load();
   if (timed && clock != nullptr) {
     thread.takes_part = true;
@@ -377,8 +380,8 @@ int on_wake(const void* object, int most) {
   if (state.inside > 0) return 0;
   const Inside inside;
   Turns& turns = Turns::instance();
-  // A library's thread must not wait for the simulation here: with what it has locked it could hold
-  // up the thread that draws, for which the simulation may be waiting.
+  // A library's thread must not block here: it may hold a lock that the drawing thread needs, for
+  // which the simulation may be waiting.
   const Turns::Lock lock = lock_turns();
   if (lock.owns_lock()) return turns.wake(object, most);
   turns.wake_later(object);
@@ -399,8 +402,8 @@ int on_mutex_is_wanted(const void* mutex) {
   const Inside inside;
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
-  return turns.active() && self->state == TurnThread::State::kThinks && turns.is_wanted(mutex) ? 1
-                                                                                               : 0;
+  return turns.active() && self->state == TurnThread::State::kRunning && turns.is_wanted(mutex) ? 1
+                                                                                                : 0;
 }
 
 int on_thread_lives(const void* handle) {
@@ -422,8 +425,8 @@ void interrupt(const void* handle, bool by_signal) {
 void on_cancelled(const void* handle) { interrupt(handle, /*by_signal=*/false); }
 void on_signalled(const void* handle) { interrupt(handle, /*by_signal=*/true); }
 
-/// Lets those threads go on that are ready. @return whether there was one.
-bool let_others_go_on() {
+/// Lets the ready threads run. @return whether there were any.
+bool yield_turn() {
   TurnThread* const self = Turns::known_self();
   if (self == nullptr || !Turns::instance().active()) return false;
   const Inside inside;
@@ -435,12 +438,12 @@ bool let_others_go_on() {
 void on_yield() {
   ThreadState& thread = state;
   if (thread.inside > 0 || thread.ended || Turns::known_self() == nullptr) return;
-  if (let_others_go_on()) thread.yields = 0;
-  // Nobody is left who could go on: it waits for what simulated time brings.
+  if (yield_turn()) thread.yields = 0;
+  // No other thread can run, so the caller waits for simulated time.
   if (++thread.yields < kFreeYields || given_up.load(std::memory_order_acquire)) return;
   thread.yields = 0;
   TurnClock* const clock = attached.load(std::memory_order_acquire);
-  if (clock != nullptr) pass(thread, *clock, clock->step_ns());
+  if (clock != nullptr) advance_time(thread, *clock, clock->step_ns());
 }
 
 void on_leaving(int process) { state.leaving = process != 0 ? 1 : -1; }
@@ -472,7 +475,7 @@ void on_waits_for_real(const char* what) {
                       text + " (docs/virtual_time.md; --real-sleep makes all of it real)");
     }
   } catch (const std::exception&) {
-    // There is no memory left to say it.
+    // Out of memory; the warning is lost.
   }
 }
 
@@ -517,14 +520,14 @@ int note_program(dl_phdr_info* info, std::size_t /*size*/, void* /*data*/) {
     program_begin = std::min(program_begin, begin);
     program_end = std::max(program_end, begin + part.p_memsz);
   }
-  return 1;  // the program comes first; its libraries do not matter
+  return 1;  // the program is the first module; stop the iteration
 }
 
-// Before main() and before the program's own static objects, which may look at the clock.
+// Runs before main() and before the program's static objects, which may read the clock.
 __attribute__((constructor(101))) void register_hooks() {
   void* const found = dlsym(RTLD_DEFAULT, PLAYPEN_VIRTUAL_TIME_REGISTER);
   if (found == nullptr) return;
-  static_cast<void>(this_thinker());  // the main thread is the first
+  static_cast<void>(this_thread_id());  // the main thread gets the first id
   dl_iterate_phdr(note_program, nullptr);
   const Inside inside;
   registered = reinterpret_cast<PlaypenVirtualTimeRegister>(found)(hooks()) != 0;
@@ -566,7 +569,7 @@ void detach(TurnClock& clock) noexcept {
 long long time_before_ns() noexcept { return offset_ns.load(); }
 void set_time_before_ns(long long now_ns) noexcept { offset_ns.store(now_ns); }
 
-// Called with a simulation locked, so without the lock over the lists.
+// The caller has locked a simulation, so lists_mutex must not be locked here.
 void give_up_locked() noexcept {
   static constinit std::atomic<bool> begun{false};
   if (begun.exchange(true)) return;
@@ -588,24 +591,25 @@ void remember_thread() {
 
 void note_wait() noexcept {
   state.takes_part = true;
-  state.asks = 0;
-  state.looks = 0;
+  state.clock_reads = 0;
+  state.data_reads = 0;
   state.yields = 0;
 }
 
-void note_looks(int count) noexcept {
+void count_data_reads(int count) noexcept {
   ThreadState& thread = state;
-  const bool turn = thread.looks / kLooksATurn != (thread.looks + count) / kLooksATurn;
-  thread.looks += count;
+  const bool turn =
+      thread.data_reads / kDataReadsPerTurn != (thread.data_reads + count) / kDataReadsPerTurn;
+  thread.data_reads += count;
   const bool alone = !background.load(std::memory_order_relaxed);
-  const long long free_looks = alone ? kFreeLooksAlone : kFreeLooks;
-  if (turn && thread.inside == 0) let_others_go_on();
-  if (thread.looks < free_looks) return;
-  thread.looks = free_looks - (alone ? kLooksAStepAlone : kLooksAStep);
+  const long long free_data_reads = alone ? kFreeDataReadsAlone : kFreeDataReads;
+  if (turn && thread.inside == 0) yield_turn();
+  if (thread.data_reads < free_data_reads) return;
+  thread.data_reads = free_data_reads - (alone ? kDataReadsPerStepAlone : kDataReadsPerStep);
   TurnClock* const clock = attached.load(std::memory_order_acquire);
   if (thread.inside > 0 || thread.ended || given_up || clock == nullptr) return;
   if (!thread.takes_part && (!alone || !(thread.programs || is_main(thread)))) return;
-  pass(thread, *clock, clock->step_ns());
+  advance_time(thread, *clock, clock->step_ns());
 }
 
 void note_background() noexcept { background = true; }
@@ -616,13 +620,14 @@ bool process_ends() noexcept {
 }
 
 void note_thread_ends() noexcept {
-  // At the end of the process nobody else is to go on: how far would be chance.
+  // At the end of the process no other thread may run, since its progress would depend on
+  // scheduling.
   if (process_ends()) return;
   state.ended = true;
   const Inside inside;
   Turns& turns = Turns::instance();
   const Turns::Lock lock(turns.mutex());
-  turns.remove(this_thinker());
+  turns.remove(this_thread_id());
 }
 
 bool wait_until(const void* simulation, const std::function<bool()>& condition) {
@@ -633,7 +638,7 @@ bool wait_until(const void* simulation, const std::function<bool()>& condition) 
   }
   const sim::SimTime step_ns = clock->step_ns();
   while (!condition()) {
-    if (given_up || pass(thread, *clock, step_ns) == Passed::kNo) return false;
+    if (given_up || advance_time(thread, *clock, step_ns) == SleepResult::kNo) return false;
   }
   return true;
 }

@@ -7,23 +7,23 @@
 
 #include "sim/core/time.h"
 
-/// Playpen's side of virtual time (docs/virtual_time.md): what becomes of a sleep, or of a look at
-/// the clock, in a program that `playpen run` has started. Its other side is preload/.
+/// Playpen's side of virtual time (docs/virtual_time.md): implements sleeps and clocks of a program
+/// that `playpen run` has started. The other side is preload/.
 ///
-/// Each thread has its own way: the main thread and those that take part in the lockstep live in
-/// virtual time while they are in the program's own code; in Playpen's own code (Inside) and in all
-/// other threads everything is real. All functions may be called from any thread.
+/// The state is per thread. The main thread and the threads in the lockstep use virtual time while
+/// they run the program's own code. Playpen's own code (Inside) and all other threads use real
+/// time. All functions may be called from any thread.
 namespace playerlike {
 
 class TurnClock;
 
 namespace virtual_time {
 
-/// Whether sleeps of this process reach Playpen: the library is preloaded, and there is no reason
-/// (see give_up()) to let the wall clock rule.
+/// Whether sleeps of this process are virtual: the library is preloaded and give_up() was not
+/// called.
 [[nodiscard]] bool active() noexcept;
 
-/// While one lives, its thread is in Playpen's own code.
+/// While an object exists, its thread runs Playpen's own code.
 class Inside {
  public:
   Inside() noexcept;
@@ -32,8 +32,8 @@ class Inside {
   ~Inside();
 };
 
-/// While one lives, threads that its thread starts are the program's own, though it is Playpen's
-/// code that starts them.
+/// While an object exists, threads that its thread starts belong to the program, although Playpen's
+/// code starts them.
 class StartsForProgram {
  public:
   StartsForProgram() noexcept;
@@ -42,8 +42,8 @@ class StartsForProgram {
   ~StartsForProgram();
 };
 
-/// While one lives, threads that its thread starts are those of libraries that work for Playpen, as
-/// encoders of films do: nothing is virtual for them, and what they wait for holds up nobody.
+/// While an object exists, threads that its thread starts belong to libraries that work for
+/// Playpen, such as film encoders. Nothing is virtual for them, and nobody waits for them.
 class StartsForLibraries {
  public:
   StartsForLibraries() noexcept;
@@ -52,41 +52,43 @@ class StartsForLibraries {
   ~StartsForLibraries();
 };
 
-/// From now on sleeps move this simulation's time, and the clocks tell it; it must be in lockstep.
-/// The first one stays until it is detached: a program has one clock.
+/// From now on sleeps advance this simulation's time and the clocks show it; it must be in
+/// lockstep. Further simulations are ignored until the first one is detached: a program has one
+/// clock.
 void attach(const std::shared_ptr<TurnClock>& simulation);
-/// The clocks stay where they are until another simulation is attached.
+/// The clocks stop until another simulation is attached.
 void detach(TurnClock& simulation) noexcept;
-/// From now on sleeps are real, and the clocks go on with the wall clock from where they are.
-/// With the simulation locked, or Turns if there is none.
+/// From now on sleeps are real, and the clocks continue in real time. The caller has locked the
+/// simulation, or Turns if there is none.
 void give_up_locked() noexcept;
-/// The same, with nothing locked.
+/// As give_up_locked(); the caller holds no lock.
 void give_up() noexcept;
 
-/// Without a simulation: the time since the program's start, and how that goes on [ns].
+/// Without a simulation: virtual time since the program's start [ns].
 [[nodiscard]] long long time_before_ns() noexcept;
 void set_time_before_ns(long long now_ns) noexcept;
 
-/// The calling thread lives in virtual time: that is to be told when it ends.
+/// The calling thread uses virtual time: calls note_thread_ends() when it ends.
 void remember_thread();
-/// The calling thread waits for simulated time, and so takes part in the lockstep from now on.
+/// The calling thread waits for simulated time, so it takes part in the lockstep from now on.
 void note_wait() noexcept;
-/// The calling thread has looked at data, or given commands, so often. One that does nothing else
-/// for very long lets a step pass now and then: what it waits for may change in the background, and
-/// if nobody reads there, its run is to end all the same. Not to be called with a lock held that
-/// others need.
-void note_looks(int count = 1) noexcept;
-/// From now on there are threads that read in the background, see note_looks().
+/// Counts the calling thread's accesses to data and commands. If a thread does nothing else for
+/// very long, a step passes now and then: a background thread may change the data it polls, and
+/// without such a thread the run must still end. Must not be called with a lock held that other
+/// threads need.
+void count_data_reads(int count = 1) noexcept;
+/// From now on background threads read data, see count_data_reads().
 void note_background() noexcept;
-/// The calling thread's variables are destroyed. It ends, and nothing is virtual for it any more,
-/// unless it is the whole process that ends.
+/// The calling thread's variables are being destroyed. The thread leaves virtual time, unless the
+/// whole process ends.
 void note_thread_ends() noexcept;
-/// Whether that is because the process ends.
+/// Whether the thread ends because the process does.
 [[nodiscard]] bool process_ends() noexcept;
 
-/// Lets simulated time pass, step by step, until something is so; as if the calling thread slept.
-/// @param simulation  whose time it is, see Session::simulation().
-/// @return whether it is; false at once if the thread does not live in that time.
+/// Advances simulated time step by step until a condition holds, as if the calling thread slept.
+/// @param simulation  whose time to advance, see Session::simulation().
+/// @return whether the condition holds; false at once if the thread does not use that simulation's
+/// time.
 [[nodiscard]] bool wait_until(const void* simulation, const std::function<bool()>& condition);
 
 }  // namespace virtual_time

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kCoordinateLimit = 1 << 30;
 
-// floor(value), saturated; NaN counts as far to the left.
+// floor(value), saturated; NaN gives the lower limit.
 int saturated_floor(double value) noexcept {
   const double floored = std::floor(value);
   if (!(floored > -kCoordinateLimit)) return -kCoordinateLimit;

@@ -47,7 +47,7 @@ void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
   const auto offset = static_cast<std::size_t>(begin) * byte_offset(width_);
   const auto count = static_cast<std::size_t>(end - begin) * static_cast<std::size_t>(width_);
   fill_cells(data_.data() + offset, count, value);
-  // A tile whose last rows follow with a later call keeps its mark until then.
+  // A tile keeps its mark until all its rows have been filled, which may take several calls.
   const auto marks = [&](int row) {
     return tiles_.begin() +
            static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(tile_stride_);
@@ -62,8 +62,8 @@ void CellRaster::fill_rows(int begin, int end, CellValue value) noexcept {
     const int bottom = std::min((row + 1) << kTileShift, height_);
     const bool whole = (row << kTileShift) >= begin && bottom <= end;
     for (auto tile = marks(row); tile != marks(row + 1); ++tile) {
-      // Tiles that were blank before are as they were.
-      if ((*tile & (kChanged | kUsed)) != 0) *tile = whole ? kChanged | kUnkept : kWritten;
+      // Tiles that were blank before stay unmarked.
+      if ((*tile & (kChanged | kUsed)) != 0) *tile = whole ? kChanged | kUnsaved : kWritten;
     }
   }
 }
@@ -79,14 +79,14 @@ void CellRaster::set_cells(const CellRect& rect, std::span<const CellValue> valu
       static_cast<int>(std::clamp<int64_t>(int64_t{rect.column} + rect.width, 0, width_));
   const auto bottom =
       static_cast<int>(std::clamp<int64_t>(int64_t{rect.row} + rect.height, 0, height_));
-  if (left >= right) return;  // nothing of it lies inside
+  if (left >= right) return;  // the rectangle is outside
   for (int row = top; row < bottom; ++row) {
     const CellValue* from =
         values.data() + (int64_t{row} - rect.row) * rect.width + (int64_t{left} - rect.column);
     std::uint8_t* const to = data_.data() + static_cast<std::size_t>(row) * byte_offset(width_);
     std::uint8_t* const tiles =
         tiles_.data() + static_cast<std::size_t>(row >> kTileShift) * tile_stride_;
-    // Piece by piece: the part of the row that lies in one tile.
+    // For each tile: the part of the row that lies in it.
     for (int column = left; column < right;) {
       const int tile = column >> kTileShift;
       const int end = std::min(right, (tile + 1) << kTileShift);
@@ -113,7 +113,7 @@ std::vector<std::uint8_t> CellRaster::resize(int width, int height,
                                 [](std::uint8_t tile) { return (tile & kUsed) != 0; });
   const auto stride = static_cast<std::size_t>(tiles_across(width));
   std::vector<std::uint8_t> tiles(stride * static_cast<std::size_t>(tiles_across(height)),
-                                  kChanged | kUnkept);
+                                  kChanged | kUnsaved);
   for (int i = 1; i <= rows && used; ++i) {
     const int row = height - i;
     std::uint8_t* const to = zeros.data() + static_cast<std::size_t>(row) * byte_offset(width);
@@ -143,7 +143,7 @@ void CellRaster::archive(StateArchive& archive) {
   archive.expect(tiles <= archive.left(), "a flag for each tile");
   if (archive.reading()) {
     *this = CellRaster(width, height, blank_);
-    std::fill(tiles_.begin(), tiles_.end(), kChanged | kUnkept);
+    std::fill(tiles_.begin(), tiles_.end(), kChanged | kUnsaved);
   }
   for (std::size_t tile = 0; tile < tiles; ++tile) {
     const auto left = static_cast<int>(tile % tile_stride_) << kTileShift;
@@ -161,12 +161,12 @@ void CellRaster::archive(StateArchive& archive) {
   }
 }
 
-void CellRaster::mark_seen() noexcept {
+void CellRaster::clear_changed() noexcept {
   for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kChanged);
 }
 
-void CellRaster::mark_kept() noexcept {
-  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kUnkept);
+void CellRaster::clear_unsaved() noexcept {
+  for (std::uint8_t& tile : tiles_) tile &= static_cast<std::uint8_t>(~kUnsaved);
 }
 
 }  // namespace sim

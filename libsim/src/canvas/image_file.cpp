@@ -45,13 +45,13 @@ void check_size(const std::string& path, std::uint32_t width, std::uint32_t heig
   }
 }
 
-// Luma of BT.601 over white, 8 bits a channel.
+// BT.601 luma over a white background, 8 bits per channel.
 std::uint8_t grey(std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32_t alpha) {
   const std::uint32_t luma = (299 * r + 587 * g + 114 * b + 500) / 1000;
   return static_cast<std::uint8_t>((luma * alpha + 255 * (255 - alpha) + 127) / 255);
 }
 
-// 8 bits of a sample of 8 or 16.
+// A sample of 8 or 16 bits, scaled to 8 bits.
 std::uint8_t to_8_bits(const std::uint8_t* sample, int bytes) {
   if (bytes == 1) return *sample;
   return static_cast<std::uint8_t>((sample[0] * 256u + sample[1] + 128u) / 257u);
@@ -72,8 +72,8 @@ std::uint8_t grey_of_pixel(const std::uint8_t* samples, int channels, int bytes)
 }
 
 GreyImage load_png(const std::string& path, const Bytes& bytes) {
-  // After the signature of 8 bytes comes the chunk IHDR: length, name, width, height, all of 4
-  // (PNG specification, W3C 2003, 5.2 and 11.2.2).
+  // The signature of 8 bytes is followed by the chunk IHDR with length, name, width and height, of
+  // 4 bytes each (PNG specification, W3C 2003, 5.2 and 11.2.2).
   if (bytes.size() < 24) fail(path, "the PNG is cut short");
   const auto number_at = [&](std::size_t at) {
     return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 |
@@ -95,7 +95,8 @@ GreyImage load_png(const std::string& path, const Bytes& bytes) {
   return image;
 }
 
-// Numbers of a PGM, apart by white space and by comments from # to the end of the line.
+// Reads the numbers of a PGM, which are separated by white space and by comments from # to the end
+// of the line.
 class PgmReader {
  public:
   PgmReader(const std::string& path, const Bytes& bytes) : path_(path), bytes_(bytes) {}
@@ -115,7 +116,7 @@ class PgmReader {
     return value;
   }
 
-  // Raw samples begin after one white-space character.
+  // Raw samples follow one white-space character.
   const std::uint8_t* raw(std::size_t size) {
     ++at_;
     if (at_ > bytes_.size() || bytes_.size() - at_ < size) fail(path_, "the PGM is cut short");
@@ -156,7 +157,7 @@ GreyImage load_pgm(const std::string& path, const Bytes& bytes) {
   };
   GreyImage image{static_cast<int>(width), static_cast<int>(height), {}};
   if (bytes[1] == '2') {
-    // Each sample takes at least a digit and a space: a short file cannot claim much memory.
+    // Each sample takes at least a digit and a space, so a short file cannot claim much memory.
     if (bytes.size() < 2 * count - 1) fail(path, "the PGM is cut short");
     image.pixels.reserve(count);
     for (std::size_t i = 0; i < count; ++i) image.pixels.push_back(scaled(reader.number("pixel")));

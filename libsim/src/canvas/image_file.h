@@ -8,28 +8,28 @@
 
 namespace sim {
 
-/// A picture in shades of grey, e.g. the floor plan of a map: 0 is black, 255 white.
+/// A grey-scale image, e.g. the floor plan of a map: 0 is black, 255 is white.
 struct GreyImage {
-  int width = 0;                     ///< pixels, 1..kMaxGreyImageSide once loaded
-  int height = 0;                    ///< pixels, likewise
-  std::vector<std::uint8_t> pixels;  ///< row-major from the top left, width * height of them
+  int width = 0;                     ///< pixels, 1..kMaxGreyImageSide after loading
+  int height = 0;                    ///< pixels, 1..kMaxGreyImageSide after loading
+  std::vector<std::uint8_t> pixels;  ///< row-major from the top left, width * height values
 };
 
-/// The longest side of a picture that load_grey_image takes [pixels].
+/// Maximum side of an image for load_grey_image [pixels].
 inline constexpr int kMaxGreyImageSide = 16384;
-/// The most pixels that it takes, whatever the sides: a small file may claim a huge picture.
+/// Maximum number of pixels, since a small file may claim a huge image.
 inline constexpr std::size_t kMaxGreyImagePixels = std::size_t{8192} * 8192;
-/// The largest file that it takes [bytes].
+/// Maximum size of a file [bytes].
 inline constexpr std::size_t kMaxGreyImageBytes = std::size_t{256} << 20;
 
-/// Reads a PNG or a PGM (plain or raw), told apart by what the file begins with.
+/// Reads a PNG or a PGM (plain or raw). The first bytes of the file determine the format.
 ///
-/// Colours become their luma (ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B); what is transparent
-/// shows the white of the paper behind it; 16-bit samples and PGMs of another maximum are scaled
-/// to 0..255. Reads no pixel before the size in the file's header has been checked.
-/// @throws std::runtime_error "PATH: reason" if the file cannot be read, is of another format, is
-///     damaged, has a side longer than kMaxGreyImageSide or more than kMaxGreyImagePixels,
-///     or is no regular file of at most kMaxGreyImageBytes.
+/// Colours are converted to luma (ITU-R BT.601: 0.299 R + 0.587 G + 0.114 B). Transparent pixels
+/// are blended over white. 16-bit samples, and PGMs with another maximum, are scaled to 0..255.
+/// Reads no pixels before it has checked the size in the file's header.
+/// @throws std::runtime_error "PATH: reason" if the file cannot be read, has another format, is
+///     damaged, has a side longer than kMaxGreyImageSide or more than kMaxGreyImagePixels, or is
+///     not a regular file of at most kMaxGreyImageBytes.
 [[nodiscard]] GreyImage load_grey_image(const std::string& path);
 
 }  // namespace sim

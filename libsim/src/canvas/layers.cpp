@@ -18,12 +18,12 @@ namespace {
 
 constexpr float kUnknown = 0.5F;
 
-/// How a layer's cells become colours: its kind and what of its style bears on that.
+/// Conversion of a layer's cells to colours: the layer's kind and the relevant parts of its style.
 struct Ink {
   Ink(LayerKind of_kind, const LayerStyle& style)
       : kind(of_kind), colour(style.colour), transparent_colour(style.transparent_colour) {
     const double opaque = 1.0 - style.transparency;
-    // NaN is no wish for anything: opaque.
+    // NaN counts as opaque.
     opacity = opaque < 1.0
                   ? static_cast<std::uint8_t>(std::floor(255.0 * std::max(opaque, 0.0) + 0.5))
                   : std::uint8_t{255};
@@ -43,7 +43,7 @@ struct Ink {
     return drawn_as<LayerKind::kGrey>(value);
   }
 
-  /// As drawn(), where the kind is known: for loops over many cells.
+  /// Like drawn(), for a kind known at compile time; for loops over many cells.
   template <LayerKind kKind>
   [[nodiscard]] Colour drawn_as(CellValue value) const noexcept {
     Colour c = shade<kKind>(value);
@@ -75,7 +75,7 @@ struct Ink {
       const float p = occupancy >= 0.0F  ? std::min(occupancy, 1.0F)
                       : occupancy < 0.0F ? 0.0F
                                          : kUnknown;
-      // 255 (1 - p) rounded, halves up, by way of its double rounded down.
+      // 255 (1 - p) rounded to nearest, halves up: computed from its double, rounded down.
       const auto doubled = static_cast<unsigned>(510.0 * (1.0 - static_cast<double>(p)));
       const auto grey = static_cast<std::uint8_t>((doubled + 1) / 2);
       return {grey, grey, grey, 255};
@@ -93,10 +93,10 @@ struct Layer {
   int owner;
   LayerStyle style;
   Ink ink{LayerKind::kColour, {}};
-  std::unique_ptr<CellRaster> own;  // none for the base layer, whose cells are the canvas's
+  std::unique_ptr<CellRaster> own;  // null for the base layer, whose cells are the canvas's
   CellRaster* cells;
 
-  /// Whether a cell that nobody has drawn on shows.
+  /// Whether blank cells are visible.
   [[nodiscard]] bool blank_shows() const { return ink.drawn(cells->blank()).a != 0; }
 };
 
@@ -140,7 +140,7 @@ struct LayerStack::Impl {
     return *layer;
   }
 
-  /// All that the layer shows, or has shown since it was last composed, is to be composed anew.
+  /// Marks as dirty everything that the layer shows, or has shown since it was last composed.
   void mark(const Layer& layer) {
     const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
     const bool everywhere = layer.blank_shows();
@@ -166,14 +166,14 @@ struct LayerStack::Impl {
     layer.ink = Ink(layer.kind, style);
     layer.style = std::move(style);
     const bool looks_else = layer.style.visible && before.style.visible && layer.ink != before.ink;
-    // Its place among the others is now found by the sort; `layer` may be another one after it.
+    // The sort determines its new position; `layer` may refer to another layer afterwards.
     std::sort(layers.begin(), layers.end(), lies_below);
     if (!looks_else && visible_order() == order_before) return;
     if (before.style.visible) mark(before);
     if (get(id).style.visible) mark(get(id));
   }
 
-  /// Brings the tile's cells in `picture` up to date.
+  /// Recomputes the tile's cells in `picture`.
   void compose_tile(int tile_column, int tile_row) {
     const int left = tile_column << CellRaster::kTileShift;
     const int right = std::min(left + CellRaster::kTileSide, base.width());
@@ -217,7 +217,7 @@ struct LayerStack::Impl {
   template <LayerKind kKind>
   static void draw_row_as(const Ink& layer_ink, const std::uint8_t* from, std::size_t count,
                           std::uint8_t* to) {
-    const Ink ink = layer_ink;  // a copy, which the bytes written below cannot alias
+    const Ink ink = layer_ink;  // a copy, so that the bytes written below cannot alias it
     for (std::size_t i = 0; i < count; ++i) {
       CellValue value;
       std::memcpy(&value, from + i * sizeof value, sizeof value);
@@ -230,7 +230,8 @@ struct LayerStack::Impl {
     }
   }
 
-  /// Composes dirty tiles until about so many cells are done. @return whether none is left.
+  /// Composes dirty tiles until about `cells_at_most` cells are done.
+  /// @return whether none is left.
   bool compose(std::size_t cells_at_most) {
     for (Layer& layer : layers) {
       if (!layer.style.visible) continue;
@@ -238,7 +239,7 @@ struct LayerStack::Impl {
       for (std::size_t i = 0; i < dirty.size(); ++i) {
         dirty[i] = static_cast<std::uint8_t>(dirty[i] | (tiles[i] & CellRaster::kChanged));
       }
-      layer.cells->mark_seen();
+      layer.cells->clear_changed();
     }
     if (!any_bit(dirty, 1)) return true;
     const std::uint64_t end =
@@ -254,12 +255,12 @@ struct LayerStack::Impl {
         dirty[tile] = 0;
       }
     }
-    // Counted when all is done: what comes in pieces is one change of the picture.
+    // Incremented only when all is done: a composition in parts is one change of the picture.
     ++version;
     return true;
   }
 
-  /// Whether compose() would find something to do.
+  /// Whether compose() has work to do.
   [[nodiscard]] bool is_dirty() const {
     return any_bit(dirty, 1) || std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
              return layer.style.visible && any_bit(layer.cells->tiles(), CellRaster::kChanged);
@@ -268,17 +269,17 @@ struct LayerStack::Impl {
 
   CanvasDescription description;
   Canvas base;
-  std::vector<Layer> layers;  // in the order of drawing
+  std::vector<Layer> layers;  // in drawing order
   LayerId next_id = kBaseLayer + 1;
-  std::vector<std::uint8_t> dirty;    // tile by tile: to be composed anew, for whatever reason
-  std::vector<std::uint8_t> picture;  // RGBA; true where no tile is dirty
-  std::uint64_t version = 0;          // how often compose() has found something to do
+  std::vector<std::uint8_t> dirty;    // by tile: must be recomposed, for any reason
+  std::vector<std::uint8_t> picture;  // RGBA; valid where no tile is dirty
+  std::uint64_t version = 0;          // number of compose() runs that found work
   std::uint64_t recomposed_cells = 0;
   std::uint64_t revision = 0;
 };
 
 void drop_covered(std::vector<DrawOperation>& operations) {
-  std::unordered_set<LayerId> filled;  // layers that a fill further on covers
+  std::unordered_set<LayerId> filled;  // layers that a later fill covers
   std::size_t kept = operations.size();
   for (std::size_t i = operations.size(); i-- > 0;) {
     const DrawOperation& operation = operations[i];
@@ -295,7 +296,8 @@ std::size_t cells_written(const DrawOperation& operation, int width, int height)
     case DrawOperation::Kind::kPixel:
       return 1;
     case DrawOperation::Kind::kLine: {
-      // A line has as many cells as the longer side of its box; what lies outside is not visited.
+      // A line has as many cells as the longer side of its bounding box; cells outside are not
+      // visited.
       const auto inside = [](int from, int to, int side) {
         const int64_t low = std::max<int64_t>(std::min(from, to), 0);
         const int64_t high = std::min<int64_t>(std::max(from, to), int64_t{side} - 1);
@@ -392,7 +394,7 @@ std::size_t LayerStack::draw_some(std::span<const DrawOperation> operations, Dra
       layer = impl_->find(id);
     }
     if (layer == nullptr) {
-      ++written;  // so that a list of such drawings comes to an end of its turn, too
+      ++written;  // so that a list of such drawings also ends its turn
       continue;
     }
     CellRaster& cells = *layer->cells;
@@ -528,7 +530,7 @@ void LayerStack::take_base(LayerStack& from) {
   impl_->dirty.assign(base.tiles().size(), 1);
 }
 
-void LayerStack::succeed(const LayerStack& before) {
+void LayerStack::take_over_from(const LayerStack& before) {
   impl_->next_id = std::max(impl_->next_id, before.impl_->next_id);
   impl_->version = before.impl_->version;
   impl_->recomposed_cells = before.impl_->recomposed_cells;
@@ -582,12 +584,12 @@ std::span<const std::uint8_t> LayerStack::bytes(LayerId layer) const {
 void LayerStack::take_written(const std::function<void(LayerId, const CellRect&)>& visit) {
   for (const Layer& layer : impl_->layers) {
     const std::vector<std::uint8_t>& tiles = layer.cells->tiles();
-    if (!any_bit(tiles, CellRaster::kUnkept)) continue;
+    if (!any_bit(tiles, CellRaster::kUnsaved)) continue;
     const int columns = layer.cells->tile_columns();
     const auto is_written = [&](int row, int column) {
       return (tiles[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                     static_cast<std::size_t>(column)] &
-              CellRaster::kUnkept) != 0;
+              CellRaster::kUnsaved) != 0;
     };
     for (int row = 0; row < layer.cells->tile_rows(); ++row) {
       for (int column = 0; column < columns; ++column) {
@@ -600,7 +602,7 @@ void LayerStack::take_written(const std::function<void(LayerId, const CellRect&)
                          std::min(top + CellRaster::kTileSide, height()) - top});
       }
     }
-    layer.cells->mark_kept();
+    layer.cells->clear_unsaved();
   }
 }
 

@@ -8,24 +8,24 @@
 
 namespace sim {
 
-/// Calls visit(column, row) for each cell of a line that lies in a grid of that size, once each;
-/// which cells those are is told at Canvas::draw_line.
+/// Calls visit(column, row) once for each cell of a line that lies in a grid of that size.
+/// Canvas::draw_line defines the cells of a line.
 ///
-/// Along the longer side ("major"), cell i of n = major distance lies at i on the major axis and
-/// at
-///   k(i) = floor((2 m i + n) / (2 n))
-/// on the minor one, m being the minor distance: the nearest cell, as Bresenham's running error
-/// finds it. k does not fall, so the cells inside the grid are one interval of i, which has a
-/// closed form; the running error is then entered at its first cell.
+/// Let n be the distance along the longer (major) axis and m the distance along the minor axis.
+/// Cell i of the line lies at i on the major axis and, on the minor axis, at
+///   k(i) = floor((2 m i + n) / (2 n)),
+/// the nearest cell, as in Bresenham's algorithm. k does not decrease, so the cells inside the grid
+/// are one interval of i, which has a closed form. The running error then starts at the first cell
+/// of this interval.
 template <typename Visit>
 void visit_line(int width, int height, int column0, int row0, int column1, int row1, Visit visit) {
-  // Coordinates are any ints, so products of two differences need 66 bits.
+  // Coordinates may be any ints, so products of two differences need 66 bits.
   __extension__ typedef __int128 Int128;
   using std::int64_t;
   const int64_t width_distance = std::abs(int64_t{column1} - column0);
   const int64_t height_distance = std::abs(int64_t{row1} - row0);
   const bool steep = height_distance > width_distance;
-  // Start at the lesser major coordinate, so that both directions give the same cells.
+  // Start at the smaller major coordinate, so that both directions give the same cells.
   if (steep ? row1 < row0 : column1 < column0) {
     std::swap(column0, column1);
     std::swap(row0, row1);
@@ -38,13 +38,14 @@ void visit_line(int width, int height, int column0, int row0, int column1, int r
   const int64_t minor_size = steep ? width : height;
   const bool minor_falls = steep ? column1 < column0 : row1 < row0;
 
-  // Cells that lie inside along the major axis, then those that do along the minor one too.
+  // The interval of cells inside along the major axis, then reduced to those inside along the minor
+  // axis.
   int64_t first = std::max<int64_t>(0, -major0);
   int64_t last = std::min<int64_t>(n, major_size - 1 - major0);
   const int64_t k_least = std::max<int64_t>(0, minor_falls ? minor0 - (minor_size - 1) : -minor0);
   const int64_t k_most = std::min<int64_t>(m, minor_falls ? minor0 : minor_size - 1 - minor0);
   if (first > last || k_least > k_most) return;
-  // Least i with k(i) >= k, for k >= 1: 2 m i + n >= 2 n k.
+  // The least i with k(i) >= k, for k >= 1: 2 m i + n >= 2 n k.
   const auto first_with = [&](int64_t k) {
     const Int128 numerator = Int128{n} * (2 * k - 1);
     const Int128 denominator = Int128{2} * m;

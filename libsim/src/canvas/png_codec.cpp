@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kMostInterlaced = std::size_t{64} << 20;  // bytes
 
-// libpng leaves a function by longjmp() where something is wrong. So everything with a destructor
-// lives in these structs, outside of the functions that call setjmp().
+// libpng leaves a function by longjmp() on errors. Therefore everything with a destructor lives in
+// these structs, outside the functions that call setjmp().
 
 void ignore_warning(png_structp /*png*/, png_const_charp /*text*/) {}
 
@@ -34,7 +34,7 @@ struct Decoder {
   std::size_t at = 0;
   png_structp png = nullptr;
   png_infop info = nullptr;
-  std::vector<std::uint8_t> samples;  // one row, or all of an interlaced picture
+  std::vector<std::uint8_t> samples;  // one row, or the whole of an interlaced picture
 };
 
 void read_bytes(png_structp png, png_bytep out, std::size_t size) {
@@ -44,7 +44,7 @@ void read_bytes(png_structp png, png_bytep out, std::size_t size) {
   decoder.at += size;
 }
 
-/// Makes room for samples, without an exception through libpng.
+/// Resizes `samples`; no exception may pass through libpng.
 bool make_room(std::vector<std::uint8_t>& samples, std::size_t size) {
   try {
     samples.resize(size);
@@ -71,7 +71,7 @@ bool decode(Decoder& decoder, std::uint32_t width, std::uint32_t height,
   row.width = static_cast<int>(width);
   row.channels = png_get_channels(decoder.png, decoder.info);
   row.bytes_per_sample = png_get_bit_depth(decoder.png, decoder.info) / 8;
-  // A small file may claim to be a large interlaced picture, all of which must be kept at once.
+  // A small file may claim to be a large interlaced picture, which must be kept as a whole.
   if (passes > 1 && stride * height > kMostInterlaced) return false;
   if (!make_room(decoder.samples, passes == 1 ? stride : stride * height)) return false;
   for (int pass = 0; pass < passes; ++pass) {
@@ -114,8 +114,8 @@ bool encode(Encoder& encoder, int width, int height, const std::uint8_t* rgb, in
                static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(encoder.png, level);
-  // Our pictures are of flat colours: filters, tried on each row, take as long again and more than
-  // the packing, and make no smaller file.
+  // The pictures have flat colours. Trying filters on each row would take longer than the
+  // compression itself, and would not make the file smaller.
   png_set_filter(encoder.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_write_info(encoder.png, encoder.info);
   for (int y = 0; y < height; ++y) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "sim/core/number_text.h"
+
 namespace sim {
 namespace {
 
@@ -32,16 +34,11 @@ std::optional<Colour> parse_colour(std::string_view text) {
 }
 
 std::string to_string(Colour colour) {
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text = "#";
-  const auto append = [&](std::uint8_t channel) {
-    text += kDigits[channel >> 4];
-    text += kDigits[channel & 15];
-  };
-  append(colour.r);
-  append(colour.g);
-  append(colour.b);
-  if (colour.a != 255) append(colour.a);
+  for (const std::uint8_t channel : {colour.r, colour.g, colour.b}) {
+    text += hexadecimal_text(channel, 2);
+  }
+  if (colour.a != 255) text += hexadecimal_text(colour.a, 2);
   return text;
 }
 

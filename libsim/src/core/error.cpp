@@ -8,7 +8,7 @@
 namespace sim {
 namespace {
 
-/// Words longer than this are not likened to anything; keeps hostile input cheap.
+/// Longer words match nothing; this keeps hostile input cheap.
 constexpr std::size_t kLongestWord = 64;
 
 std::string joined_messages(const std::vector<ConfigIssue>& issues) {
@@ -20,8 +20,8 @@ std::string joined_messages(const std::vector<ConfigIssue>& issues) {
   return text;
 }
 
-/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of
-/// neighbours cost one each, and no part of the word is edited twice.
+/// Optimal string alignment distance: insertions, deletions, substitutions and swaps of adjacent
+/// letters cost one each, and no substring is edited twice.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -72,7 +72,7 @@ std::vector<std::string> nearest_words(const std::string& word,
                                        const std::vector<std::string>& known, std::size_t most) {
   if (word.empty() || word.size() > kLongestWord) return {};
   const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
-  std::vector<std::pair<std::size_t, std::string>> near;  // by distance
+  std::vector<std::pair<std::size_t, std::string>> near;  // with their distances
   for (const std::string& candidate : known) {
     if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = edit_distance(word, candidate);

@@ -49,8 +49,8 @@ bool is_finite(const Field& field, const void* value) {
   }
 }
 
-void tell(const Pose& pose, const std::string& prefix, const std::string& suffix,
-          std::map<std::string, double>& properties) {
+void add_pose(const Pose& pose, const std::string& prefix, const std::string& suffix,
+              std::map<std::string, double>& properties) {
   properties[prefix + "_x" + suffix] = pose.x_m;
   properties[prefix + "_y" + suffix] = pose.y_m;
   properties[prefix + "_yaw" + suffix] = pose.yaw_rad;
@@ -63,8 +63,8 @@ std::string property_of(const Field& field) {
   return name;
 }
 
-void tell(const Field& field, const void* value, std::map<std::string, double>& properties,
-          const std::string& suffix) {
+void add_field(const Field& field, const void* value, std::map<std::string, double>& properties,
+               const std::string& suffix) {
   const std::string name = property_of(field);
   switch (field.type) {
     case FieldType::kNumber:
@@ -87,29 +87,29 @@ void tell(const Field& field, const void* value, std::map<std::string, double>& 
       return;
     }
     case FieldType::kPose:
-      return tell(value == nullptr ? Pose{} : as<Pose>(value), name, suffix, properties);
+      return add_pose(value == nullptr ? Pose{} : as<Pose>(value), name, suffix, properties);
     case FieldType::kPoses:
     case FieldType::kList: {
       const std::size_t count = field.list->size(value);
-      properties[field.tells_elements ? "count" : name] = static_cast<double>(count);
-      for (std::size_t i = 0; field.tells_elements && i < count; ++i) {
+      properties[field.lists_elements ? "count" : name] = static_cast<double>(count);
+      for (std::size_t i = 0; field.lists_elements && i < count; ++i) {
         std::string end = "_";
         end += std::to_string(i);
         const void* element = field.list->at(value, i);
         if (field.type == FieldType::kPoses) {
-          tell(as<Pose>(element), name, end, properties);
+          add_pose(as<Pose>(element), name, end, properties);
         } else {
-          tell_fields(field.table(), element, properties, end);
+          add_properties(field.table(), element, properties, end);
         }
       }
       return;
     }
     case FieldType::kStruct:
-      return tell_fields(field.table(), value, properties, suffix);
+      return add_properties(field.table(), value, properties, suffix);
     case FieldType::kCustom:
-      return field.custom->tell(value, properties);
+      return field.custom->add_properties(value, properties);
     default:
-      return;  // no numbers
+      return;  // has no numbers
   }
 }
 
@@ -158,10 +158,10 @@ bool all_finite(const FieldTable& table, const void* object) {
   });
 }
 
-void tell_fields(const FieldTable& table, const void* object,
-                 std::map<std::string, double>& properties, const std::string& suffix) {
+void add_properties(const FieldTable& table, const void* object,
+                    std::map<std::string, double>& properties, const std::string& suffix) {
   for_each_field(table, object, [&](const Field& field, const void* owner) {
-    if (field.told) tell(field, field.get(owner), properties, suffix);
+    if (field.is_property) add_field(field, field.get(owner), properties, suffix);
   });
 }
 

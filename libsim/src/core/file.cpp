@@ -46,7 +46,7 @@ FileError error_of(int code) {
   }
 }
 
-/// What speaks against a file of that kind, whatever it holds.
+/// The error for a file of that type, whatever its content.
 std::optional<FileError> fault_of_kind(mode_t mode, const FileLimits& limits) {
   if (S_ISREG(mode)) return std::nullopt;
   if (S_ISDIR(mode)) return FileError{FileFault::kFolder, "a folder"};
@@ -66,8 +66,8 @@ FileError too_large(const FileLimits& limits) {
   return {FileFault::kTooLarge, "more than " + size_text(limits.most_bytes)};
 }
 
-/// Waits until a pipe has something, or has ended. A pipe that nobody has opened for writing yet
-/// counts as one that has nothing.
+/// Waits until a pipe has data or has ended. A pipe that nobody has opened for writing counts as
+/// one without data.
 std::optional<FileError> wait_for_pipe(int descriptor, const FileLimits& limits) {
   pollfd waited{descriptor, POLLIN, 0};
   for (;;) {
@@ -86,7 +86,7 @@ std::optional<FileError> wait_for_pipe(int descriptor, const FileLimits& limits)
 std::optional<FileError> read_whole_file(const std::string& path, const FileLimits& limits,
                                          std::string& content) {
   content.clear();
-  // Opening some devices does something, so what it is counts before and after.
+  // Opening some devices has side effects, so the type is checked before opening and again after.
   struct stat status = {};
   if (stat(path.c_str(), &status) != 0) return error_of(errno);
   if (auto fault = fault_of_kind(status.st_mode, limits)) return fault;
@@ -100,7 +100,7 @@ std::optional<FileError> read_whole_file(const std::string& path, const FileLimi
 
   constexpr std::size_t kPiece = std::size_t{64} << 10;
   std::string bytes;
-  // Some files say that they are empty and are not; others grow while they are read.
+  // Some files report size 0 but have content; others grow while they are read.
   std::size_t room = is_pipe ? kPiece : size + 1;
   for (;;) {
     if (is_pipe) {

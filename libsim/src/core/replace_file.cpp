@@ -32,7 +32,7 @@ int write_to(const char* path, int flags, std::string_view bytes) noexcept {
 
 }  // namespace
 
-std::string part_name(const std::string& path) {
+std::string part_file_name(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   const std::size_t name = slash == std::string::npos ? 0 : slash + 1;
   const std::size_t dot = path.rfind('.');
@@ -41,9 +41,9 @@ std::string part_name(const std::string& path) {
   return path.substr(0, place) + ".part" + path.substr(place);
 }
 
-int adopt_part(const std::string& path) noexcept {
+int rename_part_file(const std::string& path) noexcept {
   try {
-    return std::rename(part_name(path).c_str(), path.c_str()) == 0 ? 0 : errno;
+    return std::rename(part_file_name(path).c_str(), path.c_str()) == 0 ? 0 : errno;
   } catch (...) {
     return ENOMEM;
   }
@@ -55,11 +55,11 @@ int replace_file(const std::string& path, std::string_view bytes) noexcept {
     if (lstat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) {
       return write_to(path.c_str(), 0, bytes);
     }
-    const std::string part = part_name(path);
-    // Left by a process that was killed; or a link, which must not be followed.
+    const std::string part = part_file_name(path);
+    // It may be left from a process that was killed, or be a link, which must not be followed.
     unlink(part.c_str());
     int error = write_to(part.c_str(), O_EXCL | O_NOFOLLOW, bytes);
-    if (error == 0) error = adopt_part(path);
+    if (error == 0) error = rename_part_file(path);
     if (error != 0) unlink(part.c_str());
     return error;
   } catch (...) {

@@ -85,7 +85,7 @@ void StateArchive::value(const Field& field, void* value) {
     case FieldType::kInclude:
       return table(field.table(), value);
     case FieldType::kCustom:
-      SIM_ASSERT(false);  // settings have such, states do not
+      SIM_ASSERT(false);  // occurs in settings only, never in states
   }
 }
 

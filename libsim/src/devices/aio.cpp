@@ -16,7 +16,7 @@ namespace sim {
 namespace {
 
 const Reading* newest(const Device* device) {
-  const auto* sensor = dynamic_cast<const Sensor*>(device);
+  const Sensor* sensor = device == nullptr ? nullptr : device->sensor();
   return sensor == nullptr ? nullptr : &sensor->reading();
 }
 
@@ -27,7 +27,7 @@ const std::vector<double>* ranges_of(const Device* device) {
   return nullptr;
 }
 
-// Whether an input may be wired to that output or value of a device.
+// Whether the device has an output or a value of that index for an input to be wired to.
 bool has_value(const Device* device, int index) {
   if (const auto* aio = dynamic_cast<const Aio*>(device)) return index < aio->params().outputs;
   if (const auto* laser = dynamic_cast<const Laser*>(device)) {
@@ -164,14 +164,13 @@ constexpr Field kAioSettings[] = {
     frequency_field<&AioParams::frequency_hz>(),
     field<&AioParams::noise_v>("noise", "V", "standard deviation of each input")
         .within(0.0, 1000.0),
-    field<&AioParams::inputs>("inputs", "", "what input 0, 1, ... shows; at most 8")
+    field<&AioParams::inputs>("inputs", "", "sources of input 0, 1, ...; at most 8")
         .of(kAnalogSource)
         .counting(0, AioParams::kMaxLines)
-        .or_fault("device/input",
-                  "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's "
-                  "name), or a wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\""),
-    field<&AioParams::outputs>("outputs", "", "how many outputs there are")
-        .within(0, AioParams::kMaxLines),
+        .with_issue("device/input",
+                    "a voltage, \"speed\", \"turn_rate\", \"battery\" (or another battery device's "
+                    "name), or a wire: \"DEVICE.INDEX\", \"ROBOT.DEVICE.INDEX\""),
+    field<&AioParams::outputs>("outputs", "", "number of outputs").within(0, AioParams::kMaxLines),
 };
 SIM_FIELDS(AioParams, kAioSettings)
 

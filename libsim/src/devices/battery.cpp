@@ -30,7 +30,7 @@ double battery_voltage_v(const BatteryParams& params, double charge) {
 }
 
 bool is_on_dock(const DockDescription& dock, const Vec2& p_W) {
-  // Most docks are far away: no need to turn into their frames.
+  // Most docks are far away and need no transformation into their frame.
   if ((p_W - dock.pose.position()).squaredNorm() > 0.25 * dock.size.squaredNorm()) return false;
   const Vec2 p_D = dock.pose.inverse() * p_W;
   return std::abs(p_D.x()) <= 0.5 * dock.size.x() && std::abs(p_D.y()) <= 0.5 * dock.size.y();
@@ -84,10 +84,10 @@ void Battery::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> voltage_fault(const void* object) {
+std::optional<FieldError> check_voltage(const void* object) {
   const auto& p = *static_cast<const BatteryParams*>(object);
   if (p.empty_voltage_v <= p.full_voltage_v) return std::nullopt;
-  return FieldFault{"device/battery-voltage", "an empty_voltage of at most full_voltage",
+  return FieldError{"device/battery-voltage", "an empty_voltage of at most full_voltage",
                     rounded_text(p.empty_voltage_v, 6) + " V empty, " +
                         rounded_text(p.full_voltage_v, 6) + " V full",
                     ""};
@@ -104,20 +104,21 @@ constexpr Field kBatterySettings[] = {
     field<&BatteryParams::initial_charge_percent>("initial_charge", "percent",
                                                   "of the capacity, at the start")
         .within(0.0, 100.0),
-    field<&BatteryParams::idle_power_w>("idle_power", "W", "drawn at all times")
+    field<&BatteryParams::idle_power_w>("idle_power", "W", "power that is drawn at all times")
         .within(0.0, 10000.0),
     field<&BatteryParams::drive_power_ws_per_m>(
-        "drive_power", "W for each m/s", "drawn besides for each m/s that the wheels are driven at")
+        "drive_power", "W for each m/s", "additional power for each m/s of the wheels' speed")
         .within(0.0, 10000.0),
     field<&BatteryParams::charging_power_w>("charging_power", "W",
-                                            "what a dock puts into the battery")
+                                            "power from a dock into the battery")
         .within(0.0, 10000.0),
-    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "at full charge").above(0.0, 1000.0),
+    field<&BatteryParams::full_voltage_v>("full_voltage", "V", "voltage at full charge")
+        .above(0.0, 1000.0),
     field<&BatteryParams::empty_voltage_v>("empty_voltage", "V",
                                            "when empty; at most `full_voltage`")
         .above(0.0, 1000.0),
 };
-SIM_FIELDS(BatteryParams, kBatterySettings, voltage_fault)
+SIM_FIELDS(BatteryParams, kBatterySettings, check_voltage)
 
 constexpr Field kBatteryReading[] = {
     field<&BatteryReading::charge_percent>("charge", "percent"),
@@ -135,9 +136,10 @@ std::string_view to_string(BatteryStatus status) {
 
 DeviceKind battery_kind() {
   return device_kind<BatteryParams, BatteryReading>(
-      "battery", {{"power"}}, [](const DeviceOrder& order, const BatteryParams& params) {
-        return std::make_unique<Battery>(order.name(), params,
-                                         order.model.drive.wheel_separation_m);
+      "battery", {{"power"}},
+      [](const DeviceConstruction& construction, const BatteryParams& params) {
+        return std::make_unique<Battery>(construction.name(), params,
+                                         construction.model.drive.wheel_separation_m);
       });
 }
 

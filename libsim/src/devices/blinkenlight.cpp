@@ -11,7 +11,7 @@ namespace sim {
 
 bool is_lit(double period_s, double duty_cycle, SimTime time_ns) {
   if (period_s <= 0.0) return true;
-  // Whole numbers: no rounding moves an edge to another step.
+  // Integers, so that rounding cannot move a transition to another step.
   const SimTime period_ns = std::max<SimTime>(from_seconds(period_s), 1);
   return static_cast<double>(time_ns % period_ns) < duty_cycle * static_cast<double>(period_ns);
 }
@@ -60,13 +60,14 @@ constexpr Field kBlinkenlightSettings[] = {
     frequency_field<&BlinkenlightParams::frequency_hz>(),
     field<&BlinkenlightParams::colour>("colour", "", "`#RGB` or `#RRGGBB`"),
     field<&BlinkenlightParams::enabled>("enabled", "", "whether it is on at the start"),
-    field<&BlinkenlightParams::period_s>("period", "s", "of one on and off; 0: it does not blink")
+    field<&BlinkenlightParams::period_s>("period", "s", "of one blink; 0: it does not blink")
         .within(0.0, 1e6),
-    field<&BlinkenlightParams::duty_cycle>("duty_cycle", "", "share of the period that it is lit")
+    field<&BlinkenlightParams::duty_cycle>("duty_cycle", "",
+                                           "fraction of the period in which it is lit")
         .within(0.0, 1.0),
-    field<&BlinkenlightParams::p_BL>("position", "m", "where it is on the robot, in its frame")
+    field<&BlinkenlightParams::p_BL>("position", "m", "position on the robot, in the robot's frame")
         .within(-100.0, 100.0)
-        .told_as(""),
+        .property_name(""),
 };
 SIM_FIELDS(BlinkenlightParams, kBlinkenlightSettings)
 

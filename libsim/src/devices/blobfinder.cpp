@@ -12,7 +12,7 @@
 namespace sim {
 namespace {
 
-// The colour of a thing, opaque; nullopt: it has none of its own.
+// The colour of an object, made opaque; nullopt if it has none of its own.
 std::optional<Colour> colour_of(const PhysicsWorld::Face& face, const WorldDescription& world) {
   using Kind = PhysicsWorld::Contact::Kind;
   std::optional<Colour> colour;
@@ -23,8 +23,8 @@ std::optional<Colour> colour_of(const PhysicsWorld::Face& face, const WorldDescr
   return colour;
 }
 
-// A run of pixels of a colour that is looked for; `group` leads to the one that stands for its
-// blob, which is its own if it is that one.
+// A run of pixels of a wanted colour. `group` links to the piece that represents its blob; a
+// representative links to itself.
 struct Piece {
   const ColumnView::Run* run;
   Colour colour;
@@ -45,16 +45,17 @@ void unite(std::vector<Piece>& pieces, std::size_t i, std::size_t k) {
   pieces[std::max(a, b)].group = std::min(a, b);
 }
 
-// Whether pixels of one are beside, above or below pixels of the other.
+// Whether pixels of the two runs share an edge.
 bool touch(const ColumnView::Run& a, const ColumnView::Run& b) {
   if (a.column == b.column) return a.top == b.bottom || b.top == a.bottom;
   return a.top < b.bottom && b.top < a.bottom;
 }
 
-// Finds connected regions of runs, after Bruce, Balch, Veloso, Fast and Inexpensive Color Image
-// Segmentation for Interactive Robots (IROS 2000), sec. 3.2 and 3.3, with columns in place of rows.
+// Finds connected regions of runs by the method of Bruce, Balch, Veloso, Fast and Inexpensive Color
+// Image Segmentation for Interactive Robots (IROS 2000), sec. 3.2 and 3.3, with columns instead of
+// rows.
 void group(std::vector<Piece>& pieces) {
-  std::size_t begin = 0;  // of the column before
+  std::size_t begin = 0;  // of the previous column
   std::size_t middle = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const int column = pieces[i].run->column;
@@ -121,7 +122,7 @@ void Blobfinder::measure(const StepContext& context) {
       if (root_of(pieces, i) != root) continue;
       const ColumnView::Run& run = *pieces[i].run;
       const int rows = run.bottom - run.top;
-      // The first piece in a column is its lowest, and so the nearest.
+      // The first piece in a column is its lowest, and therefore the nearest.
       if (columns == 0 || run.column != blob.right) {
         range_sum_m += run.range_m;
         ++columns;
@@ -133,7 +134,7 @@ void Blobfinder::measure(const StepContext& context) {
       columns_twice += std::int64_t{rows} * (2 * run.column + 1);
       rows_twice += std::int64_t{rows} * (run.top + run.bottom);
     }
-    // The pixel that the middle lies in.
+    // The pixel that contains the centroid.
     blob.x = static_cast<int>(columns_twice / (2 * std::int64_t{blob.area}));
     blob.y = static_cast<int>(rows_twice / (2 * std::int64_t{blob.area}));
     blob.range_m = range_sum_m / columns;
@@ -180,10 +181,10 @@ constexpr Field kBlobfinderSettings[] = {
     include<BlobfinderParams, ViewParams>(),
     noise_field<&BlobfinderParams::noise_m>("standard deviation of a blob's range"),
     field<&BlobfinderParams::colours>(
-        "colours", "", "list of the colours that it sees, like `\"#ff8800\"`, exactly; none: all")
+        "colours", "", "list of the exact colours that it sees, like `\"#ff8800\"`; none: all")
         .of(kColour)
         .counting(0, BlobfinderParams::kMaxColours)
-        .or_fault("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),
+        .with_issue("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),
 };
 SIM_FIELDS(BlobfinderParams, kBlobfinderSettings)
 

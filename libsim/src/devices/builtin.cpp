@@ -4,8 +4,8 @@
 #include <map>
 #include <string_view>
 
-// The names of all kinds: NAME_kind() stands in the device's own source. The list is written by
-// hand, as static libraries drop objects that would register themselves.
+// The names of all kinds; NAME_kind() is defined in the device's own source file. The list is
+// written by hand, since linkers drop self-registering objects from static libraries.
 // clang-format off
 #define SIM_DEVICE_KINDS(KIND) \
   KIND(aio) KIND(battery) KIND(bumper) KIND(blinkenlight) KIND(blobfinder) \
@@ -34,9 +34,9 @@ void* ReadingKind::object(Reading& reading) const {
 
 std::map<std::string, double> DeviceKind::properties(const std::any& params) const {
   const std::any of_device = params.has_value() ? params : defaults();
-  std::map<std::string, double> told;
-  tell_fields(*settings, settings_in(of_device), told);
-  return told;
+  std::map<std::string, double> made;
+  add_properties(*settings, settings_in(of_device), made);
+  return made;
 }
 
 const std::vector<DeviceKind>& device_kinds() {

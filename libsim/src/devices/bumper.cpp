@@ -14,8 +14,9 @@
 namespace sim {
 namespace {
 
-constexpr double kStep_m = 0.005;   // between the points of a touch that are looked at
-constexpr double kJoint_m = 0.001;  // segments this much farther than the nearest feel it, too
+constexpr double kStep_m = 0.005;   // distance of the samples along a touch
+constexpr double kJoint_m = 0.001;  // segments at most this much farther than the nearest are
+                                    // pressed too
 
 }  // namespace
 
@@ -26,7 +27,7 @@ std::vector<BumperSegment> segments_round(const Polygon& footprint) {
     const Vec2& b = footprint[(i + 1) % footprint.size()];
     const Vec2 along = b - a;
     const Vec2 middle = 0.5 * (a + b);
-    // Counter-clockwise, so the outside is on the right.
+    // The outline is counter-clockwise, so its outside is on the right.
     segments.push_back(
         {{middle.x(), middle.y(), std::atan2(-along.x(), along.y())}, along.norm(), 0.0});
   }
@@ -119,13 +120,13 @@ void Bumper::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> segment_fault(const void* object) {
+std::optional<FieldError> check_segment(const void* object) {
   const auto& segment = *static_cast<const BumperSegment*>(object);
   if (segment.radius_m <= 0.0 ||
       segment.length_m <= 2.0 * std::numbers::pi * segment.radius_m * (1.0 + 1e-9)) {
     return std::nullopt;
   }
-  return FieldFault{"device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
+  return FieldError{"device/bumper-segment", "an arc that is at most a whole circle, 2 pi radius",
                     rounded_text(segment.length_m, 6) + " m long with a radius of " +
                         rounded_text(segment.radius_m, 6) + " m",
                     ""};
@@ -137,29 +138,28 @@ constexpr Field kSegment[] = {
     field<&BumperSegment::X_BS, &Pose::x_m>("x", "m",
                                             "of its middle, ahead of the middle of the axle")
         .within(-100.0, 100.0)
-        .told_as("mount_x"),
+        .property_name("mount_x"),
     field<&BumperSegment::X_BS, &Pose::y_m>("y", "m", "of its middle, to the left")
         .within(-100.0, 100.0)
-        .told_as("mount_y"),
+        .property_name("mount_y"),
     field<&BumperSegment::X_BS, &Pose::yaw_rad>(
         "yaw_deg", "degrees", "where it looks, outwards, counter-clockwise from ahead")
-        .told_as("mount_yaw"),
+        .property_name("mount_yaw"),
     field<&BumperSegment::length_m>("length", "m", "along the piece").within(kLeastLength_m, 100.0),
     field<&BumperSegment::radius_m>("radius", "m", "of the arc; 0: straight").within(0.0, 100.0),
 };
-SIM_FIELDS(BumperSegment, kSegment, segment_fault)
+SIM_FIELDS(BumperSegment, kSegment, check_segment)
 
 constexpr Field kBumperSettings[] = {
     frequency_field<&BumperParams::frequency_hz>(),
     field<&BumperParams::reach_m>("reach", "m",
-                                  "a touch farther than this from all segments presses none")
+                                  "a contact farther than this from all segments presses none")
         .above(0.0, 1.0),
-    field<&BumperParams::segments>(
-        "segments", "m, degrees",
-        "list of at most 64 segments, in the order in which programs count them; none: a straight "
-        "one for each side of the footprint")
+    field<&BumperParams::segments>("segments", "m, degrees",
+                                   "list of at most 64 segments, in the order of their indexes; "
+                                   "none: a straight one for each side of the footprint")
         .counting(0, BumperParams::kMaxSegments)
-        .telling_each(),
+        .listing_elements(),
 };
 SIM_FIELDS(BumperParams, kBumperSettings)
 
@@ -170,8 +170,9 @@ SIM_FIELDS(BumperReading, kBumperReading)
 
 DeviceKind bumper_kind() {
   DeviceKind row = device_kind<BumperParams, BumperReading>(
-      "bumper", {{"bumper"}}, [](const DeviceOrder& order, const BumperParams& params) {
-        return std::make_unique<Bumper>(order.name(), params, order.model.footprint);
+      "bumper", {{"bumper"}},
+      [](const DeviceConstruction& construction, const BumperParams& params) {
+        return std::make_unique<Bumper>(construction.name(), params, construction.model.footprint);
       });
   return with_model<BumperParams>(std::move(row),
                                   [](BumperParams& params, const RobotModel& model) {

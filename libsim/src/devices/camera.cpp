@@ -12,13 +12,13 @@
 namespace sim {
 namespace {
 
-// As in the pictures of a run.
+// The colours of the run's pictures.
 constexpr Colour kFloor{0xfc, 0xfb, 0xf8};
 constexpr Colour kBorder{0x8c, 0x5e, 0x3c};
 constexpr Colour kStatic{0xcd, 0xd1, 0xd6};
 constexpr Colour kDynamic{0xd6, 0x45, 0x41};
 constexpr Colour kWall{0x45, 0x4b, 0x54};
-// Above all that.
+// Colour of everything above the solids.
 constexpr Colour kAir{0xdc, 0xe8, 0xf2};
 
 Colour shown_colour(const PhysicsWorld::Face& face, const WorldDescription& world) {
@@ -47,10 +47,10 @@ Colour scaled(const Colour& colour, double factor) {
   return {channel(colour.r), channel(colour.g), channel(colour.b), 255};
 }
 
-// Light that falls on an upright face.
+// Relative brightness of an upright face.
 double side_light(const PhysicsWorld::Face& face) {
   const Vec2 e = face.p_WC - face.p_WA;
-  // cos(2 yaw) of the normal, which is a quarter turn from e.
+  // cos(2 yaw) of the normal, which is e rotated by a quarter turn.
   const double cos2 = (e.y() * e.y() - e.x() * e.x()) / e.squaredNorm();
   return 0.85 + 0.15 * cos2;
 }
@@ -92,7 +92,7 @@ void Camera::measure(const StepContext& context) {
     const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
-        brightness(depth_m, params.range_max_m) * (run.lid ? 1.0 : side_light(face));
+        brightness(depth_m, params.range_max_m) * (run.top_face ? 1.0 : side_light(face));
     const Colour colour = scaled(shown_colour(face, context.world), light);
     std::uint8_t* pixel = reading.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;
@@ -105,7 +105,7 @@ void Camera::measure(const StepContext& context) {
   }
 }
 
-// Floor and air, which stay the same while the head does not move.
+// Floor and air, which change only when the head moves.
 void Camera::paint_background() {
   const ViewParams& params = view_->params();
   const PinholeView& pinhole = view_->pinhole();
@@ -135,17 +135,17 @@ void Camera::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> pixels_fault(const void* object) {
+std::optional<FieldError> check_pixels(const void* object) {
   const auto& reading = *static_cast<const CameraReading*>(object);
   const std::int64_t size = std::int64_t{3} * reading.width * reading.height;
   if (static_cast<std::int64_t>(reading.pixels.size()) == size) return std::nullopt;
-  return FieldFault{"", "three bytes for each pixel", "", "", "pixels"};
+  return FieldError{"", "three bytes for each pixel", "", "", "pixels"};
 }
 
 }  // namespace
 
 constexpr Field kCameraSettings[] = {
-    frequency_field<&CameraParams::frequency_hz>("pictures a simulated second"),
+    frequency_field<&CameraParams::frequency_hz>("pictures per simulated second"),
     include<CameraParams, ViewParams>(),
 };
 SIM_FIELDS(CameraParams, kCameraSettings)
@@ -155,7 +155,7 @@ constexpr Field kCameraReading[] = {
     field<&CameraReading::height>("height", "pixels").within(0, ViewParams::kMaxHeight),
     field<&CameraReading::pixels>("pixels"),
 };
-SIM_FIELDS(CameraReading, kCameraReading, pixels_fault)
+SIM_FIELDS(CameraReading, kCameraReading, check_pixels)
 
 DeviceKind camera_kind() {
   return device_kind<Camera, CameraParams, CameraReading>("camera", {{"camera"}});

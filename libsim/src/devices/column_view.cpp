@@ -12,10 +12,10 @@
 namespace sim {
 namespace {
 
-// Nearer than this nothing is seen.
+// Surfaces nearer than this are not seen.
 constexpr double kNear_m = 1e-3;
 
-// The smallest box round what a view may see.
+// The bounding box of everything that a view may see.
 std::pair<Vec2, Vec2> box_round(const Pose& X_WS, double view_rad, double range_m) {
   Vec2 low = X_WS.position();
   Vec2 high = low;
@@ -68,12 +68,12 @@ void ColumnView::look(const StepContext& context) {
   hits_.clear();
   runs_.clear();
   ends_.assign(static_cast<std::size_t>(params_.width), {params_.range_max_m, kNothing});
-  // Walls first: most of what is there stands behind them.
+  // Walls first, since they hide most other faces.
   const double cos_yaw = std::cos(X_WS_.yaw_rad);
   const double sin_yaw = std::sin(X_WS_.yaw_rad);
   for (const bool walls : {true, false}) {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-      if (std::isinf(faces_[i].height_m) == walls) meet(i, cos_yaw, sin_yaw);
+      if (std::isinf(faces_[i].height_m) == walls) intersect(i, cos_yaw, sin_yaw);
     }
   }
   std::sort(hits_.begin(), hits_.end(),
@@ -87,7 +87,7 @@ void ColumnView::look(const StepContext& context) {
   }
 }
 
-// Whatever the order in which faces were collected, that of hits is one.
+// A total order of hits that does not depend on the order in which faces were collected.
 bool ColumnView::before(const Hit& a, const Hit& b) const {
   if (a.column != b.column) return a.column < b.column;
   if (a.depth_m != b.depth_m) return a.depth_m < b.depth_m;
@@ -99,18 +99,19 @@ bool ColumnView::before(const Hit& a, const Hit& b) const {
   return key(a) < key(b);
 }
 
-// Sweeps a face over the columns that it spans, in S. On the line through A and C a ray of slope t
-// is at depth x = (A x C) / (e_y - e_x t), e = C - A.
-void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
+// Intersects a face with the columns that it spans, in S. A ray of slope t meets the line through A
+// and C at the depth x = (A x C) / (e_y - e_x t), with e = C - A.
+void ColumnView::intersect(std::size_t index, double cos_yaw, double sin_yaw) {
   const PhysicsWorld::Face& face = faces_[index];
   const double ax = face.p_WA.x() - X_WS_.x_m;
   const double ay = face.p_WA.y() - X_WS_.y_m;
   const double bx = face.p_WC.x() - X_WS_.x_m;
   const double by = face.p_WC.y() - X_WS_.y_m;
-  // With the solid on its left, a face that looks at the lens has it on its right.
+  // A face has the solid on its left, so a face that is turned to the lens has the lens on its
+  // right.
   const double cross = ax * by - ay * bx;
   const bool back = cross >= 0.0;
-  if (back && (cross == 0.0 || face.height_m >= params_.height_m)) return;  // no lid to be seen
+  if (back && (cross == 0.0 || face.height_m >= params_.height_m)) return;  // top not visible
   const Vec2 a(cos_yaw * ax + sin_yaw * ay, cos_yaw * ay - sin_yaw * ax);
   const Vec2 b(cos_yaw * bx + sin_yaw * by, cos_yaw * by - sin_yaw * bx);
   if (a.x() < kNear_m && b.x() < kNear_m) return;
@@ -122,8 +123,8 @@ void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
   };
   const double slope_a = slope_at(a, b);
   const double slope_b = slope_at(b, a);
-  // Column middles from one slope to the other, the left end included: where faces share a corner
-  // each column belongs to one of them.
+  // The columns whose centres lie between the two slopes, including the left end: each column
+  // belongs to only one of two faces that share a corner.
   const double middle = 0.5 * pinhole_.width - 0.5;
   const double left = std::ceil(middle - focal_px_ * std::max(slope_a, slope_b));
   const double right = std::ceil(middle - focal_px_ * std::min(slope_a, slope_b));
@@ -145,7 +146,7 @@ void ColumnView::meet(std::size_t index, double cos_yaw, double sin_yaw) {
   }
 }
 
-// One column, from near to far and so from the bottom up.
+// Paints one column from near to far, which is from the bottom up.
 void ColumnView::paint(int column, std::span<const Hit> hits) {
   const double slope = (0.5 * pinhole_.width - 0.5 - column) / focal_px_;
   const double stretch = std::sqrt(1.0 + slope * slope);
@@ -154,13 +155,14 @@ void ColumnView::paint(int column, std::span<const Hit> hits) {
     return static_cast<int>(std::clamp<double>(edge, 0.0, pinhole_.height));
   };
   const std::size_t before_it = runs_.size();
-  int taken = pinhole_.height;  // rows from here down
+  int filled_from = pinhole_.height;  // rows from here down are filled
   for (const Hit& hit : hits) {
     const PhysicsWorld::Face& face = faces_[hit.face];
     const int top = row(hit.depth_m, face.height_m - params_.height_m);
-    // A lid begins where its thing's front ends, which is what was painted last; a front stands on
+    // The top of an object begins where its front ends, which was painted last. A front stands on
     // the floor.
-    const int bottom = hit.back ? taken : std::min(taken, row(hit.depth_m, -params_.height_m));
+    const int bottom =
+        hit.back ? filled_from : std::min(filled_from, row(hit.depth_m, -params_.height_m));
     if (top >= bottom) continue;
     double range_m = hit.depth_m * stretch;
     if (hit.back && runs_.size() > before_it) {
@@ -168,12 +170,12 @@ void ColumnView::paint(int column, std::span<const Hit> hits) {
       if (front.kind == face.kind && front.index == face.index) range_m = runs_.back().range_m;
     }
     runs_.push_back({column, top, bottom, hit.face, hit.back, range_m});
-    taken = top;
-    if (taken == 0) return;
+    filled_from = top;
+    if (filled_from == 0) return;
   }
   const End& end = ends_[static_cast<std::size_t>(column)];
   if (end.face == kNothing) return;
-  const int foot = std::min(taken, row(end.depth_m, -params_.height_m));
+  const int foot = std::min(filled_from, row(end.depth_m, -params_.height_m));
   if (foot > 0) runs_.push_back({column, 0, foot, end.face, false, end.depth_m * stretch});
 }
 
@@ -197,7 +199,7 @@ std::string image_text(const void* object) {
   return "[" + std::to_string(p.width) + ", " + std::to_string(p.height) + "]";
 }
 
-void tell_image(const void* object, std::map<std::string, double>& properties) {
+void add_image_properties(const void* object, std::map<std::string, double>& properties) {
   const auto& p = *static_cast<const ViewParams*>(object);
   properties["image_width"] = p.width;
   properties["image_height"] = p.height;
@@ -206,7 +208,7 @@ void tell_image(const void* object, std::map<std::string, double>& properties) {
 }  // namespace
 
 constexpr CustomField kImage{
-    read_image, image_text, tell_image,
+    read_image, image_text, add_image_properties,
     R"("type": "array", "prefixItems": [{"type": "integer", "minimum": 1, "maximum": 640}, )"
     R"({"type": "integer", "minimum": 1, "maximum": 480}], "minItems": 2, "maxItems": 2)"};
 
@@ -214,10 +216,10 @@ constexpr Field kViewSettings[] = {
     custom("image", kImage, "pixels", "`[columns, rows]` of the picture, at most 640 x 480"),
     field<&ViewParams::field_of_view_rad>(
         "field_of_view_deg", "degrees",
-        "from its left to its right side; on a head, that of the head")
+        "horizontal angle of view; on a head, the head's value is used")
         .within(0.01, 170.0),
     range_max_field<&ViewParams::range_max_m>(),
-    mount_field<&ViewParams::X_BS>("where the lens sits on the body and looks, X_BS"),
+    mount_field<&ViewParams::X_BS>("pose of the lens on the body, X_BS"),
     height_field<&ViewParams::height_m>("of the lens above the floor"),
     field<&ViewParams::ptz>("ptz", "", "name of the robot's ptz device that turns and zooms it"),
 };

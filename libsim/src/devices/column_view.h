@@ -17,53 +17,55 @@ namespace sim {
 
 /// The picture of a pinhole camera, column by column: which rows show which face.
 ///
-/// Each column is a ray on the floor. What it meets is laid on from near to far, a face from the
-/// floor up to its height, each thing lower than the lens with the lid on top of it; rows that
-/// something nearer has taken are taken. That is exact for boxes on a plane, but for boxes that
-/// overlap: there the lid of the lower one reaches no farther than the side of the higher one,
-/// which is seen from its foot.
+/// Each column is a ray on the floor. The faces that it meets are painted from near to far. A face
+/// extends from the floor to its height; an object lower than the lens also shows its top. Rows
+/// that a nearer face has filled stay unchanged. This is exact for boxes on a plane, unless boxes
+/// overlap: there the top of the lower box ends at the side of the higher box, which is seen from
+/// its foot.
 class ColumnView {
  public:
-  /// Rows [top, bottom) of a column that show a thing.
+  /// Rows [top, bottom) of a column that show one object.
   struct Run {
     int column;
     int top;
     int bottom;
-    std::size_t face;  ///< of faces(): the one that is seen, or where a lid ends
-    bool lid;          ///< seen from above
-    double range_m;    ///< level distance of what is nearest of it in this column
+    std::size_t face;  ///< index in faces() of the visible face, or of the one where the visible
+                       ///< top ends
+    bool top_face;     ///< the top of the object is seen
+    double range_m;    ///< horizontal distance of its nearest point in this column
   };
 
   explicit ColumnView(const ViewParams& params) : params_(params) {}
 
-  /// Looks up the head that the settings name. @return as Device::connect().
+  /// Looks up the head that the settings name.
+  /// @return as for Device::connect().
   std::optional<std::string> connect(std::string_view robot, const DeviceDirectory& devices);
-  /// Looks. Until the next call, runs() and faces() are what was seen.
+  /// Computes the view. runs() and faces() describe it until the next call.
   void look(const StepContext& context);
 
-  /// By column, from left to right; in a column from bottom to top, none empty.
+  /// Sorted by column, from left to right; within a column from bottom to top. None is empty.
   [[nodiscard]] std::span<const Run> runs() const noexcept { return runs_; }
   [[nodiscard]] std::span<const PhysicsWorld::Face> faces() const noexcept { return faces_; }
-  /// How it looked.
+  /// The projection of the current view.
   [[nodiscard]] const PinholeView& pinhole() const noexcept { return pinhole_; }
   [[nodiscard]] const Pose& X_WS() const noexcept { return X_WS_; }
   [[nodiscard]] const ViewParams& params() const noexcept { return params_; }
 
  private:
-  /// Where a column's ray meets a face.
+  /// Intersection of a column's ray with a face.
   struct Hit {
     int column;
     double depth_m;
-    bool back;  ///< it leaves the solid
+    bool back;  ///< the ray leaves the solid here
     std::size_t face;
   };
-  /// Where the ray of a column ends.
+  /// The end of a column's ray.
   struct End {
     double depth_m;
-    std::size_t face;  ///< a wall of a map, which is as high as you like; none: kNothing
+    std::size_t face;  ///< a wall of a map, which has unlimited height, or kNothing
   };
   static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
-  void meet(std::size_t face, double cos_yaw, double sin_yaw);
+  void intersect(std::size_t face, double cos_yaw, double sin_yaw);
   void paint(int column, std::span<const Hit> hits);
   [[nodiscard]] bool before(const Hit& a, const Hit& b) const;
 
@@ -71,11 +73,11 @@ class ColumnView {
   const Ptz* head_ = nullptr;
   PinholeView pinhole_{};
   double focal_px_ = 0.0;    // of pinhole_
-  double horizon_px_ = 0.0;  // row of what is as high as the lens
+  double horizon_px_ = 0.0;  // row of points at the height of the lens
   Pose X_WS_;
   std::vector<PhysicsWorld::Face> faces_;
   std::vector<End> ends_;  // by column
-  std::vector<Hit> hits_;  // in front of those
+  std::vector<Hit> hits_;  // in front of `ends_`
   std::vector<Run> runs_;
 };
 

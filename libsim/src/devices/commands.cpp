@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The fields of commands. A new one gets its table here and its name at the end.
+// The fields of all commands. A new command needs a table here and a name at the end.
 #include <array>
 
 #include "sim/devices/aio.h"

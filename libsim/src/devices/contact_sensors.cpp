@@ -21,7 +21,7 @@ void CollisionSensor::integrate(const StepContext& context) {
   for (const PhysicsWorld::Contact& contact : context.physics.contacts_of(context.robot)) {
     note(contact);
   }
-  // A step may be made in several parts: what began in one may have ended in another.
+  // A step may have several substeps: a contact that began in one may have ended in another.
   for (const PhysicsWorld::Contact& contact : context.physics.new_contacts()) {
     if (contact.robot == context.robot) note(contact);
   }

@@ -11,7 +11,7 @@ std::optional<std::string> Device::apply(const Command& command) {
   return "a device of type \"" + type_ + "\" takes no such command";
 }
 
-std::optional<std::string> Device::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Device::execute(const Command& command, RobotControl& robot) {
   static_cast<void>(robot);
   return apply(command);
 }
@@ -32,8 +32,8 @@ Sensor::Sensor(std::string name, std::string type, double frequency_hz)
 
 bool Sensor::update(const StepContext& context) {
   if (context.now_ns < next_due_ns_) return false;
-  // A sensor faster than the simulation's step measures once a step; readings it could not make
-  // are not caught up on.
+  // A sensor faster than the simulation's step measures once per step; skipped readings are not
+  // made up for.
   next_due_ns_ += period_ns_ * ((context.now_ns - next_due_ns_) / period_ns_ + 1);
   if (!active()) return false;
   ++sequence_;
@@ -41,8 +41,8 @@ bool Sensor::update(const StepContext& context) {
   return true;
 }
 
-void Sensor::succeed(const Device& before, SimTime later_ns) {
-  sequence_ = dynamic_cast<const Sensor&>(before).sequence_;
+void Sensor::take_over_from(const Device& before, SimTime later_ns) {
+  sequence_ = before.sensor()->sequence_;
   next_due_ns_ += later_ns;
 }
 
@@ -52,7 +52,7 @@ void Sensor::archive(StateArchive& archive) {
   archive.time(next_due_ns_);
 }
 
-bool well_within(const Polygon& footprint, const Pose& X_BL) {
+bool is_safely_inside(const Polygon& footprint, const Pose& X_BL) {
   for (std::size_t i = 0; i < footprint.size(); ++i) {
     const Vec2& a = footprint[i];
     const Vec2 edge = footprint[(i + 1) % footprint.size()] - a;

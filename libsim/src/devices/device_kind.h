@@ -15,18 +15,18 @@
 #include "sim/io/field_reader.h"
 #include "sim/world/limits.h"
 
-/// For the sources of devices: what they need to write their row of the table of kinds.
+/// Helpers for the source files of devices to define their row of the table of kinds.
 namespace sim {
 
-/// What a device is made of.
-struct DeviceOrder {
+/// Everything that a device is constructed from.
+struct DeviceConstruction {
   const DeviceDescription& device;
   const RobotDescription& robot;
   const RobotModel& model;
   std::uint64_t world_seed;
 
   [[nodiscard]] const std::string& name() const { return device.name; }
-  /// The device's own stream.
+  /// The device's own random stream.
   [[nodiscard]] RandomStream noise() const { return {world_seed, robot.name + "/" + device.name}; }
 };
 
@@ -36,12 +36,12 @@ template <typename Params>
   return params.has_value() ? std::any_cast<const Params&>(params) : Params{};
 }
 
-/// A row: fields_of<Params>() and fields_of<ReadingType>() describe settings and readings.
-/// @tparam ReadingType  void for a device that makes none.
-/// @param interfaces  that it carries; a name alone has rank 0.
-/// @param make  makes the device of a DeviceOrder and Params.
+/// Defines a row; fields_of<Params>() and fields_of<ReadingType>() describe settings and readings.
+/// @tparam ReadingType  void for a device without readings.
+/// @param interfaces  that the device provides; a name alone has rank 0.
+/// @param make  creates the device from a DeviceConstruction and Params.
 template <typename Params, typename ReadingType, typename Make>
-[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces,
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<ProvidedInterface> interfaces,
                                      Make make) {
   DeviceKind row;
   row.name = name;
@@ -58,7 +58,7 @@ template <typename Params, typename ReadingType, typename Make>
   };
   row.create = [make](const DeviceDescription& device, const RobotDescription& robot,
                       const RobotModel& model, std::uint64_t seed) -> std::unique_ptr<Device> {
-    return make(DeviceOrder{device, robot, model, seed}, params_in<Params>(device.params));
+    return make(DeviceConstruction{device, robot, model, seed}, params_in<Params>(device.params));
   };
   if constexpr (!std::is_void_v<ReadingType>) {
     row.reading = {&fields_of<ReadingType>(), &typeid(ReadingType),
@@ -67,41 +67,44 @@ template <typename Params, typename ReadingType, typename Make>
   return row;
 }
 
-/// The same of a device that is made of its name, its settings and, if it wants it, its noise.
+/// Defines the row of a device that is constructed from its name, its settings and optionally its
+/// random stream.
 template <typename Made, typename Params, typename ReadingType>
-[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<CarriedInterface> interfaces) {
+[[nodiscard]] DeviceKind device_kind(const char* name, std::vector<ProvidedInterface> interfaces) {
   return device_kind<Params, ReadingType>(
-      name, std::move(interfaces), [](const DeviceOrder& order, const Params& params) {
+      name, std::move(interfaces),
+      [](const DeviceConstruction& construction, const Params& params) {
         if constexpr (std::is_constructible_v<Made, std::string, const Params&, RandomStream>) {
-          return std::make_unique<Made>(order.name(), params, order.noise());
+          return std::make_unique<Made>(construction.name(), params, construction.noise());
         } else {
-          return std::make_unique<Made>(order.name(), params);
+          return std::make_unique<Made>(construction.name(), params);
         }
       });
 }
 
-/// Adds to a row what its settings say of a robot of some model.
-/// @param complete  puts into Params what the model decides.
+/// Adds properties that depend on the robot's model to a row.
+/// @param complete  fills Params with values from the model.
 template <typename Params, typename Complete>
 [[nodiscard]] DeviceKind with_model(DeviceKind row, Complete complete) {
   row.model_properties = [complete](const std::any& params, const RobotModel& model) {
     auto completed = params_in<Params>(params);
     complete(completed, model);
     std::map<std::string, double> properties;
-    tell_fields(fields_of<Params>(), &completed, properties);
+    add_properties(fields_of<Params>(), &completed, properties);
     return properties;
   };
   return row;
 }
 
-/// Whether a mount lies so far within the footprint that no solid reaches it: robots sink into
+/// Whether a mounting is so far within the footprint that no solid reaches it; robots penetrate
 /// solids by less than 2 mm.
-[[nodiscard]] bool well_within(const Polygon& footprint, const Pose& X_BL);
+[[nodiscard]] bool is_safely_inside(const Polygon& footprint, const Pose& X_BL);
 
-/// @name Fields that many devices have
+/// @name Fields common to many devices
 /// @{
 template <auto kMember>
-[[nodiscard]] constexpr Field frequency_field(const char* meaning = "readings a simulated second") {
+[[nodiscard]] constexpr Field frequency_field(
+    const char* meaning = "readings per simulated second") {
   return field<kMember>("frequency", "Hz", meaning).above(0.0, 1000.0);
 }
 template <auto kMember>
@@ -109,7 +112,8 @@ template <auto kMember>
   return field<kMember>("noise", "m", meaning).within(0.0, 100.0);
 }
 template <auto kMember>
-[[nodiscard]] constexpr Field range_max_field(const char* meaning = "farther things are not seen") {
+[[nodiscard]] constexpr Field range_max_field(
+    const char* meaning = "farther objects are not seen") {
   return field<kMember>("range_max", "m", meaning).within(kLeastLength_m, 1000.0);
 }
 template <auto kMember>
@@ -118,7 +122,7 @@ template <auto kMember>
 }
 template <auto kMember>
 [[nodiscard]] constexpr Field mount_field(const char* meaning) {
-  return field<kMember>("pose", "m, degrees", meaning).told_as("mount");
+  return field<kMember>("pose", "m, degrees", meaning).property_name("mount");
 }
 template <auto kMember>
 [[nodiscard]] constexpr Field north_field() {

@@ -13,7 +13,7 @@
 namespace sim {
 namespace {
 
-// Bits 0 .. count - 1.
+// Bit mask with bits 0 to count - 1 set.
 std::uint32_t mask(int count) {
   return count >= 32 ? ~std::uint32_t{0} : (std::uint32_t{1} << static_cast<unsigned>(count)) - 1U;
 }
@@ -131,14 +131,13 @@ constexpr ElementType kDigitalSource{
 
 constexpr Field kDioSettings[] = {
     frequency_field<&DioParams::frequency_hz>(),
-    field<&DioParams::inputs>("inputs", "", "what input 0, 1, ... shows; at most 32")
+    field<&DioParams::inputs>("inputs", "", "sources of input 0, 1, ...; at most 32")
         .of(kDigitalSource)
         .counting(0, DioParams::kMaxLines)
-        .or_fault("device/input",
-                  "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
-                  "\"ROBOT.DEVICE.INDEX\""),
-    field<&DioParams::outputs>("outputs", "", "how many outputs there are")
-        .within(0, DioParams::kMaxLines),
+        .with_issue("device/input",
+                    "true, false, \"contact\", \"stalled\", \"dock\", or a wire: \"DEVICE.INDEX\", "
+                    "\"ROBOT.DEVICE.INDEX\""),
+    field<&DioParams::outputs>("outputs", "", "number of outputs").within(0, DioParams::kMaxLines),
 };
 SIM_FIELDS(DioParams, kDioSettings)
 

@@ -84,18 +84,19 @@ constexpr Field kFiducialSettings[] = {
     frequency_field<&FiducialParams::frequency_hz>(),
     range_max_field<&FiducialParams::range_max_m>(),
     field<&FiducialParams::range_max_id_m>("range_max_id", "m",
-                                           "of farther things the number cannot be read")
+                                           "the number of farther objects cannot be read")
         .within(0.0, 1000.0),
     field<&FiducialParams::field_of_view_rad>("field_of_view_deg", "degrees", "full angle of view")
         .within(0.01, 360.0),
-    mount_field<&FiducialParams::X_BS>("where the sensor sits on the body, X_BS"),
+    mount_field<&FiducialParams::X_BS>("pose of the sensor on the body, X_BS"),
     height_field<&FiducialParams::height_m>(
-        "above the floor; what is not higher neither hides nor is seen"),
+        "above the floor; objects that are not higher are invisible and do not occlude"),
     noise_field<&FiducialParams::noise_m>("standard deviation of a distance"),
-    field<&FiducialParams::noise_bearing_rad>("noise_bearing_deg", "degrees", "of a direction")
+    field<&FiducialParams::noise_bearing_rad>("noise_bearing_deg", "degrees",
+                                              "standard deviation of a direction")
         .within(0.0, 180.0),
     field<&FiducialParams::noise_yaw_rad>("noise_yaw_deg", "degrees",
-                                          "of the heading of what is seen")
+                                          "standard deviation of an object's heading")
         .within(0.0, 360.0),
 };
 SIM_FIELDS(FiducialParams, kFiducialSettings)

@@ -23,8 +23,8 @@ GeoPoint shifted(const GeoPoint& from, double east_m, double north_m, double alt
   const double e2 = ellipsoid.flattening * (2.0 - ellipsoid.flattening);
   const double s = std::sin(from.latitude_rad);
   const double w2 = 1.0 - e2 * s * s;
-  const double across_m = a / std::sqrt(w2);                     // N, of the parallel's plane
-  const double along_m = a * (1.0 - e2) / (w2 * std::sqrt(w2));  // M, of the meridian
+  const double across_m = a / std::sqrt(w2);                     // N, radius along the parallel
+  const double along_m = a * (1.0 - e2) / (w2 * std::sqrt(w2));  // M, along the meridian
   return {from.latitude_rad + north_m / (along_m + altitude_m),
           normalize_angle(from.longitude_rad +
                           east_m / ((across_m + altitude_m) * std::cos(from.latitude_rad)))};
@@ -40,7 +40,7 @@ Vec2 transverse_mercator_m(const GeoPoint& point, double central_rad, double sca
   const double latitude = point.latitude_rad;
   const double s = std::sin(latitude);
   const double c = std::cos(latitude);
-  const double t = (s / c) * (s / c);  // T, C, A and M of Snyder's
+  const double t = (s / c) * (s / c);  // T, C, A and M in Snyder's notation
   const double cc = second_e2 * c * c;
   const double x = normalize_angle(point.longitude_rad - central_rad) * c;
   const double n = a / std::sqrt(1.0 - e2 * s * s);
@@ -116,7 +116,7 @@ void Gps::archive(StateArchive& archive) {
 
 constexpr Field kGpsSettings[] = {
     frequency_field<&GpsParams::frequency_hz>(),
-    // Snyder's series are for Mercator's part of the world, as UTM is.
+    // Snyder's series, like UTM, do not cover the poles.
     field<&GpsParams::latitude_rad>("latitude_deg", "degrees",
                                     "of the world's origin, north positive")
         .within(-84.0, 84.0),

@@ -15,14 +15,15 @@
 namespace sim {
 namespace {
 
-// Of the paddles' length, from where they begin; as Stage has them, a quarter from either end.
+// Positions of the beams as fractions of the paddles' length. As in Stage, they are a quarter from
+// either end.
 constexpr double kInnerBeam = 0.25;
 constexpr double kOuterBeam = 0.75;
 
-// What sticks out so little beyond the open paddles still fits between them.
+// An object that extends beyond the open paddles by at most this still fits.
 constexpr double kFits_m = 1e-9;
 
-// No solid is left out of a look along a line.
+// For line-of-sight tests that exclude no solid.
 constexpr PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
 
 Pose pose_of(const ObstacleDescription& thing) {
@@ -88,10 +89,10 @@ GripperState Gripper::state() const noexcept {
   return closed ? GripperState::kClosed : GripperState::kOpen;
 }
 
-std::optional<std::string> Gripper::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Gripper::execute(const Command& command, RobotControl& robot) {
   const auto* grip = std::get_if<GripCommand>(&command);
   if (grip == nullptr) return apply(command);
-  forget_lost(robot.context());
+  drop_missing(robot.context());
   switch (grip->action) {
     case GripCommand::Action::kOpen:
       return open(robot);
@@ -149,15 +150,15 @@ std::optional<std::string> Gripper::retrieve(RobotControl& robot) {
   return std::nullopt;
 }
 
-// Somebody else may have put elsewhere what it had.
-void Gripper::forget_lost(const StepContext& now) {
-  const auto is_lost = [&](const Held& held) {
+// Drops held and stored objects that another client has moved elsewhere.
+void Gripper::drop_missing(const StepContext& now) {
+  const auto is_missing = [&](const Held& held) {
     const auto index = static_cast<std::size_t>(held.obstacle);
     return index >= now.world.arena.obstacles.size() ||
            now.world.arena.obstacles[index].carried_by != now.robot;
   };
-  if (held_ && is_lost(*held_)) held_.reset();
-  std::erase_if(stored_, is_lost);
+  if (held_ && is_missing(*held_)) held_.reset();
+  std::erase_if(stored_, is_missing);
 }
 
 void Gripper::act(RobotControl& robot) {
@@ -173,10 +174,11 @@ void Gripper::act(RobotControl& robot) {
 
 void Gripper::close_further(RobotControl& robot, const StepContext& now) {
   const SimTime next_ns = std::min(travel_ns_, closed_ns_ + now.world.simulation.step_ns);
-  const double before_m = 0.5 * gap_m() + kFits_m;  // of the paddles' inner sides from the middle
+  const double before_m = 0.5 * gap_m() + kFits_m;  // from the centre line
   const double after_m = 0.5 * gap_at(next_ns);
   const Pose X_GW = (now.body.X_WB * X_BG_).inverse();
-  // Of what a paddle touches in this step, that which reaches farthest out.
+  // Of all objects that a paddle touches in this step, the one that extends farthest from the
+  // centre line.
   int touched = -1;
   double farthest_m = 0.0;
   bool fits = true;
@@ -215,7 +217,7 @@ void Gripper::close_further(RobotControl& robot, const StepContext& now) {
            closed_ns_};
 }
 
-// Whether something solid keeps the inner side of a paddle from getting to where it is at that gap.
+// Whether a solid keeps the inner side of a paddle from its position at that gap.
 bool Gripper::is_stopped_at(const StepContext& now, double gap_m) const {
   const Pose X_WG = now.body.X_WB * X_BG_;
   for (const double side : {0.5, -0.5}) {
@@ -229,7 +231,7 @@ bool Gripper::is_stopped_at(const StepContext& now, double gap_m) const {
   return false;
 }
 
-// Whether something breaks the beam across the gap at x in G.
+// Whether an object breaks the beam across the gap at x in G.
 bool Gripper::is_broken(const StepContext& now, double x_m) const {
   const double half_m = 0.5 * gap_m();
   const Pose X_WG = now.body.X_WB * X_BG_;
@@ -245,7 +247,7 @@ bool Gripper::is_broken(const StepContext& now, double x_m) const {
 }
 
 void Gripper::measure(const StepContext& context) {
-  forget_lost(context);
+  drop_missing(context);
   auto& reading = next(context);
   reading.state = state();
   reading.outer_beam = is_broken(context, kOuterBeam * params_.length_m);
@@ -271,7 +273,7 @@ void Gripper::archive(StateArchive& archive) {
 
 namespace {
 
-/// The middle of a robot's front.
+/// The middle of the robot's front side.
 Pose front_of(const RobotModel& model) {
   double front_m = 0.0;
   for (const Vec2& v : model.footprint) front_m = std::max(front_m, v.x());
@@ -285,17 +287,17 @@ constexpr const char* kStateWords[] = {"open", "closed", "moving", "error"};
 constexpr Field kGripperSettings[] = {
     frequency_field<&GripperParams::frequency_hz>(),
     mount_field<&GripperParams::X_BG>(
-        "where the paddles begin, half-way between them, on the body; they point along its x axis. "
-        "None: the middle of the robot's front"),
+        "pose on the body of the point half-way between the paddles' bases; they point along its x "
+        "axis. None: the middle of the robot's front"),
     field<&GripperParams::length_m>("length", "m", "of a paddle").within(kLeastLength_m, 10.0),
     field<&GripperParams::thickness_m>("thickness", "m", "of a paddle").within(0.0, 10.0),
-    field<&GripperParams::opening_m>("opening", "m", "between the open paddles")
+    field<&GripperParams::opening_m>("opening", "m", "distance between the open paddles")
         .within(kLeastLength_m, 10.0),
-    height_field<&GripperParams::height_m>(
-        "of paddles and beams above the floor; what is not higher is neither felt nor taken"),
-    field<&GripperParams::travel_time_s>("travel_time", "s", "from open to closed, and back")
+    height_field<&GripperParams::height_m>("of paddles and beams above the floor; objects that are "
+                                           "not higher are neither detected nor taken"),
+    field<&GripperParams::travel_time_s>("travel_time", "s", "time from open to closed, and back")
         .above(0.0, 3600.0),
-    field<&GripperParams::capacity>("capacity", "", "how many things the store holds")
+    field<&GripperParams::capacity>("capacity", "", "number of objects that the store can hold")
         .within(0, GripperParams::kMaxStored),
 };
 SIM_FIELDS(GripperParams, kGripperSettings)
@@ -316,9 +318,10 @@ std::string_view to_string(GripperState state) noexcept {
 
 DeviceKind gripper_kind() {
   DeviceKind row = device_kind<GripperParams, GripperReading>(
-      "gripper", {{"gripper"}}, [](const DeviceOrder& order, const GripperParams& params) {
-        return std::make_unique<Gripper>(order.name(), params,
-                                         params.X_BG.value_or(front_of(order.model)));
+      "gripper", {{"gripper"}},
+      [](const DeviceConstruction& construction, const GripperParams& params) {
+        return std::make_unique<Gripper>(construction.name(), params,
+                                         params.X_BG.value_or(front_of(construction.model)));
       });
   return with_model<GripperParams>(std::move(row),
                                    [](GripperParams& params, const RobotModel& model) {

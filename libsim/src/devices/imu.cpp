@@ -27,20 +27,21 @@ Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream
 std::optional<std::string> Imu::apply(const Command& command) {
   const auto* set = std::get_if<SetPoseCommand>(&command);
   if (set == nullptr) return Device::apply(command);
-  // The next reading adds what it has turned since the last one, also before now.
-  yaw_rad_ = normalize_angle(set->pose.yaw_rad - turned_rad_);
+  // The next reading adds the rotation since the last reading, including the part before this
+  // command.
+  yaw_rad_ = normalize_angle(set->pose.yaw_rad - rotation_rad_);
   return std::nullopt;
 }
 
 void Imu::integrate(const StepContext& context) {
   const double dt_s = to_seconds(context.world.simulation.step_ns);
   const Twist& now = context.body.twist;
-  // The mean of both ends' speeds goes with the step's turn.
+  // The step's rotation is multiplied by the mean of the speeds at its start and end.
   const double lateral = 0.5 * (before_.lateral_mps + now.lateral_mps);
   const double forward = 0.5 * (before_.v_mps + now.v_mps);
-  gained_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;
-  gained_y_mps_ += now.lateral_mps - before_.lateral_mps + context.body.turn_rad * forward;
-  turned_rad_ += context.body.turn_rad;
+  velocity_change_x_mps_ += now.v_mps - before_.v_mps - context.body.turn_rad * lateral;
+  velocity_change_y_mps_ += now.lateral_mps - before_.lateral_mps + context.body.turn_rad * forward;
+  rotation_rad_ += context.body.turn_rad;
   time_s_ += dt_s;
   before_ = now;
 }
@@ -49,8 +50,9 @@ void Imu::placed(const Pose&) { before_ = {}; }
 
 void Imu::measure(const StepContext& context) {
   auto& reading = next(context);
-  reading.acceleration_mps2 = {gained_x_mps_ / time_s_, gained_y_mps_ / time_s_, kGravity_mps2};
-  reading.rate_radps = {0.0, 0.0, turned_rad_ / time_s_};
+  reading.acceleration_mps2 = {velocity_change_x_mps_ / time_s_, velocity_change_y_mps_ / time_s_,
+                               kGravity_mps2};
+  reading.rate_radps = {0.0, 0.0, rotation_rad_ / time_s_};
   reading.field_ut = field_in_body_ut(params_, context.body.X_WB.yaw_rad);
   for (std::size_t i = 0; i < 3; ++i) {
     reading.acceleration_mps2[i] += bias_mps2_[i] + noise_.gaussian(params_.noise_mps2);
@@ -59,15 +61,16 @@ void Imu::measure(const StepContext& context) {
   }
   yaw_rad_ = normalize_angle(yaw_rad_ + reading.rate_radps[2] * time_s_);
   reading.yaw_rad = yaw_rad_;
-  gained_x_mps_ = 0.0;
-  gained_y_mps_ = 0.0;
-  turned_rad_ = 0.0;
+  velocity_change_x_mps_ = 0.0;
+  velocity_change_y_mps_ = 0.0;
+  rotation_rad_ = 0.0;
   time_s_ = 0.0;
 }
 
 void Imu::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  archive(noise_, before_, gained_x_mps_, gained_y_mps_, turned_rad_, time_s_, yaw_rad_);
+  archive(noise_, before_, velocity_change_x_mps_, velocity_change_y_mps_, rotation_rad_, time_s_,
+          yaw_rad_);
 }
 
 constexpr Field kImuSettings[] = {
@@ -75,18 +78,21 @@ constexpr Field kImuSettings[] = {
     field<&ImuParams::noise_mps2>("noise_acceleration", "m/s^2",
                                   "standard deviation of an acceleration")
         .within(0.0, 1000.0),
-    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s", "of a turning rate")
+    field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s",
+                                   "standard deviation of a turn rate")
         .within(0.0, 3600.0),
-    field<&ImuParams::noise_ut>("noise_field", "uT", "of the magnetic field").within(0.0, 1000.0),
+    field<&ImuParams::noise_ut>("noise_field", "uT", "standard deviation of the magnetic field")
+        .within(0.0, 1000.0),
     field<&ImuParams::bias_mps2>("bias_acceleration", "m/s^2",
                                  "standard deviation of each axis's constant error")
         .within(0.0, 1000.0),
-    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s", "the same of the turning rates")
+    field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s",
+                                  "standard deviation of each turn rate's constant error")
         .within(0.0, 3600.0),
     field<&ImuParams::field_horizontal_ut>("field_horizontal", "uT",
-                                           "of the Earth's magnetic field, to the north")
+                                           "northward component of the Earth's magnetic field")
         .within(0.0, 1000.0),
-    field<&ImuParams::field_down_ut>("field_down", "uT", "of that field, downwards")
+    field<&ImuParams::field_down_ut>("field_down", "uT", "downward component of that field")
         .within(-1000.0, 1000.0),
     north_field<&ImuParams::north_rad>(),
 };
@@ -102,8 +108,9 @@ SIM_FIELDS(ImuReading, kImuReading)
 
 DeviceKind imu_kind() {
   return device_kind<ImuParams, ImuReading>(
-      "imu", {{"imu"}}, [](const DeviceOrder& order, const ImuParams& params) {
-        return std::make_unique<Imu>(order.name(), params, order.robot.pose.yaw_rad, order.noise());
+      "imu", {{"imu"}}, [](const DeviceConstruction& construction, const ImuParams& params) {
+        return std::make_unique<Imu>(construction.name(), params, construction.robot.pose.yaw_rad,
+                                     construction.noise());
       });
 }
 

@@ -40,7 +40,7 @@ void Laser::measure(const StepContext& context) {
                        reading.ranges_m);
   if (params_.noise_m > 0.0) {
     for (double& range : reading.ranges_m) {
-      // A beam that met nothing stays at the limit: there is no echo to be uncertain about.
+      // A beam that met nothing stays at the maximum range: without an echo there is no noise.
       if (range >= params_.range_max_m) continue;
       range = std::clamp(range + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
@@ -69,11 +69,11 @@ void Laser::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> laser_view_fault(const void* object) {
+std::optional<FieldError> check_laser_view(const void* object) {
   const auto& p = *static_cast<const LaserParams*>(object);
   const double field_of_view_rad = p.resolution_rad * (p.beam_count - 1);
   if (field_of_view_rad <= 2.0 * std::numbers::pi + 1e-9) return std::nullopt;
-  return FieldFault{"device/laser-field-of-view",
+  return FieldError{"device/laser-field-of-view",
                     "beams that span at most 360 degrees together, (beams - 1) * resolution_deg",
                     rounded_text(field_of_view_rad / kDegrees, 6) + " degrees", ""};
 }
@@ -81,7 +81,7 @@ std::optional<FieldFault> laser_view_fault(const void* object) {
 }  // namespace
 
 constexpr Field kLaserSettings[] = {
-    frequency_field<&LaserParams::frequency_hz>("scans a simulated second"),
+    frequency_field<&LaserParams::frequency_hz>("scans per simulated second"),
     noise_field<&LaserParams::noise_m>("standard deviation of a range"),
     field<&LaserParams::beam_count>("beams", "", "number of beams").within(1, 8192),
     field<&LaserParams::resolution_rad>(
@@ -89,15 +89,17 @@ constexpr Field kLaserSettings[] = {
         "angle between neighbouring beams; all beams together span at most 360")
         .within(1e-4, 360.0),
     range_max_field<&LaserParams::range_max_m>(
-        "greatest range, and what a beam reads that meets nothing"),
+        "maximum range, and the reading of a beam that hits nothing"),
     mount_field<&LaserParams::X_BL>("mounting on the body, X_BL"),
     height_field<&LaserParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&LaserParams::size_m>(
-        "size", "m", "of its case along its own x and y, [0, 100] each; only told to programs")
+        "size", "m", "of its case along its own x and y, [0, 100] each; only for programs that ask")
         .within(0.0, 100.0),
-    field<&LaserParams::size_height_m>("size_height", "m", "the same upwards").within(0.0, 100.0),
+    field<&LaserParams::size_height_m>("size_height", "m",
+                                       "height of its case; only for programs that ask")
+        .within(0.0, 100.0),
 };
-SIM_FIELDS(LaserParams, kLaserSettings, laser_view_fault)
+SIM_FIELDS(LaserParams, kLaserSettings, check_laser_view)
 
 constexpr Field kLaserReading[] = {
     field<&LaserReading::ranges_m>("ranges", "m"),
@@ -109,9 +111,11 @@ SIM_FIELDS(LaserReading, kLaserReading)
 
 DeviceKind laser_kind() {
   return device_kind<LaserParams, LaserReading>(
-      "laser", {{"laser"}, {"ranger"}}, [](const DeviceOrder& order, const LaserParams& params) {
-        return std::make_unique<Laser>(
-            order.name(), params, !well_within(order.model.footprint, params.X_BL), order.noise());
+      "laser", {{"laser"}, {"ranger"}},
+      [](const DeviceConstruction& construction, const LaserParams& params) {
+        return std::make_unique<Laser>(construction.name(), params,
+                                       !is_safely_inside(construction.model.footprint, params.X_BL),
+                                       construction.noise());
       });
 }
 

@@ -30,7 +30,7 @@ void PoseSensor::integrate(const StepContext& context) { X_WB_ = context.body.X_
 
 void PoseSensor::measure(const StepContext& context) {
   auto& reading = next(context);
-  // Without a frame of its own the truth passes unchanged, to the bit.
+  // While the frame has not been set, the true pose passes unchanged, to the bit.
   reading.pose = X_FW_ == Pose{} ? X_WB_ : X_FW_ * X_WB_;
   if (params_.noise_m > 0.0) {
     reading.pose.x_m += noise_.gaussian(params_.noise_m);
@@ -96,9 +96,9 @@ void Odometry::measure(const StepContext& context) {
   auto& reading = next(context);
   reading.pose = X_SB_;
   reading.twist = context.body.twist;
-  if (!omnidirectional_) reading.twist.lateral_mps = 0.0;  // wheels do not feel it
+  if (!omnidirectional_) reading.twist.lateral_mps = 0.0;  // the wheels do not measure it
   reading.stalled = context.body.stalled;
-  // A robot that stands has not moved to the bit.
+  // For a robot at rest the increment is exactly zero.
   reading.increment = X_SR_ == X_SB_ ? Pose{} : X_SR_.inverse() * X_SB_;
   reading.path_length_m = path_length_m_;
   X_SR_ = X_SB_;
@@ -123,14 +123,14 @@ SIM_FIELDS(PoseParams, kPoseSettings)
 
 constexpr Field kOdometrySettings[] = {
     frequency_field<&OdometryParams::frequency_hz>(
-        "readings a simulated second; the wheels are integrated each step"),
+        "readings per simulated second; the wheels are integrated in each step"),
     field<&OdometryParams::noise>(
         "noise", "m after 1 m",
         "standard deviation of a wheel's path after 1 m of it; grows with the root of the path")
         .within(0.0, 10.0),
-    field<&OdometryParams::level>("level", "",
-                                  "what clients of MORSE's protocol are shown: `\"integrated\"`, "
-                                  "`\"differential\"` or `\"raw\"`, see below")
+    field<&OdometryParams::level>(
+        "level", "",
+        "form of MORSE's stream: `\"integrated\"`, `\"differential\"` or `\"raw\"`, see below")
         .one_of(kLevels),
 };
 SIM_FIELDS(OdometryParams, kOdometrySettings)
@@ -148,18 +148,21 @@ SIM_FIELDS(PoseReading, kPoseReading)
 
 DeviceKind odometry_kind() {
   return device_kind<OdometryParams, PoseReading>(
-      "odometry", {{"position2d", 1}}, [](const DeviceOrder& order, const OdometryParams& params) {
-        const DriveDescription& drive = order.model.drive;
-        return std::make_unique<Odometry>(order.name(), params, drive.wheel_separation_m,
-                                          drive.kind == DriveKind::kOmnidirectional, order.noise());
+      "odometry", {{"position2d", 1}},
+      [](const DeviceConstruction& construction, const OdometryParams& params) {
+        const DriveDescription& drive = construction.model.drive;
+        return std::make_unique<Odometry>(construction.name(), params, drive.wheel_separation_m,
+                                          drive.kind == DriveKind::kOmnidirectional,
+                                          construction.noise());
       });
 }
 
 DeviceKind pose_kind() {
   return device_kind<PoseParams, PoseReading>(
       "pose", {{"localize"}, {"position2d"}},
-      [](const DeviceOrder& order, const PoseParams& params) {
-        return std::make_unique<PoseSensor>(order.name(), params, order.robot.pose, order.noise());
+      [](const DeviceConstruction& construction, const PoseParams& params) {
+        return std::make_unique<PoseSensor>(construction.name(), params, construction.robot.pose,
+                                            construction.noise());
       });
 }
 

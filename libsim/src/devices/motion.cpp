@@ -10,21 +10,22 @@
 namespace sim {
 namespace {
 
-// Goals whose bearing is more than this off are turned to on the spot before driving on.
+// If the goal's bearing exceeds this, the robot turns on the spot before it drives.
 constexpr double kTurnOnSpot_rad = 0.5;
-// A robot that was pushed away from its goal by more tolerances than this drives there again.
-constexpr double kLost = 3.0;
-// A car turns back to a goal that it has left once the arc there is so much wider than its
-// tightest.
+// A robot that was pushed away from its goal by more than this many tolerances drives again.
+constexpr double kRestartTolerances = 3.0;
+// After leaving a goal within its turning circle, a car turns back to it once the arc there has
+// less than this fraction of its maximum curvature.
 constexpr double kWideEnough = 0.8;
-// It seeks a goal's heading if the cosine of its difference from the way there is over this, by
-// looking at a point so much of the distance before the goal.
-constexpr double kOnItsWay = 0.2;
-constexpr double kLookBefore = 0.5;
-// It changes its direction only for goals clearly on the other side.
+// A car seeks the goal's heading if the cosine of the angle between that heading and the direction
+// to the goal exceeds kMinHeadingCosine. Its look-ahead point is the fraction kLookAheadFraction of
+// the distance before the goal.
+constexpr double kMinHeadingCosine = 0.2;
+constexpr double kLookAheadFraction = 0.5;
+// A car changes its driving direction only for goals clearly on the other side.
 constexpr double kDirectionMargin_rad = 0.3;
 
-// One step of a ramp from `from` to `to`; max_rate 0 jumps.
+// One step of a ramp from `from` to `to`; with max_rate 0 it jumps.
 double ramp(double from, double to, double max_rate, double dt_s) {
   if (max_rate <= 0.0) return to;
   return from + std::clamp(to - from, -max_rate * dt_s, max_rate * dt_s);
@@ -51,7 +52,7 @@ double PositionControl::turn_rate_for(double error_rad) const {
 }
 
 PositionControl::Step PositionControl::differential_step(const Pose& X_FB, double distance_m) {
-  const double near_m = (aligning_ ? kLost : 1.0) * params_.tolerance_m;
+  const double near_m = (aligning_ ? kRestartTolerances : 1.0) * params_.tolerance_m;
   aligning_ = distance_m <= near_m;
   if (aligning_) {
     const double error_rad = normalize_angle(command_.goal.yaw_rad - X_FB.yaw_rad);
@@ -82,30 +83,30 @@ PositionControl::Step PositionControl::car_step(const Pose& X_FB, double distanc
   const Vec2 way = command_.goal.position() - X_FB.position();
   const double bearing_rad = normalize_angle(std::atan2(way.y(), way.x()) - X_FB.yaw_rad);
   const double tightest = std::tan(drive_.max_steering_rad) / drive_.wheelbase_m;
-  // Curvature of the circle that touches the heading and goes through the goal; the same whichever
-  // way the car drives on it.
+  // Curvature of the circle that is tangent to the heading and passes through the goal, for both
+  // driving directions.
   const double curvature = 2.0 * std::sin(bearing_rad) / distance_m;
   if (!leaving_) {
     const double side = 0.5 * std::numbers::pi + (backwards_ ? -1.0 : 1.0) * kDirectionMargin_rad;
     backwards_ = std::abs(bearing_rad) > side;
   }
   leaving_ = std::abs(curvature) > (leaving_ ? kWideEnough : 1.0) * tightest;
-  // Away from a goal within its turning circle it drives the other way with the wheels turned from
-  // it: so the goal comes to lie before it.
+  // To leave a goal within its turning circle, the car drives in the opposite direction with the
+  // wheels turned away from the goal. So the goal moves in front of it.
   const bool reverse = leaving_ ? !backwards_ : backwards_;
   double arc = leaving_ ? -std::copysign(tightest, curvature) : curvature;
-  given_up_ = given_up_ || (sought_ && leaving_);
-  if (!leaving_ && !given_up_) {
-    // The direction in which it would drive through the goal with the heading asked for.
+  heading_abandoned_ = heading_abandoned_ || (sought_heading_ && leaving_);
+  if (!leaving_ && !heading_abandoned_) {
+    // The driving direction at the goal with the requested heading.
     const double through_rad = command_.goal.yaw_rad + (backwards_ ? std::numbers::pi : 0.0);
     const Vec2 through(std::cos(through_rad), std::sin(through_rad));
-    const Vec2 look = way - kLookBefore * distance_m * through;
+    const Vec2 look = way - kLookAheadFraction * distance_m * through;
     const double look_rad = std::atan2(look.y(), look.x()) - X_FB.yaw_rad;
     const double look_curvature = 2.0 * std::sin(look_rad) / look.norm();
-    if (way.dot(through) > kOnItsWay * distance_m && std::abs(look_curvature) <= tightest &&
+    if (way.dot(through) > kMinHeadingCosine * distance_m && std::abs(look_curvature) <= tightest &&
         (std::cos(look_rad) > 0.0) != backwards_) {
       arc = look_curvature;
-      sought_ = true;
+      sought_heading_ = true;
     }
   }
   arc = std::clamp(arc, -tightest, tightest);
@@ -129,7 +130,7 @@ PositionControl::Step PositionControl::step(const Pose& X_FB) {
 void PositionControl::archive(StateArchive& archive, const DriveDescription& drive,
                               const MotionParams& params) {
   archive.fields(command_);
-  archive(aligning_, backwards_, leaving_, sought_, given_up_);
+  archive(aligning_, backwards_, leaving_, sought_heading_, heading_abandoned_);
   if (!archive.reading()) return;
   drive_ = drive;
   params_ = params;
@@ -149,7 +150,7 @@ void Motion::stop() {
   commanded_steering_rad_ = 0.0;
 }
 
-// Sets speeds that do not fit the drive to what it can do.
+// Clamps speeds to what the drive can do.
 void Motion::command_turn(double v_mps, double lateral_mps, double turn_rate_radps) {
   commanded_ = {
       std::clamp(v_mps, -params_.max_speed_mps, params_.max_speed_mps),
@@ -157,7 +158,7 @@ void Motion::command_turn(double v_mps, double lateral_mps, double turn_rate_rad
   if (drive_.kind == DriveKind::kOmnidirectional) {
     commanded_.lateral_mps = std::clamp(lateral_mps, -params_.max_speed_mps, params_.max_speed_mps);
   } else if (drive_.kind == DriveKind::kCar) {
-    // The bicycle turns at v tan(steering) / wheelbase.
+    // A bicycle model turns at v tan(steering) / wheelbase.
     const double v = commanded_.v_mps;
     command_car(v, v == 0.0 ? 0.0 : std::atan(drive_.wheelbase_m * commanded_.omega_radps / v));
   }
@@ -221,12 +222,12 @@ std::optional<std::string> Motion::apply(const Command& command) {
   return Device::apply(command);
 }
 
-std::optional<std::string> Motion::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Motion::execute(const Command& command, RobotControl& robot) {
   const auto* heading = std::get_if<HeadingCommand>(&command);
   const auto* position = std::get_if<PositionCommand>(&command);
   if (heading != nullptr || position != nullptr) {
     const int frame = heading != nullptr ? heading->frame : position->frame;
-    if (frame >= 0 && !robot.pose_by(frame)) {
+    if (frame >= 0 && !robot.pose_estimate_of(frame)) {
       return "the robot's device number " + std::to_string(frame) +
              " is no localisation device, in whose frame the motors could be told where to go";
     }
@@ -234,14 +235,14 @@ std::optional<std::string> Motion::carry_out(const Command& command, RobotContro
   const bool drives = heading != nullptr || position != nullptr ||
                       std::holds_alternative<TwistCommand>(command) ||
                       std::holds_alternative<CarCommand>(command);
-  if (enabled_ && drives) static_cast<void>(robot.take_motors(*this));
+  if (enabled_ && drives) static_cast<void>(robot.acquire_motors(*this));
   return apply(command);
 }
 
 void Motion::act(RobotControl& robot) {
   if (mode_ != Mode::kHeading && mode_ != Mode::kPosition) return;
   const int frame = mode_ == Mode::kHeading ? heading_.frame : position_.command().frame;
-  const Pose X_FB = frame < 0 ? robot.body().X_WB : robot.pose_by(frame).value_or(Pose{});
+  const Pose X_FB = frame < 0 ? robot.body().X_WB : robot.pose_estimate_of(frame).value_or(Pose{});
   if (mode_ == Mode::kHeading) {
     const double error_rad = normalize_angle(heading_.yaw_rad - X_FB.yaw_rad);
     command_turn(heading_.v_mps, heading_.lateral_mps, params_.turn_gain * error_rad);
@@ -257,7 +258,7 @@ void Motion::act(RobotControl& robot) {
   }
 }
 
-void Motion::motors_taken() { mode_ = Mode::kTwist; }
+void Motion::on_motors_taken() { mode_ = Mode::kTwist; }
 
 void Motion::placed(const Pose&) {
   stop();
@@ -298,11 +299,11 @@ void Motion::archive(StateArchive& archive) {
 
 namespace {
 
-// Of robots that have no steering: beyond it the turn rate has long reached its limit.
+// Maximum steering angle of robots without steering; the turn rate reaches its limit long before.
 constexpr double kMostSteering_rad = 80.0 * kDegrees;
 
-/// The drive as its motors are told of it: a robot that is no car pretends to be one as long as
-/// itself when it is told to drive like one.
+/// The drive as seen by the motors: for car commands, a robot that is not a car has its own length
+/// as the wheelbase.
 DriveDescription drive_of(const RobotModel& model) {
   DriveDescription drive = model.drive;
   if (drive.kind == DriveKind::kCar || model.footprint.empty()) return drive;
@@ -320,8 +321,9 @@ constexpr Field kMotionSettings[] = {
     field<&MotionParams::max_speed_mps>("max_speed", "m/s",
                                         "commands beyond it are clamped, either way")
         .above(0.0, 20.0),
-    field<&MotionParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
-                                              "the same for turning; default 3 rad/s")
+    field<&MotionParams::max_turn_rate_radps>(
+        "max_turn_rate_deg", "degrees/s",
+        "commands beyond it are clamped, either way; default 3 rad/s")
         .above(0.0, 3600.0),
     field<&MotionParams::max_acceleration_mps2>("max_acceleration", "m/s^2",
                                                 "0: no limit, the speed changes within a step")
@@ -329,29 +331,28 @@ constexpr Field kMotionSettings[] = {
     field<&MotionParams::max_turn_acceleration_radps2>("max_turn_acceleration_deg", "degrees/s^2",
                                                        "0: no limit")
         .within(0.0, 1e6),
-    field<&MotionParams::enabled_at_start>("enabled", "",
-                                           "whether the motors are on before a program says so")
-        .untold(),
+    field<&MotionParams::enabled_at_start>("enabled", "", "whether the motors are on at the start")
+        .not_property(),
     field<&MotionParams::approach_gain>("approach_gain", "1/s",
-                                        "position control: speed for each metre that is missing")
+                                        "position control: speed per metre of error")
         .above(0.0, 50.0),
     field<&MotionParams::turn_gain>(
-        "turn_gain", "1/s",
-        "control of position and heading: turn rate for each radian that is missing")
+        "turn_gain", "1/s", "control of position and heading: turn rate per radian of error")
         .above(0.0, 50.0),
-    field<&MotionParams::tolerance_m>("tolerance", "m",
-                                      "position control: so near to its goal the robot is there")
+    field<&MotionParams::tolerance_m>(
+        "tolerance", "m", "position control: distance from the goal at which it is reached")
         .above(0.0, 1000.0),
-    field<&MotionParams::heading_tolerance_rad>("heading_tolerance_deg", "degrees",
-                                                "the same for its heading; default 0.01 rad")
+    field<&MotionParams::heading_tolerance_rad>(
+        "heading_tolerance_deg", "degrees",
+        "position control: heading error at which the heading is reached; default 0.01 rad")
         .above(0.0, 180.0),
 };
 SIM_FIELDS(MotionParams, kMotionSettings)
 
 DeviceKind motion_kind() {
   return device_kind<MotionParams, void>(
-      "motion", {}, [](const DeviceOrder& order, const MotionParams& params) {
-        return std::make_unique<Motion>(order.name(), params, drive_of(order.model));
+      "motion", {}, [](const DeviceConstruction& construction, const MotionParams& params) {
+        return std::make_unique<Motion>(construction.name(), params, drive_of(construction.model));
       });
 }
 

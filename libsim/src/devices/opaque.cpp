@@ -12,8 +12,8 @@ Opaque::Opaque(std::string name, const OpaqueParams& params)
     : SensorOf(std::move(name), "opaque", params.frequency_hz), params_(params) {}
 
 std::optional<std::string> Opaque::connect(std::string_view robot, const DeviceDirectory& devices) {
-  lines_.clear();
-  if (params_.from.empty()) lines_.push_back({this, 0});
+  connections_.clear();
+  if (params_.from.empty()) connections_.push_back({this, 0});
   for (const std::string& name : params_.from) {
     const std::size_t dot = name.find('.');
     const std::string device = dot == std::string::npos ? "opaque" : name.substr(dot + 1);
@@ -22,7 +22,7 @@ std::optional<std::string> Opaque::connect(std::string_view robot, const DeviceD
       return "an opaque device at \"" + name + "\", whose messages are to arrive at robot " +
              std::string(robot);
     }
-    lines_.push_back({sender, 0});
+    connections_.push_back({sender, 0});
   }
   return std::nullopt;
 }
@@ -37,19 +37,20 @@ std::optional<std::string> Opaque::apply(const Command& command) {
   if (message->data.empty()) return std::nullopt;
   sent_messages_.push_back(message->data);
   ++sent_;
-  // Nobody would have room for more.
+  // No receiver's queue holds more.
   if (sent_messages_.size() > kMaxQueue) sent_messages_.pop_front();
   return std::nullopt;
 }
 
-void Opaque::hear(Line& line) {
-  const std::uint64_t count = line.sender->sent_;
-  const auto& messages = line.sender->sent_messages_;
-  const std::uint64_t kept = std::min<std::uint64_t>(count - line.heard, messages.size());
-  lost_ += count - line.heard - kept;
+void Opaque::receive(Connection& connection) {
+  const std::uint64_t count = connection.sender->sent_;
+  const auto& messages = connection.sender->sent_messages_;
+  const std::uint64_t kept =
+      std::min<std::uint64_t>(count - connection.received_count, messages.size());
+  lost_ += count - connection.received_count - kept;
   arrived_.insert(arrived_.end(), messages.end() - static_cast<std::ptrdiff_t>(kept),
                   messages.end());
-  line.heard = count;
+  connection.received_count = count;
   while (arrived_.size() > kMaxQueue) {
     arrived_.pop_front();
     ++lost_;
@@ -57,8 +58,8 @@ void Opaque::hear(Line& line) {
 }
 
 void Opaque::integrate(const StepContext&) {
-  for (Line& line : lines_) hear(line);
-  // All that were sent before the last step have been heard by everybody.
+  for (Connection& connection : connections_) receive(connection);
+  // All receivers have received the messages sent before the last step.
   const std::uint64_t since = sent_ - sent_before_step_;
   while (sent_messages_.size() > since) sent_messages_.pop_front();
   sent_before_step_ = sent_;
@@ -77,7 +78,7 @@ void Opaque::measure(const StepContext& context) {
 
 void Opaque::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  for (Line& line : lines_) archive(line.heard);
+  for (Connection& connection : connections_) archive(connection.received_count);
   archive(sent_messages_, sent_, sent_before_step_, arrived_, lost_);
 }
 
@@ -100,13 +101,13 @@ constexpr ElementType kSender{read_sender, sender_text, R"({"type": "string"})"}
 
 constexpr Field kOpaqueSettings[] = {
     frequency_field<&OpaqueParams::frequency_hz>(
-        "readings a simulated second, each of which takes one message at most"),
+        "readings per simulated second; each takes at most one message"),
     field<&OpaqueParams::from>("from", "",
-                               "whose messages arrive here, at most 64: `\"ROBOT\"`, for its "
-                               "device `opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
+                               "senders of the messages, at most 64: `\"ROBOT\"`, for its device "
+                               "`opaque`, or `\"ROBOT.DEVICE\"`; none: its own, as an echo")
         .of(kSender)
         .counting(0, OpaqueParams::kMaxSenders)
-        .or_fault("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),
+        .with_issue("device/input", "\"ROBOT\" or \"ROBOT.DEVICE\""),
 };
 SIM_FIELDS(OpaqueParams, kOpaqueSettings)
 

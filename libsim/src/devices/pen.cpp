@@ -30,7 +30,7 @@ void Pen::archive(StateArchive& archive) {
 
 constexpr Field kPenSettings[] = {
     field<&PenParams::colour>("colour", "", "of the trail: `#RGB`, `#RRGGBB` or `#RRGGBBAA`"),
-    field<&PenParams::trail>("trail", "", "mark the robot's way without being told"),
+    field<&PenParams::trail>("trail", "", "whether the robot's path is drawn automatically"),
 };
 SIM_FIELDS(PenParams, kPenSettings)
 

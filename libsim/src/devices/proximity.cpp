@@ -47,10 +47,10 @@ void Proximity::measure(const StepContext& context) {
 
 constexpr Field kProximitySettings[] = {
     frequency_field<&ProximityParams::frequency_hz>(),
-    field<&ProximityParams::range_m>("range", "m", "how far it sees")
+    field<&ProximityParams::range_m>("range", "m", "maximum distance of listed objects")
         .within(kLeastLength_m, 1000.0),
-    field<&ProximityParams::obstacles>(
-        "obstacles", "", "tells obstacles and dock separators, too, not robots alone"),
+    field<&ProximityParams::obstacles>("obstacles", "",
+                                       "whether it also lists obstacles and dock separators"),
 };
 SIM_FIELDS(ProximityParams, kProximitySettings)
 

@@ -37,7 +37,7 @@ std::optional<std::string> Ptz::apply(const Command& command) {
     return std::nullopt;
   }
   if (const auto* pan = std::get_if<PanCommand>(&command)) {
-    // A speed is a way to the limit; none is one to where the head is.
+    // A speed command moves the axis to its limit; speed 0 makes it stop at its current angle.
     for (const auto& [axis, speed] :
          {std::pair(&pan_, pan->pan_speed_radps), std::pair(&tilt_, pan->tilt_speed_radps),
           std::pair(&view_, pan->zoom_speed_radps)}) {
@@ -74,10 +74,10 @@ void Ptz::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> ptz_view_fault(const void* object) {
+std::optional<FieldError> check_ptz_view(const void* object) {
   const auto& p = *static_cast<const PtzParams*>(object);
   if (p.view_min_rad <= p.view_max_rad) return std::nullopt;
-  return FieldFault{"device/ptz-field-of-view",
+  return FieldError{"device/ptz-field-of-view",
                     "a field_of_view_min_deg of at most field_of_view_max_deg",
                     rounded_text(p.view_min_rad / kDegrees, 6) + " and " +
                         rounded_text(p.view_max_rad / kDegrees, 6) + " degrees",
@@ -88,9 +88,9 @@ std::optional<FieldFault> ptz_view_fault(const void* object) {
 
 constexpr Field kPtzSettings[] = {
     frequency_field<&PtzParams::frequency_hz>(),
-    field<&PtzParams::pan_max_rad>("pan_max_deg", "degrees", "as far as it turns to either side")
+    field<&PtzParams::pan_max_rad>("pan_max_deg", "degrees", "maximum pan to either side")
         .within(0.0, 180.0),
-    field<&PtzParams::tilt_max_rad>("tilt_max_deg", "degrees", "as far as it looks up and down")
+    field<&PtzParams::tilt_max_rad>("tilt_max_deg", "degrees", "maximum tilt, up and down")
         .within(0.0, 60.0),
     field<&PtzParams::view_min_rad>("field_of_view_min_deg", "degrees",
                                     "of the lens, from side to side, zoomed in")
@@ -98,15 +98,15 @@ constexpr Field kPtzSettings[] = {
     field<&PtzParams::view_max_rad>("field_of_view_max_deg", "degrees",
                                     "zoomed out, as at the start")
         .within(0.01, 170.0),
-    field<&PtzParams::pan_speed_radps>("pan_speed_deg", "degrees/s", "how fast it turns")
+    field<&PtzParams::pan_speed_radps>("pan_speed_deg", "degrees/s", "maximum pan rate")
         .above(0.0, 3600.0),
-    field<&PtzParams::tilt_speed_radps>("tilt_speed_deg", "degrees/s", "how fast it tilts")
+    field<&PtzParams::tilt_speed_radps>("tilt_speed_deg", "degrees/s", "maximum tilt rate")
         .above(0.0, 3600.0),
     field<&PtzParams::zoom_speed_radps>("zoom_speed_deg", "degrees/s",
-                                        "how fast the field of view changes")
+                                        "maximum rate of change of the field of view")
         .above(0.0, 3600.0),
 };
-SIM_FIELDS(PtzParams, kPtzSettings, ptz_view_fault)
+SIM_FIELDS(PtzParams, kPtzSettings, check_ptz_view)
 
 constexpr Field kPtzReading[] = {
     field<&PtzReading::pan_rad>("pan", "rad"),

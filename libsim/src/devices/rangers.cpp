@@ -15,8 +15,8 @@
 namespace sim {
 namespace {
 
-// The square of how near an edge comes to the origin [m2]; nothing if no point within reach_m of it
-// sees the edge within range_m.
+// Square of the distance of an edge from the origin [m2]; nullopt if no point within reach_m of the
+// origin sees the edge within range_m.
 std::optional<double> distance2_if_seen(const scan::Edge& edge, double reach_m, double range_m) {
   const Vec2 a(static_cast<double>(edge.x0_m), static_cast<double>(edge.y0_m));
   const Vec2 along = Vec2(static_cast<double>(edge.x1_m), static_cast<double>(edge.y1_m)) - a;
@@ -36,8 +36,8 @@ double infrared_voltage_v(double range_m, double gain_vm, double shift_m) {
   return gain_vm / (range_m + shift_m);
 }
 
-// Mountings are 6 mm and more within the S1R's shell, which no solid reaches: then there is no need
-// to ask whether they are inside one.
+// The mountings are at least 6 mm inside the S1R's shell, where no solid reaches, so the test for
+// being inside a solid is not needed.
 InfraredParams::InfraredParams() {
   range_max_m = 0.8;
   height_m = 0.05;
@@ -96,7 +96,7 @@ void Ranger::measure(const StepContext& context) {
         !context.physics.is_inside_solid(X_WS.position(), params_.height_m, context.robot)) {
       range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad});
     }
-    // As with the laser: without an echo there is nothing to be uncertain about.
+    // As for the laser: without an echo there is no noise.
     if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {
       range_m = std::clamp(range_m + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
     }
@@ -105,7 +105,7 @@ void Ranger::measure(const StepContext& context) {
 }
 
 double Ranger::least_range_m(const scan::Cone& cone) {
-  // Rounding, by far.
+  // Far above rounding errors.
   constexpr double kSlack_m = 1e-6;
   double least_m = params_.range_max_m;
   for (std::size_t i = 0; i < shells_.size(); ++i) {
@@ -134,17 +134,19 @@ void Ranger::archive(StateArchive& archive) {
 
 namespace {
 
-std::optional<FieldFault> mountings_fault(const void* object) {
+std::optional<FieldError> check_mountings(const void* object) {
   const auto& reading = *static_cast<const RangerReading*>(object);
   if (reading.X_BS.size() == reading.ranges_m.size()) return std::nullopt;
-  return FieldFault{"", "as many as there are ranges", "", "", "mountings"};
+  return FieldError{"", "as many as there are ranges", "", "", "mountings"};
 }
 
-std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams& params) {
-  const bool may_be_inside = !std::ranges::all_of(
-      params.X_BS, [&order](const Pose& X_BS) { return well_within(order.model.footprint, X_BS); });
-  return std::make_unique<Ranger>(order.name(), order.device.type, params, may_be_inside,
-                                  order.noise());
+std::unique_ptr<Device> make_ranger(const DeviceConstruction& construction,
+                                    const RangerParams& params) {
+  const bool may_be_inside = !std::ranges::all_of(params.X_BS, [&construction](const Pose& X_BS) {
+    return is_safely_inside(construction.model.footprint, X_BS);
+  });
+  return std::make_unique<Ranger>(construction.name(), construction.device.type, params,
+                                  may_be_inside, construction.noise());
 }
 
 }  // namespace
@@ -152,17 +154,15 @@ std::unique_ptr<Device> make_ranger(const DeviceOrder& order, const RangerParams
 constexpr Field kRangerSettings[] = {
     frequency_field<&RangerParams::frequency_hz>(),
     noise_field<&RangerParams::noise_m>("standard deviation of a range"),
-    range_max_field<&RangerParams::range_max_m>(
-        "greatest range, and what a transducer reads that meets nothing"),
+    range_max_field<&RangerParams::range_max_m>("maximum range, and the reading if nothing is hit"),
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",
-                               "where each transducer sits on the body and looks, X_BS; 1 to 64 "
-                               "of them")
+                               "poses of the transducers on the body, X_BS; 1 to 64 of them")
         .counting(1, RangerParams::kMaxTransducers)
-        .or_fault("device/ranger-mounts",
-                  "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")
-        .told_as("mount")
-        .telling_each(),
+        .with_issue("device/ranger-mounts",
+                    "a list of 1 to 64 poses {\"x\", \"y\", \"yaw_deg\"}, one for each transducer")
+        .property_name("mount")
+        .listing_elements(),
 };
 SIM_FIELDS(RangerParams, kRangerSettings)
 
@@ -170,7 +170,7 @@ static_assert(RangerParams::kMaxTransducers == 64, "the texts above say so");
 
 constexpr Field kInfrared[] = {
     include<InfraredParams, RangerParams>(),
-    field<&InfraredParams::field_of_view_rad>("field_of_view", "rad").only_told(),
+    field<&InfraredParams::field_of_view_rad>("field_of_view", "rad").as_read_only(),
     field<&InfraredParams::voltage_gain_vm>("voltage_gain", "V m",
                                             "of the sensor curve, gain / (range + shift)")
         .above(0.0, 1000.0),
@@ -193,7 +193,7 @@ constexpr Field kRangerReading[] = {
     field<&RangerReading::range_max_m>("range_max", "m"),
     field<&RangerReading::field_of_view_rad>("field_of_view", "rad"),
 };
-SIM_FIELDS(RangerReading, kRangerReading, mountings_fault)
+SIM_FIELDS(RangerReading, kRangerReading, check_mountings)
 
 DeviceKind infrared_kind() {
   return device_kind<InfraredParams, RangerReading>("infrared", {{"ir"}, {"ranger", 2}},

@@ -12,9 +12,9 @@ namespace sim {
 Speech::Speech(std::string name, const SpeechParams& params)
     : Actuator(std::move(name), "speech"), params_(params) {}
 
-std::optional<std::string> Speech::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Speech::execute(const Command& command, RobotControl& robot) {
   const auto* say = std::get_if<SayCommand>(&command);
-  if (say == nullptr) return Actuator::carry_out(command, robot);
+  if (say == nullptr) return Actuator::execute(command, robot);
   if (say->text.size() > kMaxSpeech) {
     return "device " + name() + " says at most " + std::to_string(kMaxSpeech) +
            " bytes at a time, but the text has " + std::to_string(say->text.size());
@@ -45,7 +45,7 @@ void Speech::archive(StateArchive& archive) {
 
 constexpr Field kSpeechSettings[] = {
     field<&SpeechParams::shown_s>("shown", "s",
-                                  "for so long a text stands over the robot in pictures")
+                                  "time for which pictures show a text over the robot")
         .above(0.0, 1000.0),
 };
 SIM_FIELDS(SpeechParams, kSpeechSettings)

@@ -11,7 +11,7 @@ namespace sim {
 Teleport::Teleport(std::string name, const TeleportParams&)
     : Actuator(std::move(name), "teleport") {}
 
-std::optional<std::string> Teleport::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Teleport::execute(const Command& command, RobotControl& robot) {
   Pose X_WB = robot.body().X_WB;
   if (const auto* place = std::get_if<PlaceCommand>(&command)) {
     X_WB = place->pose;

@@ -31,7 +31,7 @@ double Waypoint::distance_m() const {
   return std::hypot(goal_.goal_m.x() - X_WB_.x_m, goal_.goal_m.y() - X_WB_.y_m);
 }
 
-std::optional<std::string> Waypoint::carry_out(const Command& command, RobotControl& robot) {
+std::optional<std::string> Waypoint::execute(const Command& command, RobotControl& robot) {
   if (const auto* go = std::get_if<GotoCommand>(&command)) {
     if (!go->goal_m.allFinite()) return "a goal must be a point of finite coordinates";
     if (!(go->tolerance_m > 0.0) || !std::isfinite(go->tolerance_m)) {
@@ -42,12 +42,12 @@ std::optional<std::string> Waypoint::carry_out(const Command& command, RobotCont
       return "the speed to a goal must be a number of m/s greater than 0, not " +
              rounded_text(go->speed_mps, 6);
     }
-    if (!robot.take_motors(*this)) return "the robot has no motors to drive to a goal with";
+    if (!robot.acquire_motors(*this)) return "the robot has no motors to drive to a goal with";
     goal_ = *go;
     has_goal_ = true;
     ++goal_number_;
     status_ = WaypointStatus::kTransit;
-    steers_ = true;
+    controls_motors_ = true;
     return std::nullopt;
   }
   if (std::holds_alternative<StopCommand>(command)) {
@@ -56,9 +56,9 @@ std::optional<std::string> Waypoint::carry_out(const Command& command, RobotCont
   }
   if (std::holds_alternative<ResumeCommand>(command)) {
     if (!has_goal_) return "there is no goal to go on to: none was given yet";
-    static_cast<void>(robot.take_motors(*this));
+    static_cast<void>(robot.acquire_motors(*this));
     status_ = WaypointStatus::kTransit;
-    steers_ = true;
+    controls_motors_ = true;
     return std::nullopt;
   }
   return apply(command);
@@ -68,9 +68,9 @@ void Waypoint::act(RobotControl& robot) {
   X_WB_ = robot.body().X_WB;
   if (status_ == WaypointStatus::kTransit && distance_m() > goal_.tolerance_m) {
     robot.drive(waypoint_twist(X_WB_, goal_, params_));
-  } else if (steers_) {
+  } else if (controls_motors_) {
     robot.drive({});
-    steers_ = false;
+    controls_motors_ = false;
   }
 }
 
@@ -81,26 +81,26 @@ void Waypoint::integrate(const StepContext& context) {
   }
 }
 
-void Waypoint::motors_taken() {
+void Waypoint::on_motors_taken() {
   if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
-  steers_ = false;  // what they do now is the other's
+  controls_motors_ = false;  // another device drives the motors now
 }
 
 void Waypoint::placed(const Pose& X_WB) {
   X_WB_ = X_WB;
-  motors_taken();
+  on_motors_taken();
 }
 
-void Waypoint::succeed(const Device& before, SimTime later_ns) {
-  Sensor::succeed(before, later_ns);
+void Waypoint::take_over_from(const Device& before, SimTime later_ns) {
+  Sensor::take_over_from(before, later_ns);
   const auto& old = dynamic_cast<const Waypoint&>(before);
   goal_number_ = old.goal_number_ + (old.has_goal_ || has_goal_ ? 1 : 0);
 }
 
 void Waypoint::deactivated(RobotControl& robot) {
   if (status_ == WaypointStatus::kTransit) status_ = WaypointStatus::kStop;
-  if (steers_) robot.drive({});
-  steers_ = false;
+  if (controls_motors_) robot.drive({});
+  controls_motors_ = false;
 }
 
 void Waypoint::measure(const StepContext& context) {
@@ -115,7 +115,7 @@ void Waypoint::measure(const StepContext& context) {
 void Waypoint::archive(StateArchive& archive) {
   SensorOf::archive(archive);
   archive.fields(goal_);
-  archive(goal_number_, has_goal_, steers_, X_WB_);
+  archive(goal_number_, has_goal_, controls_motors_, X_WB_);
   archive.choice(status_, WaypointStatus::kStop);
 }
 
@@ -123,20 +123,20 @@ constexpr const char* kWaypointWords[] = {"Arrived", "Transit", "Stop"};
 
 constexpr Field kWaypointSettings[] = {
     frequency_field<&WaypointParams::frequency_hz>(
-        "readings a simulated second; steering is done each step"),
+        "readings per simulated second; the controller runs in each step"),
     field<&WaypointParams::tolerance_m>(
-        "tolerance", "m",
-        "so near to a goal the robot has arrived, where a program names no tolerance")
+        "tolerance", "m", "default distance from a goal at which the robot has arrived")
         .above(0.0, 1000.0),
-    field<&WaypointParams::speed_mps>(
-        "speed", "m/s", "at most, where a program names none; the motors' limits hold too")
+    field<&WaypointParams::speed_mps>("speed", "m/s",
+                                      "default maximum speed; the motors' limits also hold")
         .above(0.0, 20.0),
-    field<&WaypointParams::turn_gain>("turn_gain", "1/s", "turn rate a bearing of the goal")
+    field<&WaypointParams::turn_gain>("turn_gain", "1/s", "turn rate divided by the goal's bearing")
         .above(0.0, 50.0),
-    field<&WaypointParams::approach_gain>("approach_gain", "1/s", "speed a distance of the goal")
+    field<&WaypointParams::approach_gain>("approach_gain", "1/s",
+                                          "speed divided by the goal's distance")
         .above(0.0, 50.0),
     field<&WaypointParams::max_turn_rate_radps>("max_turn_rate_deg", "degrees/s",
-                                                "on the way to a goal; default 2 rad/s")
+                                                "maximum on the way to a goal; default 2 rad/s")
         .above(0.0, 3600.0),
 };
 SIM_FIELDS(WaypointParams, kWaypointSettings)
@@ -155,8 +155,8 @@ std::string_view to_string(WaypointStatus status) noexcept {
 
 DeviceKind waypoint_kind() {
   return device_kind<WaypointParams, WaypointReading>(
-      "waypoint", {}, [](const DeviceOrder& order, const WaypointParams& params) {
-        return std::make_unique<Waypoint>(order.name(), params, order.robot.pose);
+      "waypoint", {}, [](const DeviceConstruction& construction, const WaypointParams& params) {
+        return std::make_unique<Waypoint>(construction.name(), params, construction.robot.pose);
       });
 }
 

@@ -7,6 +7,7 @@
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
+#include "sim/core/number_text.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -31,19 +32,16 @@ int link_quality(double level_dbm) {
 }
 
 std::string mac_of(std::string_view name) {
-  // http://www.isthe.com/chongo/tech/comp/fnv/: FNV-1a, 64 bits.
+  // FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : name) {
     hash ^= static_cast<unsigned char>(c);
     hash *= 0x100000001b3U;
   }
-  constexpr std::string_view kDigits = "0123456789abcdef";
   std::string mac = "02";
   for (int byte = 0; byte < 5; ++byte) {
-    const auto value = static_cast<std::size_t>((hash >> (8 * byte)) & 0xffU);
     mac += ':';
-    mac += kDigits[value / 16];
-    mac += kDigits[value % 16];
+    mac += hexadecimal_text(hash >> (8 * byte), 2);
   }
   return mac;
 }
@@ -81,7 +79,7 @@ void Wifi::measure(const StepContext& context) {
         level_at_dbm(params_, (p_W - p_WB).norm()) + noise_.gaussian(params_.noise_db);
     if (level < params_.least_dbm) return;
     if (count == links.size()) links.emplace_back();
-    // Mostly the same are heard as last time: then all but the level is there.
+    // Usually the same stations are received as last time; then only the level changes.
     WifiReading::Link& link = links[count++];
     if (link.name != name || link.access_point != access_point) {
       link = {name, mac_of(name), ip_of(access_point, number), access_point, level};
@@ -113,7 +111,7 @@ constexpr Field kWifiSettings[] = {
     field<&WifiParams::level_1m_dbm>("level_1m", "dBm", "signal 1 m from a sender")
         .within(-200.0, 100.0),
     field<&WifiParams::exponent>("exponent", "",
-                                 "path loss exponent: 2 in free space, 3 or so in a building")
+                                 "path loss exponent: 2 in free space, about 3 in a building")
         .above(0.0, 10.0),
     field<&WifiParams::noise_db>("noise", "dB", "standard deviation of a level (shadowing)")
         .within(0.0, 100.0),

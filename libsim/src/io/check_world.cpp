@@ -22,7 +22,7 @@
 namespace sim::io {
 namespace {
 
-/// What touches does not overlap; files give places to a few digits.
+/// Touching does not count as overlap; positions in files have few digits.
 constexpr double kTouching_m = 1e-6;
 
 std::string metres(double value) { return rounded_text(value, 3) + " m"; }
@@ -45,7 +45,7 @@ Polygon placed(const Polygon& footprint, const Pose& X_WB, double scale = 1.0) {
   return outline;
 }
 
-/// A convex polygon with the circle round it, for quick refusal.
+/// A convex polygon with its bounding circle, for quick rejection.
 struct Solid {
   explicit Solid(Polygon polygon) : outline(std::move(polygon)) {
     for (const Vec2& p : outline) middle += p;
@@ -58,9 +58,8 @@ struct Solid {
   double radius_m = 0.0;
 };
 
-/// How far two convex polygons reach into each other: the least shift that parts them [m]; 0 if
-/// they do not overlap. Separating axes: C. Ericson, Real-Time Collision Detection (2005),
-/// sec. 5.2.1.
+/// Penetration depth of two convex polygons: the shortest shift that separates them [m]; 0 if they
+/// do not overlap. Separating axes: C. Ericson, Real-Time Collision Detection (2005), sec. 5.2.1.
 double overlap_m(const Solid& a, const Solid& b) {
   if ((a.middle - b.middle).norm() >= a.radius_m + b.radius_m) return 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -86,8 +85,8 @@ double overlap_m(const Solid& a, const Solid& b) {
   return least;
 }
 
-/// Whether a piece of the segment lies within the convex, counter-clockwise polygon (Cyrus and
-/// Beck's clipping), but for its outermost micrometre.
+/// Whether a part of the segment lies inside the convex, counter-clockwise polygon shrunk by
+/// kTouching_m (Cyrus-Beck clipping).
 bool crosses(const Solid& solid, const Vec2& from, const Vec2& to) {
   const Vec2 way = to - from;
   double enter = 0.0;
@@ -108,7 +107,7 @@ bool crosses(const Solid& solid, const Vec2& from, const Vec2& to) {
   return enter < leave;
 }
 
-/// Whether the point lies in the solid of the walls: on the inner side of an odd number of loops.
+/// Whether the point lies in the solid of the walls: inside an odd number of loops.
 bool in_solid(const std::vector<WallLoop>& walls, const Vec2& p) {
   bool inside = false;
   for (const WallLoop& loop : walls) {
@@ -123,7 +122,7 @@ bool in_solid(const std::vector<WallLoop>& walls, const Vec2& p) {
   return inside;
 }
 
-/// Where the polygon runs into a wall: a point of that wall; nullopt if nowhere.
+/// A point of a wall that the polygon overlaps; nullopt if there is none.
 std::optional<Vec2> wall_within(const std::vector<WallLoop>& walls, const Solid& solid) {
   for (const WallLoop& loop : walls) {
     for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
@@ -144,7 +143,7 @@ std::optional<Vec2> wall_within(const std::vector<WallLoop>& walls, const Solid&
   return std::nullopt;
 }
 
-/// The border that the outline sticks out of farthest, and how far [m].
+/// The border that the outline crosses farthest, and by how much [m].
 std::pair<const char*, double> beyond_floor(const ArenaDescription& arena, const Polygon& outline) {
   const Vec2 low = arena.origin;
   const Vec2 high = arena.origin + arena.size;
@@ -173,7 +172,7 @@ struct NamedSolid {
   Solid solid;
 };
 
-/// Everything solid that a robot at rest must keep clear of, but for other robots.
+/// All solids that a robot at rest must keep clear of, except other robots.
 std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
   std::vector<NamedSolid> solids;
   for (const ObstacleDescription& obstacle : arena.obstacles) {
@@ -187,21 +186,21 @@ std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
   return solids;
 }
 
-/// A robot by its index, where it stands.
+/// A robot's index and its current outline.
 using StandingRobot = std::pair<std::size_t, Solid>;
 
-/// One thing in the way of a robot.
+/// One obstruction of a robot.
 struct Blockage {
   enum class Kind { kOutside, kObstacle, kWall, kRobot };
   Kind kind;
-  double depth_m = 0.0;               ///< how far the robot reaches into it; unknown for a wall
-  const char* side = "";              ///< of the floor
+  double depth_m = 0.0;               ///< penetration depth; not known for a wall
+  const char* side = "";              ///< side of the floor
   const NamedSolid* solid = nullptr;  ///< the obstacle
-  std::size_t robot = 0;              ///< the other one
+  std::size_t robot = 0;              ///< the other robot
   Vec2 wall = Vec2::Zero();           ///< a point of the wall
 };
 
-/// All that is in the way of a robot whose outline is `body`.
+/// All obstructions of a robot with the outline `body`.
 std::vector<Blockage> blockages(const ArenaDescription& arena,
                                 const std::vector<NamedSolid>& solids,
                                 const std::vector<StandingRobot>& robots, const Solid& body) {
@@ -253,7 +252,8 @@ class Checker {
                        std::move(hint)});
   }
 
-  /// Pointer of an element of a list that a preset's elements precede; of a preset's own: the list.
+  /// JSON pointer of a list element. The elements of the preset come first and are not in the file;
+  /// their pointer is that of the list.
   static std::string element(const char* list, std::size_t index, std::size_t of_preset) {
     if (index < of_preset) return list;
     return std::string(list) + '/' + std::to_string(index - of_preset);
@@ -326,31 +326,31 @@ class Checker {
         "center is the middle of the box, size its full length and width");
   }
 
-  /// Notes a fault of what stands at `pointer`, unless there is none.
+  /// Records the error in the part at `pointer`, if there is one.
   /// @return whether there is none.
-  bool sound(const std::optional<SolidFault>& fault, const std::string& pointer,
-             const std::string& name = "") {
-    if (!fault) return true;
-    add("world/out-of-range", pointer + fault->key, fault->expected,
-        fault->found + (name.empty() ? "" : " of " + name), fault->hint);
+  bool passes(const std::optional<SolidError>& error, const std::string& pointer,
+              const std::string& name = "") {
+    if (!error) return true;
+    add("world/out-of-range", pointer + error->key, error->expected,
+        error->found + (name.empty() ? "" : " of " + name), error->hint);
     return false;
   }
 
-  /// Whether the physics can build the arena: what it cannot, is noted.
+  /// Whether the physics can build the arena; records each error.
   bool check_sizes() {
     const ArenaDescription& arena = world_.arena;
-    bool all = sound(floor_fault(arena), "/arena") && sound(walls_fault(arena), "/arena");
-    // A preset's own have no place of their own in the file.
+    bool all = passes(check_floor(arena), "/arena") && passes(check_walls(arena), "/arena");
+    // Elements of a preset have no position in the file.
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
-      all &= sound(box_fault(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
+      all &= passes(check_box(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
     }
     for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
       const ObstacleDescription& separator = arena.dock_separators[i];
-      all &= sound(box_fault(separator), separator_pointer(i), separator.name);
+      all &= passes(check_box(separator), separator_pointer(i), separator.name);
     }
     for (std::size_t i = 0; i < arena.docks.size(); ++i) {
       const ObstacleDescription area = area_of(arena.docks[i]);
-      all &= sound(box_fault(area), dock_pointer(i), area.name);
+      all &= passes(check_box(area), dock_pointer(i), area.name);
     }
     return all;
   }
@@ -361,7 +361,7 @@ class Checker {
       const std::string& name = world_.robots[i].model;
       const RobotModel* model = find_robot_model(world_, name);
       if (model == nullptr || !checked.insert(name).second) continue;
-      if (sound(model_fault(*model), robot_pointer(i) + "/model", "model " + name)) continue;
+      if (passes(check_model(*model), robot_pointer(i) + "/model", "model " + name)) continue;
       bad_models_.insert(name);
     }
   }
@@ -411,7 +411,7 @@ class Checker {
           bad_models_.contains(robot.model)) {
         continue;
       }
-      if (!is_place(robot.pose)) {
+      if (!is_valid_pose(robot.pose)) {
         add("world/out-of-range", pointer,
             "numbers from " + number_text(-kFarthest_m) + " to " + number_text(kFarthest_m) +
                 " m for x and y, and a number for the angle",
@@ -494,7 +494,7 @@ std::vector<ConfigIssue> check_world(const WorldDescription& world) {
 
 namespace {
 
-/// What is in the way of an outline, but for one robot: the first of it, in words.
+/// The first obstruction of an outline, in words, where the robot itself does not count.
 std::optional<std::string> first_blockage(const WorldDescription& world,
                                           const std::vector<Pose>& poses, std::size_t robot,
                                           const Solid& outline) {

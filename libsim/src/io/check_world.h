@@ -11,42 +11,44 @@
 
 namespace sim::io {
 
-/// Whether the part of a world at that JSON pointer is known to be as its author meant it. A part
-/// that was in error holds a default, about which nothing is to be complained of a second time.
+/// Whether the part of a world at that JSON pointer is as its author wrote it. A part that was in
+/// error holds a default, and must not cause further issues.
 using TrustedPart = std::function<bool(const std::string& pointer)>;
 
-/// check_world, leaving out what rests on parts that are not trusted.
+/// Like check_world, without the issues that depend on parts that are not trusted.
 [[nodiscard]] std::vector<ConfigIssue> check_world_parts(const WorldDescription& world,
                                                          const TrustedPart& trusted);
 
-/// What keeps a robot of `world` from standing at X_WB, in words that go on from "robot r1 cannot
-/// stand at (1.00, 2.00): ", by the same rules as a robot's start; nullopt if nothing.
-/// @param poses  X_WB of all robots now; robot's own is not looked at.
+/// The obstacle that keeps a robot of `world` from standing at X_WB, by the rules for start poses;
+/// nullopt if there is none.
+/// @param poses  X_WB of all robots now; the robot's own is ignored.
 /// @param robot  index.
+/// @return a text that follows "robot r1 cannot stand at (1.00, 2.00): ".
 [[nodiscard]] std::optional<std::string> blocked_by(const WorldDescription& world,
                                                     const std::vector<Pose>& poses,
                                                     std::size_t robot, const Pose& X_WB);
 
-/// The same of an obstacle that a robot is to put down: the robot itself is not in the way.
+/// The obstacle that keeps a robot from putting down an object; the robot itself does not count.
 /// @param robot     index of that robot.
-/// @param obstacle  as it is to stand.
+/// @param obstacle  the object in the pose in which it would stand.
 [[nodiscard]] std::optional<std::string> put_down_blocked_by(const WorldDescription& world,
                                                              const std::vector<Pose>& poses,
                                                              std::size_t robot,
                                                              const ObstacleDescription& obstacle);
 
-/// What is against an obstacle's standing where it does, in words that go on from "obstacle o1
-/// would "; nullopt if nothing.
+/// The reason why an obstacle cannot stand in its place on the floor, as a text that follows
+/// "obstacle o1 would "; nullopt if it can.
 [[nodiscard]] std::optional<std::string> outside_floor(const ArenaDescription& arena,
                                                        const ObstacleDescription& obstacle);
 
-/// A place on the floor, clear of everything by some centimetres, for a robot with that outline:
-/// in the SyRoTek arena its start pose if free, else as near to the middle of the floor as can be,
-/// looking where it can drive farthest. Robots listed in `world` are in its way.
-/// @param places_tried  how many of the places are known to be taken, 0 at first. Raised by those
-///                      that are found so, for the next call with the same arena and footprint,
-///                      the same robots and others.
-/// @return nullopt if none of the places tried (every 0.1 m, at most 41 x 41) is free.
+/// Finds a pose on the floor for a robot with that outline, clear of everything by some
+/// centimetres. In the SyRoTek arena it is the start pose if that is free. Otherwise it is as near
+/// to the middle of the floor as possible, facing the direction with the longest free way. The
+/// robots in `world` count as obstacles.
+/// @param places_tried  number of candidate places that are known to be taken, initially 0. This
+///     call increases it for the next call with the same arena and footprint and at least the same
+///     robots.
+/// @return nullopt if no candidate (every 0.1 m, at most 41 x 41) is free.
 [[nodiscard]] std::optional<Pose> find_free_pose(const WorldDescription& world,
                                                  const Polygon& footprint,
                                                  std::size_t& places_tried);

@@ -5,8 +5,8 @@
 
 namespace sim::io {
 
-/// The z component of the cross product of two vectors in the plane: positive if b points to the
-/// left of a.
+/// The z component of the cross product of two vectors in the plane: positive if b is to the left
+/// of a.
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "sim/core/file.h"
+#include "sim/core/number_text.h"
 #include "sim/core/utf8.h"
 
 namespace sim::io {
@@ -22,7 +23,7 @@ namespace {
 
 using Value = Reader::Value;
 
-/// Hands the text to the parser and lets us see how far it has read, since SAX events carry no
+/// Passes the text to the parser and records how far it has read, since SAX events carry no
 /// position.
 class CountingIterator {
  public:
@@ -68,7 +69,7 @@ std::pair<int, int> line_and_column(std::string_view text, std::size_t offset) {
   return {line, static_cast<int>(offset - line_start) + 1};
 }
 
-/// The line that holds `offset`, without indentation; of a long one, what stands round the place.
+/// The line that contains `offset`, without indentation; for a long line, the part around `offset`.
 std::string line_text(std::string_view text, std::size_t offset) {
   constexpr std::size_t kAround = 40;
   offset = std::min(offset, text.size());
@@ -78,7 +79,7 @@ std::string line_text(std::string_view text, std::size_t offset) {
   while (end < text.size() && text[end] != '\n' && text[end] != '\r' && end - offset < kAround) {
     ++end;
   }
-  // Not from the middle of a UTF-8 sequence.
+  // Do not start in the middle of a UTF-8 sequence.
   while (begin < end && (static_cast<unsigned char>(text[begin]) & 0xC0U) == 0x80U) ++begin;
   while (begin < end && (text[begin] == ' ' || text[begin] == '\t')) ++begin;
   while (end < text.size() && end > begin &&
@@ -88,13 +89,13 @@ std::string line_text(std::string_view text, std::size_t offset) {
   return std::string(text.substr(begin, end - begin));
 }
 
-/// Whether a character may be part of a word or number that somebody meant to write.
+/// Whether a character may be part of a word or number.
 bool is_word_part(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
          c == '+' || c == '-' || c == '.';
 }
 
-/// About 40 bytes of it, whole characters only.
+/// The first 40 bytes or fewer, in whole characters.
 std::string shortened(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   if (text.size() <= kLongest) return std::string(text);
@@ -143,7 +144,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     v.kind = Value::Kind::kNumber;
     v.real = value;
     v.text = as_written;
-    // The parser puts the point of the program's locale, e.g. a comma, in place of JSON's.
+    // The parser replaces JSON's point by the separator of the program's locale, e.g. a comma.
     for (char& c : v.text) {
       if (std::string_view("0123456789+-eE").find(c) == std::string_view::npos) c = '.';
     }
@@ -157,7 +158,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return put(std::move(v)) != nullptr;
   }
 
-  bool binary(binary_t& /*value*/) override { return false; }  // not in text
+  bool binary(binary_t& /*value*/) override { return false; }  // does not occur in text
 
   bool start_object(std::size_t /*elements*/) override { return open(Value::Kind::kObject); }
   bool start_array(std::size_t /*elements*/) override { return open(Value::Kind::kArray); }
@@ -186,7 +187,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::json::exception& error) override {
-    // The parser counts a line break it has looked at after a number; the token ends before it.
+    // The parser counts a line break that it has read after a number; the token ends before it.
     std::size_t at = position == 0 ? 0 : position - 1;
     const std::string what = error.what();
     ConfigIssue issue;
@@ -226,7 +227,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
  private:
   struct Level {
     Value* value;
-    std::unordered_set<std::string> keys;  ///< so far, of an object
+    std::unordered_set<std::string> keys;  ///< of an object, read so far
   };
 
   /// Line of the last byte read. The parser reads one byte past a number to see its end.
@@ -240,7 +241,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return line_;
   }
 
-  /// Pointer of the value that comes next.
+  /// Pointer of the next value.
   [[nodiscard]] std::string pointer_here() const {
     std::string pointer;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -308,7 +309,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  /// Says in plain words what the parser's message means.
+  /// Translates the parser's message into plain words.
   void explain_syntax(const std::string& what, const std::string& token, std::size_t at,
                       ConfigIssue& issue) const {
     const auto says = [&what](const char* words) { return what.find(words) != std::string::npos; };
@@ -344,12 +345,13 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
       issue.hint = "a text ends with a double quote in the same line";
       return;
     }
-    // A wrong word ("tru") shows at the first letter that does not fit, or just behind it.
+    // In a wrong word ("tru"), the error position is the first wrong letter or the character after
+    // it.
     if (says("invalid literal") && at > 0 && !is_word_part(text_[at]) &&
         is_word_part(text_[at - 1])) {
       --at;
     }
-    // The parser's idea of the last token includes brackets before it, so we look for ourselves.
+    // The parser's last token includes preceding brackets, so the token is determined here.
     const bool is_text = says("unexpected string literal");
     std::size_t begin = at;
     std::size_t end = at + 1;
@@ -396,7 +398,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   bool complete_ = false;
 };
 
-/// JSON files beside `path`, by name.
+/// JSON files in the folder of `path`, sorted by name.
 std::vector<std::string> neighbours(const std::filesystem::path& path) {
   constexpr std::size_t kMaxLooked = 1000;
   std::set<std::string> names;
@@ -455,7 +457,7 @@ bool Reader::Document::has_issue_at(std::string_view pointer) const {
     return inner.starts_with(outer) && (inner.size() == outer.size() || inner[outer.size()] == '/');
   };
   return std::any_of(issues.begin(), issues.end(), [&](const ConfigIssue& issue) {
-    // Files that this one names have pointers of their own.
+    // Issues of other files that this one names have pointers into those files.
     return issue.file == file &&
            (encloses(pointer, issue.pointer) || encloses(issue.pointer, pointer));
   });
@@ -463,7 +465,7 @@ bool Reader::Document::has_issue_at(std::string_view pointer) const {
 
 namespace {
 
-/// Whether a text is a JSON object at first sight: past blanks and comments comes a '{'.
+/// Whether a text looks like a JSON object: the first character after blanks and comments is '{'.
 bool begins_as_object(std::string_view text) {
   std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   for (;;) {
@@ -488,14 +490,12 @@ bool begins_as_object(std::string_view text) {
 
 bool parse_document(std::string_view text, Reader::Document& document) {
   if (const std::size_t bad = find_invalid_utf8(text); bad != std::string_view::npos) {
-    constexpr const char* kDigits = "0123456789abcdef";
     const auto byte = static_cast<unsigned char>(text[bad]);
     ConfigIssue issue{"json/invalid-utf8",
                       document.file,
                       "",
                       "text in UTF-8",
-                      std::string("the byte 0x") + kDigits[byte >> 4U] + kDigits[byte & 15U] +
-                          ", which begins no character",
+                      "the byte 0x" + hexadecimal_text(byte, 2) + ", which begins no character",
                       "save the file with the encoding UTF-8"};
     std::tie(issue.line, issue.column) = line_and_column(text, bad);
     document.add(std::move(issue));
@@ -504,12 +504,12 @@ bool parse_document(std::string_view text, Reader::Document& document) {
   document.may_quote = begins_as_object(text);
   const char* furthest = text.data();
   Builder builder(text, &furthest, document);
-  // "strict" refuses text after the value; comments are skipped by the parser.
+  // "strict" refuses text after the value; the parser skips comments.
   const bool sound =
       nlohmann::json::sax_parse(CountingIterator(text.data(), &furthest),
                                 CountingIterator(text.data() + text.size(), &furthest), &builder,
                                 nlohmann::json::input_format_t::json, true, true);
-  // A text or a number alone is described by what it says.
+  // A text or a number as the whole document would be quoted in messages.
   if (!document.may_quote) document.root.text = "...";
   return sound;
 }
@@ -601,7 +601,7 @@ std::string escape_pointer_part(std::string_view part) {
 
 std::string number_text(double value) {
   char buffer[64];
-  // No exponent in numbers that people write without one.
+  // Use no exponent for numbers that people write without one.
   const double magnitude = std::abs(value);
   const bool plain = value == 0.0 || (magnitude >= 1e-6 && magnitude < 1e15);
   const auto result =

@@ -52,20 +52,21 @@ void read_element(Reader& element, const Field& field, void* list) {
     read_fields(element, field.table(), made);
     element.finish();
   } else if (!field.element->read(element, field.list->append(list))) {
-    element.issue(field.fault_id, field.fault_text, element.described());
+    element.issue(field.issue_id, field.issue_expected, element.description_for_message());
   }
 }
 
-/// A list that is there takes the place of the default as a whole.
+/// A list in the file replaces the default list as a whole.
 void read_list(Reader& settings, const Field& field, void* list) {
   std::optional<Reader> place = settings.child(field.name);
   if (!place) return;
-  const bool has_fewest = field.fewest > 0;
+  const bool has_min_count = field.min_count > 0;
   std::vector<Reader> elements =
-      has_fewest ? settings.array(field.name) : settings.array(field.name, field.most);
+      has_min_count ? settings.array(field.name) : settings.array(field.name, field.max_count);
   if (!place->is_array()) return;
-  if (elements.size() < field.fewest || elements.size() > field.most) {
-    place->issue(field.fault_id, field.fault_text, "a list of " + std::to_string(elements.size()));
+  if (elements.size() < field.min_count || elements.size() > field.max_count) {
+    place->issue(field.issue_id, field.issue_expected,
+                 "a list of " + std::to_string(elements.size()));
     return;
   }
   field.list->clear(list);
@@ -114,7 +115,7 @@ void read_field(Reader& settings, const Field& field, void* object) {
     case FieldType::kCustom:
       return field.custom->read(settings, field, value);
     default:
-      SIM_ASSERT(false);  // of messages only
+      SIM_ASSERT(false);  // other types occur in messages only
   }
 }
 
@@ -122,11 +123,11 @@ void read_field(Reader& settings, const Field& field, void* object) {
 
 void read_fields(Reader& settings, const FieldTable& table, void* object) {
   for (const Field& field : table.fields) {
-    if (!field.told_only) read_field(settings, field, object);
+    if (!field.read_only) read_field(settings, field, object);
   }
   if (table.check == nullptr) return;
-  if (std::optional<FieldFault> fault = table.check(object)) {
-    settings.issue(fault->id, fault->expected, fault->found, fault->hint, fault->key);
+  if (std::optional<FieldError> error = table.check(object)) {
+    settings.issue(error->id, error->expected, error->found, error->hint, error->key);
   }
 }
 

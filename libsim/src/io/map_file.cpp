@@ -28,17 +28,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// map_saver's thresholds, and its shades.
+// The thresholds and shades of map_saver.
 constexpr double kOccupiedThreshold = 0.65;
 constexpr double kFreeThreshold = 0.196;
 constexpr std::uint8_t kOccupiedShade = 0;
 constexpr std::uint8_t kUnknownShade = 205;
 constexpr std::uint8_t kFreeShade = 254;
-// In scale mode only black is above the first and only white below the second.
+// In scale mode, only black exceeds the first threshold and only white is below the second.
 constexpr double kScaleOccupied = 0.998;
 constexpr double kScaleFree = 0.002;
 
-/// A map's description is a few lines; this bounds what the YAML parser may be given.
+/// A map's description takes a few lines; this limits the input of the YAML parser.
 constexpr std::size_t kMaxYamlBytes = std::size_t{64} << 10;
 
 std::uint8_t trinary_shade(double p) {
@@ -60,20 +60,20 @@ void write_file(const std::string& path, const std::string& bytes) {
   }
 }
 
-/// A text as a value in YAML. Written without yaml-cpp, whose own objects may be gone when a
-/// program ends and the run's results are written.
+/// A text as a YAML value. Does not use yaml-cpp, whose global objects may already be destroyed
+/// when results are written at the program's exit.
 std::string yaml_text(const std::string& text) {
   const bool plain = !text.empty() && text.front() != '-' && text.front() != '.' &&
                      std::all_of(text.begin(), text.end(), [](char c) {
                        return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
                               (c >= 'a' && c <= 'z') || c == '_' || c == '-' || c == '.';
                      });
-  // What stands in quotes is the same in JSON and YAML.
+  // Quoted texts have the same syntax in JSON and YAML.
   using nlohmann::json;
   return plain ? text : json(text).dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-/// How map_server makes occupancy of shades.
+/// map_server's modes of converting shades to occupancy.
 enum class Reading { kTrinary, kScale, kRaw };
 
 struct Description {
@@ -86,7 +86,7 @@ struct Description {
   Reading reading = Reading::kTrinary;
 };
 
-/// Reads the description, noting everything that is wrong with it.
+/// Reads the description and records all errors in it.
 class DescriptionReader {
  public:
   explicit DescriptionReader(std::string file) : file_(std::move(file)) {}
@@ -135,7 +135,7 @@ class DescriptionReader {
     return in_quotes(node.Scalar());
   }
 
-  /// Reads a number as YAML writes it, whatever the program's locale.
+  /// Reads a number in YAML's notation, whatever the program's locale.
   static bool parse_number(std::string_view text, double& value) {
     double sign = 1.0;
     if (!text.empty() && (text.front() == '+' || text.front() == '-')) {
@@ -150,7 +150,7 @@ class DescriptionReader {
       value = std::numeric_limits<double>::quiet_NaN();
       return true;
     }
-    // No sign any more, and none of the words that from_chars() knows.
+    // A second sign and the words that from_chars() knows are not allowed.
     if (text.empty() || (text.front() != '.' && (text.front() < '0' || text.front() > '9'))) {
       return false;
     }
@@ -160,7 +160,7 @@ class DescriptionReader {
     return error == std::errc() && parsed == end;
   }
 
-  /// A key that must be there; if it is not, that is noted.
+  /// A required key; records an issue if it is missing.
   std::optional<YAML::Node> required(const YAML::Node& root, const char* key) {
     YAML::Node node = root[key];
     if (node.IsDefined()) return node;
@@ -170,7 +170,7 @@ class DescriptionReader {
     return std::nullopt;
   }
 
-  /// A number from `least` (or above it) to `most`; anything else is noted.
+  /// A number from `least` (or above it) to `most`; records an issue for anything else.
   std::optional<double> number(const YAML::Node& node, const std::string& pointer,
                                const char* expected, double least, double most,
                                bool above_least = false) {
@@ -179,7 +179,7 @@ class DescriptionReader {
       add("map/wrong-type", node.Mark(), pointer, expected, described(node));
       return std::nullopt;
     }
-    // So written that NaN is refused.
+    // The form of this condition makes it refuse NaN.
     if (!((above_least ? value > least : value >= least) && value <= most)) {
       add("map/out-of-range", node.Mark(), pointer, expected, node.Scalar());
       return std::nullopt;

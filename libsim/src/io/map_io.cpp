@@ -9,10 +9,11 @@
 namespace sim::io {
 namespace {
 
-/// Counter-clockwise, so that adding one turns left.
+/// Counter-clockwise: adding one turns left.
 enum Direction : unsigned { kEast = 0, kNorth = 1, kWest = 2, kSouth = 3 };
 
-/// The grid with a frame of free cells round it: no bounds to check. Rows count from the bottom.
+/// The grid with a frame of free cells around it, which saves bounds checks. Rows count from the
+/// bottom.
 class FramedGrid {
  public:
   explicit FramedGrid(const OccupancyGrid& grid)
@@ -30,8 +31,8 @@ class FramedGrid {
 
   [[nodiscard]] bool solid(int column, int row) const { return cells_[index(column, row)] != 0; }
 
-  /// Whether an outline leaves the lattice point (i, j) in that direction: solid on its left, free
-  /// on its right. Point (i, j) is the bottom left corner of cell (i, j).
+  /// Whether an outline leaves the lattice point (i, j) in that direction, with solid on its left
+  /// and free space on its right. Point (i, j) is the bottom left corner of cell (i, j).
   [[nodiscard]] bool edge_leaves(int i, int j, unsigned direction) const {
     switch (direction) {
       case kEast:
@@ -61,11 +62,11 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return (p - a - t * way).norm();
 }
 
-/// Marks the vertices between two kept ones that must be kept as well; `last` may be the size,
-/// which stands for the first vertex again.
+/// Marks the vertices between two kept ones that must be kept as well. `last` may be
+/// vertices.size(), which stands for the first vertex.
 void keep_between(const std::vector<Vec2>& vertices, std::size_t first, std::size_t last,
                   double tolerance_m, std::vector<std::uint8_t>& kept) {
-  // A stack of its own: the outline of a large map may have a million vertices.
+  // An explicit stack, since the outline of a large map may have a million vertices.
   std::vector<std::pair<std::size_t, std::size_t>> open{{first, last}};
   while (!open.empty()) {
     const auto [from, to] = open.back();
@@ -115,7 +116,7 @@ std::optional<std::vector<WallLoop>> trace_walls(const OccupancyGrid& grid, cons
   constexpr std::array<int, 4> kStepY{0, 1, 0, -1};
   const FramedGrid cells(grid);
   const std::size_t stride = static_cast<std::size_t>(grid.width) + 1;
-  // Every loop has an edge that leads east, so these alone tell which loops have been followed.
+  // Every loop has an eastward edge, so it suffices to mark these as followed.
   std::vector<std::uint8_t> followed(stride * (static_cast<std::size_t>(grid.height) + 1), 0);
   const auto at = [stride](int i, int j) {
     return static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i);
@@ -131,7 +132,8 @@ std::optional<std::vector<WallLoop>> trace_walls(const OccupancyGrid& grid, cons
       if (followed[at(start_i, start_j)] != 0 || !cells.edge_leaves(start_i, start_j, kEast)) {
         continue;
       }
-      // The leftmost edge of its run, since the others are followed right after it: a corner.
+      // This is the leftmost edge of its run, since the others are followed right after it, so it
+      // begins at a corner.
       WallLoop loop;
       loop.vertices.push_back(point(start_i, start_j));
       int i = start_i;
@@ -141,7 +143,8 @@ std::optional<std::vector<WallLoop>> trace_walls(const OccupancyGrid& grid, cons
         if (direction == kEast) followed[at(i, j)] = 1;
         i += kStepX[direction];
         j += kStepY[direction];
-        // Left first: where two solid cells meet at a corner, the outline stays with its own.
+        // Prefer a left turn: where two solid cells meet only at a corner, the outline stays with
+        // its own.
         unsigned next = (direction + 1U) % 4U;
         if (!cells.edge_leaves(i, j, next)) {
           next = cells.edge_leaves(i, j, direction) ? direction : (direction + 3U) % 4U;

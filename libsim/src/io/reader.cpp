@@ -18,7 +18,7 @@ namespace {
 using Kind = Reader::Value::Kind;
 using NumberKind = Reader::Value::NumberKind;
 
-// The least number that a range "greater than 0" takes.
+// The least number that a range "greater than 0" accepts.
 constexpr double kLeastPositive = 1e-9;
 
 std::string describe(const Reader::Value& value) {
@@ -72,7 +72,7 @@ std::string type_hint(const Reader::Value& value) {
              : "";
 }
 
-/// The value as a whole number, if it is one that 64 bits hold.
+/// The value as an integer, if it is whole and fits into 64 bits.
 std::optional<std::int64_t> as_integer(const Reader::Value& value) {
   if (value.number_kind == NumberKind::kSigned) return value.integer;
   if (value.number_kind == NumberKind::kUnsigned) {
@@ -81,7 +81,7 @@ std::optional<std::int64_t> as_integer(const Reader::Value& value) {
     }
     return static_cast<std::int64_t>(value.natural);
   }
-  // 2^53: beyond it a double does not tell neighbouring whole numbers apart.
+  // 2^53: beyond it, a double cannot represent every integer.
   if (std::abs(value.real) <= 9007199254740992.0 && value.real == std::floor(value.real)) {
     return static_cast<std::int64_t>(value.real);
   }
@@ -119,7 +119,7 @@ struct Reader::State {
         found.line);
   }
 
-  /// Number in range, or an issue and nullopt.
+  /// The number if it is in range; otherwise an issue and nullopt.
   [[nodiscard]] std::optional<double> number(const Value& found, const std::string& place,
                                              const NumberRange& range) const {
     if (found.kind != Kind::kNumber) {
@@ -127,7 +127,7 @@ struct Reader::State {
       return std::nullopt;
     }
     const double v = found.real;
-    // What is divided by must not be so small that the quotient is infinite.
+    // Divisors must not be so small that the quotient is infinite.
     const bool tiny = range.min_exclusive && range.min == 0.0 && v > 0.0 && v < kLeastPositive;
     if (v < range.min || v > range.max || (range.min_exclusive && v == range.min) || tiny) {
       const bool huge = range.min <= -1e9 && range.max >= 1e9;
@@ -200,7 +200,7 @@ bool Reader::is_number() const { return state_->value->kind == Kind::kNumber; }
 bool Reader::is_null() const { return state_->value->kind == Kind::kNull; }
 const std::string& Reader::pointer() const { return state_->pointer; }
 const std::string& Reader::file() const { return state_->document->file; }
-std::string Reader::described() const { return describe(*state_->value); }
+std::string Reader::description_for_message() const { return describe(*state_->value); }
 
 std::optional<std::string> Reader::scalar_text() const {
   const Value& value = *state_->value;
@@ -275,7 +275,7 @@ std::vector<std::string> Reader::keys() const {
   if (!is_object()) return names;
   std::unordered_set<std::string_view> seen;
   for (const Value& member : state_->value->children) {
-    // Of a key that occurs twice (reported by the parser) the first counts.
+    // Of a duplicate key (the parser reports it), the first counts.
     if (seen.insert(member.key).second) names.push_back(member.key);
   }
   return names;

@@ -71,9 +71,9 @@ Polygon read_footprint(Reader& model) {
   if (!list.is_array()) return {};
   const bool clockwise = area_m2(outline) < 0.0;
   if (clockwise) std::reverse(outline.begin(), outline.end());
-  if (auto fault = footprint_fault(outline)) {
-    list.issue("world/bad-footprint", std::move(fault->expected), std::move(fault->found),
-               std::move(fault->hint));
+  if (auto error = check_footprint(outline)) {
+    list.issue("world/bad-footprint", std::move(error->expected), std::move(error->found),
+               std::move(error->hint));
   }
   return outline;
 }
@@ -120,7 +120,7 @@ RobotModel read_model_document(Reader& root, const std::vector<DeviceType>& type
   return model;
 }
 
-/// Reads a model's text. Issues are added to `document`; the model counts only if there are none.
+/// Reads a model's text. Issues are added to `document`; the model is valid only if there are none.
 RobotModel read_model_text(std::string_view text, Reader::Document& document,
                            const std::vector<DeviceType>& types) {
   if (text.size() > kMaxFileBytes) {
@@ -184,7 +184,7 @@ std::vector<DeviceDescription> read_devices(Reader& owner, std::vector<DeviceDes
       } else if (!settings.is_object()) {
         settings.issue("world/wrong-type",
                        "an object {...} of settings, or null for no such device",
-                       settings.described());
+                       settings.description_for_message());
       } else {
         read_device(settings, name, of_model, types, devices);
       }
@@ -200,7 +200,7 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
     const std::map<std::string, std::vector<std::string>>& base) {
   std::vector<std::string> known;
   for (const DeviceDescription& device : devices) known.push_back(device.name);
-  // A model's order holds for those of its devices that the robot has kept.
+  // A model's order of interfaces applies to those of its devices that the robot still has.
   std::map<std::string, std::vector<std::string>> interfaces = base;
   for (auto& [interface, names] : interfaces) {
     std::erase_if(names, [&](const std::string& name) {
@@ -216,7 +216,7 @@ std::map<std::string, std::vector<std::string>> read_interfaces(
       if (std::find(known.begin(), known.end(), name) == known.end()) {
         element.issue("world/unknown-device",
                       "the name of a device of this robot: " + list_text(known),
-                      element.described(), did_you_mean(name, known));
+                      element.description_for_message(), did_you_mean(name, known));
       } else if (std::find(names.begin(), names.end(), name) != names.end()) {
         element.issue("world/duplicate-name", "each device once", in_quotes(name) + " again",
                       "a device has one index of an interface");

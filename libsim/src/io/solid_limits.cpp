@@ -15,16 +15,16 @@
 namespace sim::io {
 namespace {
 
-// Box2D's polygons have no more.
+// Box2D's limit for polygons.
 constexpr std::size_t kMostVertices = 8;
-// A robot of less than this across is lost between the tolerances of the contact solver.
+// A smaller robot is within the tolerances of the contact solver.
 constexpr double kLeastArea_m2 = 1e-4;
-// Of a vertex from the middle of the axle.
+// Distance of a vertex from the centre of the axle.
 constexpr double kFarthestVertex_m = 100.0;
 
 constexpr const char* kTooThin = "the physics cannot build anything thinner";
 
-// So written that NaN is outside.
+// The form of this condition makes it refuse NaN.
 bool within(double value, double least, double most) { return value >= least && value <= most; }
 
 double greatest_coordinate(const Vec2& p) { return p.cwiseAbs().maxCoeff(); }
@@ -33,14 +33,14 @@ std::string range_text(double least, double most, const char* unit) {
   return "a number from " + number_text(least) + " to " + number_text(most) + ' ' + unit;
 }
 
-std::optional<SolidFault> length_fault(const char* key, double value, double most) {
+std::optional<SolidError> check_length(const char* key, double value, double most) {
   if (within(value, kLeastLength_m, most)) return std::nullopt;
-  return SolidFault{key, range_text(kLeastLength_m, most, "m"), number_text(value) + " m",
+  return SolidError{key, range_text(kLeastLength_m, most, "m"), number_text(value) + " m",
                     value < kLeastLength_m ? kTooThin : ""};
 }
 
-// Whether a counter-clockwise outline turns left at each vertex, once round: no straight angles,
-// which the physics would drop.
+// Whether a counter-clockwise outline turns left at each vertex, once around. Straight angles are
+// not allowed, since the physics would drop their vertices.
 bool is_convex(const Polygon& outline) {
   const std::size_t n = outline.size();
   double turned_rad = 0.0;
@@ -54,8 +54,8 @@ bool is_convex(const Polygon& outline) {
   return turned_rad < 2.0 * std::numbers::pi + 1e-6;
 }
 
-// The shortest side of a convex outline, or the distance of two parallels that enclose it,
-// whichever is less.
+// The smaller of the shortest side of a convex outline and the least distance of two parallel lines
+// that enclose it.
 double least_extent_m(const Polygon& outline) {
   double least_m = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -71,66 +71,66 @@ double least_extent_m(const Polygon& outline) {
 
 }  // namespace
 
-std::optional<SolidFault> box_fault(const ObstacleDescription& box) {
+std::optional<SolidError> check_box(const ObstacleDescription& box) {
   if (!within(greatest_coordinate(box.center), 0.0, kFarthest_m)) {
-    return SolidFault{"/center", range_text(-kFarthest_m, kFarthest_m, "m") + " for x and y",
+    return SolidError{"/center", range_text(-kFarthest_m, kFarthest_m, "m") + " for x and y",
                       number_text(box.center.x()) + " and " + number_text(box.center.y()),
                       "move the world's things near its origin"};
   }
   if (!std::isfinite(box.yaw_rad)) {
-    return SolidFault{"/yaw_deg", "a number", number_text(box.yaw_rad), ""};
+    return SolidError{"/yaw_deg", "a number", number_text(box.yaw_rad), ""};
   }
   for (const Eigen::Index axis : {0, 1}) {
-    if (auto fault =
-            length_fault(axis == 0 ? "/size/0" : "/size/1", box.size[axis], kGreatestLength_m)) {
-      return fault;
+    if (auto error =
+            check_length(axis == 0 ? "/size/0" : "/size/1", box.size[axis], kGreatestLength_m)) {
+      return error;
     }
   }
   const double far_m = greatest_coordinate(box.center) + 0.5 * box.size.maxCoeff();
   const double least_m = least_length_m(far_m);
   if (box.size.minCoeff() < least_m) {
-    return SolidFault{box.size.x() < least_m ? "/size/0" : "/size/1",
+    return SolidError{box.size.x() < least_m ? "/size/0" : "/size/1",
                       "sides of at least " + number_text(least_m) + " m so far from the origin (" +
                           number_text(far_m) + " m)",
                       number_text(box.size.minCoeff()) + " m", kTooThin};
   }
-  if (std::isinf(box.height_m) && box.height_m > 0.0) return std::nullopt;  // up to the sky
-  return length_fault("/height", box.height_m, kGreatestLength_m);
+  if (std::isinf(box.height_m) && box.height_m > 0.0) return std::nullopt;  // height without limit
+  return check_length("/height", box.height_m, kGreatestLength_m);
 }
 
-std::optional<SolidFault> floor_fault(const ArenaDescription& arena) {
+std::optional<SolidError> check_floor(const ArenaDescription& arena) {
   for (const Eigen::Index axis : {0, 1}) {
-    if (auto fault =
-            length_fault(axis == 0 ? "/size/0" : "/size/1", arena.size[axis], kGreatestLength_m)) {
-      return fault;
+    if (auto error =
+            check_length(axis == 0 ? "/size/0" : "/size/1", arena.size[axis], kGreatestLength_m)) {
+      return error;
     }
   }
   const double reach_m =
       std::max(greatest_coordinate(arena.origin), greatest_coordinate(arena.origin + arena.size));
   if (!within(reach_m, 0.0, kFarthest_m)) {
-    return SolidFault{"/origin",
+    return SolidError{"/origin",
                       "a floor that ends at most " + number_text(kFarthest_m) +
                           " m from the world's origin, along x and along y",
                       number_text(reach_m) + " m", "subtract the same from all places"};
   }
   if (!std::isinf(arena.border_height_m) || arena.border_height_m < 0.0) {
-    return length_fault("/border_height", arena.border_height_m, kGreatestLength_m);
+    return check_length("/border_height", arena.border_height_m, kGreatestLength_m);
   }
   return std::nullopt;
 }
 
-std::optional<SolidFault> walls_fault(const ArenaDescription& arena) {
-  constexpr double kRounding = 1.0 - 1e-3;  // of places far from the origin
+std::optional<SolidError> check_walls(const ArenaDescription& arena) {
+  constexpr double kRounding = 1.0 - 1e-3;  // of positions far from the origin
   for (const WallLoop& loop : arena.walls) {
     if (loop.vertices.size() < 3) {
-      return SolidFault{"/map", "walls of at least 3 vertices",
+      return SolidError{"/map", "walls of at least 3 vertices",
                         std::to_string(loop.vertices.size()), ""};
     }
     for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
       const Vec2& a = loop.vertices[i];
       const double far_m = greatest_coordinate(a);
       if (!within(far_m, 0.0, kFarthest_m)) {
-        return SolidFault{"/map/origin",
+        return SolidError{"/map/origin",
                           "walls that end at most " + number_text(kFarthest_m) +
                               " m from the world's origin, along x and along y",
                           number_text(far_m) + " m", "subtract the same from all places"};
@@ -138,7 +138,7 @@ std::optional<SolidFault> walls_fault(const ArenaDescription& arena) {
       const double edge_m = (loop.vertices[(i + 1) % loop.vertices.size()] - a).norm();
       const double least_m = least_length_m(far_m);
       if (!(edge_m >= kRounding * least_m)) {
-        return SolidFault{"/map/resolution",
+        return SolidError{"/map/resolution",
                           "walls with edges of at least " + number_text(least_m) +
                               " m so far from the origin (" + number_text(far_m) + " m)",
                           number_text(edge_m) + " m", kTooThin};
@@ -156,27 +156,27 @@ double area_m2(const Polygon& outline) {
   return 0.5 * twice;
 }
 
-std::optional<SolidFault> footprint_fault(const Polygon& outline) {
+std::optional<SolidError> check_footprint(const Polygon& outline) {
   constexpr const char* kKey = "/footprint";
   if (outline.size() < 3 || outline.size() > kMostVertices) {
-    return SolidFault{kKey, "3 to 8 points", std::to_string(outline.size()), ""};
+    return SolidError{kKey, "3 to 8 points", std::to_string(outline.size()), ""};
   }
   for (const Vec2& vertex : outline) {
     if (within(greatest_coordinate(vertex), 0.0, kFarthestVertex_m)) continue;
-    return SolidFault{kKey, "points at most 100 m from the middle of the robot along x and y",
+    return SolidError{kKey, "points at most 100 m from the middle of the robot along x and y",
                       number_text(vertex.x()) + " and " + number_text(vertex.y()), ""};
   }
   if (!is_convex(outline)) {
-    return SolidFault{kKey, "the corners of a convex outline, in order",
+    return SolidError{kKey, "the corners of a convex outline, in order",
                       "an outline with a notch, a straight corner or a crossing",
                       "take the convex outline round the robot"};
   }
   if (area_m2(outline) < kLeastArea_m2) {
-    return SolidFault{kKey, "an outline of at least 1 cm^2",
+    return SolidError{kKey, "an outline of at least 1 cm^2",
                       number_text(area_m2(outline) * 1e4) + " cm^2", "points are in m"};
   }
   if (const double extent_m = least_extent_m(outline); extent_m < kLeastLength_m) {
-    return SolidFault{kKey,
+    return SolidError{kKey,
                       "an outline that is at least " + number_text(kLeastLength_m) +
                           " m wide, with no side shorter than that",
                       number_text(extent_m) + " m", "leave out points that are that close"};
@@ -184,25 +184,25 @@ std::optional<SolidFault> footprint_fault(const Polygon& outline) {
   return std::nullopt;
 }
 
-std::optional<SolidFault> model_fault(const RobotModel& model) {
+std::optional<SolidError> check_model(const RobotModel& model) {
   constexpr double kGreatestRobot_m = 100.0;
-  if (auto fault = footprint_fault(model.footprint)) return fault;
+  if (auto error = check_footprint(model.footprint)) return error;
   const DriveDescription& drive = model.drive;
   using Length = std::pair<const char*, double>;
   for (const auto& [key, value_m] :
        {Length("/height", model.height_m), Length("/drive/wheel_radius", drive.wheel_radius_m),
         Length("/drive/wheel_separation", drive.wheel_separation_m),
         Length("/drive/wheelbase", drive.wheelbase_m)}) {
-    if (auto fault = length_fault(key, value_m, kGreatestRobot_m)) return fault;
+    if (auto error = check_length(key, value_m, kGreatestRobot_m)) return error;
   }
   if (!within(model.mass_kg, kLeastMass_kg, kGreatestMass_kg)) {
-    return SolidFault{"/mass", range_text(kLeastMass_kg, kGreatestMass_kg, "kg"),
+    return SolidError{"/mass", range_text(kLeastMass_kg, kGreatestMass_kg, "kg"),
                       number_text(model.mass_kg) + " kg", ""};
   }
   return std::nullopt;
 }
 
-bool is_place(const Pose& X_WB) noexcept {
+bool is_valid_pose(const Pose& X_WB) noexcept {
   return within(greatest_coordinate(X_WB.position()), 0.0, kFarthest_m) &&
          std::isfinite(X_WB.yaw_rad);
 }

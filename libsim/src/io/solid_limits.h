@@ -7,39 +7,40 @@
 #include "sim/world/description.h"
 #include "sim/world/robot_model.h"
 
-/// What the physics can build: sizes, places and outlines outside of these limits end in an
-/// assertion of Box2D, or in a division by zero.
+/// Limits of what the physics can build. Sizes, positions and outlines outside these limits end in
+/// an assertion of Box2D or in a division by zero.
 namespace sim::io {
 
-/// What is wrong with a number, an outline or a place, as a ConfigIssue tells it.
-struct SolidFault {
-  std::string key;  ///< the member that it concerns, e.g. "/size/0"; "": the whole
+/// An error in a number, an outline or a position, with the texts of a ConfigIssue.
+struct SolidError {
+  std::string key;  ///< the wrong member, e.g. "/size/0"; "": the whole
   std::string expected;
   std::string found;
   std::string hint;
 };
 
-/// Of a box that stands on the floor: finite, at least least_length_m() along each side and
-/// kLeastLength_m high, within kFarthest_m of the origin of W. nullopt if it can be built.
-[[nodiscard]] std::optional<SolidFault> box_fault(const ObstacleDescription& box);
+/// Checks a box that stands on the floor: finite numbers, at least least_length_m() along each side
+/// and kLeastLength_m high, within kFarthest_m of the origin of W. nullopt if it can be built.
+[[nodiscard]] std::optional<SolidError> check_box(const ObstacleDescription& box);
 
-/// Of a floor: its size and how far it reaches.
-[[nodiscard]] std::optional<SolidFault> floor_fault(const ArenaDescription& arena);
+/// Checks the size and the position of a floor.
+[[nodiscard]] std::optional<SolidError> check_floor(const ArenaDescription& arena);
 
-/// Of the walls of a map: finite, within kFarthest_m, no edge shorter than least_length_m().
-[[nodiscard]] std::optional<SolidFault> walls_fault(const ArenaDescription& arena);
+/// Checks the walls of a map: finite numbers, within kFarthest_m, no edge shorter than
+/// least_length_m().
+[[nodiscard]] std::optional<SolidError> check_walls(const ArenaDescription& arena);
 
-/// Of a robot's outline: 3 to 8 vertices, convex, counter-clockwise, at least 1 cm^2 large and
+/// Checks a robot's outline: 3 to 8 vertices, convex, counter-clockwise, at least 1 cm^2 large and
 /// kLeastLength_m across, no side shorter than that.
-[[nodiscard]] std::optional<SolidFault> footprint_fault(const Polygon& outline);
+[[nodiscard]] std::optional<SolidError> check_footprint(const Polygon& outline);
 
-/// Of a robot model: its outline, height, mass and wheels.
-[[nodiscard]] std::optional<SolidFault> model_fault(const RobotModel& model);
+/// Checks a robot model: its outline, height, mass and wheels.
+[[nodiscard]] std::optional<SolidError> check_model(const RobotModel& model);
 
-/// Whether a pose is one of numbers, within kFarthest_m of the origin of W.
-[[nodiscard]] bool is_place(const Pose& X_WB) noexcept;
+/// Whether a pose is finite and within kFarthest_m of the origin of W.
+[[nodiscard]] bool is_valid_pose(const Pose& X_WB) noexcept;
 
-/// Twice the area of a polygon is positive if it runs counter-clockwise [m^2].
+/// Signed area of a polygon [m^2]: positive if it runs counter-clockwise.
 [[nodiscard]] double area_m2(const Polygon& outline);
 
 }  // namespace sim::io

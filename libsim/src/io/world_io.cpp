@@ -24,18 +24,18 @@
 namespace sim::io {
 namespace {
 
-constexpr int kFirstPort = 6665;  ///< Player's own
-constexpr int kMorsePort = 4000;  ///< where all robots are visible
+constexpr int kFirstPort = 6665;  ///< Player's default
+constexpr int kMorsePort = 4000;  ///< on this port all robots are visible
 constexpr std::size_t kMaxRobots = 1000;
 constexpr std::size_t kMaxObstacles = 100'000;
 
 constexpr NumberRange kPosition{-kFarthest_m, kFarthest_m, false, "m"};
 constexpr NumberRange kArenaLength{kLeastLength_m, kGreatestLength_m, false, "m"};
 constexpr NumberRange kHeight{kLeastLength_m, 10.0, false, "m"};
-// A cell of the canvas, which physics knows nothing of.
+// Side of a canvas cell, to which the limits of the physics do not apply.
 constexpr NumberRange kCellSide{1e-4, 10.0, false, "m"};
 
-/// Colours of robots that are given none, told apart at a glance and none of them the red of
+/// Colours of robots without one in the file: easy to distinguish, and different from the red of
 /// dynamic blocks.
 constexpr std::array<Colour, 13> kPalette{{{0xff, 0x88, 0x00, 0xff},
                                            {0x2a, 0x7f, 0xde, 0xff},
@@ -51,7 +51,7 @@ constexpr std::array<Colour, 13> kPalette{{{0xff, 0x88, 0x00, 0xff},
                                            {0x5c, 0x66, 0x70, 0xff},
                                            {0x5c, 0xc8, 0xff, 0xff}}};
 
-/// The first of prefix1, prefix2, ... from `number` on that is not taken; takes it.
+/// The first free name among prefix1, prefix2, ... from `number` on; marks it as taken.
 std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
   for (;; ++number) {
     std::string name = prefix + std::to_string(number);
@@ -163,7 +163,7 @@ class WorldReader {
     }
   }
 
-  /// What fiducial devices read of an obstacle or a robot.
+  /// The number of an obstacle or a robot for fiducial devices.
   static int read_fiducial(Reader& reader) {
     return static_cast<int>(
         reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
@@ -191,7 +191,7 @@ class WorldReader {
     for (const std::size_t i : unnamed) docks[i].name = free_name("dock", ++number, taken);
   }
 
-  /// The lists "extended" and "retracted": names of dynamic obstacles to set.
+  /// Reads the lists "extended" and "retracted" with names of dynamic obstacles.
   void set_states(Reader& arena) {
     std::set<std::string> extended;
     for (const auto& [key, state] : {std::pair("extended", ObstacleState::kExtended),
@@ -211,11 +211,11 @@ class WorldReader {
     }
   }
 
-  /// The dynamic obstacle that a list's element names; nullptr and an issue if there is none.
+  /// The dynamic obstacle that a list element names; nullptr and an issue if there is none.
   ObstacleDescription* named_dynamic(Reader& element) {
     if (!element.is_string()) {
       element.issue("world/wrong-type", "the name of a dynamic obstacle in double quotes",
-                    element.described());
+                    element.description_for_message());
       return nullptr;
     }
     const std::string name = element.scalar_text().value_or("");
@@ -325,14 +325,14 @@ class WorldReader {
       } else {
         reader->issue("world/wrong-type",
                       "\"lockstep\", \"real\" or a number: how many times real time",
-                      time->described(), "", "time");
+                      time->description_for_message(), "", "time");
       }
     }
     reader->finish();
   }
 
-  /// By default the canvas covers the floor in cells of 2 cm, or coarser ones if they would be
-  /// more than 4096 a side.
+  /// By default the canvas covers the floor with cells of 2 cm, or larger cells if more than 4096
+  /// per side would be needed.
   void read_canvas(Reader& root) {
     constexpr double kMaxDefaultSide = 4096.0;
     CanvasDescription& canvas = world_.canvas;
@@ -348,7 +348,7 @@ class WorldReader {
       canvas.cell_size_m = reader->number("cell_size", canvas.cell_size_m, kCellSide);
       canvas.origin = reader->vec2("origin", canvas.origin, kPosition);
     }
-    // Rounded up to an even number, which films need; 1e-9 forgives 3.42 / 0.02 > 171.
+    // Rounded up to an even number, as films require; 1e-9 compensates 3.42 / 0.02 > 171.
     const auto cells = [&canvas](double length_m) {
       const double count = 2.0 * std::ceil(0.5 * (length_m / canvas.cell_size_m - 1e-9));
       return static_cast<std::int64_t>(std::clamp(count, 1.0, 1e9));
@@ -414,7 +414,7 @@ class WorldReader {
     place_robots(unplaced);
   }
 
-  /// Gives robots without a pose a free place each.
+  /// Gives each robot without a pose a free place.
   void place_robots(const std::vector<std::size_t>& unplaced) {
     if (document_.has_issue_at("/arena")) return;
     WorldDescription others;
@@ -426,7 +426,7 @@ class WorldReader {
         others.robots.push_back(world_.robots[i]);
       }
     }
-    // Where there was no room for a model before, there is none now.
+    // If a model had no room before, it has none now.
     std::map<const RobotModel*, std::size_t> places_tried;
     for (const std::size_t i : unplaced) {
       RobotDescription& robot = world_.robots[i];
@@ -453,7 +453,7 @@ class WorldReader {
 
   /// @return 0 if there is none.
   static int read_port(Reader& reader, const char* key) {
-    constexpr int kFirstFree = 1024;  // those below belong to the system
+    constexpr int kFirstFree = 1024;  // lower ports are reserved by the system
     constexpr int kLast = 65535;
     if (!reader.has(key)) return 0;
     const int port = static_cast<int>(reader.integer(key, 0, kFirstFree, kLast));
@@ -466,12 +466,12 @@ class WorldReader {
   void read_robot(Reader& reader, RobotDescription& robot) {
     robot.name = reader.name("name", "");
     robot.model = reader.string("model", robot.model);
-    const bool model_is_sound = load_model(reader, robot.model);
-    if (!model_is_sound) robot.model = default_robot_model().name;
+    const bool model_is_valid = load_model(reader, robot.model);
+    if (!model_is_valid) robot.model = default_robot_model().name;
     robot.pose = reader.pose("pose", robot.pose);
     robot.colour = reader.colour("colour", robot.colour);
     robot.port = read_port(reader, "port");
-    if (!model_is_sound) return;  // of what depends on the model nothing can be said
+    if (!model_is_valid) return;  // the rest depends on the model
     const RobotModel& model = *find_robot_model(world_, robot.model);
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);
     if (std::optional<Reader> proxies = reader.object("proxies")) {
@@ -487,9 +487,9 @@ class WorldReader {
     reader.finish();
   }
 
-  /// Sees to it that find_robot_model() knows a model that a robot names. Issues of a model's file
-  /// are told once.
-  /// @return false if it is not sound.
+  /// Adds the model that a robot names to the world, if it is not there yet. Issues of a model's
+  /// file are reported once.
+  /// @return false if the model is invalid.
   bool load_model(Reader& robot_reader, const std::string& name) {
     if (find_robot_model(world_, name) != nullptr) return true;
     if (bad_models_.contains(name)) return false;
@@ -513,7 +513,8 @@ class WorldReader {
       if (const std::optional<std::string> text = setting.scalar_text()) {
         driver.settings[key] = *text;
       } else {
-        setting.issue("world/wrong-type", "a number, a text, true or false", setting.described());
+        setting.issue("world/wrong-type", "a number, a text, true or false",
+                      setting.description_for_message());
       }
     }
     return driver;
@@ -543,13 +544,13 @@ WorldDescription read_world_text(std::string_view text, const std::string& file,
 
 namespace {
 
-/// Whether a file, by its ending and its first word, is one of Stage's or Player's.
+/// Whether a file is one of Stage's or Player's, judged by its extension and its first character.
 bool is_stage_file(const std::string& path, std::string_view text) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending != ".world" && ending != ".inc" && ending != ".cfg") return false;
   std::size_t at = 0;
   while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string_view::npos) {
-    if (text[at] != '#') break;  // a comment up to the end of the line
+    if (text[at] != '#') break;  // skip a comment to the end of the line
     at = std::min(text.find('\n', at), text.size());
   }
   // JSON begins with a bracket, a quote, a number or the '/' of a comment.

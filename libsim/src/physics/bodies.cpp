@@ -7,11 +7,12 @@
 namespace sim::physics {
 namespace {
 
-// For so many parts of a step Box2D keeps the body of a robot that nothing hinders any more.
-constexpr std::uint8_t kKeptParts = 5;
+// A robot that nothing hinders any more keeps its Box2D body for this many substeps.
+constexpr std::uint8_t kSubstepsInBox2d = 5;
 
-// Lets the body turn about B, the axle's centre, as its wheels make it: to Box2D a body's velocity
-// is that of its centre of mass. Outlines that are round about B but for rounding keep theirs.
+// Makes the body rotate around B, the axle's centre, as its wheels do: Box2D defines a body's
+// velocity at its centre of mass. Outlines whose centre of mass is B, except for rounding, are not
+// changed.
 void center_mass_on_axle(b2Body& body) {
   constexpr float kRounding = 1e-4F;
   if (body.GetLocalCenter().Length() <= kRounding) return;
@@ -21,7 +22,8 @@ void center_mass_on_axle(b2Body& body) {
   body.SetMassData(&mass);
 }
 
-// A mass beside which all others are nothing, rather than a static body: contacts live on.
+// Makes the body too heavy to be moved by others. A static body would have the same effect, but the
+// change would end its contacts.
 void make_heavy(b2Body& body) {
   constexpr float kMore = 1e9F;
   b2MassData mass;
@@ -35,8 +37,8 @@ void make_heavy(b2Body& body) {
 
 Bodies::Bodies(const ArenaDescription& arena)
     : world_(b2Vec2(0.0F, 0.0F)), separator_count_(arena.dock_separators.size()) {
-  world_.SetAutoClearForces(false);    // there are none
-  world_.SetContinuousPhysics(false);  // kMaxTravel_m and feasible_twist do its work
+  world_.SetAutoClearForces(false);    // no forces are ever applied
+  world_.SetContinuousPhysics(false);  // kMaxTravel_m and feasible_twist prevent tunnelling
   b2BodyDef ground;
   static_body_ = world_.CreateBody(&ground);
   add_obstacles(arena);
@@ -74,7 +76,7 @@ void Bodies::add_box(const ObstacleDescription& o, Contact::Kind kind, int index
   FixtureInfo* info = new_info(kind, index, o.height_m);
   const std::vector<Vec2> corners = box_corners(o);
   append_outline(*info, corners);
-  b2BodyDef def;  // a body of its own, so that it can be switched off
+  b2BodyDef def;  // a separate body, so that it can be disabled
   b2Body* body = world_.CreateBody(&def);
   attach(body, polygon_shape(corners), info, 0.0F);
   body->SetEnabled(o.type == ObstacleType::kStatic || o.state == ObstacleState::kExtended);
@@ -105,7 +107,7 @@ void Bodies::add_border(const ArenaDescription& arena) {
                                                        {{x1 + 0.5 * t, mid.y()}, {t, h}},
                                                        {{mid.x(), y1 + 0.5 * t}, {w, t}},
                                                        {{x0 - 0.5 * t, mid.y()}, {t, h}}}};
-  // Seen from inside, the solid is on the left of edges that run clockwise round the floor.
+  // Seen from inside, edges that run clockwise around the floor have the solid on their left.
   const std::array<Edge, 4> faces = {
       {{x1, y0, x0, y0}, {x1, y1, x1, y0}, {x0, y1, x1, y1}, {x0, y0, x0, y1}}};
   for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -127,7 +129,7 @@ void Bodies::add_wall(const WallLoop& loop) {
     const Vec2& a = loop.vertices[i];
     const Vec2& b = loop.vertices[(i + 1) % n];
     const Vec2& after = loop.vertices[(i + 2) % n];
-    // Walls of a map have no height of their own: every sensor sees them.
+    // Walls of a map have unlimited height: every sensor sees them.
     FixtureInfo* info = new_info(Contact::Kind::kWall, -1, std::numeric_limits<double>::infinity());
     info->first_edge = edges_.edges.size();
     info->edge_count = 1;
@@ -174,7 +176,7 @@ int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
 
   r.details->info = new_info(Contact::Kind::kRobot, index, model.height_m);
   r.details->mass_kg = model.mass_kg;
-  keep_in_box2d(r);
+  ensure_box2d_body(r);
   r.details->inertia_kgm2 = static_cast<double>(r.body->GetInertia()) / (kScale * kScale);
 
   largest_radius_m_ = std::max(largest_radius_m_, r.radius_m);
@@ -220,8 +222,8 @@ int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf) const {
   return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
 }
 
-// Gives Box2D a body for a robot, at rest.
-void Bodies::put_into_box2d(Robot& r) {
+// Creates a Box2D body for a robot, at rest.
+void Bodies::create_box2d_body(Robot& r) {
   b2BodyDef def;
   def.type = b2_dynamicBody;
   def.position = to_box2d(r.X_WB.position());
@@ -236,15 +238,15 @@ void Bodies::put_into_box2d(Robot& r) {
   if (r.suspended) make_heavy(*r.body);
 }
 
-void Bodies::take_out_of_box2d(Robot& r) {
+void Bodies::destroy_box2d_body(Robot& r) {
   world_.DestroyBody(r.body);
   r.body = nullptr;
   --in_box2d_;
 }
 
-void Bodies::keep_in_box2d(Robot& r) {
-  if (r.body == nullptr) put_into_box2d(r);
-  r.kept_parts = kKeptParts;
+void Bodies::ensure_box2d_body(Robot& r) {
+  if (r.body == nullptr) create_box2d_body(r);
+  r.substeps_in_box2d = kSubstepsInBox2d;
 }
 
 const std::vector<Bodies::Circle>& Bodies::by_x() {

@@ -17,10 +17,10 @@
 
 namespace sim::physics {
 
-/// Box2D's world: the solids of the arena, and a body for each robot that something hinders.
+/// Box2D's world: the solids of the arena, and a body for each hindered robot.
 class Bodies {
  public:
-  /// Round a robot.
+  /// A robot's bounding circle.
   struct Circle {
     double x, y, radius;
     int robot;
@@ -32,7 +32,7 @@ class Bodies {
   [[nodiscard]] const b2World& world() const noexcept { return world_; }
 
   // --- Robots
-  /// Adds a robot at rest; Box2D has a body for it.
+  /// Adds a robot at rest, with a Box2D body.
   int add_robot(const RobotModel& model, const Pose& X_WB);
   [[nodiscard]] std::vector<Robot>& robots() noexcept { return robots_; }
   [[nodiscard]] const std::vector<Robot>& robots() const noexcept { return robots_; }
@@ -40,24 +40,25 @@ class Bodies {
   [[nodiscard]] const Robot& robot(int index) const {
     return robots_[static_cast<std::size_t>(index)];
   }
-  /// Puts a robot somewhere, at rest.
+  /// Places a robot at a pose, at rest.
   void set_pose(Robot& r, const Pose& X_WB);
   void set_suspended(Robot& r, bool suspended);
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_radius_m_; }
-  /// The first robot whose footprint overlaps a shape; -1 if none does.
+  /// The first robot whose footprint overlaps a shape; -1 if there is none.
   [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
 
-  /// Lets Box2D have a body for a robot, for some parts of a step from now on.
-  void keep_in_box2d(Robot& r);
-  void take_out_of_box2d(Robot& r);
-  /// Whether Box2D has a body for any robot.
+  /// Gives a robot a Box2D body for the next substeps.
+  void ensure_box2d_body(Robot& r);
+  void destroy_box2d_body(Robot& r);
+  /// Whether any robot has a Box2D body.
   [[nodiscard]] bool has_robots_in_box2d() const noexcept { return in_box2d_ > 0; }
 
-  /// Robots have moved.
+  /// Must be called after robots have moved.
   void note_moved() noexcept { order_fresh_ = false; }
-  /// The circles round all robots, in order of x.
+  /// The bounding circles of all robots, sorted by x.
   [[nodiscard]] const std::vector<Circle>& by_x();
-  /// Calls visit(circle) for the circle round every robot that may reach into a box, in order of x.
+  /// Calls visit(circle) for the bounding circle of every robot that may reach into a box, in order
+  /// of x.
   template <typename Visitor>
   void for_robots_in(const Vec2& low, const Vec2& high, Visitor visit) {
     const std::vector<Circle>& order = by_x();
@@ -69,11 +70,11 @@ class Bodies {
     }
   }
 
-  // --- What does not move
+  // --- Static solids
   [[nodiscard]] const std::vector<std::unique_ptr<FixtureInfo>>& infos() const noexcept {
     return infos_;
   }
-  /// Edges of every static thing, extended or not.
+  /// Edges of all static solids, extended or not.
   [[nodiscard]] const EdgeList& edges() const noexcept { return edges_; }
   [[nodiscard]] const std::vector<b2Body*>& obstacles() const noexcept { return obstacles_; }
   [[nodiscard]] b2Body& obstacle(int index) const {
@@ -81,11 +82,11 @@ class Bodies {
   }
   [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
   void change_obstacle(int index, const ObstacleDescription& now);
-  /// Writes or reads the state. Obstacles come with their shapes.
+  /// Writes or reads the state, including the shapes of obstacles.
   void archive(StateArchive& archive);
-  /// All that are there now, by FixtureInfo::id; nullptr: not Box2D's.
+  /// All existing fixtures, by FixtureInfo::id; nullptr if Box2D has none of that id.
   [[nodiscard]] std::vector<b2Fixture*> fixtures();
-  /// Whether there are walls of a map, and how far to the right they reach.
+  /// Whether the world has walls of a map, and their largest x coordinate.
   [[nodiscard]] bool has_walls() const noexcept { return has_walls_; }
   [[nodiscard]] double wall_right_m() const noexcept { return wall_right_m_; }
 
@@ -97,7 +98,7 @@ class Bodies {
   void add_obstacles(const ArenaDescription& arena);
   void add_border(const ArenaDescription& arena);
   void add_wall(const WallLoop& loop);
-  void put_into_box2d(Robot& r);
+  void create_box2d_body(Robot& r);
   void archive_obstacle(StateArchive& archive, b2Body& body);
 
   b2World world_;
@@ -110,11 +111,11 @@ class Bodies {
   EdgeList edges_;
 
   std::vector<Robot> robots_;
-  std::deque<BodyState> states_;      // of them
-  std::deque<RobotDetails> details_;  // likewise
+  std::deque<BodyState> states_;      // of `robots_`
+  std::deque<RobotDetails> details_;  // of `robots_`
   double largest_radius_m_ = 0.0;
-  int in_box2d_ = 0;          // robots that Box2D has
-  std::vector<Circle> by_x_;  // round the robots, in this order
+  int in_box2d_ = 0;          // number of robots with a Box2D body
+  std::vector<Circle> by_x_;  // bounding circles of the robots, sorted by x
   bool order_fresh_ = false;
 };
 

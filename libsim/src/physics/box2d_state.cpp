@@ -12,8 +12,8 @@
 namespace sim::physics {
 namespace {
 
-// Box2D neither tells nor takes most of this: the members are private. An explicit instantiation
-// may name any member ([temp.spec.general]/6), so the compiler checks these against its headers.
+// Most of this state is private in Box2D. An explicit instantiation may name any member
+// ([temp.spec.general]/6), so the compiler checks these against Box2D's headers.
 template <typename Tag, typename Tag::Member kMember>
 struct Opening {
   friend constexpr typename Tag::Member member_of(Tag) { return kMember; }
@@ -49,7 +49,7 @@ SIM_OPEN(TreeFree, b2DynamicTree, int32, m_freeList)
 SIM_OPEN(TreeInsertions, b2DynamicTree, int32, m_insertionCount)
 #undef SIM_OPEN
 
-// Flags that are set and cleared within a step.
+// Flags that Box2D sets and clears within a step.
 constexpr unsigned kBodyStepFlags = 0x0001;                   // b2Body::e_islandFlag
 constexpr unsigned kContactFlags = 0x0002 | 0x0004 | 0x0008;  // touching, enabled, to be filtered
 constexpr unsigned kTouching = 0x0002;
@@ -88,7 +88,7 @@ void archive_manifold(StateArchive& archive, b2Manifold& manifold) {
   }
 }
 
-// Contacts from the oldest on: each new one goes to the head of all lists that it is in.
+// Contacts from the oldest to the newest: Box2D inserts each new one at the head of all its lists.
 void archive_contacts(StateArchive& archive, b2World& world,
                       const std::vector<b2Fixture*>& fixtures) {
   b2ContactManager& manager = world.*member_of(WorldContacts{});
@@ -123,7 +123,7 @@ void archive_contacts(StateArchive& archive, b2World& world,
   });
 }
 
-// A node as it is written; of a free one `parent` is the next.
+// A node as written; for a free node, `parent` is the next free node.
 struct NodeState {
   std::array<float, 4> box;
   std::int32_t parent, child1, child2, height, moved;
@@ -152,8 +152,8 @@ void set_node(b2TreeNode& node, const NodeState& state) {
   node.moved = state.moved != 0;
 }
 
-// Whether links and heights are those of a tree with all nodes that are used, the others being
-// free, and its leaves those of `leaves` things.
+// Whether links and heights form a tree of `used` nodes with `leaves` leaves, and all other nodes
+// are free.
 bool is_tree(const std::vector<NodeState>& nodes, int32 root, int32 free, std::size_t used,
              std::size_t leaves) {
   const auto there = [&](int32 i) { return i >= 0 && static_cast<std::size_t>(i) < nodes.size(); };

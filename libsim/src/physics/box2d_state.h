@@ -10,17 +10,17 @@
 
 namespace sim::physics {
 
-/// Writes or reads all that Box2D keeps of a world besides shapes and masses: how bodies move,
-/// contacts with their impulses, in Box2D's order, and the tree and the buffer of its broad phase.
+/// Writes or reads Box2D's state of a world, except shapes and masses: the motion of bodies,
+/// contacts with their impulses in Box2D's order, and the tree and the buffer of the broad phase.
 ///
-/// All of it bears on what happens next: contacts are solved in the order in which the tree gave
-/// them, and begin from the impulses of the step before.
-/// @param fixtures  all of the world, by FixtureInfo::id; nullptr: not there now. When reading, the
-///                  bodies are there already, made in the order of those that were written.
+/// All of this affects later steps: contacts are solved in the order in which the tree reported
+/// them, and start with the impulses of the previous step.
+/// @param fixtures  all fixtures of the world, by FixtureInfo::id; nullptr: does not exist now.
+///     When reading, the bodies must exist, created in the order of those that were written.
 void archive_box2d(StateArchive& archive, b2World& world, const std::vector<b2Fixture*>& fixtures);
 
-/// Writes or reads where b2Distance begins.
-/// @param a, b  the shapes between which it is.
+/// Writes or reads the starting point of b2Distance.
+/// @param a, b  the two shapes.
 void archive_cache(StateArchive& archive, b2SimplexCache& cache, const b2Shape& a,
                    const b2Shape& b);
 

@@ -4,7 +4,7 @@
 namespace sim::physics {
 namespace {
 
-// What a contact's points span, for one of the two robots that may be in it.
+// Adds the line between a contact's points to the touches of one of its robots.
 void add_touch(const b2Contact& contact, int robot, std::vector<Touch>& into) {
   const int32 count = contact.GetManifold()->pointCount;
   if (count == 0) return;
@@ -23,7 +23,7 @@ void Contacts::begin_step() {
   new_touches_.clear();
 }
 
-// One slot a partner: obstacles, separators, border, wall, robots.
+// One slot per partner: obstacles, separators, border, wall, robots.
 std::size_t Contacts::slot(const FixtureInfo& info) const {
   const std::size_t obstacles = bodies_.obstacles().size();
   switch (info.kind) {
@@ -87,7 +87,7 @@ std::vector<Touch> Contacts::touches_of(int robot) const {
   for (const b2ContactEdge* e = contact_list(body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) add_touch(*e->contact, robot, touches);
   }
-  // A step may be made in several parts: what began in one may have ended in another.
+  // A step may have several substeps: a contact that began in one may have ended in another.
   for (const Touch& touch : new_touches_) {
     if (touch.robot == robot) touches.push_back(touch);
   }

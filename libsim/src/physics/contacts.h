@@ -12,17 +12,17 @@ namespace sim::physics {
 
 using Touch = PhysicsWorld::Touch;
 
-/// Contacts of robots as Box2D tells of them.
+/// The contacts of robots that Box2D reports.
 class Contacts final : public b2ContactListener {
  public:
   explicit Contacts(Bodies& bodies);
 
   void begin_step();
-  /// Writes or reads the state. When reading, Box2D's contacts are there already.
+  /// Writes or reads the state. When reading, Box2D's contacts must have been read before.
   void archive(StateArchive& archive);
-  /// Those that began in this step.
+  /// The contacts that began in this step.
   [[nodiscard]] const std::vector<Contact>& fresh() const noexcept { return fresh_; }
-  /// As PhysicsWorld::contacts_of() and touches_of().
+  /// See PhysicsWorld::contacts_of() and touches_of().
   [[nodiscard]] std::vector<Contact> of(int robot) const;
   [[nodiscard]] std::vector<Touch> touches_of(int robot) const;
 

@@ -44,8 +44,8 @@ Twist feasible_twist(const Twist& target, double mass_kg, double inertia_kgm2,
     const double nx = c.along / sv;
     const double ny = c.turning / sw;
     const double length = std::hypot(nx, ny);
-    // A contact that neither driving nor turning can push against (a normal along the axle,
-    // through its centre) constrains nothing.
+    // Neither driving nor turning can push against such a contact (its normal runs along the axle
+    // through B), so it constrains nothing.
     if (length < 1e-12) continue;
     lines.push_back({nx / length, ny / length, c.limit / length});
   }
@@ -78,7 +78,8 @@ Twist feasible_twist(const Twist& target, double mass_kg, double inertia_kgm2,
 
 Twist feasible_planar_twist(const Twist& target, double mass_kg, double inertia_kgm2,
                             const std::vector<TwistConstraint>& constraints) {
-  // As above, in the scaled space (sqrt(m) v, sqrt(m) lateral, sqrt(I) omega).
+  // In the scaled space (sqrt(m) v, sqrt(m) lateral, sqrt(I) omega), the cost is the squared
+  // distance.
   using Eigen::Vector3d;
   const Vector3d scale(std::sqrt(mass_kg), std::sqrt(mass_kg), std::sqrt(inertia_kgm2));
   struct Plane {
@@ -113,7 +114,8 @@ Twist feasible_planar_twist(const Twist& target, double mass_kg, double inertia_
     if (excess_a > 0.0) consider(wanted - excess_a * a.normal);
     for (std::size_t j = i + 1; j < planes.size(); ++j) {
       const Plane& b = planes[j];
-      // Least shift to the line where both hold: a combination of the two normals.
+      // The nearest point at which both constraints hold with equality: a combination of the two
+      // normals.
       const double cosine = a.normal.dot(b.normal);
       const double det = 1.0 - cosine * cosine;
       if (det < 1e-9) continue;

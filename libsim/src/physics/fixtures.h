@@ -16,7 +16,7 @@ namespace sim::physics {
 
 using Contact = PhysicsWorld::Contact;
 
-/// What a fixture of Box2D belongs to.
+/// The owner of a Box2D fixture.
 struct FixtureInfo {
   Contact::Kind kind;
   int index;  ///< of the obstacle, separator or robot; -1 for borders and walls
@@ -30,8 +30,8 @@ struct Edge {
   double x0, y0, x1, y1;
 };
 
-/// Edges of solids with their heights, in one array, so that a small world's are collected in one
-/// sweep.
+/// Edges of solids with their heights, in one array, so that the edges of a small world are
+/// collected in one sweep.
 struct EdgeList {
   std::vector<Edge> edges;
   std::vector<double> heights_m;
@@ -54,7 +54,7 @@ inline const FixtureInfo& info_of(const b2Fixture* fixture) {
       const_cast<b2Fixture*>(fixture)->GetUserData().pointer);
 }
 
-/// Calls visit(fixture) for everything but robots whose fat box meets the box.
+/// Calls visit(fixture) for every fixture, except those of robots, whose fat AABB meets the box.
 template <typename Visitor>
 void visit_fixed(const b2World& world, const b2AABB& box, Visitor visit) {
   struct Callback : b2QueryCallback {

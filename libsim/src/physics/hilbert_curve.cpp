@@ -15,13 +15,14 @@ std::uint32_t along_hilbert_curve(const Vec2& p_W) {
   std::uint32_t x = square(p_W.x());
   std::uint32_t y = square(p_W.y());
   std::uint32_t along = 0;
-  // Quarter by quarter, in turns: lower left, upper left, upper right, lower right.
+  // Descends into quarters, which the curve visits in this order: lower left, upper left, upper
+  // right, lower right.
   for (std::uint32_t half = kSide / 2; half > 0; half /= 2) {
     const bool right = (x & half) != 0;
     const bool upper = (y & half) != 0;
     along += half * half * (right ? (upper ? 2U : 3U) : (upper ? 1U : 0U));
     if (upper) continue;
-    // The lower ones are passed through on their sides.
+    // In the lower quarters the curve is mirrored at a diagonal.
     if (right) {
       x = kSide - 1 - x;
       y = kSide - 1 - y;

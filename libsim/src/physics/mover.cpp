@@ -9,41 +9,43 @@
 namespace sim::physics {
 namespace {
 
-// By so much a gap may be less after a part of a step than the constraints say, as they are linear.
+// A gap may decrease by this much more than the linear constraints allow in a substep.
 constexpr double kSecondOrder_m = 0.0003;
 
-// Farther than this a point of a robot must not move while robots touch: where one is shoved is up
-// to Box2D, which sees a contact only once hulls are closer than their skins of 2 mm together.
-constexpr double kMaxShove_m = 0.002;
+// Maximum travel of any point of a robot in one Box2D step while robots push each other. Box2D
+// decides where a pushed robot goes, and it detects a contact only if hulls are closer than the sum
+// of their skins, 2 mm.
+constexpr double kMaxContactTravel_m = 0.002;
 
-// The same while those that touch have nothing else within reach.
-constexpr double kMaxLoneShove_m = 0.003;
+// The same limit while the robots that touch have nothing else within reach.
+constexpr double kMaxLoneContactTravel_m = 0.003;
 
-// A twist counts as achieved within these.
+// Tolerances within which a twist counts as achieved.
 constexpr double kSpeedTolerance_mps = 0.01;
 constexpr double kTurnTolerance_radps = 0.05;
 constexpr double kStallDelay_s = 0.2;
 
-// How far round a robot whose pace is slow things are looked for as if it were this [m a part of a
-// step]: enough for all that touches.
+// Lower limit of the travel in a substep that determines the search range around slow robots
+// [m]. It suffices to find everything that touches.
 constexpr double kLeastTravel_m = 0.25 * kMaxTravel_m;
 
 constexpr int kVelocityIterations = 8;
 constexpr int kPositionIterations = 3;
 
-// sin(x) / x; by its series where that is exact to the last bit (a step's half turn is small).
+// sin(x) / x. For small x (half the rotation of a step is small) the series is exact to the last
+// bit.
 inline double sinc(double x) {
   if (std::abs(x) > 0.05) return std::sin(x) / x;
   const double x2 = x * x;
   return 1.0 - x2 / 6.0 * (1.0 - x2 / 20.0 * (1.0 - x2 / 42.0));
 }
 
-// How far any corner of a robot gets in a direction of W, at most, by a twist as if it were
-// straight.
+// Upper bound of how far any corner of a robot moves along a direction in W, if the twist were a
+// straight motion.
 double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction, const Twist& twist,
                  double dt_s) {
   const b2Vec2 n = b2MulT(xf.q, direction);
-  float lever = -b2_maxFloat;  // about B, in the sense of the turn
+  float lever = -b2_maxFloat;  // about B, in the direction of the rotation
   const float sense = twist.omega_radps < 0.0 ? -1.0F : 1.0F;
   for (int32 i = 0; i < r.details->shape.m_count; ++i) {
     lever = std::max(lever, sense * b2Cross(r.details->shape.m_vertices[i], n));
@@ -53,8 +55,8 @@ double advance_m(const Robot& r, const b2Transform& xf, const b2Vec2& direction,
          dt_s;
 }
 
-// Where an unhindered robot gets to: along the exact arc of the twist (the exponential map of
-// SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
+// The pose of an unhindered robot after dt_s: along the exact arc of the twist (the exponential map
+// of SE(2): Lynch and Park, Modern Robotics, 2017, sec. 3.3.3).
 inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
   const double half_turn = 0.5 * twist.omega_radps * dt_s;
   const double chord = twist.v_mps * dt_s * sinc(half_turn);
@@ -65,8 +67,8 @@ inline Pose arc_end(const Pose& X_WB, const Twist& twist, double dt_s) {
           X_WB.yaw_rad + twist.omega_radps * dt_s};
 }
 
-// Takes back what Box2D's solver may have done to a body that is not to move.
-inline void hold(Robot& r) {
+// Reverts changes that Box2D's solver made to a body that must not move.
+inline void restore_pose(Robot& r) {
   const b2Vec2 p = to_box2d(r.X_WB.position());
   const float angle = static_cast<float>(r.X_WB.yaw_rad);
   if (r.body->GetPosition() == p && r.body->GetAngle() == angle) return;
@@ -75,8 +77,8 @@ inline void hold(Robot& r) {
   r.body->SetAngularVelocity(0.0F);
 }
 
-// Keeps angles small, where single precision is fine.
-inline void unwind(Robot& r) {
+// Keeps angles small, where single precision suffices.
+inline void wrap_yaw(Robot& r) {
   r.X_WB.yaw_rad = normalize_angle(r.X_WB.yaw_rad);
   if (r.body == nullptr) return;
   r.body->SetTransform(r.body->GetPosition(), static_cast<float>(r.X_WB.yaw_rad));
@@ -98,33 +100,34 @@ inline void finish_step(Robot& r, double dt_s) {
 
 }  // namespace
 
-// Inline, as they are called for every robot in every step.
+// These functions are inline because they are called for every robot in every step.
 
-// Books that a robot went so far and turned so much.
-inline void Mover::moved(Robot& r, double way_m, double turn_rad) {
+// Records that a robot has travelled and turned this much.
+inline void Mover::record_travel(Robot& r, double way_m, double turn_rad) {
   r.state->turn_rad += turn_rad;
-  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) unwind(r);
-  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // of any point of it
-  r.gone_m += most_m;
+  if (std::abs(r.X_WB.yaw_rad) > 8.0 * std::numbers::pi) wrap_yaw(r);
+  const double most_m = way_m + std::abs(turn_rad) * r.radius_m;  // bound for all its points
+  r.cumulative_max_travel_m += most_m;
   r.moved_m += most_m;
   farthest_m_ = std::max(farthest_m_, r.moved_m);
 }
 
-// The robot is where its twist took it.
-inline void Mover::arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
+// Moves a robot to the end of its arc.
+inline void Mover::move_to_goal(Robot& r, const Pose& goal, const Twist& twist, double dt_s) {
   r.X_WB = goal;
   const double travel = twist.v_mps * dt_s;
   const double side = twist.lateral_mps * dt_s;
   r.state->travel_m += travel;
   r.state->side_m += side;
-  moved(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side), twist.omega_radps * dt_s);
+  record_travel(r, side == 0.0 ? std::abs(travel) : std::hypot(travel, side),
+                twist.omega_radps * dt_s);
 }
 
-// To Box2D a free robot, if it knows it at all, is a body at rest that is put somewhere else.
+// For Box2D, a free robot that still has a body is at rest and is placed at a new pose.
 inline void Mover::move_freely(Robot& r, double dt_s) {
   if (r.body != nullptr) {
-    if (--r.kept_parts == 0) {
-      bodies_.take_out_of_box2d(r);
+    if (--r.substeps_in_box2d == 0) {
+      bodies_.destroy_box2d_body(r);
     } else if (r.body->IsAwake()) {
       r.body->SetAwake(false);
     }
@@ -134,27 +137,27 @@ inline void Mover::move_freely(Robot& r, double dt_s) {
   if (r.body != nullptr) {
     r.body->SetTransform(to_box2d(goal.position()), static_cast<float>(goal.yaw_rad));
   }
-  arrive(r, goal, r.target, dt_s);
+  move_to_goal(r, goal, r.target, dt_s);
 }
 
 void Mover::step(double dt_s) {
   double travel_m = 0.0;
   for (const Robot& r : bodies_.robots()) travel_m = std::max(travel_m, most_travel_m(r, dt_s));
-  const int parts = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
-  neighbours_.begin_step(std::max(travel_m / parts, kLeastTravel_m));
+  const int substeps = std::max(1, static_cast<int>(std::ceil(travel_m / kMaxTravel_m)));
+  neighbours_.begin_step(std::max(travel_m / substeps, kLeastTravel_m));
   step_s_ = dt_s;
-  const double gone_m = neighbours_.gone_m();
-  for (int i = 0; i < parts; ++i) advance(dt_s / parts, i == 0, i + 1 == parts);
-  step_gone_m_ = neighbours_.gone_m() - gone_m;
+  const double cumulative_max_travel_m = neighbours_.cumulative_max_travel_m();
+  for (int i = 0; i < substeps; ++i) substep(dt_s / substeps, i == 0, i + 1 == substeps);
+  step_max_travel_m_ = neighbours_.cumulative_max_travel_m() - cumulative_max_travel_m;
 }
 
-// Moves all for a time in which no robot travels farther than kMaxTravel_m. Robots that are free,
-// or stay clear of all that is near, are done with at once, without Box2D; those that shove one
-// another take several parts.
-void Mover::advance(double dt_s, bool first, bool last) {
+// Moves all robots for a time in which no robot travels farther than kMaxTravel_m. Robots that are
+// free, or stay clear of everything near, are moved at once, without Box2D. Robots that push each
+// other are moved in several Box2D steps.
+void Mover::substep(double dt_s, bool first, bool last) {
   neighbours_.find(dt_s);
   if (neighbours_.something_was_placed()) {
-    // Lets Box2D find the contacts of what was put somewhere since the last step.
+    // Lets Box2D find the contacts of everything that was placed since the last step.
     bodies_.world().Step(0.0F, 1, 1);
     neighbours_.note_contacts_found();
   }
@@ -162,13 +165,13 @@ void Mover::advance(double dt_s, bool first, bool last) {
   goals_.resize(robots.size());
   twists_.resize(robots.size());
   farthest_m_ = 0.0;
-  find_shoving();
+  find_contact_groups();
   hindered_.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     Robot& r = robots[i];
     r.moved_m = 0.0;
     if (first) r.state->travel_m = r.state->turn_rad = r.state->side_m = 0.0;
-    if (r.shoving || !neighbours_.is_free(i, dt_s)) {
+    if (r.in_contact_group || !neighbours_.is_free(i, dt_s)) {
       hindered_.push_back(i);
       continue;
     }
@@ -177,25 +180,28 @@ void Mover::advance(double dt_s, bool first, bool last) {
   }
   std::erase_if(hindered_, [&](std::size_t i) {
     Robot& r = robots[i];
-    if (!r.shoving) {
+    if (!r.in_contact_group) {
       twists_[i] = allowed_twist(i, dt_s);
-      if (stays_clear(r, twists_[i], dt_s)) {
+      if (clears_all(r, twists_[i], dt_s)) {
         move_freely(r, dt_s);
         if (last) finish_step(r, step_s_);
         return true;
       }
     }
-    bodies_.keep_in_box2d(r);
+    bodies_.ensure_box2d_body(r);
     for (const Neighbours::Neighbour& near : neighbours_.near_to(i)) {
-      bodies_.keep_in_box2d(bodies_.robot(near.robot));
+      bodies_.ensure_box2d_body(bodies_.robot(near.robot));
     }
     return false;
   });
-  double shove_m = 0.0;
-  for (const std::size_t i : shoving_) shove_m = std::max(shove_m, most_travel_m(robots[i], dt_s));
-  const int parts = std::max(1, static_cast<int>(std::ceil(shove_m / most_shove_m_)));
-  substep(dt_s / parts, dt_s);
-  for (int i = 1; i < parts; ++i) substep(dt_s / parts, 0.0);
+  double contact_travel_m = 0.0;
+  for (const std::size_t i : contact_robots_) {
+    contact_travel_m = std::max(contact_travel_m, most_travel_m(robots[i], dt_s));
+  }
+  const int box2d_steps =
+      std::max(1, static_cast<int>(std::ceil(contact_travel_m / max_contact_travel_m_)));
+  contact_substep(dt_s / box2d_steps, dt_s);
+  for (int i = 1; i < box2d_steps; ++i) contact_substep(dt_s / box2d_steps, 0.0);
   if (last) {
     for (const std::size_t i : hindered_) finish_step(robots[i], step_s_);
   }
@@ -203,8 +209,8 @@ void Mover::advance(double dt_s, bool first, bool last) {
   bodies_.note_moved();
 }
 
-// Puts the closing-speed limits that a pair of shapes gives robot `r` into constraints_.
-// `share` is the part of the gap that r may close in this step.
+// Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
+// `share` is the fraction of the gap that r may close in this step.
 void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
   const b2Transform xf = transform_of(r);
@@ -237,11 +243,11 @@ void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transf
   }
 }
 
-// Whether a robot that gets its target stays clear of a wall: of the line through its edge.
-bool Mover::keeps_off(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
-  const OffLine off = off_line(r, wall, xf);
-  return off.apart_m > 0.0 && advance_m(r, xf, off.direction, r.target, dt_s) + kSecondOrder_m <=
-                                  off.apart_m - kTouchingGap_m;
+// Whether a robot that follows its target stays clear of a wall, or of the line through its edge.
+bool Mover::clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf, double dt_s) {
+  const LineDistance line = distance_to_line(r, wall, xf);
+  return line.apart_m > 0.0 && advance_m(r, xf, line.direction, r.target, dt_s) + kSecondOrder_m <=
+                                   line.apart_m - kTouchingGap_m;
 }
 
 Twist Mover::allowed_twist(std::size_t index, double dt_s) {
@@ -249,19 +255,19 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   constraints_.clear();
   if (r.target == Twist{}) return r.target;
   const double way_m = most_travel_m(r, dt_s);
-  // What is farther away, or not that way, leaves the robot its target, and clear of it.
+  // Obstacles farther away, or in another direction, do not limit the robot.
   const b2Transform xf = transform_of(r);
   const double reach_m = way_m + kTouchingGap_m + kSecondOrder_m;
-  if (r.wall_until_m - r.gone_m <= reach_m) {
+  if (r.wall_until_m - r.cumulative_max_travel_m <= reach_m) {
     for (const Wall& wall : r.details->walls) {
       if (!may_reach(r, wall, reach_m)) continue;
-      if (wall.is_edge && keeps_off(r, wall, xf, dt_s)) continue;
-      add_constraints(r, *wall.shape, unmoved(), 1.0, dt_s);
+      if (wall.is_edge && clears_wall(r, wall, xf, dt_s)) continue;
+      add_constraints(r, *wall.shape, identity_transform(), 1.0, dt_s);
     }
   }
   for (const Neighbours::Neighbour& near : neighbours_.near_to(index)) {
     const Robot& other = bodies_.robot(near.robot);
-    const double share = other.suspended ? 1.0 : 0.5;  // as good as a wall
+    const double share = other.suspended ? 1.0 : 0.5;  // a suspended robot is like a wall
     const double apart_m = near.apart_m - r.moved_m - other.moved_m;
     const double mine_m = share * (apart_m - kTouchingGap_m);
     if (mine_m > way_m) continue;
@@ -269,7 +275,7 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
         advance_m(r, xf, near.direction, r.target, dt_s) + kSecondOrder_m <= mine_m) {
       continue;
     }
-    // Pushing: Box2D's solver shares the momentum.
+    // The robots push each other: Box2D's solver distributes the momentum.
     if (!other.suspended && touches(r.body, other.body)) continue;
     add_constraints(r, other.details->shape, transform_of(other), share, dt_s);
   }
@@ -286,9 +292,9 @@ Twist Mover::allowed_twist(std::size_t index, double dt_s) {
   return feasible_twist(r.target, r.details->mass_kg, r.details->inertia_kgm2, constraints_);
 }
 
-// Whether a robot that is not free has its way after all: it touches nothing, and by the
-// constraints that were just found for it, it will not either.
-bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const {
+// Whether a robot that is not free can follow its target after all: it touches nothing, and the
+// constraints just computed show that it will touch nothing.
+bool Mover::clears_all(const Robot& r, const Twist& allowed, double dt_s) const {
   if (allowed != r.target || r.target == Twist{}) return false;
   for (const b2ContactEdge* e = contact_list(r.body); e != nullptr; e = e->next) {
     if (e->contact->IsTouching()) return false;
@@ -299,45 +305,49 @@ bool Mover::stays_clear(const Robot& r, const Twist& allowed, double dt_s) const
   });
 }
 
-// Robots that touch others, with those near them, and those near these, and so on.
-void Mover::find_shoving() {
-  for (const std::size_t i : shoving_) bodies_.robots()[i].shoving = false;
-  shoving_.clear();
+// Collects the robots that touch others, those near them, those near these, and so on.
+void Mover::find_contact_groups() {
+  for (const std::size_t i : contact_robots_) bodies_.robots()[i].in_contact_group = false;
+  contact_robots_.clear();
   const auto add = [this](int index) {
     const auto i = static_cast<std::size_t>(index);
-    if (!std::exchange(bodies_.robots()[i].shoving, true)) shoving_.push_back(i);
+    if (!std::exchange(bodies_.robots()[i].in_contact_group, true)) contact_robots_.push_back(i);
   };
   for (const Neighbours::NearPair& pair : neighbours_.near_pairs()) {
     if (!touches(bodies_.robot(pair.first).body, bodies_.robot(pair.second).body)) continue;
     add(pair.first);
     add(pair.second);
   }
-  most_shove_m_ = std::any_of(shoving_.begin(), shoving_.end(),
-                              [this](std::size_t i) { return neighbours_.may_be_shoved_into(i); })
-                      ? kMaxShove_m
-                      : kMaxLoneShove_m;
-  for (std::size_t i = 0; i < shoving_.size(); ++i) {
-    for (const Neighbours::Neighbour& near : neighbours_.near_to(shoving_[i])) add(near.robot);
+  max_contact_travel_m_ =
+      std::any_of(contact_robots_.begin(), contact_robots_.end(),
+                  [this](std::size_t i) { return neighbours_.may_be_pushed_into_others(i); })
+          ? kMaxContactTravel_m
+          : kMaxLoneContactTravel_m;
+  for (std::size_t i = 0; i < contact_robots_.size(); ++i) {
+    for (const Neighbours::Neighbour& near : neighbours_.near_to(contact_robots_[i])) {
+      add(near.robot);
+    }
   }
 }
 
-// Moves the robots that are hindered: those that shove by dt_s, the others by others_dt_s, in one
-// step of Box2D. In the first part that is all the time there is; then it is 0, and they rest.
-void Mover::substep(double dt_s, double others_dt_s) {
+// Moves the hindered robots in one Box2D step: robots in contact groups by dt_s, the others by
+// others_dt_s. The first call moves the others by the whole time; in further calls others_dt_s is
+// 0, and they rest.
+void Mover::contact_substep(double dt_s, double others_dt_s) {
   if (!bodies_.has_robots_in_box2d()) return;
   const float inv_dt = static_cast<float>(1.0 / dt_s);
   for (const std::size_t i : hindered_) {
     Robot& r = bodies_.robots()[i];
-    const double own_dt_s = r.shoving ? dt_s : others_dt_s;
+    const double own_dt_s = r.in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s == 0.0) {
       r.body->SetAwake(false);
       continue;
     }
-    if (others_dt_s > 0.0 && r.shoving) twists_[i] = allowed_twist(i, others_dt_s);
+    if (others_dt_s > 0.0 && r.in_contact_group) twists_[i] = allowed_twist(i, others_dt_s);
     goals_[i] = arc_end(r.X_WB, twists_[i], own_dt_s);
     if (goals_[i] == r.X_WB && !r.body->IsAwake()) continue;
-    // The velocity that takes Box2D's single-precision body to the exact goal, so that rounding
-    // does not pile up.
+    // This velocity takes Box2D's single-precision body to the exact goal, so that rounding errors
+    // do not accumulate.
     const b2Vec2 goal = to_box2d(goals_[i].position());
     r.body->SetLinearVelocity(inv_dt * (goal - r.body->GetPosition()));
     r.body->SetAngularVelocity(inv_dt *
@@ -345,27 +355,27 @@ void Mover::substep(double dt_s, double others_dt_s) {
   }
   bodies_.world().Step(static_cast<float>(dt_s), kVelocityIterations, kPositionIterations);
   for (const std::size_t i : hindered_) {
-    const double own_dt_s = bodies_.robots()[i].shoving ? dt_s : others_dt_s;
+    const double own_dt_s = bodies_.robots()[i].in_contact_group ? dt_s : others_dt_s;
     if (own_dt_s > 0.0) follow_body(i, own_dt_s);
   }
 }
 
-// Takes over where Box2D put the robot: the exact goal if nothing hindered it.
+// Updates the robot from its Box2D body; it gets the exact goal if nothing hindered it.
 void Mover::follow_body(std::size_t index, double dt_s) {
   Robot& r = bodies_.robots()[index];
   if (r.suspended) {
-    hold(r);
+    restore_pose(r);
     return;
   }
   const Pose& goal = goals_[index];
   const b2Vec2 p = r.body->GetPosition();
   const b2Vec2 wanted = to_box2d(goal.position());
   const float angle = r.body->GetAngle();
-  // Rounding of position and angle, a few units in the last place.
+  // Bound of the rounding of position and angle, a few units in the last place.
   const float slack = 4e-6F * (4.0F + std::abs(p.x) + std::abs(p.y));
   if (std::abs(p.x - wanted.x) <= slack && std::abs(p.y - wanted.y) <= slack &&
       std::abs(angle - static_cast<float>(goal.yaw_rad)) <= 2e-5F) {
-    arrive(r, goal, twists_[index], dt_s);
+    move_to_goal(r, goal, twists_[index], dt_s);
     return;
   }
   const Pose before = r.X_WB;
@@ -374,15 +384,15 @@ void Mover::follow_body(std::size_t index, double dt_s) {
   const double heading = before.yaw_rad + 0.5 * turn;
   const double dx = r.X_WB.x_m - before.x_m;
   const double dy = r.X_WB.y_m - before.y_m;
-  // The wheels' path is the arc whose chord this is.
+  // The wheels' path is the arc with this chord.
   r.state->travel_m += (dx * std::cos(heading) + dy * std::sin(heading)) / sinc(0.5 * turn);
   r.state->side_m += dy * std::cos(heading) - dx * std::sin(heading);
-  moved(r, std::hypot(dx, dy), turn);
+  record_travel(r, std::hypot(dx, dy), turn);
 }
 
-void Mover::bare_step(double dt_s) {
+void Mover::plain_box2d_step(double dt_s) {
   for (Robot& r : bodies_.robots()) {
-    bodies_.keep_in_box2d(r);
+    bodies_.ensure_box2d_body(r);
     const double yaw = static_cast<double>(r.body->GetAngle());
     r.body->SetLinearVelocity(
         to_box2d({r.target.v_mps * std::cos(yaw), r.target.v_mps * std::sin(yaw)}));

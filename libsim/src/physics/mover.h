@@ -12,44 +12,44 @@
 
 namespace sim::physics {
 
-/// Moves the robots: those that are free along the arcs of their twists, the others by Box2D.
+/// Moves the robots: free robots along the arcs of their twists, the others with Box2D.
 class Mover {
  public:
   Mover(Bodies& bodies, Neighbours& neighbours) : bodies_(bodies), neighbours_(neighbours) {}
 
   void step(double dt_s);
-  /// Writes or reads the state. When reading, that of the robots is there already.
+  /// Writes or reads the state. When reading, the robots' state must have been read before.
   void archive(StateArchive& archive);
-  /// How far any robot went in the last step, at most [m].
-  [[nodiscard]] double farthest_move_m() const noexcept { return step_gone_m_; }
-  /// As PhysicsWorld::bare_step().
-  void bare_step(double dt_s);
+  /// Upper bound of how far any robot moved in the last step [m].
+  [[nodiscard]] double farthest_move_m() const noexcept { return step_max_travel_m_; }
+  /// See PhysicsWorld::plain_box2d_step().
+  void plain_box2d_step(double dt_s);
 
  private:
-  void advance(double dt_s, bool first, bool last);
+  void substep(double dt_s, bool first, bool last);
   void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                        double share, double dt_s);
-  [[nodiscard]] static bool keeps_off(const Robot& r, const Wall& wall, const b2Transform& xf,
-                                      double dt_s);
+  [[nodiscard]] static bool clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf,
+                                        double dt_s);
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s);
-  [[nodiscard]] bool stays_clear(const Robot& r, const Twist& allowed, double dt_s) const;
-  void find_shoving();
+  [[nodiscard]] bool clears_all(const Robot& r, const Twist& allowed, double dt_s) const;
+  void find_contact_groups();
   void move_freely(Robot& r, double dt_s);
-  void substep(double dt_s, double others_dt_s);
+  void contact_substep(double dt_s, double others_dt_s);
   void follow_body(std::size_t index, double dt_s);
-  void arrive(Robot& r, const Pose& goal, const Twist& twist, double dt_s);
-  void moved(Robot& r, double way_m, double turn_rad);
+  void move_to_goal(Robot& r, const Pose& goal, const Twist& twist, double dt_s);
+  void record_travel(Robot& r, double way_m, double turn_rad);
 
   Bodies& bodies_;
   Neighbours& neighbours_;
-  double step_s_ = 0.0;                // the whole step under way
-  double step_gone_m_ = 0.0;           // how far any robot went in the last one, at most
-  double farthest_m_ = 0.0;            // that any robot has moved in this part of a step
+  double step_s_ = 0.0;                // length of the current step
+  double step_max_travel_m_ = 0.0;     // upper bound of how far any robot moved in the last step
+  double farthest_m_ = 0.0;            // maximum travel of any robot in the current substep
   std::vector<std::size_t> hindered_;  // robots that are not free
-  double most_shove_m_ = 0.0;
-  std::vector<std::size_t> shoving_;  // robots that touch others or are near such
-  std::vector<Pose> goals_;           // where hindered robots get to if nothing stops them
-  std::vector<Twist> twists_;         // by which twist
+  double max_contact_travel_m_ = 0.0;
+  std::vector<std::size_t> contact_robots_;  // robots that touch others, or are near such robots
+  std::vector<Pose> goals_;                  // poses of hindered robots if nothing stops them
+  std::vector<Twist> twists_;                // twists towards `goals_`
   std::vector<TwistConstraint> constraints_;
 };
 

@@ -8,26 +8,26 @@
 namespace sim::physics {
 namespace {
 
-// How much farther than asked for clearance_m looks for candidates: how far things may move until
-// it must look again.
+// Additional range of a candidate list of clearance_m: bodies may move this far in total before the
+// list must be rebuilt.
 constexpr double kCandidateMargin_m = 0.1;
 
-// Two robots are a pair while no more than this is between the circles round them, and all move.
+// Robots are listed as a pair if the gap between their bounding circles is below this.
 constexpr double kPairReach_m = 0.2;
 
-// How far round a robot walls are looked for, and from where on how near the circle round it comes
-// to them says enough.
+// Range of the search for walls around a robot, and the distance of its bounding circle from which
+// on a coarse distance suffices.
 constexpr double kWallSearch_m = 0.25;
-constexpr double kRoughWall_m = 0.05;
+constexpr double kCoarseWallDistance_m = 0.05;
 
 }  // namespace
 
-void Neighbours::forget() {
+void Neighbours::invalidate() {
   placed_ = true;
-  pairs_until_m_ = gone_m_;
+  pairs_until_m_ = cumulative_max_travel_m_;
   for (Robot& r : bodies_.robots()) {
     r.wall_until_m = kUnknown;
-    r.wall_gone_m = kUnknown;
+    r.wall_at_travel_m = kUnknown;
     r.details->walls_until_m = kUnknown;
     r.details->candidates_reach_m = -1.0;
   }
@@ -37,12 +37,12 @@ bool Neighbours::comes_before(const Pair& a, const Pair& b) {
   return a.first != b.first ? a.first < b.first : a.second < b.second;
 }
 
-// Lists the pairs of robots that may come near one another before all have gone some way (as
-// Verlet's neighbour lists do, Phys. Rev. 159, 98, 1967), by a sweep over their order in x.
+// Lists the pairs of robots that may come near each other before all have travelled some distance
+// (Verlet neighbour lists, Phys. Rev. 159, 98, 1967), by a sweep in order of x.
 void Neighbours::list_pairs() {
   pairs_before_.swap(pairs_);
   pairs_.clear();
-  pairs_until_m_ = gone_m_ + 0.5 * (kPairReach_m - 3.0 * kMaxTravel_m);
+  pairs_until_m_ = cumulative_max_travel_m_ + 0.5 * (kPairReach_m - 3.0 * kMaxTravel_m);
   const std::vector<Bodies::Circle>& by_x = bodies_.by_x();
   for (std::size_t i = 0; i < by_x.size(); ++i) {
     const Bodies::Circle& a = by_x[i];
@@ -62,10 +62,10 @@ void Neighbours::list_pairs() {
     }
   }
   std::sort(pairs_.begin(), pairs_.end(), comes_before);
-  meet_before_.swap(meet_gone_m_);
-  meet_gone_m_.assign(pairs_.size(), kUnknown);
+  meet_before_.swap(meet_at_travel_m_);
+  meet_at_travel_m_.assign(pairs_.size(), kUnknown);
   if (placed_) return;
-  // What is known of those that were listed before still holds.
+  // The bounds of pairs that were listed before still hold.
   std::size_t before = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     while (before < pairs_before_.size() && comes_before(pairs_before_[before], pairs_[i])) {
@@ -73,15 +73,15 @@ void Neighbours::list_pairs() {
     }
     if (before == pairs_before_.size() || comes_before(pairs_[i], pairs_before_[before])) continue;
     pairs_[i] = pairs_before_[before];
-    meet_gone_m_[i] = meet_before_[before];
+    meet_at_travel_m_[i] = meet_before_[before];
   }
 }
 
-// How far the outlines of a pair are apart, along its direction: a lower bound, exact up to
-// `enough_m`.
+// Lower bound of the distance between the outlines of a pair, exact if it is below `enough_m`;
+// updates the pair's direction.
 double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, Pair& pair) {
-  // Two cheap lower bounds, by the circles round them and along the direction of the last nearest
-  // points, mostly say enough.
+  // Two cheap lower bounds usually suffice: the distance of the bounding circles, and the gap along
+  // the direction of the last nearest points.
   const double circles_m = circles_apart_m(a, b);
   if (circles_m > enough_m) {
     const Vec2 way = (b.X_WB.position() - a.X_WB.position()).normalized();
@@ -102,7 +102,7 @@ double Neighbours::distance_m(const Robot& a, const Robot& b, double enough_m, P
 }
 
 void Neighbours::find(double dt_s) {
-  if (gone_m_ >= pairs_until_m_) list_pairs();
+  if (cumulative_max_travel_m_ >= pairs_until_m_) list_pairs();
   near_to_.resize(bodies_.robots().size());
   for (const NearPair& pair : near_pairs_) {
     near_to_[static_cast<std::size_t>(pair.first)].clear();
@@ -119,63 +119,66 @@ void Neighbours::find(double dt_s) {
   for (Robot& r : bodies_.robots()) look_for_walls(r, dt_s);
 }
 
-// Appends the pairs that may be in each other's way to near_pairs_.
+// Appends the pairs whose robots may hinder each other to near_pairs_.
 void Neighbours::find_near_pairs(double dt_s) {
-  const double in_the_way_m = 3.0 * travel_m_;
-  // Whether it may be so soon cannot be foreseen: to list first, without a branch, costs less.
-  may_meet_.resize(pairs_.size());
+  const double interaction_range_m = 3.0 * travel_m_;
+  // This condition is unpredictable, so listing the pairs first, without a branch, is faster.
+  candidate_pairs_.resize(pairs_.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
-    may_meet_[count] = i;
-    count += meet_gone_m_[i] - gone_m_ <= 0.5 * in_the_way_m ? 1 : 0;
+    candidate_pairs_[count] = i;
+    count += meet_at_travel_m_[i] - cumulative_max_travel_m_ <= 0.5 * interaction_range_m ? 1 : 0;
   }
-  for (const std::size_t i : std::span(may_meet_).first(count)) {
+  for (const std::size_t i : std::span(candidate_pairs_).first(count)) {
     Pair& pair = pairs_[i];
     Robot& a = bodies_.robot(pair.first);
     Robot& b = bodies_.robot(pair.second);
-    double apart_m = pair.apart_m - (a.gone_m + b.gone_m - pair.both_gone_m);
-    if (apart_m > in_the_way_m) continue;
-    // How near exactly need not be known while both can have their way.
+    double apart_m = pair.apart_m - (a.cumulative_max_travel_m + b.cumulative_max_travel_m -
+                                     pair.pair_at_travel_m);
+    if (apart_m > interaction_range_m) continue;
+    // The exact distance is not needed while both robots can follow their targets.
     const double way_m = std::max(most_travel_m(a, dt_s), most_travel_m(b, dt_s));
     const double touch_m = 2.0 * way_m + kTouchingGap_m;
-    if (pair.apart_m > in_the_way_m || a.shoving || b.shoving || apart_m <= touch_m) {
-      apart_m = distance_m(a, b, pair.apart_m > in_the_way_m ? in_the_way_m : touch_m, pair);
+    if (pair.apart_m > interaction_range_m || a.in_contact_group || b.in_contact_group ||
+        apart_m <= touch_m) {
+      apart_m = distance_m(a, b, pair.apart_m > interaction_range_m ? interaction_range_m : touch_m,
+                           pair);
       pair.apart_m = apart_m;
-      meet_gone_m_[i] = gone_m_ + 0.5 * apart_m;
-      pair.both_gone_m = a.gone_m + b.gone_m;
-      if (apart_m > in_the_way_m) continue;
+      meet_at_travel_m_[i] = cumulative_max_travel_m_ + 0.5 * apart_m;
+      pair.pair_at_travel_m = a.cumulative_max_travel_m + b.cumulative_max_travel_m;
+      if (apart_m > interaction_range_m) continue;
     }
-    if (placed_) bodies_.keep_in_box2d(a);
-    if (placed_) bodies_.keep_in_box2d(b);
+    if (placed_) bodies_.ensure_box2d_body(a);
+    if (placed_) bodies_.ensure_box2d_body(b);
     near_pairs_.push_back({pair.first, pair.second, apart_m, pair.direction});
   }
 }
 
-// Finds out whether something that does not move is near a robot.
+// Updates the distance from a robot to the nearest static solid.
 void Neighbours::look_for_walls(Robot& r, double dt_s) {
   const double reach_m = wall_reach_m();
-  double apart_m = r.wall_until_m - r.gone_m;
+  double apart_m = r.wall_until_m - r.cumulative_max_travel_m;
   if (apart_m > reach_m) return;
-  const bool was_near = r.wall_until_m - r.wall_gone_m <= reach_m;
-  // How near exactly need not be known while the robot can have its way.
+  const bool was_near = r.wall_until_m - r.wall_at_travel_m <= reach_m;
+  // The exact distance is not needed while the robot can follow its target.
   const double way_m = most_travel_m(r, dt_s) + kTouchingGap_m;
-  if (apart_m <= (was_near ? way_m : reach_m) && r.gone_m != r.wall_gone_m) {
+  if (apart_m <= (was_near ? way_m : reach_m) && r.cumulative_max_travel_m != r.wall_at_travel_m) {
     apart_m = distance_to_walls_m(r);
-    r.wall_until_m = r.gone_m + apart_m;
-    r.wall_gone_m = r.gone_m;
+    r.wall_until_m = r.cumulative_max_travel_m + apart_m;
+    r.wall_at_travel_m = r.cumulative_max_travel_m;
   }
-  if (placed_ && apart_m <= reach_m) bodies_.keep_in_box2d(r);
+  if (placed_ && apart_m <= reach_m) bodies_.ensure_box2d_body(r);
 }
 
-// Nearer than this something that does not move may be in a robot's way.
+// Distance below which a static solid may hinder a robot.
 double Neighbours::wall_reach_m() const { return 1.5 * travel_m_ + kRestingGap_m; }
 
-// Finds all that may come within reach_m of a robot that fills a box.
+// Lists everything that may come within reach_m of a robot with the bounding box `box`.
 void Neighbours::collect_candidates(Robot& r, const b2AABB& box, double reach_m) {
   r.details->candidates.clear();
   r.details->candidates_reach_m = reach_m;
-  r.details->candidates_gone_m = gone_m_;
-  visit_fixed(bodies_.world(), grown(box, reach_m), [&](const b2Fixture& fixture) {
+  r.details->candidates_at_travel_m = cumulative_max_travel_m_;
+  visit_fixed(bodies_.world(), expanded(box, reach_m), [&](const b2Fixture& fixture) {
     r.details->candidates.push_back(
         {fixture.GetShape(), -1 - static_cast<int>(info_of(&fixture).id), fixture.GetAABB(0), {}});
   });
@@ -204,36 +207,36 @@ Wall Neighbours::wall_of(const b2Fixture& fixture) const {
   return wall;
 }
 
-// How near the nearest solid is to a robot's outline, robots apart: a lower bound, exact where it
+// Lower bound of the distance from a robot's outline to the nearest static solid, exact where it
 // matters; at most kWallSearch_m [m].
 double Neighbours::distance_to_walls_m(Robot& r) {
   const b2Transform xf = transform_of(r);
-  if (!(r.gone_m < r.details->walls_until_m)) {
+  if (!(r.cumulative_max_travel_m < r.details->walls_until_m)) {
     b2AABB box;
     r.details->shape.ComputeAABB(&box, xf, 0);
     r.details->walls.clear();
-    r.details->walls_until_m = r.gone_m + kWallSearch_m;
-    visit_fixed(bodies_.world(), grown(box, 2.0 * kWallSearch_m),
+    r.details->walls_until_m = r.cumulative_max_travel_m + kWallSearch_m;
+    visit_fixed(bodies_.world(), expanded(box, 2.0 * kWallSearch_m),
                 [&](const b2Fixture& fixture) { r.details->walls.push_back(wall_of(fixture)); });
   }
   double least_m = kWallSearch_m;
   for (Wall& wall : r.details->walls) {
-    // Two cheap lower bounds, by the circle round the robot and by how far it is off the line,
-    // mostly say enough.
+    // Two cheap lower bounds usually suffice: the distance of the robot's bounding circle, and the
+    // robot's distance from the line.
     if (!may_reach(r, wall, least_m)) continue;
     if (wall.is_edge) {
-      const OffLine off = off_line(r, wall, xf);
-      if (off.exact || off.apart_m >= std::min(least_m, kRoughWall_m)) {
-        least_m = std::min(least_m, off.apart_m);
+      const LineDistance line = distance_to_line(r, wall, xf);
+      if (line.exact || line.apart_m >= std::min(least_m, kCoarseWallDistance_m)) {
+        least_m = std::min(least_m, line.apart_m);
         continue;
       }
-      if (!may_reach(r, wall, kRoughWall_m)) {
-        least_m = std::min(least_m, kRoughWall_m);
+      if (!may_reach(r, wall, kCoarseWallDistance_m)) {
+        least_m = std::min(least_m, kCoarseWallDistance_m);
         continue;
       }
     }
     const b2DistanceOutput found =
-        distance_between(r.details->shape, xf, *wall.shape, unmoved(), wall.cache);
+        distance_between(r.details->shape, xf, *wall.shape, identity_transform(), wall.cache);
     least_m = std::min(least_m, metres(found.distance));
   }
   return least_m;
@@ -242,25 +245,25 @@ double Neighbours::distance_to_walls_m(Robot& r) {
 bool Neighbours::is_free(std::size_t index, double dt_s) const {
   const Robot& r = bodies_.robots()[index];
   const double way_m = most_travel_m(r, dt_s);
-  if (r.wall_until_m - r.gone_m <= way_m + kTouchingGap_m) return false;
+  if (r.wall_until_m - r.cumulative_max_travel_m <= way_m + kTouchingGap_m) return false;
   return std::all_of(near_to_[index].begin(), near_to_[index].end(), [&](const Neighbour& near) {
     const double share = bodies_.robot(near.robot).suspended ? 1.0 : 0.5;
     return share * (near.apart_m - kTouchingGap_m) > way_m;
   });
 }
 
-// Whether a contact is with something that does not move, and that is within reach.
+// Whether a contact is with a static solid within reach.
 bool Neighbours::is_near_wall(const Robot& r, const b2Contact& contact) const {
   const b2Fixture* other = contact.GetFixtureA();
   if (other->GetBody() == r.body) other = contact.GetFixtureB();
   if (info_of(other).kind == Contact::Kind::kRobot) return false;
   const b2Transform& xf = r.body->GetTransform();
-  const double apart_m =
-      metres(distance_between(r.details->shape, xf, *other->GetShape(), unmoved()).distance);
+  const double apart_m = metres(
+      distance_between(r.details->shape, xf, *other->GetShape(), identity_transform()).distance);
   return apart_m <= wall_reach_m();
 }
 
-bool Neighbours::may_be_shoved_into(std::size_t index) const {
+bool Neighbours::may_be_pushed_into_others(std::size_t index) const {
   const Robot& r = bodies_.robots()[index];
   for (const Neighbour& near : near_to_[index]) {
     if (!touches(r.body, bodies_.robot(near.robot).body)) return true;
@@ -275,25 +278,25 @@ double Neighbours::clearance_m(Robot& r, double limit_m, double exact_below_m) {
   const b2Transform xf = transform_of(r);
   b2AABB box;
   r.details->shape.ComputeAABB(&box, xf, 0);
-  // What may be nearest is kept in a list that is good for some way (as Verlet's neighbour lists
-  // are, Phys. Rev. 159, 98, 1967), most often the first of it. A list for a far greater limit is
-  // too long.
-  const double reach_m =
-      r.details->candidates_reach_m - 2.0 * (gone_m_ - r.details->candidates_gone_m);
+  // The candidates for the nearest solid are kept in a list that stays valid for some distance
+  // (Verlet neighbour lists, Phys. Rev. 159, 98, 1967). The nearest is usually the first of the
+  // list. A list for a far larger limit is too long.
+  const double reach_m = r.details->candidates_reach_m -
+                         2.0 * (cumulative_max_travel_m_ - r.details->candidates_at_travel_m);
   if (limit_m > reach_m || reach_m > limit_m + 2.0 * kCandidateMargin_m) {
     collect_candidates(r, box, limit_m + kCandidateMargin_m);
   }
   double least_m = limit_m;
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < r.details->candidates.size(); ++i) {
-    // Two cheap lower bounds, by what is round them and along the direction of the last nearest
-    // points, mostly say enough.
+    // Two cheap lower bounds usually suffice: the distance of the bounding boxes or circles, and
+    // the gap along the direction of the last nearest points.
     Candidate& candidate = r.details->candidates[i];
     const Robot* other = candidate.robot < 0 ? nullptr : &bodies_.robot(candidate.robot);
     const double boxes_apart_m =
         other == nullptr ? metres(gap_between(box, candidate.box)) : circles_apart_m(r, *other);
     if (boxes_apart_m >= least_m) continue;
-    const b2Transform their_xf = other == nullptr ? unmoved() : transform_of(*other);
+    const b2Transform their_xf = other == nullptr ? identity_transform() : transform_of(*other);
     const float apart = least_along(r.details->nearest_direction, *candidate.shape, their_xf) +
                         least_along(-r.details->nearest_direction, r.details->shape, xf);
     const double bound_m = std::max(boxes_apart_m, metres(apart));

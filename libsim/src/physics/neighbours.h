@@ -10,66 +10,67 @@
 
 namespace sim::physics {
 
-/// Who is near whom: pairs of robots that may meet soon, and the walls near each robot. Distances
-/// that were found hold until the robots have gone as far.
+/// Finds pairs of robots that may soon meet, and walls near each robot. A measured distance is
+/// valid until the robots have travelled that far.
 class Neighbours {
  public:
   struct Neighbour {
     int robot;
     double apart_m;
-    b2Vec2 direction;  ///< towards it
+    b2Vec2 direction;  ///< towards the neighbour
   };
-  /// Two robots that may be in each other's way.
+  /// Two robots that may hinder each other.
   struct NearPair {
     int first, second;
-    double apart_m;    ///< at least, when this part of a step began,
-    b2Vec2 direction;  ///< along this, from the first to the second
+    double apart_m;    ///< lower bound at the start of this substep,
+    b2Vec2 direction;  ///< along this direction, from the first to the second
   };
 
   explicit Neighbours(Bodies& bodies) : bodies_(bodies) {}
 
-  /// Forgets all distances: something was put somewhere.
-  void forget();
-  /// Whether that was so since the last find(). What was put somewhere may touch already, so find()
-  /// lets Box2D have all robots that something is near to.
+  /// Invalidates all distances after something was placed.
+  void invalidate();
+  /// Whether invalidate() was called since the last find(). Placed bodies may touch already, so
+  /// find() then gives Box2D bodies to all robots that are near anything.
   [[nodiscard]] bool something_was_placed() const noexcept { return placed_; }
   void note_contacts_found() noexcept { placed_ = false; }
 
   /// Begins a step.
-  /// @param travel_m  how far a robot that gets its target travels in a part of it, at most [m].
+  /// @param travel_m  maximum travel of a robot that follows its target, in one substep [m].
   void begin_step(double travel_m) noexcept { travel_m_ = travel_m; }
-  /// Finds the robots so close that they may reach one another, and how near walls are.
+  /// Finds the pairs of robots that are close enough to reach each other, and the distances to
+  /// walls.
   void find(double dt_s);
-  /// Ends a part of a step, in which no robot moved farther than so.
-  void note_moved(double farthest_m) noexcept { gone_m_ += farthest_m; }
-  /// So far any robot has gone in all, at most [m].
-  [[nodiscard]] double gone_m() const noexcept { return gone_m_; }
+  /// Ends a substep in which no robot moved farther than `farthest_m`.
+  void note_moved(double farthest_m) noexcept { cumulative_max_travel_m_ += farthest_m; }
+  /// Upper bound of the cumulative travel of any robot [m].
+  [[nodiscard]] double cumulative_max_travel_m() const noexcept { return cumulative_max_travel_m_; }
 
   [[nodiscard]] const std::vector<NearPair>& near_pairs() const noexcept { return near_pairs_; }
-  /// Those near to a robot, in the order of near_pairs().
+  /// The neighbours of a robot, in the order of near_pairs().
   [[nodiscard]] const std::vector<Neighbour>& near_to(std::size_t robot) const {
     return near_to_[robot];
   }
-  /// Whether a robot can have its way in this part of a step: it reaches nothing, and if others
-  /// come half as near as they are, they do not reach it. Not asked of robots that may be shoved.
+  /// Whether a robot can follow its target in this substep: it reaches no solid, and no more
+  /// than half of the gap to any other robot. Must not be called for robots that may be pushed.
   [[nodiscard]] bool is_free(std::size_t index, double dt_s) const;
-  /// Whether a robot that is shoved might run into something that it does not touch yet.
-  [[nodiscard]] bool may_be_shoved_into(std::size_t index) const;
+  /// Whether a pushed robot might hit something that it does not touch yet.
+  [[nodiscard]] bool may_be_pushed_into_others(std::size_t index) const;
 
-  /// Writes or reads the state. When reading, Box2D's fixtures are there already.
+  /// Writes or reads the state. When reading, Box2D's fixtures must exist.
   void archive(StateArchive& archive);
 
-  /// As PhysicsWorld::clearance_m().
+  /// See PhysicsWorld::clearance_m().
   [[nodiscard]] double clearance_m(Robot& r, double limit_m, double exact_below_m);
 
  private:
-  // Two robots that may come near one another.
+  // Two robots that may come near each other.
   struct Pair {
     int first, second;
-    double both_gone_m;    // when these two had gone so far together,
-    double apart_m;        // so far apart they were, at least
-    b2Vec2 direction;      // from the first to the second, between their nearest points
-    b2SimplexCache cache;  // of these points
+    double pair_at_travel_m;  // when the sum of both robots' travel had this value,
+    double apart_m;           // this was a lower bound of their distance
+    b2Vec2 direction;         // from the first to the second, between their nearest points
+    b2SimplexCache cache;     // of these points
   };
 
   static bool comes_before(const Pair& a, const Pair& b);
@@ -88,15 +89,17 @@ class Neighbours {
   Bodies& bodies_;
   bool placed_ = true;
   double travel_m_ = 0.0;
-  double gone_m_ = 0.0;
-  std::vector<Pair> pairs_;  // all that may come near before gone_m_ is pairs_until_m_, in order
-  std::vector<double> meet_gone_m_;  // when any robot has gone so far, each of them may meet
-  std::vector<Pair> pairs_before_;   // the same as they were listed before
+  double cumulative_max_travel_m_ = 0.0;
+  // all that may come near before cumulative_max_travel_m_ is pairs_until_m_, in order
+  std::vector<Pair> pairs_;
+  std::vector<double>
+      meet_at_travel_m_;            // by pair: cumulative_max_travel_m_ from which on they may meet
+  std::vector<Pair> pairs_before_;  // previous `pairs_`
   std::vector<double> meet_before_;
-  std::vector<std::size_t> may_meet_;  // those of them that may meet in this part of a step
+  std::vector<std::size_t> candidate_pairs_;  // indices of pairs that may meet in this substep
   double pairs_until_m_ = 0.0;
-  std::vector<NearPair> near_pairs_;             // of them, those that may be in each other's way
-  std::vector<std::vector<Neighbour>> near_to_;  // the same by robot
+  std::vector<NearPair> near_pairs_;             // those that may hinder each other
+  std::vector<std::vector<Neighbour>> near_to_;  // the same pairs, by robot
 };
 
 }  // namespace sim::physics

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What of the physics a step changes and the next one depends on, in full: also lower bounds and
-// starting points of searches, which bear on when something is looked at again.
+// The complete state of the physics that a step changes and the next one depends on. This includes
+// lower bounds and starting points of searches, which determine when distances are measured again.
 #include <cmath>
 #include <utility>
 
@@ -9,7 +9,7 @@
 #include "physics/contacts.h"
 #include "physics/mover.h"
 #include "physics/neighbours.h"
-#include "physics/sight.h"
+#include "physics/sensor_view.h"
 #include "sim/world/limits.h"
 
 namespace sim::physics {
@@ -17,9 +17,10 @@ namespace {
 
 void archive_robot_state(StateArchive& archive, Robot& r) {
   BodyState& s = *r.state;
-  archive(r.target, r.X_WB, r.gone_m, r.suspended, r.shoving, r.kept_parts, r.stall_clock_s);
+  archive(r.target, r.X_WB, r.cumulative_max_travel_m, r.suspended, r.in_contact_group,
+          r.substeps_in_box2d, r.stall_clock_s);
   archive.unbounded(r.wall_until_m);
-  archive.unbounded(r.wall_gone_m);
+  archive.unbounded(r.wall_at_travel_m);
   archive(s.X_WB, s.twist, s.commanded, s.travel_m, s.turn_rad, s.stalled, s.side_m);
   for (const double x : {r.X_WB.x_m, r.X_WB.y_m, r.target.v_mps, r.target.lateral_mps,
                          r.target.omega_radps, r.X_WB.yaw_rad}) {
@@ -27,7 +28,7 @@ void archive_robot_state(StateArchive& archive, Robot& r) {
   }
 }
 
-// An order of all robots: each of `entries` names its robot.
+// A permutation of all robots: each of `entries` names its robot.
 template <typename Entry>
 void archive_order(StateArchive& archive, std::vector<Entry>& entries) {
   std::vector<bool> seen(entries.size());
@@ -39,7 +40,7 @@ void archive_order(StateArchive& archive, std::vector<Entry>& entries) {
   }
 }
 
-// Whether corners make a box that Box2D takes for one.
+// Whether Box2D recognises the corners as a box.
 bool are_of_box(const std::vector<Vec2>& corners) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Vec2 side = corners[(i + 1) % 4] - corners[i];
@@ -85,7 +86,7 @@ void Bodies::archive_obstacle(StateArchive& archive, b2Body& body) {
     edges_.heights_m[info->first_edge + i] = info->height_m;
   }
   edges_.least_height_m = std::min(edges_.least_height_m, info->height_m);
-  body.SetEnabled(false);  // a box of the broad phase is made of the shape when it is switched on
+  body.SetEnabled(false);  // enabling it creates a broad-phase proxy from the new shape
   *static_cast<b2PolygonShape*>(fixture.GetShape()) = polygon_shape(corners);
   body.SetEnabled(enabled);
 }
@@ -96,7 +97,7 @@ void Bodies::archive(StateArchive& archive) {
   order_fresh_ = order_fresh_ && !archive.reading();
   for (b2Body* body : obstacles_) archive_obstacle(archive, *body);
 
-  std::vector<std::uint32_t> newest_first;  // robots that Box2D has
+  std::vector<std::uint32_t> newest_first;  // robots with a Box2D body
   for (b2Body* body = world_.GetBodyList(); body->GetType() == b2_dynamicBody;
        body = body->GetNext()) {
     newest_first.push_back(static_cast<std::uint32_t>(info_of(body->GetFixtureList()).index));
@@ -104,11 +105,11 @@ void Bodies::archive(StateArchive& archive) {
   archive(newest_first);
   if (archive.reading()) {
     for (Robot& r : robots_) {
-      if (r.body != nullptr) take_out_of_box2d(r);
+      if (r.body != nullptr) destroy_box2d_body(r);
     }
     for (auto robot = newest_first.rbegin(); robot != newest_first.rend(); ++robot) {
       archive.expect(*robot < robots_.size() && robots_[*robot].body == nullptr, "each robot once");
-      put_into_box2d(robots_[*robot]);
+      create_box2d_body(robots_[*robot]);
     }
   }
   archive_box2d(archive, world_, fixtures());
@@ -146,13 +147,13 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
                                const std::vector<b2Fixture*>& fixtures) {
   RobotDetails& d = *r.details;
   archive_vector(archive, d.nearest_direction);
-  archive(d.candidates_reach_m, d.candidates_gone_m);
+  archive(d.candidates_reach_m, d.candidates_at_travel_m);
   archive.unbounded(d.walls_until_m);
   if (archive.reading()) {
     d.candidates.clear();
     d.walls.clear();
   }
-  // Lists that are out of date may name what is there no more.
+  // Outdated lists may name things that no longer exist.
   if (d.candidates_reach_m >= 0.0) {
     archive.list(d.candidates, [&](Candidate& candidate) {
       archive(candidate.robot);
@@ -186,35 +187,35 @@ void Neighbours::archive_robot(StateArchive& archive, Robot& r,
 }
 
 void Neighbours::archive(StateArchive& archive) {
-  archive(placed_, travel_m_, gone_m_, pairs_until_m_);
+  archive(placed_, travel_m_, cumulative_max_travel_m_, pairs_until_m_);
   const std::size_t robots = bodies_.robots().size();
   archive.list(pairs_, [&](Pair& pair) {
     archive.index(pair.first, robots);
     archive.index(pair.second, robots, pair.first + 1);
-    archive(pair.both_gone_m);
+    archive(pair.pair_at_travel_m);
     archive.unbounded(pair.apart_m);
     archive_vector(archive, pair.direction);
     archive_cache(archive, pair.cache, bodies_.robot(pair.first).details->shape,
                   bodies_.robot(pair.second).details->shape);
   });
-  meet_gone_m_.resize(pairs_.size());
-  for (double& meet_m : meet_gone_m_) archive.unbounded(meet_m);
+  meet_at_travel_m_.resize(pairs_.size());
+  for (double& meet_m : meet_at_travel_m_) archive.unbounded(meet_m);
   const std::vector<b2Fixture*> fixtures = bodies_.fixtures();
   for (Robot& r : bodies_.robots()) archive_robot(archive, r, fixtures);
 }
 
 void Mover::archive(StateArchive& archive) {
-  archive(step_gone_m_);
+  archive(step_max_travel_m_);
   if (!archive.reading()) return;
-  shoving_.clear();
+  contact_robots_.clear();
   for (std::size_t i = 0; i < bodies_.robots().size(); ++i) {
-    if (bodies_.robots()[i].shoving) shoving_.push_back(i);
+    if (bodies_.robots()[i].in_contact_group) contact_robots_.push_back(i);
   }
 }
 
-void Sight::archive(StateArchive& archive) {
-  archive_order(archive, by_place_);
-  for (Spot& spot : by_place_) archive(spot.place, spot.until_m);
+void SensorView::archive(StateArchive& archive) {
+  archive_order(archive, by_hilbert_index_);
+  for (HilbertEntry& entry : by_hilbert_index_) archive(entry.hilbert_index, entry.until_m);
   if (!archive.reading()) return;
   solids_changed();
   outlines_fresh_ = false;

@@ -5,7 +5,7 @@
 #include "physics/contacts.h"
 #include "physics/mover.h"
 #include "physics/neighbours.h"
-#include "physics/sight.h"
+#include "physics/sensor_view.h"
 
 namespace sim {
 
@@ -13,15 +13,15 @@ struct PhysicsWorld::Impl {
   explicit Impl(const ArenaDescription& arena) : bodies(arena) {}
 
   void something_was_placed() {
-    neighbours.forget();
-    sight.robots_changed();
+    neighbours.invalidate();
+    sensor_view.robots_changed();
   }
 
   physics::Bodies bodies;
   physics::Contacts contacts{bodies};
   physics::Neighbours neighbours{bodies};
   physics::Mover mover{bodies, neighbours};
-  physics::Sight sight{bodies};
+  physics::SensorView sensor_view{bodies};
 };
 
 PhysicsWorld::PhysicsWorld(const ArenaDescription& arena) : impl_(std::make_unique<Impl>(arena)) {}
@@ -30,7 +30,7 @@ PhysicsWorld::~PhysicsWorld() = default;
 
 int PhysicsWorld::add_robot(const RobotModel& model, const Pose& X_WB) {
   const int robot = impl_->bodies.add_robot(model, X_WB);
-  impl_->sight.add_robot(robot);
+  impl_->sensor_view.add_robot(robot);
   impl_->something_was_placed();
   return robot;
 }
@@ -56,14 +56,14 @@ bool PhysicsWorld::suspended(int robot) const { return impl_->bodies.robot(robot
 
 void PhysicsWorld::set_pose(int robot, const Pose& X_WB) {
   impl_->bodies.set_pose(impl_->bodies.robot(robot), X_WB);
-  impl_->sight.robot_was_placed();
+  impl_->sensor_view.robot_was_placed();
   impl_->something_was_placed();
 }
 
 void PhysicsWorld::step(double dt_s) {
   impl_->contacts.begin_step();
   impl_->mover.step(dt_s);
-  impl_->sight.robots_changed();
+  impl_->sensor_view.robots_changed();
 }
 
 double PhysicsWorld::farthest_move_m() const noexcept { return impl_->mover.farthest_move_m(); }
@@ -84,8 +84,8 @@ std::vector<PhysicsWorld::Touch> PhysicsWorld::touches_of(int robot) const {
 
 void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->bodies.obstacle(obstacle).SetEnabled(extended);
-  impl_->neighbours.forget();
-  impl_->sight.solids_changed();
+  impl_->neighbours.invalidate();
+  impl_->sensor_view.solids_changed();
 }
 
 bool PhysicsWorld::robot_stands_on(int obstacle) const {
@@ -95,16 +95,16 @@ bool PhysicsWorld::robot_stands_on(int obstacle) const {
 
 void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now) {
   impl_->bodies.change_obstacle(obstacle, now);
-  impl_->neighbours.forget();
-  impl_->sight.solids_changed();
+  impl_->neighbours.invalidate();
+  impl_->sensor_view.solids_changed();
 }
 
 void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
-  impl_->sight.set_load(impl_->bodies.robot(robot), loads);
+  impl_->sensor_view.set_load(impl_->bodies.robot(robot), loads);
 }
 
 int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
-  return impl_->bodies.robot_within(polygon_shape(box_corners(box)), unmoved());
+  return impl_->bodies.robot_within(polygon_shape(box_corners(box)), identity_transform());
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {
@@ -113,32 +113,32 @@ double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m
 
 void PhysicsWorld::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
                                  int own_robot, bool test_inside, scan::EdgeBuffer& edges) const {
-  impl_->sight.collect_edges(p_WL, radius_m, sensor_height_m, own_robot, test_inside, edges);
+  impl_->sensor_view.collect_edges(p_WL, radius_m, sensor_height_m, own_robot, test_inside, edges);
 }
 
 void PhysicsWorld::scan(const scan::ScanGeometry& geometry, const Pose& X_WL,
                         double sensor_height_m, int own_robot, bool test_inside,
                         std::span<double> ranges_m) const {
-  impl_->sight.scan(geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
+  impl_->sensor_view.scan(geometry, X_WL, sensor_height_m, own_robot, test_inside, ranges_m);
 }
 
 void PhysicsWorld::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
                                  std::vector<Face>& faces) const {
-  impl_->sight.collect_faces(low, high, own_robot, faces);
+  impl_->sensor_view.collect_faces(low, high, own_robot, faces);
 }
 
 bool PhysicsWorld::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) const {
-  return impl_->sight.is_inside_solid(p_W, height_m, own_robot);
+  return impl_->sensor_view.is_inside_solid(p_W, height_m, own_robot);
 }
 
 bool PhysicsWorld::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
                                 const Contact& target) const {
-  return impl_->sight.is_line_free(p_WA, p_WC, height_m, own_robot, target);
+  return impl_->sensor_view.is_line_free(p_WA, p_WC, height_m, own_robot, target);
 }
 
 double PhysicsWorld::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
                                 int own_robot) const {
-  return impl_->sight.ray_cast_m(p_WL, angle_rad, range_max_m, own_robot);
+  return impl_->sensor_view.ray_cast_m(p_WL, angle_rad, range_max_m, own_robot);
 }
 
 void PhysicsWorld::archive(StateArchive& archive) {
@@ -146,10 +146,10 @@ void PhysicsWorld::archive(StateArchive& archive) {
   impl_->contacts.archive(archive);
   impl_->neighbours.archive(archive);
   impl_->mover.archive(archive);
-  impl_->sight.archive(archive);
+  impl_->sensor_view.archive(archive);
 }
 
-void PhysicsWorld::bare_step(double dt_s) { impl_->mover.bare_step(dt_s); }
+void PhysicsWorld::plain_box2d_step(double dt_s) { impl_->mover.plain_box2d_step(dt_s); }
 
 std::string partner_name(const PhysicsWorld::Contact& contact, const WorldDescription& world) {
   const auto index = static_cast<std::size_t>(contact.index);

@@ -3,7 +3,7 @@
 
 namespace sim::physics {
 
-OffLine off_line(const Robot& r, const Wall& wall, const b2Transform& xf) {
+LineDistance distance_to_line(const Robot& r, const Wall& wall, const b2Transform& xf) {
   Vec2 normal(wall.along.y(), -wall.along.x());
   if (normal.dot(r.X_WB.position() - wall.start) < 0.0) normal = -normal;
   const b2Vec2 n(static_cast<float>(normal.x()), static_cast<float>(normal.y()));

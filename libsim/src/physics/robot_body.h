@@ -17,102 +17,103 @@
 
 namespace sim::physics {
 
-/// Box2D keeps the hulls of touching polygons apart by their two skins less the slop.
+/// Distance at which Box2D keeps the hulls of touching polygons: the sum of their skins minus the
+/// slop.
 inline constexpr double kRestingGap_m = (2.0 * b2_polygonRadius - b2_linearSlop) / kScale;
 
-/// Nearer than this they touch, to Box2D.
+/// Distance below which bodies touch, according to Box2D.
 inline constexpr double kTouchingGap_m = 2.0 * b2_polygonRadius / kScale;
 
-/// Farther than this a point of a robot must not move in one step of Box2D: broad phase boxes of
-/// obstacles are 1 cm fat, so a contact is known before it is reached.
+/// Maximum travel of any point of a robot in one Box2D step. Broad-phase boxes of obstacles are
+/// extended by 1 cm, so Box2D knows a contact before the robot reaches it.
 inline constexpr double kMaxTravel_m = 0.0085;
 
-/// Of a distance that is not known yet.
+/// A distance that is not known yet.
 inline constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
-/// Something near a robot that does not move.
+/// A static solid near a robot.
 struct Wall {
   const b2Shape* shape = nullptr;
   int fixture = 0;         ///< its FixtureInfo::id
-  b2SimplexCache cache{};  ///< of its and the robot's nearest points
-  bool is_edge = false;    ///< of a map, whose start, direction and length are:
+  b2SimplexCache cache{};  ///< for the nearest points of the wall and the robot
+  bool is_edge = false;    ///< an edge of a map, with this start, direction and length:
   Vec2 start = Vec2::Zero();
   Vec2 along = Vec2::UnitX();
   double length_m = 0.0;
 };
 
-/// Something solid that may be the nearest to a robot.
+/// A solid that may be the nearest one to a robot.
 struct Candidate {
   const b2Shape* shape;
-  int robot;             ///< < 0: none, but what has the FixtureInfo::id -1 - robot
-  b2AABB box;            ///< round it, if it does not move
-  b2SimplexCache cache;  ///< of its and the robot's nearest points
+  int robot;             ///< index; if < 0, the fixture with the FixtureInfo::id -1 - robot
+  b2AABB box;            ///< bounding box of a static solid
+  b2SimplexCache cache;  ///< for the nearest points of the candidate and the robot
 };
 
-/// What of a robot is asked for less often.
+/// Data of a robot that is needed less often.
 struct RobotDetails {
   b2PolygonShape shape;
-  b2PolygonShape reaching_shape;  ///< the same with a wide skin, which finds contacts ahead
+  b2PolygonShape reaching_shape;  ///< the shape with a wide skin, which finds contacts in advance
   FixtureInfo* info = nullptr;
   double height_m = 0.0;
   double mass_kg = 0.0;
   double inertia_kgm2 = 0.0;
-  // Neighbours':
-  std::vector<Candidate> candidates;  ///< all that is nearer than candidates_reach_m
+  // Of Neighbours:
+  std::vector<Candidate> candidates;  ///< everything nearer than candidates_reach_m
   b2Vec2 nearest_direction{1.0F, 0.0F};
-  double candidates_reach_m = -1.0;  ///< when all had gone candidates_gone_m; see clearance_m
-  double candidates_gone_m = 0.0;
-  std::vector<Wall> walls;  ///< all that it may be near to before it has gone so far:
+  double candidates_reach_m = -1.0;  ///< valid at candidates_at_travel_m; see clearance_m
+  double candidates_at_travel_m = 0.0;
+  std::vector<Wall> walls;  ///< complete until its cumulative travel reaches:
   double walls_until_m = kUnknown;
-  // Contacts':
-  std::vector<int> touching;  ///< contacts per partner, see count_contact
-  // Sight's:
-  EdgeList load;                    ///< outlines of what it carries, in B
-  std::vector<int> load_obstacles;  ///< whose each of these edges is
-  double seen_radius_m = 0.0;       ///< of the footprint and the load about B
+  // Of Contacts:
+  std::vector<int> touching;  ///< number of contacts per partner, see count_contact
+  // Of SensorView:
+  EdgeList load;                    ///< outlines of carried objects, in B
+  std::vector<int> load_obstacles;  ///< obstacle index of each of these edges
+  double seen_radius_m = 0.0;       ///< radius of footprint and load about B
 };
 
-/// A robot, as Bodies keeps it for all parts of the physics.
+/// A robot, as stored in Bodies for all parts of the physics.
 struct alignas(64) Robot {
-  // What is asked for most often comes first: one line of the cache, then some others.
-  b2Body* body = nullptr;  ///< none while nothing hinders it
+  // The members that are needed most often come first: one cache line, then some others.
+  b2Body* body = nullptr;  ///< null while nothing hinders the robot
   Twist target;
-  double radius_m = 0.0;  ///< of the footprint about B
-  double gone_m = 0.0;    ///< in all: any point of it, at most
+  double radius_m = 0.0;                 ///< of the footprint about B
+  double cumulative_max_travel_m = 0.0;  ///< upper bound of any of its points' path length
   double wall_until_m =
-      kUnknown;  ///< nothing solid but robots is reached before it has gone so far
+      kUnknown;  ///< it reaches no wall or block before its cumulative travel is this
   bool suspended = false;
-  bool shoving = false;         ///< touches another, or one that does is near
-  std::uint8_t kept_parts = 0;  ///< of a step, for which Box2D keeps the body
+  bool in_contact_group = false;       ///< touches another robot, or is near one that does
+  std::uint8_t substeps_in_box2d = 0;  ///< number of further substeps with a Box2D body
   DriveKind drive = DriveKind::kDifferential;
 
-  Pose X_WB;             ///< exact; yaw not wrapped, in step with the body's angle
-  double moved_m = 0.0;  ///< in this part of a step: any point of it, at most
+  Pose X_WB;             ///< exact; yaw is not wrapped, and matches the body's angle
+  double moved_m = 0.0;  ///< upper bound of the travel of any of its points in this substep
   double stall_clock_s = 0.0;
-  double wall_gone_m = kUnknown;  ///< what it had gone when it looked for walls
+  double wall_at_travel_m = kUnknown;  ///< its cumulative travel at its last search for walls
   BodyState* state = nullptr;
   RobotDetails* details = nullptr;
 };
 
-/// Where a robot's shape is.
+/// Pose of a robot's shape.
 [[nodiscard]] inline b2Transform transform_of(const Robot& r) {
   if (r.body != nullptr) return r.body->GetTransform();
   return {to_box2d(r.X_WB.position()), b2Rot(static_cast<float>(r.X_WB.yaw_rad))};
 }
 
-/// How far the circles round two robots are apart.
+/// Distance between the bounding circles of two robots.
 [[nodiscard]] inline double circles_apart_m(const Robot& a, const Robot& b) {
   return std::max(0.0, (a.X_WB.position() - b.X_WB.position()).norm() - a.radius_m - b.radius_m);
 }
 
-/// How far any point of a robot that gets its target travels, at most [m].
+/// Upper bound of how far any point of a robot moves if it follows its target [m].
 [[nodiscard]] inline double most_travel_m(const Robot& r, double dt_s) {
   return (std::abs(r.target.v_mps) + std::abs(r.target.lateral_mps) +
           std::abs(r.target.omega_radps) * r.radius_m) *
          dt_s;
 }
 
-/// Contacts of a body, if there is one.
+/// The contacts of a body; nullptr if there is no body.
 [[nodiscard]] inline const b2ContactEdge* contact_list(const b2Body* body) {
   return body == nullptr ? nullptr : body->GetContactList();
 }
@@ -125,15 +126,17 @@ struct alignas(64) Robot {
   return false;
 }
 
-/// How far a robot's outline is off the line through an edge.
-struct OffLine {
-  double apart_m;    ///< below 0: across it
-  b2Vec2 direction;  ///< to it
-  bool exact;  ///< the edge is where the line is nearest: so far the robot is from the edge, too
+/// Distance of a robot's outline from the line through an edge.
+struct LineDistance {
+  double apart_m;    ///< negative if the outline crosses the line
+  b2Vec2 direction;  ///< towards the line
+  bool exact;  ///< the nearest point of the line is on the edge, so apart_m is the distance to the
+               ///< edge, too
 };
-[[nodiscard]] OffLine off_line(const Robot& r, const Wall& wall, const b2Transform& xf);
+[[nodiscard]] LineDistance distance_to_line(const Robot& r, const Wall& wall,
+                                            const b2Transform& xf);
 
-/// Whether a wall may be so near to a robot, by the circle round it.
+/// Whether a wall may be within reach_m of a robot, judged by the robot's bounding circle.
 [[nodiscard]] bool may_reach(const Robot& r, const Wall& wall, double reach_m);
 
 }  // namespace sim::physics

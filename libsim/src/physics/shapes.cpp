@@ -39,7 +39,7 @@ b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a, con
   return distance_between(a, xf_a, b, xf_b, cache);
 }
 
-b2AABB grown(b2AABB box, double by_m) {
+b2AABB expanded(b2AABB box, double by_m) {
   const float by = static_cast<float>(by_m) * kScaleF;
   box.lowerBound -= b2Vec2(by, by);
   box.upperBound += b2Vec2(by, by);

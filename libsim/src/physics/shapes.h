@@ -12,10 +12,10 @@
 
 #include "sim/core/pose.h"
 
-/// Box2D's shapes, in its units: see docs/decisions/box2d_scale.md.
+/// Box2D shapes and units: see docs/decisions/box2d_scale.md.
 namespace sim {
 
-inline constexpr double kScale = 10.0;  ///< Box2D units a metre
+inline constexpr double kScale = 10.0;  ///< Box2D units per metre
 inline constexpr float kScaleF = 10.0F;
 
 [[nodiscard]] inline b2Vec2 to_box2d(const Vec2& p) {
@@ -24,17 +24,18 @@ inline constexpr float kScaleF = 10.0F;
 
 [[nodiscard]] inline double metres(float units) { return static_cast<double>(units) / kScale; }
 
-/// Of what does not move, whose shapes are given in W.
-[[nodiscard]] inline b2Transform unmoved() {
+/// Transform of static solids, whose shapes are given in W.
+[[nodiscard]] inline b2Transform identity_transform() {
   b2Transform xf;
   xf.SetIdentity();
   return xf;
 }
 
+/// Makes a polygon shape.
 /// @param vertices  of a convex polygon, counter-clockwise, 3 to b2_maxPolygonVertices [m].
 [[nodiscard]] b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices);
 
-/// Least of n . v over the corners v of a polygon or an edge, in W.
+/// The least n . v over the corners v of a polygon or an edge, in W.
 [[nodiscard]] inline float least_along(const b2Vec2& n, const b2Shape& shape,
                                        const b2Transform& xf) {
   const b2Vec2 local = b2MulT(xf.q, n);
@@ -51,7 +52,7 @@ inline constexpr float kScaleF = 10.0F;
   return least + b2Dot(n, xf.p);
 }
 
-/// How far two shapes are apart without their skins, and the nearest points of them.
+/// Distance of two shapes without their skins, and their nearest points.
 /// @param cache  of an earlier call for the same shapes, or with a count of 0; is updated.
 [[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
                                                 const b2Shape& b, const b2Transform& xf_b,
@@ -59,13 +60,13 @@ inline constexpr float kScaleF = 10.0F;
 [[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
                                                 const b2Shape& b, const b2Transform& xf_b);
 
-/// How far two boxes are apart; 0 if they meet.
+/// Distance of two boxes; 0 if they overlap.
 [[nodiscard]] inline float gap_between(const b2AABB& a, const b2AABB& b) {
   return b2Max(b2Max(b.lowerBound - a.upperBound, a.lowerBound - b.upperBound), b2Vec2(0.0F, 0.0F))
       .Length();
 }
 
-/// A box that reaches so much farther on all sides [m].
-[[nodiscard]] b2AABB grown(b2AABB box, double by_m);
+/// A box extended on all sides by `by_m` [m].
+[[nodiscard]] b2AABB expanded(b2AABB box, double by_m);
 
 }  // namespace sim

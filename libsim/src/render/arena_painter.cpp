@@ -12,7 +12,7 @@
 namespace sim::render {
 namespace {
 
-// Number at the end of a dock's name, e.g. "7" of "dock7"; the count where it has none.
+// The number at the end of a dock's name, e.g. "7" of "dock7"; without one, the dock's index + 1.
 std::string dock_label(const std::string& name, std::size_t index) {
   const std::size_t last = name.find_last_not_of("0123456789");
   const std::string digits = last == std::string::npos ? name : name.substr(last + 1);
@@ -32,7 +32,7 @@ class GroundPainter {
     Shape floor;
     floor.add_piece(rectangle_corners(layout_.floor, 0.0));
     painter_.fill(floor, palette::kFloor);
-    // Half a metre between lines, unless that is too dense or too sparse to help.
+    // Grid lines every half metre, unless that is too dense or too sparse.
     double step_m = 0.5;
     if (step_m * layout_.pixels_per_m < 28.0 * layout_.unit_px) {
       step_m = round_below(100.0 * layout_.unit_px / layout_.pixels_per_m);
@@ -51,7 +51,7 @@ class GroundPainter {
                       a.cwiseMax(b) + half,
                       {std::min(a.x(), b.x()) - half.x(), std::max(a.y(), b.y()) + half.y()}});
     };
-    // Counted in whole steps: a sum of steps would drift, and stop far away from zero.
+    // Counted in whole steps: a sum of steps would drift, and would stop increasing far from zero.
     const auto lines_along = [&](int axis) {
       const double first = std::floor(layout_.origin[axis] / step_m) + 1.0;
       const int count = static_cast<int>(std::ceil(end[axis] / step_m) - first);
@@ -83,7 +83,7 @@ class GroundPainter {
   }
 
  private:
-  // Marks of a parking place: an angle at each corner.
+  // Corner marks of a parking place.
   void draw_dock_corners(const std::vector<Vec2>& corners) {
     Shape marks;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -95,7 +95,7 @@ class GroundPainter {
     painter_.fill(marks, palette::kDockInk);
   }
 
-  // A flash of lightning, the sign of charging, always upright.
+  // A lightning bolt, the symbol of charging, always upright.
   void draw_bolt(const Vec2& center, double half_height_px) {
     const double h = half_height_px;
     Shape bolt;
@@ -114,7 +114,7 @@ class GroundPainter {
     if (style.cap_height_px < 5.0) return;  // would not be legible
     const Vec2 corner = layout_(dock.pose * Vec2(-0.5 * dock.size.x(), -0.5 * dock.size.y()));
     const Vec2 center = layout_(dock.pose.position());
-    // In the rear right corner, which a docked robot leaves free.
+    // In the rear right corner, which a docked robot does not cover.
     const Vec2 middle = corner + (center - corner) * 0.38;
     painter_.draw_text(label,
                        {middle.x() - 0.5 * Painter::text_width_px(label, style),
@@ -142,13 +142,14 @@ class SolidsPainter {
     painter_.fill(outlines, palette::kDynamic, 0.6);
   }
 
-  // Borders, separators, blocks and walls: shadows first, so that none falls on a neighbour's top.
+  // Borders, separators, blocks and walls. Shadows come first, so that none falls on a neighbour's
+  // top.
   void draw_solids() {
     Shape borders;
     Shape separators;
     Shape statics;
     Shape dynamics;
-    Shape coloured;  // blocks that have a colour of their own
+    Shape coloured;  // blocks with their own colour
     Shape walls;
     const double border_px = layout_.border_px;
     if (arena_.border) {
@@ -206,7 +207,7 @@ class SolidsPainter {
   }
 
  private:
-  // Edge within the block's outline, so that blocks side by side do not grow into each other.
+  // An edge line inside the block's outline, so that adjacent blocks do not overlap.
   void draw_block_edge(const ObstacleDescription& box, Colour colour) {
     const double width_px = layout_.line_px(1.6);
     const double inset_m = width_px / layout_.pixels_per_m;
@@ -222,7 +223,7 @@ class SolidsPainter {
     painter_.fill(line, colour, opacity);
   }
 
-  // Soft shadows to the lower right: copies at growing distance, each fainter.
+  // Soft shadows to the lower right: several copies, each fainter and farther away.
   void draw_shadows(const std::vector<const Shape*>& solids) {
     Shape all;
     for (const Shape* solid : solids) all.append(*solid, Vec2::Zero());
@@ -233,7 +234,7 @@ class SolidsPainter {
     }
   }
 
-  // The border's shade on the floor along its upper and left side.
+  // The shadow of the border on the floor along its upper and left side.
   void draw_border_shade() {
     const Rectangle& floor = layout_.floor;
     for (const double depth : {1.5, 3.0, 5.0}) {

@@ -5,16 +5,16 @@
 #include "render/painter.h"
 #include "sim/world/description.h"
 
-/// What stands still in an arena.
+/// Painting of the static parts of an arena.
 namespace sim::render {
 
-/// Floor, its grid, and docks.
+/// Draws floor, grid and docks.
 void draw_ground(const ArenaDescription& arena, const Layout& layout, Painter& painter);
 
-/// Outlines of retracted obstacles, for over floor and canvas.
+/// Draws outlines of retracted obstacles above floor and canvas.
 void draw_retracted(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& overlay);
 
-/// Borders, separators, blocks and walls, with their shadows.
+/// Draws borders, separators, blocks and walls, with their shadows.
 void draw_solids(const ArenaDescription& arena, const Layout& layout, Overlay::Canvas& overlay);
 
 }  // namespace sim::render

@@ -6,8 +6,8 @@
 
 namespace sim::render {
 
-// Span of cells under [begin, end), in cells from the canvas's edge. Weights sum up to the share
-// of the pixel that lies on the canvas.
+// Span of cells under [begin, end), in cells from the canvas's edge. The weights sum up to the
+// fraction of the pixel that lies on the canvas.
 CanvasView::Span CanvasView::span(double begin, double end, int cells) {
   Span span;
   const double low = std::max(begin, 0.0);
@@ -28,7 +28,7 @@ void CanvasView::start(const Place& place, const Image& below, const Overlay* ab
   if (above != nullptr) above->draw_on(picture_, {0, 0, below.width, below.height});
   cells_.assign(4 * static_cast<std::size_t>(place.columns) * static_cast<std::size_t>(place.rows),
                 0);
-  // Divided, not multiplied by the inverse: whole-number scales then give whole-number places.
+  // Division instead of multiplication by the inverse gives integer positions for integer scales.
   const auto span_of = [&](int pixel, double start_px, int count) {
     return span((pixel - start_px) / place.cell_px, (pixel + 1 - start_px) / place.cell_px, count);
   };
@@ -89,12 +89,12 @@ bool CanvasView::find_changes(const std::vector<std::uint8_t>& cells) {
   return any;
 }
 
-// What the cells under a row of pixels do to them.
+// Blends the cells under a row of pixels into the row.
 void CanvasView::mix_line(const Span& row, int x_begin, int x_end) {
   const auto span_at = [this](int x) -> const Span& {
     return columns_[static_cast<std::size_t>(x - place_.part.left)];
   };
-  // First along the columns, then along the row. Colours are multiplied by alpha.
+  // Sums along the columns, then along the row. Colours are premultiplied by alpha.
   const Span& last = span_at(x_end - 1);
   const auto column_begin = static_cast<std::size_t>(span_at(x_begin).first);
   const std::size_t column_end = static_cast<std::size_t>(last.first) + last.weights.size();
@@ -150,7 +150,7 @@ const Image& CanvasView::update(const Place& place, const std::vector<std::uint8
     int row = -1;
     int begin = 0;
     int end = 0;
-  } known;  // what line_ holds, if that is one row of cells alone
+  } known;  // content of line_, if it comes from a single row of cells
   const PixelRect& part = place_.part;
   for (int y = part.top; y < part.bottom; ++y) {
     const Span& row = rows_[static_cast<std::size_t>(y - part.top)];

@@ -11,42 +11,42 @@
 
 namespace sim::render {
 
-/// The grid-map drawn over some picture and kept: only pixels of cells that have changed since are
+/// A cached picture of the grid-map over a background. Only pixels of cells that have changed are
 /// drawn again.
 ///
-/// Each pixel takes the mean of the cells under it, weighted by area: cells larger than pixels
-/// keep crisp edges and equal widths, and lines of cells smaller than pixels do not vanish.
+/// Each pixel shows the area-weighted mean of the cells under it. Cells larger than pixels keep
+/// crisp edges and equal widths, and lines of cells smaller than pixels do not vanish.
 class CanvasView {
  public:
-  /// Where the cells lie in the picture.
+  /// Position of the cells in the picture.
   struct Place {
     int columns = 0;
     int rows = 0;
     double left_px = 0.0;  ///< of the top left cell
     double top_px = 0.0;
     double cell_px = 1.0;
-    PixelRect part;  ///< nothing is drawn beyond, nor beyond the picture
+    PixelRect part;  ///< nothing is drawn outside of it or of the picture
 
     friend bool operator==(const Place&, const Place&) = default;
   };
 
-  /// Must be called when `below` or `above` are others than at the last update.
+  /// Must be called if `below` or `above` have changed since the last update.
   void forget() { valid_ = false; }
 
-  /// Brings the picture up to date.
-  /// @param cells  RGBA, as SceneSnapshot::canvas; empty: nothing is drawn.
-  /// @param below  what the cells are laid over.
-  /// @param above  laid over both, or null.
+  /// Updates the picture.
+  /// @param cells  RGBA, like SceneSnapshot::canvas; empty: nothing is drawn.
+  /// @param below  the background of the cells.
+  /// @param above  drawn over both, or null.
   const Image& update(const Place& place, const std::vector<std::uint8_t>& cells,
                       const Image& below, const Overlay* above);
 
  private:
-  // The shares of cells in each pixel along one axis.
+  // The weights of the cells in each pixel along one axis.
   struct Span {
     int first = 0;
-    std::vector<float> weights;  // of cell first, first + 1, ...; empty: off the canvas
+    std::vector<float> weights;  // of the cells first, first + 1, ...; empty: outside the canvas
   };
-  // Columns of cells of one row that have changed.
+  // Range of changed columns in one row of cells.
   struct Dirty {
     int begin = 0;
     int end = 0;
@@ -62,8 +62,8 @@ class CanvasView {
   std::vector<std::uint8_t> cells_;  // as drawn
   std::vector<Span> columns_;        // of the pixels from place_.part.left on
   std::vector<Span> rows_;           // of the pixels from place_.part.top on
-  std::vector<int> first_pixel_;     // by column of cells: the first pixel at it or beyond
-  std::vector<int> end_pixel_;       // and one past the last pixel at it or before
+  std::vector<int> first_pixel_;     // by column of cells: the first pixel at or after it
+  std::vector<int> end_pixel_;       // and one past the last pixel at or before it
   std::vector<Dirty> dirty_;         // by row of cells
   std::vector<std::array<float, 4>> sums_;
   std::vector<Blend> line_;  // of the pixels from place_.part.left on

@@ -64,7 +64,7 @@ FilmKind required_kind_of(const std::string& path) {
                                        "\", expected .mp4, .avi, or none for a folder of pictures");
 }
 
-// Whether a file is called frame_000001.png, or with another number.
+// Whether a file has the name of a frame, e.g. frame_000001.png.
 bool is_frame(const fs::path& file) {
   const std::string name = file.filename().string();
   constexpr std::string_view kStart = "frame_";
@@ -74,7 +74,7 @@ bool is_frame(const fs::path& file) {
   return digits.size() >= 6 && digits.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// A number of `bytes` bytes at the place where the file is read.
+// Reads a number of `bytes` bytes at the file's current position.
 std::uint64_t read_number(std::istream& file, int bytes, bool little_endian) {
   std::uint64_t number = 0;
   for (int i = 0; i < bytes; ++i) {
@@ -84,10 +84,11 @@ std::uint64_t read_number(std::istream& file, int bytes, bool little_endian) {
   return number;
 }
 
-// Whether a film ends where its blocks say. OpenCV does not tell when a disk was full, but then the
-// last block lacks its end or, in an MP4 (ISO 14496-12), the index "moov", which is written last.
-// An AVI consists of RIFF blocks: a name, then the length of what follows; in an MP4 the length
-// comes first, and counts itself and the name. A length of 1 stands for one of 64 bits.
+// Whether a film is complete according to its block structure. OpenCV does not report a full disk,
+// but then the last block is truncated or, in an MP4 (ISO 14496-12), the index "moov" at the end is
+// missing. An AVI consists of RIFF blocks: a name, then the length of the content. In an MP4 the
+// length comes first and includes itself and the name; a length of 1 means that a 64-bit length
+// follows.
 bool is_whole(const std::string& path) {
   std::error_code error;
   const std::uint64_t size = fs::file_size(path, error);
@@ -140,9 +141,9 @@ struct FilmWriter::Impl {
     ++frame_count;
   }
 
-  /// Completes the film and sees whether it is whole.
+  /// Completes the film and checks whether it is complete on disk.
   virtual void finish() {}
-  /// Bytes that it has on the disk by now.
+  /// Number of bytes written to the disk so far.
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 
   std::string path;
@@ -151,7 +152,7 @@ struct FilmWriter::Impl {
   int frame_height = 0;
 
  private:
-  /// Writes a frame that is like those before.
+  /// Writes a frame of the same size as the previous ones.
   virtual void write(const Image& frame) = 0;
 };
 
@@ -173,11 +174,11 @@ class Video final : public FilmWriter::Impl {
         frames_per_second_(frames_per_second),
         kind_(kind),
         part_(name) {
-    // OpenCV only says that it failed. Opening the file here tells why, and before a run, not
-    // after.
+    // OpenCV does not report the reason of a failure. Opening the file here gives the reason,
+    // before the run instead of after it.
     struct stat info {};
-    // A pipe or a device cannot be replaced by what was written beside it.
-    if (lstat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) part_ = part_name(path);
+    // A pipe or a device cannot be replaced by a file.
+    if (lstat(path.c_str(), &info) != 0 || S_ISREG(info.st_mode)) part_ = part_file_name(path);
     errno = 0;
     if (!std::ofstream(part_, std::ios::binary | std::ios::trunc)) {
       refuse_film(path, errno != 0 ? std::strerror(errno) : "unknown reason");
@@ -189,9 +190,9 @@ class Video final : public FilmWriter::Impl {
     try {
       finish();
     } catch (const std::exception&) {
-      // Whoever wants to know calls finish().
+      // Callers who need the error call finish().
     }
-    if (frame_count == 0) std::remove(part_.c_str());  // no film: leave no empty file
+    if (frame_count == 0) std::remove(part_.c_str());  // without frames, leave no empty file
   }
 
   [[nodiscard]] std::uint64_t size() const override {
@@ -204,12 +205,12 @@ class Video final : public FilmWriter::Impl {
     close();
     if (std::exchange(finished_, true) || frame_count == 0) return;
     if (!is_whole(part_)) {
-      // Nothing can play it, and others may need the room.
+      // It cannot be played, and its disk space may be needed.
       if (part_ != path) std::remove(part_.c_str());
       refuse_film(path, "it is not whole (is the disk full?)");
     }
     if (part_ == path) return;
-    if (const int error = adopt_part(path)) refuse_film(path, std::strerror(error));
+    if (const int error = rename_part_file(path)) refuse_film(path, std::strerror(error));
   }
 
  private:
@@ -241,9 +242,10 @@ class Video final : public FilmWriter::Impl {
   const modules::FilmFunctions& functions_;
   double frames_per_second_;
   FilmKind kind_;
-  std::string part_;  // where it is written; takes its name when it is whole
+  std::string part_;  // temporary name while it is written; renamed when complete
   bool finished_ = false;
-  modules::FilmEncoder* encoder_ = nullptr;  // opened with the first frame, which tells the size
+  modules::FilmEncoder* encoder_ = nullptr;  // opened with the first frame, which determines the
+                                             // size
   std::array<char, 1024> problem_{};
 };
 
@@ -275,7 +277,7 @@ class Pictures final : public FilmWriter::Impl {
     const std::uint64_t number = frame_count + 1;
     std::array<char, 32> name{};
     std::snprintf(name.data(), name.size(), "frame_%06" PRIu64 ".png", number);
-    // Quick to pack: a film has thousands.
+    // Fast compression, since a film has thousands of frames.
     const fs::path file = fs::path(path) / name.data();
     write_png(frame, file.string(), PngEffort::kQuick);
     std::error_code error;

@@ -56,7 +56,7 @@ class FooterPainter {
     if (time_left < left_end + gap) return;
     painter_.draw_text(time, {time_left, middle_y + 0.5 * small.cap_height_px}, small);
 
-    // In the middle of the picture if there is room, else of what room there is.
+    // Centred in the picture if there is room, otherwise in the remaining space.
     const double room_left = left_end + gap;
     const double room_right = time_left - gap;
     const std::string name = shortened(scene_.world_name, style, room_right - room_left);
@@ -86,7 +86,7 @@ class FooterPainter {
     painter_.fill(frame, palette::kInk);
   }
 
-  // An entry of the legend: swatches, each with its word behind it.
+  // An entry of the legend: swatches, each followed by its word.
   struct Entry {
     struct Swatch {
       Colour colour;
@@ -96,7 +96,7 @@ class FooterPainter {
     std::vector<Swatch> swatches;
   };
 
-  // Widths of the legend's parts, all in proportion to the text.
+  // Widths of the legend's parts, proportional to the text size.
   struct Measures {
     explicit Measures(const TextStyle& style)
         : swatch_px(1.25 * style.cap_height_px),
@@ -109,9 +109,9 @@ class FooterPainter {
     double outer_gap_px;  // between entries
   };
 
-  // How a layer's cells look on white.
+  // The colour of a layer's cells on white.
   static Colour on_white(const LayerStyle& style) {
-    constexpr double kLeast = 0.25;  // a swatch that can't be seen tells nothing
+    constexpr double kLeast = 0.25;  // a fainter swatch would be invisible
     const double opacity =
         std::clamp(style.colour.a / 255.0 * (1.0 - style.transparency), kLeast, 1.0);
     return mix(Colour{255, 255, 255}, opaque(style.colour), opacity);
@@ -136,7 +136,7 @@ class FooterPainter {
     for (std::size_t i = 0; i < entry.swatches.size(); ++i) {
       const Entry::Swatch& swatch = entry.swatches[i];
       width += measures.swatch_px;
-      if (swatch.word.empty()) continue;  // the next swatch touches this one
+      if (swatch.word.empty()) continue;  // the next swatch is adjacent to this one
       width += measures.word_gap_px + Painter::text_width_px(swatch.word, style);
       if (i + 1 < entry.swatches.size()) width += measures.inner_gap_px;
     }
@@ -150,9 +150,8 @@ class FooterPainter {
     return width + std::max(gaps, 0.0) * Measures(style).outer_gap_px;
   }
 
-  // One line of all layers, in the order in which they lie over one another. It takes the first
-  // that fits: text of full size, then smaller text, then without words for shades, then without
-  // the last ones.
+  // Draws one line with all layers in drawing order. Uses the first variant that fits: full text
+  // size, smaller text, no words for shades, without the last layers.
   void draw_layers(const std::vector<const LayerInfo*>& layers, double middle_y) {
     const double room_px = place_.right - place_.left;
     std::vector<Entry> entries;
@@ -204,7 +203,8 @@ class FooterPainter {
     }
   }
 
-  // A square with an edge, that white and light colours need; on whole pixels, so that it is crisp.
+  // A square with an edge line, which white and light colours need; aligned to whole pixels to be
+  // crisp.
   void draw_swatch(double left, double middle_y, double size_px, Colour colour) {
     const double edge_px = std::max(std::round(layout_.unit_px), 1.0);
     const double x = std::round(left);

@@ -7,10 +7,10 @@
 
 namespace sim::render {
 
-/// Draws what stands below a picture: scale bar, the world's name and the time in one line, and
-/// under it, if there are visible layers but the base, their legend.
-/// @param place         where; its left and right edge are those of the texts.
-/// @param pixels_per_m  of what is above, for the scale bar.
+/// Draws the footer of a picture: scale bar, the world's name and the time in one line, and a
+/// legend below if there are visible layers other than the base.
+/// @param place         area of the footer; its left and right edges align the texts.
+/// @param pixels_per_m  of the picture above, for the scale bar.
 void draw_footer(const SceneSnapshot& scene, const Layout& layout, const Rectangle& place,
                  double pixels_per_m, Painter& painter);
 

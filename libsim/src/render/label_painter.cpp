@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What is written beside robots: their names, and what they say.
+// Texts next to robots: their names, and what they say.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ class LabelPainter {
   LabelPainter(const SceneSnapshot& scene, const Layout& layout, Painter& painter)
       : scene_(scene), layout_(layout), painter_(painter) {}
 
-  // Bubbles beside the robots that say something, none over another if there is room.
+  // Draws bubbles next to robots that say something, without overlap if there is room.
   void draw_speech() {
     for (const Bubble& bubble : bubbles()) {
       Shape shape;
@@ -31,8 +31,7 @@ class LabelPainter {
         shadow.append(shape, Vec2(0.6, 1.0) * distance * layout_.unit_px);
         painter_.fill(shadow, palette::kShadow, 0.1);
       }
-      // The inner half of the rim is covered by the bubble itself, and so is what divides its
-      // parts.
+      // The bubble itself covers the inner half of its rim, and the lines between its parts.
       const double rim_px = 2.0 * layout_.line_px(1.5, 1.0);
       Shape rim;
       rim.add_line(rounded(bubble.place, layout_.line_px(5.0, 2.0)), rim_px, true);
@@ -49,8 +48,8 @@ class LabelPainter {
     }
   }
 
-  // Names beside the robots. Each takes, of places all round its robot, the one that covers least
-  // of other names and robots; a second round lets early names give way to later ones.
+  // Draws names next to the robots. Each label takes the position around its robot that covers the
+  // least of other labels and robots. A second pass moves early labels away from later ones.
   void draw_names() {
     std::vector<Label> labels;
     std::vector<Rectangle> bodies;
@@ -100,7 +99,7 @@ class LabelPainter {
     std::vector<Vec2> tail;
   };
 
-  // A text as the painter can write it: one '?' for each character that is not ASCII.
+  // The text with one '?' for each non-ASCII character, since the painter only draws ASCII.
   static std::string plain(const std::string& text) {
     std::string ascii;
     for (const char c : text) {
@@ -114,7 +113,7 @@ class LabelPainter {
     return ascii;
   }
 
-  // A text in two lines at most, parted between words; dots stand for what has no room.
+  // Wraps a text into at most two lines, broken between words; dots replace what does not fit.
   static std::vector<std::string> wrapped(const std::string& text, const TextStyle& style,
                                           double width_px) {
     const auto fits = [&](const std::string& line) {
@@ -123,12 +122,12 @@ class LabelPainter {
     std::string rest = text;
     rest.erase(0, std::min(rest.find_first_not_of(' '), rest.size()));
     if (rest.empty() || fits(rest)) return {rest};
-    std::size_t end = 0;  // of the first line
+    std::size_t end = 0;  // end of the first line
     for (std::size_t at = rest.find(' '); at != std::string::npos; at = rest.find(' ', at + 1)) {
       if (!fits(rest.substr(0, at))) break;
       end = at;
     }
-    if (end == 0) {  // a word that is longer than a line
+    if (end == 0) {  // a word longer than a line
       end = 1;
       while (end < rest.size() && fits(rest.substr(0, end + 1))) ++end;
     }
@@ -161,7 +160,7 @@ class LabelPainter {
     return all;
   }
 
-  // Gives a bubble the place round its robot where it covers least of others, and its tail.
+  // Places a bubble around its robot where it covers the least of others, and computes its tail.
   void put_bubble(Bubble& bubble, const Vec2& center, double radius,
                   const std::vector<Bubble>& others, const std::vector<Rectangle>& bodies) const {
     double width_px = 0.0;
@@ -185,7 +184,7 @@ class LabelPainter {
                                   direction[1] * (radius + gap + half.y()));
       const Vec2 wanted = middle;
       const double bottom = std::max(layout_.floor.bottom, 2.0 * half.y() + 2.0 * edge);
-      // Over the floor where it is wide enough, else anywhere in the picture.
+      // Inside the floor if it is wide enough, otherwise anywhere in the picture.
       const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
       const double least_x = (fits ? layout_.floor.left : 0.0) + half.x() + edge;
       const double most_x = (fits ? layout_.floor.right : layout_.width) - half.x() - edge;
@@ -201,7 +200,7 @@ class LabelPainter {
       least_cost = cost;
       bubble.place = place;
     }
-    // From the edge that faces the robot to a little before its rim.
+    // The tail goes from the side that faces the robot to a point just before the robot's rim.
     const Rectangle& place = bubble.place;
     const double foot = std::min(7.0 * layout_.unit_px, 0.4 * half.y());
     const double corner = layout_.line_px(5.0, 2.0) + foot;
@@ -220,7 +219,7 @@ class LabelPainter {
     const Vec2 aside = above || below ? Vec2(foot, 0.0) : Vec2(0.0, foot);
     const Vec2 way = root - center;
     const double length = way.norm();
-    if (length < radius) {  // it lies on its robot: there is nothing to point from
+    if (length < radius) {  // the bubble overlaps its robot and needs no tail
       bubble.tail = {root - aside, root + aside, root};
       return;
     }
@@ -258,7 +257,7 @@ class LabelPainter {
 
   [[nodiscard]] Rectangle best_place(const Label& label, const std::vector<Rectangle>& names,
                                      const std::vector<Rectangle>& bodies) const {
-    // Directions by preference: above, below, right, left, then the corners.
+    // Directions in order of preference: above, below, right, left, then diagonals.
     constexpr std::array<std::array<double, 2>, 8> kDirections = {
         {{0, -1}, {0, 1}, {1, 0}, {-1, 0}, {0.8, -0.8}, {-0.8, -0.8}, {0.8, 0.8}, {-0.8, 0.8}}};
     const Vec2 half(0.5 * label.width_px, 0.5 * label.style.cap_height_px);
@@ -272,7 +271,7 @@ class LabelPainter {
         const double reach = label.radius_px + gap * layout_.unit_px;
         Vec2 middle = label.center +
                       Vec2(direction[0] * (reach + half.x()), direction[1] * (reach + half.y()));
-        // On the floor where it is wide enough, else in the picture and above the footer.
+        // Inside the floor if it is wide enough, otherwise in the picture above the footer.
         const bool fits = layout_.floor.right - layout_.floor.left > 2.0 * (half.x() + edge);
         const double least_x = fits ? layout_.floor.left : 0.0;
         const double most_x = fits ? layout_.floor.right : layout_.width;

@@ -26,7 +26,7 @@ double luma(Colour colour) {
 
 double round_below(double limit) {
   const double power = std::pow(10.0, std::floor(std::log10(limit)));
-  // The tolerance takes 0.999...9 that logarithm and power make of a whole power of ten.
+  // The tolerance allows for 0.999...9, which logarithm and power may give for a power of ten.
   for (const double factor : {5.0, 2.0}) {
     if (factor * power <= limit * (1.0 + 1e-9)) return factor * power;
   }
@@ -37,7 +37,7 @@ std::string shortened(const std::string& text, const TextStyle& style, double wi
   constexpr std::size_t kMaxLength = 64;
   std::string shown = text.size() > kMaxLength ? text.substr(0, kMaxLength - 3) + "..." : text;
   while (Painter::text_width_px(shown, style) > width_px) {
-    if (shown.size() <= 8) return "";  // less than that names nothing
+    if (shown.size() <= 8) return "";  // a shorter text would not be useful
     const std::size_t kept = shown.size() - (shown.ends_with("...") ? 4 : 3);
     shown.resize(kept);
     while (shown.ends_with(' ')) shown.pop_back();
@@ -58,8 +58,8 @@ Layout::Layout(const ArenaDescription& arena, const RenderOptions& options) {
   const double room_y = size - margin - footer;
   pixels_per_m = std::min(room_x / size_m.x(), room_y / size_m.y());
   const Vec2 size_px = size_m * pixels_per_m;
-  // A narrow arena stands in the middle of a picture wide enough for the footer; a flat one gets
-  // a picture of at least a hand's breadth.
+  // A narrow arena is centred in a picture that is wide enough for the footer. A flat arena gets a
+  // picture of a minimum height.
   const double least_width = legend ? std::min<double>(size, 480.0 * unit_px) : 0.0;
   width = static_cast<int>(std::lround(std::max(size_px.x() + 2.0 * margin, least_width)));
   height = static_cast<int>(std::lround(size_px.y() + margin + footer));

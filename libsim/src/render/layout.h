@@ -13,7 +13,7 @@
 
 namespace sim::render {
 
-/// All colours but those that robots bring along.
+/// All colours except those of the robots.
 namespace palette {
 constexpr Colour kPaper{0xf1, 0xef, 0xea};
 constexpr Colour kFloor{0xfc, 0xfb, 0xf8};
@@ -37,7 +37,7 @@ constexpr Colour kLight{0xff, 0xff, 0xff};
 constexpr Colour kStalled{0xe0, 0x1e, 0x37};
 }  // namespace palette
 
-/// The colour `share` of the way from a to b.
+/// Linear interpolation from a to b; `share` 1 gives b.
 [[nodiscard]] Colour mix(Colour a, Colour b, double share);
 
 /// Luma of BT.601, 0..1.
@@ -45,10 +45,10 @@ constexpr Colour kStalled{0xe0, 0x1e, 0x37};
 
 [[nodiscard]] inline Colour opaque(Colour colour) { return {colour.r, colour.g, colour.b, 255}; }
 
-/// The greatest of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is at most `limit` > 0.
+/// The largest of ..., 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is at most `limit` > 0.
 [[nodiscard]] double round_below(double limit);
 
-/// `text`, cut and ended with dots if it is longer than allowed; "" where not even that fits.
+/// `text`, truncated with dots if it is too long; "" if not even that fits.
 [[nodiscard]] std::string shortened(const std::string& text, const TextStyle& style,
                                     double width_px);
 
@@ -66,41 +66,41 @@ struct Rectangle {
   }
 };
 
-/// Where things lie in the picture.
+/// Positions and sizes in the picture.
 struct Layout {
-  double unit_px = 1.0;  ///< a thousandth of the longer side: all line widths and texts scale by it
+  double unit_px = 1.0;  ///< a thousandth of the longer side; line widths and texts scale with it
   bool text = true;      ///< whether there is room for any text
   int width = 0;         ///< of the picture
   int height = 0;
   double margin_px = 0.0;
-  double footer_px = 0.0;  ///< height of what is below the arena
-  double border_px = 0.0;  ///< width of the border round the floor; 0: none
+  double footer_px = 0.0;  ///< height of the footer below the arena
+  double border_px = 0.0;  ///< width of the border around the floor; 0: none
   double pixels_per_m = 1.0;
   Rectangle floor;
   Vec2 origin = Vec2::Zero();  ///< W position of the floor's bottom left corner [m]
-  bool floor_only = false;     ///< robots that lie beyond the floor are left out
+  bool floor_only = false;     ///< robots beyond the floor are not drawn
 
   Layout(const ArenaDescription& arena, const RenderOptions& options);
 
-  /// The place of a W position.
+  /// Picture position of a point in W.
   [[nodiscard]] Vec2 operator()(const Vec2& p_W) const {
     return {floor.left + (p_W.x() - origin.x()) * pixels_per_m,
             floor.bottom - (p_W.y() - origin.y()) * pixels_per_m};
   }
   [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& points_in_world) const;
 
-  /// The pixels that the floor covers, in part or whole.
+  /// The pixels that the floor covers completely or partly.
   [[nodiscard]] PixelRect floor_pixels() const;
 
-  /// A length that is the same share of every picture, but never thinner than `least_px`.
+  /// A line width proportional to the picture's size, but at least `least_px`.
   [[nodiscard]] double line_px(double thousandths, double least_px = 0.8) const {
     return std::max(thousandths * unit_px, least_px);
   }
-  /// Text of a size that is the same share of every picture, but stays legible.
+  /// A text size proportional to the picture's size, but legible.
   [[nodiscard]] TextStyle text_style(double cap_height, Colour colour) const;
 };
 
-/// The corners of a rectangle, clockwise in the picture, moved outwards.
+/// The corners of a rectangle that is enlarged on all sides, clockwise in the picture.
 [[nodiscard]] std::vector<Vec2> rectangle_corners(const Rectangle& rectangle, double grown_px);
 
 }  // namespace sim::render

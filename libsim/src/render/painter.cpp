@@ -15,8 +15,8 @@
 namespace sim::render {
 namespace {
 
-// Text is drawn this many times too large and averaged: finer than the module's own smoothing, and
-// widths of strokes come in quarters of a pixel.
+// Text is drawn enlarged by this factor and averaged. This is finer than the module's own
+// smoothing, and allows stroke widths in quarters of a pixel.
 constexpr int kTextOversampling = 4;
 constexpr double kFontCapHeight = 21.0;  // of the text module's font at scale 1 [pixels]
 constexpr std::size_t kMaxTextLength = 256;
@@ -36,9 +36,9 @@ struct Word {
   double width_px;
 };
 
-// Words with their places. The font's own space is as wide as a letter, which looks like a gap.
+// Words with their positions. The font's own space is as wide as a letter, which is too wide.
 std::vector<Word> words_of(const std::string& text, const TextStyle& style) {
-  constexpr double kSpace = 0.5;  // as a share of the height of capitals
+  constexpr double kSpace = 0.5;  // as a fraction of the cap height
   std::vector<Word> words;
   double at_px = 0.0;
   const std::size_t length = std::min(text.size(), kMaxTextLength);
@@ -68,7 +68,7 @@ double signed_area(const std::vector<Vec2>& points) {
   return 0.5 * twice;
 }
 
-// Most of a row is empty: eight cells at a time are passed over.
+// Most of a row is empty: skips eight cells at a time.
 int first_not_zero(const float* cells, int begin, int end) {
   constexpr int kAtOnce = 8;
   for (; begin + kAtOnce <= end; begin += kAtOnce) {
@@ -80,10 +80,10 @@ int first_not_zero(const float* cells, int begin, int end) {
   return begin;
 }
 
-// Sums up what edges contribute to the pixels of a part of the picture. An edge covers, in each
-// row it crosses, what lies to its right, counted positive downwards and negative upwards. Cell
-// (x, y) holds the change of that from pixel x - 1 to pixel x, so that a running sum along the row
-// gives the covered area of each pixel exactly.
+// Accumulates the contributions of edges to the pixels of a part of the picture. In each row that
+// it crosses, an edge covers what lies to its right, counted positive downwards and negative
+// upwards. Cell (x, y) holds the change of this coverage from pixel x - 1 to pixel x, so a running
+// sum along the row gives the covered area of each pixel exactly.
 class Accumulator {
  public:
   // `cells` must hold (width + 1) * height zeros.
@@ -111,11 +111,11 @@ class Accumulator {
     }
   }
 
-  // Calls visit(y, x_begin, x_end, coverage) for the runs where there is any, row by row, and sets
-  // all cells back to zero.
+  // Calls visit(y, x_begin, x_end, coverage) for each covered run, row by row, and resets all cells
+  // to zero.
   template <typename Visitor>
   void visit_and_clear(Visitor visit) {
-    constexpr float kLeast = 1.0F / 2048.0F;  // less than that is rounding, and would not show
+    constexpr float kLeast = 1.0F / 2048.0F;  // less is rounding error and would be invisible
     for (int y = 0; y < height_; ++y) {
       float* const cell = cells_ + static_cast<std::size_t>(y) * stride_;
       float total = 0.0F;
@@ -169,12 +169,13 @@ class Accumulator {
   float* cells_;
 };
 
-// The part of `clip` in which the shape may cover something.
+// The part of `clip` that the shape may cover.
 PixelRect bounds_within(const Shape& shape, const PixelRect& clip) {
   if (shape.edges().empty()) return {};
   Vec2 low = shape.edges().front().from;
   Vec2 high = low;
-  for (const Shape::Edge& edge : shape.edges()) {  // outlines are closed: `from` is every corner
+  for (const Shape::Edge& edge : shape.edges()) {  // outlines are closed, so `from` visits every
+                                                   // corner
     low = low.cwiseMin(edge.from);
     high = high.cwiseMax(edge.from);
   }
@@ -191,7 +192,7 @@ std::uint32_t whole_weight(float share) {
   return static_cast<std::uint32_t>(share * 65536.0F + 0.5F);
 }
 
-// Lays a colour over a pixel, `weight` / 2^16 of it.
+// Blends a colour over a pixel with the weight `weight` / 2^16.
 void blend_pixel(std::uint8_t* pixel, Colour colour, std::uint32_t weight) {
   constexpr std::uint32_t kOne = 1 << 16;
   constexpr std::uint32_t kHalf = kOne / 2;
@@ -218,7 +219,7 @@ void Shape::add_piece(std::vector<Vec2> points) {
 }
 
 void Shape::add_disc(const Vec2& center, double radius_px) {
-  // So many corners that the polygon is less than 1/20 pixel off the circle.
+  // The number of corners keeps the polygon within 1/20 pixel of the circle.
   const int corners = std::clamp(static_cast<int>(std::ceil(10.0 * std::sqrt(radius_px))), 8, 256);
   std::vector<Vec2> points;
   points.reserve(static_cast<std::size_t>(corners));
@@ -245,7 +246,7 @@ void Shape::add_line(const std::vector<Vec2>& points, double width_px, bool clos
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool end = !closed && (i == 0 || i + 1 == points.size());
     if (!end) {
-      // The wedge left open outside a joint that turns by t is radius (1 - cos(t / 2)) high.
+      // At a joint that turns by t, the open wedge on the outside is radius (1 - cos(t / 2)) high.
       constexpr double kLeastGap_px = 0.02;
       const Vec2 in = points[i] - points[(i + points.size() - 1) % points.size()];
       const Vec2 out = points[(i + 1) % points.size()] - points[i];
@@ -264,7 +265,7 @@ void Shape::add_dashed_outline(const std::vector<Vec2>& points, double width_px,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec2& a = points[i];
     const Vec2& b = points[(i + 1) % points.size()];
-    // A side is half a dash, then gaps and dashes in turn, then half a dash: n of both together.
+    // A side consists of half a dash, alternating gaps and dashes, and half a dash: n periods.
     const double length = (b - a).norm();
     constexpr double kMostPeriods =
         2000.0;  // bounds the work for a side far longer than the picture
@@ -337,7 +338,7 @@ Overlay::Overlay(int width, int height, const std::function<void(Canvas&)>& draw
 }
 
 void Overlay::add_runs(const Canvas& canvas) {
-  constexpr float kLeastKept = 1.0F / 1024.0F;  // less does not show
+  constexpr float kLeastKept = 1.0F / 1024.0F;  // smaller values are invisible
   const int width = canvas.part_.right - canvas.part_.left;
   const Canvas::Pixel* pixel = canvas.pixels_.data();
   for (int y = canvas.part_.top; y < canvas.part_.bottom; ++y, pixel += width) {
@@ -460,31 +461,31 @@ void Painter::fill_fading(const Shape& shape, Colour colour, const Vec2& center,
   });
 }
 
-void Painter::unite(const Shape& shape, double opacity) {
+void Painter::accumulate(const Shape& shape, double opacity) {
   const auto strength = static_cast<float>(opacity);
-  if (united_.empty()) united_.resize(image_.rgb.size() / 3);
+  if (accumulated_.empty()) accumulated_.resize(image_.rgb.size() / 3);
   rasteriser_.rasterise(shape, clip_, [&](int y, int begin, int end, float coverage) {
     float* const row =
-        united_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
+        accumulated_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
     for (int x = begin; x < end; ++x) row[x] = std::max(row[x], coverage * strength);
-    PixelRect& part = united_part_;
+    PixelRect& part = accumulated_part_;
     const bool none = part.right == 0;
     part = {none ? begin : std::min(part.left, begin), none ? y : std::min(part.top, y),
             std::max(part.right, end), std::max(part.bottom, y + 1)};
   });
 }
 
-void Painter::fill_united(Colour colour) {
-  for (int y = united_part_.top; y < united_part_.bottom; ++y) {
+void Painter::fill_accumulated(Colour colour) {
+  for (int y = accumulated_part_.top; y < accumulated_part_.bottom; ++y) {
     float* const row =
-        united_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
-    for (int x = first_not_zero(row, united_part_.left, united_part_.right); x < united_part_.right;
-         x = first_not_zero(row, x + 1, united_part_.right)) {
+        accumulated_.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width);
+    for (int x = first_not_zero(row, accumulated_part_.left, accumulated_part_.right);
+         x < accumulated_part_.right; x = first_not_zero(row, x + 1, accumulated_part_.right)) {
       blend(y, x, x + 1, colour, row[x]);
       row[x] = 0.0F;
     }
   }
-  united_part_ = {};
+  accumulated_part_ = {};
 }
 
 double Painter::text_width_px(const std::string& text, const TextStyle& style) {
@@ -498,7 +499,7 @@ double Painter::text_width_px(const std::string& text, const TextStyle& style) {
 Painter::TextMask Painter::make_text_mask(const std::string& text, const TextStyle& style,
                                           int quarter_px, double rim_px) {
   const std::vector<Word> words = words_of(text, style);
-  // Room on all sides for strokes, the halo and letters below the base line.
+  // Margin on all sides for strokes, the halo and descenders.
   const int room =
       static_cast<int>(std::ceil(style.cap_height_px * (0.5 + style.weight) + style.halo_px)) + 1;
   const int cap_height = static_cast<int>(std::ceil(style.cap_height_px));

@@ -16,19 +16,19 @@
 
 namespace sim::render {
 
-/// Whether a point is finite and not absurdly far off the picture: nearer than 1e9 pixels, where
-/// doubles still tell a millionth of a pixel.
+/// Whether a point is finite and within 1e9 pixels of the picture's origin, where doubles still
+/// resolve a millionth of a pixel.
 [[nodiscard]] inline bool is_drawable(const Vec2& point) {
   constexpr double kFarthest = 1e9;
   return std::abs(point.x()) < kFarthest && std::abs(point.y()) < kFarthest;
 }
 
-/// An area of a picture, bounded by straight edges. Coordinates are pixels, x right and y down,
-/// (0, 0) being the top left corner of the top left pixel (whose centre is (0.5, 0.5)).
+/// An area of a picture, bounded by straight edges. Coordinates are pixels, x right and y down. (0,
+/// 0) is the top left corner of the top left pixel, whose centre is (0.5, 0.5).
 ///
-/// What it covers: everything that its outlines wind round, where outlines add up by their sense
-/// of turning. So a ring is an outline with one of the other sense inside, and pieces that turn
-/// alike may overlap.
+/// A shape covers the points with a non-zero winding number, summed over its outlines. So a ring is
+/// an outline with another one of opposite orientation inside, and pieces of equal orientation may
+/// overlap.
 class Shape {
  public:
   struct Edge {
@@ -36,18 +36,19 @@ class Shape {
     Vec2 to;
   };
 
-  /// A closed outline, with the sense of turning it has.
+  /// Adds a closed outline with its own orientation.
   void add_outline(const std::vector<Vec2>& points);
-  /// A closed outline without crossings, turned the way all pieces are: pieces unite.
+  /// Adds a closed outline without self-intersections, oriented like all pieces, so that pieces
+  /// unite.
   void add_piece(std::vector<Vec2> points);
   void add_disc(const Vec2& center, double radius_px);
-  /// A line of some width with round ends and joints, as pieces. (Joints that hardly turn get no
-  /// disc: what it would add could not be seen.)
+  /// Adds a line with round ends and joints, as pieces. (Joints with a very small angle get no
+  /// disc, which would be invisible.)
   void add_line(const std::vector<Vec2>& points, double width_px, bool closed = false);
-  /// As add_line for a closed outline, dashed so that every corner lies within a dash.
+  /// Like add_line for a closed outline, dashed so that every corner lies within a dash.
   void add_dashed_outline(const std::vector<Vec2>& points, double width_px, double dash_px);
 
-  /// Another shape as it is, moved.
+  /// Adds a copy of another shape, shifted by `offset`.
   void append(const Shape& other, const Vec2& offset);
   /// Cuts out a shape that lies within this one.
   void cut(const Shape& hole);
@@ -58,22 +59,22 @@ class Shape {
   std::vector<Edge> edges_;
 };
 
-/// How a line of text looks.
+/// Style of a line of text.
 struct TextStyle {
   double cap_height_px = 12.0;  ///< height of a capital letter
-  double weight = 0.13;         ///< width of its strokes as a share of that height
+  double weight = 0.13;         ///< stroke width as a fraction of the cap height
   Colour colour;
-  double halo_px = 0.0;  ///< width of a rim that sets it off from what is below; 0: none
+  double halo_px = 0.0;  ///< width of a rim that separates the text from the background; 0: none
   Colour halo;
 };
 
-/// How a pixel changes: each channel becomes (below * keep + add) >> 16.
+/// Change of a pixel: each channel becomes (below * keep + add) >> 16.
 struct Blend {
   std::uint32_t keep = 1U << 16;                                   ///< 0..2^16
-  std::array<std::uint32_t, 3> add = {1 << 15, 1 << 15, 1 << 15};  ///< with a half for rounding
+  std::array<std::uint32_t, 3> add = {1 << 15, 1 << 15, 1 << 15};  ///< with 1/2 for rounding
 
-  /// @param kept   share of what is below that stays, in [0, 1].
-  /// @param added  what comes on top, 0..255 * (1 - kept).
+  /// @param kept   weight of the pixel below, in [0, 1].
+  /// @param added  value to add, 0..255 * (1 - kept).
   static Blend of(float kept, const std::array<float, 3>& added) {
     constexpr float kOne = 65536.0F;
     const auto whole = [](float value) { return static_cast<std::uint32_t>(value * kOne + 0.5F); };
@@ -98,11 +99,11 @@ struct PixelRect {
   friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 
-/// Finds out which pixels a shape covers, and how much of each, by the exact area.
+/// Computes which pixels a shape covers, and the exact covered area of each.
 class Rasteriser {
  public:
-  /// Calls visit(y, x_begin, x_end, coverage) for every run of pixels of a row within `clip` that
-  /// the shape covers alike, in part or whole.
+  /// Calls visit(y, x_begin, x_end, coverage) for every run of pixels of a row within `clip` with
+  /// the same non-zero coverage.
   template <typename Visitor>
   void rasterise(const Shape& shape, const PixelRect& clip, Visitor visit);
 
@@ -110,13 +111,13 @@ class Rasteriser {
   std::vector<float> cells_;  // all zero between calls
 };
 
-/// Something drawn once, to be laid over many pictures: what it does to each pixel.
+/// A precomputed drawing that can be laid over many pictures: its effect on each pixel.
 class Overlay {
  public:
-  /// What one draws on to make an overlay; like a Painter.
+  /// The drawing surface for making an overlay; used like a Painter.
   class Canvas {
    public:
-    /// As Painter::fill.
+    /// Like Painter::fill.
     void fill(const Shape& shape, Colour colour, double opacity = 1.0);
 
    private:
@@ -131,14 +132,13 @@ class Overlay {
   };
 
   Overlay() = default;
-  /// @param draw  called with a Canvas, once for each band of the picture (a large one is
-  ///     made in bands, so that it does not take many times its own memory); must draw the same
-  ///     each time.
+  /// @param draw  called with a Canvas, once for each band of the picture (bands limit the memory
+  ///     for a large picture). It must draw the same each time.
   Overlay(int width, int height, const std::function<void(Canvas&)>& draw);
 
-  /// Lays it over the part of a picture of its size.
+  /// Applies the overlay to a part of a picture of its size.
   void draw_on(Image& image, const PixelRect& part) const;
-  /// How much of a part of the picture it hides, in pixels.
+  /// The area of a part of the picture that the overlay hides, in pixels.
   [[nodiscard]] double hidden_px(const PixelRect& part) const;
 
  private:
@@ -146,23 +146,23 @@ class Overlay {
     int begin = 0;  // columns
     int end = 0;
     bool opaque = false;
-    std::size_t first = 0;  // of bytes_ if it is opaque, else of blends_
+    std::size_t first = 0;  // index in bytes_ if opaque, otherwise in blends_
   };
   void add_runs(const Canvas& canvas);
 
-  std::vector<Run> runs_;            // by row, then from the left
-  std::vector<std::size_t> row_{0};  // first run of each row, and the end
+  std::vector<Run> runs_;            // sorted by row, then by column
+  std::vector<std::size_t> row_{0};  // index of the first run of each row, and the end
   std::vector<std::uint8_t> bytes_;
   std::vector<Blend> blends_;
 };
 
-/// Draws shapes and text on a picture, anti-aliased by the exact area that a shape covers of each
-/// pixel.
+/// Draws shapes and text on a picture, anti-aliased by the exact area of each pixel that a shape
+/// covers.
 ///
-/// All of it runs on the calling thread. The filling is our own for that reason, too: OpenCV's
-/// scaling, colour conversion and filters use its pool of threads, whose size can only be set for
-/// a whole process (cv::setNumThreads), which is not ours to do within a client's program. Of
-/// OpenCV, only putText is used, which has no parallel part.
+/// Everything runs on the calling thread. This is also why filling is implemented here: OpenCV's
+/// scaling, colour conversion and filters use its thread pool, whose size can only be set for the
+/// whole process (cv::setNumThreads), and a library must not do that in a client's program. Of
+/// OpenCV only putText is used, which is single-threaded.
 class Painter {
  public:
   Painter(int width, int height, Colour background);
@@ -170,31 +170,31 @@ class Painter {
   [[nodiscard]] const Image& image() const { return image_; }
   [[nodiscard]] Image& image() { return image_; }
 
-  /// Lays a colour over the shape. Opacity, in [0, 1], comes on top of the colour's alpha.
+  /// Blends a colour over the shape. The opacity, in [0, 1], multiplies the colour's alpha.
   void fill(const Shape& shape, Colour colour, double opacity = 1.0);
-  /// As fill, the opacity falling with the square of the distance from `center`, from
+  /// Like fill, but the opacity falls with the square of the distance from `center`, from
   /// `opacity_center` there to `opacity_rim` at `radius_px` and beyond.
   void fill_fading(const Shape& shape, Colour colour, const Vec2& center, double radius_px,
                    double opacity_center, double opacity_rim);
-  /// Notes that a shape is to be drawn with some opacity; of shapes that overlap the most opaque
-  /// counts.
-  void unite(const Shape& shape, double opacity);
-  /// Lays a colour over all that was noted since the last call.
-  void fill_united(Colour colour);
-  /// From now on shapes (not text) are only drawn there.
+  /// Records a shape to be drawn with some opacity. Where recorded shapes overlap, the highest
+  /// opacity counts.
+  void accumulate(const Shape& shape, double opacity);
+  /// Blends a colour over all shapes recorded since the last call.
+  void fill_accumulated(Colour colour);
+  /// Limits the drawing of shapes (not text) to a rectangle from now on.
   void set_clip(const PixelRect& clip);
   void clear_clip() { set_clip({0, 0, image_.width, image_.height}); }
 
   /// Length of a line of text [pixels].
   [[nodiscard]] static double text_width_px(const std::string& text, const TextStyle& style);
-  /// Writes a line of ASCII text (other characters become '?'), its base line beginning at `start`.
-  /// Texts are remembered: what was written before costs less.
+  /// Draws a line of ASCII text (other characters become '?') whose base line begins at `start`.
+  /// Rendered texts are cached, so repeated texts cost less.
   void draw_text(const std::string& text, const Vec2& start, const TextStyle& style);
 
  private:
-  /// How much of each pixel round a text its strokes cover: 0..2^16.
+  /// Coverage of each pixel around a text by its strokes: 0..2^16.
   struct TextMask {
-    int left = 0;  ///< of the start, rounded down [pixels]
+    int left = 0;  ///< relative to the start, rounded down [pixels]
     int top = 0;
     int width = 0;
     int height = 0;
@@ -204,7 +204,7 @@ class Painter {
                                                int quarter_px, double rim_px);
   void fill(const TextMask& mask, int left, int top, Colour colour);
 
-  /// Lays a colour over the pixels of a row from x_begin to x_end.
+  /// Blends a colour over the pixels of a row from x_begin to x_end.
   void blend(int y, int x_begin, int x_end, Colour colour, float opacity);
   [[nodiscard]] std::uint8_t* pixel(int x, int y) {
     return image_.rgb.data() +
@@ -215,8 +215,8 @@ class Painter {
   Image image_;
   PixelRect clip_;
   Rasteriser rasteriser_;
-  std::vector<float> united_;  ///< opacity of each pixel; all zero after fill_united
-  PixelRect united_part_;      ///< where it may be more than zero
+  std::vector<float> accumulated_;  ///< opacity of each pixel; all zero after fill_accumulated
+  PixelRect accumulated_part_;      ///< area where it may be non-zero
   std::map<std::string, TextMask> texts_;
 };
 

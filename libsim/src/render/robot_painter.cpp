@@ -12,17 +12,17 @@
 namespace sim::render {
 namespace {
 
-// Much less than this far a line may be off its points without anybody seeing it.
+// Deviation of a line from its points that is invisible.
 constexpr double kTolerance_px = 0.15;
 constexpr double kAnyLength_px = 1e9;
 
-// A polyline with fewer points that passes all of those left out within `tolerance_px`, and none of
-// whose parts is longer than `longest_px` unless one was. What comes of points does not
-// change when more are added behind them, but for the last part: in a film, lines lie still.
+// Simplifies a polyline: the result passes all omitted points within `tolerance_px`, and none of
+// its segments is longer than `longest_px` unless an original one was. Appending points changes
+// only the last segment of the result, so lines stay still in a film.
 //
-// From a point that is kept, each further one narrows the cone of directions in which a line passes
-// all since; the last one within the cone is kept next. (The idea is in Imai and Iri, Polygonal
-// approximations of a curve, 1988, there for the least number of points.)
+// Each further point narrows the cone of directions, seen from the last kept point, in which a line
+// passes all points since. The last point within the cone is kept next. (The idea is from Imai and
+// Iri, Polygonal approximations of a curve, 1988, who minimise the number of points.)
 std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance_px,
                              double longest_px) {
   const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
@@ -31,7 +31,7 @@ std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance_p
   Vec2 left = Vec2::Zero();  // the cone's sides, of length 1
   Vec2 right = Vec2::Zero();
   bool cone = false;
-  double reach_px = 0.0;  // of the points since the last one kept
+  double reach_px = 0.0;  // distance of the farthest point since the last kept one
   for (const Vec2& point : points) {
     if (!is_drawable(point)) continue;
     if (kept.empty()) {
@@ -92,8 +92,8 @@ class RobotPainter {
     }
   }
 
-  // Sonar cones up to their ranges, with an arc where the echo came from, and infrared rays with a
-  // dot. Cones lie upon each other: of one robot's the most opaque counts.
+  // Draws sonar cones up to their ranges, with an arc at the echo's distance, and infrared rays
+  // with a dot. Where cones of one robot overlap, the highest opacity counts.
   void draw_cones() {
     const auto count =
         std::count_if(scene_.robots.begin(), scene_.robots.end(),
@@ -102,7 +102,7 @@ class RobotPainter {
         1.0 / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)));
     for (const RobotSnapshot& robot : scene_.robots) {
       const Colour colour = opaque(robot.colour);
-      // Beside a laser's fan they are only hinted at.
+      // Fainter next to a laser's fan.
       const double share = strength * (robot.scan_points.empty() ? 1.0 : 0.55);
       Shape echoes;
       for (const ConeSnapshot& cone : robot.cones) {
@@ -123,14 +123,14 @@ class RobotPainter {
           if (cone.met) echoes.add_disc(rim.front(), layout_.line_px(2.6, 1.4));
         }
         const double ray = cone.field_of_view_rad > 0.0 ? 1.0 : 2.2;
-        painter_.unite(area, share * ray * (cone.met ? 0.16 : 0.07));
+        painter_.accumulate(area, share * ray * (cone.met ? 0.16 : 0.07));
       }
-      painter_.fill_united(colour);
+      painter_.fill_accumulated(colour);
       painter_.fill(echoes, mix(colour, palette::kInk, 0.2), std::min(1.0, 0.75 * share + 0.1));
     }
   }
 
-  // Thin lines from fiducial finders to what they see, which gets a ring.
+  // Draws thin lines from fiducial finders to the detected marks, which get a ring.
   void draw_sights() {
     for (const RobotSnapshot& robot : scene_.robots) {
       Shape lines;
@@ -152,7 +152,7 @@ class RobotPainter {
     }
   }
 
-  // The rims of the fans where they meet something, on top of what they meet.
+  // Draws the rims of the fans where they meet surfaces, on top of these surfaces.
   void draw_seen_surfaces() {
     const double strength = fan_strength();
     for (const RobotSnapshot& robot : scene_.robots) {
@@ -173,7 +173,7 @@ class RobotPainter {
         const Vec2 b = hit - origin;
         if (!surface.empty()) {
           const Vec2 a = surface.back() - origin;
-          // Beams that end at the farthest reach both have most likely met nothing.
+          // Two neighbouring beams of the maximum length have most likely met nothing.
           const bool missed = std::min(a.norm(), b.norm()) >= farthest_px * (1.0 - 1e-6);
           const double cross = std::abs(a.x() * b.y() - a.y() * b.x());
           const double along_px = std::min(a.norm(), b.norm()) * std::atan2(cross, a.dot(b));
@@ -187,12 +187,12 @@ class RobotPainter {
     }
   }
 
-  // A line that is fainter where it is older. The parts' opacities are united by the greatest one,
-  // so that neither joints nor crossings stand out.
+  // Draws a line that fades with age. The segments' opacities are combined by their maximum, so
+  // that neither joints nor crossings are visible.
   void draw_trails(const std::vector<std::uint8_t>& cells) {
     constexpr int kShades = 24;
     for (const RobotSnapshot& robot : scene_.robots) {
-      // A long straight stretch is cut, so that it gets its shades, too.
+      // Long straight stretches are split, so that they fade too.
       const std::vector<Vec2> points =
           simplified(layout_(robot.trail), kTolerance_px, 24.0 * layout_.unit_px);
       if (points.size() < 2) continue;
@@ -215,10 +215,10 @@ class RobotPainter {
                        points.begin() + static_cast<std::ptrdiff_t>(last) + 1},
                       layout_.line_px(2.4, 1.2));
         const double age = 1.0 - static_cast<double>(shade + 1) / kShades;
-        painter_.unite(line, strength * (0.8 - 0.6 * age));
+        painter_.accumulate(line, strength * (0.8 - 0.6 * age));
         first = last;
       }
-      painter_.fill_united(mix(opaque(robot.colour), palette::kInk, 0.12));
+      painter_.fill_accumulated(mix(opaque(robot.colour), palette::kInk, 0.12));
     }
   }
 
@@ -240,7 +240,7 @@ class RobotPainter {
       high = high.cwiseMax(corner);
     }
     const auto on_body = [&](const Vec2& p_B) { return layout_(robot.X_WB * p_B); };
-    // Points given as shares of the body's reach ahead and to the left.
+    // Points given as fractions of the body's extent to the front and to the left.
     const auto at = [&](double x, double y) {
       return on_body({x * (x >= 0.0 ? high.x() : -low.x()), y * (y >= 0.0 ? high.y() : -low.y())});
     };
@@ -258,7 +258,7 @@ class RobotPainter {
     if (small) {
       outline(body, dark, layout_.line_px(1.0));
       draw_lights(robot);
-      return;  // of the rest nothing could be told apart
+      return;  // the rest would be too small to recognise
     }
     Shape wheels;
     for (const double side : {-1.0, 1.0}) {
@@ -290,7 +290,7 @@ class RobotPainter {
   }
 
  private:
-  // Points along a cone's end, from its right side to its left; one for a ray.
+  // Points along the far end of a cone, from its right to its left side; one point for a ray.
   static std::vector<Vec2> rim_of(const ConeSnapshot& cone) {
     constexpr double kStep_rad = 0.05;
     const int steps =
@@ -305,7 +305,7 @@ class RobotPainter {
     return rim;
   }
 
-  // A thin line for each segment of a bumper, a thick red one where it is pressed.
+  // Draws a thin line for each bumper segment, and a thick red one if it is pressed.
   void draw_bumpers(const RobotSnapshot& robot, Colour dark) {
     Shape idle;
     Shape halo;
@@ -325,7 +325,7 @@ class RobotPainter {
     painter_.fill(pressed, palette::kStalled);
   }
 
-  // Hits of a robot's newest scan in the picture.
+  // Hits of a robot's newest scan, in picture coordinates.
   [[nodiscard]] std::vector<Vec2> hits_of(const RobotSnapshot& robot) const {
     std::vector<Vec2> hits;
     if (!is_drawable(layout_(robot.scan_origin))) return hits;
@@ -334,14 +334,14 @@ class RobotPainter {
     return hits;
   }
 
-  // Fans of many robots lie upon each other: together they must not hide the floor.
+  // Opacity factor for overlapping fans of many robots, which together must not hide the floor.
   [[nodiscard]] double fan_strength() const {
     const auto count = std::count_if(scene_.robots.begin(), scene_.robots.end(),
                                      [](const auto& robot) { return !robot.scan_points.empty(); });
     return 1.0 / std::pow(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)), 0.7);
   }
 
-  // Share of the canvas's cells that hold something.
+  // Fraction of the canvas's cells that are not empty.
   static double drawn_share(const std::vector<std::uint8_t>& cells) {
     std::size_t drawn = 0;
     for (std::size_t i = 3; i < cells.size(); i += 4) drawn += cells[i] > 0 ? 1 : 0;
@@ -349,11 +349,12 @@ class RobotPainter {
                          : 4.0 * static_cast<double>(drawn) / static_cast<double>(cells.size());
   }
 
-  // Share of a trail's points that lie on cells of a colour. White, grey and black do not count:
-  // they are a map rather than a drawing of the way.
+  // Fraction of a trail's points that lie on coloured cells. White, grey and black do not count,
+  // since they are probably a map and not a drawing of the path.
   [[nodiscard]] double coloured_share(const std::vector<Vec2>& trail,
                                       const std::vector<std::uint8_t>& cells) const {
-    constexpr int kLeastDifference = 60;  // of the greatest and the least of red, green and blue
+    constexpr int kLeastDifference = 60;  // between the maximum and the minimum of red, green and
+                                          // blue
     constexpr int kLeastAlpha = 128;
     if (cells.empty() || trail.empty()) return 0.0;
     const CanvasDescription& canvas = scene_.canvas_description;
@@ -374,7 +375,7 @@ class RobotPainter {
     return static_cast<double>(coloured) / static_cast<double>(trail.size());
   }
 
-  // Shows where a robot is, and where it heads, that is only a few pixels large.
+  // Shows position and heading of a robot that is only a few pixels large.
   void draw_marker(const RobotSnapshot& robot, const Vec2& center, Colour colour) {
     const double radius = marked_radius_px(robot, layout_);
     Shape disc;
@@ -402,7 +403,7 @@ class RobotPainter {
     ring(center, radius, layout_.line_px(3.2), palette::kStalled);
   }
 
-  // The corners of a square round the robot that a user chose.
+  // Draws the corners of a square around the robot that the user selected.
   void draw_mark(const Vec2& center, double robot_radius) {
     const double reach = robot_radius + 13.0 * layout_.unit_px;
     const double arm = 0.45 * reach;
@@ -420,7 +421,7 @@ class RobotPainter {
     painter_.fill(corners(layout_.line_px(3.4)), palette::kInk);
   }
 
-  // A light glows over what is round it; one that is dark is a dull dot.
+  // A light that is lit glows over its surroundings; one that is off is a dull dot.
   void draw_lights(const RobotSnapshot& robot) {
     const double radius = std::max(0.13 * radius_px(robot, layout_), layout_.line_px(2.6, 1.6));
     for (const LightSnapshot& light : robot.lights) {

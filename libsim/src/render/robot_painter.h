@@ -8,25 +8,25 @@
 #include "render/painter.h"
 #include "sim/simulation/scene_snapshot.h"
 
-/// What moves in an arena.
+/// Painting of the moving parts of an arena.
 namespace sim::render {
 
-/// Laser fans, cones of sonars, rays of infrared rangers, and trails, which lie on the floor.
-/// `cells` are those of the scene's canvas if it is drawn on the floor, else empty: the more it
-/// holds, the fainter the fans are; and the more of a trail lies on coloured cells (most likely the
-/// program's own drawing of it), the fainter that is.
+/// Draw laser fans, sonar cones, infrared rays and trails, which lie on the floor. `cells` are
+/// those of the scene's canvas if it is drawn on the floor, otherwise empty. Fans are fainter if
+/// more of the canvas is filled. A trail is fainter if more of it lies on coloured cells, which are
+/// most likely the program's own drawing of the path.
 void draw_fans(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                const Layout& layout, Painter& painter);
 void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                  const Layout& layout, Painter& painter);
 
-/// What lies over blocks and borders: surfaces that lasers have met, lines to what fiducial finders
-/// see, robots with their bumpers, and their names.
+/// Draw what lies above blocks and borders: surfaces that lasers have met, lines to detected
+/// fiducials, robots with their bumpers, and their names.
 void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_names(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 
-/// What the robots say, in bubbles on top of all else.
+/// Draws what the robots say, in bubbles on top of everything else.
 void draw_speech(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 
 }  // namespace sim::render

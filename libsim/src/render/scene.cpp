@@ -30,7 +30,7 @@ std::size_t canvas_bytes(const CanvasDescription& description) {
          static_cast<std::size_t>(description.height);
 }
 
-/// All of an arena that its picture depends on; equal keys, equal pictures.
+/// All properties of an arena that its picture depends on; equal keys give equal pictures.
 struct ArenaKey {
   std::vector<double> numbers;
   std::vector<std::string> names;
@@ -86,7 +86,7 @@ void fill_rectangle(Painter& painter, const Rectangle& place, double grown_px, C
   painter.fill(shape, colour, opacity);
 }
 
-/// What is kept of an arena from one picture to the next.
+/// The cached parts of an arena's pictures.
 class ArenaView {
  public:
   ArenaView(const ArenaDescription& arena, const RenderOptions& options)
@@ -143,7 +143,7 @@ class ArenaView {
                                           .cell_px = layout_.pixels_per_m * canvas.cell_size_m,
                                           .part = floor},
                                          cells_of(scene, with_canvas), ground_, &retracted_);
-    // What robots see and where they went may reach beyond the floor where there are no borders.
+    // Without borders, scans and trails may extend beyond the floor.
     painter_.set_clip(floor);
     const std::vector<std::uint8_t>& cells = cells_of(scene, with_canvas);
     if (options_.scans) draw_fans(scene, cells, layout_, painter_);
@@ -154,18 +154,19 @@ class ArenaView {
     draw_robots(scene, layout_, painter_);
   }
 
-  // Pixels a cell, as many as fit into the room: a whole number, or one over a whole number.
+  // Pixels per cell, as many as fit into the area: an integer, or the inverse of an integer.
   static double whole_scale(const CanvasDescription& canvas, double width_px, double height_px) {
     const double most = std::min(width_px / canvas.width, height_px / canvas.height);
     return most >= 1.0 ? std::floor(most) : 1.0 / std::ceil(1.0 / most);
   }
 
-  // The canvas in a corner of the floor. Robots do not count in the choice of the corner: the
-  // mini-map would jump about in a film. They are shown in it as dots instead.
+  // Draws the canvas in a corner of the floor. The choice of the corner ignores robots, since the
+  // mini-map would otherwise jump in a film. Robots appear in it as dots.
   void draw_mini_map(const SceneSnapshot& scene) {
     const CanvasDescription& canvas = scene.canvas_description;
-    constexpr double kShare = 0.36;         // of the floor's sides, at most
-    constexpr double kCrispAtLeast = 0.75;  // of that, for whole pixels a cell
+    constexpr double kShare = 0.36;         // maximum fraction of the floor's sides
+    constexpr double kCrispAtLeast = 0.75;  // minimum fraction of the above size for integer pixels
+                                            // per cell
     const Rectangle& floor = layout_.floor;
     const double room_x = kShare * (floor.right - floor.left);
     const double room_y = kShare * (floor.bottom - floor.top);
@@ -204,7 +205,7 @@ class ArenaView {
     draw_dots(scene, cell_px / canvas.cell_size_m);
   }
 
-  // Robots on the mini-map.
+  // Draws the robots on the mini-map.
   void draw_dots(const SceneSnapshot& scene, double pixels_per_m) {
     const CanvasDescription& canvas = scene.canvas_description;
     painter_.set_clip(mini_place_);
@@ -225,7 +226,7 @@ class ArenaView {
     painter_.clear_clip();
   }
 
-  // The corner of the floor where a mini-map covers least of what stands there.
+  // The corner of the floor where a mini-map covers the least of docks and solids.
   [[nodiscard]] PixelRect corner_for(int width, int height) const {
     const double gap_px = 14.0 * layout_.unit_px;
     const int left = static_cast<int>(std::lround(layout_.floor.left + gap_px));
@@ -250,13 +251,13 @@ class ArenaView {
     return best;
   }
 
-  // The canvas with the robots on it. Its picture has the size that the arena's has, so that a film
-  // may change its mode.
+  // Draws the canvas with the robots on it. The picture has the same size as the arena's, so that a
+  // film can change its mode.
   const Image& draw_full_screen(const SceneSnapshot& scene) {
     const CanvasDescription& canvas = scene.canvas_description;
     const bool footer = options_.legend && layout_.text;
     const double frame_px = std::max(std::round(layout_.unit_px), 1.0);
-    // As high as the arena's without the border.
+    // The height of the arena's footer without the border.
     const double footer_px = footer ? std::round(66.0 * layout_.unit_px) : frame_px;
     const double room_x = layout_.width - 2.0 * frame_px;
     const double room_y = layout_.height - footer_px - frame_px;
@@ -281,7 +282,7 @@ class ArenaView {
                                       .cell_px = cell_px,
                                       .part = place},
                                      cells_of(scene, true), full_ground_, nullptr);
-    // W as the canvas shows it.
+    // The mapping of W to the picture for the scale of the canvas.
     Layout on_canvas = layout_;
     on_canvas.pixels_per_m = cell_px / canvas.cell_size_m;
     on_canvas.origin = canvas.origin;

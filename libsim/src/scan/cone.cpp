@@ -7,7 +7,7 @@
 namespace sim::scan {
 namespace {
 
-// The sides of a cone, along which its half-planes end. Those of a ray are the ray itself.
+// The two boundary lines of a cone. For a single ray, both are the ray itself.
 struct Sides {
   explicit Sides(const Cone& cone)
       : lx(std::cos(cone.yaw_rad + 0.5 * cone.field_of_view_rad)),
@@ -19,18 +19,18 @@ struct Sides {
   double rx, ry;
 };
 
-// The ends of an edge seen from a cone's apex: a, then b.
-struct Sight {
+// The ends of an edge relative to a cone's apex: a, then b.
+struct EdgeFromApex {
   double ax, ay, bx, by;
 
-  // Twice the area of the triangle with the apex; < 0 if the edge faces it, and then a is on the
-  // left of b.
+  // Twice the signed area of the triangle with the apex. It is < 0 if the edge faces the apex; a is
+  // then to the left of b.
   [[nodiscard]] double cross() const { return ax * by - ay * bx; }
 };
 
-// Whether an edge that faces the apex may be within the half-planes: not negative if so. Negative
-// for one that does not face it.
-double within(const Sight& e, const Sides& sides) {
+// Not negative if an edge that faces the apex may be within the half-planes. Negative for edges
+// that do not face it.
+double within(const EdgeFromApex& e, const Sides& sides) {
   const double a_in_left = e.ax * sides.ly - e.ay * sides.lx;  // >= 0: right of the left side
   const double b_in_left = e.bx * sides.ly - e.by * sides.lx;
   const double a_in_right = sides.rx * e.ay - sides.ry * e.ax;
@@ -41,15 +41,15 @@ double within(const Sight& e, const Sides& sides) {
   return e.cross() < 0.0 ? in_both : -1.0;
 }
 
-// Keeps of [t0, t1] the part of an edge where a linear function that is f0 at its begin and f1 at
-// its end is not negative.
+// Clips [t0, t1] to the part of an edge where a linear function is not negative. f0 and f1 are its
+// values at the ends of the edge.
 void clip(double f0, double f1, double& t0, double& t1) {
   if (f0 < 0.0) t0 = std::max(t0, f0 / (f0 - f1));
   if (f1 < 0.0) t1 = std::min(t1, f0 / (f0 - f1));
 }
 
 // Square of the least distance to an edge for which within() is not negative, at most `least_m2`.
-double nearer_m2(const Sight& e, const Sides& sides, double least_m2) {
+double nearer_m2(const EdgeFromApex& e, const Sides& sides, double least_m2) {
   double t0 = 0.0;
   double t1 = 1.0;
   clip(e.ax * sides.ly - e.ay * sides.lx, e.bx * sides.ly - e.by * sides.lx, t0, t1);
@@ -64,8 +64,8 @@ double nearer_m2(const Sight& e, const Sides& sides, double least_m2) {
   return std::min(least_m2, x * x + y * y);
 }
 
-// The same for a ray: along it, if it passes between the ends.
-double nearer_on_ray_m(const Sight& e, const Sides& ray, double least_m) {
+// Distance along a ray to an edge, if the ray passes between its ends; at most `least_m`.
+double nearer_on_ray_m(const EdgeFromApex& e, const Sides& ray, double least_m) {
   const double left_of_ray = ray.rx * e.ay - ray.ry * e.ax;
   const double right_of_ray = ray.ry * e.bx - ray.rx * e.by;
   if (left_of_ray < 0.0 || right_of_ray <= 0.0) return least_m;
@@ -100,22 +100,22 @@ double EdgeColumns::least_range_in_cone_m(const Cone& cone, double range_max_m) 
   const double* const x1 = x1_.data();
   const double* const y1 = y1_.data();
   double* const kept = within_.data();
-  const auto sight = [&](std::size_t i) {
-    return Sight{x0[i] - cone.x_m, y0[i] - cone.y_m, x1[i] - cone.x_m, y1[i] - cone.y_m};
+  const auto edge_from_apex = [&](std::size_t i) {
+    return EdgeFromApex{x0[i] - cone.x_m, y0[i] - cone.y_m, x1[i] - cone.x_m, y1[i] - cone.y_m};
   };
-  // Most edges are elsewhere. A loop without branches, which compilers make vector instructions of.
-  for (std::size_t i = 0; i < count; ++i) kept[i] = within(sight(i), sides);
+  // Most edges are outside the cone. This loop has no branches, so compilers can vectorise it.
+  for (std::size_t i = 0; i < count; ++i) kept[i] = within(edge_from_apex(i), sides);
 
   if (cone.field_of_view_rad <= 0.0) {
     double least_m = range_max_m;
     for (std::size_t i = 0; i < count; ++i) {
-      if (kept[i] >= 0.0) least_m = nearer_on_ray_m(sight(i), sides, least_m);
+      if (kept[i] >= 0.0) least_m = nearer_on_ray_m(edge_from_apex(i), sides, least_m);
     }
     return least_m;
   }
   double least_m2 = range_max_m * range_max_m;
   for (std::size_t i = 0; i < count; ++i) {
-    if (kept[i] >= 0.0) least_m2 = nearer_m2(sight(i), sides, least_m2);
+    if (kept[i] >= 0.0) least_m2 = nearer_m2(edge_from_apex(i), sides, least_m2);
   }
   return std::min(std::sqrt(least_m2), range_max_m);
 }

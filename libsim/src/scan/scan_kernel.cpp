@@ -20,7 +20,7 @@ namespace sim::scan {
 namespace detail {
 namespace {
 
-/// One lane of plain C++.
+/// A vector of one lane in plain C++.
 struct Scalar {
   static constexpr int kLanes = 1;
   static constexpr int kHalves = 1;
@@ -47,11 +47,11 @@ struct Scalar {
 
   static float abs(float value) { return std::fabs(value); }
   static float copy_sign(float magnitude, float sign) { return std::copysign(magnitude, sign); }
-  // As the processor's vector instructions do: the second one where either is not a number.
+  // Same semantics as the vector instructions: the second operand if either is NaN.
   static float min(float a, float b) { return a < b ? a : b; }
   static float max(float a, float b) { return a > b ? a : b; }
   static float sqrt(float value) { return std::sqrt(value); }
-  /// Least of each of kLanes blocks of eight, that begin at a multiple of 32 bytes.
+  /// Minimum of each of kLanes blocks of eight that begin at a multiple of 32 bytes.
   static float minima(const float* from) {
     float least = from[0];
     for (int i = 1; i < kBlockBeams; ++i) least = min(from[i], least);
@@ -98,7 +98,7 @@ struct Scalar {
 
 #if defined(__x86_64__)
 
-/// Four lanes; doubles come as two halves of two.
+/// A vector of four lanes; doubles are two halves of two lanes.
 struct Sse2 {
   static constexpr int kLanes = 4;
   static constexpr int kHalves = 2;
@@ -157,8 +157,8 @@ struct Sse2 {
     return _mm_or_pd(_mm_and_pd(mask, yes), _mm_andnot_pd(mask, no));
   }
   static Float drop(Mask mask, Float value) { return _mm_andnot_ps(mask, value); }
-  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
-  /// 2^31: so one signed comparison finds the lanes before and those after.
+  /// Lanes [first, last] as a window: the offset of a lane from `first` is compared with `last` -
+  /// `first`. Both are less than 2^31, so one comparison excludes lanes before and after.
   struct Window {
     __m128i beyond_first;
     __m128i length;
@@ -210,20 +210,20 @@ struct Sse2 {
 
 #endif  // __x86_64__
 
-/// A point of the plane, relative to the sensor.
+/// A point in the plane, relative to the sensor.
 struct Point {
   double x;
   double y;
 };
 
-/// A point given W-aligned, in the sensor's frame.
+/// Rotates a point from the axes of W into the sensor's frame.
 Point turned(const ScanJob& job, float x_m, float y_m) {
   const auto x = static_cast<double>(x_m);
   const auto y = static_cast<double>(y_m);
   return {job.cos_yaw * x + job.sin_yaw * y, job.cos_yaw * y - job.sin_yaw * x};
 }
 
-/// Positive where `beam` points to the left (counter-clockwise) of the direction of `point`.
+/// Positive if `beam` points to the left (counter-clockwise) of the direction of `point`.
 double left_of(const ScanJob& job, const Point& point, std::int32_t beam) {
   const double* const direction = job.beams + 2 * static_cast<std::ptrdiff_t>(beam);
   return point.x * direction[1] - point.y * direction[0];
@@ -238,8 +238,9 @@ std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int3
   const double angle_high = std::atan2(high.y, high.x);
   const double angle_low = std::atan2(low.y, low.x);
 
-  // Angles tell the beam but for one nearer than their rounding; for that the sign of the cross
-  // product does. Corners shared by two edges get the same answer, with the beam in both spans.
+  // Angles determine the beam unless a beam is closer than their rounding; then the sign of the
+  // cross product decides. Two edges that share a corner get the same answer, and the beam is in
+  // both spans.
   const double centre = 0.5 * static_cast<double>(job.beam_count - 1);
   const double doubt = 1e-14 / job.resolution_rad + 1e-15 * static_cast<double>(job.beam_count);
   const auto count = static_cast<double>(job.beam_count);
@@ -263,7 +264,7 @@ std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int3
     job.candidate_last[index] = to - 1;
     ++index;
   };
-  // As in find_spans(): less than half a turn, or across the cut behind the sensor.
+  // As in find_spans(): an edge spans less than half a turn, or crosses the cut behind the sensor.
   if (angle_low - angle_high > 0.5 * std::numbers::pi) {
     append(first, job.beam_count);
     append(0, end);
@@ -277,11 +278,11 @@ std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int3
 
 namespace {
 
-/// Length of a scratch array for so many edges: whole groups, with room to write beyond the last.
-/// An edge may need three places: a candidate's own, and two if it gets a second look.
+/// Length of a scratch array for so many edges: whole groups, with padding. An edge may need three
+/// places: one for its candidate, and two more for append_exact_spans().
 std::size_t places(std::size_t edge_count) { return 3 * edge_count + 4 * EdgeBuffer::kPadding; }
 
-/// The same for so many discs.
+/// Length of a scratch array for so many discs.
 std::size_t disc_places(std::size_t disc_count) { return disc_count + 2 * DiscBuffer::kPadding; }
 
 const detail::ScanSteps& steps_by(InstructionSet instructions) {
@@ -350,10 +351,10 @@ void DiscBuffer::grow() {
 
 namespace {
 
-/// What depends on the geometry alone, shared by copies of a kernel.
+/// Tables that depend only on the geometry; copies of a kernel share them.
 struct Tables {
   explicit Tables(const ScanGeometry& geometry)
-      // One beam alone has no neighbour to tell its resolution: any will do.
+      // A single beam has no neighbour, so any positive resolution will do.
       : resolution_rad(geometry.beam_count == 1 ? 1.0 : geometry.resolution_rad),
         reach(geometry.beam_count + detail::kBeamPadding) {
     const int count = geometry.beam_count;
@@ -375,17 +376,17 @@ struct Tables {
   }
 
   double resolution_rad;
-  int reach;                   ///< the greatest k in the tables of cos(k q) and sin(k q)
+  int reach;                   ///< the largest k in the tables of cos(k q) and sin(k q)
   std::vector<double> beams;   ///< (x, y) of the beams -1 to beam_count, in the sensor's frame
   std::vector<float> cosines;  ///< cos(k q) for k from -reach to reach
-  std::vector<float> sines;    ///< sin(k q), likewise
+  std::vector<float> sines;    ///< sin(k q) for the same k
   float fan_cos = 0.0F;        ///< see detail::ScanJob
-  float fan_sin = 0.0F;        ///< likewise
+  float fan_sin = 0.0F;        ///< see detail::ScanJob
 };
 
 }  // namespace
 
-/// Scratch memory, and the job that points into it.
+/// Scratch memory, and the job whose pointers refer to it.
 struct ScanKernel::Scratch {
   Scratch(const ScanGeometry& geometry, std::shared_ptr<const Tables> its_tables)
       : tables(std::move(its_tables)),
@@ -400,14 +401,15 @@ struct ScanKernel::Scratch {
     job.sin_table = tables->sines.data() + tables->reach;
     job.beams_per_rad = static_cast<float>(beams_per_rad);
     job.beam_offset = static_cast<float>(0.5 * (beam_count - 1.0) + 1.0);
-    // Roundings of 6e-8: turning 2.5e-7 rad, arctangent 8e-7 rad with its polynomial, scaling
-    // 4e-7 rad; half again for safety. Adding the offset, two roundings of up to beam_count + 1.
+    // Error bound, with a relative rounding error of 6e-8 per operation: the rotation gives 2.5e-7
+    // rad, the arctangent with its polynomial 8e-7 rad, the scaling 4e-7 rad; plus half as much for
+    // safety. Adding the offset causes two roundings of values up to beam_count + 1.
     job.doubt_beams = static_cast<float>(2.2e-6 * beams_per_rad + 2.0e-7 * (beam_count + 2.0));
     job.fan_cos = tables->fan_cos;
     job.fan_sin = tables->fan_sin;
     job.behind_beams = static_cast<float>(0.5 * std::numbers::pi * beams_per_rad);
 
-    // Blocks of beams are aligned, so that none straddles two lines of the cache.
+    // Blocks of beams are aligned, so that none crosses a cache line.
     constexpr std::size_t kAlignment = 32;
     void* aligned = inverse_ranges.data();
     std::size_t space = inverse_ranges.size() * sizeof(float);
@@ -445,8 +447,8 @@ struct ScanKernel::Scratch {
 
   std::shared_ptr<const Tables> tables;
   detail::ScanJob job{};
-  detail::Located located;  ///< discs, of the scan that was begun
-  bool inside = false;      ///< it began inside a solid
+  detail::Located located;  ///< located discs of the current scan
+  bool inside = false;      ///< the current scan starts inside a solid
   std::vector<float> inverse_ranges;
   std::vector<float> minima;
   std::vector<std::int32_t> edge_integers;
@@ -457,7 +459,7 @@ struct ScanKernel::Scratch {
   std::size_t disc_capacity = 0;
 
  private:
-  /// Makes all of these point to arrays of `step` values.
+  /// Makes all of these pointers refer to arrays of `step` values in `memory`.
   template <typename T, std::size_t kCount>
   static void share(std::vector<T>& memory, const std::array<T**, kCount>& among,
                     std::size_t step) {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Compiled with AVX2 switched on, where the processor family has it: see scan_kernel_impl.h for
-// what this file must not do.
+// Compiled with AVX2 if the processor family supports it. See scan_kernel_impl.h for the
+// restrictions on this file.
 
 #include "scan/scan_kernel_impl.h"
 
@@ -12,7 +12,7 @@
 namespace sim::scan::detail {
 namespace {
 
-/// Eight lanes; doubles come as two halves of four.
+/// A vector of eight lanes; doubles are two halves of four lanes.
 struct Avx2 {
   static constexpr int kLanes = 8;
   static constexpr int kHalves = 2;
@@ -69,8 +69,8 @@ struct Avx2 {
     return _mm256_blendv_pd(no, yes, mask);
   }
   static Float drop(Mask mask, Float value) { return _mm256_andnot_ps(mask, value); }
-  /// Lanes [first, last], as how far a lane lies beyond `first` against `last` - `first`, both less
-  /// 2^31: so one signed comparison finds the lanes before and those after.
+  /// Lanes [first, last] as a window: the offset of a lane from `first` is compared with `last` -
+  /// `first`. Both are less than 2^31, so one comparison excludes lanes before and after.
   struct Window {
     __m256i beyond_first;
     __m256i length;
@@ -119,7 +119,7 @@ struct Avx2 {
   }
 
  private:
-  /// Of two blocks of eight, one in each half: the lesser ones of those four places apart.
+  /// For two blocks of eight values, one in each half: minimum of the values four places apart.
   static Float least_quarters(const float* low, const float* high) {
     const Float a = _mm256_load_ps(low);
     const Float b = _mm256_load_ps(high);

@@ -2,21 +2,23 @@
 #pragma once
 
 // The sweep of edges into beams, written once over a vector type V and compiled once for every
-// instruction set. Every lane does the same IEEE operations whatever V is, so the bits agree.
+// instruction set. Every lane does the same IEEE operations for every V, so the results are
+// bit-identical.
 //
-// A file compiled for newer instructions must not emit functions that the linker could pick for
-// all the program: so V is local to its file, everything here is a template over V, and nothing
-// from the standard library's headers is called but through ScanJob's pointers.
+// A file compiled for newer instructions must not emit functions that the linker could choose for
+// the whole program. Therefore V is local to its file, everything here is a template over V, and
+// functions of the standard library are called only through ScanJob's pointers.
 //
-// Geometry. An edge on the line through p0 with direction d is met by the beam of direction b at
-// the range r = c / (d x b), where c = d x p0 > 0 for an edge that faces the sensor at the origin.
-// So 1/r = (d x b) / c is linear in b: the sweep keeps the greatest 1/r of every beam and divides
-// once at the end. Taken literally in single precision this loses digits where the beam runs nearly
-// along the edge. Instead it is expanded about an anchor beam a, which lies k beams before b:
+// Geometry. An edge lies on the line through p0 with direction d. The beam with direction b meets
+// it at the range r = c / (d x b), where c = d x p0 > 0 for an edge that faces the sensor at the
+// origin. So 1/r = (d x b) / c is linear in b: the sweep keeps the largest 1/r of every beam and
+// divides once at the end. In single precision, this formula loses digits if the beam is nearly
+// parallel to the edge. Instead it is expanded around an anchor beam a, which lies k beams before
+// b:
 //     1/r = A cos(k q) + B sin(k q),   A = (d x b_a) / c,   B = (d . b_a) / c,
-// with q the angle between beams, and A and B computed in double precision. With the anchor at that
-// end of the span where 1/r is least, |A cos| <= 1/r and so |B sin| <= 2/r: no cancellation, and a
-// relative error of at most 10 roundings, 6e-7.
+// where q is the angle between beams, and A and B are computed in double precision. If the anchor
+// is at that end of the span where 1/r is least, |A cos| <= 1/r and |B sin| <= 2/r. Then there is
+// no cancellation, and the relative error is at most 10 roundings, 6e-7.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,15 +27,15 @@
 
 namespace sim::scan::detail {
 
-/// Adds as candidates, at `index` and after, the nonempty spans (none, one or two) of an edge with
-/// a corner so near a beam that single precision cannot tell on which side; decides in double
-/// precision. Returns the next free index.
+/// Determines the spans of an edge in double precision, for edges with a corner so close to a beam
+/// that single precision cannot decide on which side. Adds the nonempty spans (none, one or two) as
+/// candidates at `index` and after. Returns the next free index.
 std::int32_t append_exact_spans(const ScanJob& job, std::int32_t edge, std::int32_t index);
 
-/// The steps by wide instructions, for processors that have them.
+/// The steps for AVX2; only for processors that support it.
 [[nodiscard]] const ScanSteps& avx2_steps();
 
-/// For each set of 4 lanes (a bit mask): the numbers of its lanes in front, and how many.
+/// For each set of 4 lanes (as a bit mask): the indices of the set lanes first, and their number.
 struct LaneList {
   std::int32_t lanes[4];
   std::int32_t count;
@@ -44,7 +46,7 @@ inline constexpr LaneList kLaneLists[16] = {
     {{3, 0, 0, 0}, 1}, {{0, 3, 0, 0}, 2}, {{1, 3, 0, 0}, 2}, {{0, 1, 3, 0}, 3},
     {{2, 3, 0, 0}, 2}, {{0, 2, 3, 0}, 3}, {{1, 2, 3, 0}, 3}, {{0, 1, 2, 3}, 4}};
 
-/// Appends base + lane to `list` for every lane in `bits`, without branches; writes up to 4 values
+/// Appends base + lane to `list` for every lane in `bits`, without branches. Writes up to 4 values
 /// more than it appends. Returns the new length.
 template <class V>
 std::int32_t append_lanes(unsigned bits, std::int32_t base, std::int32_t* list,
@@ -57,18 +59,18 @@ std::int32_t append_lanes(unsigned bits, std::int32_t base, std::int32_t* list,
   return length;
 }
 
-/// Bits of the lanes below `count`.
+/// Bit mask of the lanes below `count`.
 template <class V>
 unsigned lanes_below(std::int32_t count) {
   const std::int32_t some = count < 0 ? 0 : count < V::kLanes ? count : V::kLanes;
   return (1U << some) - 1U;
 }
 
-/// Makes candidates of the edges that face the sensor, and of a few seen almost edge-on.
+/// Makes candidates of the edges that face the sensor, and of a few that are nearly edge-on.
 template <class V>
 std::int32_t find_facing(const ScanJob& job) {
   using Float = typename V::Float;
-  // Bounds the relative error of a product's rounding, twice over.
+  // Twice the bound of the relative rounding error of a product.
   const Float tolerance = V::broadcast(2.4e-7F);
   std::int32_t count = 0;
   for (std::int32_t base = 0; base < job.edge_count; base += V::kLanes) {
@@ -84,8 +86,8 @@ std::int32_t find_facing(const ScanJob& job) {
   return count;
 }
 
-/// Angle of a point in beams, plus 1: beam i has the coordinate i + 1. Error below
-/// job.doubt_beams. The arctangent is a minimax polynomial, off by at most 2.5e-7 rad.
+/// Angle of a point in beams, plus 1: beam i has the coordinate i + 1. The error is below
+/// job.doubt_beams. The arctangent is a minimax polynomial with an error of at most 2.5e-7 rad.
 template <class V>
 typename V::Float beam_coordinate(const ScanJob& job, typename V::Float x, typename V::Float y) {
   using Float = typename V::Float;
@@ -93,7 +95,7 @@ typename V::Float beam_coordinate(const ScanJob& job, typename V::Float x, typen
   const Float ay = V::abs(y);
   const Float t = V::min(ax, ay) / V::max(ax, ay);
   const Float s = t * t;
-  // In pairs rather than one after the other: a chain of products would keep the processor waiting.
+  // Evaluated in pairs: a chain of dependent products would stall the processor.
   const Float s2 = s * s;
   const Float p0 = V::broadcast(0.9999961F) + V::broadcast(-0.3331737F) * s;
   const Float p2 = V::broadcast(0.1980782F) + V::broadcast(-0.1323334F) * s;
@@ -106,8 +108,8 @@ typename V::Float beam_coordinate(const ScanJob& job, typename V::Float x, typen
   return p * V::broadcast(job.beams_per_rad) + V::broadcast(job.beam_offset);
 }
 
-/// Finds the beam coordinates of the candidates' corners. A loop of its own, as the long chains of
-/// operations of several groups then overlap in the processor.
+/// Computes the beam coordinates of the candidates' corners. A separate loop lets the processor
+/// overlap the long dependency chains of several groups.
 template <class V>
 void find_corners(const ScanJob& job, std::int32_t candidate_count) {
   using Float = typename V::Float;
@@ -117,7 +119,7 @@ void find_corners(const ScanJob& job, std::int32_t candidate_count) {
   for (std::int32_t base = 0; base < candidate_count; base += V::kLanes) {
     Float x0, y0, x1, y1;
     V::gather_edges(job.edges, job.candidate_edge + base, x0, y0, x1, y1);
-    // The first corner of an edge that faces the sensor is the one further counter-clockwise.
+    // The first corner of an edge that faces the sensor is the one farther counter-clockwise.
     V::store(job.candidate_low + base,
              beam_coordinate<V>(job, cos_yaw * x1 + sin_yaw * y1, cos_yaw * y1 - sin_yaw * x1));
     V::store(job.candidate_high + base,
@@ -125,14 +127,14 @@ void find_corners(const ScanJob& job, std::int32_t candidate_count) {
   }
 }
 
-/// Numbers of candidates in job.narrow, job.medium and job.wide.
+/// Lengths of job.narrow, job.medium and job.wide.
 struct SpanCounts {
   std::int32_t narrow = 0;
   std::int32_t medium = 0;
   std::int32_t wide = 0;
 };
 
-/// Finds the spans of the candidates and lists those that are not empty.
+/// Computes the spans of the candidates and lists the nonempty ones.
 template <class V>
 SpanCounts find_spans(const ScanJob& job, std::int32_t candidate_count) {
   using Float = typename V::Float;
@@ -147,7 +149,7 @@ SpanCounts find_spans(const ScanJob& job, std::int32_t candidate_count) {
   const Float narrow_beams = V::broadcast(static_cast<float>(kNarrowBeams));
   const Float medium_beams = V::broadcast(static_cast<float>(kMediumBeams));
 
-  // The candidates so far come in groups; those that need a second look are added after them.
+  // The candidates so far are in groups; those from append_exact_spans() are added after them.
   const std::int32_t groups_end = (candidate_count + V::kLanes - 1) & -V::kLanes;
   std::int32_t free_index = groups_end;
 
@@ -155,11 +157,12 @@ SpanCounts find_spans(const ScanJob& job, std::int32_t candidate_count) {
   for (std::int32_t base = 0; base < candidate_count; base += V::kLanes) {
     const Float v_low = V::load(job.candidate_low + base);
     const Float v_high = V::load(job.candidate_high + base);
-    // An edge in view spans less than half a turn; if the difference says "minus much", the edge
-    // crosses the cut behind the sensor and spans all beams after v_low and all up to v_high.
+    // An edge in view spans less than half a turn. If the difference is more negative than that,
+    // the edge crosses the cut behind the sensor, and spans all beams after v_low and all up to
+    // v_high.
     const auto cut = V::less(behind, v_low - v_high);
 
-    // The span: beams i with v_low <= i + 1 <= v_high. A value that is not a number becomes `low`.
+    // The span: beams i with v_low <= i + 1 <= v_high. NaN becomes `low`.
     const Float low_clamped = V::min(V::max(v_low, low), high);
     const Float high_clamped = V::min(V::max(v_high, low), high);
     const Float first = V::truncate(low_clamped);
@@ -210,7 +213,8 @@ SpanCounts find_spans(const ScanJob& job, std::int32_t candidate_count) {
   return counts;
 }
 
-/// Makes spans to sweep of a list of candidates, which it pads with repetitions of the first.
+/// Converts a list of candidates to spans for the sweep. Pads the list with copies of its first
+/// element.
 template <class V>
 void expand_spans(const ScanJob& job, std::int32_t* list, std::int32_t count) {
   using Float = typename V::Float;
@@ -271,7 +275,7 @@ void expand_spans(const ScanJob& job, std::int32_t* list, std::int32_t count) {
   }
 }
 
-/// One span on its way over the beams.
+/// The state of one span during its sweep over the beams.
 template <class V>
 struct Sweep {
   Sweep(const ScanJob& job, std::int32_t span)
@@ -287,18 +291,18 @@ struct Sweep {
   [[nodiscard]] typename V::Float value(std::int32_t offset) const {
     return a * V::load(cosines + offset) + b * V::load(sines + offset);
   }
-  /// Raises the inverse ranges of those beams to the span's.
+  /// Raises the inverse ranges of those beams to those of the span.
   void raise(std::int32_t offset) const { raise_to(offset, value(offset)); }
-  /// Raises only those that lie within the span.
+  /// Raises only the beams within the span.
   void raise_partly(std::int32_t offset) const {
     raise_to(offset, V::drop(V::outside(window, offset), value(offset)));
   }
   void raise_to(std::int32_t offset, typename V::Float least) const {
-    // A value that is not a number changes nothing.
+    // NaN changes nothing.
     V::store(inverse_ranges + offset, V::max(least, V::load_aligned(inverse_ranges + offset)));
   }
 
-  std::int32_t block;  ///< the span's first beam, down to a multiple of the vector's width
+  std::int32_t block;  ///< the span's first beam, rounded down to a multiple of the vector's width
   float* inverse_ranges;
   const float* cosines;
   const float* sines;
@@ -307,7 +311,7 @@ struct Sweep {
   typename V::Window window;
 };
 
-/// Sweeps `count` spans of at most kBeams beams, from a multiple of the vector's width on.
+/// Sweeps `count` spans of at most kBeams beams, counted from a multiple of the vector's width.
 template <class V, int kBeams>
 void sweep_short(const ScanJob& job, std::int32_t count) {
   for (std::int32_t i = 0; i < count; ++i) {
@@ -329,18 +333,19 @@ void sweep_wide(const ScanJob& job, std::int32_t count) {
   }
 }
 
-/// As 1/r of what is so near that nothing can be nearer [1/m].
+/// 1/r for an obstacle that is so near that nothing can be nearer [1/m].
 inline constexpr float kNothingNearer = 1e30F;
 
-/// Begins with no beam meeting anything.
+/// Initialises all beams to meet nothing.
 template <class V>
 void clear(const ScanJob& job) {
-  // A little less than 1 / range_max, so that beams which meet nothing are cut to range_max itself.
+  // Slightly less than 1 / range_max, so that the range of beams that meet nothing is clamped to
+  // exactly range_max.
   const auto least_inverse = V::broadcast(static_cast<float>(0.999999 / job.range_max_m));
   for (std::int32_t beam = 0; beam < job.beam_count; beam += V::kLanes) {
     V::store(job.inverse_ranges + beam, least_inverse);
   }
-  // Through what is left of the last block beyond the last beam, nothing is seen.
+  // The beams of the last block beyond the last beam see nothing.
   for (std::int32_t beam = job.beam_count; (beam & (kBlockBeams - 1)) != 0; ++beam) {
     job.inverse_ranges[beam] = kNothingNearer;
   }
@@ -360,7 +365,7 @@ void sweep(const ScanJob& job) {
   sweep_wide<V>(job, counts.wide);
 }
 
-/// Fills job.minima.
+/// Computes job.minima.
 template <class V>
 void find_minima(const ScanJob& job) {
   const std::int32_t blocks = (job.beam_count + kBlockBeams - 1) / kBlockBeams;
@@ -369,8 +374,8 @@ void find_minima(const ScanJob& job) {
   }
 }
 
-/// Whether some beam from first to last, or a few before or after, sees farther than 1 / nearest:
-/// by the minima, which were found before.
+/// Whether some beam from first to last, or a few beams before or after, sees farther than 1 /
+/// nearest. Uses the minima of blocks, which must have been computed before.
 template <class V>
 bool is_open(const ScanJob& job, std::int32_t first, std::int32_t last, float nearest) {
   const auto least = V::broadcast(nearest);
@@ -382,8 +387,8 @@ bool is_open(const ScanJob& job, std::int32_t first, std::int32_t last, float ne
   return any != 0;
 }
 
-/// The same by the beams themselves. Most spans fit three vectors, and are looked at without a
-/// branch that could not be foreseen.
+/// Like is_open(), but tests the beams themselves. Most spans fit three vectors, which are tested
+/// without an unpredictable branch.
 template <class V>
 bool is_open_to_a_beam(const ScanJob& job, std::int32_t first, std::int32_t last, float nearest) {
   const auto least = V::broadcast(nearest);
@@ -398,31 +403,30 @@ bool is_open_to_a_beam(const ScanJob& job, std::int32_t first, std::int32_t last
   return any != 0;
 }
 
-/// Discs as a scan sees them, one a lane. A disc spans the beams within asin(radius / distance) of
-/// its middle, and asin(t) <= t + (pi / 2 - 1) t^3; a beam meets nothing of it nearer than
-/// distance - radius.
+/// Discs as seen by a scan, one per lane. A disc spans the beams within asin(radius / distance) of
+/// its centre, where asin(t) <= t + (pi / 2 - 1) t^3. No beam meets it nearer than distance -
+/// radius.
 template <class V>
-struct Sighting {
-  typename V::Float first;    ///< the beams that it may span
-  typename V::Float last;     ///< likewise
-  typename V::Float inverse;  ///< 1/r of its nearest point at most
-  unsigned near;              ///< bits of those whose middle is near
-  unsigned shown;             ///< bits of those of which some part may be in view
+struct DiscView {
+  typename V::Float first;    ///< first beam that it may span
+  typename V::Float last;     ///< last beam that it may span
+  typename V::Float inverse;  ///< upper bound of 1/r of its nearest point
+  unsigned near;              ///< bit mask of discs with a near centre
+  unsigned shown;             ///< bit mask of discs that may be partly in view
 };
 
-/// Bits of the lanes whose squared distance is less than that of `limit`, or where there is no
-/// number.
+/// Bit mask of the lanes whose squared distance is less than the square of `limit`, or NaN.
 template <class V>
 unsigned lanes_within(typename V::Float limit, typename V::Float squared) {
   return ~V::bits(V::less_equal(limit * limit, squared));
 }
 
 template <class V>
-class Sight {
+class DiscLocator {
  public:
   using Float = typename V::Float;
 
-  explicit Sight(const ScanJob& job)
+  explicit DiscLocator(const ScanJob& job)
       : job_(job),
         cos_yaw_(V::broadcast(static_cast<float>(job.cos_yaw))),
         sin_yaw_(V::broadcast(static_cast<float>(job.sin_yaw))),
@@ -431,10 +435,11 @@ class Sight {
         range_max_(V::broadcast(static_cast<float>(job.range_max_m))),
         last_beam_(V::broadcast(static_cast<float>(job.beam_count - 1))) {}
 
-  /// Looks at the discs from `base` on, of `count`.
-  [[nodiscard]] Sighting<V> look(const float* disc_x, const float* disc_y, const float* disc_radius,
-                                 std::int32_t base, std::int32_t count) const {
-    // Single precision, of the sensor's and the discs' places as of edges' ranges, costs less.
+  /// Tests the lanes' discs from `base` on; the list has `count` discs.
+  [[nodiscard]] DiscView<V> locate_discs(const float* disc_x, const float* disc_y,
+                                         const float* disc_radius, std::int32_t base,
+                                         std::int32_t count) const {
+    // These margins cover the rounding of the positions of sensor, discs and edges.
     const Float slack = V::broadcast(1e-4F);
     const Float relative_slack = V::broadcast(2e-5F);
     const Float zero = V::broadcast(0.0F);
@@ -454,16 +459,16 @@ class Sight {
     const Float aside = V::abs(middle - V::broadcast(job_.beam_offset));
     const Float nearest = distance - radius - relative_slack * distance;
 
-    // Not so where the sensor may be within the disc; nor is anything if there is no number.
+    // Set if the sensor is certainly outside of the disc; not set for NaN.
     const unsigned outside = V::bits(V::less(zero, nearest));
     const unsigned in_view =
         V::bits(V::less(aside - spread, half_fan_)) & V::bits(V::less(nearest, range_max_));
-    // Round the sensor, or across the cut behind it: as if it spanned all, and nothing could hide
-    // it.
+    // A disc around the sensor, or across the cut behind it, is treated as if it spanned all beams
+    // and nothing could hide it.
     const Float farthest =
         V::select(V::less(zero, nearest), aside + spread, V::broadcast(kNothingNearer));
     const auto part = V::less(farthest, V::broadcast(2.0F * job_.behind_beams));
-    // Beam i has the coordinate i + 1; from the one before to the one after.
+    // Beam i has the coordinate i + 1. The span is extended by one beam on either side.
     return {V::select(part, V::min(V::max(middle - spread - one, zero), last_beam_), zero),
             V::select(part, V::min(V::max(middle + spread - one, zero), last_beam_), last_beam_),
             V::select(part, one / nearest, V::broadcast(kNothingNearer)),
@@ -481,18 +486,19 @@ class Sight {
   Float last_beam_;
 };
 
-/// What can be told of discs without their bearings: rougher than Sight::look(), and faster.
+/// A test of discs without their bearings, coarser and faster than DiscLocator::locate_discs().
 template <class V>
-struct Glance {
-  typename V::Float squared;  ///< distance of its middle
+struct CoarseDiscView {
+  typename V::Float squared;  ///< square of the distance of its centre
   typename V::Float radius;
-  unsigned in_view;  ///< bits of those of which some part may be in view
+  unsigned in_view;  ///< bit mask of discs that may be partly in view
 };
 
-/// Takes a glance at the discs from `base` on, of `count`.
+/// Tests the lanes' discs from `base` on; the list has `count` discs.
 template <class V>
-Glance<V> glance_at(const ScanJob& job, const float* disc_x, const float* disc_y,
-                    const float* disc_radius, std::int32_t base, std::int32_t count) {
+CoarseDiscView<V> locate_discs_coarsely(const ScanJob& job, const float* disc_x,
+                                        const float* disc_y, const float* disc_radius,
+                                        std::int32_t base, std::int32_t count) {
   using Float = typename V::Float;
   const Float cos_yaw = V::broadcast(static_cast<float>(job.cos_yaw));
   const Float sin_yaw = V::broadcast(static_cast<float>(job.sin_yaw));
@@ -501,12 +507,12 @@ Glance<V> glance_at(const ScanJob& job, const float* disc_x, const float* disc_y
   const Float x = cos_yaw * dx + sin_yaw * dy;
   const Float y = cos_yaw * dy - sin_yaw * dx;
   const Float squared = x * x + y * y;
-  // Single precision costs less than this, where anything is in range.
+  // This margin covers the rounding errors of everything in range.
   const Float radius = V::load(disc_radius + base) + V::broadcast(1e-3F);
   const Float reach = radius + V::broadcast(static_cast<float>(job.range_max_m));
   const unsigned too_far = V::bits(V::less(reach * reach, squared));
-  // Beyond the sides of the fan by more than the radius: of either, or of both if the fan is wider
-  // than half a turn.
+  // A disc is out of view if it is beyond the sides of the fan by more than its radius: beyond
+  // either side, or beyond both if the fan is wider than half a turn.
   const Float ahead = V::broadcast(job.fan_sin) * x;
   const Float aside = V::broadcast(job.fan_cos) * y;
   const unsigned left = V::bits(V::less(radius, aside - ahead));
@@ -515,7 +521,7 @@ Glance<V> glance_at(const ScanJob& job, const float* disc_x, const float* disc_y
   return {squared, radius, ~(too_far | outside) & lanes_below<V>(count - base)};
 }
 
-/// Lists the groups of discs that may be in view, and the near discs of them.
+/// Lists the groups of discs that may be in view, and their near discs.
 template <class V>
 Located locate(const ScanJob& job) {
   const auto near_m = V::broadcast(ScanKernel::kNear_m);
@@ -527,8 +533,8 @@ Located locate(const ScanJob& job) {
     unsigned in_view = lanes_below<V>(group_count - base);
     unsigned near = in_view;
     if (job.group_count != 0) {
-      const Glance<V> seen =
-          glance_at<V>(job, job.group_x, job.group_y, job.group_radius, base, group_count);
+      const CoarseDiscView<V> seen = locate_discs_coarsely<V>(job, job.group_x, job.group_y,
+                                                              job.group_radius, base, group_count);
       in_view = seen.in_view;
       near = in_view & lanes_within<V>(near_m + seen.radius, seen.squared);
     }
@@ -538,8 +544,8 @@ Located locate(const ScanJob& job) {
   for (std::int32_t i = 0; i < near_groups; ++i) {
     const std::int32_t begin = job.some[i] * DiscBuffer::kGroupSize;
     for (std::int32_t base = begin; base < begin + DiscBuffer::kGroupSize; base += V::kLanes) {
-      const Glance<V> seen =
-          glance_at<V>(job, job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+      const CoarseDiscView<V> seen = locate_discs_coarsely<V>(
+          job, job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
       const unsigned near = seen.in_view & lanes_within<V>(near_m, seen.squared);
       located.near = append_lanes<V>(near, base, job.near, located.near);
     }
@@ -547,17 +553,18 @@ Located locate(const ScanJob& job) {
   return located;
 }
 
-/// Of the groups in view, lists those that a beam may meet before all that was swept, or all if the
-/// discs are not grouped. Returns how many they are.
+/// Lists the groups in view that a beam may meet before all swept edges, or all if the discs are
+/// not grouped. Returns their number.
 template <class V>
-std::int32_t find_open_groups(const ScanJob& job, const Sight<V>& sight, std::int32_t groups) {
+std::int32_t find_open_groups(const ScanJob& job, const DiscLocator<V>& locator,
+                              std::int32_t groups) {
   if (job.group_count == 0) {
     for (std::int32_t i = 0; i < groups; ++i) job.some[i] = job.groups[i];
     return groups;
   }
   for (std::int32_t base = 0; base < job.group_count; base += V::kLanes) {
-    const Sighting<V> seen =
-        sight.look(job.group_x, job.group_y, job.group_radius, base, job.group_count);
+    const DiscView<V> seen =
+        locator.locate_discs(job.group_x, job.group_y, job.group_radius, base, job.group_count);
     V::store_integers(job.group_first + base, seen.first);
     V::store_integers(job.group_last + base, seen.last);
     V::store(job.group_inverse + base, seen.inverse);
@@ -571,20 +578,20 @@ std::int32_t find_open_groups(const ScanJob& job, const Sight<V>& sight, std::in
   return open;
 }
 
-/// Of the discs that are not near, lists those that a beam may meet before all that was swept.
-/// Returns how many they are.
+/// Lists the discs that are not near and that a beam may meet before all swept edges. Returns their
+/// number.
 template <class V>
 std::int32_t find_visible(const ScanJob& job, std::int32_t groups) {
   if (groups == 0) return 0;
   find_minima<V>(job);
-  const Sight<V> sight(job);
-  const std::int32_t open = find_open_groups<V>(job, sight, groups);
+  const DiscLocator<V> locator(job);
+  const std::int32_t open = find_open_groups<V>(job, locator, groups);
   std::int32_t in_view = 0;
   for (std::int32_t i = 0; i < open; ++i) {
     const std::int32_t begin = job.some[i] * DiscBuffer::kGroupSize;
     for (std::int32_t base = begin; base < begin + DiscBuffer::kGroupSize; base += V::kLanes) {
-      const Sighting<V> seen =
-          sight.look(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
+      const DiscView<V> seen =
+          locator.locate_discs(job.disc_x, job.disc_y, job.disc_radius, base, job.disc_count);
       V::store_integers(job.disc_first + base, seen.first);
       V::store_integers(job.disc_last + base, seen.last);
       V::store(job.disc_inverse + base, seen.inverse);
@@ -607,7 +614,7 @@ std::int32_t find_visible(const ScanJob& job, std::int32_t groups) {
   return seen;
 }
 
-/// Turns what was swept into ranges.
+/// Converts the inverse ranges to ranges.
 template <class V>
 void finish(const ScanJob& job) {
   const std::int32_t whole = job.beam_count & ~(V::kLanes - 1);
@@ -622,7 +629,7 @@ void finish(const ScanJob& job) {
   }
 }
 
-/// The steps by the instructions of V.
+/// The steps implemented with the instructions of V.
 template <class V>
 inline constexpr ScanSteps kSteps{clear<V>, sweep<V>, locate<V>, find_visible<V>, finish<V>};
 

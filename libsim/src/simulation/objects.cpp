@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Things by name, and what robots carry.
+// Objects by name, and objects that robots carry.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
@@ -13,12 +13,12 @@
 namespace sim {
 namespace {
 
-// Of names in a message.
+// Maximum number of names in a message.
 constexpr std::size_t kMostNames = 40;
 
 }  // namespace
 
-// Changes a block, unless something is against it: tells what.
+// Edits a block, unless the result is invalid; returns the reason then.
 template <typename Edit>
 std::optional<std::string> Simulation::Impl::change_block(const std::string& name, Edit edit) {
   auto& obstacles = world.arena.obstacles;
@@ -27,12 +27,12 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   SIM_ASSERT(it != obstacles.end());
   ObstacleDescription now = *it;
   edit(now);
-  // A portable one may be put away beyond the floor, as programs for Stage do.
+  // A portable block may be placed beyond the floor, as programs for Stage do.
   const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
   if (where) return "obstacle " + name + " would " + *where;
-  if (const auto fault = io::box_fault(now)) {
-    return "obstacle " + name + " cannot be so: expected " + fault->expected + ", found " +
-           fault->found;
+  if (const auto error = io::check_box(now)) {
+    return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
+           error->found;
   }
   const int robot = physics->robot_within(now);
   if (robot >= 0 && now.state == ObstacleState::kExtended) {
@@ -41,9 +41,9 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   }
   const int index = static_cast<int>(it - obstacles.begin());
   *it = std::move(now);
-  if (it->carried_by >= 0) let_go(index);
+  if (it->carried_by >= 0) detach_load(index);
   physics->change_obstacle(index, *it);
-  forget_clearances();
+  invalidate_clearances();
   return std::nullopt;
 }
 
@@ -59,8 +59,8 @@ std::optional<std::string> Simulation::Impl::pick_up(std::size_t robot, int inde
   const Pose X_WT{thing.center.x(), thing.center.y(), thing.yaw_rad};
   loads.push_back({robot, index, body_pose(robot).inverse() * X_WT, false});
   physics->set_extended(index, false);
-  show_load(robot);
-  forget_clearances();
+  update_load_outlines(robot);
+  invalidate_clearances();
   return std::nullopt;
 }
 
@@ -71,7 +71,7 @@ void Simulation::Impl::carry_at(std::size_t robot, int index, const Pose& X_BT, 
     load.inside = inside;
   }
   move_loads();
-  show_load(robot);
+  update_load_outlines(robot);
 }
 
 std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int index) {
@@ -84,22 +84,22 @@ std::optional<std::string> Simulation::Impl::put_down(std::size_t robot, int ind
   if (const auto what = io::put_down_blocked_by(world, poses, robot, thing)) {
     return "obstacle " + thing.name + " cannot be put down: " + *what;
   }
-  let_go(index);
+  detach_load(index);
   physics->change_obstacle(index, thing);
-  forget_clearances();
+  invalidate_clearances();
   return std::nullopt;
 }
 
-// It stands again where its description says; the physics must still be told where that is.
-void Simulation::Impl::let_go(int index) {
+// The obstacle stands in the pose of its description again; the caller must update the physics.
+void Simulation::Impl::detach_load(int index) {
   const auto robot = static_cast<std::size_t>(std::exchange(obstacle(index).carried_by, -1));
   std::erase_if(loads, [&](const Load& load) { return load.obstacle == index; });
   physics->set_extended(index, true);
-  show_load(robot);
+  update_load_outlines(robot);
 }
 
-// The physics is told what others see of a robot's load.
-void Simulation::Impl::show_load(std::size_t robot) {
+// Updates what the sensors of others see of a robot's load.
+void Simulation::Impl::update_load_outlines(std::size_t robot) {
   std::vector<PhysicsWorld::Load> seen;
   for (const Load& load : loads) {
     if (load.robot != robot || load.inside) continue;
@@ -124,14 +124,14 @@ std::optional<std::string> Simulation::Impl::place(std::size_t i, const Pose& X_
   if (const auto what = io::blocked_by(world, poses, i, X_WB)) {
     return "robot " + world.robots[i].name + " cannot be put there: " + *what;
   }
-  if (!io::is_place(X_WB)) {
+  if (!io::is_valid_pose(X_WB)) {
     return "robot " + world.robots[i].name + " cannot be put there: a pose takes finite numbers";
   }
   physics->set_pose(static_cast<int>(i), X_WB);
-  robots[i].last_position = X_WB.position();  // the way there does not count
+  robots[i].last_position = X_WB.position();  // the jump adds no path length
   move_loads();
   for (const auto& device : robots[i].devices) device->placed(X_WB);
-  forget_clearances();
+  invalidate_clearances();
   return std::nullopt;
 }
 
@@ -225,7 +225,7 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   const std::optional<SceneObject> object = find_object(name);
   if (!object) return no_such_object(name);
   if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
-  // As a world's reader has it; Box2D makes nothing of smaller boxes.
+  // The limits of the world's reader; Box2D cannot represent smaller boxes.
   if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
     return "the sides and the height of a block are at least 0.001 m";
   }
@@ -235,35 +235,33 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   });
 }
 
-std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
-  if (const auto robot = find_robot(name)) {
-    impl_->world.robots[static_cast<std::size_t>(*robot)].colour = colour;
+template <typename Edit>
+std::optional<std::string> Simulation::Impl::change_appearance(const Simulation& simulation,
+                                                               const std::string& name,
+                                                               const char* refusal, Edit edit) {
+  if (const auto robot = simulation.find_robot(name)) {
+    edit(world.robots[static_cast<std::size_t>(*robot)]);
     return std::nullopt;
   }
-  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
+  for (ObstacleDescription& block : world.arena.obstacles) {
     if (block.name != name) continue;
-    block.colour = colour;
+    edit(block);
     return std::nullopt;
   }
-  const std::optional<SceneObject> object = find_object(name);
-  if (!object) return no_such_object(name);
-  return object->kind + " \"" + name + "\" keeps its colour";
+  const std::optional<SceneObject> object = simulation.find_object(name);
+  if (!object) return simulation.no_such_object(name);
+  return object->kind + " \"" + name + "\" " + refusal;
+}
+
+std::optional<std::string> Simulation::set_object_colour(const std::string& name, Colour colour) {
+  return impl_->change_appearance(*this, name, "keeps its colour",
+                                  [&](auto& object) { object.colour = colour; });
 }
 
 std::optional<std::string> Simulation::set_object_fiducial(const std::string& name, int fiducial) {
   if (fiducial < 0) return "the number of a fiducial is at least 0";
-  if (const auto robot = find_robot(name)) {
-    impl_->world.robots[static_cast<std::size_t>(*robot)].fiducial = fiducial;
-    return std::nullopt;
-  }
-  for (ObstacleDescription& block : impl_->world.arena.obstacles) {
-    if (block.name != name) continue;
-    block.fiducial = fiducial;
-    return std::nullopt;
-  }
-  const std::optional<SceneObject> object = find_object(name);
-  if (!object) return no_such_object(name);
-  return object->kind + " \"" + name + "\" bears no fiducial";
+  return impl_->change_appearance(*this, name, "bears no fiducial",
+                                  [&](auto& object) { object.fiducial = fiducial; });
 }
 
 std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
@@ -287,7 +285,7 @@ std::optional<std::string> Simulation::set_obstacle_state(const std::string& nam
   }
   impl_->physics->set_extended(index, extend);
   it->state = state;
-  impl_->forget_clearances();
+  impl_->invalidate_clearances();
   return std::nullopt;
 }
 

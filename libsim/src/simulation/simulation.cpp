@@ -17,20 +17,20 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kKeptCollisions = 1024;
-constexpr std::size_t kKeptUtterances = 1024;
-// Clearances beyond this are told as this; it bounds the search round a robot.
+constexpr std::size_t kKeptSpokenTexts = 1024;
+// Maximum reported clearance; it limits the search around a robot.
 constexpr double kClearanceLimit_m = 10.0;
 
-// A look at a robot's clearance sees this much farther than the least so far: the farther, the more
-// it costs, and the longer until the next one.
+// Margin of a clearance measurement beyond the least clearance so far. A larger margin costs more,
+// but delays the next measurement.
 constexpr double kClearanceLookahead_m = 0.1;
-// Up to so much beyond the least so far it is looked at exactly: a lower bound would be used up
-// sooner.
+// Up to this margin the clearance is measured exactly, since a lower bound would require the next
+// measurement sooner.
 constexpr double kClearanceExact_m = 0.05;
 
 }  // namespace
 
-// What the devices of one robot may do to it.
+// The actions that the devices of one robot may perform on it.
 class Simulation::Impl::Control final : public RobotControl {
  public:
   Control(Impl& owner, std::size_t robot) : impl_(owner), robot_(robot) {}
@@ -38,13 +38,13 @@ class Simulation::Impl::Control final : public RobotControl {
   [[nodiscard]] const BodyState& body() const override {
     return impl_.physics->body(static_cast<int>(robot_));
   }
-  [[nodiscard]] std::optional<Pose> pose_by(int device) const override {
+  [[nodiscard]] std::optional<Pose> pose_estimate_of(int device) const override {
     const auto& devices = impl_.robots[robot_].devices;
     const auto index = static_cast<std::size_t>(device);
     if (device < 0 || index >= devices.size()) return std::nullopt;
-    return devices[index]->believed_pose();
+    return devices[index]->pose_estimate();
   }
-  bool take_motors(const Device& device) override {
+  bool acquire_motors(const Device& device) override {
     RobotParts& robot = impl_.robots[robot_];
     if (robot.motion == nullptr) return false;
     const auto is_other_motion = [&](const std::unique_ptr<Device>& own) {
@@ -52,7 +52,7 @@ class Simulation::Impl::Control final : public RobotControl {
     };
     if (std::ranges::any_of(robot.devices, is_other_motion)) return false;
     for (const auto& other : robot.devices) {
-      if (other.get() != &device) other->motors_taken();
+      if (other.get() != &device) other->on_motors_taken();
     }
     return true;
   }
@@ -105,7 +105,7 @@ Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_re
       view_mode(world.canvas.view_mode) {
   start_obstacles = world.arena.obstacles;
   for (const RobotDescription& robot : world.robots) {
-    start_looks.push_back({robot.colour, robot.fiducial});
+    start_appearances.push_back({robot.colour, robot.fiducial});
     add_robot(robot);
   }
   connect_devices();
@@ -128,12 +128,12 @@ void Simulation::Impl::add_robot(const RobotDescription& robot) {
     parts.devices.push_back(row->create(device, robot, *parts.model, world.simulation.seed));
     Device* made = parts.devices.back().get();
     const Sensor* const sensor = made->sensor();
-    const bool last = made->measures_after_others();
+    const bool after_others = made->measures_after_others();
     slots.push_back({made, sensor == nullptr ? 0 : sensor->next_due_ns(),
                      static_cast<std::uint16_t>(parts.devices.size() - 1), sensor != nullptr, true,
-                     last});
+                     after_others});
     actors.push_back({static_cast<std::size_t>(index), made});
-    parts.any_last = parts.any_last || last;
+    parts.any_measures_after_others = parts.any_measures_after_others || after_others;
     if (parts.motion == nullptr) parts.motion = made->motion();
     if (parts.pen == nullptr) parts.pen = made->pen();
   }
@@ -162,17 +162,17 @@ void Simulation::Impl::connect_devices() {
 }
 
 void Simulation::Impl::say(std::size_t robot, const std::string& text) {
-  if (said.size() == kKeptUtterances) said.erase(said.begin());
-  said.push_back({now_ns, static_cast<int>(robot), text});
+  if (spoken_texts.size() == kKeptSpokenTexts) spoken_texts.erase(spoken_texts.begin());
+  spoken_texts.push_back({now_ns, static_cast<int>(robot), text});
   if (log) log(LogLevel::kInfo, "robot " + world.robots[robot].name + " says: " + text);
 }
 
 void Simulation::Impl::reset() {
   world.arena.obstacles = start_obstacles;
   loads.clear();
-  for (std::size_t i = 0; i < start_looks.size(); ++i) {
-    world.robots[i].colour = start_looks[i].colour;
-    world.robots[i].fiducial = start_looks[i].fiducial;
+  for (std::size_t i = 0; i < start_appearances.size(); ++i) {
+    world.robots[i].colour = start_appearances[i].colour;
+    world.robots[i].fiducial = start_appearances[i].fiducial;
   }
   physics = std::make_unique<PhysicsWorld>(world.arena);
   layers.base().clear();
@@ -180,19 +180,19 @@ void Simulation::Impl::reset() {
   slots.clear();
   motions.clear();
   actors.clear();
-  asked = false;
+  all_actors_called = false;
   for (const RobotDescription& robot : world.robots) add_robot(robot);
   connect_devices();
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].statistics = before[i].statistics;
     for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
-      robots[i].devices[k]->succeed(*before[i].devices[k], now_ns);
+      robots[i].devices[k]->take_over_from(*before[i].devices[k], now_ns);
     }
     note_due_times(i);
   }
   updated.clear();
-  forget_clearances();
-  // As at the start, so that the next measurement begins where it did then.
+  invalidate_clearances();
+  // As at the start, so that the next measurement starts from the same state.
   for (std::size_t i = 0; i < robots.size(); ++i) {
     static_cast<void>(
         physics->clearance_m(static_cast<int>(i), kClearanceLimit_m, kClearanceLimit_m));
@@ -205,7 +205,7 @@ void Simulation::Impl::note_due_times(std::size_t i) {
   }
 }
 
-// --- A step: inline is what each robot does in it.
+// --- A step. Functions that each robot needs in every step are inline.
 
 void Simulation::Impl::record_collisions() {
   for (const PhysicsWorld::Contact& contact : physics->new_contacts()) {
@@ -223,7 +223,7 @@ void Simulation::Impl::forget_old_collisions() {
                    collisions.end() - static_cast<std::ptrdiff_t>(kKeptCollisions));
 }
 
-void Simulation::Impl::forget_clearances() {
+void Simulation::Impl::invalidate_clearances() {
   for (RobotParts& robot : robots) robot.clearance_slack_m = 0.0;
 }
 
@@ -250,12 +250,12 @@ inline void Simulation::Impl::update_clearance(std::size_t i, double dt_s) {
   measure_clearance(i, robot.statistics.least_clearance_m + kClearanceLookahead_m);
 }
 
-inline void Simulation::Impl::update_devices(std::size_t i, bool last) {
+inline void Simulation::Impl::update_devices(std::size_t i, bool measures_after_others) {
   RobotParts& robot = robots[i];
   const int index = static_cast<int>(i);
   const StepContext context{now_ns, physics->body(index), *physics, index, world};
   for (Slot& slot : std::span(slots).subspan(robot.first_slot, robot.slot_count)) {
-    if (slot.last != last) continue;
+    if (slot.measures_after_others != measures_after_others) continue;
     if (slot.integrates) {
       slot.device->integrate(context);
       slot.integrates = slot.device->integrates();
@@ -284,7 +284,7 @@ inline void Simulation::Impl::act(double dt_s) {
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const auto begin = actor;
     while (actor != actors.end() && actor->robot == i) ++actor;
-    // The command of a suspended robot's motors waits.
+    // The motors of a suspended robot keep their command.
     if (physics->suspended(static_cast<int>(i))) continue;
     Control control(*this, i);
     for (auto own = begin; own != actor; ++own) {
@@ -294,8 +294,8 @@ inline void Simulation::Impl::act(double dt_s) {
       physics->set_target(static_cast<int>(i), motions[i]->next_target(dt_s));
     }
   }
-  if (!asked) std::erase_if(actors, [](const Actor& a) { return !a.device->acts(); });
-  asked = true;
+  if (!all_actors_called) std::erase_if(actors, [](const Actor& a) { return !a.device->acts(); });
+  all_actors_called = true;
 }
 
 void Simulation::Impl::step() {
@@ -309,7 +309,7 @@ void Simulation::Impl::step() {
   updated.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    if (robots[i].any_last) update_devices(i, true);
+    if (robots[i].any_measures_after_others) update_devices(i, true);
   }
 }
 
@@ -356,7 +356,9 @@ const std::vector<Collision>& Simulation::collisions() const noexcept {
   return impl_->collisions;
 }
 
-const std::vector<Utterance>& Simulation::said() const noexcept { return impl_->said; }
+const std::vector<SpokenText>& Simulation::spoken_texts() const noexcept {
+  return impl_->spoken_texts;
+}
 
 int Simulation::device_count(int robot) const {
   return static_cast<int>(impl_->robots.at(static_cast<std::size_t>(robot)).devices.size());
@@ -393,7 +395,7 @@ std::optional<std::string> Simulation::apply(DeviceId id, const Command& command
            device.name() + " is switched off: it takes no commands until it is on again";
   }
   Impl::Control control(*impl_, static_cast<std::size_t>(id.robot));
-  return device.carry_out(command, control);
+  return device.execute(command, control);
 }
 
 void Simulation::reset() { impl_->reset(); }

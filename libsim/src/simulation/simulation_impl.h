@@ -17,30 +17,30 @@
 namespace sim {
 
 struct alignas(64) RobotParts {
-  // What each step asks for comes first: it fills one line of the cache.
+  // The members that each step needs come first and fill one cache line.
   RobotStatistics statistics;
-  Vec2 last_position;              // where it was at the end of the last step
-  double clearance_slack_m = 0.0;  // see update_clearance
-  std::uint32_t first_slot = 0;    // of its devices
+  Vec2 last_position;              // at the end of the last step
+  double clearance_slack_m = 0.0;  // see update_clearance()
+  std::uint32_t first_slot = 0;    // index of its first device's slot
   std::uint16_t slot_count = 0;
-  bool any_last = false;  // of them
+  bool any_measures_after_others = false;  // whether any device measures after others
   bool has_pen = false;
 
-  Pen* pen = nullptr;  // the first of each, if any
+  Pen* pen = nullptr;  // its first pen and motion device, if any
   Motion* motion = nullptr;
   double radius_m = 0.0;  // of the footprint about B
   const RobotModel* model = nullptr;
   std::vector<std::unique_ptr<Device>> devices;
 };
 
-// What a step must know of a device, so that most of them need not be looked at.
+// What a step needs to know about a device, so that it need not access most devices.
 struct Slot {
   Device* device;
-  SimTime due_ns;       // when a sensor's next reading is
+  SimTime due_ns;       // time of a sensor's next reading
   std::uint16_t index;  // of the device
   bool is_sensor;
   bool integrates;
-  bool last;  // looks at others' readings, so comes after them
+  bool measures_after_others;  // it reads other devices
 
   [[nodiscard]] Sensor& sensor() const { return static_cast<Sensor&>(*device); }
 };
@@ -48,28 +48,28 @@ struct Slot {
 struct Simulation::Impl {
   class Control;
   class Directory;
-  struct Look {
+  struct Appearance {
     Colour colour;
     int fiducial;
   };
-  // A device that steers, or was not yet asked to.
+  // A device whose act() is called: one that acts, or that has not been called yet.
   struct Actor {
     std::size_t robot;
     Device* device;
   };
-  // An obstacle that a robot carries.
+  // An object that a robot carries.
   struct Load {
     std::size_t robot;
     int obstacle;
-    Pose X_BT;    // of the thing in B
-    bool inside;  // the robot, where nobody sees it
+    Pose X_BT;    // pose of the object in B
+    bool inside;  // inside the robot, where no sensor sees it
   };
 
-  // @param to_be_read  a state is read next, so nothing need be measured.
+  // @param to_be_read  the state is read next, so nothing needs to be measured.
   Impl(WorldDescription description, LogHook hook, bool to_be_read = false);
 
   void add_robot(const RobotDescription& robot);
-  // Throws ConfigError with all that devices miss.
+  // Throws ConfigError with everything that devices are missing.
   void connect_devices();
   void say(std::size_t robot, const std::string& text);
   void reset();
@@ -78,32 +78,38 @@ struct Simulation::Impl {
                 .devices.at(static_cast<std::size_t>(id.device));
   }
 
-  // A robot's sensors have changed when they are due.
+  // Updates the due times of a robot's sensors.
   void note_due_times(std::size_t i);
 
   // --- A step
   void step();
-  // Lets devices steer. Those that do not are asked once.
+  // Calls act() of the devices that need it. Devices that do not override it are called once.
   void act(double dt_s);
   void update_robot(std::size_t i, double dt_s);
-  // Of a robot's devices those that come last, or the others.
-  void update_devices(std::size_t i, bool last);
-  // How far any point of a robot can have moved in the last step, at most.
+  // Updates a robot's devices that measure after others, or the remaining ones.
+  void update_devices(std::size_t i, bool measures_after_others);
+  // Upper bound of how far any point of a robot can have moved in the last step.
   [[nodiscard]] double move_m(std::size_t i, double dt_s) const;
-  // The least clearance so far can only fall once the robot and what is round it have moved by
-  // the difference to what was measured last; until then there is no need to look.
+  // The least clearance so far can decrease only after the robot and its surroundings have moved by
+  // the difference to the last measurement. Until then no measurement is needed.
   void update_clearance(std::size_t i, double dt_s);
   void measure_clearance(std::size_t i, double limit_m);
-  // Something was put somewhere: clearances must be looked at anew.
-  void forget_clearances();
+  // Invalidates all clearances after something was placed.
+  void invalidate_clearances();
   void record_collisions();
-  // Not with each one, which would move all that are kept.
+  // Not done with each new collision, since it moves all that are kept.
   void forget_old_collisions();
 
   // --- Objects (objects.cpp)
-  // Changes a block, unless something is against it: tells what.
+  // Edits a block, unless the result is invalid; returns the reason then.
   template <typename Edit>
   std::optional<std::string> change_block(const std::string& name, Edit edit);
+  // Calls edit() with the description of a robot or block. Returns why it cannot.
+  // @param refusal  what other objects do instead.
+  template <typename Edit>
+  std::optional<std::string> change_appearance(const Simulation& simulation,
+                                               const std::string& name, const char* refusal,
+                                               Edit edit);
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));
@@ -114,26 +120,26 @@ struct Simulation::Impl {
   std::optional<std::string> pick_up(std::size_t robot, int index);
   void carry_at(std::size_t robot, int index, const Pose& X_BT, bool inside);
   std::optional<std::string> put_down(std::size_t robot, int index);
-  // It stands again where its description says; the physics must still be told where that is.
-  void let_go(int index);
-  // The physics is told what others see of a robot's load.
-  void show_load(std::size_t robot);
+  // The obstacle stands in the pose of its description again; the caller must update the physics.
+  void detach_load(int index);
+  // Updates what the sensors of others see of a robot's load.
+  void update_load_outlines(std::size_t robot);
   void move_loads();
 
   // --- State (state.cpp)
-  // Writes or reads it. When reading, this has just been made.
+  // Writes or reads the state. When reading, this object must be newly constructed.
   void archive(StateArchive& archive);
-  // Goes on in place of another one, see RestoreScope::kWorld.
-  void succeed(Impl& before);
+  // Replaces another simulation, see RestoreScope::kWorld.
+  void take_over_from(Impl& before);
   void archive_obstacle(StateArchive& archive, ObstacleDescription& thing);
   void archive_robot(StateArchive& archive, std::size_t i);
-  // The layers of clients, and how all is shown.
+  // The layers of clients, and the view mode.
   void archive_pictures(StateArchive& archive);
-  // The world as it was at the start.
+  // The world in its initial state.
   [[nodiscard]] WorldDescription start_world() const;
   [[nodiscard]] std::uint64_t start_hash() const;
-  // The same world as a snapshot says. It is read into another one, so that nothing has changed if
-  // something is wrong with it after all.
+  // A new simulation of the same world in the state of a snapshot. This one does not change, even
+  // if the snapshot turns out to be invalid.
   [[nodiscard]] std::unique_ptr<Impl> restored(std::span<const std::uint8_t> snapshot,
                                                LogHook hook) const;
 
@@ -143,16 +149,16 @@ struct Simulation::Impl {
   LayerStack layers;
   ViewMode view_mode;
   std::vector<ObstacleDescription> start_obstacles;
-  std::vector<Look> start_looks;  // of the robots
+  std::vector<Appearance> start_appearances;  // of the robots
   std::vector<RobotParts> robots;
-  std::vector<Slot> slots;       // in order of robot and device
-  std::vector<Motion*> motions;  // of the robots
-  std::vector<Actor> actors;     // in the same order
-  bool asked = false;            // all of them, once
+  std::vector<Slot> slots;         // sorted by robot and device
+  std::vector<Motion*> motions;    // of the robots
+  std::vector<Actor> actors;       // sorted by robot and device
+  bool all_actors_called = false;  // act() of all devices has been called once
   std::vector<Load> loads;
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
-  std::vector<Utterance> said;
+  std::vector<SpokenText> spoken_texts;
   SimTime now_ns = 0;
   std::uint64_t steps = 0;
   mutable std::optional<std::uint64_t> known_start_hash;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The state of a simulation apart from its world: saved, restored, hashed.
+// The state of a simulation without its world: saving, restoring, hashing.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -7,6 +7,7 @@
 
 #include "io/solid_limits.h"
 #include "sim/core/hash.h"
+#include "sim/core/number_text.h"
 #include "sim/simulation/world_hash.h"
 #include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
@@ -15,14 +16,14 @@
 namespace sim {
 namespace {
 
-// What a snapshot begins with.
+// The beginning of a snapshot.
 struct SnapshotHeader {
   std::array<char, 8> magic;
   std::uint64_t version;
   std::uint64_t world;  // world_hash()
   std::uint64_t seed;
-  std::uint64_t state;     // bytes of the state
-  std::uint64_t pictures;  // of the clients' layers, after it
+  std::uint64_t state;     // size of the state [bytes]
+  std::uint64_t pictures;  // size of the clients' layers, which follow [bytes]
   std::uint64_t hash;      // of both
 };
 constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
@@ -34,16 +35,8 @@ std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   return hash.value();
 }
 
-std::string hexadecimal(std::uint64_t number) {
-  std::string text(16, '0');
-  for (auto digit = text.rbegin(); digit != text.rend(); ++digit, number /= 16) {
-    *digit = "0123456789abcdef"[number % 16];
-  }
-  return text;
-}
-
-// The header of a snapshot that is as it was written, for this world.
-// @param own  the hash of the world as it was at the start.
+// The header of a snapshot; throws if the snapshot is damaged or belongs to another world.
+// @param own  the hash of the world in its initial state.
 SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const WorldDescription& world,
                               std::uint64_t own) {
   SnapshotHeader header{};
@@ -57,8 +50,8 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
   expect(header.magic == kMagic, "a snapshot of Playpen", "other bytes");
   expect(header.version == kSnapshotVersion, "version " + std::to_string(kSnapshotVersion),
          "version " + std::to_string(header.version));
-  expect(header.world == own, "world " + world.name + " (" + hexadecimal(own) + ")",
-         "another world (" + hexadecimal(header.world) + ")");
+  expect(header.world == own, "world " + world.name + " (" + hexadecimal_text(own, 16) + ")",
+         "another world (" + hexadecimal_text(header.world, 16) + ")");
   expect(header.seed == world.simulation.seed, "seed " + std::to_string(world.simulation.seed),
          "seed " + std::to_string(header.seed));
   const std::uint64_t left = snapshot.size() - sizeof header;
@@ -66,8 +59,8 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
          bytes(header.state) + " of state and " + bytes(header.pictures) + " of pictures",
          bytes(left));
   const std::uint64_t hash = hash_of(snapshot.subspan(sizeof header));
-  expect(header.hash == hash, "bytes with the hash " + hexadecimal(header.hash),
-         "the hash " + hexadecimal(hash) + ": they were altered");
+  expect(header.hash == hash, "bytes with the hash " + hexadecimal_text(header.hash, 16),
+         "the hash " + hexadecimal_text(hash, 16) + ": they were altered");
   return header;
 }
 
@@ -76,9 +69,9 @@ SnapshotHeader checked_header(std::span<const std::uint8_t> snapshot, const Worl
 WorldDescription Simulation::Impl::start_world() const {
   WorldDescription start = world;
   start.arena.obstacles = start_obstacles;
-  for (std::size_t i = 0; i < start_looks.size(); ++i) {
-    start.robots[i].colour = start_looks[i].colour;
-    start.robots[i].fiducial = start_looks[i].fiducial;
+  for (std::size_t i = 0; i < start_appearances.size(); ++i) {
+    start.robots[i].colour = start_appearances[i].colour;
+    start.robots[i].fiducial = start_appearances[i].fiducial;
   }
   return start;
 }
@@ -92,7 +85,7 @@ void Simulation::Impl::archive_obstacle(StateArchive& archive, ObstacleDescripti
   archive(thing.center, thing.size, thing.yaw_rad, thing.height_m, thing.fiducial, thing.colour);
   archive.choice(thing.state, ObstacleState::kRetracted);
   archive.index(thing.carried_by, robots.size(), -1);
-  archive.expect(!archive.reading() || !io::box_fault(thing), "obstacles that can be");
+  archive.expect(!archive.reading() || !io::check_box(thing), "obstacles that can be");
 }
 
 void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {
@@ -128,14 +121,14 @@ void Simulation::Impl::archive(StateArchive& archive) {
     archive.index(collision.robot, robots.size());
     archive(collision.partner);
   });
-  archive.list(said, [&](Utterance& utterance) {
-    archive.time(utterance.time_ns);
-    archive.index(utterance.robot, robots.size());
-    archive(utterance.text);
+  archive.list(spoken_texts, [&](SpokenText& spoken) {
+    archive.time(spoken.time_ns);
+    archive.index(spoken.robot, robots.size());
+    archive(spoken.text);
   });
   layers.archive_base(archive);
   if (!archive.reading()) return;
-  for (std::size_t i = 0; i < robots.size(); ++i) show_load(i);
+  for (std::size_t i = 0; i < robots.size(); ++i) update_load_outlines(i);
 }
 
 void Simulation::Impl::archive_pictures(StateArchive& archive) {
@@ -178,22 +171,22 @@ std::unique_ptr<Simulation::Impl> Simulation::Impl::restored(std::span<const std
   return made;
 }
 
-void Simulation::Impl::succeed(Impl& before) {
+void Simulation::Impl::take_over_from(Impl& before) {
   const SimTime later_ns = before.now_ns - now_ns;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     robots[i].statistics = before.robots[i].statistics;
     for (std::size_t k = 0; k < robots[i].devices.size(); ++k) {
-      robots[i].devices[k]->succeed(*before.robots[i].devices[k], later_ns);
+      robots[i].devices[k]->take_over_from(*before.robots[i].devices[k], later_ns);
     }
     note_due_times(i);
   }
   now_ns = before.now_ns;
   steps = before.steps;
   collisions = std::move(before.collisions);
-  said = std::move(before.said);
+  spoken_texts = std::move(before.spoken_texts);
   updated.clear();
-  forget_clearances();
-  layers.resize(before.layers.width(), before.layers.height());  // which clients chose
+  invalidate_clearances();
+  layers.resize(before.layers.width(), before.layers.height());  // keep the size that clients chose
   before.layers.take_base(layers);
   layers = std::move(before.layers);
   view_mode = before.view_mode;
@@ -202,9 +195,9 @@ void Simulation::Impl::succeed(Impl& before) {
 void Simulation::restore(std::span<const std::uint8_t> snapshot, RestoreScope scope) {
   std::unique_ptr<Impl> restored = impl_->restored(snapshot, impl_->log);
   if (scope == RestoreScope::kAll) {
-    restored->layers.succeed(impl_->layers);
+    restored->layers.take_over_from(impl_->layers);
   } else {
-    restored->succeed(*impl_);
+    restored->take_over_from(*impl_);
   }
   impl_ = std::move(restored);
 }

@@ -11,8 +11,8 @@
 namespace sim {
 namespace {
 
-/// What reaches into a cell no farther than this share of its side only touches it: places in
-/// files have few digits, and multiples of 0.02 are not exact in binary.
+/// A solid that reaches into a cell by at most this fraction of its side only touches it: positions
+/// in files have few digits, and multiples of 0.02 are not exact in binary.
 constexpr double kTouching = 1e-6;
 
 /// An interval of columns, in cells; empty if low > high.
@@ -21,7 +21,7 @@ struct Span {
   double high = -std::numeric_limits<double>::infinity();
 };
 
-/// The columns over which the piece of the segment ab between two heights lies.
+/// The columns spanned by the part of the segment ab between two heights.
 Span span_between(const Vec2& a, const Vec2& b, double bottom, double top) {
   const Vec2& lower = a.y() <= b.y() ? a : b;
   const Vec2& upper = a.y() <= b.y() ? b : a;
@@ -35,7 +35,7 @@ Span span_between(const Vec2& a, const Vec2& b, double bottom, double top) {
   return {std::min(x0, x1), std::max(x0, x1)};
 }
 
-/// Fills cells of a map. Works in units of cells, from the grid's bottom left corner; rows count
+/// Fills cells of a map. Uses cells as units, relative to the grid's bottom left corner; rows count
 /// from the bottom here.
 class Painter {
  public:
@@ -45,8 +45,8 @@ class Painter {
     return (p_W - map_.origin) / map_.cell_size_m;
   }
 
-  /// Cells that a convex polygon reaches into. Its part between the lower and the upper side of a
-  /// row of cells is convex, so it reaches into just those cells whose columns it spans.
+  /// Fills the cells that a convex polygon reaches into. Its part between the lower and the upper
+  /// side of a row of cells is convex, so it reaches into exactly the cells whose columns it spans.
   void add_convex(const Polygon& outline) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
@@ -65,14 +65,14 @@ class Painter {
     }
   }
 
-  /// Cells that the solid within the loops reaches into: those that an edge runs through, since
-  /// each has the solid along its left, and of the others, which are all solid or all free, those
-  /// whose middle lies in it.
+  /// Fills the cells that the solid within the loops reaches into. A cell with an edge in it is
+  /// filled, because an edge has the solid on its left. All other cells are completely solid or
+  /// completely free, and are filled if their centre is solid.
   void add_walls(const std::vector<WallLoop>& walls) {
-    /// A place where an edge crosses the line through the middles of a row's cells.
+    /// Intersection of an edge with the horizontal line through the centres of a row's cells.
     struct Crossing {
       double x;
-      int winding;  ///< +1: on its right the solid of that loop begins, -1: it ends
+      int winding;  ///< +1: the loop's solid begins on its right, -1: it ends there
     };
     std::vector<std::vector<Crossing>> crossings(static_cast<std::size_t>(map_.height));
     for (const WallLoop& loop : walls) {
@@ -97,13 +97,13 @@ class Painter {
       for (std::size_t i = 0; i + 1 < in_row.size(); ++i) {
         winding += in_row[i].winding;
         if (winding <= 0) continue;
-        // Cells whose middles lie between the two crossings.
+        // Cells whose centres lie between the two crossings.
         fill_columns(row, std::ceil(in_row[i].x - 0.5), std::floor(in_row[i + 1].x - 0.5));
       }
     }
   }
 
-  /// Cells that reach beyond the floor, where the border stands.
+  /// Fills the cells that reach beyond the floor, where the border stands.
   void add_border(const Vec2& low, const Vec2& high) {
     for (int row = 0; row < map_.height; ++row) {
       const bool beyond = row < low.y() - kTouching || row + 1 > high.y() + kTouching;
@@ -117,25 +117,25 @@ class Painter {
   }
 
  private:
-  /// The rows that something between these heights may reach into; none if first > last.
+  /// The rows that a shape between these heights may reach into; none if first > last.
   [[nodiscard]] std::pair<int, int> rows_between(double low, double high) const {
     const double limit = map_.height;
     return {static_cast<int>(std::clamp(std::floor(low), 0.0, limit)),
             static_cast<int>(std::clamp(std::floor(high), -1.0, limit - 1.0))};
   }
 
-  /// What of an edge lies within a row, but for what only touches it.
+  /// The part of an edge within a row, without parts that only touch the row.
   static Span span_in_row(const Vec2& a, const Vec2& b, int row) {
     return span_between(a, b, row + kTouching, row + 1 - kTouching);
   }
 
-  /// Cells that a span reaches into.
+  /// Fills the cells that a span reaches into.
   void fill(int row, const Span& span) {
     if (span.low > span.high) return;
     fill_columns(row, std::floor(span.low + kTouching), std::ceil(span.high - kTouching) - 1.0);
   }
 
-  /// Cells of a row from one column to another, both included.
+  /// Fills the cells of a row from the first to the last column, inclusive.
   void fill_columns(int row, double first, double last) {
     const auto from = static_cast<int>(std::clamp(first, 0.0, static_cast<double>(map_.width)));
     const auto to = static_cast<int>(std::clamp(last, -1.0, map_.width - 1.0));

@@ -13,9 +13,9 @@ RobotModel s1r_model() {
 }
 
 const RobotModel& default_robot_model() {
-  // Settings of the devices are left empty: io fills in the defaults of each type, since the
-  // types' settings lie above this layer. Never destroyed: simulations hold pointers to it, and
-  // one may still be drawn while the program exits.
+  // The devices have no settings here: io adds the defaults of each type, since this layer does not
+  // know the types' settings. Never destroyed: simulations hold pointers to the model, and one may
+  // still be drawn while the program exits.
   static const auto* const model = [] {
     auto* s1r = new RobotModel(s1r_model());
     for (const char* device : {"laser", "motion", "odometry", "pen", "pose"}) {

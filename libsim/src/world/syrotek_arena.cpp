@@ -5,8 +5,8 @@
 
 #include "sim/world/robot_model.h"
 
-// The layout, an own design for this simulator: # static blocks (s1...), : dynamic blocks (d1...,
-// retracted until a world extends them), = dock separators, D1... docks, ^ the start pose.
+// The layout, designed for this simulator: # static blocks (s1...), : dynamic blocks (d1...,
+// initially retracted), = dock separators, D1... docks, ^ the start pose.
 //
 //       +----------------------------------------------------------------------------+
 //  3.68 |                                               ###                   #######|
@@ -61,12 +61,12 @@
 //
 // Blocks are 0.12 m thick and stand on a lattice of 0.65 x 0.64 m, so that corridors are 0.52 m
 // wide; the narrowest, between s9 and s10, is 0.30 m. Parts: the road along the docks; the long
-// corridor at the bottom; two rooms in the middle that d1 to d5 open or close; a bay in the upper
-// left part, a bay on the right (above s4), and the open place round s13 at the upper right.
+// corridor at the bottom; two rooms in the middle that d1 to d5 open or close; a bay at the upper
+// left, a bay on the right (above s4), and the open area around s13 at the upper right.
 namespace sim {
 namespace {
 
-/// A block by its corners, as the drawing above is measured.
+/// A block given by its corners in the drawing above.
 ObstacleDescription block(std::string name, ObstacleType type, double x_min, double y_min,
                           double x_max, double y_max) {
   ObstacleDescription obstacle;
@@ -106,7 +106,7 @@ ArenaDescription syrotek_arena() {
     if (obstacle.name == "s13") obstacle.yaw_rad = std::numbers::pi / 4.0;
   }
 
-  // Seven docks, 0.53 m apart, with a separator between neighbours. A docked robot looks out.
+  // Seven docks, 0.53 m apart, with a separator between neighbours. A docked robot faces outwards.
   constexpr int kDocks = 7;
   constexpr double kDockPitch_m = 0.53;
   for (int i = 0; i < kDocks; ++i) {

@@ -17,7 +17,7 @@ import subprocess
 import sys
 import tempfile
 
-# Whatever takes longer hangs.
+# Anything that takes longer hangs.
 TIMEOUT_S = float(os.environ.get("PLAYPEN_TEST_PATIENCE_S", 900))
 
 
@@ -38,7 +38,8 @@ def converse(port, script):
 
 
 def main(playpen, world, file, *arguments):
-    # Of its own: two servers that write into one folder at the same time take each other's results.
+    # A separate folder: two servers that write into one folder at the same time remove each other's
+    # results.
     results = tempfile.TemporaryDirectory()
     server = subprocess.Popen(
         [playpen, "serve", world, "--port", "0", "--time", "lockstep", "--out", results.name],

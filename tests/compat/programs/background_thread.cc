@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The client reads in a thread of its own, the control loop sleeps.
+// The client reads in its own thread; the control loop sleeps.
 #include <libplayerc++/playerc++.h>
 #include <unistd.h>
 using namespace PlayerCc;

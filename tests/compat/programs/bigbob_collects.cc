@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // In the style of the Player/Stage tutorial: Bigbob drives to an orange, takes it between its teeth
-// and brings it home; another one it lets disappear.
+// and brings it home. It makes another one disappear.
 #include <stdio.h>
 #include <libplayerc++/playerc++.h>
 
@@ -25,7 +25,7 @@ void RefreshItemList(item_t *itemList, SimulationProxy &simProxy)
   }
 }
 
-// Steers towards a point; returns how far it is from the middle of the robot.
+// Steers towards a point; returns its distance from the centre of the robot.
 double SteerTo(double x, double y, double reach, Position2dProxy &pp, SimulationProxy &simProxy)
 {
   double robotX, robotY, robotYaw;
@@ -58,7 +58,7 @@ int main()
   printf("%u sonars, %u beams between the teeth, gripper %s\n", sonarProxy.GetRangeCount(),
          laserProxy.GetRangeCount(), gripper.GetPaddlesOpen() ? "open" : "not open");
 
-  // to the orange, until it breaks the inner beam
+  // drive to the orange, until it breaks the inner beam
   int orangeBlobs = 0;
   while (!gripper.GetInnerBreakBeam())
   {
@@ -82,7 +82,7 @@ int main()
          gripper.GetState() == PLAYER_GRIPPER_STATE_MOVING);
   if (gripper.GetState() != PLAYER_GRIPPER_STATE_CLOSED) return 1;
 
-  // home with it
+  // bring it home
   do
     robot.Read();
   while (SteerTo(homeX, homeY, 0.6, p2dProxy, simProxy) > 0.7);
@@ -96,7 +96,7 @@ int main()
   }
   p2dProxy.SetSpeed(0, 0);
 
-  // the tutorial's way to collect: out of the simulation
+  // the tutorial's method of collecting: move it out of the simulation
   simProxy.SetPose2d(itemList[1].name, -10, -10, 0);
   robot.Read();
   RefreshItemList(itemList, simProxy);

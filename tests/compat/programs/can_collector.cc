@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A Pioneer that turns until it sees something red, drives to it, takes it and puts it into its store;
-// twice.
+// A Pioneer turns until it sees something red, drives to it, takes it and puts it into its store.
+// It does this twice.
 #include <iostream>
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A car that winds its way by speed and steering angle.
+// A car drives a winding path by speed and steering angle.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 

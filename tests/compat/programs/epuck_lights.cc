@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// An e-puck whose ring of eight lights shows where something is near; the green body shines while it
-// drives.
+// An e-puck whose ring of eight lights shows the directions of near obstacles; the green body light
+// is on while it drives.
 #include <iostream>
 #include <vector>
 #include <libplayerc++/playerc++.h>

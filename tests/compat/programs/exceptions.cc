@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Looks for a robot on one port after the other, and lives with devices that are not there.
+// Tries one port after another until it finds a robot, and does without missing devices.
 #include <libplayerc++/playerc++.h>
 #include <memory>
 using namespace PlayerCc;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// One thread reads four clients, one a port, in turn.
+// One thread reads four clients in turn, one per port.
 #include <libplayerc++/playerc++.h>
 #include <vector>
 #include <sstream>

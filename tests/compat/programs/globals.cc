@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Client and proxies at namespace scope: made before main() and gone after it.
+// Client and proxies at namespace scope: constructed before main() and destroyed after it.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 

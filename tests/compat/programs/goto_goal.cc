@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Lets the position device drive to goals and looks when it is there.
+// Gives goals to the position device and checks whether the robot has arrived.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 using namespace std;

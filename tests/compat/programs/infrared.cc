@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Keeps away from what its infra-red sensors see.
+// Avoids obstacles that its infra-red sensors detect.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 

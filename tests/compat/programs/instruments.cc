@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Reads what a vehicle has of instruments while it drives a circle.
+// Reads a vehicle's instruments while it drives a circle.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 using namespace std;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A plain client that reads once and says which shared libraries its process has loaded by then.
+// A plain client that reads once and prints the shared libraries that its process has loaded.
 #include <libplayerc++/playerc++.h>
 #include <link.h>
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Writes what it reads into a file, as text, and shows proxies by operator<<.
+// Writes its readings into a file as text, and prints proxies with operator<<.
 #include <libplayerc++/playerc++.h>
 #include <fstream>
 #include <iomanip>

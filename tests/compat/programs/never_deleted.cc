@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Makes client and proxies with new, deletes none, and leaves by exit().
+// Creates client and proxies with new, deletes none of them, and ends by exit().
 #include <libplayerc++/playerc++.h>
 #include <cstdlib>
 using namespace PlayerCc;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Sideways, ahead and back without turning; then in place.
+// Drives sideways, ahead and back without turning, and then turns on the spot.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Drives to a goal from the command line by a controller of its own, by odometry.
+// Drives to a goal from the command line with its own controller, by odometry.
 #include <libplayerc++/playerc++.h>
 #include <stdlib.h>
 using namespace PlayerCc;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Derives from Player's classes and touches what they protect.
+// Derives from Player's classes and uses their protected members.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// One thread reads, another steers; they share data under a mutex of their own.
+// One thread reads, another one steers; they share data and protect it with their own mutex.
 #include <libplayerc++/playerc++.h>
 #include <pthread.h>
 using namespace PlayerCc;

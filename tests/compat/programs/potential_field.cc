@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A potential field over the laser's points, drawn in passing.
+// A potential field over the laser's points, which it also draws.
 #include <libplayerc++/playerc++.h>
 #include <vector>
 using namespace std;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Lives in callbacks: Run() reads, read signals steer, Stop() ends it.
+// Uses callbacks only: Run() reads, read signals steer, Stop() ends it.
 #include <libplayerc++/playerc++.h>
 #include <functional>
 using namespace PlayerCc;

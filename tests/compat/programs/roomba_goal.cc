@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A Roomba that asks the localisation where it is and drives to (5, -3.5); keeps off what the 361
-// beams of its laser see, and backs off what it bumps into.
+// A Roomba gets its position from the localisation and drives to (5, -3.5). It avoids obstacles
+// with its laser of 361 beams, and backs off after a bump.
 #include <cmath>
 #include <iostream>
 #include <libplayerc++/playerc++.h>

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A Roomba out of a maze: straight on to the first wall, then along the wall on the right. The bumpers
-// tell of walls ahead, the laser of the one beside. Knows the way out by its odometry.
+// A Roomba leaves a maze: it drives straight to the first wall and then follows the wall on its
+// right. The bumpers detect walls ahead, the laser the wall beside it. The odometry shows when it
+// is outside.
 #include <iostream>
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Puts its robot somewhere else through the simulation, and asks where it is.
+// Moves its robot through the simulation proxy, and reads its position.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 using namespace std;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by the sonars of Stage's simple.world, which are ranger:0 there; looks at the laser, ranger:1,
-// only to say what it is.
+// Wanders by the sonars of Stage's simple.world, which are ranger:0 there. It only prints the
+// properties of the laser, ranger:1.
 #include <cstdio>
 #include <cmath>
 #include <libplayerc++/playerc++.h>

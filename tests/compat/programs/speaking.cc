@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Says where it is and switches its outputs.
+// Says its position and switches its outputs.
 #include <libplayerc++/playerc++.h>
 #include <sstream>
 using namespace PlayerCc;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A square by odometry: ahead until the way is long enough, round until the heading is right.
+// A square by odometry: drives ahead until the distance is reached, turns until the heading is
+// reached.
 #include "libplayerc++/playerc++.h"
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A square by counting turns of the loop: one Read() is a tenth of a second.
+// A square by counting iterations of the loop: one Read() takes a tenth of a second.
 #include <iostream>
 #include <libplayerc++/playerc++.h>
 

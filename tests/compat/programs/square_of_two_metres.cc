@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Five metres straight on and back, then a square of two metres, by speed and time: one Read() is a
-// tenth of a second.
+// Five metres straight ahead and back, then a square of two metres, by speed and time: one Read()
+// takes a tenth of a second.
 #include <cmath>
 #include <iostream>
 #include <libplayerc++/playerc++.h>

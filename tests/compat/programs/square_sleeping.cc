@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A square timed by sleeping alone: no Read() anywhere.
+// A square timed only by sleeping, without any Read().
 #include <libplayerc++/playerc++.h>
 #include <unistd.h>
 using namespace PlayerCc;

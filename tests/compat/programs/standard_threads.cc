@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// As programs after 2011: std::thread, sleep_for, one client a thread.
+// In the style of programs after 2011: std::thread, sleep_for, one client per thread.
 #include <libplayerc++/playerc++.h>
 #include <chrono>
 #include <thread>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by the three sonars of an S1R: half left, ahead, half right.
+// Wanders by the three sonars of an S1R: front left, front, front right.
 #include <cmath>
 #include <iostream>
 #include <libplayerc++/playerc++.h>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Two clients of one robot, which was at an address of its own: one reads and steers, the other
-// only looks.
+// Two clients of one robot that had its own network address: one reads and steers, the other one
+// only reads.
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
 using namespace std;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by a Hokuyo URG. Counts beams, as programs written for one laser do: 667 across 240 degrees,
-// or 681 or more of the S1R's.
+// Wanders with a Hokuyo URG. It counts beams, like programs for a specific laser: 667 over 240
+// degrees, or 681 or more of the S1R's.
 #include <iostream>
 #include <cstdlib>
 #include <libplayerc++/playerc++.h>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Times its motion by the clock on the wall: time(), gettimeofday(), and waiting in a busy loop.
+// Times its motion by the wall clock: time(), gettimeofday(), and busy waiting.
 #include <libplayerc++/playerc++.h>
 #include <sys/time.h>
 #include <time.h>

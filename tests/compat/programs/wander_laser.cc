@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by laser with the least ranges on both sides. Has functions of its own that Player has too.
+// Wanders by the laser's least ranges on both sides. Defines functions with names of Player's
+// functions.
 #include <iostream>
 #include <cstdlib>
 #include <libplayerc++/playerc++.h>

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by a ranger that is configured and asked for its geometry first; prints in passing.
+// Wanders with a ranger. It first requests its configuration and geometry and prints its limits.
 #include <libplayerc++/playerc++.h>
 #include <string>
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by sonar: turns away from the nearer side, slower when something is close.
+// Wanders by sonar: turns away from the nearer side, and drives slower near obstacles.
 #include <iostream>
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program that uses both client libraries: it commands by the one what it sees by the other.
+// A program that uses both client libraries: it reads with one and commands with the other.
 #include <libplayerc++/playerc++.h>
 #include <libplayerc/playerc.h>
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program made from one of Player's examples, whose header for the command line was left behind.
+// A program made from one of Player's examples, without that example's header for the command line.
 #include "args.h"
 
 int main(int argc, char** argv) {

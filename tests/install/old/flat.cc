@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program that leaves out the folders of Player's headers.
+// A program that includes Player's headers without their folders.
 #include <clientproxy.h>
 #include <libplayercore/playercore.h>
 #include <playerc++.h>

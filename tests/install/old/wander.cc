@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program as they were written for Player: one include, two namespaces, no build system.
+// A program in the original style for Player: one include, two namespaces, no build system.
 #include <libplayerc++/playerc++.h>
 
 using namespace std;

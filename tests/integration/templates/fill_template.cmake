@@ -1,12 +1,12 @@
 # Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-# A template of a task with its functions filled in. A file of fillings consists of parts, each below
-# a line that says where it belongs:
+# Fills in the functions of a task's template. A file of fillings consists of parts. The line before
+# each part says where the part belongs:
 #   // function: TEXT                    replaces the function of robot.cc whose first line begins so
 #   // insert into FILE before: TEXT     goes before the first line of FILE that begins with TEXT
-# What stands above the first part is left out.
+# The text before the first part is ignored.
 
 # playpen_fill_template(TEMPLATE FILLING FOLDER): writes main.cc, robot.cc and robot.h into the
-# folder; stops if a part of the filling has no place in the template.
+# folder; fails if a part has no place in the template.
 function(playpen_fill_template template filling folder)
   foreach(file IN ITEMS main.cc robot.cc robot.h)
     file(READ "${template}/${file}" "text_${file}")
@@ -18,7 +18,7 @@ function(playpen_fill_template template filling folder)
     if(start STREQUAL "")
       break()
     endif()
-    # The line that says where, and the part below it, up to the next such line.
+    # The line that names the place, and the part after it, up to the next such line.
     string(FIND "${rest}" "${start}" at)
     math(EXPR at "${at} + 1")
     string(SUBSTRING "${rest}" ${at} -1 rest)

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The functions of apps/par_exploration/template as the comments there describe them.
+// The functions of apps/par_exploration/template, implemented as the comments there describe.
 
 // insert into robot.cc before: #include "imr-h/logging.h"
 #include <algorithm>
@@ -44,7 +44,7 @@ double trailX = 0.0;
 double trailY = 0.0;
 
 // insert into robot.h before:   double forwardSpeed = 0.0;
-std::vector<int> counts;  // of each cell: how long it has been the goal
+std::vector<int> counts;  // for each cell: how long it has been the goal
 int turnsWithoutGoal = 0;
 
 // function: void CCollector::addScan(

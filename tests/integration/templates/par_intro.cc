@@ -1,14 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The functions of apps/par_intro/template as the comments there describe them.
+// The functions of apps/par_intro/template, implemented as the comments there describe.
 
 // insert into robot.cc before: #include "imr-h/logging.h"
 #include <algorithm>
 #include <cmath>
 
 // insert into robot.h before:   bool quit = false;
-double left = 0.0;   // least range ahead on the left [m]
-double right = 0.0;  // least range ahead on the right [m]
-double side = 0.0;   // of the turn that the robot is in: 1 left, -1 right, 0 none
+double left = 0.0;   // smallest range ahead on the left [m]
+double right = 0.0;  // smallest range ahead on the right [m]
+double side = 0.0;   // direction of the current turn: 1 left, -1 right, 0 none
 
 // function: void CRobot::lookAtLaser(
 void CRobot::lookAtLaser() {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The functions of apps/par_planning/template as the comments there describe them.
+// The functions of apps/par_planning/template, implemented as the comments there describe.
 
 // insert into robot.cc before: #include "imr-h/logging.h"
 #include <algorithm>
@@ -39,7 +39,7 @@ bool canSee(const Map& map, const Cell& from, const Cell& to) {
 }
 
 // insert into robot.h before:   bool quit = false;
-std::size_t next = 0;  // the cell of the way that the robot drives to
+std::size_t next = 0;  // the cell of the path that the robot drives to
 
 // function: Map CRobot::loadMap(
 Map CRobot::loadMap(const std::string& file) const {

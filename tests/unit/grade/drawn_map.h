@@ -9,7 +9,7 @@
 
 namespace test_support {
 
-/// A map drawn as text, a string a row from the top: '#' solid, '.' free, anything else unknown.
+/// A map from text, one string per row from the top: '#' solid, '.' free, anything else unknown.
 [[nodiscard]] inline sim::OccupancyMap drawn_map(const std::vector<std::string>& rows,
                                                  double cell_size_m = 1.0,
                                                  const sim::Vec2& origin = sim::Vec2::Zero()) {

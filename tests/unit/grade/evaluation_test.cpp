@@ -33,7 +33,7 @@ using testing::IsEmpty;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-/// A room of 2 m x 2 m with a robot in the middle of its left half.
+/// A room of 2 m x 2 m with a robot at the centre of its left half.
 sim::WorldDescription room(const std::string& obstacles = "") {
   return sim::load_world_text(R"({"arena": {"size": [2, 2], "obstacles": [)" + obstacles + R"(]},
     "simulation": {"duration": 60},
@@ -70,20 +70,20 @@ TEST(MakeReference, TheShortestPathIsStraightInAnEmptyRoom) {
 }
 
 TEST(MakeReference, TheShortestPathKeepsTheRobotsInscribedRadius) {
-  // A wall in the middle from the bottom up to y = 1.4; the axle's centre keeps 0.081 m off (half
-  // of the robot's width), so it goes round the end of the wall on an arc about the corners
-  // (0.95, 1.4) and (1.05, 1.4).
+  // A wall in the middle, from the bottom up to y = 1.4. The axle's centre stays 0.081 m away (half
+  // of the robot's width), so the path follows an arc around the wall's corners (0.95, 1.4) and
+  // (1.05, 1.4).
   const Reference reference =
       make_reference(task_with_goal(1.5, 1.0), {},
                      room(R"({"name": "w", "center": [1, 0.7], "size": [0.1, 1.4]})"));
   const double radius = 0.081;
   const double to_corner = std::hypot(0.45, 0.4);
   const double tangent = std::sqrt(to_corner * to_corner - radius * radius);
-  // From the direction of the tangent to level.
+  // The angle from the tangent's direction to the horizontal.
   const double turn = std::atan2(0.4, 0.45) + std::asin(radius / to_corner);
   const double exact = 2.0 * (tangent + radius * turn) + 0.1;
   ASSERT_TRUE(reference.shortest_path_m);
-  // The round corner is made of cells of 2 cm, and the wall's sides lie within cells.
+  // The round corner consists of cells of 2 cm, and the wall's sides lie inside cells.
   EXPECT_NEAR(*reference.shortest_path_m, exact, 0.05);
 }
 
@@ -110,7 +110,7 @@ TEST(MakeReference, RefusesWhatDoesNotGoTogether) {
   no_goal.thresholds.must_reach = true;
   EXPECT_EQ(id_of(no_goal, room()), "task/missing-goal");
   EXPECT_EQ(id_of(task_with_goal(3.0, 1.0), room()), "task/unreachable-goal");
-  // A wall from side to side; then one with a gap of 0.15 m, too narrow for 0.162 m.
+  // A wall from side to side; then one with a gap of 0.15 m, too narrow for a width of 0.162 m.
   for (const char* wall : {R"({"name": "w", "center": [1, 1], "size": [0.1, 2]})",
                            R"({"name": "w", "center": [1, 0.925], "size": [0.1, 1.85]})"}) {
     EXPECT_EQ(id_of(task_with_goal(1.5, 1.0), room(wall)), "task/unreachable-goal") << wall;
@@ -120,7 +120,7 @@ TEST(MakeReference, RefusesWhatDoesNotGoTogether) {
             "");
 }
 
-/// Runs in a folder of their own, on the room with a goal at (1.5, 1).
+/// Runs in a separate folder, on the room with a goal at (1.5, 1).
 class EvaluateTest : public testing::Test {
  protected:
   void write_report(const json& changes = json::object(), double sim_time_s = 20.0) const {
@@ -189,7 +189,7 @@ TEST_F(EvaluateTest, AReportThatWasEditedIsRefused) {
   EXPECT_THAT(evaluated().faults, ElementsAre("report.json was changed after the run had ended"));
 }
 
-// The way is 1 m long; the goal is reached 0.1 m before it.
+// The path is 1 m long; the goal is reached 0.1 m before its end.
 TEST_F(EvaluateTest, APathThatIsShorterThanAnyWayIsRefused) {
   write_report({{"path_length", 0.9}});
   EXPECT_TRUE(evaluated().passed());
@@ -260,7 +260,7 @@ TEST_F(EvaluateTest, TheGoalIsReachedWithinItsTolerances) {
   EXPECT_FALSE(evaluated().measures.path_ratio) << "a way that leads elsewhere may be short";
   task_.goal->tolerance_m = 0.06;
   EXPECT_EQ(evaluated().measures.reached, true);
-  // The robot looks along 3 rad; -3.1 rad is 0.18 rad farther on.
+  // The robot's heading is 3 rad; -3.1 rad is 0.18 rad farther.
   task_.goal->yaw_rad = -3.1;
   task_.goal->yaw_tolerance_rad = 0.15;
   EXPECT_EQ(evaluated().measures.reached, false);
@@ -285,7 +285,7 @@ TEST_F(EvaluateTest, TellsEndingsApart) {
   EXPECT_EQ(crashed.signal, SIGSEGV);
   EXPECT_THAT(crashed.faults, ElementsAre(HasSubstr("signal 11")));
   task_.timeout_s = 2.5;
-  // That it then ended well on the polite signal does not help.
+  // It does not help that the program then ended well on SIGTERM.
   const GradedRun late = evaluated({JobEnd::Kind::kTimedOut, {}, 2.6});
   EXPECT_EQ(late.ending, Ending::kTimedOut);
   EXPECT_THAT(late.faults, ElementsAre("timeout: still running after 2.5 s"));
@@ -312,7 +312,7 @@ TEST_F(EvaluateTest, AMissingOrBrokenReportIsAFault) {
               ElementsAre("the report has no robot a", "collisions unknown, at most 0 asked for"));
   write_report({{"least_clearance", nullptr}});  // nothing solid anywhere
   EXPECT_FALSE(evaluated().measures.least_clearance_m);
-  // A program that crashed is not told of the report too.
+  // A program that crashed gets no additional message about the report.
   folder_.write("report.json", "");
   EXPECT_THAT(evaluated({JobEnd::Kind::kEnded, {.status = 0, .signal = SIGABRT}, 0.0}).faults,
               SizeIs(1));

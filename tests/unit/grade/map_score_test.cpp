@@ -17,7 +17,7 @@ using sim::OccupancyMap;
 using sim::Vec2;
 using test_support::drawn_map;
 
-/// A room of 4 x 3 cells with a free cell behind a wall that nobody can get to.
+/// A room of 4 x 3 cells, and a free cell behind a wall that cannot be reached.
 const OccupancyMap kTruth = drawn_map({"########",  //
                                        "#....#.#",  //
                                        "#....###",  //
@@ -39,7 +39,7 @@ TEST(CellState, IsUnknownRoundAHalf) {
 TEST(ReachableCells, AreThoseJoinedToTheStartBySides) {
   const std::vector<std::uint8_t> reached = reachable_cells(kTruth, kStart);
   EXPECT_EQ(std::accumulate(reached.begin(), reached.end(), 0), 12);  // 4 x 3
-  // Cells that meet at a corner only are not joined.
+  // Cells that meet only at a corner are not connected.
   const OccupancyMap corner = drawn_map({".#", "#."});
   const std::vector<std::uint8_t> one = reachable_cells(corner, {0.5, 1.5});
   EXPECT_EQ(std::accumulate(one.begin(), one.end(), 0), 1);
@@ -86,7 +86,7 @@ TEST(ScoreMap, FreeIsRightOnlyWhereTheTruthIsFree) {
 
 TEST(ScoreMap, SolidIsRightWithinACellOfSomethingSolid) {
   const OccupancyMap truth = drawn_map({".....", ".....", "..#..", ".....", "....."});
-  // Beside the block, at its corner, and two cells off.
+  // Beside the block, at its corner, and two cells away.
   for (const auto& [rows, correctness] : std::vector<std::pair<std::vector<std::string>, double>>{
            {{"?????", "?????", "???#?", "?????", "?????"}, 1.0},
            {{"?????", "?#???", "?????", "?????", "?????"}, 1.0},
@@ -103,18 +103,18 @@ TEST(ScoreMap, AMapThatKnowsNothingIsWorthNothing) {
 }
 
 TEST(ScoreMap, ComparesByPositionInTheWorld) {
-  // The room's left part only, in cells of half the size, from another corner.
+  // Only the room's left part, with cells of half the size and another origin.
   OccupancyMap map = drawn_map(std::vector<std::string>(6, std::string(4, '.')), 0.5, {1.0, 1.0});
   const MapScore fine = score_map(map, kTruth, kStart);
   EXPECT_DOUBLE_EQ(fine.coverage, 6.0 / 12.0);
   EXPECT_EQ(fine.correctness, 1.0);
   EXPECT_EQ(fine.known_cells, 24U);
-  // Half of it off the truth: there it is not judged.
+  // Half of the map is outside the truth, where it is ignored.
   map.origin = {-1.0, 1.0};
   const MapScore off = score_map(map, kTruth, kStart);
   EXPECT_EQ(off.known_cells, 12U);
   EXPECT_EQ(off.correctness, 0.0) << "the wall on the left, called free";
-  // Coarse cells: one covers what is under it.
+  // A coarse cell covers everything below it.
   const OccupancyMap coarse = drawn_map({"."}, 3.0, {1.0, 1.0});
   EXPECT_DOUBLE_EQ(score_map(coarse, kTruth, kStart).coverage, 9.0 / 12.0);
 }

@@ -91,7 +91,7 @@ TEST(Table, OfOneRunNeedsNoSummary) {
             "explore: 1 of 1 runs passed\n");
 }
 
-/// The lines of a table of runs, without what stands below.
+/// The lines of a table of runs, without the text below.
 std::vector<std::string> rows_of(const std::vector<GradedRun>& runs, const TableStyle& style) {
   std::istringstream lines(table(grade_of(runs), style));
   std::vector<std::string> rows;
@@ -113,8 +113,8 @@ TEST(Table, HasNoColumnForWhatNoRunHasMeasured) {
 }
 
 TEST(Table, LosesBlanksThenNamesThenColumnsUntilItFits) {
-  // With everything measured, 7 + 4 + 4 + 9 + 4 + 5 + 7 + 5 + 5 + 4 + 5 + 4 + 4 = 67 characters and
-  // 12 gaps, of one blank each: 79.
+  // With all columns, 7 + 4 + 4 + 9 + 4 + 5 + 7 + 5 + 5 + 4 + 5 + 4 + 4 = 67 characters and 12 gaps
+  // of one blank: 79.
   GradedRun run = good_run();
   run.world = "kitchen";
   const std::vector<std::string> tight = rows_of({run}, {.columns = 80});
@@ -122,7 +122,7 @@ TEST(Table, LosesBlanksThenNamesThenColumnsUntilItFits) {
   EXPECT_EQ(tight[0],
             "world   seed      end       goal cover correct  path ratio coll clear  sim wall");
   EXPECT_EQ(tight[0].size(), 79U);
-  // A longer name becomes a heading, once for all runs of that world.
+  // A longer name becomes a heading, once for all runs on that world.
   run.world = "the_kitchen_of_the_house";
   GradedRun second = run;
   second.seed = 2;

@@ -31,7 +31,8 @@ double length(const sim::OccupancyMap& map, const Vec2& start, const Vec2& goal)
 
 TEST(Inflate, TakesTheDistanceFromACellsMiddleToTheSolidArea) {
   const sim::OccupancyMap map = drawn_map({".....", ".....", "..#..", ".....", "....."});
-  // A side neighbour's middle is 0.5 cells away, a corner neighbour's 0.71, the next one's 1.5.
+  // The centre of a side neighbour is 0.5 cells away, of a corner neighbour 0.71, of the next cell
+  // 1.5.
   EXPECT_EQ(inflate(map, 0.5).cells, map.cells);
   EXPECT_EQ(inflate(map, 0.51).cells,
             drawn_map({".....", "..#..", ".###.", "..#..", "....."}).cells);
@@ -58,7 +59,7 @@ TEST(ShortestWay, IsStraightWhereNothingStands) {
 
 TEST(ShortestWay, TurnsAtTheCornersOfWhatIsInTheWay) {
   const sim::OccupancyMap map = drawn_map({".....", "..#..", "..#..", "..#..", "....."});
-  // From (0.5, 2.5) round the corners (2, 4) and (3, 4), or as far below, to (4.5, 2.5).
+  // From (0.5, 2.5) around the corners (2, 4) and (3, 4), or symmetrically below, to (4.5, 2.5).
   const std::optional<Way> way = shortest_way(map, {0.5, 2.5}, {4.5, 2.5});
   ASSERT_TRUE(way);
   EXPECT_NEAR(way->length_m, 2.0 * std::hypot(1.5, 1.5) + 1.0, kRounding_m);
@@ -112,7 +113,7 @@ TEST(ShortestWay, EndsInSolidCellsAreJoinedToTheNearestFreeOneWithinReach) {
   EXPECT_FALSE(shortest_way(map, {9.0, 9.0}, {3.5, 1.5}, 1.0)) << "far off the map";
 }
 
-/// The same answer by other means: boxes for solid cells, all crossings of grid lines as nodes.
+/// A slow reference: boxes for solid cells, and all crossings of grid lines as nodes.
 class SlowSearch {
  public:
   explicit SlowSearch(const sim::OccupancyMap& map) : map_(map) {
@@ -124,7 +125,7 @@ class SlowSearch {
       for (int x = -1; x <= map.width; ++x) {
         if (!solid(x, y)) continue;
         add(x, y, x + 1, y + 1);
-        // Two beside each other leave nothing between them.
+        // Two adjacent cells leave no gap between them.
         if (solid(x + 1, y)) add(x, y, x + 2, y + 1);
         if (solid(x, y + 1)) add(x, y, x + 1, y + 2);
         if (solid(x + 1, y + 1)) slits_.emplace_back(x + 1, y + 1);
@@ -169,7 +170,7 @@ class SlowSearch {
 
   [[nodiscard]] bool sees(const Vec2& a, const Vec2& b) const {
     for (const Box& box : boxes_) {
-      // The part of the line within both pairs of sides (Liang and Barsky).
+      // The part of the line between both pairs of sides (Liang and Barsky).
       double from = 0.0;
       double to = 1.0;
       for (int axis = 0; axis < 2; ++axis) {
@@ -190,7 +191,7 @@ class SlowSearch {
       const double t = (slit - a).dot(along) / along.squaredNorm();
       if (t > 0.0 && t < 1.0 && (a + t * along - slit).norm() < 1e-9) return false;
     }
-    // A way must not turn where it could change sides of a slit.
+    // A path must not turn where it could change to the other side of a slit.
     return std::none_of(slits_.begin(), slits_.end(),
                         [&](const Vec2& slit) { return slit == a || slit == b; });
   }

@@ -144,10 +144,10 @@ TEST_F(TaskTest, ReadsAFileWhereItLies) {
   }
 }
 
-/// A fault of a task, and what must be told of it.
+/// An invalid task, and its expected message.
 struct BadTask {
   const char* name;
-  std::string text;  ///< what stands beside "worlds", or the whole text if it begins with {
+  std::string text;  ///< text beside "worlds", or the whole text if it begins with {
   const char* id;
   const char* pointer;
   const char* expected;
@@ -286,7 +286,7 @@ TEST_F(TaskTest, AllFaultsOfAFileAreReportedTogether) {
               SizeIs(3));
 }
 
-/// Keys that the reader knows in each object, as it names them when it meets one it does not know.
+/// The keys that the reader knows in each object, from its messages about unknown keys.
 std::map<std::string, std::set<std::string>> keys_of_reader() {
   return test_support::known_keys([] {
     static_cast<void>(read_task_text(

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A main() as course programs have it: options by Boost, a log, a robot's configuration.
+// A main() in the style of course programs: options by Boost, a log, a robot's configuration.
 #include "imr-h/boost_args_config.h"
 
 #include <gmock/gmock.h>

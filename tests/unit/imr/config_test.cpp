@@ -18,7 +18,7 @@
 
 namespace course {
 
-// Types of a program: one with both stream operators, one that can only be read.
+// Types of a program: one has both stream operators, the other can only be read.
 struct Point {
   double x = 0.0;
   double y = 0.0;
@@ -76,7 +76,7 @@ bool parse(CConfig& config, std::vector<std::string> arguments,
                                    missing);
 }
 
-// A file that exists as long as the object.
+// A file that the destructor removes.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& content)
@@ -104,7 +104,7 @@ class Config : public testing::Test {
     config_.add<double>("x", "initial x position", 0.0);
   }
 
-  // The error of a file of this content, without the path and colon in front.
+  // The error for a file with this content, without the path and colon at its front.
   std::string file_error(const std::string& content) {
     const TemporaryFile file(content);
     const std::string message = message_of([&] { config_.load_file(file.path()); });
@@ -593,7 +593,7 @@ TEST_F(Config, MayBeUsedByManyThreads) {
       for (int round = 0; round < kRounds; ++round) {
         config_.set("host", std::string(40, static_cast<char>('a' + i)));
         const std::string host = config_.get<std::string>("host");
-        // One thread's text or another's, or the default, but never a mixture.
+        // The text of either thread or the default, but never a mixture.
         EXPECT_TRUE(host == "localhost" || host == std::string(40, host[0])) << host;
         parse(config_, {"--port", std::to_string(i)});
         EXPECT_THAT(config_.help(), Not(IsEmpty()));

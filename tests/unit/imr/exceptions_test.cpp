@@ -110,7 +110,7 @@ TEST(ImrAssert, IsOneStatement) {
   EXPECT_TRUE(reached_else);
 }
 
-// The type of the exception that the function throws, as far as it is one of imr's.
+// The type of the exception that the function throws, if it is one of imr's.
 template <typename Exception, typename Function>
 bool throws(const Function& function) {
   try {

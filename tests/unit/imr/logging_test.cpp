@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Macros of the same names, as other headers and -DDEBUG leave behind; logging.h takes them over.
+// Macros with the same names, as other headers and -DDEBUG define them; logging.h replaces them.
 #define DEBUG 1
 #define ERROR 0
 
@@ -21,7 +21,7 @@
 
 #include "temporary_folder.h"
 
-// An operator<< that argument-dependent lookup does not find, as course programs write them.
+// An operator<< that argument-dependent lookup does not find, as in course programs.
 std::ostream& operator<<(std::ostream& out, const std::vector<int>& values);
 std::ostream& operator<<(std::ostream& out, const std::vector<int>& values) {
   return out << "vector of " << values.size();
@@ -175,7 +175,7 @@ TEST_F(Logging, LinesOfManyThreadsDoNotMix) {
       thread.join();
     }
   });
-  // Each thread's lines arrive whole and in its order.
+  // Each thread's lines arrive complete and in order.
   std::vector<int> next(kThreads, 0);
   std::istringstream lines(text);
   std::string line;
@@ -200,7 +200,7 @@ class Loggers : public Logging {
     imr::initLogger("root");
     Logging::TearDown();
   }
-  // What initLogger() prints, and the level afterwards, with a configuration of this text.
+  // The output of initLogger() with a configuration of this text, and the level afterwards.
   std::pair<std::string, Level> with_configuration(const std::string& text) {
     const std::string file = folder_.write("log.cfg", text);
     const std::string printed = stderr_of([&] { imr::initLogger("robot", file.c_str()); });

@@ -58,7 +58,8 @@ namespace {
 using course::Worker;
 using testing::HasSubstr;
 
-// What the function and the threads in it log, at the default level whatever the environment says.
+// The log of the function and the threads in it, at the default level, independent of the
+// environment.
 template <typename Function>
 std::string stderr_of(const Function& function) {
   imr::logging::set_level(imr::logging::Level::kInfo);
@@ -200,7 +201,7 @@ TEST(CThread, TheEndOfTheRunEndsTheThreadQuietly) {
   }
 }
 
-// By what they are, not by the name of their class.
+// The test identifies them by their type, not by the name of their class.
 TEST(CThread, OtherErrorsOfTheClientLibraryAreErrors) {
   const std::string text = stderr_of([] {
     Worker worker([](Worker&) {
@@ -274,7 +275,7 @@ TEST(CThread, ObjectMayBeDeletedByItsOwnThread) {
   const auto deleted = std::make_shared<std::promise<void>>();
   const std::string text = stderr_of([&] {
     Worker* worker = new Worker([deleted](Worker& self) {
-      // A copy, as the deletion takes the captured one away.
+      // A copy, because the deletion destroys the captured pointer.
       const std::shared_ptr<std::promise<void>> announced = deleted;
       delete &self;
       announced->set_value();

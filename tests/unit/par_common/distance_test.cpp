@@ -12,7 +12,8 @@
 namespace par {
 namespace {
 
-/// Looks at every blocked cell, and at a frame of blocked cells as wide as the grid if asked.
+/// The reference: tests every blocked cell and, on request, a frame of blocked cells as wide as the
+/// grid.
 double slow_distance_cells(const Mask& blocked, const Cell& from, Outside outside) {
   double least = std::numeric_limits<double>::infinity();
   for (int row = -1; row <= blocked.height(); ++row) {
@@ -35,8 +36,7 @@ TEST(Distance, IsThatOfAllBlockedCells) {
     for (const Outside outside : {Outside::kFree, Outside::kBlocked}) {
       const Grid<double> distances = distance_to_blocked_m(blocked, outside);
       for (std::size_t i = 0; i < frame.size(); ++i) {
-        // Squared distances are whole numbers and exact; the root and the factor are not asked to
-        // be.
+        // Squared distances are exact integers; the root and the factor may round.
         EXPECT_DOUBLE_EQ(distances.values()[i],
                          slow_distance_cells(blocked, frame.cell_at(i), outside) * 0.02);
       }
@@ -68,7 +68,7 @@ TEST(Inflate, ByNothingChangesNothing) {
 }
 
 TEST(Inflate, TakesARadiusOfWholeCellsAsSuchWhateverItsRounding) {
-  // 0.06 / 0.02 is 2.9999999999999996 in doubles; three cells are meant.
+  // 0.06 / 0.02 is 2.9999999999999996 in double precision, but means three cells.
   Mask blocked(test::frame(9, 1, 0.02));
   blocked[{4, 0}] = 1;
   EXPECT_EQ(count(inflate(blocked, 0.06, Outside::kFree)), 7U);
@@ -84,7 +84,7 @@ TEST(Inflate, RefusesRadiiThatAreNone) {
 TEST(NearestFree, IsTheCellItselfOrTheNearestWithinReach) {
   const Mask blocked = test::mask({"####.", "####.", "##..."});
   EXPECT_EQ(nearest_free(blocked, {4, 0}, 0.0), (Cell{4, 0}));
-  // Of (0, 0): (2, 2) at sqrt(8) cells, (4, 0) at 4.
+  // From (0, 0): (2, 2) at sqrt(8) cells, (4, 0) at 4.
   EXPECT_EQ(nearest_free(blocked, {0, 0}, 3.0), (Cell{2, 2}));
   EXPECT_EQ(nearest_free(blocked, {0, 0}, 2.0), std::nullopt);
   EXPECT_EQ(nearest_free(blocked, {6, 1}, 2.0), (Cell{4, 1})) << "from outside";

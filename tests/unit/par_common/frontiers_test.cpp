@@ -40,7 +40,7 @@ TEST(Frontiers, AreFreeCellsBesideUnknownOnes) {
 
 TEST(Frontiers, AreNotAtTheEdgeOfTheGridNorAcrossCorners) {
   EXPECT_EQ(count(frontier_cells(states({"...", "..."}))), 0U);
-  // The unknown cell touches free ones at a corner only.
+  // The unknown cell touches free ones only at a corner.
   EXPECT_EQ(count(frontier_cells(states({"?#", "#."}))), 0U);
   EXPECT_EQ(count(frontier_cells(states({"##", "??"}))), 0U);
 }
@@ -82,7 +82,7 @@ TEST(Frontiers, AreFoundAndPutTogetherAtOnce) {
 
 TEST(Split, CutsALongFrontierIntoPartsOfAFewLooks) {
   const Frontier line = cluster(test::mask({std::string(36, '#')})).front();
-  // 36 cells, range 10: 1 + floor(36 / 18 + 0.5) = 3 parts of 12, give or take a cell that lies
+  // 36 cells, range 10: 1 + floor(36 / 18 + 0.5) = 3 parts of 12, plus or minus a cell that is
   // midway between two means.
   const std::vector<Frontier> parts = split(line, 10.0);
   ASSERT_EQ(parts.size(), 3U);
@@ -109,8 +109,8 @@ TEST(InformationGain, CountsUnknownCellsWithinRangeThatNothingHides) {
   const Grid<CellState> map = states({".....??",  //
                                       "....#??",  //
                                       ".....??"});
-  // From (0, 1) straight on the wall at (4, 1) hides (5, 1) and (6, 1); above and below, the lines
-  // to the far cells go over free ones.
+  // Straight ahead of (0, 1), the wall at (4, 1) hides (5, 1) and (6, 1). Above and below, the
+  // lines to the far cells cross only free cells.
   EXPECT_EQ(information_gain(map, {0, 1}, 100.0), 4U);
   EXPECT_EQ(information_gain(map, {0, 1}, 4.0), 0U) << "too near sighted";
   EXPECT_EQ(information_gain(map, {4, 1}, 100.0), 0U) << "in the wall";
@@ -119,10 +119,10 @@ TEST(InformationGain, CountsUnknownCellsWithinRangeThatNothingHides) {
 
 TEST(InformationGain, OfAllUnknownIsADisc) {
   const Grid<CellState> unknown(test::frame(41, 41), CellState::kUnknown);
-  // Cells whose centre lies within 10 cells: 317 of them (Gauss's circle problem, N(10)).
+  // Cells whose centre is within 10 cells: 317 (Gauss's circle problem, N(10)).
   EXPECT_EQ(information_gain(unknown, {20, 20}, 10.0), 317U);
-  // At a corner of the grid a quarter of it: of the 317, 41 lie on the two axes, so (317 - 41) / 4
-  // lie in the quarter's inside, 2 x 10 on its edges, and 1 in the corner: 90.
+  // At a corner of the grid, a quarter of the disc. Of the 317 cells, 41 are on the two axes, so
+  // (317 - 41) / 4 are inside the quarter, 2 x 10 on its edges, and 1 in the corner: 90.
   EXPECT_EQ(information_gain(unknown, {0, 0}, 10.0), 90U);
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 TEST(GridFrame, CountsRowsFromTheTop) {
   const GridFrame frame;  // of the default arena's canvas
-  // x = 0.05 m lies in the third column (0.04 .. 0.06 m); y = 0.05 m in the third row from below,
-  // which is row 186 - 1 - 2 from the top.
+  // x = 0.05 m is in the third column (0.04 .. 0.06 m); y = 0.05 m is in the third row from the
+  // bottom, which is row 186 - 1 - 2 from the top.
   EXPECT_EQ(frame.cell_of({0.05, 0.05}), (Cell{2, 183}));
   EXPECT_EQ(frame.cell_of({0.01, 3.71}), (Cell{0, 0}));
 }

@@ -19,7 +19,7 @@ inline GridFrame frame(int width, int height, double cell_size_m = 1.0) {
   return result;
 }
 
-/// Rows of `#` (1) and anything else (0), the top row first; cells of 1 m.
+/// A mask from rows of `#` (1) and anything else (0), the top row first; cells of 1 m.
 inline Mask mask(const std::vector<std::string>& rows) {
   Mask result(frame(static_cast<int>(rows.front().size()), static_cast<int>(rows.size())));
   for (int row = 0; row < result.height(); ++row) {
@@ -31,12 +31,12 @@ inline Mask mask(const std::vector<std::string>& rows) {
   return result;
 }
 
-/// A cell of a frame. (The engine's bits, not a distribution: those differ between libraries.)
+/// A random cell. (It uses the engine's bits, because distributions differ between libraries.)
 inline Cell random_cell(const GridFrame& frame, std::mt19937& random) {
   return frame.cell_at(random() % frame.size());
 }
 
-/// A grid in which each cell is blocked with a chance of `percent`.
+/// A grid in which each cell is blocked with a probability of `percent`.
 inline Mask random_mask(const GridFrame& frame, std::mt19937::result_type percent,
                         std::mt19937& random) {
   Mask result(frame);

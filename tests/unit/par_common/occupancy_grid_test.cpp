@@ -11,7 +11,7 @@
 namespace par {
 namespace {
 
-// Ten cells of 0.1 m in a row, the sensor in the middle of the first, looking along the row.
+// Ten cells of 0.1 m in a row; the sensor is at the centre of the first and faces along the row.
 GridFrame corridor() { return test::frame(10, 1, 0.1); }
 
 Scan one_beam(double range_m) {
@@ -49,7 +49,7 @@ TEST(OccupancyGrid, ConvergesToItsLimitsAndCanChangeItsMind) {
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({5, 0})), 3.5F);
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({2, 0})), -3.5F);
   EXPECT_NEAR(map.probability({5, 0}), 0.970688, 1e-6);  // 1 / (1 + e^-3.5)
-  // The obstacle is gone. Free is p < 0.196: log odds below -1.412. From 3.5 that takes
+  // The obstacle has moved away. Free means p < 0.196: log odds below -1.412. From 3.5 that takes
   // (3.5 + 1.412) / 0.40 = 12.3, so 13 scans.
   for (int i = 0; i < 12; ++i) map.update(one_beam(0.9));
   EXPECT_NE(map.state({5, 0}), CellState::kFree);
@@ -60,7 +60,8 @@ TEST(OccupancyGrid, ConvergesToItsLimitsAndCanChangeItsMind) {
 TEST(OccupancyGrid, CountsACellOnceAScanAndHitsBeforeMisses) {
   OccupancyGrid map(corridor());
   Scan scan = one_beam(0.5);
-  scan.ranges_m = {0.7, 0.5, 0.7, 0.5, 0.5};  // all along the row, two go through what three hit
+  // all along the row: two beams pass through the cell that three hit
+  scan.ranges_m = {0.7, 0.5, 0.7, 0.5, 0.5};
   map.update(scan);
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({5, 0})), 0.85F);
   EXPECT_FLOAT_EQ(static_cast<float>(map.log_odds({1, 0})), -0.40F);
@@ -140,8 +141,8 @@ TEST(OccupancyGrid, StatesAndProbabilitiesAgreeWithTheSingleCells) {
   }
 }
 
-// Cells marked as occupied in front of a wall that stands on a border of cells, at x = 0.4 m, after
-// noisy scans of it.
+// Number of cells marked as occupied in front of a wall, after noisy scans of it. The wall is on a
+// border of cells, at x = 0.4 m.
 std::size_t occupied_before_the_wall(const OccupancyParams& params) {
   OccupancyGrid map(test::frame(40, 40, 0.02), params);
   std::mt19937 random(6);
@@ -166,7 +167,8 @@ std::size_t occupied_before_the_wall(const OccupancyParams& params) {
 }
 
 TEST(OccupancyGrid, DepthKeepsWallsOutOfTheFreeCellsInFrontOfThem) {
-  // 10 mm deeper at up to 0.7 rad off the normal are at least 7.6 mm in x, more than 5 mm of noise.
+  // 10 mm deeper at up to 0.7 rad from the normal are at least 7.6 mm in x, more than 5 mm of
+  // noise.
   EXPECT_EQ(occupied_before_the_wall(OccupancyParams()), 0U);
   OccupancyParams flat;
   flat.depth_m = 0.0;
@@ -177,9 +179,9 @@ TEST(OccupancyGrid, TakesTheFloorUnderTheRobotAsFree) {
   OccupancyGrid map(test::frame(9, 9, 0.1));
   map.set_free({0.45, 0.45}, 0.1);
   EXPECT_EQ(map.state({4, 4}), CellState::kFree);
-  // Beside it the next centre is 0.1 m off, diagonally 0.14 m.
+  // The next centre is 0.1 m away at the side, 0.14 m diagonally.
   EXPECT_EQ(map.state({5, 5}), CellState::kUnknown);
-  map.set_free({-5.0, 20.0}, 0.1);  // outside: nothing
+  map.set_free({-5.0, 20.0}, 0.1);  // outside: no effect
   map.set_free({0.0, 0.0}, 0.08);   // partly outside
   EXPECT_EQ(map.state({0, 8}), CellState::kFree);
 }

@@ -12,7 +12,7 @@
 namespace par {
 namespace {
 
-/// A unicycle that is told what to do ten times a second and obeys at once.
+/// A unicycle that gets a command ten times a second and obeys at once.
 struct Unicycle {
   Pose pose;
   double driven_m = 0.0;
@@ -32,7 +32,7 @@ struct Unicycle {
 
 struct Drive {
   int updates = 0;
-  double worst_m = 0.0;  // farthest beside the way
+  double worst_m = 0.0;  // greatest distance from the path
   Unicycle robot;
 };
 
@@ -51,7 +51,7 @@ double distance_to_way_m(const std::vector<Point>& way, const Pose& pose) {
   return least;
 }
 
-/// Follows a way to its end, or for a minute.
+/// Follows a path to its end, for at most a minute.
 Drive follow(PathFollower& follower, const std::vector<Point>& way, const Pose& start) {
   Drive drive;
   drive.robot.pose = start;
@@ -75,7 +75,7 @@ TEST(PathFollower, DrivesStraightToTheEndAndStops) {
   ASSERT_TRUE(follower.done());
   EXPECT_LE(distance_m({drive.robot.pose.x, drive.robot.pose.y}, way.back()), 0.02);
   EXPECT_LT(drive.worst_m, 1e-9);
-  // 2 m at 0.35 m/s are 57 updates, braking takes some more; far from a minute.
+  // 2 m at 0.35 m/s take 57 updates, braking some more; far less than a minute.
   EXPECT_LT(drive.updates, 120);
   const Velocity after = follower.update(drive.robot.pose);
   EXPECT_EQ(after.forward_mps, 0.0);
@@ -94,7 +94,7 @@ TEST(PathFollower, TurnsOnTheSpotFirstIfItLooksTheOtherWay) {
     robot.drive(v);
     ASSERT_LT(++turning, 100);
   }
-  EXPECT_GT(turning, 10);  // 3 rad at 2 rad/s are 15 updates, less the 0.15 rad it may be off
+  EXPECT_GT(turning, 10);  // 3 rad at 2 rad/s take 15 updates, minus the tolerance of 0.15 rad
   EXPECT_DOUBLE_EQ(robot.driven_m, 0.0);
   EXPECT_LT(std::fabs(robot.pose.yaw), 0.15);
 }
@@ -106,8 +106,8 @@ TEST(PathFollower, StaysNearItsWayRoundSharpCorners) {
   const Drive drive = follow(follower, way, {0.0, 0.0, 0.0});
   ASSERT_TRUE(follower.done());
   EXPECT_LE(distance_m({drive.robot.pose.x, drive.robot.pose.y}, way.back()), 0.02);
-  // It aims 0.08 m ahead, so it may begin a turn that much before its corner, and overshoots by up
-  // to 0.035 m, an update at full speed.
+  // The aim is 0.08 m ahead, so a turn may begin this much before its corner. The robot overshoots
+  // by up to 0.035 m, an update at full speed.
   EXPECT_LT(drive.worst_m, 0.05);
   EXPECT_GT(drive.robot.driven_m, 0.9 * path_length_m(way)) << "no short cuts";
 }
@@ -136,7 +136,7 @@ TEST(PathFollower, FollowsPlannedWaysOnRandomGrids) {
 
 TEST(PathFollower, DoesNotJumpToWhereTheWayCrossesItself) {
   PathFollower follower;
-  // An eight: the way crosses itself at (0.5, 0).
+  // An eight: the path crosses itself at (0.5, 0).
   const std::vector<Point> way = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.5}, {0.5, 0.5}, {0.5, -0.5}};
   const Drive drive = follow(follower, way, {0.0, 0.0, 0.0});
   ASSERT_TRUE(follower.done());
@@ -167,7 +167,7 @@ TEST(PathFollower, WithoutAWayHasNothingToDo) {
   EXPECT_TRUE(follower.done());
   EXPECT_EQ(follower.update({}).forward_mps, 0.0);
   EXPECT_EQ(follower.remaining_m(), 0.0);
-  follower.set_path({{1.0, 0.0}});  // a point: go there
+  follower.set_path({{1.0, 0.0}});  // a single point as goal
   EXPECT_FALSE(follower.done());
   follower.set_path({});
   EXPECT_TRUE(follower.done());

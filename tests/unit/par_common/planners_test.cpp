@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoot2 = 1.4142135623730951;
-// Of sums of some hundred steps of 1 and sqrt(2).
+// Rounding of a sum of some hundred steps of 1 and sqrt(2).
 constexpr double kRounding = 1e-9;
 
 bool is_step(const Mask& blocked, const Cell& a, const Cell& b) {
@@ -27,8 +27,8 @@ bool is_step(const Mask& blocked, const Cell& a, const Cell& b) {
          blocked.value_or({b.column, a.row}, 1) == 0;
 }
 
-/// Lengths of the shortest ways from `start` by Bellman's and Ford's rule: every step is tried to
-/// shorten a way until none does.
+/// Lengths of the shortest paths from `start` by Bellman's and Ford's algorithm: relaxes every step
+/// until no path gets shorter.
 Grid<double> slow_distances(const Mask& blocked, const Cell& start) {
   Grid<double> distances(blocked.frame(), kInfinity);
   if (blocked.value_or(start, 1) != 0) return distances;
@@ -53,8 +53,8 @@ Grid<double> slow_distances(const Mask& blocked, const Cell& start) {
   return distances;
 }
 
-/// Whether the closed square round a cell's centre and the segment between two centres have a
-/// point in common: the separating axes of a segment and a square, in whole numbers (twice the
+/// Whether the closed square around a cell's centre and the segment between two centres have a
+/// common point: the separating axes of a segment and a square, in integers (twice the
 /// coordinates).
 bool touches(const Cell& cell, const Cell& a, const Cell& b) {
   const auto apart = [](int least, int greatest, int centre) {
@@ -105,7 +105,7 @@ std::vector<Problem> random_problems(int number, int max_side) {
   return problems;
 }
 
-/// From start to goal by the planners' steps, and as long as it says.
+/// Checks that a path leads from start to goal by the planners' steps, and has the stated length.
 void expect_steps(const Problem& problem, const Path& path) {
   ASSERT_TRUE(path.found());
   EXPECT_EQ(path.cells.front(), problem.start);
@@ -183,12 +183,13 @@ TEST(Planners, ThetaStarGoesStraightWhereNothingIsInTheWay) {
 }
 
 TEST(Planners, DoNotCutCorners) {
-  // The diagonal from (1, 1) to (2, 0) would brush the wall's corner: round it are two steps.
+  // The diagonal from (1, 1) to (2, 0) would touch the wall's corner; the path around it has two
+  // steps.
   const Mask blocked = test::mask({"#..", "..."});
   EXPECT_DOUBLE_EQ(dijkstra(blocked, {0, 1}, {1, 0}).length_m, 2.0);
   EXPECT_DOUBLE_EQ(a_star(blocked, {0, 1}, {1, 0}).length_m, 2.0);
   EXPECT_DOUBLE_EQ(theta_star(blocked, {0, 1}, {1, 0}).length_m, 2.0);
-  // Between two walls that meet at a corner there is no way.
+  // There is no path between two walls that meet at a corner.
   const Mask closed = test::mask({".#", "#."});
   EXPECT_FALSE(dijkstra(closed, {0, 0}, {1, 1}).found());
   EXPECT_FALSE(a_star(closed, {0, 0}, {1, 1}).found());
@@ -210,15 +211,16 @@ TEST(Planners, FindNoWayFromOrToWallsAndTheOutside) {
 
 TEST(Planners, AStarLooksAtFewerCellsThanDijkstra) {
   const Mask empty(test::frame(60, 60));
-  // From the middle of a side straight across: Dijkstra's wave fills the grid, A*'s goes ahead.
+  // Straight across from the middle of a side: Dijkstra's wave fills the grid, A*'s goes straight
+  // ahead.
   const Path dijkstras = dijkstra(empty, {0, 30}, {59, 30});
   const Path a_stars = a_star(empty, {0, 30}, {59, 30});
   EXPECT_GT(dijkstras.expanded, 3000U);
-  EXPECT_EQ(a_stars.expanded, 60U);  // those of the way
+  EXPECT_EQ(a_stars.expanded, 60U);  // only the cells of the path
 }
 
 TEST(Planners, ExpandEachCellOfTheArenaAtMostOnceSoThatTheyAreFast) {
-  // By counting, as a clock would make the test fail on a busy machine (bench_planning has it).
+  // Counts expansions, because a clock would fail on a busy machine (bench_planning measures time).
   std::mt19937 random(5);
   const Mask blocked = test::random_mask(GridFrame(), 10, random);
   const Cell start{0, 185};
@@ -228,7 +230,7 @@ TEST(Planners, ExpandEachCellOfTheArenaAtMostOnceSoThatTheyAreFast) {
   const std::size_t cells = open.frame().size();
   EXPECT_LE(dijkstra(open, start, goal).expanded, cells);
   EXPECT_LE(a_star(open, start, goal).expanded, cells);
-  // Theta* may take cells up again; on such maps it takes up few.
+  // Theta* may reopen cells; on such maps it reopens few.
   EXPECT_LE(theta_star(open, start, goal).expanded, cells + cells / 4);
 }
 
@@ -327,7 +329,7 @@ TEST(BresenhamLine, GoesFromNeighbourToNeighbourNearTheTrueLine) {
     EXPECT_EQ(cells.front(), a);
     EXPECT_EQ(cells.back(), b);
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      // Along the shorter side at most half a cell from the line.
+      // Along the shorter side, a cell is at most half a cell from the line.
       const double t =
           cells.size() == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(cells.size() - 1);
       EXPECT_LE(std::fabs(a.column + t * (b.column - a.column) - cells[i].column), 0.5 + kRounding);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The canvas and its layers over a host: drawings, their order, and what becomes of layers.
+// The canvas and its layers over a host: drawings, their order, and the lifetime of layers.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -204,7 +204,7 @@ TEST_P(HostCanvas, EqualPrioritiesAreStackedByPortWhoeverConnectsFirst) {
     for (const auto& session : {one.get(), two.get()}) {
       const LayerId layer = session->request(CreateLayerRequest{LayerKind::kColour, named("map")});
       dot(*session, 3, 3, session->port() == 6665 ? kRed : kBlue, layer);
-      EXPECT_TRUE(session->request(CellRequest{layer, 3, 3})) << "it was carried out";
+      EXPECT_TRUE(session->request(CellRequest{layer, 3, 3})) << "it was executed";
     }
     EXPECT_EQ(composed_at(*one, 3, 3), kBlue) << swapped;
   }
@@ -235,7 +235,7 @@ TEST_P(HostCanvas, ResizingIsSeenByAll) {
   const std::uint64_t before = second->canvas_generation();
   dot(*second, 0, 49, kRed);  // queued while the canvas has 50 rows: bottom left
   first->request(ResizeCanvasRequest{120, 30});
-  static_cast<void>(second->request(TimeRequest{}));  // a session hears of it with any answer
+  static_cast<void>(second->request(TimeRequest{}));  // any answer informs the session about it
   EXPECT_NE(second->canvas_generation(), before);
   EXPECT_EQ(second->request(CanvasInfoRequest{}).width, 120);
   EXPECT_EQ(second->request(CanvasInfoRequest{}).height, 30);
@@ -291,7 +291,7 @@ TEST_P(HostCanvas, TheFilesOfClientsHaveALimit) {
   const auto one = host->connect(6665);
   LogRequest logging;
   logging.running = true;
-  one->request(SaveImageRequest{"a"});  // what is refused is what comes after
+  one->request(SaveImageRequest{"a"});  // succeeds; the next requests are refused
   EXPECT_EQ(refusal([&] { one->request(SaveImageRequest{"b"}); }), kNotAvailable);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.png"));
   EXPECT_EQ(refusal([&] { one->request(logging); }), std::nullopt)
@@ -319,7 +319,7 @@ TEST_P(HostCanvas, LayersAreSavedOneByOne) {
   session->request(SetCellsRequest{map, {0, 49, 3, 1}, occupancies});
 
   session->request(SaveImageRequest{"dots", 1, dots});
-  // Read as a map of map_server: red is dark enough to be occupied, white is free.
+  // Read as a map by map_server: red is dark enough to be occupied, white is free.
   std::ofstream(folder.path() / "dots.yaml")
       << "{image: dots.png, resolution: 0.02, origin: [0, 0, 0], negate: 0, "
          "occupied_thresh: 0.65, free_thresh: 0.196}";
@@ -399,7 +399,8 @@ TEST_P(HostCanvas, JoiningHoldsTheClockUntilTheThreadWaits) {
     first->wait();
     read = true;
   });
-  // The clock stands, however long this takes: the other thread waits for this one's client.
+  // Time stands still, however long this takes, because the other thread waits for this one's
+  // client.
   for (int i = 0; i < 1000; ++i) {
     ASSERT_EQ(host->time().steps, 0U);
     ASSERT_FALSE(read);
@@ -422,8 +423,8 @@ TEST_P(HostCanvas, ClosedSessionsRefuseDrawings) {
   EXPECT_EQ(at(*host->connect(6665), 1, 1), kRed) << "what was drawn before is there";
 }
 
-// For the thread sanitizer too: threads that draw on one session while its owner reads, another
-// looks, and layers come and go.
+// Also for ThreadSanitizer: threads draw on one session while its owner reads, another thread reads
+// the canvas, and layers come and go.
 TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
   const auto host = create(two_robots());
   const auto session = host->connect(6665);
@@ -447,7 +448,7 @@ TEST_P(HostCanvas, ManyThreadsMayUseOneSession) {
   });
   for (int i = 0; i < 20; ++i) session->wait();
   for (std::thread& thread : threads) thread.join();
-  // Resizing moves what is drawn by whole rows at most; every thread's last row is there.
+  // Resizing moves drawings only by whole rows, so every thread's last row exists.
   for (int t = 0; t < 3; ++t) dot(*session, 0, t, kBlue, layer);
   for (int t = 0; t < 3; ++t) EXPECT_EQ(at(*session, 0, t, layer), kBlue);
 }

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What a host is divided into, each part alone: clients, lockstep, pace, inputs and so on.
+// The parts of a host, each tested alone: clients, lockstep, pace, inputs and so on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 #include "host/pace.h"
 #include "host/progress.h"
 #include "host/results.h"
-#include "host/standing_time.h"
+#include "host/stalled_time_warning.h"
 #include "sim/devices/localization.h"
 #include "temporary_folder.h"
 
@@ -86,7 +86,7 @@ TEST_F(ClientsTest, ReadingsGoToThoseWhoHaveSubscribed) {
   clients.unsubscribe(*other, device(1, "pose"));
   EXPECT_FALSE(other->has_data);
   clients.remove(*reader);
-  run(0.5);  // nobody is offered what the one who left had subscribed to
+  run(0.5);  // the subscriptions of the session that has left have no effect
   EXPECT_THAT(clients.take(*other), IsEmpty());
 }
 
@@ -142,9 +142,9 @@ TEST_F(ClientsTest, WhatWaitsKeepsWaitingUnderAnotherRule) {
 
 class LockstepTest : public HostPartsTest {
  protected:
-  std::shared_ptr<Client> join(ThinkerId thinker) {
+  std::shared_ptr<Client> join(ThreadId thread_id) {
     auto client = clients.add(6665, false, {});
-    lockstep.adopt(*client, thinker);
+    lockstep.adopt(*client, thread_id);
     return client;
   }
   Lockstep lockstep{clients, /*gate=*/2, /*silence_limit_s=*/5.0, warn};
@@ -216,7 +216,7 @@ TEST(Pace, StepsNeitherDriftNorCatchUp) {
     pace.begin_step(t0 + i * milliseconds(5) + milliseconds(2));  // late by 2 ms each time
   }
   EXPECT_EQ(pace.due(), t0 + milliseconds(20));
-  // 200 ms late is caught up with, more is not.
+  // 200 ms of lateness are caught up, more are not.
   pace.begin_step(t0 + milliseconds(220));
   EXPECT_EQ(pace.due(), t0 + milliseconds(25));
   pace.begin_step(t0 + milliseconds(226));
@@ -241,15 +241,15 @@ TEST(Pace, ALimitIsUsedUpStepByStep) {
   pace.set_limit(1);
   pace.add_to_limit(1);
   pace.count_step();
-  EXPECT_FALSE(pace.used_up());
+  EXPECT_FALSE(pace.step_limit_reached());
   pace.count_step();
-  EXPECT_TRUE(pace.used_up());
-  // A step that was waited for comes at once; one that is not due yet does not.
+  EXPECT_TRUE(pace.step_limit_reached());
+  // A step that was waited for is run at once; one that is not due yet is not.
   const Pace::Time t0{seconds(1000)};
   pace.begin_at(t0);
-  pace.forgive(t0 + milliseconds(4));
+  pace.skip_lost_time(t0 + milliseconds(4));
   EXPECT_EQ(pace.due(), t0 + milliseconds(10));
-  pace.forgive(t0 + milliseconds(60));
+  pace.skip_lost_time(t0 + milliseconds(60));
   EXPECT_EQ(pace.due(), t0 + milliseconds(60));
 }
 
@@ -350,14 +350,14 @@ TEST_F(AlarmsTest, RingOnceInTheirOrder) {
 using StandingTimeTest = HostPartsTest;
 
 TEST_F(StandingTimeTest, AProgramThatOnlyCommandsIsToldOnce) {
-  StandingTime standing(robots.size(), /*sleeps_count=*/true, 5.0, warn);
-  EXPECT_TRUE(standing.note_wish());
-  EXPECT_FALSE(standing.note_wish());
+  StalledTimeWarning standing(robots.size(), /*sleeps_count=*/true, 5.0, warn);
+  EXPECT_TRUE(standing.note_needs_time());
+  EXPECT_FALSE(standing.note_needs_time());
   const auto client = clients.add(6665, false, {});
   int looks = 0;
   for (int i = 0; i < 100'000; ++i) {
     if (!standing.note_command(*client, 0)) continue;
-    standing.check(*client, 0, /*hopeful=*/++looks == 1);
+    standing.check(*client, 0, /*may_advance=*/++looks == 1);
     ASSERT_TRUE(looks > 1 || warnings.empty());
   }
   EXPECT_GT(looks, 1);
@@ -369,10 +369,10 @@ TEST_F(StandingTimeTest, AProgramThatOnlyCommandsIsToldOnce) {
 }
 
 TEST_F(StandingTimeTest, AProgramThatEndsBeforeItsFirstStepIsTold) {
-  StandingTime standing(robots.size(), /*sleeps_count=*/false, 5.0, warn);
+  StalledTimeWarning standing(robots.size(), /*sleeps_count=*/false, 5.0, warn);
   standing.note_end();
   EXPECT_THAT(warnings, IsEmpty()) << "it has not wanted anything";
-  static_cast<void>(standing.note_wish());
+  static_cast<void>(standing.note_needs_time());
   standing.note_end();
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_THAT(warnings[0], HasSubstr("nothing was simulated"));

@@ -29,7 +29,7 @@ using test::ReachableHost;
 using test::Transport;
 using testing::HasSubstr;
 
-// Collects the times of the readings of a round, and the newest pose.
+// Stores the times of the readings of a round, and the newest pose.
 struct Collector : ReadingSink {
   void on_reading(DeviceId device, const sim::SharedReading& reading) override {
     devices.push_back(device);
@@ -55,7 +55,7 @@ sim::WorldDescription two_robots(const std::string& simulation = "{}") {
 
 class HostTest : public testing::Test {
  protected:
-  // What tests talk to; sessions must go before the next one is started.
+  // The host under test; destroy its sessions before starting the next one.
   std::shared_ptr<ReachableHost> start(sim::WorldDescription world, RunSettings settings = {}) {
     reachable.reset();
     host = test::patient_host(std::move(world), std::move(settings),
@@ -102,7 +102,7 @@ class HostTest : public testing::Test {
   std::shared_ptr<ReachableHost> reachable;
 };
 
-// What holds whether a session is a matter of calls or of messages.
+// Properties of sessions that hold with function calls and with messages.
 class HostOverTest : public HostTest, public testing::WithParamInterface<Transport> {
  protected:
   HostOverTest() { transport = GetParam(); }
@@ -182,7 +182,7 @@ TEST_P(HostOverTest, NewReadingsReplaceOldOnesUnlessTheyAreQueued) {
   const auto other = world->connect(6666);
   const InterfaceBinding mine = subscribe_position(*session);
   subscribe_position(*other);
-  // One thread: reading the other client three times lets three rounds pass here.
+  // One thread: three reads of the other client make three rounds pass here.
   for (int i = 0; i < 3; ++i) read(*other);
   EXPECT_THAT(read(*session).times_ns, testing::ElementsAre(300'000'000));
   session->request(ReplaceRequest{mine.reading, false});
@@ -203,7 +203,7 @@ TEST_P(HostOverTest, OneThreadReadsSeveralClientsInTurn) {
   EXPECT_EQ(host->time().steps, 500U);
 }
 
-// Two threads, each driving its robot by what it reads.
+// Two threads; each drives its robot by its readings.
 std::uint64_t two_threads_run(const std::shared_ptr<ReachableHost>& host) {
   const auto program = [&host](int port) {
     const auto session = host->connect(port);
@@ -241,7 +241,7 @@ TEST_P(HostOverTest, StartGateHoldsTheClockUntilAllHaveJoined) {
   subscribe_position(*first);
   subscribe_position(*second);
   std::thread early([&] { EXPECT_EQ(read(*first).times_ns.front(), 100'000'000); });
-  EXPECT_EQ(host->time().steps, 0U);  // whatever the other thread does
+  EXPECT_EQ(host->time().steps, 0U);  // independent of the other thread
   EXPECT_EQ(read(*second).times_ns.front(), 100'000'000);
   early.join();
   EXPECT_EQ(host->time().steps, 10U);
@@ -263,7 +263,7 @@ TEST_P(HostOverTest, AClientThatIsDestroyedHoldsUpNobody) {
   });
   joined.get_future().wait();
   leave.set_value();
-  read(*session);  // the first round may have been taken already, the second needs the other's vote
+  read(*session);  // the first round may have been taken already, the second needs the other client
   for (int i = 0; i < 5; ++i) read(*session);
   thread.join();
   EXPECT_GE(host->time().steps, 60U);
@@ -278,7 +278,7 @@ TEST_P(HostOverTest, AThreadThatEndsHoldsUpNobodyThoughItsClientLives) {
   std::thread([&] { read(*other); }).join();
   for (int i = 0; i < 5; ++i) read(*session);
   EXPECT_GE(host->time().steps, 50U);
-  EXPECT_EQ(logged(), "");  // no wait for the silence limit was needed
+  EXPECT_EQ(logged(), "");  // the silence limit was not reached
 }
 
 TEST_P(HostOverTest, AClientThatNeverReadsDoesNotTakePart) {
@@ -296,7 +296,7 @@ TEST_P(HostOverTest, AClientThatNeverReadsDoesNotTakePart) {
 TEST_P(HostOverTest, AClientThatOnlyCommandsDoesNotLoseTheLastCommand) {
   const auto session = start(two_robots())->connect(6665);
   const InterfaceBinding binding = position2d(*session);
-  for (int i = 0; i < 20'001; ++i) {  // more than are kept waiting
+  for (int i = 0; i < 20'001; ++i) {  // more than the queue holds
     session->send(*binding.motion, sim::MotorEnableCommand{true});
     drive(*session, binding, i % 2 == 0 ? 0.4 : -0.4);
   }
@@ -317,7 +317,7 @@ TEST_P(HostOverTest, ASilentClientIsNamedAndLeftBehindUntilItReadsAgain) {
   std::thread thread([&] {
     read(*other);
     joined.set_value();
-    back.get_future().wait();  // thinks for as long as the others need
+    back.get_future().wait();  // computes for as long as the others need
     read(*other);
   });
   joined.get_future().wait();
@@ -353,7 +353,7 @@ TEST_P(HostOverTest, EndOfTheRunIsToldAfterTheLastReadings) {
   const auto session = start(two_robots(R"({"duration": 0.3})"))->connect(6665);
   subscribe_position(*session);
   for (int i = 0; i < 3; ++i) read(*session);
-  EXPECT_TRUE(session->peek(milliseconds(0)));  // so that polling programs come to know it
+  EXPECT_TRUE(session->peek(milliseconds(0)));  // so that polling programs notice it
   try {
     read(*session);
     FAIL() << "expected the end of the run";
@@ -401,7 +401,7 @@ struct Looped {
 
   std::shared_ptr<std::atomic<int>> calls = std::make_shared<std::atomic<int>>(0);
   std::unique_ptr<EventClient> client;
-  ThinkerId thinker = new_thinker();
+  ThreadId thread_id = new_thread_id();
 };
 
 TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
@@ -410,7 +410,7 @@ TEST_F(HostTest, AnEventLoopReadsAsAThreadDoes) {
   const InterfaceBinding binding = subscribe_position(loop.session());
   drive(loop.session(), binding, 0.5);
   for (int i = 1; i <= 20; ++i) {
-    EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kWaiting);
+    EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kWaiting);
     EXPECT_EQ(*loop.calls, i - 1);
     EXPECT_FALSE(host->advance(kLong));
     EXPECT_EQ(*loop.calls, i);
@@ -428,37 +428,38 @@ TEST_F(HostTest, AnEventLoopPeeksSleepsAndHearsOfTheEnd) {
   Looped loop(*host, 6665);
   subscribe_position(loop.session());
   EXPECT_EQ(loop.client->outcome(), Outcome::kIdle);
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(0)), Outcome::kTime) << "only looks";
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(0)), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(0)), Outcome::kTime)
+      << "only looks";
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(0)), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
   EXPECT_EQ(host->time().steps, 1U);
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(50)), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(50)), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
   EXPECT_EQ(host->time().steps, 6U);
-  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 0.1), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 0.1), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kTime);
   EXPECT_EQ(host->time().steps, 16U);
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kData) << "of 0.1 s, not taken yet";
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kData) << "of 0.1 s, not taken yet";
   Collector round;
   loop.session().take(round);
-  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 10.0), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 10.0), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kFinished);
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kData);
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kData);
   loop.session().take(round);
   EXPECT_THAT(round.times_ns, testing::ElementsAre(100'000'000, 300'000'000));
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kFinished);
-  EXPECT_EQ(loop.client->begin_peek(loop.thinker, milliseconds(5)), Outcome::kFinished);
-  EXPECT_THROW(loop.client->begin_sleep(loop.thinker, -1.0), SessionError);
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kFinished);
+  EXPECT_EQ(loop.client->begin_peek(loop.thread_id, milliseconds(5)), Outcome::kFinished);
+  EXPECT_THROW(loop.client->begin_sleep(loop.thread_id, -1.0), SessionError);
 }
 
 TEST_F(HostTest, AdvanceStopsNowAndThen) {
   start(two_robots());
   Looped loop(*host, 6665);
-  EXPECT_EQ(loop.client->begin_sleep(loop.thinker, 3600.0), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_sleep(loop.thread_id, 3600.0), Outcome::kWaiting);
   EXPECT_TRUE(host->advance(std::chrono::microseconds(0)));
   EXPECT_EQ(host->time().steps, 1U);
   loop.client->cancel();
@@ -467,32 +468,32 @@ TEST_F(HostTest, AdvanceStopsNowAndThen) {
   EXPECT_EQ(host->time().steps, 1U);
 }
 
-TEST_F(HostTest, AThinkersClientsDoNotHoldOneAnotherUp) {
+TEST_F(HostTest, AThreadsClientsDoNotHoldOneAnotherUp) {
   start(two_robots());
   Looped a(*host, 6665);
   Looped b(*host, 6666);
   subscribe_position(a.session());
   subscribe_position(b.session());
-  a.client->begin_wait(a.thinker);
-  b.client->begin_wait(b.thinker);
+  a.client->begin_wait(a.thread_id);
+  b.client->begin_wait(b.thread_id);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
   EXPECT_EQ(b.client->outcome(), Outcome::kData);
   Collector round;
   a.session().take(round);
-  EXPECT_EQ(a.client->begin_wait(a.thinker), Outcome::kWaiting);
+  EXPECT_EQ(a.client->begin_wait(a.thread_id), Outcome::kWaiting);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kWaiting) << "b thinks";
-  // b's client comes to a's thinker, which waits already.
-  b.client->join(a.thinker);
+  // Thread a takes over b's client while it waits.
+  b.client->join(a.thread_id);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
   EXPECT_EQ(host->time().steps, 20U);
-  // A thinker that has ended takes no part.
-  b.client->join(b.thinker);
+  // A thread that has ended takes no part.
+  b.client->join(b.thread_id);
   a.session().take(round);
-  a.client->begin_wait(a.thinker);
-  host->thinker_ended(b.thinker);
+  a.client->begin_wait(a.thread_id);
+  host->thread_ended(b.thread_id);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(a.client->outcome(), Outcome::kData);
 }
@@ -507,7 +508,7 @@ TEST_F(HostTest, AnEventLoopAndAThreadShareTheLockstep) {
     for (int i = 1; i <= 5; ++i) EXPECT_EQ(read(*session).times_ns.back(), i * 100'000'000);
   });
   for (int i = 1; i <= 5; ++i) {
-    loop.client->begin_wait(loop.thinker);
+    loop.client->begin_wait(loop.thread_id);
     while (loop.client->outcome() == Outcome::kWaiting) {
       host->advance(std::chrono::microseconds(100));
       std::this_thread::yield();
@@ -528,8 +529,8 @@ TEST_F(HostTest, ASilentEventClientIsNamedAndLeftBehind) {
   Looped waiting(*host, 6665);
   Looped silent(*host, 6666);
   subscribe_position(waiting.session());
-  silent.client->join(silent.thinker);
-  waiting.client->begin_wait(waiting.thinker);
+  silent.client->join(silent.thread_id);
+  waiting.client->begin_wait(waiting.thread_id);
   while (waiting.client->outcome() == Outcome::kWaiting) {
     host->advance(std::chrono::microseconds(100));
     host->check_silence();
@@ -588,13 +589,13 @@ TEST_F(HostTest, StepCreditLimitsLockstepTime) {
   EXPECT_EQ(host->time().steps, 3U);
   Looped loop(*host, 6665);
   subscribe_position(loop.session());
-  EXPECT_EQ(loop.client->begin_wait(loop.thinker), Outcome::kWaiting);
+  EXPECT_EQ(loop.client->begin_wait(loop.thread_id), Outcome::kWaiting);
   host->add_step_credit(2);
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(loop.client->outcome(), Outcome::kWaiting);
   EXPECT_EQ(host->time().steps, 5U);
   host->set_step_credit(std::nullopt);
-  host->add_step_credit(100);  // without a limit that changes nothing
+  host->add_step_credit(100);  // without a limit, this has no effect
   EXPECT_FALSE(host->advance(kLong));
   EXPECT_EQ(host->time().steps, 10U);
 }
@@ -678,7 +679,7 @@ TEST_F(HostTest, DrawingsAreSeenAtOnceByTheirClientAndInOrderOfClients) {
   dot(*first, {255, 0, 0, 255});
   first->wait();
   EXPECT_EQ(colour_at(*first, 4, 5),
-            (sim::Colour{0, 0, 255, 255}));  // the second client comes last
+            (sim::Colour{0, 0, 255, 255}));  // the second client draws last
   dot(*first, {255, 0, 0, 255});
   EXPECT_EQ(colour_at(*first, 4, 5), (sim::Colour{255, 0, 0, 255}));
   EXPECT_FALSE(first->request(CellRequest{sim::kBaseLayer, -1, 0}).has_value());
@@ -699,8 +700,8 @@ TEST_F(HostTest, PacedTimeRunsByItselfAndNeverAheadOfTheClock) {
   EXPECT_EQ(time.mode, sim::TimeMode::kPaced);
   EXPECT_EQ(time.steps, 400U);
   EXPECT_GT(last_x_m, 1.0);
-  // 4 s at 200 times real time are 20 ms, counted from when the first client connects: a late step
-  // is caught up with, but none comes early. Load can only make it longer.
+  // 4 s at 200 times real time are 20 ms, counted from the first client's connection. The host
+  // catches up with late steps but runs none early. Load can only make it longer.
   EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(20));
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Layers of the grid-map as clients see them.
+// Layers of the grid-map through the client's interface.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class Layers : public testing::Test {
  protected:
   ~Layers() override { delete &WindowProxy::GetInstance(); }
 
-  // Colour of a cell of all layers over one another.
+  // Colour of a cell in the composition of all layers.
   ImageColour_t composed(int column, int row) {
     const std::vector<std::uint8_t> rgba = window.GetComposedImage();
     const std::size_t at = 4 * static_cast<std::size_t>(row * 172 + column);
@@ -326,8 +326,8 @@ TEST_F(Layers, AreSavedByTheWorldOneByOne) {
   EXPECT_EQ(world->saved_maps.size(), 2U);
 }
 
-// A map of 3 x 2 cells of 4 cm whose bottom left corner lies at (0.10, 0.06): each of its cells
-// covers 2 x 2 of the canvas's, columns 5 to 10 and rows 185 - 3 = 182 up to 179.
+// A map of 3 x 2 cells of 4 cm with its bottom left corner at (0.10, 0.06). Each of its cells
+// covers 2 x 2 cells of the canvas: columns 5 to 10 and rows 185 - 3 = 182 up to 179.
 class LoadedMaps : public Layers {
  protected:
   LoadedMaps() {
@@ -382,7 +382,7 @@ TEST_F(LoadedMaps, WithSmallerCellsAreLookedAtInTheMiddles) {
   map.width = map.height = 4;
   map.cell_size_m = 0.01;
   map.cells = {1, 1, 0, 0,  //
-               1, 0, 0, 1,  // the middles lie on the corners of four cells: the upper right counts
+               1, 0, 0, 1,  // centres are on corners of four cells: the upper right one counts
                0, 0, 0, 0,  //
                0, 0, 1, 0};
   sim::io::write_map(map, stem);

@@ -24,8 +24,8 @@ using test::error_of;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// A floor of 1.0 x 0.6 m with its bottom left corner at (-0.5, 1.0), in cells of 0.1 m: 10 x 6 of
-// them. The block reaches from (-0.2, 1.1) to (0.0, 1.2): columns 3 and 4 of row 1 from below.
+// A floor of 1.0 x 0.6 m with its bottom left corner at (-0.5, 1.0), in 10 x 6 cells of 0.1 m. The
+// block covers (-0.2, 1.1) to (0.0, 1.2): columns 3 and 4 of row 1 from the bottom.
 constexpr const char* kWorld = R"({
   "name": "small",
   "arena": {"origin": [-0.5, 1.0], "size": [1.0, 0.6],
@@ -163,7 +163,8 @@ TEST(ShippedMaps, ParPlanningIsTheTrueMapOfItsWorld) {
   PlayerClient client("sim:" PLAYPEN_SOURCE_DIR "/worlds/tasks/par_planning.json", 6665);
   MapProxy map(&client);
   map.RequestMap();
-  // As large as the canvas, which is a column wider than the floor: there the border stands.
+  // The map has the size of the canvas, which is a column wider than the floor. The border is
+  // there.
   ASSERT_EQ(file.width(), 172);
   ASSERT_EQ(file.height(), 186);
   ASSERT_EQ(map.GetWidth(), 171U);

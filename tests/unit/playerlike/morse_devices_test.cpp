@@ -303,8 +303,8 @@ TEST_F(Morse, ClientPrintsRobotsAndDevices) {
   EXPECT_THAT(out.str(), HasSubstr("r1\tlaser\tlaser"));
 }
 
-// The sensors that a world adds, over a session with a simulation behind it. r1 looks along x, with
-// 0.413 m to a block whose face is at x = 1.5, and stands in a dock; r2 is 0.5 m to its left.
+// The optional sensors of a world, over a session with a simulation. r1 faces along x, 0.413 m from
+// a block whose face is at x = 1.5, and stands in a dock; r2 is 0.5 m to its left.
 class MorseAddedSensors : public testing::Test {
  protected:
   std::shared_ptr<playerlike::Host> host = playerlike::Host::create(sim::load_world_text(R"({
@@ -341,7 +341,7 @@ TEST_F(MorseAddedSensors, CollisionNamesWhatWasTouched) {
   EXPECT_FALSE(bumpers.GetCollision());
   EXPECT_THAT(bumpers.GetObjects(), testing::IsEmpty());
   motion.SetSpeed(0.5, 0.0);
-  for (int i = 0; i < 10; ++i) client.Read();  // 0.5 m, were the way free
+  for (int i = 0; i < 10; ++i) client.Read();  // 0.5 m without an obstacle
   EXPECT_TRUE(bumpers.GetCollision());
   EXPECT_THAT(bumpers.GetObjects(), ElementsAre("block"));
   EXPECT_TRUE(bumpers.Touches("block"));
@@ -428,7 +428,7 @@ TEST_F(MorseAddedSensors, SonarShowsItsTransducersAndRanges) {
   EXPECT_NEAR(sonar.GetFieldOfView(), 30.0 * PI / 180.0, 1e-12);
   client.Read();
   ASSERT_EQ(sonar.GetCount(), 2U);
-  // The border below is 1.01 m away; the block 0.45 m ahead.
+  // The border below is 1.01 m away, the block 0.45 m ahead.
   EXPECT_NEAR(sonar[0], 1.01, 1e-5);
   EXPECT_NEAR(sonar[1], 0.45, 1e-5);
   EXPECT_EQ(sonar.GetLeastIndex(), 1U);
@@ -453,7 +453,7 @@ TEST_F(MorseAddedSensors, AreToldOfAndHavePlayersInterfacesWherePlayerKnowsSuch)
 
 // --- Over a simulation
 
-// A robot looking along x at (1, 2) in an empty room.
+// A robot that faces along x at (1, 2) in an empty room.
 std::shared_ptr<playerlike::Host> host_of_room() {
   return playerlike::Host::create(sim::load_world_text(R"({
       "arena": {"size": [4, 4]},
@@ -506,7 +506,7 @@ TEST_F(MorseInARoom, WaypointStopsAndResumes) {
   client.Read();
   EXPECT_EQ(waypoint.GetStatus(), "Transit");
   EXPECT_NEAR(pose.GetX(), 1.06, 1e-9);
-  MorseMotionVW(robot).SetSpeed(0.0, 0.1);  // the later order steers
+  MorseMotionVW(robot).SetSpeed(0.0, 0.1);  // the later command is in effect
   client.Read();
   EXPECT_EQ(waypoint.GetStatus(), "Stop");
 }
@@ -515,7 +515,7 @@ TEST_F(MorseInARoom, WaypointTellsOnlyOfItsNewestOrder) {
   MorseWaypoint waypoint(robot);
   MorsePose pose(robot);
   client.Read();
-  // A goal that the robot is at needs no order, unlike Goto().
+  // Unlike Goto(), it gives no command if the robot is already at the goal.
   EXPECT_FALSE(waypoint.SetDest(1.05, 2.0));
   client.Read();
   EXPECT_EQ(waypoint.GetGoalNumber(), 0U);
@@ -551,7 +551,7 @@ TEST_F(MorseInARoom, TeleportMovesTheRobotAndOdometryDoesNotNotice) {
   EXPECT_NEAR(pose.GetX(), 3.0, 1e-12);
   EXPECT_NEAR(pose.GetYaw(), 0.5 * PI, 1e-12);
   EXPECT_EQ(odometry.GetX(), 0.0);
-  // Relative orders add up, also between two steps.
+  // Relative commands accumulate, also between two steps.
   teleport.Translate(-0.5);
   teleport.Translate(-0.5, 0.25);
   teleport.Rotate(0.25 * PI);
@@ -560,7 +560,7 @@ TEST_F(MorseInARoom, TeleportMovesTheRobotAndOdometryDoesNotNotice) {
   EXPECT_NEAR(pose.GetX(), 2.0, 1e-12);
   EXPECT_NEAR(pose.GetY(), 1.25, 1e-12);
   EXPECT_NEAR(pose.GetYaw(), PI, 1e-12);
-  teleport.Place(9.0, 1.0, 0.0);  // off the floor: a warning
+  teleport.Place(9.0, 1.0, 0.0);  // outside the floor: a warning
   client.Read();
   EXPECT_NEAR(pose.GetX(), 2.0, 1e-12);
   EXPECT_EQ(error_code_of([&] { teleport.Place(0.0, 0.0, std::nan("")); }),
@@ -610,7 +610,7 @@ TEST(Commands, WithNumbersThatAreNotFiniteAreRefusedBeforeTheyAreSent) {
   }
 }
 
-// Devices without an interface of Player's are listed, and stand in the way of no other.
+// Devices without an interface of Player are listed and do not change the indexes of others.
 TEST(Interfaces, OfOtherDevicesAreUntouchedByWaypointAndTeleport) {
   const auto host = host_of_room();
   const auto session = host->connect(6665);

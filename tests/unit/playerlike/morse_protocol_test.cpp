@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// MORSE's protocol, service by service and stream by stream: a real server, and raw sockets.
+// MORSE's protocol, service by service and stream by stream, on a real server with raw sockets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@
 #include "playerlike/server/server.h"
 #include "raw_client.h"
 #include "server/morse_services.h"
-#include "server/token_guard.h"
+#include "server/token_throttle.h"
 #include "sim/core/number_text.h"
 #include "temporary_folder.h"
 
@@ -52,14 +52,14 @@ Answer parse(const std::string& line) {
   return answer;
 }
 
-/// What a client of MORSE does.
+/// A client of MORSE.
 class MorseClient {
  public:
   explicit MorseClient(int port) : socket_("127.0.0.1", port) {}
 
   void send(const std::string& line) { socket_.send(line + '\n'); }
   Answer receive() { return parse(socket_.line()); }
-  /// Sends a request and waits for the next answer, which must be that one's.
+  /// Sends a request and waits for the next answer, which must have the request's id.
   Answer ask(const std::string& request) {
     const std::string id = std::to_string(++last_id_);
     send(id + ' ' + request);
@@ -73,14 +73,14 @@ class MorseClient {
     EXPECT_EQ(answer.status, "SUCCESS") << request << ": " << answer.result;
     return answer.result;
   }
-  /// What is said against a request that must fail.
+  /// The error of a request that must fail.
   std::string refusal(const std::string& request) {
     const Answer answer = ask(request);
     EXPECT_EQ(answer.status, "FAILED") << request << ": " << answer.result;
     return answer.result.is_string() ? answer.result.get<std::string>() : answer.result.dump();
   }
   void sleep(double seconds) { get("time sleep [" + sim::shortest_text(seconds) + "]"); }
-  /// What a sensor's get_local_data tells; an empty object before its first reading.
+  /// The result of a sensor's get_local_data; an empty object before its first reading.
   json data(const std::string& component) {
     const Answer answer = ask(component + " get_local_data");
     return answer.status == "SUCCESS" ? answer.result : json::object();
@@ -113,11 +113,11 @@ class MorseProtocol : public testing::Test {
     return connect();
   }
   [[nodiscard]] MorseClient connect() const { return MorseClient(server->port()); }
-  /// A connection to a component's stream, after the server has taken it.
+  /// A connection to a component's stream, after the server has accepted it.
   RawClient stream(MorseClient& client, const std::string& component) {
     return accepted(client.get("simulation get_stream_port [\"" + component + "\"]"));
   }
-  /// A connection to a port, after the server has taken it.
+  /// A connection to a port, after the server has accepted it.
   RawClient accepted(int port) {
     const std::size_t before = server->connections();
     RawClient connection("127.0.0.1", port);
@@ -153,7 +153,7 @@ TEST_F(MorseProtocol, LinesAreTakenAsMorseDoes) {
   EXPECT_EQ(answer.result, json::parse(R"(["r1", "r2"])"));
   EXPECT_EQ(client.get("simulation list_robots []"), answer.result);
   EXPECT_EQ(client.get("simulation list_robots null"), answer.result);
-  // Nothing to answer to.
+  // Nothing that needs an answer.
   client.send("\n   \n");
   EXPECT_EQ(client.get("time now"), 0.0);
 }
@@ -250,7 +250,7 @@ TEST_F(MorseProtocol, StreamsHavePortsThatStayTheSame) {
 }
 
 TEST_F(MorseProtocol, StreamPortsGoUpFromTheFirst) {
-  settings.stream_port = 42'000;  // whether free or not: the next free ones are taken
+  settings.stream_port = 42'000;  // whether or not it is free: the server uses the next free ones
   MorseClient client = start();
   const int first = client.get("simulation get_stream_port [\"r2.pose\"]");
   const int second = client.get("simulation get_stream_port [\"r1.pose\"]");
@@ -346,12 +346,12 @@ TEST_F(MorseProtocol, SceneObjectsAndTheirVisibility) {
   EXPECT_TRUE(gate_is_up());
   EXPECT_EQ(visibility("gate", "false"), false);
   EXPECT_FALSE(gate_is_up());
-  // Cannot be hidden, and it is said so.
+  // It cannot be hidden, and a message says so.
   EXPECT_EQ(visibility("pillar", "false"), true);
   EXPECT_EQ(visibility("r1", "false"), true);
   EXPECT_THAT(client.refusal("simulation set_object_visibility [\"ghost\", true, false]"),
               HasSubstr("does not appear in the scene"));
-  // A robot stands where it would come up.
+  // A robot stands where the block would come up.
   client.get("r1.teleport translate [2.2, -0.4]");
   EXPECT_THAT(client.refusal("simulation set_object_visibility [\"gate\", true, false]"),
               HasSubstr("a robot stands on it"));
@@ -405,7 +405,7 @@ TEST_F(MorseProtocol, SleepsStandSideBySide) {
   settings.sync_port = 0;  // time stands until all of them wait
   MorseClient client = start();
   MorseClient other = connect();
-  // Both have been taken when they are answered: the next connection is the clock's.
+  // Both are accepted when they have answers: the next connection is the clock's.
   client.get("time now");
   other.get("time now");
   RawClient clock = accepted(server->sync_port());
@@ -424,18 +424,18 @@ TEST_F(MorseProtocol, SleepsStandSideBySide) {
 }
 
 TEST_F(MorseProtocol, CancelledSleepIsPreemptedAndUnknownIdsAreIgnored) {
-  RunSettings run;  // lockstep would be faster than the cancelling
+  RunSettings run;  // in lockstep, the sleep would end before the cancel arrives
   run.time_mode = sim::TimeMode::kPaced;
   MorseClient client = start(run);
   MorseClient other = connect();
   client.send("a time sleep [1000]");
-  other.send("a cancel");  // another connection's a: not ours
+  other.send("a cancel");  // the id `a` of another connection: not this one
   EXPECT_EQ(other.ask("time mode").status, "SUCCESS");
   client.send("b cancel\na cancel");
   const Answer answer = client.receive();
   EXPECT_EQ(answer.id, "a");
   EXPECT_EQ(answer.status, "PREEMPTED");
-  client.send("a cancel");  // no more
+  client.send("a cancel");  // no longer
   client.get("time mode");
 }
 
@@ -486,7 +486,7 @@ TEST_F(MorseProtocol, GotoIsPreemptedByAnotherOfAnyConnection) {
   EXPECT_EQ(answer.id, "first");
   EXPECT_EQ(answer.status, "PREEMPTED");
   EXPECT_EQ(answer.result, nullptr);
-  // setdest is a new goal, too.
+  // setdest also sets a new goal.
   EXPECT_EQ(client.get("r1.waypoint setdest [3.5, 1, 0, 0.1]"), true);
   answer = other.receive();
   EXPECT_EQ(answer.status, "PREEMPTED");
@@ -679,7 +679,7 @@ TEST_F(MorseProtocol, RangesWithoutAnEchoHaveThePointZero) {
   client.sleep(0.1);
   const json infrared = client.get("r1.infrared get_local_data");
   ASSERT_FALSE(infrared["range_list"].empty());
-  // Forward nothing is within 0.8 m.
+  // There is nothing within 0.8 m ahead.
   EXPECT_DOUBLE_EQ(infrared["range_list"][0], 0.8);
   EXPECT_EQ(infrared["point_list"][0], json::parse("[0.0, 0.0, 0.0]"));
 }
@@ -715,7 +715,7 @@ TEST_F(MorseProtocol, SensorStreamsCarryEachReading) {
     EXPECT_EQ(second.line(), line);
     EXPECT_THAT(json::parse(laser.line())["range_list"], SizeIs(682));
   }
-  // One that comes later gets what comes later.
+  // A later connection gets only later data.
   RawClient late = stream(client, "r1.pose");
   pose.close();
   client.sleep(0.1);
@@ -753,8 +753,8 @@ TEST_F(MorseProtocol, StreamsEndWithTheRun) {
   EXPECT_EQ(std::count(records.begin(), records.end(), '\n'), 20);
 }
 
-/// Lets time pass until a condition holds: what is written to a stream's port arrives some time
-/// after what a request on another connection does.
+/// Advances time until a condition holds: data written to a stream's port may arrive later than the
+/// effect of a request on another connection.
 template <typename Condition>
 ::testing::AssertionResult comes_true(MorseClient& client, Condition condition) {
   for (int i = 0; i < 2000; ++i) {
@@ -817,7 +817,7 @@ TEST_F(MorseProtocol, ServerTokenIsWantedForEverything) {
   EXPECT_EQ(silent.rest(), "");
 }
 
-// 24 000 a second went through one connection.
+// Without the delay, 24 000 guesses per second went through one connection.
 TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
   settings.access.server_token = "open sesame";
   MorseClient guesser = start();
@@ -829,7 +829,7 @@ TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
   }
   RawClient stubborn("127.0.0.1", server->port());
   stubborn.send(guesses);
-  // Others are not held up, and with the right token not even from this address.
+  // Other clients are not delayed; with the right token, neither are those at this address.
   guesser.get("playpen token [\"open sesame\"]");
   EXPECT_EQ(guesser.get("time now"), 0.0);
   for (int i = 1; i <= 5; ++i) {
@@ -842,18 +842,18 @@ TEST_F(MorseProtocol, WhoGuessesTokensIsToldLateLoggedAndClosed) {
                     HasSubstr("a wrong token, 4 from this address"), Not(HasSubstr("guess"))));
 }
 
-// Once, right tokens of the guesser's address were refused for a minute: one guesser kept all
-// newcomers of his machine out.
+// A regression: right tokens from the guesser's address were once refused for a minute, so that one
+// guesser kept all new clients of that machine out.
 TEST_F(MorseProtocol, BesideAGuesserRightTokensAreTakenLaterButTaken) {
   settings.access.server_token = "open sesame";
   MorseClient client = start();
   client.get("playpen token [\"open sesame\"]");
   std::vector<RawClient> guessers;
   const int port = client.get("simulation get_stream_port [\"r1.pose\"]");
-  for (int i = 0; i < server::TokenGuard::kMostOfAnAddress; ++i) {
+  for (int i = 0; i < server::TokenThrottle::kMostOfAnAddress; ++i) {
     guessers.emplace_back("127.0.0.1", port).send("{\"playpen_token\": \"wrong\"}\n");
   }
-  // A stream has one try: it is closed when its delay is over. By then all have been counted.
+  // A stream has one try: it is closed after its delay. By then all of them count.
   EXPECT_EQ(guessers.back().rest(), "");
   MorseClient newcomer = connect();
   RawClient reader("127.0.0.1", port);
@@ -923,7 +923,8 @@ TEST_F(MorseProtocol, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
 
 // --- The clock synchronisation
 
-// One message of 400 kB held up everybody for minutes, and the end of the server too.
+// A regression: one message of 400 kB once blocked everybody for minutes, and the server's end,
+// too.
 TEST_F(MorseProtocol, ManyFillsOfALargeCanvasHoldUpNobody) {
   MorseClient other = start();
   RawClient painter("127.0.0.1", server->port());
@@ -936,7 +937,7 @@ TEST_F(MorseProtocol, ManyFillsOfALargeCanvasHoldUpNobody) {
   painter.send(fills + "[\"fill\", 0, 255]]}\n");
   EXPECT_EQ(other.ask("simulation list_robots").status, "SUCCESS");
   EXPECT_THAT(painter.line(), HasSubstr("\"id\":2"));
-  // Lines cannot be left out: this is work for minutes. It is dropped when the server ends.
+  // Lines cannot be skipped: this is work for minutes. The server drops it when it ends.
   std::string lines = "{\"do\": \"draw\", \"drawings\": [";
   for (int i = 0; i < 20'000; ++i) lines += "[\"line\", 0, 0, 0, 4095, 4095, 1],";
   lines += "[\"pixel\", 0, 0, 0, 1]]}\n";
@@ -965,7 +966,7 @@ TEST_F(MorseProtocol, SynchronisedClockMakesAStepAMessage) {
   EXPECT_EQ(client.receive().id, "held");
   EXPECT_DOUBLE_EQ(client.get("time now"), 0.06);
   clock.close();
-  // Others let time go on again, once that was noticed.
+  // The server has noticed the disconnection when other clients advance time again.
   client.sleep(1.0);
   EXPECT_DOUBLE_EQ(client.get("time now"), 1.06);
 }
@@ -994,7 +995,7 @@ TEST(MorsePage, HasARowForEachService) {
   EXPECT_GT(services, 40);
 }
 
-// The telnet session of docs/remote.md: lines with "> " are sent, the others must come.
+// The telnet session of docs/remote.md: sends the lines with "> " and expects the others.
 TEST_F(MorseProtocol, DialogueOfTheGuideIsAsTold) {
   const std::string page = text_of(PLAYPEN_SOURCE_DIR "/docs/remote.md");
   static const std::regex kBlock("<!-- dialogue: \\S+ -->\n```text\n([^`]*)```");

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Playpen's own protocol, request by request, without sockets: what a client says and is told.
+// Playpen's own protocol, request by request and without sockets: the messages in both directions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ sim::WorldDescription two_robots(const std::string& simulation = R"("time": "loc
                      {"name": "r2", "pose": {"x": 0.3, "y": 0.7}}]})");
 }
 
-/// A connection that keeps what it is sent.
+/// A connection that stores the messages that it is sent.
 class FakePeer final : public Peer {
  public:
   void send(std::string bytes) override { splitter_.add(bytes); }
@@ -53,14 +53,14 @@ class FakePeer final : public Peer {
   void set_in_flight(std::size_t requests) override { in_flight = requests; }
   void set_busy(bool now) override { busy = now; }
   void set_encoding(Encoding encoding) override {
-    // What was sent so far was encoded as before.
+    // Decode earlier messages in the previous encoding.
     while (const auto message = splitter_.next()) earlier_.emplace_back(*message);
     splitter_.set_encoding(encoding);
   }
   [[nodiscard]] const std::string& name() const noexcept override { return name_; }
   void describe(const std::string& text) override { description = text; }
 
-  /// The next message that it was sent.
+  /// The next message on the connection.
   std::optional<std::string> next() {
     if (!earlier_.empty()) {
       std::string message = std::move(earlier_.front());
@@ -84,7 +84,7 @@ class FakePeer final : public Peer {
   std::string name_ = "fake:1";
 };
 
-/// A server without sockets and without a thread: posted tasks wait for run(), timers for fire().
+/// A server without sockets and threads: posted tasks wait for run(), timers for fire().
 class FakeHub final : public Hub {
  public:
   explicit FakeHub(std::shared_ptr<Host> host, AccessSettings access = {})
@@ -112,7 +112,7 @@ class FakeHub final : public Hub {
     claimed += bytes;
     return {nullptr, [this, bytes](void*) { claimed -= bytes; }};
   }
-  /// What a workshop does in a turn. @return whether there was something to do.
+  /// Does one turn of a worker thread. @return whether there was work.
   bool do_piece() {
     if (jobs_.empty()) return false;
     Job job = std::move(jobs_.front());
@@ -130,9 +130,9 @@ class FakeHub final : public Hub {
     handlers[&peer] = std::move(handler);
   }
   void quit() override {}
-  ThinkerId thinker(const std::string& process, std::uint64_t thread) override {
-    ThinkerId& id = thinkers_[{process, thread}];
-    if (id == 0) id = new_thinker();
+  ThreadId thread_id(const std::string& process, std::uint64_t thread) override {
+    ThreadId& id = thread_ids_[{process, thread}];
+    if (id == 0) id = new_thread_id();
     return id;
   }
 
@@ -162,10 +162,10 @@ class FakeHub final : public Hub {
   std::mutex mutex_;
   std::deque<std::function<void()>> tasks_;
   std::uint64_t last_timer_ = 0;
-  std::map<std::pair<std::string, std::uint64_t>, ThinkerId> thinkers_;
+  std::map<std::pair<std::string, std::uint64_t>, ThreadId> thread_ids_;
 };
 
-/// What a client program sees.
+/// The client's side of the protocol.
 class Client {
  public:
   explicit Client(FakeHub& hub) : hub_(hub) {}
@@ -179,7 +179,7 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// @return what hello was answered.
+  /// @return the answer to hello.
   json say_hello(const json& argument) {
     server::say_hello(peer, hub_, "7", argument);
     const std::string line = peer.next().value_or("");
@@ -208,7 +208,7 @@ class Client {
     const auto message = peer.next();
     return message ? protocol::decode(*message, encoding) : json();
   }
-  /// Asks, and gives the answer, which must come at once.
+  /// Sends a request and returns its answer, which must arrive at once.
   json ask(const std::string& name, json request = json::object()) {
     request["do"] = name;
     request["id"] = ++last_id_;
@@ -217,7 +217,7 @@ class Client {
     EXPECT_EQ(answer.value("id", 0), last_id_) << name << ": " << answer;
     return answer;
   }
-  /// The error that a request is answered; "" if none.
+  /// The error in the answer to a request; "" if there is none.
   std::string error(const std::string& name, json request = json::object()) {
     return ask(name, std::move(request)).value("error", "");
   }
@@ -272,7 +272,7 @@ std::string encoding_name(const testing::TestParamInfo<Encoding>& tested) {
   return std::string(protocol::to_string(tested.param));
 }
 
-/// Both encodings: what is said is the same.
+/// Both encodings must carry the same content.
 class NativeProtocol : public testing::TestWithParam<Encoding> {
  protected:
   explicit NativeProtocol(const std::string& simulation = R"("time": "lockstep")")
@@ -372,7 +372,7 @@ TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
   const json place = {{"device", client.device("r2", "pose")},
                       {"command", {{"kind", "set_pose"}, {"x", 0}, {"y", 0}, {"yaw", 0}}}};
   EXPECT_EQ(client.error("command", place), "access/denied");
-  // Drawing and looking need no robot's token.
+  // Drawing and looking do not need a robot's token.
   EXPECT_EQ(client.error("subscribe", {{"device", client.device("r2", "pose")}}), "");
   EXPECT_EQ(client.error("draw", {{"drawings", client.drawing(1, 1, kRed)}}), "");
 
@@ -380,7 +380,7 @@ TEST(NativeAccess, WantsTheServersTokenAndThatOfARobotForItsCommands) {
   EXPECT_EQ(holder.error("command", r2), "");
 }
 
-// The rule of both protocols, see also MorseProtocol.RobotTokenIsWantedForItsCommands.
+// The rule holds in both protocols, see also MorseProtocol.RobotTokenIsWantedForItsCommands.
 TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
   AccessSettings access;
   access.server_token = "server-token";
@@ -394,7 +394,7 @@ TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
   const json cells = {{"layer", 0}, {"rect", {0, 0, 1, 1}}, {"cells", "AAAAAA=="}};
   EXPECT_EQ(guest.error("set_cells", cells), "access/denied");
   EXPECT_EQ(guest.colour_at(1, 1), kNothing);
-  // Its own layers are its own.
+  // A client may change its own layers.
   const json made = guest.ask("create_layer", {{"kind", "colour"}, {"style", {{"name", "mine"}}}});
   const int layer = made["layer"].get<int>();
   EXPECT_EQ(guest.error("draw", {{"drawings", guest.drawing(1, 1, kRed, layer)}}), "");
@@ -568,7 +568,7 @@ TEST_P(NativeProtocol, ReadCarriesOutCommandsAndDrawingsBeforeItWaits) {
   const json command = {{"device", client->device("r1", "motion")}, {"command", twist(0.2)}};
   const json answer =
       client->read("data", {{"commands", {command}}, {"drawings", client->drawing(3, 4, kRed)}});
-  // Ten steps with a limited acceleration: it has moved, but not as far as 0.1 s * 0.2 m/s.
+  // Ten steps with limited acceleration: the robot has moved, but less than 0.1 s * 0.2 m/s.
   const double x_m = answer["readings"][0]["x"];
   EXPECT_GT(x_m, 0.3);
   EXPECT_LE(x_m, 0.32 + 1e-12);
@@ -619,7 +619,7 @@ TEST_P(NativeProtocol, ReplaceKeepsTheNewestOrAllReadings) {
   EXPECT_EQ(client->error("replace", {{"device", nullptr}, {"replace", true}}), "");
   client->read("sleep", {{"timeout", 0.3}});
   EXPECT_THAT(client->read("data")["readings"], SizeIs(1));
-  // 1000 wait at most.
+  // At most 1000 wait.
   client->ask("replace", {{"replace", false}});
   client->read("sleep", {{"timeout", 100.5}});
   const json answer = client->read("data");
@@ -654,7 +654,7 @@ TEST_P(NativeProtocol, OtherRequestsAreAnsweredWhileAReadWaits) {
   EXPECT_EQ(client->error("read", {{"wait", "sleep"}, {"timeout", 1}}), "protocol/busy");
   EXPECT_EQ(client->error("read", {{"wait", "join"}}), "protocol/busy");
   EXPECT_EQ(client->error("read", {{"wait", "none"}}), "");
-  // Both are over with the same step.
+  // Both waits end with the same step.
   EXPECT_EQ(other.read("data")["t"], kSecond_ns / 10);
   hub.run();
   const json answer = client->hear();
@@ -668,7 +668,7 @@ TEST_P(NativeProtocol, ReadThatIsOverIsAnsweredBeforeWhatComesLater) {
   other.read("join");
   client->say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
   other.say({{"id", 1}, {"do", "read"}, {"wait", "data"}});
-  // The hub has not got round to tell the client so; it asks for something else first.
+  // The hub has not yet told the client; the client sends another request first.
   client->say({{"id", 101}, {"do", "read"}, {"wait", "none"}});
   EXPECT_EQ(client->hear()["id"], 100);
   EXPECT_EQ(client->hear()["id"], 101);
@@ -680,11 +680,11 @@ TEST_P(NativeProtocol, ThreadThatWaitsHoldsUpNoneOfItsSessions) {
   Client first(hub, GetParam(), {{"process", "p"}});
   Client second(hub, GetParam(), {{"process", "p"}});
   EXPECT_EQ(first.read("data", {{"thread", 5}})["t"], kSecond_ns / 10);
-  // The other session's tenth of a second is over as well, but not its second one.
+  // The other session's tenth of a second is over, too, but not its second one.
   EXPECT_EQ(second.read("data", {{"thread", 5}})["t"], kSecond_ns / 10);
   EXPECT_EQ(second.read("data", {{"thread", 5}})["t"], kSecond_ns / 5);
   EXPECT_EQ(first.read("data", {{"thread", 5}})["t"], kSecond_ns / 5);
-  // Another thread is somebody else, until it ends.
+  // Another thread counts separately, until it ends.
   second.say({{"id", 100}, {"do", "read"}, {"wait", "data"}, {"thread", 6}});
   EXPECT_EQ(second.hear(), json());
   EXPECT_EQ(first.error("thread_ended", {{"thread", 5}}), "");
@@ -701,7 +701,7 @@ TEST_P(NativeProtocol, FollowerHoldsTimeWhileItThinks) {
   hub.run();
   EXPECT_EQ(client->hear()["t"], kSecond_ns / 10);
   EXPECT_EQ(follower.hear(), json());
-  // Alone it does not let time go on.
+  // Alone it does not advance time.
   client->leave();
   EXPECT_EQ(host->time().sim_time_ns, kSecond_ns / 10);
   EXPECT_EQ(follower.hear(), json());
@@ -714,7 +714,7 @@ TEST_P(NativeProtocol, ClientThatGoesInTheMiddleOfAWaitHoldsUpNobody) {
   EXPECT_EQ(client->hear(), json());
   client->leave();
   EXPECT_EQ(other.read("data")["t"], kSecond_ns / 10);
-  // And one that goes while others wait for it.
+  // The same for a client that leaves while others wait for it.
   Client third(hub, Encoding::kJson);
   third.read("join");
   other.say({{"id", 100}, {"do", "read"}, {"wait", "data"}});
@@ -758,7 +758,7 @@ TEST_P(NativeEnd, WaitThatTheEndBreaksOffIsAnswered) {
   EXPECT_EQ(answer["error"], "session/finished");
 }
 
-// So slow that no step comes while the test runs.
+// So slow that no step occurs during the test.
 class NativePaced : public NativeProtocol {
  protected:
   NativePaced() : NativeProtocol(R"("time": 1e-6)") {}
@@ -777,7 +777,7 @@ TEST_P(NativePaced, PeekEndsByTheWallClock) {
   EXPECT_EQ(answer["id"], 100);
   EXPECT_EQ(answer["data"], false);
   EXPECT_EQ(client->peer.in_flight, 0U);
-  // The next one is another wait.
+  // The next request is another wait.
   client->say({{"id", 101}, {"do", "read"}, {"wait", "peek"}, {"timeout", 0.5}});
   EXPECT_EQ(client->hear(), json());
   EXPECT_THAT(hub.timers, SizeIs(1));
@@ -998,7 +998,7 @@ std::vector<std::vector<int>> rects(const CanvasCopy& copy, std::uint64_t since)
 using Rect = std::vector<int>;
 
 TEST(CanvasCopy, TellsWhatHasChangedSinceEachPicture) {
-  // 40 x 35 cells: three tiles across, of 16, 16 and 8; three down, of 16, 16 and 3.
+  // 40 x 35 cells: three tiles across (16, 16 and 8) and three down (16, 16 and 3).
   CanvasCopy copy;
   EXPECT_EQ(copy.count(), 0U);
   const CanvasInfo info{40, 35, 0.1, 0.0, 0.0};
@@ -1020,7 +1020,7 @@ TEST(CanvasCopy, TellsWhatHasChangedSinceEachPicture) {
   EXPECT_EQ(copy.count(), 2U);
   EXPECT_THAT(rects(copy, 1), ElementsAre(Rect{0, 0, 16, 16}, Rect{32, 32, 8, 3}));
 
-  // A block of two by two tiles is one rectangle; an older picture lacks more.
+  // A block of two by two tiles is one rectangle; an older picture misses more.
   for (const int column : {20, 33}) {
     for (const int row : {3, 20}) set(now, 40, column, row);
   }
@@ -1041,9 +1041,9 @@ TEST(CanvasCopy, TellsWhatHasChangedSinceEachPicture) {
 
 class NativeWatch : public NativeProtocol {
  protected:
-  /// All are told, whenever they are due.
+  /// Sends events to all clients, whenever they are due.
   void tick() { hub.native_state->watching.tick(now_ += std::chrono::seconds(200)); }
-  /// Brings the canvas to a picture of its cells.
+  /// Applies an event to a viewer's copy of the canvas.
   void show(Client& viewer, const json& event, std::map<std::pair<int, int>, sim::Colour>& cells) {
     for (const json& part : event.value("canvas", json::array())) {
       const auto values = viewer.bytes(part, "cells");
@@ -1144,7 +1144,7 @@ TEST_P(NativeWatch, OnlyThoseAreToldWhoAreDue) {
   hub.fire();
   EXPECT_FALSE(client->hear().is_null());
   EXPECT_FALSE(rare.hear().is_null());
-  // 50 Hz: within 20 ms. The other one's period of 100 s has not gone by before 90 s have.
+  // 50 Hz: due within 20 ms. The other viewer's period of 100 s has not passed after 90 s.
   hub.native_state->watching.tick(WatchHub::Clock::now() + std::chrono::milliseconds(25));
   EXPECT_FALSE(client->hear().contains("canvas")) << "not asked for";
   EXPECT_EQ(rare.hear(), json());
@@ -1200,7 +1200,7 @@ json fills(int count, Encoding encoding) {
   return protocol::encode_drawings(fills, encoding);
 }
 
-/// A large canvas, and a workshop that the test runs.
+/// A large canvas, and a worker thread that the test drives.
 class NativeWork : public NativeProtocol {
  protected:
   void SetUp() override {
@@ -1217,7 +1217,7 @@ class NativeWork : public NativeProtocol {
 INSTANTIATE_TEST_SUITE_P(Encodings, NativeWork, testing::Values(Encoding::kJson, Encoding::kCbor),
                          encoding_name);
 
-// A piece is 2^20 cells: 512 of these lines, and some more to end the last one.
+// A piece of work is 2^20 cells: 512 of these lines, and the rest of the last one.
 TEST_P(NativeWork, OthersAreAnsweredBetweenThePiecesOfMuchDrawing) {
   Client other(hub, GetParam());
   client->say({{"id", 99}, {"do", "draw"}, {"drawings", long_lines(1500, kRed, GetParam())}});
@@ -1225,7 +1225,7 @@ TEST_P(NativeWork, OthersAreAnsweredBetweenThePiecesOfMuchDrawing) {
   for (int piece = 0; piece < 3; ++piece) {
     EXPECT_EQ(client->hear(), json()) << "after " << piece << " pieces";
     EXPECT_EQ(other.ask("time")["time"]["t"], 0);
-    // 512 more lines are there after each piece, and no more.
+    // After each piece, 512 more lines are drawn, and no more.
     EXPECT_EQ(other.colour_at(7, 512 * piece % 1024), piece == 2 ? kRed : kNothing);
     ASSERT_TRUE(hub.do_piece());
     EXPECT_EQ(other.colour_at(7, 512 * piece % 1024), kRed);

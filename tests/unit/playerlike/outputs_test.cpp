@@ -70,7 +70,7 @@ TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
   write();
   EXPECT_THAT(layer_files(), ElementsAre("canvas.png", "occupancy.pgm", "occupancy.png",
                                          "occupancy.yaml", "path.png"));
-  // 20 x 30 cells: 1200 / 30 = 40 pixels a cell.
+  // 20 x 30 cells: 1200 / 30 = 40 pixels per cell.
   sim::render::write_png(sim::render::draw_canvas(simulation_.layers().description(),
                                                   simulation_.layers().picture(path), 40),
                          folder_ / "expected.png");
@@ -86,8 +86,8 @@ TEST_F(Outputs, EachLayerHasAFileOfItsOwnAndGreyOnesAMap) {
 TEST_F(Outputs, NamesOfLayersAreMadeSafeAndToldApart) {
   add(sim::LayerKind::kBinary, "../../etc/x", 6665);
   add(sim::LayerKind::kBinary, "path", 6665);
-  add(sim::LayerKind::kBinary, "Path", 6666);    // the same where case does not count
-  add(sim::LayerKind::kBinary, "canvas", 6666);  // the base is called that
+  add(sim::LayerKind::kBinary, "Path", 6666);    // equal if case is ignored
+  add(sim::LayerKind::kBinary, "canvas", 6666);  // the name of the base layer
   add(sim::LayerKind::kBinary, "a b", 6665);
   add(sim::LayerKind::kBinary, "a.b", 6665);  // and of the same port
   write();
@@ -140,8 +140,8 @@ TEST_F(Outputs, RemovingResultsLeavesOtherFiles) {
   remove_results(folder_ / "none");  // nothing to do
 }
 
-/// Everything that a run writes, and what errors and summaries say, by name: of a run whose world
-/// and whose readings are full of fractions and of large numbers.
+/// Everything that a run writes and prints, by name. The run's world and readings are full of
+/// fractions and large numbers.
 std::map<std::string, std::string> all_texts_of_a_run() {
   const TemporaryFolder folder;
   std::map<std::string, std::string> texts;
@@ -152,7 +152,7 @@ std::map<std::string, std::string> all_texts_of_a_run() {
       "robots": [{"name": "r1", "pose": {"x": 0.525, "y": 0.75, "yaw_deg": 22.5},
                   "devices": {"laser": {"noise": 0.0125, "range_max": 234.5}},
                   "drivers": [{"type": "snd", "max_speed": 0.25, "robot_radius": 1.25e-1}]}]})");
-  // The world's file is gone after this, so its name must not count.
+  // The world's file is removed after this, so its name must not matter.
   sim::WorldDescription description = sim::load_world(world);
   for (const auto& [key, value] : description.robots.at(0).drivers.at(0).settings) {
     texts["setting " + key] = value;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What programs written for Player 2 and 3 count on beside the devices: proxies that a world has no
-// device for, subclasses, signals, old names, printing.
+// Properties that programs for Player 2 and 3 rely on in addition to the devices: proxies without a
+// device in the world, subclasses, signals, old names, printing.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,9 +49,9 @@ class PlayerApi : public testing::Test {
   PlayerClient client{fake_session(world)};
 };
 
-// --- Proxies that there is no device for
+// --- Proxies without a device
 
-/// What the constructor of a proxy says; index 0 unless told otherwise.
+/// The error of a proxy's constructor; index 0 by default.
 template <typename Proxy>
 PlayerError refusal(PlayerClient& client, uint32_t index = 0) {
   try {
@@ -241,7 +241,7 @@ TEST(PageOfProxies, SaysWhatPioneersHave) {
 
 // --- Localisation
 
-// As a course's programs read it, which 20 of them do.
+// Reads the position like the programs of a course, 20 of which do so.
 player_pose2d_t read_position(LocalizeProxy& lp) {
   player_localize_hypoth_t hypothesis;
   player_pose2d_t pose = {0.0, 0.0, 0.0};
@@ -319,7 +319,7 @@ TEST(Localization, TellsTheCovarianceOfItsNoise) {
 
 // --- Programs' own proxies
 
-/// As a program derives from ClientProxy: it counts readings of its own making.
+/// Derives from ClientProxy like a client program: it counts readings that it creates.
 class CountingProxy : public ClientProxy {
  public:
   CountingProxy(PlayerClient* aPc, uint32_t aIndex = 0) : ClientProxy(aPc, aIndex) {
@@ -415,7 +415,7 @@ TEST(BoostNames, ThreadGoesOnWhenItIsForgotten) {
     boost::thread moved;
     moved = std::move(forgotten);
     EXPECT_TRUE(moved.joinable());
-  }  // std::thread would end the program here
+  }  // otherwise std::thread would terminate the program here
   while (done == 0) std::this_thread::yield();
   boost::thread joined(boost::bind([&done](int value) { done = value; }, 2));
   joined.join();

@@ -31,7 +31,7 @@ TEST(PlayerError, IsCaughtByValueAndByTheNameMorseError) {
   } catch (CCMorse::MorseError error) {
     EXPECT_EQ(error.GetErrorStr(), "went wrong");
   }
-  // Compilers warn of classes with virtual functions that are caught by value.
+  // Compilers warn about classes with virtual functions that are caught by value.
   EXPECT_FALSE(std::is_polymorphic<PlayerError>::value);
 }
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The C library, in a process and across a network.
+// The C library, within a process and over a network.
 #include "libplayerc/playerc.h"
 
 #include <gmock/gmock.h>
@@ -31,8 +31,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A room of 4 x 3 m. r1 looks along x from (1, 1.5): its laser, 0.035 m before its axle, has
-// 2.965 m to the wall. r2 looks along y.
+// A room of 4 x 3 m. r1 faces along x from (1, 1.5): its laser, 0.035 m ahead of its axle, is 2.965
+// m from the wall. r2 faces along y.
 constexpr const char* kWorld = R"({
   "name": "room",
   "arena": {"size": [4, 3], "obstacles": [{"name": "b", "center": [3.5, 0.5], "size": [0.4, 0.4]}]},
@@ -81,7 +81,7 @@ struct Free {
 template <typename T>
 using Owned = std::unique_ptr<T, Free>;
 
-/// Tests that hold for every way to reach a world.
+/// Tests that hold for every transport.
 class PlayercBase {
  public:
   explicit PlayercBase(test::Transport transport) {
@@ -136,7 +136,7 @@ class Playerc : public PlayercBase, public testing::Test {
   Playerc() : PlayercBase(test::Transport::kInProcess) {}
 };
 
-/// Reads until it is this device's turn.
+/// Reads until the client returns this device.
 [[nodiscard]] bool read_until(playerc_client_t* client, const void* device) {
   for (int i = 0; i < 10; ++i) {
     const void* const told = playerc_client_read(client);
@@ -233,7 +233,8 @@ TEST_P(PlayercEverywhere, PeeksAndReadsWithoutWaiting) {
   while (playerc_client_read_nonblock_withproxy(robot.get(), &told) == 0) ++idle;
   EXPECT_EQ(told, base.get());
   EXPECT_NEAR(base->info.datatime, 0.2, 1e-9);
-  // The first only looks, the nine after it let a step of 10 ms pass each, the tenth brings data.
+  // The first call only looks, the next nine advance time by a step of 10 ms each, the tenth gets
+  // data.
   EXPECT_EQ(idle, 10);
   EXPECT_EQ(playerc_client_peek(robot.get(), 50), 0);
   EXPECT_EQ(playerc_client_peek(robot.get(), -1), 1);
@@ -274,7 +275,7 @@ TEST_F(Playerc, RefusesNullPointers) {
   playerc_laser_destroy(nullptr);
   playerc_mclient_destroy(nullptr);
   playerc_device_term(nullptr);
-  // A device without a client can be made, and not be used.
+  // A device can be created without a client, but not used.
   const Owned<playerc_laser_t> laser(playerc_laser_create(nullptr, 0));
   ASSERT_NE(laser, nullptr);
   EXPECT_EQ(playerc_laser_subscribe(laser.get(), PLAYERC_OPEN_MODE), -1);
@@ -348,7 +349,7 @@ TEST_F(Playerc, TakesReplaceRulesBeforeAndAfterConnecting) {
   const auto odometry = position(robot.get(), 1);
   EXPECT_EQ(playerc_client_set_replace_rule(robot.get(), 9999, -1, -1, -1, 1), -1);
   EXPECT_THAT(playerc_error_str(), HasSubstr("9999"));
-  // Whatever the rule, a device is told of once a round, with its newest data.
+  // With any rule, a device is reported once per round, with its newest data.
   const auto other = client(6666);
   for (int i = 0; i < 3; ++i) playerc_client_read(other.get());
   EXPECT_TRUE(read_until(robot.get(), base.get()));
@@ -403,7 +404,7 @@ TEST_F(Playerc, ReadsClientsOfSeveralWorldsTogether) {
   EXPECT_THAT(playerc_error_str(), HasSubstr("the simulated run is over"));
 }
 
-// What a callback destroys must not be looked at afterwards; the sanitizers' build tells.
+// The library must not access what a callback has destroyed; the sanitizer builds check this.
 TEST_F(Playerc, ACallbackMayDestroyItsClientAndTheList) {
   struct Told {
     playerc_mclient_t* group;
@@ -482,7 +483,7 @@ TEST_F(Playerc, UsesDevicesByTheirCommonPart) {
   EXPECT_EQ(playerc_device_subscribe(&laser->info, PLAYERC_OPEN_MODE), 0);  // as before
   EXPECT_EQ(playerc_device_subscribe(&laser->info, PLAYERC_CLOSE_MODE), 0);
   EXPECT_EQ(laser->info.subscribed, 0);
-  // Where the client has no device, it only looks.
+  // If the client has no such device, it may only look.
   EXPECT_EQ(playerc_client_subscribe(robot.get(), PLAYER_POSITION2D_CODE, 0, PLAYERC_OPEN_MODE,
                                      nullptr, 0),
             0);
@@ -531,7 +532,7 @@ TEST_P(PlayercEverywhere, DrivesABase) {
   ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.2, 0.0, 0.0, 1), 0);
   for (int i = 0; i < 20; ++i) ASSERT_EQ(playerc_client_read(robot.get()), base.get());
   EXPECT_NEAR(base->vx, 0.2, 1e-6);
-  EXPECT_NEAR(base->px, 1.0 + 2.0 * 0.2, 0.05);  // less what it takes to get going
+  EXPECT_NEAR(base->px, 1.0 + 2.0 * 0.2, 0.05);  // minus the loss by acceleration
   EXPECT_NEAR(base->py, 1.5, 1e-9);
   ASSERT_EQ(playerc_position2d_set_cmd_vel(base.get(), 0.0, 0.0, 0.0, 1), 0);
   ASSERT_EQ(playerc_position2d_set_odom(base.get(), 0.0, 0.0, 0.0), 0);
@@ -561,7 +562,7 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   EXPECT_NEAR(scanner->max_range, 5.0, 1e-9);
   EXPECT_NEAR(scanner->scan_res, 0.39589 * std::numbers::pi / 180.0, 1e-9);
   EXPECT_NEAR(scanner->scan_start, -0.5 * 681 * scanner->scan_res, 1e-9);
-  // Beams 340 and 341 look half a beam to the right and left of straight ahead, where the wall is
+  // Beams 340 and 341 point half a beam to the right and left of straight ahead, where the wall is
   // 2.965 m away.
   EXPECT_NEAR(scanner->ranges[340], 2.965 / std::cos(0.5 * scanner->scan_res), 1e-3);
   for (const int i : {0, 340, 681}) {
@@ -595,8 +596,8 @@ TEST_P(PlayercEverywhere, ScansWithALaser) {
   EXPECT_NEAR(range_res, 0.01, 1e-12);
   EXPECT_EQ(intensity, 0);
   ASSERT_EQ(playerc_client_read(robot.get()), scanner.get());
-  // On each side beams stand (k + 0.5) 0.39589 degrees off; 227 of them within 90 degrees. Half of
-  // the 454 are shown.
+  // On each side, beams are (k + 0.5) * 0.39589 degrees off; 227 of them are within 90 degrees.
+  // Half of the 454 are reported.
   EXPECT_EQ(scanner->scan_count, 227);
   EXPECT_EQ(scanner->ranges[1023], 0.0) << "programs for a laser with more beams look there";
   EXPECT_EQ(scanner->scan[1023][0], 0.0);
@@ -636,7 +637,7 @@ TEST_F(Playerc, DrawsOnASheet) {
   EXPECT_EQ(playerc_graphics2d_unsubscribe(sheet.get()), 0);
 }
 
-// The sensors of distance, against the proxies of a client that reads the same data.
+// The range sensors, compared with the proxies of a client that reads the same data.
 class PlayercSensors : public Playerc {
  protected:
   [[nodiscard]] static bool same(const player_pose3d_t& a, const player_pose3d_t& b) {
@@ -797,7 +798,7 @@ TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
   constexpr double kQuarter = 0.25 * std::numbers::pi;
   ASSERT_EQ(playerc_ptz_set(head.get(), kQuarter, 0.0, 0.0), 0) << playerc_error_str();
   turn(1);
-  EXPECT_NEAR(head->pan, 8.0 * std::numbers::pi / 180.0, 1e-6);  // 80 degrees a second
+  EXPECT_NEAR(head->pan, 8.0 * std::numbers::pi / 180.0, 1e-6);  // 80 degrees per second
   EXPECT_EQ(playerc_ptz_query_status(head.get()), 0);
   EXPECT_EQ(head->status, 1);
   turn(7);
@@ -838,7 +839,7 @@ TEST_P(PlayercEverywhere, BlobsPicturesAndTheHead) {
   EXPECT_EQ(std::filesystem::file_size(file), 13U + 14400U);  // "P6\n80 60\n255\n"
   std::filesystem::remove(file);
 
-  // In position control the speeds are those on the way, in velocity control they are the way.
+  // In position control the speeds limit the motion; in velocity control they command it.
   ASSERT_EQ(playerc_ptz_set_ws(head.get(), 0.0, 0.0, 0.0, 0.5, 0.0), 0) << playerc_error_str();
   turn(2);
   EXPECT_NEAR(head->pan, kQuarter - 0.1, 1e-6);
@@ -876,7 +877,7 @@ TEST_F(PlayercSensors, SatellitesAndInertia) {
   EXPECT_NEAR(imu->vel.pyaw, 1.0, 1e-3);
   EXPECT_EQ(imu->acc.pz, imu_proxy.GetZAccel());
   EXPECT_EQ(imu->calib_data.gyro_z, imu_proxy.GetZGyro());
-  // A turn by yaw about z: cos(yaw / 2) + k sin(yaw / 2).
+  // A rotation by yaw about z: cos(yaw / 2) + k sin(yaw / 2).
   EXPECT_GT(imu->pose.pyaw, 1.0);
   EXPECT_NEAR(imu->q0, std::cos(0.5 * imu->pose.pyaw), 1e-6);
   EXPECT_NEAR(imu->q1, 0.0, 1e-6);
@@ -919,7 +920,7 @@ TEST_F(PlayercSensors, LocalisationAndRadio) {
   EXPECT_EQ(playerc_wifi_get_link(wifi.get(), 1), nullptr);
 }
 
-// --- What worlds let programs do besides
+// --- Other capabilities of worlds
 
 TEST_F(Playerc, Grips) {
   const std::string world = folder_.write("can.json", R"({

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Position2dProxy on robots of every drive, through a whole simulation.
+// Position2dProxy on robots with every drive, in a complete simulation.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ using PlayerCc::Position2dProxy;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// A robot of a model in the middle of a room of 20 x 20 m, looking along y.
+/// A robot of a model at the centre of a room of 20 x 20 m, facing along y.
 class OnRobot : public testing::Test {
  protected:
   void start(const std::string& model) {
@@ -62,7 +62,7 @@ TEST_F(OnRobot, APioneerTellsItsGeometry) {
   position->RequestGeom();
   EXPECT_DOUBLE_EQ(position->GetSize().sl, 0.44);
   EXPECT_DOUBLE_EQ(position->GetSize().sw, 0.38);
-  EXPECT_NEAR(position->GetOffset().px, -0.04, 1e-12);  // the axle is before the middle
+  EXPECT_NEAR(position->GetOffset().px, -0.04, 1e-12);  // the axle is ahead of the centre
 }
 
 TEST_F(OnRobot, GoToEndsAtThePoseInTheFrameOfTheIndex) {
@@ -72,7 +72,7 @@ TEST_F(OnRobot, GoToEndsAtThePoseInTheFrameOfTheIndex) {
   expect_at(2.0, -1.0, kPi, 0.011);
   EXPECT_EQ(position->GetXSpeed(), 0.0);
   EXPECT_EQ(position->GetYawSpeed(), 0.0);
-  // The odometry looks along W's y at the start: 2 m ahead and 1 m to the right.
+  // At the start the odometry's x axis is W's y axis: 2 m ahead and 1 m to the right.
   EXPECT_NEAR(truth->GetXPos(), 11.0, 0.02);
   EXPECT_NEAR(truth->GetYPos(), 12.0, 0.02);
   truth->GoTo(player_pose2d_t{9.0, 9.0, 0.0});
@@ -116,7 +116,7 @@ TEST_F(OnRobot, AnOmnidirectionalBaseGoesToItsSide) {
   position->SetSpeed(0.0, 0.4, 0.0);
   read(20);
   EXPECT_NEAR(position->GetYSpeed(), 0.4, 1e-9);
-  // 2 m/s^2 up to 0.4 m/s lose 0.04 m; ramps by the step, 0.2 s / 2 of a step less.
+  // 2 m/s^2 up to 0.4 m/s lose 0.04 m. The ramp is discrete, which reduces the loss by half a step.
   expect_at(0.0, 0.8 - 0.04, 0.0, 0.003);
   EXPECT_NEAR(truth->GetXPos(), 10.0 - position->GetYPos(), 1e-9);
   position->SetSpeed(player_pose2d_t{0.0, -0.4, 0.0});
@@ -134,7 +134,7 @@ TEST_F(OnRobot, ACarDrivesOnTheCircleOfItsSteering) {
   const double radius = 0.5 / std::tan(0.4);
   EXPECT_NEAR(position->GetXSpeed(), 0.5, 1e-9);
   EXPECT_NEAR(position->GetYawSpeed(), 0.5 / radius, 1e-9);
-  position->SetCarlike(0.5, 9.0);  // as far as it goes: 30 degrees
+  position->SetCarlike(0.5, 9.0);  // as far as possible: 30 degrees
   read(20);
   EXPECT_NEAR(position->GetYawSpeed(), 0.5 * std::tan(kPi / 6.0) / 0.5, 1e-9);
   position->GoTo(0.0, 0.0, 0.0);

@@ -53,7 +53,7 @@ TEST(RunEnvironment, MakesPathsAbsolute) {
   EXPECT_EQ(changes.at("PLAYPEN_RECORD"), "/films/run.mp4");
 }
 
-/// Sets variables of this process, and puts them back.
+/// Sets environment variables of this process, and restores them.
 class ScopedEnvironment {
  public:
   explicit ScopedEnvironment(const EnvironmentChanges& changes) {
@@ -167,7 +167,7 @@ TEST(RunSettings, ViewModeIsTheRunsUnlessTheWorldLocksAnother) {
   EXPECT_EQ(world.canvas.view_mode, sim::ViewMode::kFullScreen);
 
   world.canvas.view_mode_locked = true;
-  settings.apply_to(world);  // the same one: nothing to say
+  settings.apply_to(world);  // identical settings: no warning
   settings.view_mode = sim::ViewMode::kGround;
   EXPECT_THAT(
       [&] { settings.apply_to(world); },
@@ -186,7 +186,7 @@ TEST(FindProgram, LooksInTheFoldersOfPathInOrder) {
   for (const char* name : {"first/tool", "second/tool"}) {
     fs::permissions(folder.write(name, "#!/bin/sh\n"), fs::perms::owner_all);
   }
-  // Not executable, so that it is passed over.
+  // Not executable, so that it is skipped.
   folder.write("zeroth/tool", "text");
   const ScopedEnvironment environment(
       {{"PATH", folder / "zeroth" + ":" + folder / "first" + ":" + folder / "second"}});
@@ -244,7 +244,7 @@ TEST(RunProgram, ThrowsIfTheProgramCannotBeStarted) {
               ThrowsMessage<ProgramError>(HasSubstr("can't be started")));
 }
 
-/// Jobs that run scripts in a folder of their own.
+/// Jobs that run scripts in a separate folder.
 class RunPrograms : public testing::Test {
  protected:
   [[nodiscard]] ProgramJob job(const std::string& script) {
@@ -260,7 +260,7 @@ class RunPrograms : public testing::Test {
   int count_ = 0;
 };
 
-/// A pipe whose writing end programs inherit, to learn when the last of them is gone.
+/// A pipe whose writing end programs inherit. It shows when the last of them has ended.
 class HeldByPrograms {
  public:
   HeldByPrograms() { EXPECT_EQ(pipe(ends_.data()), 0); }
@@ -268,7 +268,7 @@ class HeldByPrograms {
   HeldByPrograms& operator=(const HeldByPrograms&) = delete;
   ~HeldByPrograms() { close(ends_[0]); }
 
-  /// Waits, for ever if need be, until no other process has the writing end.
+  /// Waits without limit until no other process has the writing end.
   void wait_until_all_are_gone() {
     close(ends_[1]);
     char byte = 0;
@@ -279,7 +279,7 @@ class HeldByPrograms {
   std::array<int, 2> ends_{};
 };
 
-/// Lets programs that are started meanwhile ignore SIGTERM.
+/// Programs that are started during its lifetime ignore SIGTERM.
 class TermIgnored {
  public:
   TermIgnored() : old_(std::signal(SIGTERM, SIG_IGN)) {}
@@ -314,7 +314,7 @@ TEST_F(RunPrograms, GivesTheEndsInTheOrderOfTheJobsAndKeepsOutputsApart) {
 
 TEST_F(RunPrograms, RunsAsManyAtOnceAsToldAndNoMore) {
   std::vector<ProgramJob> jobs;
-  // Each of a pair waits for the other, so a pair must run side by side.
+  // Each of a pair waits for the other, so the pair must run in parallel.
   for (const char* fifo : {"a", "b", "c"}) {
     ASSERT_EQ(std::system(("mkfifo " + folder_ / fifo).c_str()), 0);
     jobs.push_back(job("echo x > " + folder_ / fifo));
@@ -424,7 +424,7 @@ TEST_F(RunPrograms, ASecondSignalEndsTheGrace) {
   const std::vector<JobEnd> ends = run_programs(
       {job("sleep 1000")}, {.at_once = 1, .timeout_s = 0.0, .grace_s = 1e6}, [](std::size_t) {
         kill(getpid(), SIGINT);
-        kill(getpid(), SIGHUP);  // both wait until they are asked for
+        kill(getpid(), SIGHUP);  // both continue until they are asked to end
       });
   EXPECT_EQ(ends[0].kind, JobEnd::Kind::kInterrupted);
   EXPECT_EQ(ends[0].program.signal, SIGKILL);

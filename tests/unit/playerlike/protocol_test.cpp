@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Playpen's protocol as bytes and as values: what goes in comes out to the bit, in both encodings
-// and whatever the pieces; what is wrong is refused by its name.
+// Playpen's protocol as bytes and as values: data survives both encodings bit by bit, however the
+// bytes are split; invalid data gets a specific error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ std::string decode_error(std::string_view bytes, Encoding encoding) {
   return error_of([&] { static_cast<void>(decode(bytes, encoding)); });
 }
 
-/// What arrives at the other end.
+/// The message after encoding and decoding.
 json through(const json& message, Encoding encoding) {
   MessageSplitter splitter(encoding, 4 * kLimit);
   splitter.add(encode(message, encoding));
@@ -78,14 +78,14 @@ json through(const json& message, Encoding encoding) {
   return decode(*bytes, encoding);
 }
 
-/// The same for a value that is no message by itself.
+/// Does this for a value that is not a message by itself.
 json value_through(const json& value, Encoding encoding) {
   return through({{"value", value}}, encoding).at("value");
 }
 
-// --- random values, and values as texts to compare. `each(struct, f)` names all members.
+// --- random values, and values as texts for comparison. `each(struct, f)` visits all members.
 
-/// Any finite double with equal chance for each pattern of bits: also tiny, huge and -0.
+/// A finite double with uniformly distributed bits: also tiny, huge and -0.
 double any_double(std::mt19937_64& random) {
   for (;;) {
     const auto value = std::bit_cast<double>(random());
@@ -127,7 +127,7 @@ class Filler {
   }
   template <typename T>
   void operator()(std::vector<T>& values) {
-    // Often so many that a list of numbers is a long one.
+    // Often so many that a list of numbers counts as long.
     values.resize(random_() % (2 * kLongList));
     for (T& value : values) (*this)(value);
   }
@@ -217,7 +217,7 @@ template <typename F>
 void each_of_reading(sim::Reading& v, F& f) {
   f(v.time_ns), f(v.sequence);
 }
-/// A number of lines, if it is none yet.
+/// Limits a number of lines.
 void limit(int& count, int most) { count = std::abs(count % (most + 1)); }
 template <typename F>
 void each(sim::AioReading& v, F& f) {
@@ -322,7 +322,7 @@ void each(sim::ImuReading& v, F& f) {
   f(v.yaw_rad);
 }
 template <typename F>
-void each(sim::LaserReading& v, F& f) {  // but X_WB, which clients are not told
+void each(sim::LaserReading& v, F& f) {  // without X_WB, which is not sent to clients
   each_of_reading(v, f);
   f(v.ranges_m), f(v.angle_min_rad), f(v.resolution_rad), f(v.range_max_m);
 }
@@ -439,7 +439,7 @@ void each(sim::OpaqueCommand& v, F& f) {
   f(v.data);
 }
 template <typename F>
-void each(DeviceInfo& v, F& f) {  // the id follows from the place
+void each(DeviceInfo& v, F& f) {  // the id follows from the position
   f(v.name), f(v.type), f(v.properties);
 }
 template <typename F>
@@ -509,7 +509,7 @@ TEST_P(EachEncoding, SplitsAStreamWhateverItsPieces) {
     for (std::size_t at = 0; at < stream.size();) {
       const std::size_t size =
           std::min(stream.size() - at, most < 100 ? most : 1 + random() % most);
-      // Half of them as a socket does, which may write less than there is room for.
+      // Half of the time like a socket, which may write less than there is room for.
       if (random() % 2 == 0) {
         splitter.add(std::string_view(stream).substr(at, size));
       } else {
@@ -554,7 +554,7 @@ TEST(Framing, ALineThatIsTooLongIsKnownBeforeItsEnd) {
   MessageSplitter splitter(Encoding::kJson, 3);
   splitter.add("abc");
   EXPECT_EQ(splitter.next(), std::nullopt);
-  splitter.add("\r");  // of the line's end, as far as anybody knows
+  splitter.add("\r");  // may be a part of the line's end
   EXPECT_EQ(splitter.next(), std::nullopt);
   splitter.add("x");
   for (int i = 0; i < 2; ++i) {
@@ -692,7 +692,7 @@ TEST(JsonText, NumbersThatAreNotFiniteAreWrittenAsNull) {
 }
 
 TEST(JsonText, LongListsOfNumbersAreReadAsTheParserWould) {
-  // Many spellings, between other lists that could be mistaken for them.
+  // Many spellings, between other lists that look similar.
   const std::string numbers =
       " 0 ,-0,1.5e3,1E-2 ,\t12345678901234567890,0.1,2e+2,-7.25,8,9,10,11,12,13,14,15,1e-300 ";
   const std::string text = "{\"a\":[[],[1,2],[" + numbers + "],{\"b\":[" + numbers + "]},\"[" +
@@ -710,7 +710,7 @@ TEST(JsonText, LongListsOfNumbersAreReadAsTheParserWould) {
   EXPECT_EQ(decoded["a"][4], expected["a"][4]);
   EXPECT_EQ(decoded["c"][0], expected["c"][0]);
   check({{"x", decoded["c"][1]}}, "x", expected["c"][1]);
-  // A number that from_chars does not take leaves the list to the parser.
+  // A number that from_chars does not accept leaves the list to the parser.
   const std::string tiny = "[" + numbers + ",1e-400]";
   EXPECT_EQ(decode("{\"a\":" + tiny + "}", Encoding::kJson).at("a"), json::parse(tiny));
 }
@@ -766,7 +766,7 @@ TEST(JsonText, RefusesWhatIsNoJson) {
     EXPECT_EQ(decode_error(text, Encoding::kJson), "protocol/syntax") << text;
   }
   EXPECT_EQ(decode_error(std::string(3, '\0'), Encoding::kJson), "protocol/syntax");
-  // The same in lists that are read the fast way.
+  // The same errors in lists that are read by the fast method.
   const std::string many = repeated("1,", kLongList);
   for (const char* last : {"01", ".5", "1.", "1.e5", "+1", "NaN", "inf", "0x1", "1e", "-", "",
                            "1 2", "1]", "\"", "1.5.5", "--1"}) {
@@ -779,7 +779,7 @@ TEST(JsonText, TellsWhereTheTextIsWrong) {
   std::string message;
   const std::string text = "{\"a\":[" + repeated("1.25,", 30) + "1],\"b\":x}";
   error_of([&] { static_cast<void>(decode(text, Encoding::kJson)); }, &message);
-  // As it was sent, though the list was taken out: 6 + 30 * 5 + 3 + 4 bytes stand before the x.
+  // In the original text, although the list was taken out: 6 + 30 * 5 + 3 + 4 bytes precede the x.
   EXPECT_THAT(message, HasSubstr("column 164"));
   error_of([&] { static_cast<void>(decode('"' + std::string(5000, 'x'), Encoding::kJson)); },
            &message);
@@ -927,7 +927,7 @@ TEST(Cbor, RefusesNumbersThatAreNotFiniteOrTooLarge) {
     EXPECT_EQ(decode_error(cbor_of(item), Encoding::kCbor), "protocol/number")
         << testing::PrintToString(item);
   }
-  // In typed arrays, at any place.
+  // At any place in typed arrays.
   for (const double wrong : {std::nan(""), -std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     for (const std::size_t place : {0U, 1U, 5U}) {
       std::vector<double> numbers(6, -std::numeric_limits<double>::max());
@@ -1056,7 +1056,7 @@ TEST_P(EachEncoding, DeviceIdsComeOutAsTheyWentIn) {
 
 // --- readings
 
-/// Fills a reading at random, sends it, and compares what arrives.
+/// Fills a reading with random values, sends it, and compares the result.
 template <typename ReadingType>
 void expect_to_arrive(const std::string& type, Encoding encoding) {
   std::mt19937_64 random(5);
@@ -1073,7 +1073,7 @@ void expect_to_arrive(const std::string& type, Encoding encoding) {
   }
 }
 
-/// Whether a sensor's readings are of this type; if so they are sent.
+/// If a sensor's readings are of this type, sends some. @return whether they are.
 template <typename ReadingType>
 bool arrives_if(const sim::Sensor& sensor, Encoding encoding) {
   if (dynamic_cast<const ReadingType*>(&sensor.reading()) == nullptr) return false;
@@ -1271,7 +1271,7 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
   EXPECT_EQ(error_of([] { static_cast<void>(decode_command(3)); }), "protocol/bad-value");
 }
 
-// --- what else there is
+// --- other messages
 
 TEST_P(EachEncoding, RobotsComeOutToTheBit) {
   std::mt19937_64 random(8);
@@ -1449,7 +1449,7 @@ TEST_P(EachEncoding, DrawingsComeOutAsTheyWentIn) {
       decode_drawings(value_through(encode_drawings(sent, GetParam()), GetParam()), GetParam());
   ASSERT_THAT(received, SizeIs(sent.size()));
   for (std::size_t i = 0; i < sent.size(); ++i) {
-    // What a kind does not use is not sent: it may never have been set.
+    // Members that a kind does not use are not sent: they may be uninitialised.
     if (sent[i].kind != Kind::kLine) sent[i].x1 = sent[i].y1 = 0;
     if (sent[i].kind == Kind::kFill) sent[i].x0 = sent[i].y0 = 0;
     ASSERT_EQ(written(received[i]), written(sent[i]));

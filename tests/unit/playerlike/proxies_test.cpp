@@ -64,7 +64,7 @@ TEST_F(Proxies, ClientTellsHostPortAndInterfaces) {
   EXPECT_EQ(client.GetOverflowCount(), 3U);
 }
 
-// What boost::mutex looks like, which Player's programs lock their clients with.
+// The interface of boost::mutex, with which Player's programs lock their clients.
 struct ForeignMutex {
   typedef pthread_mutex_t* native_handle_type;
   void lock() { pthread_mutex_lock(&handle); }
@@ -105,7 +105,7 @@ TEST_F(Proxies, CopiesOfAClientAreOneClient) {
   EXPECT_EQ(laser.GetRange(1), 5.0);
 }
 
-// Player's proxies could be copied where it was built without Boost.
+// Player's proxies could be copied if it was built without Boost.
 TEST_F(Proxies, ACopyOfAProxyGoesItsOwnWay) {
   auto laser = std::make_unique<LaserProxy>(&client, 0);
   auto position = std::make_unique<Position2dProxy>(&client, 0);
@@ -148,8 +148,8 @@ TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
   EXPECT_TRUE(client.GetDeviceList().empty());
   client.RequestDeviceList();
   const std::list<playerc_device_info_t> list = client.GetDeviceList();
-  // The robot's pen, laser, pose (twice) and odometry, the laser again as a ranger, and what is the
-  // world's own.
+  // The robot's pen, laser, pose (twice) and odometry, the laser again as a ranger, and the devices
+  // of the world.
   std::vector<std::string> found;
   for (const playerc_device_info_t& info : list) {
     found.push_back(client.LookupName(info.addr.interf) + ':' + std::to_string(info.addr.index) +
@@ -182,7 +182,7 @@ TEST_F(Proxies, ReplaceRulesReachTheSession) {
   // Commands never wait, so a rule for them changes nothing.
   client.SetReplaceRule(false, PLAYER_MSGTYPE_CMD, -1, PLAYER_LASER_CODE);
   EXPECT_EQ(world->replace.at(kLaser.device), true);
-  // A rule for an interface holds for proxies made later too.
+  // A rule for an interface also holds for proxies that are created later.
   world->replace.clear();
   LaserProxy laser(&client, 0);
   EXPECT_EQ(world->replace.at(kLaser.device), true);
@@ -328,7 +328,7 @@ TEST_F(Proxies, ReadSignalCallsSubscribersAfterNewData) {
   LaserProxy laser(&client);
   double seen_x = 0.0;
   int laser_calls = 0;
-  // Getters are allowed in subscribers: the data is not locked then.
+  // Subscribers may call getters: the data is not locked during the call.
   const ClientProxy::connection_t c =
       position.ConnectReadSignal([&] { seen_x = position.GetXPos(); });
   laser.ConnectReadSignal(std::bind([](int* n) { ++*n; }, &laser_calls));
@@ -371,7 +371,7 @@ TEST_F(Proxies, MutexIsLikeBoosts) {
     other = std::async(std::launch::async, [&] { return position.GetXPos(); });
     lock.unlock();
   }
-  EXPECT_DOUBLE_EQ(other.get(), 0.0);  // would never come if the lock were still held
+  EXPECT_DOUBLE_EQ(other.get(), 0.0);  // would never return if the lock were still held
 }
 
 TEST(ProxyLifetimes, ProxiesSurviveTheirClient) {
@@ -394,7 +394,7 @@ TEST(ProxyLifetimes, ProxiesSurviveTheirClient) {
   EXPECT_FALSE(position.IsFresh());
 }
 
-/// A program's own proxy, as two in the wild have it.
+/// A program's own proxy, in the style of two existing programs.
 class OwnProxy : public ClientProxy {
  public:
   explicit OwnProxy(PlayerClient* aPc, uint32_t aIndex = 0) : ClientProxy(aPc, aIndex) {
@@ -444,7 +444,7 @@ TEST_F(Proxies, ThreadReadsInTheBackground) {
     }
   });
   client.StartThread();
-  client.StartThread();  // it runs already
+  client.StartThread();  // it already runs
   EXPECT_EQ(world->real_time_reasons.size(), 1U);
   world->add_round({{kPose, pose_reading(0.1, {1.0, 0.0, 0.0})}});
   first.get_future().wait();
@@ -470,7 +470,7 @@ TEST_F(Proxies, ReadDoesNotWaitForEverForRoundsThatAnotherThreadTakes) {
 
 TEST_F(Proxies, EndOfTheRunReachesProgramsThatReadInTheBackground) {
   Position2dProxy position(&client, 0);
-  client.StartThread();  // meets the end at once
+  client.StartThread();  // reaches the end at once
   while (error_code_of([&] { static_cast<void>(position.GetXPos()); }) != PlayerError::kRunIsOver) {
     std::this_thread::yield();
   }
@@ -592,7 +592,7 @@ TEST_F(Proxies, PositionCommandsNameTheFrameOfTheIndex) {
   position.GoTo(1.5, 1.0, -2.0);
   auto goal = std::get<sim::PositionCommand>(world->sent.back().second);
   EXPECT_EQ(goal.goal, (sim::Pose{1.5, 1.0, -2.0}));
-  EXPECT_DOUBLE_EQ(goal.max_speed_mps, 0.0);  // the motors' own
+  EXPECT_DOUBLE_EQ(goal.max_speed_mps, 0.0);  // the motors' own limit
   EXPECT_DOUBLE_EQ(goal.max_turn_rate_radps, 0.0);
   EXPECT_EQ(goal.frame, kPose.device);
   position.GoTo(player_pose2d_t{1.0, 0.4, 1.0}, player_pose2d_t{-0.3, 0.4, -0.5});
@@ -630,7 +630,7 @@ TEST_F(Proxies, PositionTellsItsGeometry) {
   EXPECT_DOUBLE_EQ(position.GetOffset().px, 0.0);
   world->robots[0].center_m = {-0.04, 0.01};
   EXPECT_DOUBLE_EQ(position.GetOffset().px, -0.04);
-  EXPECT_DOUBLE_EQ(position.GetPose().py, 0.01);  // as Player 2.0 called it
+  EXPECT_DOUBLE_EQ(position.GetPose().py, 0.01);  // its name in Player 2.0
 }
 
 TEST(ProxiesOfOddRobots, WithoutMotorsCannotBeDriven) {
@@ -667,7 +667,7 @@ TEST_F(Proxies, LaserKnowsItsSettingsBeforeTheFirstScan) {
   EXPECT_DOUBLE_EQ(laser.GetSize().sw, 0.06);
   EXPECT_DOUBLE_EQ(laser.GetSize().sh, 0.07);
   EXPECT_DOUBLE_EQ(laser.GetMinLeft(), 5.0);
-  // Programs that look before their first Read() find zeros.
+  // Programs that read values before their first Read() get zeros.
   EXPECT_EQ(laser.GetRange(0), 0.0);
   EXPECT_EQ(laser[90], 0.0);
   EXPECT_EQ(laser.GetBearing(2), 0.0);
@@ -692,7 +692,7 @@ TEST_F(Proxies, LaserMembersAgreeWithOneAnother) {
   }
   EXPECT_DOUBLE_EQ(laser[0], 2.0);
   EXPECT_DOUBLE_EQ(laser.GetBearing(4), laser.GetMaxAngle());
-  // Of 5 beams the first 2 are the right half; the middle one counts to the left.
+  // Of 5 beams, the first 2 are the right half; the middle one belongs to the left.
   EXPECT_DOUBLE_EQ(laser.GetMinRight(), 1.0);
   EXPECT_DOUBLE_EQ(laser.GetMinLeft(), 0.5);
   EXPECT_DOUBLE_EQ(laser.MinRight(), 1.0);
@@ -735,7 +735,7 @@ TEST_F(Proxies, ConfigureCropsAndThinsTheScan) {
   EXPECT_DOUBLE_EQ(laser.GetBearing(2), 1.0);
   EXPECT_FALSE(laser.IntensityOn());
   EXPECT_DOUBLE_EQ(laser.GetScanningFrequency(), 10.0);
-  // It holds for the next scan too.
+  // The setting also holds for the next scan.
   world->add_round({{kLaser, scan(0.2, {0.1, 0.2, 0.3, 0.4, 0.5})}});
   client.Read();
   ASSERT_EQ(laser.GetCount(), 3U);
@@ -766,7 +766,7 @@ TEST_F(Proxies, RobotPoseIsWhatTheClientLastReadOfIt) {
                     {kPose, pose_reading(0.1, {1.0, 2.0, 0.5})}});
   world->add_round({{kOdometry, pose_reading(0.2, {9.0, 9.0, 0.9})}});
   client.Read();
-  client.Read();  // the odometry's newer word does not count beside the localisation's
+  client.Read();  // a newer reading of the odometry does not replace the localisation's
   EXPECT_DOUBLE_EQ(laser.GetRobotPose().px, 1.0);
   EXPECT_DOUBLE_EQ(laser.GetRobotPose().py, 2.0);
   EXPECT_DOUBLE_EQ(laser.GetRobotPose().pyaw, 0.5);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Readings are shared: what one has stays as it is, all have the same, and any thread may look.
+// Readings are shared: a reading never changes, all clients get the same object, and any thread may
+// read it.
 #include <gtest/gtest.h>
 #include <libCCMorse/CCMorse.h>
 #include <libplayerc++/playerc++.h>
@@ -74,7 +75,7 @@ TEST(SharedReading, StaysAsItIsAndIsTheSameForAll) {
   EXPECT_NE(dynamic_cast<const sim::LaserReading&>(*second[0]).ranges_m, ranges);  // it drives
 }
 
-// A program that reads again and again needs two objects: the one it has, and the next.
+// A program that reads repeatedly needs two objects: the current one, and the next.
 TEST(SharedReading, ObjectsThatNobodyHasAreUsedAgain) {
   const auto host = Host::create(room());
   const auto session = host->connect(6665);
@@ -101,9 +102,10 @@ TEST(SharedReading, QueuedOnesAreAllDifferent) {
   for (std::size_t i = 0; i < readings.size(); ++i) EXPECT_EQ(readings[i]->sequence, i + 1);
 }
 
-// --- Threads. Under ThreadSanitizer these prove that a look without the mutex races with nothing.
+// --- Threads. Under ThreadSanitizer these tests prove that access without the mutex is free of
+// races.
 
-// Scans whose beams all read their number, in order, so that torn ones would be seen.
+// Scans in which all beams contain the scan's number, so that torn scans would show.
 class Looks : public testing::Test {
  protected:
   void add_scans(int count) {
@@ -111,7 +113,7 @@ class Looks : public testing::Test {
       world->add_round({{test::kLaser, test::scan(i, std::vector<double>(5, 0.001 * i))}});
     }
   }
-  // Looks at all beams until told to stop; what it sees never goes back.
+  // Reads all beams until it is stopped; the number never decreases.
   static void look(const LaserProxy& laser, const std::atomic<bool>& stop) {
     double last = 0.0;
     while (!stop) {
@@ -171,7 +173,7 @@ TEST_F(Looks, ThreadsReadByTurns) {
         EXPECT_GE(seen, last);
         last = seen;
       }
-    } catch (const PlayerError& error) {  // the other one has taken the last scan
+    } catch (const PlayerError& error) {  // the other thread has taken the last scan
       EXPECT_EQ(error.GetErrorCode(), PlayerError::kRunIsOver);
     }
   };

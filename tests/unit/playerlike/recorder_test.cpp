@@ -159,14 +159,15 @@ TEST(Recorder, AFailureIsToldAtTheEndAndDoesNotStopTheRun) {
   sim::Simulation simulation(small_world());
   Recorder recorder(settings, simulation);
   fs::remove_all(folder / "film");
-  // The thread may have written frames before the folder went; it can't make any afterwards.
+  // The thread may have written frames before the folder was removed; it can't write any
+  // afterwards.
   for (int step = 0; step < 200; ++step) {
     simulation.step();
     recorder.observe(simulation);
   }
   EXPECT_THAT([&] { recorder.close_film(); },
               ThrowsMessage<std::runtime_error>(HasSubstr("film/frame_0")));
-  recorder.close_film();  // nothing is left to tell
+  recorder.close_film();  // no error is left to report
 }
 
 TEST(Recorder, AFilmEndsAtItsLimitAndSaysSo) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Requests and their answers as messages, in both encodings: they come out as they went in, and
-// look as docs/protocol.md says.
+// Requests and their answers as messages, in both encodings: they survive coding, and have the
+// format of docs/protocol.md.
 #include "protocol/request_codec.h"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ using testing::IsSupersetOf;
 
 class RequestMessages : public testing::TestWithParam<Encoding> {
  protected:
-  /// A message as the other end has it.
+  /// A message as the other end receives it.
   static json sent(const json& message) {
     MessageSplitter splitter(GetParam(), 1U << 20U);
     splitter.add(encode(message, GetParam()));
@@ -47,7 +47,7 @@ const sim::LayerStyle kStyle{.name = "way \u00e9",
                              .priority = -5,
                              .visible = false};
 
-/// At least one of each that has a name, with and without what may be left out.
+/// At least one example of each named request, with and without optional members.
 std::vector<Request> examples() {
   return {SubscribeRequest{{1, 2}},
           UnsubscribeRequest{{0, 0}},
@@ -82,7 +82,7 @@ std::vector<Request> examples() {
           LogRequest{"f", true, false, true}};
 }
 
-/// Names of all requests that travel.
+/// Names of all requests that are sent as messages.
 template <typename... One>
 std::set<std::string> names(std::type_identity<std::variant<One...>>) {
   std::set<std::string> all;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 // Player's proxies of rangers, bumpers, batteries, fiducials, gps, imu and wifi, over a host in
-// this process, by calls and by messages.
+// this process, by function calls and by messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <libplayerc++/playerc++.h>
@@ -48,7 +48,7 @@ using testing::HasSubstr;
 constexpr double kPi = 3.14159265358979323846;
 
 // A room of 4 x 4 m with a marked block in the middle of its right part. The robot stands in the
-// middle of the left part and looks at it.
+// middle of the left part and faces the block.
 std::string room(const std::string& devices, const std::string& more = "") {
   return R"({"arena": {"size": [4, 4],
                "obstacles": [{"center": [3, 2], "size": [0.4, 0.4], "fiducial": 7,
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Transports, SensorProxies,
                          testing::Values(Transport::kInProcess, Transport::kCbor),
                          [](const auto& instance) { return transport_name(instance.param); });
 
-// Prints a proxy as programs do, and tells how many lines that were.
+// Prints a proxy as programs do, and returns the number of lines.
 template <typename Proxy>
 std::string printed(const Proxy& proxy) {
   std::ostringstream out;
@@ -97,7 +97,7 @@ TEST_P(SensorProxies, SonarReadsRangesInTheOrderOfItsMounts) {
   ASSERT_EQ(sonar.GetCount(), 2U);
   EXPECT_NEAR(sonar[0], 1.7, 1e-6);  // from 1.1 to the block's face at 2.8
   EXPECT_EQ(sonar.GetScan(0), sonar[0]);
-  // Straight up stands r2, 8.1 cm towards us; its side is flat and level with x = 1.
+  // r2 stands straight above, 8.1 cm nearer; its side is flat and parallel to the x axis.
   EXPECT_NEAR(sonar[1], 1.0 - 0.05 - 0.081, 1e-6);
   EXPECT_EQ(sonar[2], -1.0);
   EXPECT_TRUE(sonar.IsFresh());
@@ -111,7 +111,7 @@ TEST_P(SensorProxies, IrReadsRangesAndVoltages) {
       open(room(R"({"infrared": {"mounts": [{"x": 0.1}], "range_max": 3, "noise": 0.01}})"));
   IrProxy ir(client.get(), 0);
   EXPECT_EQ(ir.GetCount(), 0U);
-  EXPECT_EQ(ir[0], 0.0);  // before the first reading each reads 0
+  EXPECT_EQ(ir[0], 0.0);  // each reads 0 before the first reading
   EXPECT_EQ(ir.GetVoltage(9), 0.0);
   ir.RequestGeom();
   EXPECT_EQ(ir.GetPoseCount(), 1U);
@@ -177,11 +177,11 @@ TEST_P(SensorProxies, RangerIsCroppedByConfigure) {
   EXPECT_EQ(ranger.GetMaxRange(), 1.5);
   EXPECT_EQ(ranger.GetRangeRes(), 0.01);
   EXPECT_EQ(ranger[14], 1.5);                            // straight ahead, 1.7 m
-  ranger.Configure(-4.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0);  // all of it again
+  ranger.Configure(-4.0, 4.0, 0.0, 0.0, 0.0, 0.0, 0.0);  // all beams again
   ASSERT_EQ(ranger.GetRangeCount(), 181U);
   EXPECT_EQ(ranger[90], ahead);
   ranger.Configure(-4.0, 4.0, 0.0, 2.0, 0.0, 0.0, 0.0);
-  EXPECT_EQ(ranger[90], 2.0);                        // nearer than it is said to measure
+  EXPECT_EQ(ranger[90], 2.0);                        // nearer than its declared minimum
   ranger.Configure(-0.1, 0.1, 0.0, 8.0, 0.0, 10.0);  // as in Player 2.x
   EXPECT_EQ(ranger.GetRangeCount(), 11U);
   EXPECT_EQ(error_code_of([&] { ranger.Configure(2.0, 3.0, 0.0, 0.0, 8.0, 0.0, 10.0); }),
@@ -240,7 +240,7 @@ TEST_P(SensorProxies, RangersHaveTheOrderThatTheWorldGives) {
   EXPECT_EQ(RangerProxy(client.get(), 1).GetDriverName(), "laser");
   EXPECT_EQ(RangerProxy(client.get(), 2).GetDriverName(), "infrared");
   EXPECT_EQ(LaserProxy(client.get(), 0).GetDriverName(), "laser");
-  // An array: an element with one range each, places seen from the robot.
+  // An array: one element per range, with poses relative to the robot.
   EXPECT_EQ(ranger.GetElementCount(), 2U);
   EXPECT_EQ(ranger.GetDevicePose().px, 0.0);
   EXPECT_NEAR(ranger.GetElementPose(0).pyaw, kPi / 6.0, 1e-12);
@@ -251,7 +251,7 @@ TEST_P(SensorProxies, RangersHaveTheOrderThatTheWorldGives) {
   EXPECT_NEAR(ranger[1], 1.6, 1e-6);
   EXPECT_NEAR(ranger.GetPoint(1).px, 1.8, 1e-6);
   EXPECT_NEAR(ranger.GetPoint(0).py, 0.5 * ranger[0], 1e-9);
-  ranger.Configure(0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0);  // angles mean nothing to an array
+  ranger.Configure(0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0);  // angles have no effect on an array
   EXPECT_EQ(ranger[1], 1.0);
 }
 
@@ -287,7 +287,7 @@ TEST_P(SensorProxies, BumperTellsWhatIsPressed) {
   Position2dProxy position(client.get(), 0);
   EXPECT_EQ(bumper.GetCount(), 0U);
   EXPECT_FALSE(bumper.IsAnyBumped());
-  EXPECT_FALSE(bumper[0]);  // before the first reading each reads 0
+  EXPECT_FALSE(bumper[0]);  // each reads 0 before the first reading
   bumper.RequestBumperConfig();
   ASSERT_EQ(bumper.GetPoseCount(), 3U);
   EXPECT_NEAR(bumper.GetPose(2).pose.px, -0.08, 1e-12);
@@ -359,7 +359,7 @@ TEST_P(SensorProxies, BlobfinderTellsTheBlobsInView) {
   const auto client = open(room(R"({"blobfinder": {"height": 0.1}})"));
   BlobfinderProxy finder(client.get(), 0);
   EXPECT_EQ(finder.GetCount(), 0U);
-  EXPECT_EQ(finder[3].area, 0U);  // each is zero while there are none
+  EXPECT_EQ(finder[3].area, 0U);  // all are zero while there are none
   EXPECT_EQ(finder.GetWidth(), 80U);
   EXPECT_EQ(finder.GetHeight(), 60U);
   client->Read();
@@ -392,7 +392,7 @@ TEST_P(SensorProxies, PtzTurnsWhatSitsOnIt) {
   EXPECT_EQ(error_code_of([&] { head.SetCam(std::nan(""), 0.0, 0.0); }), PlayerError::kBadArgument);
   head.SetCam(0.2, 0.1, kPi / 6.0);
   client->Read();
-  // After 0.1 s, at 80, 50 and 30 degrees a second.
+  // After 0.1 s, at 80, 50 and 30 degrees per second.
   EXPECT_NEAR(head.GetPan(), 8.0 * kPi / 180.0, 1e-6);
   EXPECT_NEAR(head.GetTilt(), 5.0 * kPi / 180.0, 1e-6);
   EXPECT_NEAR(head.GetZoom(), 57.0 * kPi / 180.0, 1e-6);
@@ -402,8 +402,8 @@ TEST_P(SensorProxies, PtzTurnsWhatSitsOnIt) {
   EXPECT_EQ(head.GetTilt(), 0.1);
   EXPECT_NEAR(head.GetZoom(), kPi / 6.0, 1e-12);
   EXPECT_EQ(head.GetStatus(), 0);
-  // f = 40 / tan 15 = 149.28. The left end of the face, at atan(0.2 / 1.8) = 0.1107, stands at
-  // 40 + f tan(0.2 - 0.1107) = 53.4, the right one outside of the picture.
+  // f = 40 / tan 15 = 149.28. The left end of the face, at atan(0.2 / 1.8) = 0.1107, is at 40 + f
+  // tan(0.2 - 0.1107) = 53.4; the right end is outside the picture.
   ASSERT_EQ(finder.GetCount(), 1U);
   EXPECT_EQ(finder[0].left, 53U);
   EXPECT_EQ(finder[0].right, 79U);
@@ -496,7 +496,7 @@ TEST_P(SensorProxies, ImuTellsMotionAndOrientation) {
   EXPECT_FLOAT_EQ(imu.GetZMagn(), -45.0F);
   EXPECT_EQ(imu.GetRawValues().gyro_z, imu.GetZGyro());
   EXPECT_NEAR(imu.GetPose().pyaw, 0.25, 1e-9);
-  // The device is reset, so another client is told the same.
+  // The reset affects the device, so another client gets the same values.
   imu.ResetOrientation(0);
   PlayerClient second(host->connect(6665));
   ImuProxy same(&second, 0);

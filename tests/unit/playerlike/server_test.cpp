@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The server's body: ports, connections and their limits, with a handler that has a few words of
-// its own, and raw sockets on the other side.
+// The core of the server: ports, connections and their limits, with a handler that understands a
+// few words, and raw sockets.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -43,7 +43,7 @@ std::shared_ptr<Host> make_host(const std::string& simulation = "{}") {
                       {"name": "r2", "pose": {"x": 1, "y": 3}}]})"));
 }
 
-/// Answers lines of a word and a number.
+/// Answers lines that consist of a word and a number.
 class WordHandler final : public Handler {
  public:
   WordHandler(Peer& peer, Hub& hub, std::atomic<int>& alive, bool silent = false)
@@ -76,7 +76,7 @@ class WordHandler final : public Handler {
     } else if (word == "hold") {
       peer_.set_in_flight(static_cast<std::size_t>(++held_));
       peer_.send("held " + std::to_string(held_) + '\n');
-    } else if (word == "later") {  // holds until the timer is over
+    } else if (word == "later") {  // holds until the timer expires
       peer_.set_in_flight(static_cast<std::size_t>(++held_));
       hub_.after(std::chrono::milliseconds(number), [this, self = std::weak_ptr(self_)] {
         if (self.expired()) return;
@@ -110,8 +110,8 @@ class WordHandler final : public Handler {
           find_interface(client_->session().robots(), 6665, "position2d", 0).reading});
       peer_.send("joined\n");
     } else if (word == "read") {
-      const auto thinker = hub_.thinker("test", static_cast<std::uint64_t>(number));
-      if (client_->begin_wait(thinker) != EventClient::Outcome::kWaiting) return answer_wait();
+      const auto thread_id = hub_.thread_id("test", static_cast<std::uint64_t>(number));
+      if (client_->begin_wait(thread_id) != EventClient::Outcome::kWaiting) return answer_wait();
       hub_.pump();
     } else if (word == "quit") {
       hub_.quit();
@@ -147,12 +147,12 @@ class WordHandler final : public Handler {
   std::atomic<int>& alive_;
   bool silent_;
   bool bytes_ = false;
-  std::shared_ptr<WordHandler*> self_;  ///< watched by what may come after the end
+  std::shared_ptr<WordHandler*> self_;  ///< observed by calls that may come after its end
   int held_ = 0;
   std::unique_ptr<EventClient> client_;
 };
 
-/// What a log hook is told; any thread can wait for it.
+/// A log hook's messages; any thread can wait for one.
 class Log {
  public:
   [[nodiscard]] sim::LogHook hook() {
@@ -162,7 +162,7 @@ class Log {
       changed_.notify_all();
     };
   }
-  /// The first line that holds a text, once it is there; "" if that takes too long.
+  /// Waits for the first line that contains a text; "" if that takes too long.
   [[nodiscard]] std::string wait_for(const std::string& part) {
     std::unique_lock lock(mutex_);
     std::string found;
@@ -197,7 +197,7 @@ class ServerTest : public testing::Test {
     return *hub;
   }
   [[nodiscard]] RawClient connect() const { return RawClient("127.0.0.1", hub->port()); }
-  /// Waits until all clients' handlers are gone.
+  /// Waits until all clients' handlers are destroyed.
   void wait_until_empty() const {
     const auto end = std::chrono::steady_clock::now() + test_support::patience();
     while ((hub->connections() > 0 || handlers > 0) && std::chrono::steady_clock::now() < end) {
@@ -272,13 +272,13 @@ TEST_F(ServerTest, WhatClientsCallThemselvesStaysInItsLineOfTheLog) {
 TEST_F(ServerTest, HandsAConnectionOverAndChangesItsEncodingBetweenMessages) {
   start();
   RawClient client = connect();
-  // Two handlers never hold one connection: what the first one holds is forgotten.
+  // Two handlers are never in charge of one connection: input held by the first one is discarded.
   client.send("hold\nnext\nhold\n");
   EXPECT_EQ(client.line(), "held 1");
   EXPECT_EQ(client.line(), "next");
   EXPECT_EQ(client.line(), "held 1");
   EXPECT_EQ(handlers, 1);
-  // A frame of six bytes, in one piece with the line that announces frames.
+  // A frame of six bytes, in the same packet as the line that announces frames.
   client.send(std::string("frames\n\0\0\0\6echo 5", 17));
   EXPECT_EQ(client.line(), "echo 5");
 }
@@ -506,7 +506,7 @@ TEST_F(ServerTest, FurtherConnectionsAreRefusedWithALine) {
   EXPECT_THAT(three.rest(), AllOf(HasSubstr("- FAILED \"server/full"), HasSubstr(" 2 ")));
   EXPECT_THAT(log.wait_for("in use"), Not(IsEmpty()));
   two.close();
-  // Its place is free as soon as the server has seen that.
+  // Its slot is free after the server has noticed.
   for (std::string answer; answer != "echo 4";) {
     RawClient four = connect();
     four.send("echo 4\n");
@@ -522,7 +522,7 @@ TEST_F(ServerTest, NoMoreIsReadWhileTooManyRequestsAreInFlight) {
   client.send("hold\nhold\nlater 100\necho 1\n");
   EXPECT_EQ(client.line(), "held 1");
   EXPECT_EQ(client.line(), "held 2");
-  EXPECT_EQ(client.line(), "later");  // before this is over, nothing else is taken
+  EXPECT_EQ(client.line(), "later");  // before this answer, no other input is read
   EXPECT_EQ(client.line(), "echo 1");
 }
 
@@ -558,7 +558,7 @@ TEST_F(ServerTest, AByteNowAndThenDoesNotMakeARequestWhole) {
   settings.limits.partial_request_s = 0.3;
   start();
   RawClient client = connect();
-  // Goes on sending until the server has had enough.
+  // Sends until the server closes the connection.
   while (client.send_if_open("y")) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   wait_until_empty();
   EXPECT_THAT(log.wait_for("closed"), HasSubstr("server/partial-request"));
@@ -569,7 +569,7 @@ TEST_F(ServerTest, IdleClientsAreClosedIfThatIsWanted) {
   start();
   RawClient client = connect();
   client.send("later 500\n");
-  EXPECT_EQ(client.line(), "later");  // one that waits for an answer is not idle
+  EXPECT_EQ(client.line(), "later");  // a client that waits for an answer is not idle
   EXPECT_EQ(client.rest(), "closed: server/idle\n");
 }
 
@@ -584,7 +584,8 @@ TEST_F(ServerTest, HandlersMayAllowSilence) {
   }
   RawClient stream("127.0.0.1", std::stoi(opened.substr(5)));
   RawClient silent = connect();
-  EXPECT_EQ(silent.rest(), "closed: server/first-request\n");  // so the time is over for all
+  // the time has also passed for all others
+  EXPECT_EQ(silent.rest(), "closed: server/first-request\n");
   stream.send("echo 1\n");
   EXPECT_EQ(stream.line(), "echo 1");
 }
@@ -606,7 +607,7 @@ TEST_F(ServerTest, ASlowReaderLosesRecords) {
   settings.limits.queued_bytes = 1 << 20;
   start();
   RawClient client = connect();
-  // 500 times 100 kB is more than the queue and what the system keeps for both ends.
+  // 500 times 100 kB exceed the queue and the system's buffers of both ends.
   client.send("records 500\n");
   std::size_t records = 0;
   std::string line = client.line();
@@ -638,7 +639,7 @@ TEST_F(ServerTest, ASlowReaderIsAskedToReadBeforeMoreOfItsRequestsAreTaken) {
   std::string requests;
   for (int i = 0; i < 200; ++i) requests += "fill 400000\n";
   client.send(requests);
-  // 80 MB, all of which come although nobody could keep them.
+  // 80 MB, all of which arrive although they exceed every buffer.
   for (int i = 0; i < 200; ++i) ASSERT_EQ(client.line().size(), 400'000U) << i;
 }
 
@@ -680,7 +681,7 @@ TEST_F(ServerTest, JunkIsAnsweredOrClosedAndTheOthersNoticeNothing) {
   wait_until_empty();
 }
 
-// Descriptors that run out: what knocks waits, nobody is lost, and nothing spins.
+// When descriptors run out, new connections wait: none is lost, and the server does not spin.
 TEST_F(ServerTest, WaitsUntilTheSystemHasDescriptorsAgain) {
   start();
   RawClient before = connect();
@@ -689,7 +690,7 @@ TEST_F(ServerTest, WaitsUntilTheSystemHasDescriptorsAgain) {
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
   const rlim_t usual = limit.rlim_cur;
-  // The client's end gets the last one.
+  // The client's end takes the last descriptor.
   RawClient late(RawClient::Unconnected{});
   limit.rlim_cur = static_cast<rlim_t>(late.descriptor()) + 1;
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &limit), 0);
@@ -717,7 +718,7 @@ TEST_F(ServerTest, ManyConnectionsComeAndGoWithoutLeavingAnything) {
         std::vector<RawClient> clients;
         for (int c = 0; c < 25; ++c) {
           clients.push_back(connect());
-          // Some say nothing, some half a message, some join, and all of them drop.
+          // Some send nothing, some half a message, some join, and all of them disconnect.
           if (c % 5 == 1) clients.back().send("ech");
           if (c % 5 == 2) clients.back().send("join\nread " + std::to_string(t) + '\n');
           if (c % 5 == 3) clients.back().send("fill 1000000\n");
@@ -864,13 +865,13 @@ TEST(TokenFile, MadeTokensAreLongAndDiffer) {
 
 TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
   using std::chrono::milliseconds;
-  TokenGuard guard;
-  auto now = TokenGuard::Clock::now();
+  TokenThrottle guard;
+  auto now = TokenThrottle::Clock::now();
   int told = 0;
   milliseconds waited{0};
-  for (int i = 1; i <= TokenGuard::kMostOfAnAddress; ++i) {
+  for (int i = 1; i <= TokenThrottle::kMostOfAnAddress; ++i) {
     EXPECT_EQ(guard.delay_of_right("10.0.0.7:" + std::to_string(i), now), milliseconds(0));
-    const TokenGuard::Cost cost = guard.note_wrong("10.0.0.7:" + std::to_string(i), now);
+    const TokenThrottle::Cost cost = guard.note_wrong("10.0.0.7:" + std::to_string(i), now);
     EXPECT_EQ(cost.count, i) << "whatever the connection";
     EXPECT_EQ(cost.delay,
               std::min(milliseconds(25) * (1 << std::min(i - 1, 10)), milliseconds(5000)));
@@ -885,15 +886,15 @@ TEST(TokenGuards, SlowDownWrongTokensAndThenRightOnesToo) {
       << "so that the time does not tell right from wrong";
   EXPECT_EQ(guard.delay_of_right("10.0.0.8:99", now), milliseconds(0));
   EXPECT_EQ(guard.delay_of_right("[10.0.0.7::1]:99", now), milliseconds(0));
-  now += TokenGuard::kMemory;
+  now += TokenThrottle::kMemory;
   EXPECT_EQ(guard.delay_of_right("10.0.0.7:99", now), milliseconds(0));
   EXPECT_EQ(guard.note_wrong("10.0.0.7:99", now).count, 1);
 }
 
 TEST(TokenGuards, RememberSoManyAddressesOnly) {
-  TokenGuard guard;
-  auto now = TokenGuard::Clock::now();
-  for (std::size_t i = 0; i <= TokenGuard::kMostAddresses; ++i) {
+  TokenThrottle guard;
+  auto now = TokenThrottle::Clock::now();
+  for (std::size_t i = 0; i <= TokenThrottle::kMostAddresses; ++i) {
     now += std::chrono::microseconds(1);
     static_cast<void>(guard.note_wrong(std::to_string(i) + ":1", now));
   }

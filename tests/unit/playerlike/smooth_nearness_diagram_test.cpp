@@ -27,7 +27,7 @@ std::vector<Segment> box(double x_min, double y_min, double x_max, double y_max)
   return {{a, b}, {b, c}, {c, d}, {d, a}};
 }
 
-// A scan of 270 beams over 270 degrees, from 3.5 cm before the axle, as an S1R's.
+// A scan of 270 beams over 270 degrees, from 3.5 cm ahead of the axle, as on an S1R.
 SndScan scan_at(const Pose& X_WB, const std::vector<Segment>& walls) {
   SndScan scan;
   scan.X_BL = {0.035, 0.0, 0.0};
@@ -64,8 +64,8 @@ double distance_to(const Segment& wall, const Vec2& p) {
 struct Drive {
   Pose X_WB;
   double time_s = 0.0;
-  double least_m = std::numeric_limits<double>::infinity();  // to a wall, from the middle
-  double turned_rad = 0.0;                                   // all turning, both ways
+  double least_m = std::numeric_limits<double>::infinity();  // between a wall and the centre
+  double turned_rad = 0.0;  // sum of all turning in both directions
   double fastest_mps = 0.0;
 
   void run(SmoothNearnessDiagram& navigation, const std::vector<Segment>& walls, double limit_s) {
@@ -102,7 +102,7 @@ TEST(SmoothNearnessDiagram, InTheOpenDrivesStraightAtFullSpeed) {
   drive.run(navigation, {}, 30.0);
   EXPECT_EQ(navigation.state(), SndState::kReached);
   EXPECT_LE((drive.X_WB.position() - Vec2(2.0, 0.0)).norm(), 0.05);
-  // 1.95 m at 0.3 m/s take 6.5 s, and the slow end not a second more than that again.
+  // 1.95 m at 0.3 m/s take 6.5 s, and the slow end adds at most a second.
   EXPECT_LT(drive.time_s, 8.0);
 }
 
@@ -111,7 +111,7 @@ TEST(SmoothNearnessDiagram, TurnsOnTheSpotToAGoalBehind) {
   navigation.start({{-1.0, 0.1}, {}});
   const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, {}));
   EXPECT_EQ(twist.v_mps, 0.0);
-  EXPECT_DOUBLE_EQ(twist.omega_radps, 1.5);  // the shorter way round, to the left
+  EXPECT_DOUBLE_EQ(twist.omega_radps, 1.5);  // the shorter turn, to the left
 }
 
 TEST(SmoothNearnessDiagram, TurnsToTheGoalsHeadingWhenThere) {
@@ -124,14 +124,14 @@ TEST(SmoothNearnessDiagram, TurnsToTheGoalsHeadingWhenThere) {
 }
 
 TEST(SmoothNearnessDiagram, DeflectsFromAWallBesideItAndSlowsDown) {
-  // A wall along the way, 0.15 m to the left of the middle: within 0.1 + 0.15.
+  // A wall along the path, 0.15 m to the left of the centre: within 0.1 + 0.15.
   const std::vector<Segment> wall{{{-3.0, 0.15}, {5.0, 0.15}}};
   SmoothNearnessDiagram navigation({});
   navigation.start({{2.0, 0.0}, {}});
   const sim::Twist twist = navigation.step(0.1, {}, scan_at({}, wall));
   EXPECT_LT(twist.omega_radps, 0.0);
-  // The greatest threat is (0.1 + 0.15 - 0.15) / 0.15 = 2/3, which leaves a third of the speed, if
-  // nothing is to be turned; the beam that meets the wall squarely is no more than half a degree
+  // The greatest threat is (0.1 + 0.15 - 0.15) / 0.15 = 2/3, which leaves a third of the speed if
+  // there is nothing to turn. The beam that hits the wall perpendicularly is at most half a degree
   // off.
   EXPECT_LT(twist.v_mps, 0.1 + 0.001);
   EXPECT_GT(twist.v_mps, 0.0);
@@ -146,8 +146,8 @@ TEST(SmoothNearnessDiagram, MirrorImagesGiveMirroredTwists) {
   other.start({{1.5, 0.0}, {}});
   const sim::Twist a = one.step(0.1, {}, scan_at({}, left));
   const sim::Twist b = other.step(0.1, {}, scan_at({}, right));
-  EXPECT_LT(a.omega_radps, 0.0);  // round the nearer end, to the right
-  // The sectors are not quite symmetric: each covers its lower bound only. A sector is 0.017 rad.
+  EXPECT_LT(a.omega_radps, 0.0);  // around the nearer end, to the right
+  // The sectors are slightly asymmetric: each includes only its lower bound. A sector is 0.017 rad.
   EXPECT_NEAR(a.omega_radps, -b.omega_radps, 3.0 * 0.018);
   EXPECT_NEAR(a.v_mps, b.v_mps, 0.3 * 0.018);
 }
@@ -160,12 +160,12 @@ TEST(SmoothNearnessDiagram, GoesRoundABlockWithoutTouchingIt) {
   drive.run(navigation, block, 60.0);
   EXPECT_EQ(navigation.state(), SndState::kReached);
   EXPECT_GT(drive.least_m, 0.1);
-  // "Smooth": it turns out, round and in again by some 40 degrees each, not to and fro.
+  // "Smooth": it turns out, around and in again by about 40 degrees each, without oscillating.
   EXPECT_LT(drive.turned_rad, kPi);
 }
 
 TEST(SmoothNearnessDiagram, PassesADoorThatIsWideEnough) {
-  // 0.3 m wide; the disc has 0.2.
+  // The gap is 0.3 m wide, the disc 0.2 m.
   const std::vector<Segment> walls{{{1.0, -3.0}, {1.0, 0.2}}, {{1.0, 0.5}, {1.0, 3.0}}};
   SmoothNearnessDiagram navigation({});
   navigation.start({{2.0, 0.0}, {}});
@@ -176,7 +176,7 @@ TEST(SmoothNearnessDiagram, PassesADoorThatIsWideEnough) {
 }
 
 TEST(SmoothNearnessDiagram, DoesNotTryADoorThatIsTooNarrow) {
-  // 0.18 m wide, in a room otherwise closed.
+  // The gap is 0.18 m wide, in an otherwise closed room.
   std::vector<Segment> walls = box(-1.0, -1.0, 3.0, 1.0);
   walls.push_back({{1.0, -1.0}, {1.0, -0.09}});
   walls.push_back({{1.0, 0.09}, {1.0, 1.0}});
@@ -199,7 +199,7 @@ TEST(SmoothNearnessDiagram, GivesUpInAClosedRoomWhenItsPatienceIsOver) {
   Drive drive;
   drive.run(navigation, room, 60.0);
   EXPECT_EQ(navigation.state(), SndState::kBlocked);
-  // A metre at most at 0.3 m/s and slower, then 3 s.
+  // At most a metre, at 0.3 m/s and slower, and then 3 s.
   EXPECT_LT(drive.time_s, 15.0);
   EXPECT_GT(drive.least_m, 0.1);
   const sim::Twist twist = navigation.step(drive.time_s + 0.1, drive.X_WB, scan_at({}, room));
@@ -208,7 +208,7 @@ TEST(SmoothNearnessDiagram, GivesUpInAClosedRoomWhenItsPatienceIsOver) {
 }
 
 TEST(SmoothNearnessDiagram, ReachesAGoalCloseToAWall) {
-  // 0.148 m from the middle to the wall behind the goal: 5 cm between body and wall.
+  // 0.148 m from the centre to the wall behind the goal: 5 cm between body and wall.
   const std::vector<Segment> wall{{{1.0, -3.0}, {1.0, 3.0}}};
   SmoothNearnessDiagram navigation({});
   navigation.start({{1.0 - 0.148, 0.3}, {}});

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// SndDriver and the world's drivers table, over a host in this process, by calls and by messages.
+// SndDriver and the world's drivers table, over a host in this process, by function calls and by
+// messages.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,8 @@ using test::Transport;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// A room with a block between the robot, which looks along x, and the far side; drivers as given.
+// A room with a block between the robot, which faces along x, and the far side; drivers from the
+// argument.
 std::string room(const std::string& drivers, const std::string& simulation = "{}") {
   return R"({"simulation": )" + simulation + R"(,
     "arena": {"size": [4, 3], "obstacles": [{"center": [2, 1.4], "size": [0.3, 0.3]}]},
@@ -54,7 +56,7 @@ struct SndDriverTest : testing::TestWithParam<Transport> {
                            }),
         GetParam());
   }
-  // Nothing may be said: no thread was silent, nothing was refused.
+  // There must be no log output: no thread was silent, nothing was refused.
   void TearDown() override { EXPECT_EQ(log, ""); }
 
   std::mutex log_mutex;
@@ -92,7 +94,7 @@ TEST_P(SndDriverTest, GoalInsideABlockEndsAsBlockedWithTheRobotStanding) {
   settings.patience = 4.0;
   SndDriver driver(&client, 0, 0, settings);
   driver.SetGoal(2.0, 1.4);
-  // About 1.2 m at 0.3 m/s, and the patience.
+  // About 1.2 m at 0.3 m/s, and the time limit without progress.
   EXPECT_EQ(driver.WaitForGoal(30.0), SndDriver::BLOCKED);
   client.Read();
   EXPECT_EQ(position.GetXSpeed(), 0.0);
@@ -177,7 +179,7 @@ TEST_P(SndDriverTest, KeepsItsSpeedLimit) {
     sharpest = std::max(sharpest, std::abs(position.GetYawSpeed()));
   }
   EXPECT_EQ(driver.GetStatus(), SndDriver::REACHED);
-  // In the open it drives as fast as it may, and no faster.
+  // In the open it drives exactly at its speed limit.
   EXPECT_NEAR(fastest, 0.1, 1e-9);
   EXPECT_LE(sharpest, 1.0 + 1e-9);
 }
@@ -216,8 +218,8 @@ TEST_P(SndDriverTest, AloneLetsNoTimePass) {
   PlayerClient client(host->connect(6665));
   SndDriver driver(&client);
   driver.SetGoal(3.2, 1.5);
-  // Nobody has read yet: the driver's thread waits, and time with it. Were it not so, a goal
-  // given before the first Read() would count from some moment or other.
+  // Nobody has read yet: the driver's thread waits, and time with it. Otherwise a goal given before
+  // the first Read() would start at a random time.
   std::this_thread::yield();
   EXPECT_EQ(host->time().sim_time_ns, 0);
   client.Read();
@@ -236,7 +238,7 @@ TEST_P(SndDriverTest, DoesNotOpenTheStartGateForPrograms) {
     read.set_value();
   });
   PlayerClient other(host->connect(6665));
-  // With the driver counted the gate would be open now, with one program.
+  // If the driver counted, the gate would be open with one program.
   EXPECT_EQ(host->time().sim_time_ns, 0);
   other.Read();
   read.get_future().wait();
@@ -263,8 +265,8 @@ TEST_P(SndDriverTest, OutlivesItsClientWithoutHarm) {
   EXPECT_EQ(error_code_of([&] { driver.GetStatus(); }), PlayerError::kDisconnected);
 }
 
-// A program of two threads: one drives the first robot by goals that it chooses after what the
-// other has measured meanwhile; both read clients of their own.
+// A program with two threads. One drives the first robot by goals that depend on what the other has
+// measured; both read their own clients.
 std::string two_threads_run(Transport transport) {
   const auto world = sim::load_world_text(R"({
     "simulation": {"clients": 2, "seed": 5},
@@ -317,7 +319,7 @@ TEST_P(SndDriverTest, WorldGivesItAPositionIndexWhoseGoToDrivesRoundObstacles) {
   start(room(R"([{"type": "snd", "max_speed": 0.25}])"));
   PlayerClient client(host->connect(6665));
   Position2dProxy plain(&client, 0);
-  // Index 0 is the pose, 1 the odometry, so 2 is free.
+  // Index 0 is the pose and 1 the odometry, so 2 is free.
   Position2dProxy snd(&client, 2);
   EXPECT_EQ(snd.GetDriverName(), "snd");
   snd.GoTo(3.2, 1.5, 0.0);
@@ -379,13 +381,13 @@ TEST_P(SndDriverTest, OneDriverServesAllProxiesThatNameIt) {
   auto a = std::make_unique<Position2dProxy>(&client, 2);
   Position2dProxy b(&second, 2);
   a->GoTo(3.2, 1.5, 0.0);
-  a.reset();  // the driver lives on with b
+  a.reset();  // the driver continues with b
   for (int i = 0; i < 10; ++i) {
     client.Read();
     second.Read();
   }
   EXPECT_GT(b.GetXSpeed(), 0.0);
-  b.SetSpeed(0.0, 0.0);  // and it is the same one: this drops the goal
+  b.SetSpeed(0.0, 0.0);  // it is the same driver: this drops the goal
   for (int i = 0; i < 5; ++i) second.Read();
   EXPECT_EQ(b.GetXSpeed(), 0.0);
 }
@@ -407,7 +409,7 @@ TEST_P(SndDriverTest, ListsAndMessagesNameTheDriversAddress) {
   }
 }
 
-// What the world's author is told.
+// The error for the world's author.
 std::string fault(const std::string& drivers, const std::string& devices = "{}") {
   try {
     playerlike::check_drivers(sim::load_world_text(

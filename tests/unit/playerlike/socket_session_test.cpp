@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What only sessions across a network meet: servers that are not there, go away, fall silent or
-// come back. What holds for all sessions is in host_test, host_canvas_test and others.
+// Cases that only sessions over a network meet: servers that do not exist, go away, fall silent or
+// come back. host_test, host_canvas_test and others test what holds for all sessions.
 #include "remote/socket_session.h"
 
 #include <gmock/gmock.h>
@@ -184,7 +184,7 @@ TEST(SocketSessions, ARefusedConnectionNamesHostPortAndReason) {
   EXPECT_EQ(error.code(), kDisconnected);
   EXPECT_THAT(error.what(), AllOf(HasSubstr("127.0.0.1:" + std::to_string(port)),
                                   HasSubstr("connection refused"), HasSubstr("playpen serve")));
-  // As a program sees it.
+  // As in a program.
   try {
     PlayerCc::PlayerClient client("tcp://127.0.0.1:" + std::to_string(port), 6665);
     FAIL() << "no error";
@@ -242,7 +242,7 @@ TEST(SocketSessions, TokensOpenServersAndRobots) {
   SocketSession session(with_token);
   const auto second = find_interface(session.robots(), kMorsePort, "position2d", 1);
   session.request(SubscribeRequest{second.reading});
-  // A command is not answered: what is wrong with it is told by the next call that is.
+  // A command has no answer: the next call with an answer reports its error.
   session.send(*second.motion, sim::TwistCommand{{0.5, 0.0, 0.0}});
   EXPECT_THAT(error_of([&] { read(session); }).what(), HasSubstr("r2"));
   EXPECT_EQ(read(session).x_m, 1.0);
@@ -471,7 +471,7 @@ TEST(SocketSessions, SeveralThreadsShareOne) {
       }
     });
   }
-  // Two threads that both wait for rounds.
+  // Two threads, both waiting for rounds.
   threads.emplace_back([&] {
     EXPECT_EQ(error_of([&] {
                 while (true) read(*session);
@@ -510,7 +510,8 @@ TEST(SocketSessions, AFollowerHoldsTheClockAndNeverLetsItGoOn) {
   joined.get_future().wait();
   EXPECT_EQ(served.host->time().steps, 0U);
   for (int i = 0; i < 5; ++i) read(*session);
-  // Whatever the threads do, it has had each round but the newest before time could go on.
+  // Whatever the threads do, it has received each round except the newest before time could
+  // advance.
   EXPECT_GE(rounds, 4);
   follower->close();
   thread.join();
@@ -613,28 +614,28 @@ TEST(SocketSessions, SleepInAPacedSimulationLetsOthersReadMeanwhile) {
   EXPECT_GE(rounds, 2);
 }
 
-// --- Servers that say what no server should
+// --- Servers that send what no server should send
 
-/// What a server answers to hello.
+/// A server's answer to hello.
 nlohmann::json welcome_of(const Served& served) {
   test_support::RawClient client("127.0.0.1", served.port());
   client.send("1 playpen hello [{\"version\": 1, \"port\": 6665}]\n");
   return nlohmann::json::parse(client.line().substr(std::string("1 SUCCESS ").size()));
 }
 
-/// A server that has said all of this before it is asked.
+/// The output of a server that sends all of this before any request.
 std::string said(const nlohmann::json& welcome, const std::string& more = "") {
   return "1 SUCCESS " + welcome.dump() + '\n' + more;
 }
 
-/// A server on loopback with a thread of its own: what it answers to each line is up to the test.
+/// A server on loopback with its own thread; the test decides how it answers each line.
 class ScriptedServer {
  public:
   struct Reply {
     std::string text;
     bool then_close = false;
   };
-  /// @param answer  called by the thread with the number of the connection, from 0, and a line.
+  /// @param answer  called in the thread with the number of the connection, from 0, and a line.
   explicit ScriptedServer(std::function<Reply(int, const std::string&)> answer)
       : answer_(std::move(answer)), thread_([this] { run(); }) {}
   ScriptedServer(const ScriptedServer&) = delete;
@@ -701,11 +702,11 @@ nlohmann::json request_in(const std::string& line) {
   return line.starts_with("{") ? nlohmann::json::parse(line) : nlohmann::json();
 }
 
-/// All values in a message, and those in them.
+/// The pointers to all values in a message, including nested ones.
 void find_places(const nlohmann::json& value, const nlohmann::json::json_pointer& at,
                  std::vector<nlohmann::json::json_pointer>& places) {
   places.push_back(at);
-  // One robot, as the others are of the same kind, and all its devices.
+  // One robot is enough, because the others are of the same kind, but all its devices.
   const std::size_t most = !at.empty() && at.back() == "robots" ? 1 : 100;
   for (std::size_t i = 0; value.is_array() && i < std::min(value.size(), most); ++i) {
     find_places(value[i], at / i, places);
@@ -750,7 +751,7 @@ TEST(LyingServers, AreToldByTheirEventsWithoutAForeignException) {
       session->wait();
       EXPECT_EQ(event, R"({"id":1})");
     } catch (const SessionError&) {
-      // As it should be; any other exception fails the test.
+      // Correct; any other exception fails the test.
     }
   }
 }
@@ -773,7 +774,7 @@ TEST(LyingServers, AreToldByTheirWelcomeWithoutAForeignException) {
         return {nlohmann::json{{"id", request.value("id", 0)}}.dump() + '\n'};
       });
       try {
-        // Proxies read what the server says of the devices.
+        // Proxies read what the server reports about the devices.
         PlayerCc::PlayerClient client(connect(server.port()));
         PlayerCc::LaserProxy laser(&client, 0);
       } catch (const SessionError&) {
@@ -786,9 +787,9 @@ TEST(LyingServers, AreToldByTheirWelcomeWithoutAForeignException) {
   EXPECT_GT(refused, 100);
 }
 
-// A thread that has its answer may be slow to note it. This one has a hundred thousand lists to
-// throw away before, while the other thread, which reads the connection, finds it closed and makes
-// the next one.
+// A thread that has its answer may record it late. This one must first destroy a hundred thousand
+// lists. Meanwhile the other thread, which reads the connection, finds it closed and opens the next
+// one.
 TEST(SocketSessions, ASubscriptionAnsweredWhileAnotherThreadReconnectsIsKept) {
   const Served served;
   const nlohmann::json welcome = welcome_of(served);
@@ -836,7 +837,7 @@ TEST(SocketSessions, AnAnswerThatLiesThereIsReadHoweverLate) {
   const Served served;
   const nlohmann::json welcome = welcome_of(served);
   const nlohmann::json answer = {{"id", 1}, {"time", welcome["time"]}};
-  // It came with the welcome, so it was there before it was asked for.
+  // It came with the welcome, so it was there before it was requested.
   Relay relay(said(welcome, answer.dump() + '\n'));
   const auto session = connect(relay.port());
   session->request(AnswerTimeoutRequest{0.0});

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program with functions of its own at global scope, as two in the wild have them.
+// A program with its own functions at global scope, like two existing programs.
 #include "libplayerc++/playerc++.h"
 
 using namespace std;
@@ -8,7 +8,7 @@ using namespace PlayerCc;
 double normalize(double) { return 42.0; }
 double limit(double, double, double) { return 43.0; }
 
-// As programs call what they have: none of these is a name of the library's headers.
+// Calls of the program's own functions: none of these names is defined by the library's headers.
 SimulationProxy* sim = nullptr;
 LaserProxy* laser = nullptr;
 int protocol = 0;

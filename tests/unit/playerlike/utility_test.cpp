@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// With all three namespaces, as half of the programs in the wild have it.
+// With all three namespaces, as in half of the existing programs.
 #include <gtest/gtest.h>
 
 #include "libCCMorse/CCMorse.h"
@@ -8,7 +8,7 @@ using namespace std;
 using namespace PlayerCc;
 using namespace CCMorse;
 
-// In utility_own_functions.cpp: what a program calls that has functions of these names itself.
+// Defined in utility_own_functions.cpp: calls these names in a program that defines them itself.
 double normalize_in_a_program_with_its_own(double angle_rad);
 double limit_in_a_program_with_its_own(double value);
 

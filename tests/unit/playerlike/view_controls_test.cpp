@@ -29,7 +29,7 @@ TEST(ViewAction, LettersMeanTheSameWithCapsLock) {
     EXPECT_TRUE(view_action(lower, false)) << letter;
     EXPECT_EQ(view_action(lower, false), view_action(lower - 32, false)) << letter;
   }
-  // S saves: driving back is on X.
+  // S saves; reverse driving is on X.
   EXPECT_EQ(view_action('s', false), ViewAction::kSave);
   EXPECT_EQ(view_action('x', false), ViewAction::kBackward);
 }
@@ -54,7 +54,7 @@ TEST(TimeFactor, DoublesAndHalvesWithinItsRange) {
   EXPECT_EQ(next_time_factor(1.0, false), 0.5);
   EXPECT_EQ(next_time_factor(64.0, true), 64.0);
   EXPECT_EQ(next_time_factor(1.0 / 16.0, false), 1.0 / 16.0);
-  // A world's own factor may lie beyond; the way back is open.
+  // A world's own factor may be outside the range; the keys lead back into it.
   EXPECT_EQ(next_time_factor(100.0, true), 100.0);
   EXPECT_EQ(next_time_factor(100.0, false), 50.0);
   EXPECT_EQ(factor_text(2.0), "x 2");
@@ -73,7 +73,7 @@ class HandDriveTest : public testing::Test {
     }
     throw std::logic_error("no motors");
   }
-  // What a program says between two steps.
+  // A program's command between two steps.
   void command(int robot, double v_mps) {
     const sim::Command twist = sim::TwistCommand{{v_mps, 0.0, 0.0}};
     hand.note_command({robot, device(robot)}, twist);
@@ -109,7 +109,7 @@ TEST_F(HandDriveTest, OverridesTheProgramAndGivesItsLastCommandBack) {
   EXPECT_TRUE(hand.active());
   EXPECT_GT(x_m(0), 5.0);
   EXPECT_EQ(motion(0).commanded().v_mps, 0.5);  // full speed after half a second
-  command(0, -0.3);                             // in vain, for now
+  command(0, -0.3);                             // no effect for now
   step();
   EXPECT_EQ(motion(0).commanded().v_mps, 0.5);
 
@@ -137,7 +137,7 @@ TEST_F(HandDriveTest, TurnsLeftWithTheLeftKeyAlsoBackwards) {
   hand.hold(ViewAction::kBackward, true);
   step(60);
   EXPECT_LT(motion(0).commanded().v_mps, 0.0);
-  EXPECT_EQ(motion(0).commanded().omega_radps, 1.5);  // half of what the motors allow
+  EXPECT_EQ(motion(0).commanded().omega_radps, 1.5);  // half of the motors' limit
   hand.hold(ViewAction::kRight, true);                // both: straight on
   step();
   EXPECT_EQ(motion(0).commanded().omega_radps, 0.0);
@@ -151,7 +151,7 @@ TEST_F(HandDriveTest, AnotherRobotIsChosenInTurnAndTheFirstGoesBackToItsProgram)
   EXPECT_EQ(hand.chosen(), 1);
   EXPECT_EQ(motion(0).commanded().v_mps, 0.1);
   step(10);
-  EXPECT_FALSE(hand.active());  // keys must be pressed anew
+  EXPECT_FALSE(hand.active());  // keys must be pressed again
   EXPECT_EQ(x_m(1), 5.0);
   hand.hold(ViewAction::kForward, true);
   step(50);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A paced run with a window, the viewer being played by the test.
+// A paced run with a window; the test acts as the viewer.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,14 +65,14 @@ class ViewedHostTest : public testing::Test {
     session.reset();
     host.reset();
   }
-  // One Read() of the program: the robot's pose.
+  // One Read() of the program; returns the robot's pose.
   sim::Pose read() {
     NewestPose newest;
     session->wait();
     static_cast<void>(session->take(newest));
     return newest.pose;
   }
-  // Shows frames until one's text holds the words.
+  // Shows frames until the text of one contains the words.
   FakeViewer::Frame show_until(const std::string& words) const {
     for (;;) {
       const auto frame = viewer.show();
@@ -117,7 +117,7 @@ TEST_F(ViewedHostTest, SpaceStopsTimeAndLetsItGoOn) {
   while (show_until("r1").header.paused == 0) {
   }
   const sim::SimTime stopped_ns = now_ns();
-  // Ten frames are a third of a second, in which 33 steps would be due.
+  // Ten frames take a third of a second, in which 33 steps would be due.
   for (int i = 0; i < 10; ++i) EXPECT_THAT(show_until("r1").text, HasSubstr("paused"));
   EXPECT_EQ(now_ns(), stopped_ns);
   viewer.release(' ');
@@ -140,7 +140,8 @@ TEST_F(ViewedHostTest, TimeDoesNotRushAfterAPause) {
   read();
   const double simulated_s = sim::to_seconds(now_ns() - stopped_ns);
   const double wall_s = std::chrono::duration<double>(Clock::now() - resumed).count();
-  // At factor 1 never ahead of the wall; one step's time for what was under way.
+  // At factor 1, simulated time is never ahead of wall time, except by one step that was in
+  // progress.
   EXPECT_LE(simulated_s, wall_s + 0.02);
 }
 
@@ -149,7 +150,7 @@ TEST_F(ViewedHostTest, ChangesOfSpeedNeverLetTimeRunAheadOfWhatTheyAllow) {
   read();
   const auto begin = Clock::now();
   const sim::SimTime begin_ns = now_ns();
-  // Ten times faster and slower again: never above x 2, so never more than twice the wall's time.
+  // Ten times faster and slower again: never above x 2, so never more than twice the wall time.
   for (int i = 0; i < 10; ++i) {
     viewer.press('+');
     static_cast<void>(show_until("x 2 "));
@@ -181,7 +182,7 @@ TEST_F(ViewedHostTest, ARobotIsDrivenByHandAgainstItsProgram) {
   static_cast<void>(show_until("by hand"));
   viewer.release('w');
   sim::Pose last = stand_still();
-  // It stands once a round moves it no more.
+  // The robot stands after the first round without motion.
   for (sim::Pose next = stand_still(); next != last; next = stand_still()) last = next;
   SUCCEED();
 }

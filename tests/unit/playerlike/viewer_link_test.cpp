@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The connection with a window, the viewer being played by the test.
+// The connection to a window; the test acts as the viewer.
 #include "host/viewer_link.h"
 
 #include <fcntl.h>
@@ -25,7 +25,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using view::ViewerMessageKind;
 
-/// A run of which nothing moves; notes what it is told.
+/// A run in which nothing moves; records the events that it receives.
 class FakeRun final : public ViewedRun {
  public:
   FakeRun() : scene_(sim::Simulation(sim::load_world("")).snapshot()) {}
@@ -60,7 +60,7 @@ class FakeRun final : public ViewedRun {
     const std::lock_guard lock(mutex_);
     return scenes_;
   }
-  /// Waits until so many things were told. @return all of them.
+  /// Waits until this many events have arrived. @return all of them.
   [[nodiscard]] std::vector<std::string> told(std::size_t count) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, test_support::patience(), [&] { return told_.size() >= count; });
@@ -110,7 +110,7 @@ TEST_F(ViewerLinkTest, DrawsTheNextPictureOnlyWhenTheLastOneIsShown) {
   viewer.hello();
   const auto first = viewer.receive();
   ASSERT_TRUE(first);
-  // Another number than that of the frame does not count.
+  // A number that is not that of the frame does not count.
   viewer.say(ViewerMessageKind::kShown, first->header.number + 1);
   for (std::uint32_t i = 0; i < 5; ++i) {
     viewer.press('k');
@@ -185,7 +185,7 @@ TEST_F(ViewerLinkTest, TellsAWindowThatTheUserClosedFromOneThatDied) {
 }
 
 TEST_F(ViewerLinkTest, EndsThoughTheViewerReadsNothing) {
-  // 800 x 870 x 3 bytes are more than a socket holds: the frame stays half sent.
+  // 800 x 870 x 3 bytes exceed a socket's buffer: the frame is sent only in part.
   viewer.hello(800);
   viewer.press('k');
   ASSERT_THAT(run.told(1), ElementsAre("kv"));

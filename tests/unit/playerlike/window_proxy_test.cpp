@@ -111,7 +111,7 @@ TEST_F(Window, ColoursMayBeWrittenInManyWays) {
   EXPECT_EQ(drawn(), ImageColour_t(255, 128, 0));
   window.SetPixel(next(), 7, 1.0f, 0.5f, 0.0f, 1.0f);
   EXPECT_EQ(drawn(), ImageColour_t(255, 128, 0));
-  window.SetPixel(next(), 7, 0, 0.5, 1);  // one of them floating: all are shares
+  window.SetPixel(next(), 7, 0, 0.5, 1);  // one argument is floating-point: all are fractions
   EXPECT_EQ(drawn(), ImageColour_t(0, 128, 255));
   window.SetPixel(next(), 7, 1U, 2UL, 3LL);
   EXPECT_EQ(drawn(), ImageColour_t(1, 2, 3));
@@ -133,7 +133,7 @@ TEST_F(Window, ColoursMayBeWrittenInManyWays) {
   EXPECT_EQ(drawn(), ImageColour_t(6, 5, 4));
   window.SetPixel(ImagePoint_t(next(), 7), 1, 1, 1);
   EXPECT_EQ(drawn(), ImageColour_t(1, 1, 1));
-  // Students do so, whatever compilers say.
+  // Students do so despite compiler warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
   window.SetPixel(static_cast<unsigned>(next()), 7L, 2, 2, 2);
@@ -239,14 +239,14 @@ TEST_F(Window, DiscsHoldTheCellsWhoseMiddlesAreWithinTheRadius) {
       const double dx = 0.02 * (column + 0.5) - kX;
       const double dy = 0.02 * (186 - row - 0.5) - kY;
       const bool inside = dx * dx + dy * dy <= kRadius * kRadius;
-      // Alpha 100: a cell drawn twice would have more.
+      // Alpha 100: a cell drawn twice would have a higher value.
       ASSERT_EQ(window.GetPixel(column, row).a, inside ? 100 : 0) << column << ", " << row;
       drawn += inside ? 1 : 0;
     }
   }
   EXPECT_NEAR(drawn, 3.1416 * 5.5 * 5.5, 6.0);  // the area in cells, to within its rim
   window.Clear();
-  window.SetDiscMetres(0.5, 0.5, 0.0, 0, 0, 255);  // no middle is so near: the cell itself
+  window.SetDiscMetres(0.5, 0.5, 0.0, 0, 0, 255);  // no centre is that near: only the cell itself
   EXPECT_EQ(window.GetPixel(25, 160), ImageColour_t(0, 0, 255));
   window.SetDiscMetres(-0.05, -0.05, 0.1, 0, 255, 0);  // clipped
   EXPECT_EQ(window.GetPixel(0, 185), ImageColour_t(0, 255, 0));
@@ -257,7 +257,7 @@ TEST_F(Window, DiscsHoldTheCellsWhoseMiddlesAreWithinTheRadius) {
 }
 
 TEST_F(Window, PolygonsHoldTheCellsWhoseMiddlesLieInside) {
-  // A square of 0.2 m with a square hole: both outlines in one, by the even-odd rule.
+  // A square of 0.2 m with a square hole: both outlines in one polygon, by the even-odd rule.
   window.SetPolygonMetres({{1.0, 1.0},
                            {1.2, 1.0},
                            {1.2, 1.2},
@@ -372,7 +372,7 @@ TEST_F(Window, SeveralThreadsMayDraw) {
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(window.GetPixel(0, 0).a, 255);
   EXPECT_EQ(world->drawn, static_cast<std::size_t>(kThreads) * kRounds) << "none is lost";
-  // The last on column 0: i = 172 * 116 = 19952, 19952 % 256 = 240.
+  // The last pixel drawn in column 0: i = 172 * 116 = 19952, 19952 % 256 = 240.
   for (int t = 0; t < kThreads; ++t)
     EXPECT_EQ(window.GetPixel(0, t), ImageColour_t(uchar(t), 240, 0));
 }

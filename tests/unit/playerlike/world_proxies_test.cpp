@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The proxies of the world itself (simulation, map in tiles, log) and of what robots say, show and
-// send, over all transports.
+// The proxies of the world itself (simulation, map in tiles, log), and of speech, lights, lines and
+// messages of robots, over all transports.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ constexpr const char* kWorld = R"({
       "aio": {"inputs": [5, "aio.1"], "outputs": 2}}},
     {"name": "r2", "pose": {"x": 2, "y": 1}, "devices": {"dio": {}, "opaque": {}}}]})";
 
-/// What is told on standard error while something is done that throws nothing.
+/// The output on standard error during an action that throws nothing.
 template <typename Action>
 std::string warning_of(Action action) {
   testing::internal::CaptureStderr();
@@ -141,7 +141,7 @@ TEST_P(WorldProxies, SayWhatIsAgainstAPose) {
   EXPECT_EQ(error_of([&] { const SimulationProxy other(robot.get(), 1); }).GetErrorCode(),
             PlayerError::kNoSuchDevice);
   simulation.GetPose2d("r1", x, x, x);
-  EXPECT_EQ(x, 0.0);  // the heading, last: r1 is where it was
+  EXPECT_EQ(x, 0.0);  // the heading is checked last: r1 did not move
 }
 
 TEST_P(WorldProxies, TellAndChangeProperties) {
@@ -152,7 +152,7 @@ TEST_P(WorldProxies, TellAndChangeProperties) {
   std::uint32_t packed = 0;
   simulation.GetProperty("r1", "color", &packed, sizeof packed);
   EXPECT_EQ(packed, 0xff00ff00U);
-  // Whichever of the names is a literal, the call is clear, and so are pointers to members.
+  // Whichever of the names is a literal, the call is unambiguous; so are pointers to members.
   char object[] = "r1";
   char colour[] = "color";
   simulation.GetProperty(object, "color", static_cast<void*>(&packed), sizeof packed);
@@ -187,7 +187,7 @@ TEST_P(WorldProxies, TellAndChangeProperties) {
   simulation.SetProperty("b", "size", wide, sizeof wide);
   simulation.GetProperty("b", "size", size, sizeof size);
   EXPECT_EQ(size[0], 0.3);
-  EXPECT_EQ(size[2], 0.16);  // as it was
+  EXPECT_EQ(size[2], 0.16);  // unchanged
 
   std::int32_t extended = 7;
   simulation.GetProperty("d", "state", &extended, sizeof extended);
@@ -228,7 +228,7 @@ TEST_P(WorldProxies, GiveThingsNumbersThatFiducialFindersRead) {
   simulation.GetProperty("b", "fiducial_return", &same, sizeof same);
   EXPECT_EQ(same, 300.0);
   robot->Read();
-  ASSERT_EQ(finder.GetCount(), 2U);  // nearest first; both stand free before r1
+  ASSERT_EQ(finder.GetCount(), 2U);  // nearest first; both are visible to r1
   EXPECT_EQ(finder.GetFiducialItem(0).id, 4);
   EXPECT_EQ(finder.GetFiducialItem(1).id, 300);
   number = 0;
@@ -264,7 +264,7 @@ TEST_P(WorldProxies, SayWhichPropertiesThereAreAndHowLong) {
     return warning_of([&] { simulation.SetProperty("b", "fiducial_return", &x, sizeof x); });
   };
   EXPECT_THAT(set_number(-1.0), HasSubstr("whole number"));
-  for (const double x : {0.5, 3e9}) set_number(x);  // warned of once
+  for (const double x : {0.5, 3e9}) set_number(x);  // one warning
   number = 0;
   simulation.GetProperty("b", "fiducial_return", &number, sizeof number);
   EXPECT_EQ(number, 300);
@@ -294,7 +294,7 @@ TEST_P(WorldProxies, LetTheWorldGoBackWhileTimeGoesOn) {
   simulation.SaveState("before");
   std::uint32_t green = 0xff00ff00;
   simulation.SetProperty("r1", "color", &green, sizeof green);
-  // Twice the same way, from the same place.
+  // The same drive twice, from the same pose.
   std::vector<double> ends;
   for (int attempt = 0; attempt < 2; ++attempt) {
     for (int i = 0; i < 5; ++i) robot->Read();
@@ -320,7 +320,7 @@ TEST_P(WorldProxies, LetTheWorldGoBackWhileTimeGoesOn) {
   EXPECT_THAT(warning_of([&] { simulation.SaveState("two\nlines"); }),
               HasSubstr("1 to 64 printable bytes"));
   for (int i = 1; i < 64; ++i) simulation.SaveState(std::to_string(i));
-  simulation.SaveState("before");  // over the one that is there
+  simulation.SaveState("before");  // overwrites the existing one
   EXPECT_THAT(warning_of([&] { simulation.SaveState("64"); }), HasSubstr("64 states are saved"));
 }
 
@@ -345,8 +345,8 @@ TEST_P(WorldProxies, OnlyLookWhereTheWorldIsLocked) {
               HasSubstr("lock_objects"));
 }
 
-// With tokens, who may not command a robot does not move it, and only who may command all moves
-// what is nobody's.
+// With tokens, only a client that may command a robot may move it, and only a client that may
+// command all robots may move what belongs to no robot.
 TEST(WorldProxiesOfAServer, ChangeOnlyWhatTheirTokensAllow) {
   const auto host = playerlike::Host::create(sim::load_world_text(kWorld));
   playerlike::ServerSettings settings;
@@ -429,11 +429,11 @@ TEST_P(WorldProxies, SayThings) {
   SpeechProxy speech(robot.get(), 0);
   EXPECT_EQ(speech.GetInterfaceStr(), "speech");
   speech.Say("here\n\xc5\x99 \xff!");
-  speech.Say(std::string(254, 'x') + "\xc5\x99");  // the character does not fit any more
+  speech.Say(std::string(254, 'x') + "\xc5\x99");  // there is no room for the last character
   robot->Read();
   std::vector<std::string> said;
   host_->host().with_simulation([&](sim::Simulation& simulation) {
-    for (const sim::Utterance& u : simulation.said()) said.push_back(u.text);
+    for (const sim::SpokenText& u : simulation.spoken_texts()) said.push_back(u.text);
   });
   EXPECT_THAT(said, testing::ElementsAre("here \xc5\x99 ?!", std::string(254, 'x')));
   host_->host().finish();
@@ -472,8 +472,8 @@ TEST_P(WorldProxies, ReadAndSetLines) {
   EXPECT_THAT(text.str(), AllOf(HasSubstr("\n11\n"), HasSubstr("5\t-0.5")));
 }
 
-// The front of r1 is at x = 1.087, its paddles reach to 1.187, the can from 1.11 to 1.15: 0.04 m of
-// 0.08 m across.
+// The front of r1 is at x = 1.087 and its paddles reach 1.187. The can covers x = 1.11 to 1.15, and
+// 0.04 m of 0.08 m across.
 constexpr const char* kCanWorld = R"({
   "arena": {"size": [4, 2], "obstacles": [
     {"name": "can", "center": [1.13, 1], "size": [0.04, 0.04], "portable": true}]},
@@ -563,7 +563,7 @@ TEST_P(WorldProxies, GripInTheWayOfMorse) {
   gripper.Stop();
   read(1);
   EXPECT_EQ(gripper.GetStored(), 1);
-  EXPECT_EQ(gripper.GetStatus(), "open");  // stopped on the way
+  EXPECT_EQ(gripper.GetStatus(), "open");  // stopped midway
   gripper.Retrieve();
   read(1);
   EXPECT_EQ(gripper.GetStored(), 0);
@@ -666,7 +666,7 @@ TEST_P(WorldProxies, AreFreshOnlyByAMessage) {
   robot->Read();
   EXPECT_TRUE(opaque.IsFresh());
   robot->Read();
-  EXPECT_TRUE(opaque.IsFresh());  // still: nobody has lowered the flag
+  EXPECT_TRUE(opaque.IsFresh());  // nobody has reset the flag
   opaque.NotFresh();
   robot->Read();
   EXPECT_FALSE(opaque.IsFresh());
@@ -709,10 +709,10 @@ TEST_P(WorldProxies, WriteARunAndMeetItOnceMore) {
     EXPECT_NEAR(position.GetDataTime(), now + 0.1 * static_cast<double>(i + 1), 1e-9) << i;
   }
   log.QueryState();
-  EXPECT_EQ(log.GetState(), 0);  // that was its end
+  EXPECT_EQ(log.GetState(), 0);  // the end of the log
   robot->Read();
-  EXPECT_LT(position.GetXPos(), xs.back() - 0.05);  // where it really is
-  log.SetState(1);                                  // once more from the beginning
+  EXPECT_LT(position.GetXPos(), xs.back() - 0.05);  // its real position
+  log.SetState(1);                                  // again from the beginning
   robot->Read();
   EXPECT_EQ(position.GetXPos(), xs[0]);
   robot->Read();

@@ -37,8 +37,8 @@ std::set<Cell> drawn_cells(const Canvas& canvas) {
   return cells;
 }
 
-// Bresenham's algorithm as usually written, without clipping: from the end with the lesser
-// coordinate on the longer axis, with a running error.
+// The common form of Bresenham's algorithm, without clipping: starts at the end with the smaller
+// coordinate on the longer axis, and accumulates an error.
 std::set<Cell> unclipped_line(int x0, int y0, int x1, int y1) {
   const bool steep = std::abs(y1 - y0) > std::abs(x1 - x0);
   if (steep) {
@@ -70,7 +70,7 @@ TEST(Canvas, IsTransparentBlackAtFirst) {
 }
 
 TEST(Canvas, CountsColumnsFromTheLeftAndRowsFromTheTop) {
-  // Cells of 0.5 m from (-1, 2) on; 4 rows, so that row 0 spans y from 3.5 to 4.
+  // Cells of 0.5 m with the origin (-1, 2); 4 rows, so that row 0 covers y from 3.5 to 4.
   const Canvas canvas = canvas_of(6, 4);
   EXPECT_EQ(canvas.column(-1.0), 0);
   EXPECT_EQ(canvas.column(-0.51), 0);
@@ -121,7 +121,7 @@ TEST(Canvas, BlendsTranslucentColoursOverWhatIsThere) {
   // Alpha 51/255 = 1/5 over an opaque cell: 200 * 4/5 = 160, 100 * 4/5 = 80, 255 / 5 = 51.
   EXPECT_EQ(canvas.pixel(0, 0), (Colour{160, 80, 51, 255}));
 
-  canvas.set_pixel(1, 0, {10, 20, 30, 100});  // over nothing: as it is
+  canvas.set_pixel(1, 0, {10, 20, 30, 100});  // over a transparent cell: unchanged
   EXPECT_EQ(canvas.pixel(1, 0), (Colour{10, 20, 30, 100}));
 
   canvas.set_pixel(2, 0, {255, 0, 0, 51});

@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::SizeIs;
 
-/// A room of 4 x 4 m with one robot in the middle.
+/// A room of 4 x 4 m with one robot at its centre.
 WorldDescription room() {
   WorldDescription world;
   world.arena.size = {4, 4};
@@ -65,7 +65,7 @@ TEST(CheckWorld, SyrotekArenaIsSound) {
 }
 
 TEST(CheckWorld, RobotTouchingIsFineAndReachingInIsNot) {
-  // The S1R ends at x = 2 + 0.087 and -0.087; the box begins where it ends.
+  // The S1R covers x = 2 - 0.087 to 2 + 0.087; the box begins at the robot's edge.
   WorldDescription world = room();
   world.arena.obstacles = {box("a", {2.087 + 0.1, 2}, {0.2, 0.2})};
   EXPECT_THAT(check_world(world), SizeIs(0));
@@ -78,7 +78,7 @@ TEST(CheckWorld, RobotTouchingIsFineAndReachingInIsNot) {
 }
 
 TEST(CheckWorld, TurnedBoxesAreTestedAsTheyStand) {
-  // A square of 0.2 m turned by 45 degrees reaches 0.1414 m along the axes instead of 0.1 m.
+  // A square of 0.2 m rotated by 45 degrees extends 0.1414 m along the axes instead of 0.1 m.
   WorldDescription world = room();
   world.arena.obstacles = {box("a", {2.087 + 0.12, 2}, {0.2, 0.2})};
   EXPECT_THAT(check_world(world), SizeIs(0));
@@ -118,7 +118,7 @@ TEST(CheckWorld, EachSideOfTheFloorIsNamed) {
 }
 
 TEST(CheckWorld, RobotsSideBySideMayBeCloserThanTheirCircles) {
-  // Turned alike and side by side, two S1R are 0.162 m apart when they touch.
+  // Two parallel S1Rs side by side are 0.162 m apart when they touch.
   WorldDescription world = room();
   world.robots.push_back(second_robot({2, 2.163, 0}));
   EXPECT_THAT(check_world(world), SizeIs(0));
@@ -132,18 +132,18 @@ TEST(CheckWorld, RobotsSideBySideMayBeCloserThanTheirCircles) {
 }
 
 TEST(CheckWorld, WallsAreSolidOnTheirLeft) {
-  // A ring: solid between the squares of 4 and of 2 m, free within.
+  // A ring: solid between the squares of 4 m and 2 m, free inside.
   WorldDescription world = room();
   world.arena.walls = {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}}, {{{1, 1}, {1, 3}, {3, 3}, {3, 1}}}};
   EXPECT_THAT(check_world(world), SizeIs(0));
   world.robots[0].pose = {2.95, 2, 0};  // on the inner outline
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
-  world.robots[0].pose = {3.5, 2, 0};  // within the solid, on no edge
+  world.robots[0].pose = {3.5, 2, 0};  // in the solid, on no edge
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));
 }
 
 TEST(CheckWorld, SmallPillarUnderARobotIsFound) {
-  // 1 cm wide, between the robot's middle and its rim: it crosses no side of the outline.
+  // 1 cm wide, between the robot's centre and its outline: it crosses no side of the outline.
   WorldDescription world = room();
   world.arena.walls = {{{{2.03, 2.0}, {2.04, 2.0}, {2.04, 2.01}, {2.03, 2.01}}}};
   EXPECT_THAT(ids(world), testing::ElementsAre("world/robot-overlaps-wall"));

@@ -1,6 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Each device type has its page, its world and defaults that hold together; each shipped world
-// runs.
+// Each device type has a page, a world and consistent defaults; each shipped world runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +25,7 @@
 
 namespace sim {
 
-/// How GoogleTest names a kind of device in its output.
+/// Prints the name of a kind of device in GoogleTest's output.
 void PrintTo(const DeviceKind& kind, std::ostream* os) { *os << kind.name; }
 
 namespace {
@@ -70,7 +69,7 @@ std::vector<Setting> settings_of(const std::string& page) {
   return settings;
 }
 
-/// A world with one robot that has one more device of a type, of these settings.
+/// A world with one robot, which has an additional device of a type with these settings.
 std::string world_with(const std::string& type, const std::string& settings) {
   return R"({"robots": [{"devices": {"example": {"type": ")" + type + "\"" +
          (settings.empty() ? "" : ", " + settings) + "}}}]}";
@@ -85,7 +84,7 @@ std::vector<ConfigIssue> issues_of(const std::string& type, const std::string& s
   return {};
 }
 
-/// The device's numeric settings after reading, as clients are told of them.
+/// The device's numeric settings after reading, as clients get them.
 std::map<std::string, double> read_properties(const DeviceKind& kind, const std::string& settings) {
   const WorldDescription world = load_world_text(world_with(kind.name, settings));
   for (const DeviceDescription& device : world.robots.at(0).devices) {
@@ -95,7 +94,7 @@ std::map<std::string, double> read_properties(const DeviceKind& kind, const std:
   return {};
 }
 
-/// Whether a number is refused as out of range for a key.
+/// Whether the reader refuses a number for a key as out of range.
 bool out_of_range(const std::string& type, const std::string& key, const std::string& value) {
   std::vector<std::string> found;
   for (const ConfigIssue& issue : issues_of(type, "\"" + key + "\": " + value)) {
@@ -166,14 +165,14 @@ TEST_P(DevicePage, TellsTheDefaultsOfTheReader) {
         read_properties(GetParam(), "\"" + setting.key + "\": " + setting.default_value);
     ASSERT_EQ(read.size(), defaults.size());
     for (const auto& [name, value] : defaults) {
-      // The page has at least 9 digits where a number is not short.
+      // The page has at least 9 digits if a number is not short.
       EXPECT_NEAR(read.at(name), value, 1e-9 * std::max(1.0, std::abs(value)))
           << setting.key << ": " << setting.default_value << " makes another " << name;
     }
   }
 }
 
-/// A number of a page, whatever the locale.
+/// A number of a page, independent of the locale.
 double number_of(const std::string& text) {
   double value = 0.0;
   std::from_chars(text.data(), text.data() + text.size(), value);
@@ -267,7 +266,7 @@ TEST(ShippedWorlds, LoadAndStep) {
   EXPECT_GE(worlds, 10);
 }
 
-// The page's reader itself, so that one which finds nothing is noticed.
+// A test of the page's reader itself: one that finds nothing must fail.
 TEST(DevicePageTable, IsReadFromItsSectionOnly) {
   const std::vector<Setting> settings = settings_of(
       "# x\n| `a` | m | – | `1` | no |\n## Settings\n| key | unit | range | default |\n|---|---|\n"

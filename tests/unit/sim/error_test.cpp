@@ -46,10 +46,10 @@ TEST(NearestWord, CountsInsertionDeletionSubstitutionAndSwap) {
 }
 
 TEST(NearestWord, LimitIsAThirdOfTheLengthButAtLeastTwo) {
-  // "abcd": two edits are near enough, three are not.
+  // "abcd": two edits are accepted, three are not.
   EXPECT_EQ(nearest_word("abcd", {"abxy"}), "abxy");
   EXPECT_EQ(nearest_word("abcd", {"axyz"}), "");
-  // Nine letters: three edits are near enough, four are not.
+  // Nine letters: three edits are accepted, four are not.
   EXPECT_EQ(nearest_word("abcdefghi", {"abcdefxyz"}), "abcdefxyz");
   EXPECT_EQ(nearest_word("abcdefghi", {"abcdewxyz"}), "");
 }
@@ -61,12 +61,13 @@ TEST(NearestWord, PrefersTheNearerAndOfEqualsTheFirst) {
 
 TEST(NearestWords, AreOrderedByTheirDistanceAndAtMostSoMany) {
   const std::vector<std::string> known{"par_planning", "par_introd", "par_intro", "cave"};
-  // "par_intr" is one letter from par_intro and two from par_introd; its limit is 8 / 3 = 2.
+  // "par_intr" differs by one letter from par_intro and by two from par_introd; its limit is 8 / 3
+  // = 2.
   EXPECT_EQ(nearest_words("par_intr", known, 3),
             (std::vector<std::string>{"par_intro", "par_introd"}));
   EXPECT_EQ(nearest_words("par_intr", known, 1), std::vector<std::string>{"par_intro"});
   EXPECT_TRUE(nearest_words("office", known, 3).empty());
-  // None is near: those that it begins.
+  // No word is similar: the words that begin with it.
   EXPECT_EQ(nearest_words("par", known, 2),
             (std::vector<std::string>{"par_planning", "par_introd"}));
 }

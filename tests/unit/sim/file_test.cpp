@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::TemporaryFolder;
 
-/// Content, or "fault: what was found".
+/// The content, or "fault: " and what was found.
 std::string read(const std::string& path, const FileLimits& limits = {}) {
   std::string content = "from before";
   const auto error = read_whole_file(path, limits, content);
@@ -39,7 +39,7 @@ TEST(ReadWholeFile, GivesAllBytesOfARegularFile) {
   EXPECT_EQ(read(folder.write("least", "1234"), {.most_bytes = 4}), "1234");
   fs::create_symlink("a", folder / "link");
   EXPECT_EQ(read(folder / "link"), bytes);
-  // A file of the system that says that it is empty.
+  // A system file that reports a size of 0.
   EXPECT_THAT(read("/proc/self/status"), testing::HasSubstr("Pid:"));
 }
 
@@ -61,7 +61,7 @@ TEST(ReadWholeFile, TellsLinksInACircleFromAFileWithoutPermission) {
   fs::create_symlink("a", folder / "b");
   EXPECT_EQ(read(folder / "a"),
             fault(FileFault::kLinkLoop, "symbolic links that lead round in a circle"));
-  if (geteuid() == 0) return;  // may read everything
+  if (geteuid() == 0) return;  // root may read everything
   const std::string secret = folder.write("secret", "x");
   fs::permissions(secret, fs::perms::none);
   EXPECT_EQ(read(secret), fault(FileFault::kNoPermission, "no permission to open it"));
@@ -71,7 +71,7 @@ TEST(ReadWholeFile, StopsAtTheLimit) {
   const TemporaryFolder folder;
   const std::string large = folder.write("large", std::string(1001, 'x'));
   EXPECT_EQ(read(large, {.most_bytes = 1000}), fault(FileFault::kTooLarge, "more than 1000 bytes"));
-  // One that is huge and holds nothing, of which nothing is read.
+  // A huge sparse file, of which nothing is read.
   fs::resize_file(large, std::uintmax_t{1} << 40U);
   EXPECT_EQ(read(large), fault(FileFault::kTooLarge, "more than 16 MiB"));
 }
@@ -81,7 +81,7 @@ TEST(ReadWholeFile, TakesPipesOnlyWhereTheyAreAllowedAndNeverWaitsForAWriter) {
   const std::string fifo = folder / "fifo";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   EXPECT_EQ(read(fifo), fault(FileFault::kNotRegular, "a pipe"));
-  // Nobody will ever write: however short the patience, the answer is the same.
+  // No process will ever write: the answer is the same, however short the time limit.
   EXPECT_EQ(read(fifo, {.pipes = true, .silence_ms = 1}),
             fault(FileFault::kSilent, "a pipe that has given nothing for 0 s"));
 }
@@ -93,7 +93,7 @@ TEST(ReadWholeFile, ReadsAPipeToItsEndHoweverItIsWritten) {
     std::string all;
     for (int i = 0; i < 5000; ++i) all += std::to_string(i) + ',';
     std::thread writer([&] {
-      // Small pieces, of which the pipe does not hold all at once.
+      // Small pieces; the pipe cannot hold all of them at once.
       for (std::size_t at = 0; at < all.size(); at += 100) {
         const std::string piece = all.substr(at, 100);
         if (write(ends[1], piece.data(), piece.size()) < 0) break;
@@ -103,7 +103,7 @@ TEST(ReadWholeFile, ReadsAPipeToItsEndHoweverItIsWritten) {
     const std::string got =
         read("/dev/fd/" + std::to_string(ends[0]), {.most_bytes = most, .pipes = true});
     EXPECT_EQ(got, most > all.size() ? all : fault(FileFault::kTooLarge, "more than 1000 bytes"));
-    // What was too much is still in the pipe.
+    // The excess is still in the pipe.
     std::string rest(all.size(), ' ');
     while (::read(ends[0], rest.data(), rest.size()) > 0) {
     }

@@ -24,9 +24,9 @@ using Action = GripCommand::Action;
 
 constexpr double kPi = std::numbers::pi;
 
-// r1, an S1R, at (1, 1) looks along x; its front is 0.087 m ahead, so the paddles reach from
-// x = 1.087 to 1.167. They are 0.12 m apart and meet in 1 s.
-// The can takes x = 1.107 .. 1.147, y = 0.98 .. 1.02: 0.04 m across. r2 stands far from both.
+// r1, an S1R at (1, 1), faces along x. Its front is 0.087 m ahead, so the paddles cover x = 1.087
+// to 1.167. They are 0.12 m apart and close in 1 s. The can covers x = 1.107 .. 1.147, y = 0.98 ..
+// 1.02: 0.04 m across. r2 is far from both.
 constexpr const char* kCan =
     R"({"name": "can", "center": [1.127, 1], "size": [0.04, 0.04], "portable": true})";
 
@@ -63,7 +63,7 @@ struct Rig {
   [[nodiscard]] Pose pose_of(const std::string& name) const {
     return simulation.find_object(name).value().pose;
   }
-  // Nearest that a robot's laser has seen.
+  // The smallest range that a robot's laser has measured.
   [[nodiscard]] double nearest_m(int robot) const {
     const auto& laser = dynamic_cast<const Laser&>(
         simulation.device(robot, simulation.find_device(robot, "laser").value()));
@@ -76,7 +76,7 @@ struct Rig {
 };
 
 TEST(ReachAcross, IsThatOfThePartInTheStrip) {
-  // A box of 0.2 x 0.1 with its middle at (0.3, 0.05): x = 0.2 .. 0.4, y = 0 .. 0.1.
+  // A box of 0.2 x 0.1 centred at (0.3, 0.05): x = 0.2 .. 0.4, y = 0 .. 0.1.
   const Vec2 size(0.2, 0.1);
   const auto whole = reach_across({0.3, 0.05, 0.0}, size, 0.0, 1.0);
   ASSERT_TRUE(whole);
@@ -85,8 +85,8 @@ TEST(ReachAcross, IsThatOfThePartInTheStrip) {
   EXPECT_TRUE(reach_across({0.3, 0.05, 0.0}, size, 0.25, 0.35));  // no corner, but sides
   EXPECT_FALSE(reach_across({0.3, 0.05, 0.0}, size, 0.0, 0.15));
   EXPECT_FALSE(reach_across({0.3, 0.05, 0.0}, size, 0.45, 1.0));
-  // A square of side sqrt(2) on its corner: a rhomb of half-diagonal 1. A quarter of it from the
-  // left corner, 0.25 before it is 0.25 wide to either side.
+  // A square of side sqrt(2) on its corner: a rhombus with half-diagonals of 1 and its left corner
+  // at x = 0. At x = 0.25 it extends 0.25 to either side.
   const double side = std::sqrt(2.0);
   const auto tip = reach_across({1.0, 0.0, kPi / 4.0}, {side, side}, -1.0, 0.25);
   ASSERT_TRUE(tip);
@@ -128,8 +128,8 @@ TEST(Gripper, BreaksItsBeams) {
   EXPECT_EQ(beams("1.108, 1.0"), std::pair(true, false));
   EXPECT_EQ(beams("1.127, 1.0"), std::pair(false, false));  // between them
   EXPECT_EQ(beams("1.148, 1.0"), std::pair(false, true));
-  EXPECT_EQ(beams("1.148, 1.079"), std::pair(false, true));   // 1 mm within
-  EXPECT_EQ(beams("1.148, 1.081"), std::pair(false, false));  // 1 mm beside
+  EXPECT_EQ(beams("1.148, 1.079"), std::pair(false, true));   // 1 mm inside
+  EXPECT_EQ(beams("1.148, 1.081"), std::pair(false, false));  // 1 mm outside
   EXPECT_EQ(beams("1.148, 0.921"), std::pair(false, true));
   EXPECT_EQ(beams("1.2, 1.0"), std::pair(false, false));
 }
@@ -169,7 +169,7 @@ TEST(Gripper, CarriesItAlong) {
   rig.drive({0.2, 1.0}, 200);
   const Pose X_WB = rig.simulation.body(0).X_WB;
   EXPECT_GT(X_WB.yaw_rad, 1.5);
-  // 0.127 ahead of the axle, as when it was taken, with its axes turned as the robot's.
+  // 0.127 ahead of the axle, as when it was taken; it rotates with the robot.
   const Pose expected = X_WB * Pose{0.127, 0.0, 0.0};
   const Pose X_WT = rig.pose_of("can");
   EXPECT_NEAR(X_WT.x_m, expected.x_m, 1e-9);
@@ -179,7 +179,7 @@ TEST(Gripper, CarriesItAlong) {
   ASSERT_FALSE(rig.grip(Action::kOpen));
   EXPECT_EQ(rig.simulation.world().arena.obstacles[0].carried_by, -1);
   rig.drive({-0.2, 0.0}, 50);
-  EXPECT_NEAR(rig.pose_of("can").x_m, expected.x_m, 1e-9);  // stays
+  EXPECT_NEAR(rig.pose_of("can").x_m, expected.x_m, 1e-9);  // stays there
   EXPECT_NEAR(rig.pose_of("can").y_m, expected.y_m, 1e-9);
 }
 
@@ -195,12 +195,13 @@ TEST(Gripper, IsCarriedToWhereTheRobotIsPut) {
 TEST(Gripper, ShowsItsLoadToOthersOnly) {
   Rig rig(kCan);
   rig.run(10);
-  // The laser sits 0.035 ahead of the axle; the can's near side is at 0.107.
+  // The laser is 0.035 ahead of the axle; the can's near side is at 0.107.
   EXPECT_NEAR(rig.nearest_m(0), 0.072, 0.002);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(80);
   EXPECT_GT(rig.nearest_m(0), 0.9);  // the border, 1 m away
-  // Face to face, 1 m from axle to axle: r2's laser at 0.035, the can's far side at 0.147.
+  // The robots face each other, 1 m from axle to axle: r2's laser is at 0.035, the can's far side
+  // at 0.147.
   ASSERT_FALSE(rig.simulation.place_object("r1", {1.5, 1.5, 0.0}));
   ASSERT_FALSE(rig.simulation.place_object("r2", {2.5, 1.5, kPi}));
   rig.run(20);
@@ -242,7 +243,7 @@ TEST(Gripper, HidesItsLoadFromItsRobotsFiducialFinderAndTheMap) {
   EXPECT_EQ(seen_by(0), 0U);
   EXPECT_EQ(seen_by(1), 1U);
   EXPECT_EQ(occupied(), 0.0F);
-  // r2 sees it before r1, in its own colour.
+  // r2 sees it in front of r1, in its own colour.
   const auto& blobs = dynamic_cast<const Blobfinder&>(
                           simulation.device(1, simulation.find_device(1, "blobfinder").value()))
                           .reading()
@@ -256,7 +257,7 @@ TEST(Gripper, IsInNobodysWayWithItsLoad) {
   Rig rig(kCan);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(70);
-  // The can is 0.147 ahead: it goes into the border before the robot's front, at 0.087, gets there.
+  // The can is 0.147 ahead: it reaches the border before the robot's front, at 0.087, does.
   rig.drive({0.4, 0.0}, 900);
   EXPECT_NEAR(rig.simulation.body(0).X_WB.x_m, 4.0 - 0.087, 0.002);
   EXPECT_GT(rig.pose_of("can").x_m + 0.02, 4.0);
@@ -290,7 +291,8 @@ TEST(Gripper, KeepsWhatHasNoRoom) {
 }
 
 TEST(Gripper, IsStoppedByWhatItCannotTake) {
-  // Wider than the opening on one side; not portable; a wall across the tips.
+  // Three things that cannot be taken: one is wider than the opening, one is not portable, and one
+  // is a wall across the tips.
   for (const char* thing :
        {R"({"name": "b", "center": [1.127, 1.05], "size": [0.04, 0.04], "portable": true})",
         R"({"name": "b", "center": [1.127, 1], "size": [0.04, 0.04]})",
@@ -349,7 +351,7 @@ TEST(Gripper, LosesWhatIsPutElsewhere) {
   rig.run(10);
   EXPECT_FALSE(rig.reading().holding);
   EXPECT_NEAR(rig.pose_of("can").x_m, 3.0, 1e-12);
-  // It stands there: robots run into it. Its near side is at 2.98.
+  // It is solid there: robots collide with it. Its near side is at 2.98.
   ASSERT_FALSE(rig.grip(Action::kOpen));
   rig.drive({0.4, 0.0}, 600);
   EXPECT_NEAR(rig.simulation.body(0).X_WB.x_m, 2.98 - 0.087, 0.002);
@@ -374,7 +376,7 @@ TEST(Portable, KeepsItsStateWhileItIsCarried) {
   rig.run(100);
   ASSERT_FALSE(rig.grip(Action::kClose));
   rig.run(100);
-  EXPECT_FALSE(rig.reading().holding);  // it is not there
+  EXPECT_FALSE(rig.reading().holding);  // nothing to hold there
 }
 
 TEST(Gripper, BeginsAnewAfterAReset) {

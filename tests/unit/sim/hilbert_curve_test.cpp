@@ -15,7 +15,8 @@ std::uint32_t along(int x, int y) {
 }
 
 TEST(HilbertCurve, GoesFromSquareToSquareAndMissesNone) {
-  // The curve passes through every block of 32 x 32 squares, at multiples of 32, in one go.
+  // The curve passes through every block of 32 x 32 squares, at multiples of 32, without leaving
+  // it.
   for (const auto& [x0, y0] : {std::pair{0, 0}, {-32, 0}, {64, -96}, {-4096, 2048}}) {
     std::map<std::uint32_t, std::pair<int, int>> squares;
     for (int x = x0; x < x0 + 32; ++x) {

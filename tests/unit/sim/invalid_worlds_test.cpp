@@ -20,12 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using test_support::read_bytes;
 
-/// What a bad file must be told: the first issue's id and place, and words of its message.
+/// The expected errors of a bad file: id and place of the first issue, and words of its message.
 struct BadWorld {
   const char* name;
   const char* id;
   const char* pointer;
-  int line;  ///< 0: the issue is of the whole file
+  int line;  ///< 0: the issue concerns the whole file
   const char* expected;
   const char* found;
 };
@@ -72,7 +72,7 @@ const BadWorld kBadWorlds[] = {
      "crate sticking out 0.05 m beyond the right side"},
     {"obstacle_too_thin", "world/out-of-range", "/arena/obstacles/0/size/1", 2,
      "from 0.001 to 10000 m", "1e-4 (the physics cannot build anything thinner"},
-    // 9000 m to its right end, of which a millionth is 9 mm.
+    // Its right end is at 9000 m, a millionth of which is 9 mm.
     {"obstacle_too_thin_far_away", "world/out-of-range", "/arena/obstacles/0/size/1", 2,
      "at least 0.009 m", "0.002 m of wire"},
     {"out_of_range", "world/out-of-range", "/simulation/step", 1, "from 0.0001 to 0.1 s", "1e300"},
@@ -83,20 +83,20 @@ const BadWorld kBadWorlds[] = {
     {"reserved_port", "world/reserved-port", "/robots/0/port", 1, "other than 4000", "4000"},
     {"robot_inside_wall", "world/robot-overlaps-wall", "/robots/0/pose", 3, "clear of the map",
      "(3.60, 1.30)"},
-    // The S1R reaches 0.087 m to the left of its middle at x = 0.05: 0.037 m too far.
+    // The S1R extends 0.087 m to the left of its centre at x = 0.05: 0.037 m too far.
     {"robot_outside", "world/robot-outside", "/robots/0/pose", 1, "(3.42, 3.72)",
      "robot r1 at (0.05, 2.39) sticking out 0.037 m beyond the left side"},
-    // d3 reaches up to y = 0.64, the robot down to 0.7 - 0.081 = 0.619: 0.021 m.
+    // d3 extends up to y = 0.64, the robot down to 0.7 - 0.081 = 0.619: an overlap of 0.021 m.
     {"robot_overlaps_extended_block", "world/robot-overlaps-obstacle", "/robots/0/pose", 3,
      "obstacle d3", "overlapping it by 0.021 m (move the robot, or leave d3 retracted)"},
-    // s1 begins at x = 0.82, the robot reaches to 0.75 + 0.087 = 0.837: 0.017 m.
+    // s1 begins at x = 0.82, the robot extends to 0.75 + 0.087 = 0.837: an overlap of 0.017 m.
     {"robot_overlaps_obstacle", "world/robot-overlaps-obstacle", "/robots/0/pose", 1, "obstacle s1",
      "overlapping it by 0.017 m"},
     {"robot_overlaps_separator", "world/robot-overlaps-obstacle", "/robots/0/pose", 1,
      "separator separator1", "robot r1 at (0.20,"},
     {"robot_overlaps_wall", "world/robot-overlaps-wall", "/robots/0/pose", 3, "clear of the map",
      "in a wall at (5.00, 1.50)"},
-    // 0.1 m apart, each 0.174 m long: 0.074 m.
+    // 0.1 m apart, each 0.174 m long: an overlap of 0.074 m.
     {"robots_overlap", "world/robots-overlap", "/robots/1/pose", 3, "robot r1 at (0.50, 0.40)",
      "robot r2 at (0.60, 0.40) overlapping it by 0.074 m"},
     {"root_not_object", "world/wrong-type", "", 1, "an object", "a list of 1"},
@@ -154,7 +154,7 @@ TEST_P(InvalidWorld, IsRefusedWithIdPlaceAndReason) {
     static_cast<void>(read_world(path, test::device_table()));
     FAIL() << path << " was accepted";
   } catch (const ConfigError& error) {
-    // Each file holds one fault; only that of too_many_errors is meant to hold more.
+    // Each file contains one error; only too_many_errors contains more.
     const std::size_t count = std::string(bad.name) == "too_many_errors" ? 101 : 1;
     ASSERT_EQ(error.issues().size(), count) << error.what();
     const ConfigIssue& issue = error.issues().front();
@@ -208,7 +208,7 @@ TEST(ErrorPage, ListsEachIdThatTheSourceUsesAndNoOther) {
   for (std::sregex_iterator it(page.begin(), page.end(), heading), end; it != end; ++it) {
     listed.insert((*it)[1]);
   }
-  // What clients are answered is told where their protocols are.
+  // The pages of the protocols explain the errors in answers to clients.
   const std::string elsewhere =
       read_bytes(root / "docs" / "protocol.md") + read_bytes(root / "docs" / "remote.md");
   for (const std::string& id : used) {

@@ -60,14 +60,14 @@ std::vector<LayerId> order_of(const LayerStack& stack) {
   return ids;
 }
 
-/// Cells that composing has to work out now.
+/// Number of cells that composing has to compute now.
 std::uint64_t cost_of_composing(LayerStack& stack) {
   const std::uint64_t before = stack.recomposed_cells();
   static_cast<void>(stack.composed());
   return stack.recomposed_cells() - before;
 }
 
-// ---- a stack of its own, cell by cell and all anew each time ----
+// ---- a reference stack, composed cell by cell and completely each time ----
 
 std::int64_t rounded_quotient(std::int64_t a, std::int64_t b) { return (2 * a + b) / (2 * b); }
 
@@ -141,8 +141,8 @@ struct PlainStack {
                : value;
   }
 
-  // Every cell is the nearest to the line at its place along the longer axis; one midway is the
-  // farther from the end with the lesser coordinate there.
+  // Each cell is the nearest to the line at its position along the longer axis. If two are equally
+  // near, it is the one farther from the end with the smaller coordinate.
   void stroke(PlainLayer& layer, int x0, int y0, int x1, int y1, CellValue value) const {
     const bool steep = std::abs(y1 - y0) > std::abs(x1 - x0);
     if (steep ? y1 < y0 : x1 < x0) {
@@ -225,7 +225,7 @@ struct PlainStack {
   }
 };
 
-/// Makes random edits of both stacks.
+/// Applies random edits to both stacks.
 class Editor {
  public:
   explicit Editor(unsigned seed) : random_(seed) {
@@ -288,7 +288,7 @@ class Editor {
   int coordinate() { return number(-25, 95); }
   std::uint8_t byte() { return static_cast<std::uint8_t>(number(0, 255)); }
 
-  // Few shades, so that transparent colours are met.
+  // Few shades, so that fully transparent colours occur.
   Colour colour() {
     constexpr std::array<std::uint8_t, 3> kShades{0, 128, 255};
     const auto shade = [&] { return kShades[static_cast<std::size_t>(number(0, 2))]; };
@@ -296,7 +296,7 @@ class Editor {
     return {shade(), shade(), shade(), alpha};
   }
 
-  // Sometimes of a layer that never was or is gone.
+  // Sometimes a layer that never existed or was removed.
   LayerId some_layer() {
     if (number(0, 19) == 0) return number(1, 1000);
     return plain
@@ -455,7 +455,7 @@ TEST(LayerStack, LayersShowThroughByTransparencyAndTransparentColour) {
   const LayerId grey = stack.add(LayerKind::kGrey, style, 0);
   draw(stack, pixel(grey, 0, 0, CellValue::of(0.0F)));
   draw(stack, pixel(grey, 1, 0, CellValue::of(1.0F)));
-  // A fifth of white over (200, 100, 0), a fifth of black over it.
+  // White with alpha 1/5 over (200, 100, 0), then black with alpha 1/5 over the result.
   EXPECT_EQ(composed_at(stack, 0, 0), (Colour{211, 131, 51, 255}));
   EXPECT_EQ(composed_at(stack, 1, 0), (Colour{160, 80, 0, 255}));
   style.transparent_colour = Colour{255, 255, 255, 255};
@@ -483,7 +483,7 @@ TEST(LayerStack, ClipsDrawingsAndReadsNothingOutside) {
   for (const auto& [column, row] : {std::pair{-1, 0}, {20, 0}, {0, -1}, {0, 18}}) {
     EXPECT_EQ(stack.cell(layer, column, row), std::nullopt);
   }
-  // Of a square round the bottom right corner, one cell lies inside.
+  // Of a square at the bottom right corner, one cell is inside.
   stack.set_cells(layer, {19, 17, 2, 2}, four);
   EXPECT_EQ(stack.cell(layer, 19, 17), set);
   draw(stack, line(layer, kLeast, 0, kGreatest, 0, set));
@@ -507,7 +507,7 @@ TEST(LayerStack, BlendsColoursButReplacesOtherKindsAndFilledCells) {
   const LayerId colours = stack.add(LayerKind::kColour, named("c"), 0);
   draw(stack, fill(colours, CellValue::of(Colour{200, 100, 0, 255})));
   draw(stack, pixel(colours, 0, 0, CellValue::of(Colour{0, 0, 255, 51})));
-  // A fifth of blue over it, as Canvas.BlendsTranslucentColoursOverWhatIsThere.
+  // Blue with alpha 1/5 over it, as in Canvas.BlendsTranslucentColoursOverWhatIsThere.
   EXPECT_EQ(stack.cell(colours, 0, 0)->colour(), (Colour{160, 80, 51, 255}));
   draw(stack, fill(colours, CellValue::of(Colour{1, 2, 3, 4})));
   EXPECT_EQ(stack.cell(colours, 0, 0)->colour(), (Colour{1, 2, 3, 4}));
@@ -545,7 +545,7 @@ TEST(LayerStack, ResizingKeepsWhatIsDrawnAtItsPlaceInTheWorld) {
   EXPECT_EQ(stack.base().pixel(2, 2), kNothing);
 }
 
-// Tiles of 16 x 16 cells: 40 x 36 cells are 3 x 3 of them, the last of which 8 wide and 4 high.
+// Tiles have 16 x 16 cells: 40 x 36 cells are 3 x 3 tiles; the last one is 8 wide and 4 high.
 TEST(LayerStackCost, OnlyTilesWithChangesAreComposedAnew) {
   LayerStack stack = stack_of(40, 36);
   const LayerId grey = stack.add(LayerKind::kGrey, named("g"), 0);
@@ -557,7 +557,7 @@ TEST(LayerStackCost, OnlyTilesWithChangesAreComposedAnew) {
   EXPECT_EQ(cost_of_composing(stack), 8U * 4U);
   draw(stack, line(kBaseLayer, 0, 0, 39, 0, CellValue::of(kRed)));
   EXPECT_EQ(cost_of_composing(stack), 40U * 16U);
-  const std::vector<CellValue> values(40 * 36, CellValue::of(0.5F));  // but for one, as they are
+  const std::vector<CellValue> values(40 * 36, CellValue::of(0.5F));  // all but one are unchanged
   stack.set_cells(grey, {0, 0, 40, 36}, values);
   EXPECT_EQ(cost_of_composing(stack), 16U * 16U);
 }
@@ -603,8 +603,8 @@ TEST(LayerStackCost, NothingVisibleChangedLeavesTheVersionAlone) {
   expect_untouched("styled a hidden layer");
   LayerStyle renamed = stack.style(shown);
   renamed.name = "else";
-  renamed.colour = kBlue;  // which a layer of colours does not draw with
-  renamed.priority = 3;    // above the base it has been already
+  renamed.colour = kBlue;  // layers of colours do not use it
+  renamed.priority = 3;    // it is already above the base
   stack.set_style(shown, renamed);
   expect_untouched("renamed");
   stack.set_cells(shown, {0, 0, 40, 36}, stack.cells(shown));
@@ -643,7 +643,7 @@ TEST(LayerStackCost, AHiddenLayerAppearsWithAllThatWasDrawnMeanwhile) {
 }
 
 }  // namespace
-/// Drawings of all kinds on the base layer and another one, some of them outside.
+/// Drawings of all kinds on the base layer and another one, some of them outside of the canvas.
 std::vector<DrawOperation> many_drawings(LayerId other, std::size_t count) {
   std::vector<DrawOperation> drawings(count);
   std::uint32_t state = 12345;
@@ -684,7 +684,7 @@ TEST(Drawings, InPiecesOrWithoutThoseThatAreCoveredGiveTheSameCells) {
   int pieces = 0;
   constexpr std::size_t kBudget = 500;
   while (progress.operation < drawings.size()) {
-    // A line of 100 cells or 16 rows more at most.
+    // It may exceed the budget by a line of 100 cells or 16 rows at most.
     EXPECT_LE(in_pieces.draw_some(drawings, progress, kBudget), kBudget + 16 * kSide);
     ++pieces;
   }

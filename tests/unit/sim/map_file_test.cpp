@@ -31,7 +31,7 @@ OccupancyMap map_of(int width, int height, std::vector<float> cells) {
   return {width, height, 0.05, {-1.5, 2.25}, std::move(cells)};
 }
 
-/// A description with one line another; `line` begins with the key that it replaces.
+/// A description with one line replaced; `line` begins with the key of the replaced line.
 std::string description_with(const std::string& line = "") {
   const std::string key = line.substr(0, line.find(':'));
   std::string text;
@@ -97,7 +97,7 @@ TEST(MapFile, ScaleModeKeepsShades) {
   const OccupancyMap back = read_map(folder / "shades.yaml");
   ASSERT_EQ(back.cells.size(), map.cells.size());
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
-    // Half a shade of 255 is 1/510; the thresholds stretch it by 1/0.996.
+    // Half a grey level of 255 is 1/510; the thresholds stretch it by 1/0.996.
     ASSERT_NEAR(back.cells[i], map.cells[i], 1.0 / 500) << i;
   }
   EXPECT_EQ(back.cells.front(), 0.0F);

@@ -23,7 +23,7 @@ namespace {
 using testing::ElementsAre;
 using testing::SizeIs;
 
-/// A grid drawn with # (solid) and . (free), the top row first.
+/// A grid from text: # is solid, . is free, the top row first.
 OccupancyGrid grid_of(const std::vector<std::string>& rows) {
   OccupancyGrid grid;
   grid.width = static_cast<int>(rows.front().size());
@@ -38,7 +38,7 @@ std::vector<WallLoop> trace(const std::vector<std::string>& rows) {
   return trace_walls(grid_of(rows), Vec2::Zero(), 1.0).value();
 }
 
-/// Twice the area inside, positive if the loop runs counter-clockwise.
+/// Twice the enclosed area, positive if the loop is counter-clockwise.
 double doubled_area(const WallLoop& loop) {
   double sum = 0.0;
   for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
@@ -78,7 +78,7 @@ TEST(TraceWalls, HolesRunClockwise) {
   ASSERT_THAT(loops, SizeIs(2));
   EXPECT_EQ(doubled_area(loops[0]), 2 * 12.0);
   EXPECT_EQ(doubled_area(loops[1]), -2 * 2.0);
-  // The hole's first edge with free space below it is its ceiling.
+  // The first edge of the hole with free space below it is its ceiling.
   EXPECT_THAT(loops[1].vertices, ElementsAre(Vec2(1, 2), Vec2(3, 2), Vec2(3, 1), Vec2(1, 1)));
 }
 
@@ -95,7 +95,7 @@ TEST(TraceWalls, CellsThatMeetAtACornerHaveOutlinesOfTheirOwn) {
 }
 
 TEST(TraceWalls, FreeCellsThatMeetAtACornerMakeOneHole) {
-  // The two solid cells in the middle do not touch by a side, so the hole runs through between.
+  // The two solid cells in the middle share no side, so the hole passes between them.
   const std::vector<WallLoop> loops = trace({"####",  //
                                              "#.##",  //
                                              "##.#",  //
@@ -132,7 +132,7 @@ TEST(TraceWalls, RandomGridsKeepAreaAndAlternateEdges) {
         const Vec2 first = loop.vertices[(i + 1) % loop.vertices.size()] - loop.vertices[i];
         const Vec2 second = loop.vertices[(i + 2) % loop.vertices.size()] -
                             loop.vertices[(i + 1) % loop.vertices.size()];
-        // Axis-parallel, and a corner at every vertex: none left to merge.
+        // Axis-parallel edges with a corner at every vertex: nothing is left to merge.
         EXPECT_EQ(first.dot(second), 0.0);
         EXPECT_GT(first.norm(), 0.0);
       }
@@ -143,7 +143,7 @@ TEST(TraceWalls, RandomGridsKeepAreaAndAlternateEdges) {
 }
 
 TEST(TraceWalls, TooManyEdgesAreRefused) {
-  // Every second cell of every second row solid: 4 edges for 4 cells, so 1200 x 1200 cells give
+  // Every second cell of every second row is solid: each has 4 edges, so 1200 x 1200 cells give
   // 1.44 million.
   OccupancyGrid grid{1200, 1200, std::vector<std::uint8_t>(1200 * 1200, 0)};
   for (std::size_t row = 0; row < 1200; row += 2) {
@@ -154,7 +154,7 @@ TEST(TraceWalls, TooManyEdgesAreRefused) {
 
 TEST(TraceWalls, FourMillionCellsTakeWellUnderASecond) {
   OccupancyGrid grid{2000, 2000, std::vector<std::uint8_t>(4'000'000, 0)};
-  // Rooms of 50 cells with walls 2 cells thick, each with a door of 10 cells.
+  // Rooms of 50 cells with walls of 2 cells, each with a door of 10 cells.
   for (std::size_t row = 0; row < 2000; ++row) {
     for (std::size_t column = 0; column < 2000; ++column) {
       const bool wall_row = row % 50 < 2 && column % 50 >= 12;
@@ -171,7 +171,7 @@ TEST(TraceWalls, FourMillionCellsTakeWellUnderASecond) {
   EXPECT_LT(taken.count(), 1.0);
 }
 
-/// A folder of its own for each test, removed at its end.
+/// A separate folder for each test, removed at its end.
 class MapIo : public testing::Test {
  protected:
   MapIo() {
@@ -193,7 +193,7 @@ class MapIo : public testing::Test {
 };
 
 TEST_F(MapIo, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
-  // Grey 100 is darker than half of 255, 128 is not.
+  // Grey 100 is darker than half of 255; 128 is not.
   write_pgm("m.pgm", 3, 2, std::string("\xff\x64\x80\xff\xff\xff", 6));
   const WorldDescription world =
       read(R"({"arena": {"map": {"image": "m.pgm", "resolution": 0.5, "origin": [1, 2]}},
@@ -202,14 +202,14 @@ TEST_F(MapIo, DarkPixelsBecomeWallsAndTheFloorIsThePictures) {
   EXPECT_EQ(world.arena.origin, Vec2(1, 2));
   ASSERT_THAT(world.arena.walls, SizeIs(1));
   EXPECT_EQ(world.arena.walls[0].vertices.front(), Vec2(1.5, 2.5));
-  // The canvas covers that floor: 1.5 / 0.02 = 75 cells, made even.
+  // The canvas covers the floor: 1.5 / 0.02 = 75 cells, rounded up to an even number.
   EXPECT_EQ(world.canvas.width, 76);
   EXPECT_EQ(world.canvas.height, 50);
   EXPECT_EQ(world.canvas.origin, Vec2(1, 2));
 }
 
 TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
-  // A triangle of steps of 1 with its right angle at (20, 0), and a single cell.
+  // A triangle with steps of 1 and its right angle at (20, 0), and a single cell.
   std::vector<std::string> rows(20, std::string(23, '.'));
   for (std::size_t row = 0; row < 20; ++row) {
     for (std::size_t column = 19 - row; column < 20; ++column) rows[19 - row][column] = '#';
@@ -223,9 +223,9 @@ TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
   EXPECT_LE(loops[0].vertices.size(), 5U);
   EXPECT_GE(before[0].vertices.size(), 40U);
   EXPECT_EQ(loops[1].vertices, before[1].vertices);
-  // The triangle's area is that of its cells (210), or up to the width of the steps more or less.
+  // The triangle's area is that of its cells (210), plus or minus the width of the steps.
   EXPECT_NEAR(0.5 * doubled_area(loops[0]), 210.0, 20.0 * std::sqrt(2.0) * 1.0);
-  // Every corner of the steps is within the tolerance of what is left.
+  // Every corner of the steps is within the tolerance of the simplified outline.
   for (const Vec2& p : before[0].vertices) {
     double nearest = 1e9;
     for (std::size_t i = 0; i < loops[0].vertices.size(); ++i) {
@@ -239,13 +239,13 @@ TEST(SimplifyWalls, MakesOneEdgeOfAStaircaseAndKeepsCornersAndSmallThings) {
 }
 
 TEST_F(MapIo, ThresholdDecidesWhatIsDark) {
-  write_pgm("m.pgm", 2, 1, std::string("\x32\xc8", 2));  // 50 and 200
+  write_pgm("m.pgm", 2, 1, std::string("\x32\xc8", 2));  // grey levels 50 and 200
   const auto walls = [this](const char* threshold) {
     return read(std::string(R"({"robots": [], "arena": {"map": {"image": "m.pgm", )") +
                 "\"occupied_threshold\": " + threshold + "}}}")
         .arena.walls.size();
   };
-  EXPECT_EQ(walls("0.1"), 0U);  // 25.5: neither
+  EXPECT_EQ(walls("0.1"), 0U);  // 25.5: none of them
   EXPECT_EQ(walls("0.5"), 1U);  // 127.5: the first
   ASSERT_EQ(walls("1"), 1U);    // both, as one block
 }
@@ -287,7 +287,7 @@ TEST_F(MapIo, NoiseIsRefusedAsTooComplex) {
   }
 }
 
-/// What load_grey_image() says of a file of these bytes.
+/// load_grey_image()'s error for a file with these bytes.
 std::string picture_refusal(const std::string& bytes) {
   const test_support::TemporaryFolder folder;
   try {
@@ -315,7 +315,7 @@ TEST(LoadGreyImage, RefusesHugePicturesOfSmallFilesByTheirHeader) {
         testing::HasSubstr("are supported"))
         << width << " x " << height;
   }
-  // Within the limits, but the pixels are not there.
+  // The size is within the limits, but the pixels are missing.
   EXPECT_THAT(picture_refusal("P5 8192 8192 255\n"), testing::HasSubstr("cut short"));
   EXPECT_THAT(picture_refusal("P2 8192 8192 255\n"), testing::HasSubstr("cut short"));
   EXPECT_THAT(picture_refusal("P5 99999999999999999999 1 255\n"),

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The kinds of drive, and the motors' own control of heading and position.
+// The kinds of drive, and the motors' own heading and position control.
 #include "sim/devices/motion.h"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ namespace {
 using testing::HasSubstr;
 constexpr double kPi = std::numbers::pi;
 
-/// A robot of 0.4 x 0.2 m in an empty room of 20 x 20 m, with limits that are in nobody's way.
+/// A robot of 0.4 x 0.2 m in an empty room of 20 x 20 m, with limits that are never reached.
 WorldDescription room(const DriveDescription& drive, const Pose& pose,
                       const MotionParams& motion = {}) {
   auto model = std::make_shared<RobotModel>();
@@ -88,30 +88,30 @@ TEST(OmnidirectionalDrive, FollowsTheArcOfItsWholeTwist) {
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 10.0, 0.0}));
   command(simulation, TwistCommand{{0.3, 1.0, 0.4}});
   run(simulation, 2.0);
-  // The integral of (0.3, 0.4) turned by t from 0 to 2:
+  // The integral of (0.3, 0.4) rotated by t from 0 to 2:
   // x = 0.3 sin 2 - 0.4 (1 - cos 2), y = 0.3 (1 - cos 2) + 0.4 sin 2.
   const double x = 0.3 * std::sin(2.0) - 0.4 * (1.0 - std::cos(2.0));
   const double y = 0.3 * (1.0 - std::cos(2.0)) + 0.4 * std::sin(2.0);
   expect_near(pose_of(simulation), {10.0 + x, 10.0 + y, 2.0}, 1e-9);
-  // Its odometry, which starts at zero, feels all of it.
+  // Its odometry, which starts at zero, measures all of it.
   const auto& odometry = dynamic_cast<const Odometry&>(simulation.device(0, kOdometryDevice));
   expect_near(odometry.reading().pose, {x, y, 2.0}, 1e-9);
   EXPECT_NEAR(odometry.reading().path_length_m, 0.5 * 0.1, 1e-9);  // since the last reading
 }
 
 TEST(OmnidirectionalDrive, SlidesAlongAWall) {
-  // 0.1 m wide to its left, so the wall y = 20 is reached at y = 19.9, after 0.25 s.
+  // It extends 0.1 m to its left, so it reaches the wall y = 20 at y = 19.9, after 0.25 s.
   Simulation simulation(room(drive_of(DriveKind::kOmnidirectional), {10.0, 19.8, 0.0}));
   command(simulation, TwistCommand{{0.3, 0.0, 0.4}});
   run(simulation, 2.0);
   EXPECT_NEAR(pose_of(simulation).x_m, 10.6, 0.005);
   EXPECT_NEAR(pose_of(simulation).y_m, 19.9, 0.002);
   EXPECT_NEAR(pose_of(simulation).yaw_rad, 0.0, 0.01);
-  EXPECT_TRUE(simulation.body(0).stalled);  // it does not get there to its left
+  EXPECT_TRUE(simulation.body(0).stalled);  // it cannot move farther to its left
 }
 
 TEST(FeasiblePlanarTwist, DropsWhatPointsIntoTheWallAndKeepsTheRest) {
-  // A wall on the left touched at two corners, levers +-0.2 m: no way to the left, no turning.
+  // A wall on the left touched at two corners, levers +-0.2 m: no motion to the left, no turning.
   const std::vector<TwistConstraint> wall = {{0.0, 0.2, 0.0, 1.0}, {0.0, -0.2, 0.0, 1.0}};
   const Twist along = feasible_planar_twist({0.3, 0.0, 0.4}, 2.0, 0.1, wall);
   EXPECT_NEAR(along.v_mps, 0.3, 1e-9);
@@ -119,12 +119,12 @@ TEST(FeasiblePlanarTwist, DropsWhatPointsIntoTheWallAndKeepsTheRest) {
   EXPECT_NEAR(along.omega_radps, 0.0, 1e-9);
   const Twist away = feasible_planar_twist({0.3, 0.0, -0.4}, 2.0, 0.1, wall);
   EXPECT_EQ(away, (Twist{0.3, 0.0, -0.4}));
-  // One corner, lever r: the least change of m l^2 + I w^2 with l + r w = 0 from l0 is
-  // w = -l0 r / (I / m + r^2), l = -r w: here I / m = 0.05, r = 0.2, so w = -0.4 * 0.2 / 0.09.
+  // One corner with lever r. The least change of m l^2 + I w^2 from l0 with l + r w = 0 is w = -l0
+  // r / (I / m + r^2), l = -r w. Here I / m = 0.05 and r = 0.2, so w = -0.4 * 0.2 / 0.09.
   const Twist turned = feasible_planar_twist({0.0, 0.0, 0.4}, 2.0, 0.1, {{0.0, 0.2, 0.0, 1.0}});
   EXPECT_NEAR(turned.omega_radps, -0.4 * 0.2 / 0.09, 1e-9);
   EXPECT_NEAR(turned.lateral_mps, 0.2 * 0.4 * 0.2 / 0.09, 1e-9);
-  // A corner of three walls: nothing is left.
+  // A corner of three walls permits no motion.
   const Twist none = feasible_planar_twist(
       {0.5, 1.0, 0.5}, 2.0, 0.1, {{1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, {0.0, 1.0, 0.0}});
   EXPECT_NEAR(none.v_mps, 0.0, 1e-9);
@@ -147,12 +147,12 @@ TEST(CarDrive, TurnsOnACircleOfWheelbaseOverTangentOfSteering) {
   command(simulation, CarCommand{1.0, 0.3});
   const double radius = 0.5 / std::tan(0.3);
   run(simulation, 2.0);
-  // 2 m along the circle whose middle is straight to the left of B at the start.
+  // 2 m along the circle whose centre is straight to the left of B at the start.
   const double angle = 2.0 / radius;
   expect_near(pose_of(simulation),
               {10.0 + radius * std::sin(angle), 10.0 + radius * (1.0 - std::cos(angle)), angle},
               1e-9);
-  // Backwards with the same steering it takes the same circle back.
+  // In reverse with the same steering it drives back along the circle.
   command(simulation, CarCommand{-1.0, 0.3});
   run(simulation, 2.0);
   expect_near(pose_of(simulation), {10.0, 10.0, 0.0}, 1e-9);
@@ -170,21 +170,22 @@ TEST(CarDrive, SteersNoFurtherAndNoFasterThanItCan) {
 
 TEST(CarDrive, GetsTheTurnRateThatItIsToldByItsSteering) {
   Simulation simulation(room(car(), {10.0, 10.0, 0.0}));
-  command(simulation, TwistCommand{{1.0, 0.8, 0.7}});  // to its left it cannot
+  command(simulation, TwistCommand{{1.0, 0.8, 0.7}});  // it cannot move sideways
   run(simulation, 1.0);
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 1.0, 1e-9);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.8, 1e-9);
   EXPECT_NEAR(simulation.body(0).twist.lateral_mps, 0.0, 1e-9);
-  command(simulation, TwistCommand{{0.0, 0.8, 0.0}});  // on the spot it cannot either
+  command(simulation, TwistCommand{{0.0, 0.8, 0.0}});  // it cannot turn on the spot either
   run(simulation, 1.0);
   EXPECT_EQ(simulation.body(0).twist, Twist{});
-  command(simulation, TwistCommand{{0.1, 3.0, 0.0}});  // 0.1 tan(0.5) / 0.5 is its best
+  // the maximum turn rate is 0.1 tan(0.5) / 0.5
+  command(simulation, TwistCommand{{0.1, 3.0, 0.0}});
   run(simulation, 1.0);
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, 0.1 * std::tan(0.5) / 0.5, 1e-9);
 }
 
 TEST(CarDrive, StallsAtAWallAndDoesNotSlide) {
-  // Looks at the wall x = 20 at 45 degrees; its corner (0.2, -0.1) is first there.
+  // Faces the wall x = 20 at 45 degrees; its corner (0.2, -0.1) touches first.
   Simulation simulation(room(car(), {19.0, 10.0, kPi / 4.0}));
   command(simulation, CarCommand{1.0, 0.0});
   run(simulation, 2.0);
@@ -250,7 +251,7 @@ TEST(HeadingControl, ApproachesTheHeadingExponentiallyAndHoldsIt) {
   Simulation simulation(room({}, {10.0, 10.0, 0.0}));
   command(simulation, HeadingCommand{0.2, 0.0, 0.5});
   run(simulation, 1.0);
-  // Each step of 0.01 s takes 2 /s of what is missing: 0.5 * 0.98^100.
+  // Each step of 0.01 s reduces the error at a rate of 2 /s: 0.5 * 0.98^100.
   EXPECT_NEAR(0.5 - pose_of(simulation).yaw_rad, 0.5 * std::pow(0.98, 100), 1e-9);
   EXPECT_NEAR(simulation.body(0).twist.v_mps, 0.2, 1e-9);
   run(simulation, 9.0);
@@ -261,7 +262,7 @@ TEST(HeadingControl, TakesTheShortWayWithinTheLimits) {
   Simulation simulation(room({}, {10.0, 10.0, -3.0}));
   command(simulation, HeadingCommand{0.0, 0.0, 1.0});
   simulation.step();
-  // From -3 to 1 it is -(2 pi - 4) = -2.28 rad: beyond the motors' 4 rad/s.
+  // From -3 to 1 the shorter turn is -(2 pi - 4) = -2.28 rad: more than the motors' 4 rad/s permit.
   EXPECT_NEAR(simulation.body(0).twist.omega_radps, -4.0, 1e-9);
 }
 
@@ -270,7 +271,7 @@ TEST(HeadingControl, IsInTheFrameOfTheNamedDevice) {
   command(simulation, HeadingCommand{0.0, 0.0, 0.5, kOdometryDevice});  // reads 0 at the start
   run(simulation, 10.0);
   EXPECT_NEAR(pose_of(simulation).yaw_rad, 2.5, 1e-6);
-  // What says where the robot is may be told so by a program.
+  // A program may change the pose that this device reports.
   ASSERT_FALSE(simulation.apply({0, kPoseDevice}, SetPoseCommand{{0.0, 0.0, 0.0}}));
   command(simulation, HeadingCommand{0.0, 0.0, 0.25, kPoseDevice});
   run(simulation, 10.0);
@@ -315,8 +316,8 @@ TEST_P(EachDrive, ReachesGoalsAllRoundItAndStands) {
         const Twist& twist = simulation.body(0).twist;
         fastest = std::max(fastest, std::hypot(twist.v_mps, twist.lateral_mps));
       }
-      // The two components of a speed have ramps of their own, so one that turns may be a little
-      // over.
+      // The two components of the speed have separate ramps, so a turning robot may slightly exceed
+      // the limit.
       EXPECT_LE(fastest, acceleration == 0.0 ? 1.0 + 1e-9 : 1.02);
       EXPECT_NEAR(pose_of(simulation).x_m, goal.pose.x_m, 0.011) << goal.what << acceleration;
       EXPECT_NEAR(pose_of(simulation).y_m, goal.pose.y_m, 0.011) << goal.what << acceleration;
@@ -329,7 +330,8 @@ TEST_P(EachDrive, ReachesGoalsAllRoundItAndStands) {
   }
 }
 
-// The way to these lies within 78 degrees of the heading, and there is room to get onto it.
+// The direction to these goals is within 78 degrees of the heading, and there is enough room for
+// the curve.
 TEST(CarDrive, ComesToGoalsOnItsWayWithTheirHeading) {
   for (const double rate_radps : {0.0, 2.0}) {
     for (const Goal& goal :
@@ -342,16 +344,15 @@ TEST(CarDrive, ComesToGoalsOnItsWayWithTheirHeading) {
       EXPECT_EQ(simulation.body(0).twist, Twist{}) << goal.what;
       EXPECT_NEAR((pose_of(simulation).position() - goal.pose.position()).norm(), 0.0, 0.011)
           << goal.what;
-      // Off by what is left over of the error, which falls with the distance to the 1 cm of the
-      // tolerance.
+      // The rest of the error, which decreases with the distance down to the tolerance of 1 cm.
       EXPECT_NEAR(normalize_angle(pose_of(simulation).yaw_rad - goal.pose.yaw_rad), 0.0, 0.02)
           << goal.what;
     }
   }
 }
 
-// From all sides, with all headings: the heading is sought where it can be had, and the point is
-// always reached.
+// From all sides and with all headings: the robot seeks the goal's heading where possible, and
+// always reaches the point.
 TEST(CarDrive, ReachesAGoalWhateverItsHeading) {
   for (int i = 0; i < 48; ++i) {
     const double where = 2.0 * kPi / 8.0 * (i % 8);
@@ -369,7 +370,7 @@ TEST(CarDrive, ReachesAGoalWhateverItsHeading) {
 TEST(PositionControl, TakesTheTimeThatItsLawSays) {
   Simulation simulation(room({}, {10.0, 10.0, 0.0}));
   command(simulation, PositionCommand{{12.0, 10.0, 0.0}, 0.5});
-  // 0.5 m/s until 0.25 m are missing (3.5 s), then 2 /s of what is missing: 0.25 e^(-2 t).
+  // 0.5 m/s until 0.25 m are left (3.5 s), then exponential decay at 2 /s: 0.25 e^(-2 t).
   run(simulation, 3.5);
   EXPECT_NEAR(pose_of(simulation).x_m, 11.75, 1e-9);
   run(simulation, 1.0);
@@ -380,7 +381,7 @@ TEST(PositionControl, GoalsAreInTheFrameOfTheNamedDevice) {
   Simulation simulation(room({}, {10.0, 10.0, kPi / 2.0}));
   command(simulation, PositionCommand{{1.0, 0.5, 0.0}, 0.0, 0.0, kOdometryDevice});
   run(simulation, 20.0);
-  // 1 m along the robot's x axis at the start, which is W's y, and 0.5 m to its left.
+  // 1 m along the robot's initial x axis, which is W's y axis, and 0.5 m to its left.
   expect_near(pose_of(simulation), {9.5, 11.0, kPi / 2.0}, 0.011);
 }
 
@@ -419,7 +420,7 @@ TEST(PositionControl, IsPartOfTheState) {
   EXPECT_NE(one.state_hash(), two.state_hash());
 }
 
-// A robot that is told to go on with its present command does what it did.
+// A robot that is told to continue its present command does not change its motion.
 TEST(Motion, PresentCommandGoesOnWithIt) {
   for (const Command& what : std::initializer_list<Command>{
            TwistCommand{{0.3, 0.2}}, HeadingCommand{0.3, 0.0, 2.0}, CarCommand{0.3, 0.2},

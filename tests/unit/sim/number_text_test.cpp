@@ -20,7 +20,7 @@ TEST(NumberText, HasTheDigitsAskedFor) {
   EXPECT_EQ(fixed_text(2.0, 3), "2.000");
   EXPECT_EQ(fixed_text(-0.126, 2), "-0.13");
   EXPECT_EQ(fixed_text(7.6, 0), "8");
-  // The longest there is: a sign, 309 digits, the point, 60 digits.
+  // The longest text: a sign, 309 digits, the point, 60 digits.
   EXPECT_EQ(fixed_text(std::numeric_limits<double>::lowest(), 60).size(), 371U);
   EXPECT_EQ(rounded_text(1.0 / 3.0, 6), "0.333333");
   EXPECT_EQ(rounded_text(0.5, 6), "0.5");

@@ -36,7 +36,7 @@ CanvasDescription grid_of(int width, int height, double cell_size_m = 1.0,
       .width = width, .height = height, .cell_size_m = cell_size_m, .origin = std::move(origin)};
 }
 
-/// The map drawn with # (occupied) and . (free), the top row first.
+/// The map as text: # is occupied, . is free, the top row first.
 std::vector<std::string> drawn(const OccupancyMap& map) {
   std::vector<std::string> rows;
   for (int row = 0; row < map.height; ++row) {
@@ -66,7 +66,7 @@ TEST(TrueMap, ACellThatIsOnlyTouchedIsFree) {
                                                          ".#...",  //
                                                          ".....",  //
                                                          "....."}));
-  // 0.01 m more on each side: into the eight cells round it.
+  // 0.01 m larger on each side: it reaches into the eight cells around it.
   arena.obstacles[0].size = {1.02, 1.02};
   EXPECT_EQ(drawn(true_map(arena, grid_of(5, 4))), (Rows{"###..",  //
                                                          "###..",  //
@@ -75,8 +75,8 @@ TEST(TrueMap, ACellThatIsOnlyTouchedIsFree) {
 }
 
 TEST(TrueMap, PlacesThatAreNotExactInBinaryTouchAsTheyAreMeant) {
-  // From x = 0.82 to 0.94 and y = 0.46 to 0.58, cells 41 to 46 and 23 to 28 of 0.02 m; in double
-  // precision 0.82 / 0.02 and the like come out on either side.
+  // x = 0.82 to 0.94 and y = 0.46 to 0.58 are cells 41 to 46 and 23 to 28 of 0.02 m. In double
+  // precision, quotients such as 0.82 / 0.02 may round to either side.
   ArenaDescription arena = open_floor(3.42, 3.72);
   for (const double yaw_rad : {0.0, std::numbers::pi / 2, std::numbers::pi}) {
     arena.obstacles = {box({0.88, 0.52}, {0.12, 0.12}, yaw_rad)};
@@ -92,7 +92,7 @@ TEST(TrueMap, PlacesThatAreNotExactInBinaryTouchAsTheyAreMeant) {
 }
 
 TEST(TrueMap, ATurnedBoxFillsTheCellsItReachesInto) {
-  // A square of side sqrt(8) turned by 45 degrees: a diamond with corners 2 m from (3, 3).
+  // A square of side sqrt(8) rotated by 45 degrees: a diamond with corners 2 m from (3, 3).
   ArenaDescription arena = open_floor(6, 6);
   arena.obstacles.push_back(box({3, 3}, {std::sqrt(8.0), std::sqrt(8.0)}, std::numbers::pi / 4));
   EXPECT_EQ(drawn(true_map(arena, grid_of(6, 6))), (Rows{"......",  //
@@ -119,7 +119,7 @@ TEST(TrueMap, BeyondTheFloorStandsTheBorderIfThereIsOne) {
   arena.origin = {1.0, 1.0};
   EXPECT_EQ(drawn(true_map(arena, grid_of(5, 4))), Rows(4, "....."));
   arena.border = true;
-  // The floor's right side, x = 3.5, lies in the middle of a cell.
+  // The floor's right side, x = 3.5, is in the middle of a cell.
   EXPECT_EQ(drawn(true_map(arena, grid_of(5, 4))), (Rows{"#####",  //
                                                          "#..##",  //
                                                          "#..##",  //
@@ -127,7 +127,7 @@ TEST(TrueMap, BeyondTheFloorStandsTheBorderIfThereIsOne) {
 }
 
 TEST(TrueMap, TheArenasFloorFitsItsCanvas) {
-  // 3.42 m are 171 cells, the canvas has 172; 3.72 m are its 186.
+  // 3.42 m are 171 cells, while the canvas has 172; 3.72 m are its 186.
   const OccupancyMap map = true_map(syrotek_arena(), grid_of(172, 186, 0.02));
   int occupied_in_last_column = 0;
   int occupied_in_first_row = 0;
@@ -139,8 +139,8 @@ TEST(TrueMap, TheArenasFloorFitsItsCanvas) {
 
 TEST(TrueMap, WallsAreSolidOnTheLeftOfTheirLoops) {
   ArenaDescription arena = open_floor(8, 7);
-  // A solid square from (0.5, 0.5) to (6.5, 6), a hole in it from (2, 2) to (5, 5), and in that an
-  // island, a triangle.
+  // A solid square from (0.5, 0.5) to (6.5, 6), with a hole from (2, 2) to (5, 5), and in the hole
+  // a triangular island.
   arena.walls.push_back({{{0.5, 0.5}, {6.5, 0.5}, {6.5, 6.0}, {0.5, 6.0}}});
   arena.walls.push_back({{{2, 2}, {2, 5}, {5, 5}, {5, 2}}});
   arena.walls.push_back({{{3.2, 3.2}, {3.8, 3.2}, {3.5, 3.8}}});
@@ -162,7 +162,7 @@ TEST(TrueMap, WhatLiesBesideTheGridIsCutOff) {
                                                          "####"}));
 }
 
-/// Whether a point lies in the solid of the walls (winding number over the half-line to the right).
+/// Whether a point is in the solid of the walls (winding number with the ray to the right).
 bool in_walls(const std::vector<WallLoop>& walls, const Vec2& p) {
   int winding = 0;
   for (const WallLoop& loop : walls) {
@@ -184,8 +184,8 @@ bool in_box(const ObstacleDescription& o, const Vec2& p) {
   return std::abs(q.x()) < 0.5 * o.size.x() && std::abs(q.y()) < 0.5 * o.size.y();
 }
 
-// Every sample that lies in something solid must lie in an occupied cell, and an occupied cell
-// must hold such a sample, unless the solid reaches into it by less than the samples' distance.
+// Every solid sample must be in an occupied cell. An occupied cell must contain such a sample,
+// unless the solid extends into it by less than the distance of the samples.
 TEST(TrueMap, AgreesWithSamplesOfRandomArenas) {
   constexpr int kCells = 24;
   constexpr int kSamples = 24;  // along a side of a cell
@@ -201,7 +201,7 @@ TEST(TrueMap, AgreesWithSamplesOfRandomArenas) {
       arena.obstacles.push_back(box({uniform(0, 6), uniform(0, 6)},
                                     {uniform(0.02, 2), uniform(0.02, 2)}, uniform(-4, 4)));
     }
-    // A star with a star-shaped hole: neither is convex.
+    // A star with a star-shaped hole: both are concave.
     const Vec2 middle(uniform(2, 4), uniform(2, 4));
     WallLoop outer;
     WallLoop hole;
@@ -235,8 +235,8 @@ TEST(TrueMap, AgreesWithSamplesOfRandomArenas) {
     }
   }
   ASSERT_GT(occupied, 2000);
-  // Only slivers are missed: a corner of a cell is met by a solid that reaches into it by less
-  // than 1/24 of its side about once in some hundred cells on outlines.
+  // Samples miss only slivers: on outlines, about one cell in some hundred has a solid that extends
+  // into its corner by less than 1/24 of its side.
   EXPECT_LT(occupied_without_sample, occupied / 100);
 }
 

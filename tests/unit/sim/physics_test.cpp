@@ -37,7 +37,7 @@ void run(PhysicsWorld& world, int steps) {
   for (int i = 0; i < steps; ++i) world.step(kStep_s);
 }
 
-// How deep the footprints of robots stand in obstacles, borders and one another, at most [m].
+// Maximum overlap of the robots' footprints with obstacles, borders and one another [m].
 double deepest_overlap_m(const PhysicsWorld& world, const ArenaDescription& arena) {
   double deepest_m = 0.0;
   std::vector<Polygon> robots;
@@ -67,7 +67,7 @@ TEST(FeasibleTwist, WithoutContactsIsTheTarget) {
 }
 
 TEST(FeasibleTwist, HeadOnContactStopsTheDriveAndKeepsTheTurn) {
-  // Normal straight ahead, contact on the x axis: v <= 0.1, omega free.
+  // Normal straight ahead, contact on the x axis: v <= 0.1, omega unconstrained.
   const Twist t = feasible_twist({0.3, 1.0, 0.0}, 2.0, 0.01, {{1.0, 0.0, 0.1}});
   EXPECT_NEAR(t.v_mps, 0.1, 1e-12);
   EXPECT_NEAR(t.omega_radps, 1.0, 1e-12);
@@ -150,18 +150,18 @@ TEST(PhysicsWorld, StandsAtAWallItDrivesAgainst) {
 TEST(PhysicsWorld, ObliqueWallTurnsTheRobotInsteadOfSlidingIt) {
   const ArenaDescription arena = floor_4x4();
   PhysicsWorld world(arena);
-  // 30 degrees off the wall: it is met by the corner behind the slanted face.
+  // 30 degrees from the wall: the corner behind the slanted face touches it.
   world.add_robot(s1r_model(), {3.7, 1.0, kPi / 3.0});
   world.set_target(0, {0.3, 0.0, 0.0});
   for (int i = 0; i < 400; ++i) {
     world.step(kStep_s);
-    // Box2D pushes the corner out again by what its path curves in one step, some 0.1 mm.
+    // Box2D pushes the corner out again by the curvature of its path in one step, about 0.1 mm.
     ASSERT_LT(std::abs(world.body(0).twist.lateral_mps), 0.02) << "step " << i;
     ASSERT_LT(deepest_overlap_m(world, arena), 0.0005) << "step " << i;
-    // No gain of energy: never faster than commanded.
+    // Energy must not increase: the robot is never faster than commanded.
     ASSERT_LE(std::abs(world.body(0).twist.v_mps), 0.3 + 1e-4);  // single precision
   }
-  // It ends up driving along the wall, upwards.
+  // At the end it drives along the wall, upwards.
   EXPECT_NEAR(world.body(0).X_WB.yaw_rad, kPi / 2.0, 0.1);
   EXPECT_GT(world.body(0).X_WB.y_m, 1.6);
 }
@@ -327,7 +327,7 @@ TEST(PhysicsWorld, RobotsAmongTheWallsOfAMapNeverSinkInByTwoMillimetres) {
   EXPECT_GT(touches, 20U);
 }
 
-// Three millimetres aside are more than it takes to touch, and less than a robot goes in a step.
+// Three millimetres aside exceed the contact distance, but are less than the motion of a step.
 TEST(PhysicsWorld, RobotThatPassesCloselyHasItsWay) {
   double half_width_m = 0.0;
   for (const Vec2& v : s1r_model().footprint) half_width_m = std::max(half_width_m, v.y());
@@ -345,7 +345,7 @@ TEST(PhysicsWorld, RobotThatPassesCloselyHasItsWay) {
     ASSERT_TRUE(world.new_contacts().empty());
   }
   EXPECT_EQ(world.body(0).X_WB.y_m, y_m);
-  world.set_target(0, {0.5, 0.5, 0.0});  // to the border
+  world.set_target(0, {0.5, 0.5, 0.0});  // towards the border
   run(world, 20);
   EXPECT_EQ(world.contacts_of(0).size(), 1U);
 }
@@ -412,12 +412,12 @@ TEST(PhysicsWorld, ClearanceIsTheDistanceToTheNearestSolid) {
   ArenaDescription arena = floor_4x4();
   arena.obstacles.push_back(box("b", 2.0, 2.0, 0.2, 0.2));
   PhysicsWorld world(arena);
-  // The side of the footprint is 0.081 m from the axle's centre, the block's face at x = 2.1;
-  // turned by 90 degrees the robot's right side faces... its left side at x - 0.081.
+  // The side of the footprint is 0.081 m from the axle's centre; the block's face is at x = 2.1.
+  // The robot is rotated by 90 degrees, so its left side is at x - 0.081.
   world.add_robot(s1r_model(), {2.5, 2.0, kPi / 2.0});
   EXPECT_NEAR(world.clearance_m(0, 1.0, 1.0), 2.5 - 0.081 - 2.1, 1e-5);
   EXPECT_EQ(world.clearance_m(0, 0.1, 0.1), 0.1);
-  // A bound will do above 0.2 m.
+  // Above 0.2 m a bound is sufficient.
   EXPECT_GE(world.clearance_m(0, 1.0, 0.2), 0.2);
   EXPECT_LE(world.clearance_m(0, 1.0, 0.2), 2.5 - 0.081 - 2.1 + 1e-5);
 }

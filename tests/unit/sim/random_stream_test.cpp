@@ -22,8 +22,8 @@ TEST(RandomStream, OtherSeedOrPathGivesOtherNumbers) {
 }
 
 TEST(RandomStream, NormalHasMeanDeviationAndShapeOfTheGaussian) {
-  // n = 200 000: standard error of the mean is 1/sqrt(n), of the variance sqrt(2/n), of the share
-  // within one sigma (p = 0.682689) sqrt(p (1 - p) / n); bounds are four of them.
+  // n = 200 000. The standard error of the mean is 1/sqrt(n), of the variance sqrt(2/n), and of the
+  // share within one sigma (p = 0.682689) sqrt(p (1 - p) / n). The bounds are four standard errors.
   constexpr int kCount = 200'000;
   RandomStream stream(5, "noise");
   double sum = 0.0;

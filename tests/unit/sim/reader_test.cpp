@@ -48,7 +48,7 @@ TEST_F(ReaderTest, ReadsEachKindOfValue) {
   EXPECT_EQ(root.vec2("v", {0, 0}), Vec2(1, -2.5));
   EXPECT_THAT(root.integer_pair("p", {0, 0}, 1, 10), ElementsAre(3, 4));
   EXPECT_EQ(root.angle_deg("a_deg", 0.0), std::numbers::pi / 2);
-  // 270 degrees are -90: brought into (-pi, pi].
+  // 270 degrees become -90, which is in (-pi, pi].
   const Pose pose = root.pose("pose", {});
   EXPECT_EQ(pose.x_m, 1.0);
   EXPECT_EQ(pose.y_m, 2.0);
@@ -175,7 +175,7 @@ TEST_F(ReaderTest, OfAKeyThatOccursTwiceTheFirstCountsAndTheSecondIsReported) {
 }
 
 TEST_F(ReaderTest, LongTextsAreShortenedBetweenCharacters) {
-  // 39 bytes and then two-byte letters: the cut at 40 would split the first of them.
+  // 39 bytes followed by two-byte letters: a cut at byte 40 would split the first of them.
   Reader root = parse("{\"a\": \"" + std::string(39, 'x') + "ääää\"}");
   static_cast<void>(root.boolean("a", false));
   EXPECT_EQ(document_.issues.at(0).found, "the text \"" + std::string(39, 'x') + "...\"");
@@ -202,7 +202,7 @@ TEST_F(ReaderTest, ReaderOfNoObjectGivesFallbacks) {
 }
 
 TEST_F(ReaderTest, LinesOfNumbersAtTheEndOfALine) {
-  // The parser reads the line break to see that the number ends.
+  // The parser must read the line break to know that the number has ended.
   parse("{\"a\":\n[1\n,2\n]\n}");
   EXPECT_EQ(document_.line_of("/a"), 2);
   EXPECT_EQ(document_.line_of("/a/0"), 2);
@@ -226,7 +226,7 @@ TEST(ParseDocument, AMillionBracketsAreRefusedAtOnce) {
 }
 
 TEST(ParseDocument, RefusesWhatIsNoUtf8) {
-  // Overlong slash, a surrogate, above U+10FFFF, a cut sequence, a lone continuation byte.
+  // An overlong slash, a surrogate, above U+10FFFF, a truncated sequence, a lone continuation byte.
   for (const char* bad : {"\"\xc0\xaf\"", "\"\xed\xa0\x80\"", "\"\xf4\x90\x80\x80\"", "\"\xe2\x82",
                           "\"\x80\"", "// \xff\n{}"}) {
     Reader::Document document;
@@ -262,7 +262,7 @@ TEST(ParseDocument, EveryChangedByteIsTakenOrExplained) {
       EXPECT_FALSE(document.issues[0].found.empty());
     }
   }
-  // By far most bytes do not belong where they are put.
+  // Most bytes are invalid at their random position.
   EXPECT_GT(refused, static_cast<int>(text.size()) * 128);
 }
 

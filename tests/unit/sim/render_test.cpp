@@ -31,7 +31,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A folder of its own for a test, removed afterwards.
+// A folder for one test, removed afterwards.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -75,8 +75,9 @@ Rgb pixel(const Image& image, int x, int y) {
 bool is_red(const Rgb& rgb) { return rgb[0] > 190 && rgb[1] < 110 && rgb[2] < 110; }
 bool is_light(const Rgb& rgb) { return rgb[0] > 240 && rgb[1] > 240 && rgb[2] > 235; }
 
-// An arena of 4 x 4 m. In a picture of 1000 px without legend the margin is 38 px on each side,
-// so the floor is 924 px wide: 231 px a metre, its left edge at x = 38, its lower one at y = 962.
+// An arena of 4 x 4 m. In a picture of 1000 px without a legend the margin is 38 px on each side.
+// So the floor is 924 px wide: 231 px per metre, its left edge at x = 38, its lower edge at y =
+// 962.
 constexpr int kMarginPx = 38;
 constexpr double kPixelsPerMetre = 231.0;
 
@@ -153,8 +154,8 @@ TEST(DrawScene, RefusesACanvasOfAnotherSize) {
 
 TEST(DrawScene, FloorIsLightAndBorderBrown) {
   const Image image = draw_scene(small_scene(), plain_options());
-  EXPECT_TRUE(is_light(pixel_at(image, {1.25, 2.75})));  // between the grid's lines
-  // The border is 0.035 m = 8 px thick and lies outside the floor.
+  EXPECT_TRUE(is_light(pixel_at(image, {1.25, 2.75})));  // between the grid lines
+  // The border is 0.035 m = 8 px thick and is outside of the floor.
   const Rgb border = pixel(image, kMarginPx - 4, 500);
   EXPECT_GT(border[0], border[1] + 20);
   EXPECT_GT(border[1], border[2] + 20);
@@ -173,7 +174,7 @@ TEST(DrawScene, ExtendedBlocksAreFilledAndRetractedOnesAreNot) {
   const Rgb grey = pixel_at(image, {0.75, 0.75});
   EXPECT_NEAR(grey[0], 205, 15);
   EXPECT_NEAR(grey[0], grey[2], 15);
-  // A dash of the retracted one's outline begins at its corner (2.55, 3.45).
+  // The first dash of the retracted block's outline begins at its corner (2.55, 3.45).
   const Rgb corner = pixel_at(image, {2.55, 3.45});
   EXPECT_GT(corner[0], corner[1] + 30);
 }
@@ -205,7 +206,8 @@ TEST(DrawScene, CanvasLiesOnTheFloorCellByCell) {
 
 TEST(DrawScene, WallsHaveHoles) {
   SceneSnapshot scene = small_scene();
-  // A ring: 0.5..3.5 m outside, counter-clockwise, 1..3 m inside, clockwise.
+  // A ring: outer square from 0.5 to 3.5 m, counter-clockwise; inner square from 1 to 3 m,
+  // clockwise.
   scene.arena.walls = {{{{0.5, 0.5}, {3.5, 0.5}, {3.5, 3.5}, {0.5, 3.5}}},
                        {{{1.0, 1.0}, {1.0, 3.0}, {3.0, 3.0}, {3.0, 1.0}}}};
   const Image image = draw_scene(scene, plain_options());
@@ -230,10 +232,10 @@ TEST(DrawScene, TrailAndFanAreDrawnWhenAskedForAndStayOnTheFloor) {
   const Vec2 in_fan(2.05, 1.4);
   EXPECT_LT(pixel_at(drawn, on_trail)[0], 200);
   EXPECT_TRUE(is_light(pixel_at(bare, on_trail)));
-  EXPECT_LT(pixel_at(drawn, in_fan)[0], 235);  // translucent blue takes red away
+  EXPECT_LT(pixel_at(drawn, in_fan)[0], 235);  // translucent blue reduces red
   EXPECT_GT(pixel_at(drawn, in_fan)[0], 100);
   EXPECT_TRUE(is_light(pixel_at(bare, in_fan)));
-  // Right of the floor and its border, on the way to (9, 2.2).
+  // Right of the floor and its border, in the direction of (9, 2.2).
   const Vec2 outside(4.1, 2.2);
   EXPECT_EQ(pixel_at(drawn, outside), pixel_at(bare, outside));
 }
@@ -246,13 +248,13 @@ TEST(DrawScene, ConesRaysBumpersAndSightsAreDrawn) {
                  {{2.05, 2.05, -0.5 * kPi}, 1.0, kPi / 6.0, false},
                  {{2.05, 2.05, kPi}, 1.0, 0.0, true}};  // a ray to the left
   robot.bumpers = {{{{0.2, -0.1}, {0.2, 0.1}}, true}, {{{-0.2, -0.1}, {-0.2, 0.1}}, false}};
-  robot.sights = {{{2.05, 2.05}, {3.17, 3.29}}};  // all beside the lines of the grid
+  robot.sights = {{{2.05, 2.05}, {3.17, 3.29}}};  // none of them on a grid line
   scene.robots = {robot};
   RenderOptions without = plain_options();
   without.scans = false;
   const Image drawn = draw_scene(scene, plain_options());
   const Image bare = draw_scene(scene, without);
-  // Translucent blue takes red away: a sixth within a cone that met something, less in the other.
+  // Translucent blue reduces red: by a sixth within a cone with an echo, by less in the other.
   EXPECT_LT(pixel_at(drawn, {2.05, 2.65})[0], 225);
   EXPECT_GT(pixel_at(drawn, {2.05, 2.65})[0], 190);
   EXPECT_LT(pixel_at(drawn, {2.05, 1.45})[0], 245);
@@ -265,19 +267,19 @@ TEST(DrawScene, ConesRaysBumpersAndSightsAreDrawn) {
   for (const Vec2& place : {Vec2(2.05, 2.65), Vec2(1.05, 2.05), Vec2(2.61, 2.67)}) {
     EXPECT_TRUE(is_light(pixel_at(bare, place)));
   }
-  // Bumpers belong to the robot.
+  // Bumpers are part of the robot's drawing.
   for (const Image* image : {&drawn, &bare}) {
     EXPECT_TRUE(is_red(pixel_at(*image, {2.2, 2.0})));
     EXPECT_FALSE(is_red(pixel_at(*image, {1.8, 2.0})));
   }
-  // What is nowhere is left out.
+  // Sensors without a valid pose are not drawn.
   scene.robots[0].cones = {{{std::nan(""), 2.0, 0.0}, 1.0, 1.0, true},
                            {{2.0, 2.0, 0.0}, 1e300, 1.0, true}};
   scene.robots[0].sights = {{{2.0, 2.0}, {std::nan(""), 1e300}}};
   EXPECT_TRUE(is_light(pixel_at(draw_scene(scene, plain_options()), {2.75, 2.3})));
 }
 
-// Of a trail that is 0.8 opaque at its newest end.
+// The trail's opacity is 0.8 at its newest end.
 TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
   SceneSnapshot scene = small_scene();
   RobotSnapshot robot = robot_at({0.5, 0.5, 0.0}, {0, 0, 255, 255});
@@ -286,20 +288,21 @@ TEST(DrawScene, TrailIsFaintWhereTheProgramDrawsItInColour) {
   const Vec2 newest(3.0, 2.25);
   Canvas canvas(scene.canvas_description);
 
-  // A map of white cells is no drawing of the way: red goes down from 255 to a fifth of it, 51,
-  // and something for the ink that is mixed into the robot's blue.
+  // White cells of a map do not count as a drawing of the path. Red decreases from 255 to a fifth,
+  // 51, plus a little for the ink that is mixed into the robot's blue.
   canvas.clear({255, 255, 255, 255});
   scene.canvas = canvas.data();
   EXPECT_LT(pixel_at(draw_scene(scene, plain_options()), newest)[0], 70);
 
-  // All of its cells are red: a tenth of the opacity, 0.08, is left; blue comes to 0.08 x 255 = 20.
+  // All cells of the path are red: a tenth of the opacity, 0.08, is left; blue becomes 0.08 x 255 =
+  // 20.
   for (int x = 10; x <= 30; ++x) canvas.set_pixel(x, canvas.row(2.25), {220, 0, 0, 255});
   scene.canvas = canvas.data();
   const Rgb drawn = pixel_at(draw_scene(scene, plain_options()), newest);
   EXPECT_GT(drawn[0], 195);
   EXPECT_LT(drawn[2], 30);
 
-  // Where the canvas is not on the floor, the trail is all there.
+  // If the canvas is not on the floor, the trail has its full opacity.
   scene.view_mode = ViewMode::kMiniMap;
   const Rgb apart = pixel_at(draw_view(scene, plain_options()), newest);
   EXPECT_LT(apart[0], 70);
@@ -314,7 +317,7 @@ TEST(DrawScene, FansAreFainterOnAFullCanvas) {
   scene.robots = {robot};
   RenderOptions bare = plain_options();
   bare.scans = false;
-  // The robot's colour has no red: what is missing of the floor's is the fan's opacity.
+  // The robot's colour has no red, so the loss of red gives the fan's opacity.
   const auto opacity = [&] {
     const Vec2 in_fan(2.75, 2.1);
     return 1.0 - static_cast<double>(pixel_at(draw_scene(scene, plain_options()), in_fan)[0]) /
@@ -334,8 +337,8 @@ TEST(DrawScene, StalledRobotHasARedRing) {
   scene.robots = {robot_at({2.25, 2.25, 0.0}, {0, 0, 255, 255})};
   scene.robots[0].stalled = true;
   const Image image = draw_scene(scene, plain_options());
-  // Its centre line is 6 px outside the circle round the footprint, whose radius is
-  // 0.1 m * sqrt(2) * 231 px/m = 32.7 px.
+  // Its centre line is 6 px outside of the footprint's circle, whose radius is 0.1 m * sqrt(2) *
+  // 231 px/m = 32.7 px.
   const double radius_m = 0.1 * std::sqrt(2.0) + 6.0 / kPixelsPerMetre;
   EXPECT_TRUE(is_red(pixel_at(image, {2.25 + radius_m, 2.25})));
 }
@@ -353,7 +356,7 @@ TEST(DrawScene, NamesAndLegendChangeOnlyWhatTheyShould) {
   const Image at_7 = draw_scene(scene, options);
   ASSERT_EQ(at_0.rgb.size(), at_7.rgb.size());
   EXPECT_NE(at_0.rgb, at_7.rgb);
-  // The footer is 74 px high; above it, nothing tells the time.
+  // The footer is 74 px high; nothing above it depends on the time.
   const auto footer = static_cast<std::ptrdiff_t>(3 * at_0.width * (at_0.height - 74));
   EXPECT_TRUE(std::equal(at_0.rgb.begin(), at_0.rgb.begin() + footer, at_7.rgb.begin()));
 }
@@ -398,7 +401,7 @@ std::vector<LayerInfo> base_and(std::vector<LayerInfo> others) {
   return others;
 }
 
-// Numbers that are the same on every run.
+// Pseudo-random numbers that are equal in every run.
 class Sequence {
  public:
   // In [0, end).
@@ -510,8 +513,8 @@ TEST(DrawView, FullScreenShowsEachCellAsASquareOfItsColour) {
     scene.canvas.push_back(255);
   }
   const Image image = draw_view(scene, plain_options());
-  // A picture of 1000 x 1000 with a frame of 1 px: 998 / 40 = 24.95, so 24 px a cell, 960 px in
-  // all; 20 px on the left, and (998 - 960) / 2 + 1 = 20 above.
+  // A picture of 1000 x 1000 with a frame of 1 px: 998 / 40 = 24.95, so 24 px per cell, 960 px in
+  // total. The canvas begins 20 px from the left, and (998 - 960) / 2 + 1 = 20 from the top.
   for (int y = 0; y < 960; ++y) {
     for (int x = 0; x < 960; ++x) {
       const auto at = static_cast<std::size_t>(4 * (y / 24 * cells + x / 24));
@@ -532,17 +535,16 @@ TEST(DrawView, FullScreenShowsRobotsAtTheScaleOfTheCanvas) {
   scene.robots = {robot_at({2.0, 2.0, kUp_rad}, {0, 0, 255, 255}),
                   robot_at({1.0, 3.5, kUp_rad}, {255, 0, 0, 255})};
   const Image image = draw_view(scene, plain_options());
-  // As above, 24 px a cell of 0.1 m, and the canvas in columns and rows 20 to 979. So the first
-  // robot is at (20 + 1.0 * 240, 980 - 1.5 * 240) = (260, 620) and reaches 24 px to each side. Its
-  // nose is an arrow head whose tip is 0.82 of that ahead: 20 px above the centre.
+  // As above, 24 px per cell of 0.1 m, and the canvas is in columns and rows 20 to 979. So the
+  // first robot is at (20 + 1.0 * 240, 980 - 1.5 * 240) = (260, 620) and extends 24 px to each
+  // side. Its nose is an arrow head whose tip is 0.82 of that ahead: 20 px above the centre.
   EXPECT_EQ(pixel(image, 260, 620), (Rgb{0, 0, 255}));
   EXPECT_EQ(pixel(image, 260, 640), (Rgb{0, 0, 255}));
   EXPECT_TRUE(is_light(pixel(image, 260, 601)));
   for (const auto& [x, y] : {std::pair{260, 590}, {230, 620}, {290, 620}, {260, 650}}) {
     EXPECT_EQ(pixel(image, x, y), (Rgb{0, 160, 0})) << x << ", " << y;
   }
-  // The second one stands astride the left edge, at (20, 980 - 3.0 * 240 = 260), and is cut off
-  // there.
+  // The second robot is on the left edge, at (20, 980 - 3.0 * 240 = 260), and is cut off there.
   EXPECT_EQ(pixel(image, 30, 260), (Rgb{255, 0, 0}));
   for (int x = 0; x < 20; ++x) EXPECT_EQ(pixel(image, x, 260), pixel(empty, x, 260)) << x;
 }
@@ -573,8 +575,8 @@ TEST(DrawView, FullScreenShrinksACanvasOfMoreCellsThanPixelsByAWholeNumber) {
   scene.canvas_description.width = 3000;
   scene.canvas_description.height = 3000;
   scene.canvas_description.cell_size_m = 4.0 / 3000;
-  // Black and white columns in turn. 998 / 3000 = 1 / 3.006, so 4 cells a pixel, 750 px in all:
-  // each pixel has two black and two white ones.
+  // Black and white columns alternate. 998 / 3000 = 1 / 3.006, so 4 cells per pixel, 750 px in
+  // total: each pixel has two black and two white cells.
   for (int i = 0; i < 3000 * 3000; ++i) {
     const std::uint8_t shade = i % 2 == 0 ? 0 : 255;
     scene.canvas.insert(scene.canvas.end(), {shade, shade, shade, 255});
@@ -591,15 +593,15 @@ TEST(DrawView, MiniMapShowsTheCanvasInTheCornerThatIsFree) {
     scene.canvas.insert(scene.canvas.end(), {0, 160, 0, 255});
   }
   const auto is_green = [](const Rgb& rgb) { return rgb == Rgb{0, 160, 0}; };
-  // Corners as they are tried: top right, top left, bottom right, bottom left; the first that is
-  // free counts. The map reaches from 0.06 m to over 1.2 m from the floor's sides.
+  // The corners in the order of trial: top right, top left, bottom right, bottom left. The first
+  // free one counts. The map extends from 0.06 m to more than 1.2 m from the floor's sides.
   const std::vector<Vec2> corners = {{3.3, 3.3}, {0.7, 3.3}, {3.3, 0.7}, {0.7, 0.7}};
   for (std::size_t blocked = 0; blocked < corners.size(); ++blocked) {
     const Image image = draw_view(scene, plain_options());
     for (std::size_t i = 0; i < corners.size(); ++i) {
       EXPECT_EQ(is_green(pixel_at(image, corners[i])), i == blocked) << i << ", " << blocked;
     }
-    EXPECT_TRUE(is_light(pixel_at(image, {2.25, 2.25})));  // no canvas on the floor
+    EXPECT_TRUE(is_light(pixel_at(image, {2.25, 2.25})));  // the canvas is not on the floor
     scene.arena.obstacles.push_back(
         block(ObstacleType::kStatic, ObstacleState::kExtended, corners[blocked]));
   }
@@ -611,13 +613,13 @@ TEST(DrawView, MiniMapShowsWhereRobotsAre) {
   scene.canvas.assign(40 * 40 * 4, 255);
   scene.robots = {robot_at({1.0, 3.0, 0.0}, {0, 0, 255, 255})};
   const Image image = draw_view(scene, plain_options());
-  // The floor is 924 px wide, a third and a bit of which, 332.64 px, is room for 40 cells: 8 px a
-  // cell, 320 px. It ends 14 px from the right and from the upper side of the floor: at x = 948 and
-  // from y = 52 on. The robot is 10 cells from its left, and as many from its upper side.
+  // The floor is 924 px wide. The mini-map may take 332.64 px of it, a little more than a third: 40
+  // cells of 8 px, 320 px. It ends 14 px from the right and upper sides of the floor: at x = 948,
+  // and it begins at y = 52. The robot is 10 cells from its left side and 10 from its upper side.
   EXPECT_EQ(pixel(image, 948 - 320 + 80, 52 + 80), (Rgb{0, 0, 255}));
 }
 
-// Rows of the picture that two pictures differ in: first and one past the last.
+// The rows in which two pictures differ: the first and one past the last.
 std::pair<int, int> rows_that_differ(const Image& a, const Image& b) {
   std::pair<int, int> rows{a.height, 0};
   for (int y = 0; y < a.height; ++y) {
@@ -631,7 +633,7 @@ std::pair<int, int> rows_that_differ(const Image& a, const Image& b) {
   return rows;
 }
 
-// In the footer, which is 66 px high in a full-screen picture of 1000 px.
+// Whether a colour occurs in the footer, which is 66 px high in a full-screen picture of 1000 px.
 bool footer_has(const Image& image, const Rgb& colour) {
   for (int y = image.height - 64; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -688,7 +690,7 @@ TEST(DrawView, LegendLeavesOutTheTopmostLayersThatHaveNoRoom) {
 TEST(DrawScene, MarkedRobotStandsBetweenDarkCorners) {
   SceneSnapshot scene = small_scene();
   scene.robots = {robot_at({2.25, 2.25, 0.0}, {0, 0, 255, 255})};
-  // A square about the robot, 13 pixels wider than the circle round its footprint (0.1 m each way).
+  // A square around the robot, 13 pixels larger than the circle of its footprint (0.1 m each way).
   const double reach_m = 0.1 * std::sqrt(2.0) + 13.0 / kPixelsPerMetre;
   for (const bool marked : {true, false}) {
     scene.robots[0].marked = marked;
@@ -705,7 +707,7 @@ TEST(DrawCanvas, ScalesCellsAndShowsTransparentAsWhite) {
       .width = 2, .height = 2, .cell_size_m = 0.02, .origin = {0.0, 0.0}};
   Canvas canvas(description);
   canvas.set_pixel(0, 0, {255, 0, 0, 255});
-  canvas.set_pixel(1, 1, {0, 0, 0, 51});  // a fifth of black over white: 204
+  canvas.set_pixel(1, 1, {0, 0, 0, 51});  // black with alpha 1/5 over white: 204
   const Image image = draw_canvas(description, canvas.data(), 3);
   ASSERT_EQ(image.width, 6);
   ASSERT_EQ(image.height, 6);
@@ -757,7 +759,7 @@ TEST(WritePng, KeepsRedAndBlueApart) {
   const TemporaryFolder folder;
   const std::string path = folder.file("red.png");
   write_png({1, 1, {200, 0, 100}}, path);
-  // Luma 0.299 * 200 + 0.114 * 100 = 71.2; exchanged, it would be 52.7.
+  // Luma 0.299 * 200 + 0.114 * 100 = 71.2; with exchanged channels it would be 52.7.
   EXPECT_EQ(load_grey_image(path).pixels, (std::vector<std::uint8_t>{71}));
 }
 
@@ -774,7 +776,7 @@ TEST(LoadGreyImage, ReadsPlainAndRawPgm) {
   const TemporaryFolder folder;
   const std::string path = folder.file("map.pgm");
   std::ofstream(path) << "P2 # plain\n# a comment\n3 1\n15\n0 5 15\n";
-  // Of a maximum of 15: 5/15 of 255 = 85.
+  // With a maximum of 15: 5/15 of 255 = 85.
   EXPECT_EQ(load_grey_image(path).pixels, (std::vector<std::uint8_t>{0, 85, 255}));
   std::ofstream(path, std::ios::binary) << "P5 2 2 255\n"
                                         << "\x01\x20\x0a\xfe";
@@ -803,7 +805,7 @@ TEST(LoadGreyImage, SaysWhatIsWrong) {
   EXPECT_THAT(error_with(file_bytes(path).substr(0, 20)), HasSubstr("cut short"));
 }
 
-// Frames that a reader finds in a film, and their size.
+// Number and size of the frames that a reader finds in a film.
 struct FilmContents {
   int frames = 0;
   int width = 0;
@@ -833,7 +835,7 @@ TEST(FilmWriter, WritesFramesThatCanBeReadBack) {
     }
     const FilmContents contents = read_film(path);
     EXPECT_EQ(contents.frames, 7) << name;
-    EXPECT_EQ(contents.width, 64) << name;  // cut to even numbers
+    EXPECT_EQ(contents.width, 64) << name;  // rounded down to even numbers
     EXPECT_EQ(contents.height, 48) << name;
   }
 }
@@ -862,7 +864,7 @@ TEST(FilmWriter, AWholeFilmIsFoundWholeWhateverItsLengthAndRate) {
   }
 }
 
-// While it lives, files cannot grow beyond so many bytes: as on a disk that is full.
+// While this object exists, files cannot exceed a size, as on a full disk.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
@@ -886,7 +888,7 @@ TEST(FilmWriter, AFilmThatTheDiskDidNotTakeIsAnError) {
   const TemporaryFolder folder;
   for (const char* name : {"film.mp4", "film.avi"}) {
     FilmWriter film(folder.file(name), 25.0);
-    // Noise, which packs badly: some kB a frame, 60 of them.
+    // Noise, which compresses badly: some kB per frame, 60 frames.
     std::minstd_rand random(1);
     std::string error;
     {
@@ -920,7 +922,7 @@ TEST(FilmWriter, WritesAFolderOfPicturesAndRemovesThoseOfAnEarlierFilm) {
   }
   {
     FilmWriter film(path, 25.0);
-    for (int i = 0; i < 3; ++i) film.add(gradient(64 + 1, 49));  // odd sides stay
+    for (int i = 0; i < 3; ++i) film.add(gradient(64 + 1, 49));  // odd sizes are kept
   }
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(path)) {

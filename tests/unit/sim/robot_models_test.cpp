@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Models of robots: those that Playpen comes with, and files.
+// Robot models: those shipped with Playpen, and files.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
     EXPECT_EQ(model.name, shipped.name);
     EXPECT_FALSE(model.description.empty());
     EXPECT_TRUE(lies_within(model.footprint, Vec2::Zero()));
-    // Programs written for Player take index 0 for odometry; the S1R's is the arena's localisation.
+    // Programs for Player expect odometry at index 0; the S1R has the arena's localisation there.
     if (!model.name.starts_with("s1r")) {
       EXPECT_THAT(world.robots[0].interfaces.at("position2d"), ElementsAre("odometry", "pose"));
     }
@@ -80,7 +80,7 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
                                  "roomba", "s1r_full", "s1r_sonar", "scorpion"));
 }
 
-// Robots turn about their axles, which need not be the middle of their bodies.
+// Robots turn about their axles, which may differ from the centres of their bodies.
 TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
   for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni", "roomba", "scorpion"}) {
     SCOPED_TRACE(name);
@@ -95,7 +95,7 @@ TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
     ASSERT_FALSE(simulation.apply({0, motion}, TwistCommand{{0.1, 0.5}}));
     for (int i = 0; i < 300; ++i) simulation.step();
     const int odometry = simulation.find_device(0, "odometry").value();
-    const auto believed = simulation.device(0, odometry).believed_pose().value();
+    const auto believed = simulation.device(0, odometry).pose_estimate().value();
     EXPECT_NEAR(believed.x_m, simulation.body(0).X_WB.x_m - 3.0, 1e-9);
     EXPECT_NEAR(believed.y_m, simulation.body(0).X_WB.y_m - 3.0, 1e-9);
   }
@@ -119,14 +119,14 @@ TEST(Pioneers, CarryWhatTheirDataSheetsSay) {
     EXPECT_EQ(laser.beam_count, 181);
     EXPECT_NEAR(laser.resolution_rad * (laser.beam_count - 1), M_PI, 1e-9);
     EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);
-    EXPECT_LT(laser.height_m, model.height_m);  // so Pioneers see one another
+    EXPECT_LT(laser.height_m, model.height_m);  // so that Pioneers see one another
     EXPECT_EQ(laser.size_m, Vec2(0.156, 0.155));
     EXPECT_DOUBLE_EQ(laser.size_height_m, 0.21);
   }
   for (const char* name : {"pioneer2dx", "pioneer3dx"}) {
     const auto bumper = settings_of<BumperParams>(world_with(name), "bumper");
     ASSERT_EQ(bumper.segments.size(), 10U);
-    for (std::size_t i = 0; i < 10; ++i) {  // the first five before the middle
+    for (std::size_t i = 0; i < 10; ++i) {  // the first five are ahead of the centre
       EXPECT_EQ(bumper.segments[i].X_BS.x_m > 0.0, i < 5) << i;
     }
   }
@@ -148,10 +148,10 @@ TEST(Pioneers, TakeThe361BeamsOfTheLasersFineMode) {
   const auto laser = settings_of<LaserParams>(world, "laser");
   EXPECT_EQ(laser.beam_count, 361);
   EXPECT_NEAR(laser.resolution_rad * 360.0, M_PI, 1e-9);
-  EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);  // the model's, not the type's
+  EXPECT_DOUBLE_EQ(laser.range_max_m, 8.0);  // the model's value, not the type's
 }
 
-/// Which of a Roomba's two bumpers a wall presses that it drives against, looking there.
+/// Which of a Roomba's two bumpers are pressed when it drives against a wall with this heading.
 std::vector<std::uint8_t> pressed_by_wall_ahead(const std::string& yaw_deg) {
   Simulation simulation(load_world_text(
       R"({"arena": {"size": [2, 6], "border_height": 1}, "robots": [
@@ -182,7 +182,7 @@ TEST(Roomba, HasALaserOf361BeamsAcrossAHalfCircle) {
   EXPECT_NEAR(laser.resolution_rad * 360.0, M_PI, 1e-9);
 }
 
-// Files cannot say "as s1r, but": what they repeat must stay equal.
+// A file cannot refer to s1r and change parts of it, so the repeated parts must stay equal.
 TEST(S1rModels, DifferFromTheS1rInWhatTheyCarryOnly) {
   const RobotModel s1r = s1r_model();
   for (const char* name : {"s1r_full", "s1r_sonar"}) {

@@ -31,13 +31,13 @@ using ::testing::Not;
 
 constexpr double kPi = std::numbers::pi;
 
-/// What the kernel promises: ten roundings of 6e-8 at the very most.
+/// The kernel's error bound: at most ten roundings of 6e-8.
 constexpr double kRelativeError = 1e-6;
 
 /// The laser of SyRoTek.
 constexpr ScanGeometry kHokuyo{682, 0.39589 * kPi / 180.0, 5.0};
 
-/// A whole turn: beam 0 and the last beam point both straight back.
+/// A full turn: beam 0 and the last beam both point straight back.
 ScanGeometry whole_turn(int beam_count) {
   return {beam_count, 2.0 * kPi / static_cast<double>(beam_count - 1), 5.0};
 }
@@ -59,7 +59,7 @@ std::vector<double> scan(const ScanGeometry& geometry, const EdgeBuffer& edges, 
   return ranges_m;
 }
 
-/// Every path must give the same bits, so a test of the default one tests all.
+/// Every implementation must give the same bits, so a test of the default one covers all.
 std::vector<double> scan(const ScanGeometry& geometry, const EdgeBuffer& edges, double yaw_rad) {
   const std::vector<double> ranges_m = scan(geometry, edges, yaw_rad, InstructionSet::kScalar);
   for (const InstructionSet set : instruction_sets()) {
@@ -78,7 +78,7 @@ void add_outline(EdgeBuffer& edges, const std::vector<std::array<float, 2>>& cor
   }
 }
 
-/// Random numbers that are the same with every standard library.
+/// Random numbers that are equal with every standard library.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -90,7 +90,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Convex solids around the sensor, none of which holds it; some beyond 5 m.
+/// Convex solids around the sensor; none contains it, some are beyond 5 m.
 EdgeBuffer random_scene(Random& random, int solid_count) {
   EdgeBuffer edges;
   for (int i = 0; i < solid_count; ++i) {
@@ -112,9 +112,9 @@ EdgeBuffer random_scene(Random& random, int solid_count) {
   return edges;
 }
 
-/// Compares with the reference every beam that does not point at a corner; there, one bit of
-/// rounding decides which of two answers is right. 1e-9 rad is far less than the 1e-5 rad allowed.
-/// Returns the number of beams that met something.
+/// Compares every beam with the reference, except beams that point at a corner: there, one bit of
+/// rounding decides which of two answers is right. 1e-9 rad is far less than the allowed 1e-5 rad.
+/// Returns the number of beams that hit something.
 int expect_like_reference(const ScanGeometry& geometry, const EdgeBuffer& edges, double yaw_rad) {
   const std::vector<double> ranges_m = scan(geometry, edges, yaw_rad);
   const std::vector<ReferenceBeam> reference = reference_scan(edges.edges(), geometry, yaw_rad);
@@ -132,7 +132,7 @@ int expect_like_reference(const ScanGeometry& geometry, const EdgeBuffer& edges,
 
 TEST(ScanKernelTest, SeesAWallAheadAtOneMetreOverTheCosine) {
   EdgeBuffer edges;
-  edges.add(1.0F, 10.0F, 1.0F, -10.0F);  // going down: left of it, the solid, is x > 1
+  edges.add(1.0F, 10.0F, 1.0F, -10.0F);  // directed downwards: its left, the solid, is x > 1
   const std::vector<double> ranges_m = scan(kHokuyo, edges, 0.0);
   for (int i = 0; i < kHokuyo.beam_count; ++i) {
     const double cosine = std::cos(kHokuyo.angle_rad(i));
@@ -146,7 +146,7 @@ TEST(ScanKernelTest, BeamZeroIsTheRightmostAndTheSensorTurnsWithItsYaw) {
   const ScanGeometry geometry{3, 0.5 * kPi, 5.0};  // right, ahead, left
   EdgeBuffer edges;
   edges.add(1.0F, 1.0F, 1.0F, -1.0F);  // a wall in the east, 1 m away
-  edges.add(-1.0F, 2.0F, 1.0F, 2.0F);  // in the north, 2 m away: left of it is y > 2
+  edges.add(-1.0F, 2.0F, 1.0F, 2.0F);  // 2 m to the north: its left is y > 2
   const double tolerance_m = 2.0 * kRelativeError;
   const std::vector<double> east = scan(geometry, edges, 0.0);
   EXPECT_EQ(east[0], 5.0);
@@ -170,8 +170,8 @@ TEST(ScanKernelTest, IgnoresEdgesFromTheirSolidSideEdgeOnAndWithoutLength) {
   edges.add(1.0F, -1.0F, 1.0F, 1.0F);   // the solid is on the sensor's side
   edges.add(1.0F, 0.0F, 2.0F, 0.0F);    // in line with the sensor
   edges.add(-1.0F, 0.0F, 1.0F, 0.0F);   // through the sensor
-  edges.add(1.0F, 0.25F, 1.0F, 0.25F);  // no length
-  edges.add(0.0F, 0.0F, 0.0F, 0.0F);    // no length, at the sensor
+  edges.add(1.0F, 0.25F, 1.0F, 0.25F);  // zero length
+  edges.add(0.0F, 0.0F, 0.0F, 0.0F);    // zero length, at the sensor
   edges.add(0.0F, 0.0F, 1.0F, -1.0F);   // begins at the sensor
   EXPECT_THAT(scan(whole_turn(721), edges, 0.0), Each(5.0));
   EXPECT_THAT(scan(whole_turn(720), edges, 0.3), Each(5.0));
@@ -196,12 +196,12 @@ TEST(ScanKernelTest, ReadsZeroEverywhereInsideASolid) {
 
 TEST(ScanKernelTest, AnEdgeBehindAcrossTheCutIsSeenFromBothEndsOfAWholeTurn) {
   EdgeBuffer edges;
-  edges.add(-1.0F, -1.0F, -1.0F, 1.0F);           // going up: left of it is x < -1
-  const ScanGeometry geometry = whole_turn(361);  // 1 degree apart
+  edges.add(-1.0F, -1.0F, -1.0F, 1.0F);           // directed upwards: its left is x < -1
+  const ScanGeometry geometry = whole_turn(361);  // beams 1 degree apart
   const std::vector<double> ranges_m = scan(geometry, edges, 0.0);
   for (int i = 0; i <= 360; ++i) {
-    const int off_deg = std::min(i, 360 - i);  // from straight back
-    if (off_deg == 45) continue;               // at the ends
+    const int off_deg = std::min(i, 360 - i);  // angle from straight back
+    if (off_deg == 45) continue;               // at the ends of the edge
     const double expected_m = off_deg < 45 ? 1.0 / std::cos(off_deg * kPi / 180.0) : 5.0;
     EXPECT_NEAR(ranges_m[static_cast<std::size_t>(i)], expected_m, kRelativeError * expected_m);
   }
@@ -237,14 +237,16 @@ TEST(ScanKernelTest, ABeamThroughACornerMeetsEitherEdgeOfIt) {
 }
 
 TEST(ScanKernelTest, TellsTheSideOfACornerBeyondSinglePrecision) {
-  // Corners 2 m away whose angle is that of a beam but for the rounding to floats, about 1e-7 rad:
-  // less than the error of an angle computed in floats. The edges lie to the left or right.
+  // Corners 2 m away whose angle equals that of a beam except for the rounding to floats, about
+  // 1e-7 rad: less than the error of an angle computed in floats. The edges are to the left or
+  // right.
   Random random(5);
   int met_count = 0;
   for (int i = 0; i < 1000; ++i) {
     const double yaw_rad = random.uniform(-kPi, kPi);
     const double corner_rad = kHokuyo.angle_rad(static_cast<int>(random.uniform(0, 682))) + yaw_rad;
-    const double other_rad = corner_rad + (i % 2 == 0 ? 0.004 : -0.004);  // within the next beam
+    // closer than the next beam
+    const double other_rad = corner_rad + (i % 2 == 0 ? 0.004 : -0.004);
     const float x = static_cast<float>(2.0 * std::cos(corner_rad));
     const float y = static_cast<float>(2.0 * std::sin(corner_rad));
     const float other_x = static_cast<float>(2.0 * std::cos(other_rad));
@@ -257,13 +259,13 @@ TEST(ScanKernelTest, TellsTheSideOfACornerBeyondSinglePrecision) {
     }
     met_count += expect_like_reference(kHokuyo, edges, yaw_rad);
   }
-  EXPECT_GT(met_count, 300);  // about half of the corners lie on the side that is seen
+  EXPECT_GT(met_count, 300);  // about half of the corners face the sensor
   EXPECT_LT(met_count, 700);
 }
 
 TEST(ScanKernelTest, NothingIsSeenThroughSharedCorners) {
-  // Rings of short edges around the sensor, the solid outside. Some corners lie on beams: exactly,
-  // or within the rounding of a float. No beam may leave.
+  // Rings of short edges around the sensor, with the solid outside. Some corners are on beams:
+  // exactly, or within the rounding of a float. No beam may pass through.
   Random random(20261121);
   for (const int beam_count : {4, 91, 361, 682, 4097}) {
     const ScanGeometry geometry = whole_turn(beam_count);
@@ -280,7 +282,7 @@ TEST(ScanKernelTest, NothingIsSeenThroughSharedCorners) {
                 std::greater<>());  // clockwise: solid outside
       std::vector<std::array<float, 2>> corners;
       for (const double angle_rad : angles_rad) {
-        // Near enough to a circle that every edge faces the sensor or has almost no length.
+        // Close to a circle, so that every edge faces the sensor or has almost no length.
         corners.push_back({static_cast<float>(2.0 * std::cos(angle_rad)),
                            static_cast<float>(2.0 * std::sin(angle_rad))});
       }
@@ -355,7 +357,7 @@ TEST(ScanKernelTest, ValuesThatAreNotFiniteDoNoHarm) {
   }
 }
 
-/// A convex solid and the disc that holds it.
+/// A convex solid and the disc that contains it.
 struct DiscedSolid {
   EdgeBuffer edges;
   std::array<float, 3> disc;
@@ -398,7 +400,7 @@ TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
       EdgeBuffer whole;
       for (const DiscedSolid& solid : solids) add_all(whole, solid.edges);
       const double yaw_rad = random.uniform(-kPi, kPi);
-      // Where the sensor stands in W does not matter, but for what single precision makes of it.
+      // The sensor's position in W does not matter, except for rounding to single precision.
       const float at_x = static_cast<float>(random.uniform(-50.0, 50.0));
       const float at_y = static_cast<float>(random.uniform(-50.0, 50.0));
       DiscBuffer discs;
@@ -438,7 +440,8 @@ TEST(ScanKernelTest, PartsWithoutWhatIsHiddenGiveTheSameBits) {
 }
 
 TEST(ScanKernelTest, GroupsOfDiscsThatAreHiddenOrOutOfViewAreNotListed) {
-  // Rows of eight robots: within reach before a wall, beyond the wall, beside it, behind, far off.
+  // Rows of eight robots: within reach before a wall, behind the wall, beside it, behind the
+  // sensor, far away.
   DiscBuffer discs;
   for (const auto& [x, y] :
        {std::pair{2.0F, 0.0F}, {5.0F, 0.0F}, {3.5F, 3.0F}, {-3.0F, 0.0F}, {40.0F, 0.0F}}) {
@@ -494,7 +497,7 @@ TEST(ScanKernelTest, TakesNoMemoryInSteadyState) {
   const std::size_t before_first = allocation_count();
   fill_and_scan(0.0);
   const std::size_t after_first = allocation_count();
-  ASSERT_GT(after_first, before_first);  // so the counter counts
+  ASSERT_GT(after_first, before_first);  // shows that the counter counts
   for (int i = 1; i < 100; ++i) fill_and_scan(0.1 * i);
   EXPECT_EQ(allocation_count(), after_first);
 }
@@ -509,7 +512,7 @@ TEST(EdgeBufferTest, AppendsInBulkAndGivesBackTheRest) {
   ASSERT_EQ(edges.edges().size(), 11U);
   EXPECT_EQ(edges.edges()[0].y1_m, 4.0F);
   EXPECT_EQ(edges.edges()[10].x0_m, 9.0F);
-  edges.truncate(20);  // more than there are: nothing happens
+  edges.truncate(20);  // more than there are: no effect
   EXPECT_EQ(edges.size(), 11U);
   edges.inside = true;
   edges.clear();

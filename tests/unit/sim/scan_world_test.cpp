@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The scan as a robot gets it, edges collected from the physics, against b2World::RayCast.
+// The scan of a robot, with edges collected from the physics, compared with b2World::RayCast.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace sim {
 namespace {
 
-// True if the ranges round a beam jump: a corner lies within half a beam of it.
+// True if the ranges jump near a beam: a corner is within half a beam of it.
 bool near_corner(const PhysicsWorld& physics, const Vec2& p_WL, double angle_rad, double step_rad,
                  double range_max_m, int own) {
   const double middle = physics.ray_cast_m(p_WL, angle_rad, range_max_m, own);
@@ -44,14 +44,14 @@ TEST(ScanOfTheWorld, AgreesWithRayCastOnTenThousandPosesAmongThirteenRobots) {
   for (int pose = 0; pose < 10'000; ++pose) {
     const Vec2 p_WL(uniform(0.01, 3.41), uniform(0.01, 3.71));
     const double yaw = uniform(-std::numbers::pi, std::numbers::pi);
-    const int own = pose % 14 - 1;  // none, or one of the robots unseen
+    const int own = pose % 14 - 1;  // none, or one of the robots that the scan ignores
     physics.collect_edges(p_WL, laser.range_max_m, laser.height_m, own, true, edges);
     if (edges.inside) {
       --pose;  // inside a block or a robot there is nothing to compare: Box2D sees nothing there
       continue;
     }
     kernel.scan(edges, yaw, ranges);
-    // Every eleventh beam, from another one each time, keeps the test short.
+    // Every eleventh beam, with a different offset each time, keeps the test short.
     for (int beam = pose % 11; beam < laser.beam_count; beam += 11) {
       ++beams;
       const double angle = yaw + kernel.geometry().angle_rad(beam);
@@ -97,7 +97,7 @@ TEST(ScanOfTheWorld, LeavesOutHiddenRobotsOfACrowdWithoutADifference) {
 }
 
 TEST(ScanOfTheWorld, CollectsOnlyWhatIsInRangeFromAHundredThousandEdges) {
-  // 25 000 boxes of 0.1 m, one a metre, on 158 x 158 m.
+  // 25 000 boxes of 0.1 m, one per metre, on 158 x 158 m.
   ArenaDescription arena;
   arena.size = {159.0, 159.0};
   for (int i = 0; i < 25'000; ++i) {
@@ -110,7 +110,7 @@ TEST(ScanOfTheWorld, CollectsOnlyWhatIsInRangeFromAHundredThousandEdges) {
   PhysicsWorld physics(arena);
   scan::EdgeBuffer edges;
   physics.collect_edges({80.5, 80.5}, 3.0, 0.125, -1, true, edges);
-  // Boxes whose broad phase box meets the square of +-3 m: at most 8 x 8.
+  // Boxes whose broadphase box intersects the square of +-3 m: at most 8 x 8.
   EXPECT_GE(edges.size(), 6U * 6U * 4U);
   EXPECT_LE(edges.size(), 8U * 8U * 4U);
   EXPECT_FALSE(edges.inside);

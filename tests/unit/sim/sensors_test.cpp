@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// The sensors that a world adds to its robots: collision, battery, proximity, infrared and sonar.
+// The optional sensors of robots: collision, battery, proximity, infrared and sonar.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ using testing::IsEmpty;
 
 constexpr double kDegrees = std::numbers::pi / 180.0;
 
-/// A robot as a world file has it.
+/// A robot in the format of world files.
 std::string robot(const std::string& name, double x, double y, double yaw_deg,
                   const std::string& devices = "{}") {
   return R"({"name": ")" + name + R"(", "pose": {"x": )" + fixed_text(x, 6) + R"(, "y": )" +
@@ -63,7 +63,7 @@ void run(Simulation& simulation, int steps) {
 
 // --- collision
 
-// The S1R reaches 0.087 m forward, so from x = 1.463 it has 50 mm to a face at x = 1.6.
+// The S1R extends 0.087 m ahead, so at x = 1.463 it is 50 mm from a face at x = 1.6.
 constexpr const char* kBlock =
     R"("obstacles": [{"name": "block", "center": [1.8, 2], "size": [0.4, 0.4]}])";
 
@@ -78,11 +78,11 @@ TEST(CollisionSensor, TellsAContactThatBeganAndEndedBetweenTwoReadings) {
   Simulation simulation(
       room(robot("r1", 1.463, 2, 0, R"({"collision": {"frequency": 1}})"), kBlock));
   drive(simulation, 0.5);
-  run(simulation, 20);  // it would be 100 mm on
+  run(simulation, 20);  // free motion would be 100 mm
   drive(simulation, -0.2);
   run(simulation, 80);
   ASSERT_EQ(reading<CollisionReading>(simulation, "collision").sequence, 1U);
-  ASSERT_LT(simulation.body(0).X_WB.x_m, 1.4);  // long away from the block
+  ASSERT_LT(simulation.body(0).X_WB.x_m, 1.4);  // far away from the block
   EXPECT_TRUE(reading<CollisionReading>(simulation, "collision").collision);
   EXPECT_THAT(reading<CollisionReading>(simulation, "collision").objects, ElementsAre("block"));
   run(simulation, 100);
@@ -96,7 +96,7 @@ TEST(CollisionSensor, TellsAContactThatLastsInEachReading) {
   run(simulation, 10);
   EXPECT_FALSE(reading<CollisionReading>(simulation, "collision").collision);
   drive(simulation, 0.5);
-  run(simulation, 10);  // it gets there
+  run(simulation, 10);  // it reaches the block
   for (int i = 0; i < 5; ++i) {
     run(simulation, 10);
     EXPECT_TRUE(reading<CollisionReading>(simulation, "collision").collision) << i;
@@ -108,8 +108,8 @@ TEST(CollisionSensor, TellsAContactThatLastsInEachReading) {
 }
 
 TEST(CollisionSensor, NamesEachThingOnceInOrder) {
-  // r1 stands 1 mm from the left and the bottom border, and r2 1 mm before it; all are less than
-  // the 2 mm that count as touching.
+  // r1 is 1 mm from the left and the bottom border, and r2 is 1 mm ahead of it. All distances are
+  // below the 2 mm that count as touching.
   Simulation simulation(room(robot("r1", 0.088, 0.082, 0, R"({"collision": {}})") + "," +
                              robot("r2", 0.263, 0.082, 0, R"({"collision": {}})")));
   run(simulation, 10);
@@ -141,11 +141,11 @@ TEST(BatteryLoad, GrowsWithTheSpeedOfTheWheels) {
   EXPECT_DOUBLE_EQ(battery_load_w(params, {}, 0.14), 6.0);
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.5, 0.0}, 0.14), 10.0);
   EXPECT_DOUBLE_EQ(battery_load_w(params, {-0.5, 0.0}, 0.14), 10.0);
-  // On the spot at 3 rad/s: wheels at -+ 3 * 0.07 = 0.21 m/s.
+  // Turning on the spot at 3 rad/s: wheels at -+ 3 * 0.07 = 0.21 m/s.
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.0, 3.0}, 0.14), 6.0 + 8.0 * 0.21);
-  // Wheels at 0.29 and 0.71 m/s: as fast, in the mean, as the robot.
+  // Wheels at 0.29 and 0.71 m/s: their mean is the robot's speed.
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.5, -3.0}, 0.14), 10.0);
-  // To its side and ahead, 0.5 m/s in all.
+  // Sideways and ahead, 0.5 m/s in total.
   EXPECT_DOUBLE_EQ(battery_load_w(params, {0.3, 0.0, -0.4}, 0.14), 10.0);
 }
 
@@ -164,7 +164,7 @@ TEST(Dock, HoldsWhatIsOnItsTurnedArea) {
   EXPECT_TRUE(is_on_dock(dock, dock.pose * Vec2(0.199, 0.099)));
   EXPECT_FALSE(is_on_dock(dock, dock.pose * Vec2(0.201, 0.0)));
   EXPECT_FALSE(is_on_dock(dock, dock.pose * Vec2(0.0, -0.101)));
-  EXPECT_FALSE(is_on_dock(dock, {1.0 + 0.199, 2.0 + 0.099}));  // on it only if it were not turned
+  EXPECT_FALSE(is_on_dock(dock, {1.0 + 0.199, 2.0 + 0.099}));  // on it without the rotation
 }
 
 TEST(Battery, DrainsWithTimeAndWithDriving) {
@@ -173,7 +173,7 @@ TEST(Battery, DrainsWithTimeAndWithDriving) {
   run(simulation, 1000);
   drive(simulation, 0.2);
   run(simulation, 1000);
-  // 60 % of 3600 J, less 10 s at 6 W and 10 s at 6 + 8 * 0.2 W: 2160 - 60 - 76 = 2024 J.
+  // 60 % of 3600 J, minus 10 s at 6 W and 10 s at 6 + 8 * 0.2 W: 2160 - 60 - 76 = 2024 J.
   const auto& battery = reading<BatteryReading>(simulation, "battery");
   EXPECT_NEAR(battery.charge_percent, 100.0 * 2024.0 / 3600.0, 1e-9);
   EXPECT_NEAR(battery.energy_wh, 2024.0 / 3600.0, 1e-11);
@@ -215,7 +215,7 @@ TEST(Battery, FillsInADockAndNowhereElse) {
   EXPECT_EQ(battery.status, BatteryStatus::kDischarging);
   drive(simulation, 0.0);
   run(simulation, 10);
-  // 10 steps (or 11: step 24 ends on the edge itself) at 10 W and 10 at 6 W lie outside.
+  // 10 steps (or 11: step 24 ends exactly on the edge) at 10 W and 10 at 6 W are outside.
   EXPECT_NEAR(battery.energy_wh * 3600.0, 72.0 - 0.6 - 0.65, 0.06);
 }
 
@@ -269,7 +269,7 @@ TEST(Proximity, TellsObstaclesThatStandThereIfAsked) {
                             {"name": "away", "center": [3.5, 3.5]}],
               "dock_separators": [{"name": "separator1", "center": [1, 0.5]}])"));
   run(simulation, 10);
-  // Of two that are called alike, the nearer comes first.
+  // Of two robots with the same name, the nearer one comes first.
   EXPECT_THAT(
       reading<ProximityReading>(simulation, "proximity").near_objects,
       ElementsAre(Neighbour{"block", 1.0}, Neighbour{"block", 1.5}, Neighbour{"separator1", 0.5}));
@@ -286,13 +286,13 @@ TEST(Infrared, RingSeesTheRoomRoundTheRobot) {
                                         robot("r1", 0.5, 0.5, 0, R"({"infrared": {}})") + "]}"));
   run(simulation, 10);
   const auto& ring = reading<RangerReading>(simulation, "infrared");
-  // Ahead 0.5 - 0.081, to the side 0.5 - 0.075, into the corners sqrt(2) (0.5 - 0.061).
+  // Ahead 0.5 - 0.081, sideways 0.5 - 0.075, into the corners sqrt(2) (0.5 - 0.061).
   const double corner = std::sqrt(2.0) * 0.439;
   const std::vector<double> expected{0.419, corner, 0.425, corner, 0.419, corner, 0.425, corner};
   ASSERT_EQ(ring.ranges_m.size(), expected.size());
   ASSERT_EQ(ring.X_BS.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    // Exact to 1e-7 of the greatest range.
+    // Exact to 1e-7 of the maximum range.
     EXPECT_NEAR(ring.ranges_m[i], expected[i], 1e-6) << i;
   }
   EXPECT_EQ(ring.range_max_m, 0.8);
@@ -326,7 +326,7 @@ TEST(Infrared, ReadsZeroInsideASolidWithThatTransducerAlone) {
       robot("r1", 1.4, 2, 0, R"({"infrared": {"mounts": [{"x": 0.3}, {"x": 0.1}]}})"), kBlock));
   run(simulation, 10);
   const auto& ranges = reading<RangerReading>(simulation, "infrared").ranges_m;
-  EXPECT_EQ(ranges[0], 0.0);          // at x = 1.7, 0.1 m within the block
+  EXPECT_EQ(ranges[0], 0.0);          // at x = 1.7, 0.1 m inside the block
   EXPECT_NEAR(ranges[1], 0.1, 1e-6);  // at x = 1.5
 }
 
@@ -348,13 +348,13 @@ using Pressed = std::vector<std::uint8_t>;
 TEST(BumperSegments, GoRoundTheFootprint) {
   const std::vector<BumperSegment> sides = segments_round(s1r_model().footprint);
   ASSERT_EQ(sides.size(), 8U);
-  // The front side, from (0.087, -0.045) to (0.087, 0.045), looks ahead.
+  // The front side, from (0.087, -0.045) to (0.087, 0.045), faces ahead.
   EXPECT_NEAR(sides[0].X_BS.x_m, 0.087, 1e-12);
   EXPECT_NEAR(sides[0].X_BS.y_m, 0.0, 1e-12);
   EXPECT_NEAR(sides[0].X_BS.yaw_rad, 0.0, 1e-12);
   EXPECT_NEAR(sides[0].length_m, 0.09, 1e-12);
   EXPECT_EQ(sides[0].radius_m, 0.0);
-  // Side 2, from (0.05, 0.081) to (-0.05, 0.081), looks left; 4 back.
+  // Side 2, from (0.05, 0.081) to (-0.05, 0.081), faces left; side 4 faces back.
   EXPECT_NEAR(sides[2].X_BS.yaw_rad, 90.0 * kDegrees, 1e-12);
   EXPECT_NEAR(sides[2].length_m, 0.1, 1e-12);
   EXPECT_NEAR(std::abs(sides[4].X_BS.yaw_rad), std::numbers::pi, 1e-12);
@@ -364,13 +364,13 @@ TEST(BumperSegments, KnowHowFarAPointIs) {
   const BumperSegment straight{{0.2, 0.1, 0.0}, 0.1, 0.0};  // x = 0.2, y from 0.05 to 0.15
   EXPECT_NEAR(distance_to_segment_m(straight, {0.25, 0.12}), 0.05, 1e-12);
   EXPECT_NEAR(distance_to_segment_m(straight, {0.23, 0.01}), 0.05, 1e-12);  // 3, 4, 5
-  // A quarter of a circle of 0.1 m round the origin, from -45 to 45 degrees.
+  // A quarter of a circle of 0.1 m around the origin, from -45 to 45 degrees.
   const BumperSegment arc{{0.1, 0.0, 0.0}, 0.05 * std::numbers::pi, 0.1};
   EXPECT_NEAR(distance_to_segment_m(arc, {0.15 * std::cos(0.7), 0.15 * std::sin(0.7)}), 0.05,
               1e-12);
   EXPECT_NEAR(distance_to_segment_m(arc, {0.0, 0.1}), 0.2 * std::sin(22.5 * kDegrees), 1e-12);
   EXPECT_NEAR(distance_to_segment_m(arc, {0.02, 0.0}), 0.08, 1e-12);
-  // The same arc, looking back from the other side.
+  // The same arc on the other side, facing back.
   const BumperSegment turned{{-0.1, 0.0, std::numbers::pi}, 0.05 * std::numbers::pi, 0.1};
   EXPECT_NEAR(distance_to_segment_m(turned, {0.0, -0.1}), 0.2 * std::sin(22.5 * kDegrees), 1e-12);
 }
@@ -404,7 +404,7 @@ TEST(Bumper, FeelsAFlatWallWithItsFlatFront) {
   run(simulation, 70);
   EXPECT_EQ(pressed(simulation), Pressed(8, 0));
   run(simulation, 30);
-  // The front, and at its ends the joints with the two sides next to it.
+  // The front, and at its ends the joints to the two adjacent sides.
   EXPECT_EQ(pressed(simulation), (Pressed{1, 1, 0, 0, 0, 0, 0, 1}));
   drive(simulation, -0.1);
   run(simulation, 20);
@@ -412,7 +412,7 @@ TEST(Bumper, FeelsAFlatWallWithItsFlatFront) {
 }
 
 TEST(Bumper, TellsTheSideThatACornerTouches) {
-  // A block whose corner (2.5, 2.02) meets the front, 2 cm left of its middle.
+  // A block whose corner (2.5, 2.02) touches the front, 2 cm left of its centre.
   const std::string tip = R"("obstacles": [{"name": "tip", "center": [)" +
                           fixed_text(2.5 + 0.2 * std::sqrt(0.5), 6) +
                           R"(, 2.02], "size": [0.2, 0.2], "yaw_deg": 45}])";
@@ -479,13 +479,13 @@ TEST(LeastRangeInCone, IsThatOfTheFootTheSideOrTheCorner) {
   // The corner (2, 1) lies at 26.57 degrees; a cone from 26 on meets the face just below it.
   EXPECT_DOUBLE_EQ(least(41.0, 30.0), 2.0 / std::cos(26.0 * kDegrees));
   EXPECT_DOUBLE_EQ(least(42.0, 30.0), 5.0);   // from 27 on: past it
-  EXPECT_DOUBLE_EQ(least(180.0, 30.0), 5.0);  // behind
-  EXPECT_DOUBLE_EQ(least(90.0, 180.0), 2.0);  // half the plane, whose border is the foot's ray
+  EXPECT_DOUBLE_EQ(least(180.0, 30.0), 5.0);  // behind the sensor
+  EXPECT_DOUBLE_EQ(least(90.0, 180.0), 2.0);  // a half-plane, whose border is the foot's ray
   EXPECT_DOUBLE_EQ(least(0.0, 0.0), 2.0);     // a ray
   EXPECT_DOUBLE_EQ(least(20.0, 0.0), 2.0 / std::cos(20.0 * kDegrees));
   EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {0.5, 0.25, 0.0, 0.0}, 1.25), 1.25);
   EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {0.5, 0.25, 0.0, 0.5}, 5.0), 1.5);
-  // Seen from within the box its faces look away.
+  // From inside the box, its faces point away.
   EXPECT_DOUBLE_EQ(least_range_in_cone_m(edges.edges(), {3.0, 0.0, 0.0, 1.0}, 5.0), 5.0);
 }
 
@@ -496,7 +496,8 @@ TEST(LeastRangeInCone, SeesThingsNarrowerThanAnyBeam) {
               std::hypot(3.9995, 0.4995), 1e-6);
 }
 
-// The slow way: beams that fill the cone, at most 0.25 degrees apart, both its sides among them.
+// The slow reference: beams that fill the cone, at most 0.25 degrees apart, including both its
+// sides.
 double least_of_beams(const EdgeBuffer& edges, double yaw_rad, double field_of_view_rad,
                       double range_max_m) {
   const int half = static_cast<int>(std::ceil(0.5 * field_of_view_rad / (0.25 * kDegrees)));
@@ -520,7 +521,7 @@ TEST(LeastRangeInCone, IsThatOfBeamsAndCorners) {
     }
     const double yaw = in(-3.1, 3.1);
     const double field = in(1.0, 180.0) * kDegrees;
-    // Beams miss the corners between them, and nothing else that matters.
+    // Beams may miss corners between them, but nothing else that matters.
     double expected = least_of_beams(edges, yaw, field, 5.0);
     for (const scan::Edge& edge : edges.edges()) {
       const Vec2 a(edge.x0_m, edge.y0_m);
@@ -528,7 +529,7 @@ TEST(LeastRangeInCone, IsThatOfBeamsAndCorners) {
       if (off <= 0.5 * field) expected = std::min(expected, a.norm());
     }
     const double found = least_range_in_cone_m(edges.edges(), {0, 0, yaw, field}, 5.0);
-    // A wall's foot is at most 0.125 degrees from a beam: 2.4e-6 of the range.
+    // The foot of a wall is at most 0.125 degrees from a beam: 2.4e-6 of the range.
     ASSERT_NEAR(found, expected, 3e-6 * expected) << round;
     ASSERT_LE(found, expected + 1e-6);
     if (found < 5.0) ++met;
@@ -554,7 +555,7 @@ TEST(LeastRangeInCone, OfARayIsThatOfABeam) {
   }
 }
 
-// Rays that end exactly at corners of a closed outline never look through them.
+// Rays that end exactly at corners of a closed outline never pass through them.
 TEST(LeastRangeInCone, RaysDoNotLookThroughJoints) {
   EdgeBuffer edges;
   constexpr int kCorners = 360;
@@ -587,7 +588,7 @@ TEST(InfraredVoltage, GoesThroughTheDataSheetsTypicalValues) {
   EXPECT_NEAR(voltage(0.2), 1.4, 1e-12);  // 0.336 / 0.24
 }
 
-// One transducer in the middle of the robot, with a cone of 30 degrees.
+// One transducer at the centre of the robot, with a cone of 30 degrees.
 constexpr const char* kSonar = R"({"sonar": {"mounts": [{}]}})";
 
 double sonar_range(const Simulation& simulation) {
@@ -595,18 +596,18 @@ double sonar_range(const Simulation& simulation) {
 }
 
 TEST(Sonar, ReadsTheLeastRangeWithinItsCone) {
-  // A wall 2 m ahead. At 10 degrees its foot lies within the cone.
+  // A wall 2 m ahead. At 10 degrees its foot is inside the cone.
   Simulation within(room(robot("r1", 2, 2, 10, kSonar)));
   run(within, 10);
   EXPECT_NEAR(sonar_range(within), 2.0, 1e-6);
-  // At 20 degrees the cone's side comes nearest, 5 degrees off the foot.
+  // At 20 degrees the cone's side is nearest, 5 degrees from the foot.
   Simulation beside(room(robot("r1", 2, 2, 20, kSonar)));
   run(beside, 10);
   EXPECT_NEAR(sonar_range(beside), 2.0 / std::cos(5.0 * kDegrees), 1e-6);
 }
 
 TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
-  // A box on its tip: the corner that looks at the robot is at (3, 2.2), 11.3 degrees to the left.
+  // A box on its corner: the corner that faces the robot is at (3, 2.2), 11.3 degrees to the left.
   const std::string side = fixed_text(0.4 / std::sqrt(2.0), 6);
   const auto tip = [&](double y) {
     return R"("obstacles": [{"name": "tip", "center": [3.2, )" + fixed_text(y, 6) +
@@ -616,7 +617,8 @@ TEST(Sonar, SeesACornerThatIsInTheConeAndNotOneBesideIt) {
   run(in_cone, 10);
   // Its size is written with 6 digits.
   EXPECT_NEAR(sonar_range(in_cone), std::hypot(1.0, 0.2), 2e-6);
-  // 0.5 m further to the left its lowest corner (3.2, 2.5) lies at 22.6 degrees: the wall is seen.
+  // 0.5 m further to the left its lowest corner (3.2, 2.5) is at 22.6 degrees: the sonar sees the
+  // wall.
   Simulation beside(room(robot("r1", 2, 2, 0, kSonar), tip(2.7)));
   run(beside, 10);
   EXPECT_NEAR(sonar_range(beside), 2.0, 1e-6);
@@ -627,12 +629,12 @@ TEST(Sonar, DefaultLooksLeftAheadAndRight) {
   run(simulation, 10);
   const auto& sonar = reading<RangerReading>(simulation, "sonar");
   ASSERT_EQ(sonar.ranges_m.size(), 3U);
-  // Left: mounted at y = 3.561, 0.439 m below the border; its cone's upper side rises at 60
+  // Left: mounted at y = 3.561, 0.439 m below the border; the upper side of its cone rises at 60
   // degrees.
   EXPECT_NEAR(sonar.ranges_m[0], 0.439 / std::sin(60.0 * kDegrees), 1e-5);
-  // Ahead, at x = 2.081: the border above is met at 0.5 / sin 15 = 1.93 m, that ahead at 1.919 m.
+  // Ahead, at x = 2.081: the border above is at 0.5 / sin 15 = 1.93 m, the border ahead at 1.919 m.
   EXPECT_NEAR(sonar.ranges_m[1], 1.919, 2e-5);
-  // Right, at x = 2.061: its cone reaches from -60 to -30 degrees, where the border ahead is near.
+  // Right, at x = 2.061: its cone covers -60 to -30 degrees, where the border ahead is nearest.
   EXPECT_NEAR(sonar.ranges_m[2], 1.939 / std::cos(30.0 * kDegrees), 1e-5);
   EXPECT_NEAR(sonar.field_of_view_rad, 30.0 * kDegrees, 1e-12);
 }
@@ -668,14 +670,14 @@ TEST(Sonar, NoiseStaysWithinTheRange) {
   EXPECT_GT(at_limit, 20);
 }
 
-// --- all of them
+// --- all sensors
 
 constexpr const char* kAll =
     R"({"battery": {}, "bumper": {}, "collision": {}, "infrared": {"noise": 0.01},
         "proximity": {"obstacles": true}, "sonar": {"noise": 0.02},
         "laser": {"noise": 0.01, "beams": 37, "resolution_deg": 5}})";
 
-// Two robots that drive into the block and each other.
+// Two robots that collide with the block and each other.
 std::uint64_t hash_of_a_drive(WorldDescription world) {
   Simulation simulation(std::move(world));
   for (int i = 0; i < 500; ++i) {
@@ -719,7 +721,7 @@ TEST(AddedSensors, LeaveTheNoiseOfOthersAlone) {
             reading<LaserReading>(with_sonar, "laser").ranges_m);
 }
 
-/// Settings that are refused, and how.
+/// Invalid settings, and their errors.
 struct BadSettings {
   const char* type;
   const char* settings;

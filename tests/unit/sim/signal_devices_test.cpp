@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What robots say, show and send by wires; and blocks that are moved while a simulation runs.
+// Speech, lights, wires and messages of robots, and blocks that move while a simulation runs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ using testing::HasSubstr;
 
 constexpr double kPi = std::numbers::pi;
 
-// A floor of 4 x 2 m with a dock at its right end, and robots r1 at (1, 1) and r2 at (2, 1).
+// A floor of 4 x 2 m with a dock at its right end; the robots are r1 at (1, 1) and r2 at (2, 1).
 Simulation two_robots(const std::string& first, const std::string& second = "",
                       const std::string& arena = "", const LogHook& log = {}) {
   const std::string text =
@@ -71,7 +71,7 @@ TEST(Dio, ShowsConstantsAndItsRobotsState) {
   ASSERT_FALSE(simulation.place_object("r1", {3.5, 1.0, 0.0}));
   run(simulation, 10);
   EXPECT_EQ(dio.reading().inputs, 0b0101U);
-  // Driven into the right border it touches that.
+  // It drives into the right border and touches it.
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.5, 0.0}}));
   run(simulation, 200);
   EXPECT_EQ(dio.reading().inputs & 0b1000U, 0b1000U);
@@ -88,7 +88,7 @@ TEST(Dio, SetsItsFirstOutputsAndKeepsTheOthers) {
               HasSubstr("has 3 digital outputs"));
 }
 
-// The output of a robot is seen at the other's input in the same step, whichever of them is first.
+// A robot's output appears at the other's input in the same step, in either order of robots.
 TEST(Dio, WiresLeadFromRobotToRobot) {
   Simulation simulation =
       two_robots(R"("dio": {"inputs": ["r2.dio.1"], "frequency": 100})",
@@ -139,7 +139,7 @@ TEST(Aio, ShowsConstantsSpeedsBatteryRangesAndOutputs) {
   EXPECT_EQ(volts[0], 5.0);
   EXPECT_EQ(volts[1], 0.0);
   EXPECT_DOUBLE_EQ(volts[2], 12.6);  // full
-  // From the laser at x = 1.035 to the hull of r2, whose back is at 2 - 0.087.
+  // From the laser at x = 1.035 to the body of r2, whose back is at 2 - 0.087.
   EXPECT_NEAR(volts[3], 2.0 - 0.087 - 1.035, 1e-3);
   EXPECT_EQ(volts[4], -2.5);
   EXPECT_EQ(volts[5], 1.25);
@@ -191,16 +191,16 @@ TEST(Speech, StandsOverTheRobotForItsTime) {
   EXPECT_EQ(simulation.snapshot().robots[0].says, "hello");
   run(simulation, 1);
   EXPECT_EQ(simulation.snapshot().robots[0].says, "");
-  ASSERT_EQ(simulation.said().size(), 1U);
-  EXPECT_EQ(simulation.said()[0].time_ns, from_seconds(0.05));
-  EXPECT_EQ(simulation.said()[0].robot, 0);
-  EXPECT_EQ(simulation.said()[0].text, "hello");
+  ASSERT_EQ(simulation.spoken_texts().size(), 1U);
+  EXPECT_EQ(simulation.spoken_texts()[0].time_ns, from_seconds(0.05));
+  EXPECT_EQ(simulation.spoken_texts()[0].robot, 0);
+  EXPECT_EQ(simulation.spoken_texts()[0].text, "hello");
   EXPECT_THAT(log, ElementsAre("robot r1 says: hello"));
 
   ASSERT_FALSE(simulation.apply(id, SayCommand{"one"}));
   ASSERT_FALSE(simulation.apply(id, SayCommand{""}));
   EXPECT_EQ(simulation.snapshot().robots[0].says, "");
-  EXPECT_EQ(simulation.said().size(), 2U);  // being quiet is not saying something
+  EXPECT_EQ(simulation.spoken_texts().size(), 2U);  // silence does not count as speech
   EXPECT_THAT(simulation.apply(id, SayCommand{std::string(256, 'x')}).value(), HasSubstr("255"));
 }
 
@@ -230,7 +230,7 @@ TEST(Blinkenlight, ChangesWhatItIsToldAndNothingElse) {
   blink.period_s = 0.2;
   blink.duty_cycle = 0.5;
   ASSERT_FALSE(simulation.apply(id, blink));
-  run(simulation, 10);  // at 0.1 s it has just gone dark
+  run(simulation, 10);  // it has just been switched off at 0.1 s
   EXPECT_TRUE(light.reading().enabled);
   EXPECT_EQ(light.reading().colour, (Colour{1, 2, 3, 255}));
   EXPECT_DOUBLE_EQ(light.reading().period_s, 0.2);
@@ -259,7 +259,7 @@ TEST(Opaque, EchoesWhatItSendsUnlessItHearsOthers) {
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "opaque"), message("a")));
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "opaque"), message("b")));
   ASSERT_FALSE(simulation.apply(id_of(simulation, 1, "opaque"), message("nobody hears this")));
-  // One message a reading, at both ends.
+  // One message per reading, at both ends.
   for (const char* expected : {"a", "b", ""}) {
     run(simulation, 10);
     EXPECT_EQ(text_of(first.reading()), expected);
@@ -295,7 +295,7 @@ TEST(Opaque, LosesTheOldestWhenTheQueueIsFull) {
               HasSubstr("65536"));
 }
 
-// --- blocks that move
+// --- moving blocks
 
 constexpr const char* kBlock =
     R"(, "obstacles": [{"name": "b", "center": [1.5, 1], "size": [0.2, 0.4], "type": "dynamic"}])";
@@ -308,18 +308,19 @@ double range_ahead(Simulation& simulation) {
 TEST(PlaceObject, MovesABlockForSensorsAndWheels) {
   Simulation simulation = two_robots("", "", kBlock);
   const std::uint64_t before = simulation.state_hash();
-  // The laser stands at 1.035; the block's near side at 1.4. Beam 341 is 0.2 degrees off ahead.
+  // The laser is at 1.035, the block's near side at 1.4. Beam 341 is 0.2 degrees off straight
+  // ahead.
   EXPECT_NEAR(range_ahead(simulation), 0.365, 1e-4);
   ASSERT_FALSE(simulation.place_object("b", {1.6, 1.0, 0.5 * kPi}));
-  // Turned, its half length of 0.2 lies along x.
+  // After the rotation, its half length of 0.2 is along x.
   EXPECT_NEAR(range_ahead(simulation), 1.4 - 1.035, 1e-4);
   ASSERT_FALSE(simulation.place_object("b", {1.7, 1.0, 0.0}));
   EXPECT_NEAR(range_ahead(simulation), 1.6 - 1.035, 1e-4);
   ASSERT_FALSE(simulation.set_block_size("b", {0.4, 0.2}, 0.16));
   EXPECT_NEAR(range_ahead(simulation), 1.5 - 1.035, 1e-4);
   ASSERT_FALSE(simulation.place_object("b", {3.0, 0.5, 0.0}));
-  EXPECT_NEAR(range_ahead(simulation), 2.0 - 0.087 - 1.035, 1e-3);  // r2 behind it
-  // And what is not there any more stops nobody, what is there now does.
+  EXPECT_NEAR(range_ahead(simulation), 2.0 - 0.087 - 1.035, 1e-3);  // r2, which was behind it
+  // A block stops robots at its new place, and not at its old place.
   ASSERT_FALSE(simulation.place_object("r2", {3.5, 1.5, 0.0}));
   ASSERT_FALSE(simulation.place_object("b", {2.0, 1.0, 0.0}));
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "motion"), TwistCommand{{0.5, 0.0}}));
@@ -351,7 +352,7 @@ TEST(PlaceObject, RefusesWhatCannotBe) {
   EXPECT_THAT(simulation.set_block_size("r1", {1.0, 1.0}, 0.1).value(), HasSubstr("keeps"));
   EXPECT_THAT(simulation.set_object_colour("border", {}).value(), HasSubstr("keeps"));
   EXPECT_EQ(simulation.find_object("b")->pose, (Pose{1.5, 1.0, 0.0}));
-  // One that is in the floor may be put under a robot, but not come up there.
+  // A retracted block may be placed under a robot, but may not come up there.
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kRetracted));
   ASSERT_FALSE(simulation.place_object("b", {1.0, 1.0, 0.0}));
   EXPECT_THAT(simulation.set_obstacle_state("b", ObstacleState::kExtended).value(),
@@ -385,7 +386,7 @@ TEST(PlaceObject, LetsARobotsMotorsGoOn) {
 
 // --- pictures
 
-// Pixels of a picture that are not those of another one.
+// Number of pixels in which two pictures differ.
 int changed(const render::Image& a, const render::Image& b) {
   int count = 0;
   for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
@@ -409,7 +410,7 @@ TEST(Pictures, ShowWhatRobotsSayAndTheirLights) {
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "speech"), SayCommand{"hello"}));
   const render::Image hello = render::draw_view(simulation.snapshot(), {.size_px = 600});
   EXPECT_GT(changed(quiet, hello), 600);  // a bubble of some 20 x 30 pixels at least
-  // A long text makes a bubble of two lines that has its end, not the picture's width.
+  // A long text makes a bubble of two lines that is narrower than the picture.
   ASSERT_FALSE(simulation.apply(id_of(simulation, 0, "speech"),
                                 SayCommand{std::string(120, 'w') + ' ' + std::string(120, 'm')}));
   const render::Image longer = render::draw_view(simulation.snapshot(), {.size_px = 600});
@@ -433,7 +434,7 @@ TEST(Pictures, ShowABlocksOwnColour) {
   EXPECT_TRUE(has_colour(renderer.draw(simulation.snapshot()), kOwn));
 }
 
-// What a picture is drawn of may be anything: no text and no place may break it.
+// Pictures must cope with any text at any place.
 TEST(Pictures, TakeAnyText) {
   Simulation simulation = two_robots(R"("speech": {})");
   SceneSnapshot scene = simulation.snapshot();

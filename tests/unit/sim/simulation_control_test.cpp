@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// What clients may do to a running simulation besides driving: goals, teleporting, starting over,
+// Requests of clients to a running simulation other than driving: goals, teleporting, resetting,
 // switching devices off, suspending dynamics.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A robot looking along x at (1, 2) in a 4 x 4 m room, with a waypoint device and a teleport.
+// A robot that faces along x at (1, 2) in a 4 x 4 m room, with a waypoint device and a teleport.
 // `devices` are further settings, `more` further parts of the world, `arena` of the arena.
 WorldDescription room(const std::string& devices = "", const std::string& more = "",
                       const std::string& arena = "") {
@@ -52,7 +52,7 @@ void command(Simulation& simulation, const std::string& device, const Command& w
   ASSERT_FALSE(refusal.has_value()) << *refusal;
 }
 
-// Why the command was refused; "" if it was not.
+// The reason why the command was refused; "" if it was accepted.
 std::string refusal(Simulation& simulation, const std::string& device, const Command& what,
                     int robot = 0) {
   return tell(simulation, device, what, robot).value_or("");
@@ -107,14 +107,14 @@ TEST(WaypointTwist, TurnsToTheGoalDrivesAndSlowsDown) {
   EXPECT_NEAR(left.v_mps, 0.4 * std::cos(0.1), 1e-12);
   EXPECT_NEAR(twist(std::cos(0.1), -std::sin(0.1)).omega_radps, -0.4, 1e-12);
 
-  EXPECT_NEAR(twist(0.0, 1.0).v_mps, 0.0, 1e-12);  // abeam: turns where it stands
+  EXPECT_NEAR(twist(0.0, 1.0).v_mps, 0.0, 1e-12);  // a goal at its side: turns on the spot
   EXPECT_EQ(twist(0.0, 1.0).omega_radps, 2.0);     // 4 pi / 2, limited
   EXPECT_EQ(twist(-1.0, 0.0), (Twist{0.0, 2.0, 0.0}));
-  EXPECT_EQ(twist(-1.0, -1e-3).omega_radps, -2.0);  // the short way round
+  EXPECT_EQ(twist(-1.0, -1e-3).omega_radps, -2.0);  // the shorter turn
 }
 
 TEST(WaypointTwist, KnowsWhereTheRobotLooks) {
-  // At (1, 1) looking along y, the goal is 0.5 m straight ahead.
+  // At (1, 1) facing along y, the goal is 0.5 m straight ahead.
   const Twist twist = waypoint_twist({1.0, 1.0, 0.5 * kPi}, {{1.0, 1.5}, 0.1, 0.3}, {});
   EXPECT_DOUBLE_EQ(twist.v_mps, 0.3);
   EXPECT_NEAR(twist.omega_radps, 0.0, 1e-12);
@@ -128,14 +128,14 @@ TEST(Waypoint, ReachesAGoalAheadInTheExpectedTime) {
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kTransit);
   EXPECT_EQ(waypoint(simulation).goal_number(), 1U);
   EXPECT_EQ(waypoint(simulation).goal(), Vec2(2.5, 2.0));
-  // 1.3 m at 0.4 m/s until 0.2 m are left: 325 steps. From there on each step takes 2 / s * 0.01 s
-  // = 2 % off the distance: 0.98^34 = 0.503, 0.98^35 = 0.493, so 35 steps to half of it.
+  // 1.3 m at 0.4 m/s until 0.2 m are left: 325 steps. Then each step reduces the distance by 2 / s
+  // * 0.01 s = 2 %: 0.98^34 = 0.503, 0.98^35 = 0.493, so half of it takes 35 steps.
   EXPECT_NEAR(steps_until_over(simulation, 1000), 360, 1);
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kArrived);
   EXPECT_LE(waypoint(simulation).distance_m(), 0.1);
   EXPECT_GT(waypoint(simulation).distance_m(), 0.095);
 
-  const Pose there = simulation.body(0).X_WB;  // and stands
+  const Pose there = simulation.body(0).X_WB;  // it stands
   run(simulation, 50);
   EXPECT_EQ(simulation.body(0).X_WB, there);
   EXPECT_EQ(simulation.body(0).twist, Twist{});
@@ -148,7 +148,7 @@ TEST(Waypoint, ReachesGoalsOnAllSidesWithinTheirTolerance) {
     const Vec2 goal = Vec2(2.0, 2.0) + 1.2 * Vec2(std::cos(angle), std::sin(angle));
     command(simulation, "waypoint", GotoCommand{goal, 0.02, 1.0});
     // At most half a turn at 2 rad/s, 1.0 m at 0.5 m/s, then from 0.25 m to 0.02 m at 2 / s in
-    // ln(12.5) / 2 s: 1.6 + 2 + 1.3 s; half as much again for what is not straight.
+    // ln(12.5) / 2 s: 1.6 + 2 + 1.3 s, plus half of that for curves.
     EXPECT_LT(steps_until_over(simulation, 1000), 730) << angle;
     EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kArrived) << angle;
     EXPECT_LE((simulation.body(0).X_WB.position() - goal).norm(), 0.02) << angle;
@@ -157,7 +157,7 @@ TEST(Waypoint, ReachesGoalsOnAllSidesWithinTheirTolerance) {
 
 TEST(Waypoint, IsLimitedByTheMotors) {
   Simulation simulation(room(R"("motion": {"max_speed": 0.2})"));
-  command(simulation, "waypoint", GotoCommand{{3.0, 2.0}});  // 1 m/s asked for
+  command(simulation, "waypoint", GotoCommand{{3.0, 2.0}});  // requests 1 m/s
   run(simulation, 10);
   EXPECT_DOUBLE_EQ(simulation.body(0).twist.v_mps, 0.2);
 }
@@ -169,7 +169,8 @@ TEST(Waypoint, HasArrivedAtOnceWhereTheGoalIsNearEnough) {
   simulation.step();
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kArrived);
   EXPECT_EQ(waypoint(simulation).goal_number(), 1U);
-  EXPECT_EQ(simulation.body(0).X_WB, (Pose{1.0, 2.0, 0.0}));  // the goal took the motors, too
+  // the goal has replaced the command, too
+  EXPECT_EQ(simulation.body(0).X_WB, (Pose{1.0, 2.0, 0.0}));
 }
 
 TEST(Waypoint, StopsAndGoesOn) {
@@ -225,7 +226,7 @@ TEST(Waypoint, WaitsWhileTheMotorsAreOff) {
   Simulation simulation(room());
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}, 0.1, 0.4});
   command(simulation, "motion", MotorEnableCommand{false});
-  drive(simulation, 0.3, 0.0);  // ignored, so it takes nothing from the waypoint either
+  drive(simulation, 0.3, 0.0);  // ignored, so the waypoint keeps control
   run(simulation, 10);
   EXPECT_EQ(simulation.body(0).X_WB.x_m, 1.0);
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kTransit);
@@ -296,12 +297,12 @@ TEST(Teleport, PutsTheRobotThereAtRest) {
   EXPECT_NEAR(simulation.body(0).X_WB.yaw_rad, 0.5 * kPi, 1e-12);
   EXPECT_EQ(simulation.body(0).twist, Twist{});
   run(simulation, 10);
-  // It stands, the twist is forgotten; the localisation knows, the wheels do not.
+  // It stands and has no twist. The localisation reports the new pose, the wheels have not moved.
   EXPECT_NEAR(pose_reading(simulation, "pose").pose.x_m, 3.0, 1e-12);
   EXPECT_NEAR(pose_reading(simulation, "pose").pose.y_m, 1.0, 1e-12);
   EXPECT_NEAR(pose_reading(simulation, "odometry").pose.x_m, 0.2, 1e-9);
   EXPECT_NEAR(simulation.statistics(0).path_length_m, 0.2, 1e-9);
-  // The laser looks along y from 0.035 m before the axle: 3 - 0.035 m to the upper border.
+  // The laser faces along y from 0.035 m ahead of the axle: 3 - 0.035 m to the upper border.
   const auto& scan = device<Laser>(simulation, "laser").reading();
   EXPECT_NEAR(scan.ranges_m[340], 2.965, 1e-4);
 
@@ -360,13 +361,13 @@ TEST(Teleport, RefusesAPlaceThatIsTakenAndNamesWhatStandsThere) {
               HasSubstr("beyond"));
   EXPECT_THAT(refusal(simulation, "teleport", TwistCommand{}), HasSubstr("no such command"));
   EXPECT_EQ(simulation.body(0).X_WB, (Pose{1.0, 2.0, 0.0}));
-  run(simulation, 10);  // what is refused does not stop it
+  run(simulation, 10);  // the refused request does not stop it
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.01, 1e-9);
 
   EXPECT_EQ(why(2.0, 3.0), "");  // retracted: free
   EXPECT_THAT(simulation.set_obstacle_state("gate", ObstacleState::kExtended).value_or(""),
               HasSubstr("a robot stands on it"));
-  EXPECT_EQ(why(2.0, 3.0), "");  // its own place is free for it
+  EXPECT_EQ(why(2.0, 3.0), "");  // it may be placed at its own place
   EXPECT_EQ(why(1.0, 2.0), "");
   ASSERT_FALSE(simulation.set_obstacle_state("gate", ObstacleState::kExtended));
   EXPECT_THAT(why(2.0, 3.0), HasSubstr("obstacle gate"));
@@ -388,7 +389,7 @@ TEST(Teleport, LeavesAGapInATrail) {
   command(simulation, "teleport", PlaceCommand{{3.0, 2.0, 0.0}});
   run(simulation, 1);
   drive(simulation, 0.5, 0.0);
-  run(simulation, 50);  // 0.25 m on
+  run(simulation, 50);  // 0.25 m farther
   const Canvas& canvas = simulation.canvas();
   const auto alpha = [&](double x_m) {
     return canvas.pixel(canvas.column(x_m), canvas.row(2.0)).value().a;
@@ -408,12 +409,12 @@ TEST(Teleport, FindsContactsAnew) {
   command(simulation, "teleport", PlaceCommand{{1.0, 3.0, 0.0}});
   drive(simulation, 0.5, 0.0);
   run(simulation, 100);
-  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.5, 1e-9);  // nothing holds it there
+  EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.5, 1e-9);  // nothing stops it there
   command(simulation, "teleport", PlaceCommand{{1.5, 2.0, 0.0}});
   drive(simulation, 0.5, 0.0);
   run(simulation, 100);
   EXPECT_EQ(simulation.statistics(0).collisions, 2);
-  // Face at 1.8 m, half the robot's length 0.087 m, a gap of 1.5 mm at rest.
+  // The face is at 1.8 m, half the robot's length is 0.087 m, and the gap at rest is 1.5 mm.
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.713, 0.003);
 }
 
@@ -469,7 +470,7 @@ TEST(OdometryIncrement, IsInTheFrameOfTheLastReadingAndItsShiftInTheStarts) {
   EXPECT_NEAR(odometry.shift_m().x(), 0.0, 1e-12);
   EXPECT_NEAR(odometry.shift_m().y(), 0.02, 1e-12);
 
-  // Setting the pose in between is no motion.
+  // Setting the pose meanwhile does not count as motion.
   run(simulation, 5);
   command(simulation, "odometry", SetPoseCommand{{7.0, 8.0, 0.0}});
   run(simulation, 5);
@@ -518,10 +519,10 @@ WorldDescription busy_room() {
                                   "size": [0.2, 0.2], "state": "extended"}])");
 }
 
-// What both simulations are told at a step counted from their (new) start.
+// The commands to both simulations at a step, counted from their (new) start.
 void act_at(Simulation& simulation, int step) {
   if (step == 0) command(simulation, "waypoint", GotoCommand{{2.5, 2.4}, 0.05, 0.5});
-  if (step == 0) drive(simulation, 0.5, 0.1, 1);  // they meet
+  if (step == 0) drive(simulation, 0.5, 0.1, 1);  // they collide
   if (step == 150) drive(simulation, 0.3, 0.7, 1);
   if (step == 300) drive(simulation, -0.2, 0.4, 0);
   if (step == 400) {
@@ -538,7 +539,7 @@ void expect_same_reading(const PoseReading& a, const PoseReading& b) {
 TEST(Reset, GivesTheFutureOfANewSimulation) {
   Simulation fresh(busy_room());
   Simulation used(busy_room());
-  // 237 steps: no multiple of any sensor's period.
+  // 237 steps: not a multiple of any sensor's period.
   drive(used, 0.4, 0.3, 0);
   drive(used, 0.5, 0.0, 1);
   ASSERT_FALSE(used.set_obstacle_state("gate", ObstacleState::kRetracted));
@@ -596,7 +597,7 @@ TEST(Reset, LetsClockSequencesAndStatisticsGoOn) {
   run(simulation, 1);
   EXPECT_EQ(pose_reading(simulation, "pose").sequence, 11U);  // 10 were made before
   EXPECT_EQ(pose_reading(simulation, "pose").time_ns, 1'150'000'000);
-  // Nothing drives, and the way back to the start is none.
+  // Nothing drives, and returning to the start does not count as path.
   EXPECT_EQ(simulation.statistics(0).path_length_m, before.path_length_m);
   EXPECT_EQ(simulation.statistics(0).least_clearance_m, before.least_clearance_m);
   EXPECT_EQ(simulation.statistics(0).collisions, 0);
@@ -611,7 +612,7 @@ TEST(Reset, BlanksTheCanvasButForTheFirstMarkOfATrail) {
   EXPECT_NE(simulation.canvas().data(), at_start);
   simulation.reset();
   EXPECT_EQ(simulation.canvas().data(), at_start);
-  simulation.layers().resize(50, 60);  // clients chose this size for their layers, too
+  simulation.layers().resize(50, 60);  // clients chose this size for their layers
   simulation.reset();
   EXPECT_EQ(simulation.canvas().width(), 50);
 }
@@ -624,7 +625,7 @@ TEST(Reset, TakesGoalsAwaySoThatTheirOwnersSeeIt) {
   EXPECT_EQ(waypoint(simulation).status(), WaypointStatus::kArrived);
   EXPECT_EQ(waypoint(simulation).goal_number(), 2U);
   EXPECT_EQ(waypoint(simulation).goal(), Vec2(1.0, 2.0));
-  simulation.reset();  // nothing to take
+  simulation.reset();  // no reading is left
   EXPECT_EQ(waypoint(simulation).goal_number(), 2U);
   command(simulation, "waypoint", GotoCommand{{3.0, 2.0}});
   EXPECT_EQ(waypoint(simulation).goal_number(), 3U);
@@ -671,7 +672,7 @@ TEST(SetActive, AnActuatorThatIsOffStopsAndRefusesCommands) {
   run(simulation, 10);
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.04, 1e-9);
   simulation.set_active(motion, true);
-  run(simulation, 10);  // stands until told
+  run(simulation, 10);  // it stands until the next command
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.04, 1e-9);
   drive(simulation, 0.4, 0.0);
   run(simulation, 10);
@@ -697,7 +698,7 @@ TEST(SetActive, AWaypointThatIsOffStopsAndKeepsItsGoal) {
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.08, 1e-9);
 }
 
-// As programs for MORSE do it, where motion and waypoint would fight for the robot.
+// As in programs for MORSE, where motion and waypoint would both control the robot.
 TEST(SetActive, AWaypointDrivesThoughTheMotionDeviceIsOff) {
   Simulation simulation(room());
   simulation.set_active(id_of(simulation, "motion"), false);
@@ -752,7 +753,7 @@ TEST(Dynamics, ASuspendedWorldStandsStillWhileTimeGoesOn) {
   EXPECT_FALSE(simulation.body(0).stalled);
   EXPECT_EQ(pose_reading(simulation, "odometry").sequence, 6U);
   ASSERT_FALSE(simulation.set_dynamics(true));
-  run(simulation, 10);  // both go on as they were told
+  run(simulation, 10);  // both continue with their commands
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 1.08, 1e-9);
   EXPECT_NEAR(simulation.body(1).X_WB.x_m, 2.97, 1e-9);
 }
@@ -763,11 +764,11 @@ TEST(Dynamics, ASuspendedRobotStandsLikeAWall) {
   drive(simulation, 0.5, 0.0);
   run(simulation, 600);
   EXPECT_EQ(simulation.body(1).X_WB, (Pose{3.0, 2.0, kPi}));
-  // Their noses are 0.087 m before their axles, 1.5 mm stay between hulls.
+  // Their fronts are 0.087 m ahead of their axles; 1.5 mm remain between the bodies.
   EXPECT_NEAR(simulation.body(0).X_WB.x_m, 3.0 - 2 * 0.087, 0.003);
   EXPECT_TRUE(simulation.body(0).stalled);
   EXPECT_EQ(simulation.statistics(1).collisions, 1);
-  // Restored, it can be pushed again, and the contact is the same one.
+  // With dynamics restored it can be pushed again, and the contact is the same.
   ASSERT_FALSE(simulation.set_robot_dynamics(1, true));
   run(simulation, 100);
   EXPECT_GT(simulation.body(1).X_WB.x_m, 3.05);

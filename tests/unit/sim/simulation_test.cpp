@@ -20,7 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// A robot in the middle of an empty 4 x 4 m room; `devices` are its settings.
+// A robot at the centre of an empty 4 x 4 m room; `devices` are its settings.
 WorldDescription room(const std::string& devices = "{}", const std::string& more = "") {
   return load_world_text(
       R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 2, "y": 2, "yaw_deg": 0},
@@ -161,7 +161,8 @@ TEST(Simulation, LaserOfTheS1rMeasuresTheWallAheadFromItsMount) {
   run(simulation, 10);
   const LaserReading& scan = reading<LaserReading>(simulation, "laser");
   ASSERT_EQ(scan.ranges_m.size(), 682U);
-  // Beams 340 and 341 are half a step to either side of forward: 1.965 m to the wall at x = 4.
+  // Beams 340 and 341 are half a step left and right of straight ahead: 1.965 m to the wall at x =
+  // 4.
   const double half = 0.5 * scan.resolution_rad;
   EXPECT_NEAR(scan.ranges_m[340], 1.965 / std::cos(half), 1e-5);
   EXPECT_NEAR(scan.ranges_m[341], 1.965 / std::cos(half), 1e-5);
@@ -247,8 +248,8 @@ TEST(Simulation, PoseNoiseHasTheDeviationAskedFor) {
 }
 
 TEST(Simulation, OdometryNoiseGrowsWithTheRootOfTheWay) {
-  // Straight for 1 m with noise 0.03: each wheel's path is off by 0.03 m (1 sigma), so the mean of
-  // both by 0.03 / sqrt(2). 400 robots one after another, seeds 1 to 400.
+  // Straight ahead for 1 m with noise 0.03: the path of each wheel has an error of 0.03 m (1
+  // sigma), so their mean has one of 0.03 / sqrt(2). 400 robots one after another, seeds 1 to 400.
   double squares = 0.0;
   constexpr int kRuns = 400;
   WorldDescription world = room(R"({"odometry": {"noise": 0.03}})");
@@ -258,12 +259,13 @@ TEST(Simulation, OdometryNoiseGrowsWithTheRootOfTheWay) {
     drive(simulation, 0.5, 0.0);
     run(simulation, 200);
     const Pose pose = reading<PoseReading>(simulation, "odometry").pose;
-    // The way along the curve, to first order the distance from the start.
+    // The length of the curve; to first order, it is the distance from the start.
     const double along = std::hypot(pose.x_m, pose.y_m) - 1.0;
     squares += along * along;
   }
   const double sigma = 0.03 / std::sqrt(2.0);
-  // The chord of a path that bends with up to 0.4 rad is shorter by some 1 %, within the bound.
+  // The chord of a path that bends by up to 0.4 rad is about 1 % shorter, which is within the
+  // bound.
   EXPECT_NEAR(std::sqrt(squares / kRuns), sigma, sigma * 4.0 / std::sqrt(2.0 * kRuns) + 0.005);
 }
 
@@ -296,7 +298,7 @@ TEST(Simulation, LeastClearanceIsExactThoughSeldomMeasured) {
   run(simulation, 300);
   drive(simulation, -0.5, 0.0);
   run(simulation, 100);
-  // Nearest after 1.5 m: the front at 2 + 1.5 + 0.087.
+  // The minimum is reached after 1.5 m: the front is at 2 + 1.5 + 0.087.
   EXPECT_NEAR(simulation.statistics(0).least_clearance_m, 4.0 - 3.587, 1e-4);
 }
 
@@ -322,7 +324,7 @@ TEST(Simulation, SnapshotComposesTheLayersAndListsThem) {
   ASSERT_EQ(scene.layers.size(), 2U);
   EXPECT_EQ(scene.layers[0].style.name, "canvas");
   EXPECT_EQ(scene.layers[1].style.name, "path");
-  // The canvas had 200 rows: of (0, 0) and (3, 2), 80 rows at the top are gone.
+  // The canvas had 200 rows: resizing removes the 80 top rows, which contain (0, 0) and (3, 2).
   EXPECT_EQ(scene.canvas, std::vector<std::uint8_t>(150 * 120 * 4, 0));
   simulation.layers().resize(200, 200);
   simulation.layers().draw({&dot, 1});
@@ -399,7 +401,8 @@ std::uint64_t hash_after_random_drive(WorldDescription world, int steps) {
   for (int i = 0; i < steps; ++i) {
     if (i % 37 == 0) {
       for (int r = 0; r < simulation.robot_count(); ++r) {
-        const double v = 0.5 * uniform();  // in this order; that of arguments is open
+        // in this order, because the order of arguments is unspecified
+        const double v = 0.5 * uniform();
         drive(simulation, v, 3.0 * uniform(), r);
       }
     }
@@ -417,8 +420,8 @@ TEST(SimulationHash, TwoRunsOfThirteenRobotsAreEqualToTheBit) {
   EXPECT_EQ(hash_after_random_drive(thirteen_robots(), 10'000), first);
 }
 
-// What the mathematical library makes of some arguments. Its last bits are its own affair: they
-// differ between versions, and between processors with and without FMA.
+// Results of the mathematical library for some arguments. Their last bits differ between versions
+// of the library, and between processors with and without FMA.
 std::uint64_t library_fingerprint() {
   StateHash hash;
   for (int i = 1; i <= 10'000; ++i) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Snapshots of simulations: what is restored goes on to the same bits.
+// Snapshots of simulations: a restored simulation continues with bit-identical results.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ constexpr int kGoOn = 60;  // steps after a restore
 
 const fs::path kWorlds = fs::path(PLAYPEN_SOURCE_DIR) / "worlds";
 
-/// A robot's device of each kind, as the worlds of worlds/devices show it.
+/// One device of each kind, as in the worlds of worlds/devices.
 std::vector<DeviceDescription> devices_of_all_kinds() {
   std::vector<DeviceDescription> devices;
   std::vector<fs::path> files;
@@ -62,7 +62,7 @@ std::vector<DeviceDescription> devices_of_all_kinds() {
   return devices;
 }
 
-/// Thirteen robots with a device of each kind in the arena, among things that can be taken, pushed
+/// Thirteen robots with a device of each kind in the arena, with objects that can be taken, pushed
 /// and retracted.
 WorldDescription full_world() {
   WorldDescription world = load_world((kWorlds / "examples/thirteen_robots.json").string());
@@ -147,13 +147,13 @@ Command random_command(std::mt19937& random) {
   }
 }
 
-/// What programs do before step `i`: the same in each run, whatever became of it.
+/// The commands of programs before step `i`: equal in each run, whatever their result.
 void interfere(Simulation& simulation, int i) {
   std::mt19937 random(static_cast<unsigned>(i) + 77U);
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     if (number_in(random, 8) != 0) continue;
     const Command command = random_command(random);
-    // To each device: those that do not take it say so.
+    // A command to each device: devices that do not accept it return an error.
     for (int device = 0; device < simulation.device_count(robot); ++device) {
       static_cast<void>(simulation.apply({robot, device}, command));
     }
@@ -199,7 +199,7 @@ void interfere(Simulation& simulation, int i) {
   }
 }
 
-/// What pictures show of the robots.
+/// A hash of the parts of robots that pictures show.
 std::uint64_t shown_hash(const Simulation& simulation) {
   StateHash hash;
   const auto add = [&hash](const Vec2& p) {
@@ -228,7 +228,7 @@ std::uint64_t shown_hash(const Simulation& simulation) {
   return hash.value();
 }
 
-/// All that can be seen of a simulation after each step.
+/// Hashes of the complete visible state of a simulation after each step.
 using Trace = std::vector<std::array<std::uint64_t, 2>>;
 
 std::array<std::uint64_t, 2> seen(const Simulation& simulation) {
@@ -253,7 +253,7 @@ Snapshot read_snapshot(const std::string& file) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Run by the next test, in another process.
+// The next test runs this one in another process.
 TEST(StateOfOtherProcess, GoesOn) {
   const char* folder = std::getenv(kFolderVariable);
   if (folder == nullptr) GTEST_SKIP() << "without " << kFolderVariable << " there is nothing to do";
@@ -286,7 +286,7 @@ TEST(State, GoesOnInAnotherProcessToTheSameBits) {
     interfere(simulation, i);
     simulation.step();
   }
-  // Much must have happened, or this shows nothing.
+  // Many events must have happened, otherwise the test shows nothing.
   int collisions = 0;
   for (int robot = 0; robot < simulation.robot_count(); ++robot) {
     collisions += simulation.statistics(robot).collisions;
@@ -339,7 +339,7 @@ TEST(State, OfAForkIsItsOwn) {
   EXPECT_EQ(simulation.state_hash(), fork.state_hash());
 }
 
-/// Robots that drive about a world at random, saved on the way.
+/// Drives robots about a world at random, and saves meanwhile.
 void expect_same_after_restore(WorldDescription world, int steps) {
   Simulation whole(world);
   Simulation restored(world);
@@ -409,7 +409,7 @@ TEST(State, OfTheWorldAloneLeavesClientsTheirLayers) {
   EXPECT_FALSE(simulation.layers().contains(later));
   EXPECT_EQ(simulation.snapshot().canvas, shown.canvas);
   EXPECT_EQ(simulation.layers().cell(before, 0, 0), CellValue::of(1.0F));
-  EXPECT_GT(simulation.layers().add(LayerKind::kGrey, {}, 1), later);  // no number comes back
+  EXPECT_GT(simulation.layers().add(LayerKind::kGrey, {}, 1), later);  // numbers are not reused
 }
 
 TEST(State, OfTheWorldAloneGoesBackWhileClocksGoOn) {
@@ -440,7 +440,7 @@ TEST(State, OfTheWorldAloneGoesBackWhileClocksGoOn) {
   EXPECT_EQ(newest().time_ns, now_ns + 70'000'000);
 }
 
-// --- What is refused
+// --- Invalid snapshots
 
 std::string refusal(Simulation& simulation, const Snapshot& snapshot) {
   const Snapshot before = simulation.save();
@@ -481,7 +481,7 @@ TEST(Snapshots, AreRefusedWithAReason) {
   EXPECT_THAT(refusal(with_other_seed, good), HasSubstr("expected seed 5, found seed 1"));
 }
 
-// Bytes that make sense but for what is changed in them: all the reader's checks are asked.
+// Valid bytes with changed parts, so that the test reaches all of the reader's checks.
 TEST(Snapshots, OfAnyBytesAreRefusedOrGoOn) {
   constexpr std::size_t kHeader = 56;
   WorldDescription world = full_world();
@@ -503,7 +503,7 @@ TEST(Snapshots, OfAnyBytesAreRefusedOrGoOn) {
     for (int k = 1 + number_in(random, 3); k > 0; --k) {
       const std::size_t at = kHeader + random() % (good.size() - kHeader);
       constexpr std::array<std::uint8_t, 5> kValues = {0x00, 0x01, 0x7f, 0x80, 0xff};
-      // A whole word now and then: counts, infinite numbers.
+      // Sometimes it changes a whole word: counts, infinite numbers.
       const std::size_t count =
           number_in(random, 2) == 0 ? 1 : std::min<std::size_t>(8, good.size() - at);
       const std::uint8_t value = kValues[random() % kValues.size()];

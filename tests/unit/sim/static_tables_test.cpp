@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A run that its program does not end is ended, and drawn, by an exit handler that may have been
-// registered before libsim made its tables, and so runs after static objects made since are gone.
+// If a program does not end its run, an exit handler ends it and draws its pictures. The handler
+// may be registered before libsim has created its tables. Then it runs after the destruction of
+// static objects that were created later.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ void end_with_tables_made_after_the_handler() {
 }
 
 TEST(StaticTables, OutliveExitHandlersRegisteredBeforeThem) {
-  // In a process of its own, which has made no table yet.
+  // In a separate process, which has not created any table yet.
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(end_with_tables_made_after_the_handler(), testing::ExitedWithCode(0), "");
 }

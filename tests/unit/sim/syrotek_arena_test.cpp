@@ -12,9 +12,9 @@
 namespace sim {
 namespace {
 
-constexpr double kClosed_m = 0.02;    // a gap up to this is no gap
-constexpr double kCorridor_m = 0.30;  // a gap from this on is a corridor
-constexpr double kRounding_m = 1e-9;  // of sums of two-digit decimals
+constexpr double kClosed_m = 0.02;    // a gap up to this width counts as closed
+constexpr double kCorridor_m = 0.30;  // a gap from this width on counts as a corridor
+constexpr double kRounding_m = 1e-9;  // rounding of sums of two-digit decimals
 
 struct Box {
   std::string name;
@@ -38,8 +38,8 @@ Box box_of(const ObstacleDescription& o) {
   return {o.name, {o.center.x(), o.center.y(), o.yaw_rad}, 0.5 * o.size};
 }
 
-/// Everything solid: blocks (dynamic ones as if extended, or as if retracted), separators, and the
-/// borders as boxes beyond the floor.
+/// All solid boxes: blocks (dynamic ones either extended or retracted), separators, and the borders
+/// as boxes outside of the floor.
 std::vector<Box> solids(bool dynamic_extended) {
   const ArenaDescription arena = syrotek_arena();
   std::vector<Box> boxes;
@@ -55,7 +55,7 @@ std::vector<Box> solids(bool dynamic_extended) {
   return boxes;
 }
 
-/// The shortest way from one box to another: from a corner of one to the rim of the other.
+/// The shortest connection of two boxes: from a corner of one to the outline of the other.
 struct Gap {
   double width_m = std::numeric_limits<double>::infinity();
   Vec2 from = Vec2::Zero();
@@ -82,7 +82,7 @@ double clearance_m(const std::vector<Box>& boxes, const Vec2& p) {
   return least;
 }
 
-/// Widths of the gaps that lead between two solids, with no third one in between.
+/// Widths of the gaps between two solids without a third one between them.
 std::vector<double> open_gaps(bool dynamic_extended) {
   const std::vector<Box> boxes = solids(dynamic_extended);
   std::vector<double> widths;
@@ -106,8 +106,8 @@ std::vector<double> open_gaps(bool dynamic_extended) {
   return widths;
 }
 
-/// Connected parts of the set of floor points, on a grid of 1 cm, that are at least `radius_m` from
-/// everything solid; for each point its part (0: not in the set).
+/// Connected parts of the floor points, on a grid of 1 cm, that are at least `radius_m` away from
+/// all solids; the part of each point (0: not in the set).
 struct Parts {
   static constexpr double kCell_m = 0.01;
   int columns = 0;
@@ -188,14 +188,14 @@ TEST(SyrotekArena, DocksStandAlongTheLeftSideWithSeparatorsBetween) {
   EXPECT_EQ(arena.dock_separators.size(), 6U);
   for (const DockDescription& dock : arena.docks) EXPECT_EQ(dock.pose.x_m, 0.15);
   const std::vector<Box> boxes = solids(true);
-  // A docked S1R, 0.098 m from its middle to its farthest corner, can turn on the spot.
+  // A docked S1R can turn on the spot; its farthest corner is 0.098 m from its centre.
   for (const DockDescription& dock : arena.docks) {
     EXPECT_GT(clearance_m(boxes, dock.pose.position()), 0.098) << dock.name;
   }
 }
 
 TEST(SyrotekArena, EachGapIsClosedOrACorridor) {
-  // With the dynamic blocks and without; the narrowest corridor is 0.30 m, as drawn.
+  // With the dynamic blocks and without; the narrowest corridor is 0.30 m, as in the drawing.
   for (const bool extended : {true, false}) {
     const std::vector<double> widths = open_gaps(extended);
     ASSERT_FALSE(widths.empty());
@@ -204,8 +204,8 @@ TEST(SyrotekArena, EachGapIsClosedOrACorridor) {
 }
 
 TEST(SyrotekArena, WhatIsOpenIsOpenForADiscAsWideAsACorridor) {
-  // Another look at the same rule: growing everything solid by half a corridor (less a grid step)
-  // must not cut any part of the floor in two that growing it by half a closed gap leaves whole.
+  // Another test of this rule. Inflating all solids by half a corridor (minus a grid step) must not
+  // divide any part of the floor that stays connected when they are inflated by half a closed gap.
   for (const bool extended : {true, false}) {
     const std::vector<Box> boxes = solids(extended);
     const Parts thin = parts_of_floor(boxes, 0.5 * kClosed_m + 0.001);
@@ -216,7 +216,7 @@ TEST(SyrotekArena, WhatIsOpenIsOpenForADiscAsWideAsACorridor) {
 
 TEST(SyrotekArena, AllOfTheFloorCanBeReachedWithDynamicBlocksRetracted) {
   EXPECT_EQ(parts_of_floor(solids(false), 0.001).count, 1);
-  // And by an S1R, 0.098 m from its middle to its farthest corner.
+  // An S1R can, too; its farthest corner is 0.098 m from its centre.
   EXPECT_EQ(parts_of_floor(solids(false), 0.1).count, 1);
 }
 
@@ -225,8 +225,8 @@ TEST(SyrotekArena, StartPoseIsFreeWithALongWayAhead) {
     const std::vector<Box> boxes = solids(extended);
     const Pose X_WB = syrotek_start_pose();
     for (double ahead_m = 0.0; ahead_m <= 3.0; ahead_m += 0.01) {
-      // 0.2 m to each side: an avoider that looks 40 degrees to both sides sees nothing nearer
-      // than 0.2 m / sin(40 deg) = 0.31 m.
+      // 0.2 m of clearance on each side: an avoider that looks 40 degrees to both sides sees
+      // nothing nearer than 0.2 m / sin(40 deg) = 0.31 m.
       EXPECT_GT(clearance_m(boxes, X_WB * Vec2(ahead_m, 0.0)), 0.2) << ahead_m;
     }
   }

@@ -9,7 +9,7 @@
 namespace sim {
 namespace {
 
-// The bytes of a code point, whether it is a character or not.
+// The bytes of a code point, even if it is not a valid character.
 std::string encoded(unsigned point, std::size_t length) {
   if (length == 1) return {static_cast<char>(point)};
   std::string text;

@@ -54,8 +54,8 @@ void run(Simulation& simulation, int steps) {
   for (int i = 0; i < steps; ++i) simulation.step();
 }
 
-/// Mean and standard deviation of many numbers against what they should be, within four standard
-/// errors: of a mean sigma / sqrt(n), of a deviation sigma / sqrt(2 n).
+/// Compares mean and standard deviation of many numbers with their expected values, within four
+/// standard errors: of a mean sigma / sqrt(n), of a deviation sigma / sqrt(2 n).
 void expect_gaussian(const std::vector<double>& values, double mean, double sigma) {
   double sum = 0.0;
   double squares = 0.0;
@@ -91,11 +91,11 @@ TEST(Fiducial, TellsWhereThingsAreNearestFirst) {
   run(simulation, 10);
   const auto& marks = reading<FiducialReading>(simulation, "fiducial").marks;
   ASSERT_THAT(ids(simulation), ElementsAre(7, 3));
-  // The sensor is at (2, 4.1) and looks along y: the block is 1 m ahead and 1 m to the left.
+  // The sensor is at (2, 4.1) and faces along y: the block is 1 m ahead and 1 m to the left.
   EXPECT_NEAR(marks[0].X_ST.x_m, 1.0, 1e-12);
   EXPECT_NEAR(marks[0].X_ST.y_m, 1.0, 1e-12);
   EXPECT_NEAR(marks[0].X_ST.yaw_rad, 45.0 * kDegrees, 1e-12);
-  // The robot stands 2.9 m ahead and looks to the left.
+  // The robot stands 2.9 m ahead and faces left.
   EXPECT_NEAR(marks[1].X_ST.x_m, 2.9, 1e-12);
   EXPECT_NEAR(marks[1].X_ST.y_m, 0.0, 1e-12);
   EXPECT_NEAR(marks[1].X_ST.yaw_rad, 90.0 * kDegrees, 1e-12);
@@ -116,7 +116,7 @@ TEST(Fiducial, SeesWithinRangeAndFieldOfViewOnly) {
   EXPECT_THAT(seen(R"({"field_of_view_deg": 89})"), ElementsAre(1));
   EXPECT_THAT(seen(R"({"range_max": 2.5})"), ElementsAre(2, 3));
   EXPECT_THAT(seen(R"({"range_max_id": 2.5})"), ElementsAre(2, 3, 0));
-  EXPECT_THAT(seen(R"({"height": 0.16})"), IsEmpty());  // as high as they are
+  EXPECT_THAT(seen(R"({"height": 0.16})"), IsEmpty());  // at the height of their upper sides
 }
 
 TEST(Fiducial, DoesNotSeeThroughSolids) {
@@ -131,7 +131,7 @@ TEST(Fiducial, DoesNotSeeThroughSolids) {
   EXPECT_THAT(seen(block(3.5, 4, R"("height": 0.1)")), ElementsAre(1));
   EXPECT_THAT(seen(block(3.5, 4, R"("type": "dynamic", "state": "retracted")")), ElementsAre(1));
   EXPECT_THAT(seen(block(3.5, 4, R"("type": "dynamic")")), IsEmpty());
-  // One that is itself marked hides the other all the same.
+  // A marked object hides others, too.
   EXPECT_THAT(seen(block(3.5, 4, R"("fiducial": 2)")), ElementsAre(2));
 }
 
@@ -173,10 +173,10 @@ TEST(Gps, RadiiOfCurvatureAreThoseOfTables) {
   const GeoPoint to = shifted(from, 1000.0, 2000.0, 0.0);
   EXPECT_NEAR((to.latitude_rad - from.latitude_rad) * 6367381.816, 2000.0, 1e-5);
   EXPECT_NEAR((to.longitude_rad - from.longitude_rad) * 6388838.290 * std::sqrt(0.5), 1000.0, 1e-5);
-  // 100 m up the same angle is longer by 100 m a radian.
+  // 100 m higher, the same angle is longer by 100 m per radian.
   const GeoPoint high = shifted(from, 0.0, 2000.0, 100.0);
   EXPECT_NEAR((high.latitude_rad - from.latitude_rad) * 6367481.816, 2000.0, 1e-5);
-  // Across the date line.
+  // Across the 180th meridian.
   EXPECT_LT(shifted({0.0, kPi - 1e-9}, 1000.0, 0.0, 0.0).longitude_rad, 0.0);
 }
 
@@ -198,7 +198,7 @@ TEST(Gps, KnowsTheUtmCoordinatesOfPlaces) {
   ASSERT_EQ(utm_zone(tower.longitude_rad), 17);
   EXPECT_NEAR(utm_m(tower, 17).x(), 630084.0, 1.5);
   EXPECT_NEAR(utm_m(tower, 17).y(), 4833438.0, 1.5);
-  // On the equator at a zone's middle, and just south of it.
+  // On the equator at the centre of a zone, and just south of it.
   EXPECT_NEAR(utm_m({0.0, 3.0 * kDegrees}, 31).x(), 500'000.0, 1e-6);
   EXPECT_NEAR(utm_m({0.0, 3.0 * kDegrees}, 31).y(), 0.0, 1e-6);
   EXPECT_NEAR(utm_m({-1e-12, 3.0 * kDegrees}, 31).y(), 1e7, 1e-4);
@@ -220,8 +220,9 @@ TEST(Gps, TellsTheTruthWithoutNoise) {
   EXPECT_NEAR(gps.course_rad, 0.5 * kPi, 1e-12);  // due east
   EXPECT_EQ(gps.satellites, 8);
   EXPECT_EQ(gps.quality, 1);
-  // A metre ahead moves the easting by a metre times the scale (1 +- 4e-4), but for the turn of
-  // grid north against true north: 0.4 degrees at 0.6 degrees from the zone's middle.
+  // A motion of one metre ahead changes the easting by a metre times the scale (1 +- 4e-4), except
+  // for the angle between grid north and true north: 0.4 degrees at 0.6 degrees from the zone's
+  // centre.
   const double easting = gps.utm_easting_m;
   run(simulation, 200);
   EXPECT_NEAR(reading<GpsReading>(simulation, "gps").utm_easting_m - easting, 1.0, 5e-4);
@@ -231,7 +232,7 @@ TEST(Gps, TellsTheTruthWithoutNoise) {
 }
 
 TEST(Gps, HasNorthWhereTheWorldSays) {
-  // North along x: the robot looks and drives north; the world's y axis points west.
+  // North is along x: the robot faces and drives north; the world's y axis points west.
   Simulation simulation(room(bearer("gps", R"({"north_deg": 0})")));
   drive(simulation, -0.5, 0.0);
   run(simulation, 10);
@@ -339,7 +340,7 @@ TEST(Imu, HasBiasesAndNoise) {
     for (const double value : values) sum += value;
     return sum / static_cast<double>(values.size());
   };
-  // The biases are there, and the noise is about them.
+  // The biases are present, and the noise is centred on them.
   EXPECT_GT(std::abs(mean(a)), 0.02);
   EXPECT_LT(std::abs(mean(a)), 4.0);
   EXPECT_GT(std::abs(mean(w)), 0.1 * kDegrees);
@@ -431,7 +432,7 @@ TEST(Wifi, ScattersByItsNoise) {
   expect_gaussian(levels, -40.0, 4.0);
 }
 
-// --- numbers of things, and settings
+// --- numbers of objects, and settings
 
 TEST(FiducialNumbers, AreWholeAndNotNegative) {
   for (const char* bad : {"-1", "1.5", "2147483648", "\"a\""}) {

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Blobfinder, head that pans, tilts and zooms, and camera.
+// Blobfinder, pan-tilt-zoom head, and camera.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ constexpr double kDegrees = kPi / 180.0;
 constexpr Colour kRed{0xff, 0x00, 0x00, 0xff};
 constexpr Colour kBlue{0x00, 0x00, 0xff, 0xff};
 
-/// A room of 8 x 8 m whose first robot stands at (2, 4) and looks along x.
+/// A room of 8 x 8 m; its first robot stands at (2, 4) and faces along x.
 WorldDescription room(const std::string& devices, const std::string& obstacles = "",
                       const std::string& robots = "") {
   return load_world_text(R"({"arena": {"size": [8, 8], "obstacles": [)" + obstacles +
@@ -38,7 +38,7 @@ WorldDescription room(const std::string& devices, const std::string& obstacles =
                          devices + "}" + robots + "]}");
 }
 
-/// A box with its middle at (x, y).
+/// A box centred at (x, y).
 std::string box(double x, double y, double side, const std::string& more) {
   return R"({"center": [)" + fixed_text(x, 6) + ", " + fixed_text(y, 6) + R"(], "size": [)" +
          fixed_text(side, 6) + ", " + fixed_text(side, 6) + "]" + more + "}";
@@ -62,32 +62,32 @@ std::array<int, 4> edges(const Blob& blob) {
   return {blob.left, blob.right, blob.top, blob.bottom};
 }
 
-// --- how it is projected
+// --- projection
 
 TEST(PinholeView, FocalLengthFollowsFromTheAngle) {
   const PinholeView view{80, 60, kPi / 3.0};
   EXPECT_NEAR(view.focal_px(), 40.0 * std::sqrt(3.0), 1e-12);  // 40 / tan 30
-  // The middles of the outer columns are half a pixel inside of 30 degrees.
+  // The centres of the outer columns are half a pixel inside of 30 degrees.
   EXPECT_NEAR(view.slope(0), 39.5 / view.focal_px(), 1e-12);
   EXPECT_NEAR(view.slope(79), -39.5 / view.focal_px(), 1e-12);
 }
 
 TEST(PinholeView, RowsFollowFromHeightDepthAndTilt) {
   PinholeView view{80, 60, kPi / 3.0};
-  EXPECT_EQ(view.row_px(2.0, 0.0), 30.0);  // level with the lens: the middle
+  EXPECT_EQ(view.row_px(2.0, 0.0), 30.0);  // at the height of the lens: the centre
   EXPECT_NEAR(view.row_px(2.0, -0.2), 30.0 + 6.9282032, 1e-6);
   EXPECT_EQ(view.row_px(2.0, std::numeric_limits<double>::infinity()),
             -std::numeric_limits<double>::infinity());
-  view.tilt_rad = 10.0 * kDegrees;  // looking up, things move down: 69.282 * tan 10 = 12.216
+  view.tilt_rad = 10.0 * kDegrees;  // looking up moves objects down: 69.282 * tan 10 = 12.216
   EXPECT_NEAR(view.row_px(2.0, 0.0), 42.2163, 1e-4);
 }
 
 // --- blobfinder
 
 TEST(Blobfinder, BoxStraightAheadHasTheEdgesOfItsFace) {
-  // Face at x = 4, 2 m ahead, 0.4 m wide, up to 0.3 m; the lens is 0.1 m high. f = 69.282.
-  // Columns: 40 -+ f 0.1 = 33.07 .. 46.93, middles 33.5 .. 46.5. Rows: 30 - f 0.2 / 2 = 23.07,
-  // so from 23; 30 + f 0.1 / 2 = 33.46, so to 32 (its middle is 32.5).
+  // The face is at x = 4, 2 m ahead, 0.4 m wide and 0.3 m high; the lens is 0.1 m high. f = 69.282.
+  // Columns: 40 -+ f 0.1 = 33.07 .. 46.93, with centres 33.5 .. 46.5. Rows: from 30 - f 0.2 / 2 =
+  // 23.07, so from 23, to 30 + f 0.1 / 2 = 33.46, so to 32 (its centre is 32.5).
   Simulation simulation(room(R"({"blobfinder": {"height": 0.1}})",
                              box(4.2, 4, 0.4, R"(, "height": 0.3, "colour": "#ff0000")")));
   EXPECT_THAT(blobs(simulation), IsEmpty());
@@ -96,8 +96,8 @@ TEST(Blobfinder, BoxStraightAheadHasTheEdgesOfItsFace) {
   const Blob& blob = blobs(simulation)[0];
   EXPECT_EQ(edges(blob), (std::array{33, 46, 23, 32}));
   EXPECT_EQ(blob.area, 14 * 10);
-  EXPECT_EQ(blob.x, 40);  // the middle of 33 .. 47 is 40.0
-  EXPECT_EQ(blob.y, 28);  // of 23 .. 33 it is 28.0
+  EXPECT_EQ(blob.x, 40);  // the centre of 33 .. 47 is 40.0
+  EXPECT_EQ(blob.y, 28);  // the centre of 23 .. 33 is 28.0
   EXPECT_EQ(blob.colour, kRed);
   // The mean of 2 sqrt(1 + t^2), t = 0.5 / f, 1.5 / f ... 6.5 / f: 2 + mean t^2, about.
   EXPECT_NEAR(blob.range_m, 2.0 + 16.25 / (69.282 * 69.282), 1e-5);
@@ -106,28 +106,29 @@ TEST(Blobfinder, BoxStraightAheadHasTheEdgesOfItsFace) {
 }
 
 TEST(Blobfinder, LooksDownOnLowThings) {
-  // The lens at 0.3 m over a box of 0.1 m: front from 30 + f 0.2 / 2 = 36.93 to 30 + f 0.3 / 2 =
-  // 40.39, its lid up to the far edge at 2.4 m, 30 + f 0.2 / 2.4 = 35.77: rows 36 .. 39.
+  // The lens is 0.3 m high, the box 0.1 m. Its front covers 30 + f 0.2 / 2 = 36.93 to 30 + f 0.3 /
+  // 2 = 40.39. Its top ends at the far edge, 2.4 m away, at 30 + f 0.2 / 2.4 = 35.77: rows 36 ..
+  // 39.
   Simulation simulation(room(R"({"blobfinder": {"height": 0.3}})",
                              box(4.2, 4, 0.4, R"(, "height": 0.1, "colour": "#f00")")));
   run(simulation, 10);
   ASSERT_THAT(blobs(simulation), SizeIs(1));
   EXPECT_EQ(edges(blobs(simulation)[0]), (std::array{33, 46, 36, 39}));
-  // Where the lid ends the box is narrower in the picture, 40 -+ f 0.2 / 2.4 = 34.23 .. 45.77, so
-  // columns 33, 34 (middle 34.5), 45 and 46 leave at the sides, at most 2.4 m away.
+  // At its far edge the top is narrower in the picture, 40 -+ f 0.2 / 2.4 = 34.23 .. 45.77. So
+  // columns 33, 34 (centre 34.5), 45 and 46 leave it at the sides, at most 2.4 m away.
   EXPECT_NEAR(blobs(simulation)[0].range_m, 2.0, 0.01);
 }
 
 TEST(Blobfinder, SeesTwoColoursFromRightToLeft) {
-  // Each 2 m ahead and 0.5 m to a side. The left one's face takes 40 - f (0.25 +- 0.1), 15.75 ..
-  // 29.61, its inner side goes on to the far corner's 40 - f 0.3 / 2.4 = 31.34. The right one: from
-  // 48.66 to 64.25.
+  // Each box is 2 m ahead and 0.5 m to one side. The left one's face covers 40 - f (0.25 +- 0.1),
+  // 15.75 .. 29.61; its inner side continues to the far corner at 40 - f 0.3 / 2.4 = 31.34. The
+  // right one covers 48.66 to 64.25.
   const std::string two = box(4.2, 4.5, 0.4, R"(, "height": 0.3, "colour": "#ff0000")") + ", " +
                           box(4.2, 3.5, 0.4, R"(, "height": 0.3, "colour": "#0000ff80")");
   Simulation simulation(room(R"({"blobfinder": {"height": 0.3}})", two));
   run(simulation, 10);
   ASSERT_THAT(blobs(simulation), SizeIs(2));
-  EXPECT_EQ(blobs(simulation)[0].colour, kBlue);  // opaque, whatever pictures make of it
+  EXPECT_EQ(blobs(simulation)[0].colour, kBlue);  // opaque, unlike in pictures of the scene
   EXPECT_EQ(blobs(simulation)[0].left, 49);
   EXPECT_EQ(blobs(simulation)[0].right, 63);
   EXPECT_EQ(blobs(simulation)[1].colour, kRed);
@@ -145,7 +146,7 @@ TEST(Blobfinder, LooksForItsColoursOnly) {
 }
 
 TEST(Blobfinder, SeesRobotsAndWhatIsColouredOnly) {
-  // A box without a colour, and a robot whose flat front is 2 - 0.087 m away, 0.18 m high.
+  // A box without a colour, and a robot whose flat front is 2 - 0.087 m away and 0.18 m high.
   Simulation simulation(room(R"({"blobfinder": {"height": 0.1}})", box(4, 5, 0.3, ""),
                              R"(, {"name": "r2", "colour": "#00f", "pose": {"x": 4, "y": 4,
                              "yaw_deg": 180}})"));
@@ -168,18 +169,18 @@ TEST(Blobfinder, NearerThingsHideFartherOnesAsFarAsTheyAreHigh) {
     run(simulation, 10);
     return blobs(simulation);
   };
-  // Alone its face, 3 m away, takes columns 40 -+ f 0.2 / 3 = 35.4 .. 44.6 and rows
-  // 30 - f 0.5 / 3 = 18.45 to 30 + f 0.1 / 3 = 32.3.
+  // Alone, its face 3 m away covers columns 40 -+ f 0.2 / 3 = 35.4 .. 44.6 and rows 30 - f 0.5 / 3
+  // = 18.45 to 30 + f 0.1 / 3 = 32.3.
   const std::vector<Blob> alone = seen(box(7, 7, 0.2, ""));
   ASSERT_THAT(alone, SizeIs(1));
   EXPECT_EQ(edges(alone[0]), (std::array{35, 44, 18, 31}));
-  // Behind a plain box 1 m away, 0.6 m wide and just as high.
+  // Behind an uncoloured box 1 m away, 0.6 m wide and equally high.
   EXPECT_THAT(seen(box(3.3, 4, 0.6, R"(, "height": 0.6)")), IsEmpty());
-  // That box 0.2 m high ends at row 30 - f 0.1 = 23.07: row 23 is its own.
+  // If that box is 0.2 m high, it ends at row 30 - f 0.1 = 23.07 and includes row 23.
   const std::vector<Blob> over = seen(box(3.3, 4, 0.6, R"(, "height": 0.2)"));
   ASSERT_THAT(over, SizeIs(1));
   EXPECT_EQ(edges(over[0]), (std::array{35, 44, 18, 22}));
-  // Of the same colour the two are one blob, by their nearer parts.
+  // With equal colours the two are one blob; the range is that of their nearer parts.
   const std::vector<Blob> one = seen(box(3.3, 4, 0.6, R"(, "height": 0.2, "colour": "#f00")"));
   ASSERT_THAT(one, SizeIs(1));
   EXPECT_EQ(one[0].top, 18);
@@ -200,8 +201,8 @@ TEST(Blobfinder, AColumnInFrontCutsABlobInTwo) {
 }
 
 TEST(Blobfinder, WallsOfAMapHideWhatIsBehindThem) {
-  // A wall to the left of y = 4, 1 m away, as high as you like: of the box behind it columns from
-  // 40 on are left.
+  // A wall to the left of y = 4, 1 m away, of unlimited height: of the box behind it, only the
+  // columns from 40 on are visible.
   WorldDescription world = room(R"({"blobfinder": {"height": 0.1}, "camera": {"height": 0.1}})",
                                 box(4.2, 4, 0.4, R"(, "height": 0.3, "colour": "#f00")"));
   world.arena.walls.push_back({{{3.0, 4.0}, {3.2, 4.0}, {3.2, 6.0}, {3.0, 6.0}}});
@@ -232,7 +233,7 @@ TEST(Blobfinder, SeesWithinRangeAndWhileExtended) {
 }
 
 TEST(Blobfinder, LooksAlongItsMounting) {
-  // To the left stands a box; the lens is 0.2 m to the left of the robot's middle.
+  // There is a box to the left; the lens is 0.2 m to the left of the robot's centre.
   Simulation simulation(room(R"({"blobfinder": {"pose": {"y": 0.2, "yaw_deg": 90}}})",
                              box(2, 6.2, 0.4, R"(, "height": 0.4, "colour": "#f00")")));
   run(simulation, 10);
@@ -298,7 +299,7 @@ TEST(Ptz, TravelsAtItsSpeeds) {
   EXPECT_FALSE(reading.moving);
   command(simulation, PointCommand{40.0 * kDegrees, -10.0 * kDegrees, 30.0 * kDegrees});
   run(simulation, 20);
-  // 80, 50 and 30 degrees/s: after 0.2 s 16 degrees, all of the 10, 6 of the 30.
+  // 80, 50 and 30 degrees/s: after 0.2 s 16 degrees of pan, all 10 of tilt, 6 of the 30 of zoom.
   EXPECT_NEAR(reading.pan_rad, 16.0 * kDegrees, 1e-9);
   EXPECT_NEAR(reading.pan_speed_radps, 80.0 * kDegrees, 1e-9);
   EXPECT_NEAR(reading.tilt_rad, -10.0 * kDegrees, 1e-9);
@@ -307,7 +308,7 @@ TEST(Ptz, TravelsAtItsSpeeds) {
   run(simulation, 29);
   EXPECT_NEAR(reading.pan_rad, 39.2 * kDegrees, 1e-9);
   run(simulation, 52);
-  EXPECT_EQ(reading.pan_rad, 40.0 * kDegrees);  // there, to the bit
+  EXPECT_EQ(reading.pan_rad, 40.0 * kDegrees);  // exactly at its goal
   EXPECT_EQ(reading.view_rad, 30.0 * kDegrees);
   EXPECT_EQ(reading.pan_speed_radps, 0.0);
   EXPECT_FALSE(reading.moving);
@@ -322,7 +323,8 @@ TEST(Ptz, StopsAtItsLimits) {
   EXPECT_NEAR(reading.pan_rad, 30.0 * kDegrees, 1e-12);
   EXPECT_NEAR(reading.tilt_rad, 25.0 * kDegrees, 1e-12);
   EXPECT_NEAR(reading.view_rad, 20.0 * kDegrees, 1e-12);
-  command(simulation, PointCommand{0.0, 0.0, 0.0, 0.1});  // a view of 0 is none: it stays
+  // a field of view of 0 is invalid: it stays unchanged
+  command(simulation, PointCommand{0.0, 0.0, 0.0, 0.1});
   run(simulation, 100);
   EXPECT_NEAR(reading.pan_rad, 30.0 * kDegrees - 0.1, 1e-9);  // at 0.1 rad/s
   EXPECT_NEAR(reading.view_rad, 20.0 * kDegrees, 1e-12);
@@ -334,7 +336,7 @@ TEST(Ptz, TurnsAtSpeedsUntilToldOtherwise) {
   command(simulation, PanCommand{-0.5, 10.0, -0.2});
   run(simulation, 10);
   EXPECT_NEAR(reading.pan_rad, -0.05, 1e-9);
-  EXPECT_NEAR(reading.tilt_rad, 5.0 * kDegrees, 1e-9);  // no faster than 50 degrees/s
+  EXPECT_NEAR(reading.tilt_rad, 5.0 * kDegrees, 1e-9);  // at most 50 degrees/s
   EXPECT_NEAR(reading.view_rad, 60.0 * kDegrees - 0.02, 1e-9);
   command(simulation, PanCommand{});
   run(simulation, 10);
@@ -346,7 +348,7 @@ TEST(Ptz, TurnsAtSpeedsUntilToldOtherwise) {
 }
 
 TEST(Ptz, TurnsTheBlobfinderThatSitsOnIt) {
-  // A box 30 degrees to the left, 2 m away, turned so that its face looks at us.
+  // A box 30 degrees to the left, 2 m away, rotated so that its face is perpendicular to the view.
   const std::string to_left =
       box(2 + 2.1 * std::cos(30 * kDegrees), 4 + 2.1 * std::sin(30 * kDegrees), 0.2,
           R"(, "yaw_deg": 30, "height": 0.4, "colour": "#f00")");
@@ -357,12 +359,12 @@ TEST(Ptz, TurnsTheBlobfinderThatSitsOnIt) {
   ASSERT_THAT(blobs(simulation), SizeIs(1));
   // f 0.1 / 2 = 3.46 to either side, f 0.2 / 2 = 6.93 up and down.
   EXPECT_EQ(edges(blobs(simulation)[0]), (std::array{37, 42, 23, 36}));
-  // Twice as near: 40 / tan 15 = 149.3, so 7.46 and 14.9.
+  // With a field of view of half the size: 40 / tan 15 = 149.3, so 7.46 and 14.9.
   command(simulation, PointCommand{30.0 * kDegrees, 0.0, 30.0 * kDegrees});
   run(simulation, 200);
   ASSERT_THAT(blobs(simulation), SizeIs(1));
   EXPECT_EQ(edges(blobs(simulation)[0]), (std::array{33, 46, 15, 44}));
-  // Upwards by 3 degrees it moves down by 149.3 tan 3 = 7.82: 22.89 .. 52.76.
+  // Tilting up by 3 degrees moves it down by 149.3 tan 3 = 7.82: 22.89 .. 52.76.
   command(simulation, PointCommand{30.0 * kDegrees, 3.0 * kDegrees, 0.0});
   run(simulation, 100);
   EXPECT_EQ(edges(blobs(simulation).at(0)), (std::array{33, 46, 23, 52}));
@@ -393,7 +395,7 @@ TEST(Camera, ShowsThingsInTheirColoursDarkerWithDepth) {
   EXPECT_NEAR(brightness(2.0, 12.0), 0.9, 1e-12);
   EXPECT_NEAR(brightness(20.0, 12.0), 0.4, 1e-12);
 
-  // The box of the blobfinder's first test; its face looks along x, so its light is 1.
+  // The box of the blobfinder's first test; its face is perpendicular to x, so its brightness is 1.
   Simulation simulation(room(R"({"camera": {"height": 0.1}})",
                              box(4.2, 4, 0.4, R"(, "height": 0.3, "colour": "#c88020")")));
   run(simulation, 10);
@@ -415,14 +417,15 @@ TEST(Camera, ShowsThingsInTheirColoursDarkerWithDepth) {
   EXPECT_EQ(pixels.at(0, 0), pixels.at(79, 0));  // air over the border
   // The lowest row sees the floor at 69.282 * 0.1 / 29.5 = 0.2349 m: 0.98826 (252, 251, 248).
   EXPECT_EQ(pixels.at(40, 59), (Colour{249, 248, 245, 255}));
-  // The border, 6 m ahead and 0.16 m high, shows at row 30 - f 0.06 / 6 = 29.3, middle 29.5:
-  // 0.7 (140, 94, 60).
+  // The border, 6 m ahead and 0.16 m high, appears in row 30 - f 0.06 / 6 = 29.3, centre 29.5: 0.7
+  // (140, 94, 60).
   EXPECT_EQ(pixels.at(20, 29), (Colour{98, 66, 42, 255}));
 }
 
 TEST(Camera, LightsSidesByTheirNormalAndLidsFully) {
-  // The lens at 0.3 m over a box of 0.1 m that is turned by 90 degrees: faces along x again, from
-  // 36.93 down to 40.39; the lid from 35.77 on, so row 36, with the brightness of its front.
+  // The lens is 0.3 m high, the box 0.1 m and rotated by 90 degrees. A face is perpendicular to x
+  // again, from 36.93 down to 40.39; the top begins at 35.77, so it covers row 36, with the
+  // brightness of the front.
   const auto pixel = [](double yaw_deg, int row) {
     Simulation simulation(
         room(R"({"camera": {"height": 0.3}})",
@@ -433,8 +436,9 @@ TEST(Camera, LightsSidesByTheirNormalAndLidsFully) {
   };
   EXPECT_EQ(pixel(90.0, 38), 180);
   EXPECT_EQ(pixel(90.0, 36), 180);
-  // By 20 degrees: 0.85 + 0.15 cos 40 = 0.9649; the middle column meets its face at 4.2 - 0.2 /
-  // cos 20 - 0.0005, 1.987 m away: 200 * 0.9649 * 0.90065 = 173.8, the lid 200 * 0.90065 = 180.1.
+  // Rotated by 20 degrees: 0.85 + 0.15 cos 40 = 0.9649. The middle column hits the face at 4.2 -
+  // 0.2 / cos 20 - 0.0005, 1.987 m away: 200 * 0.9649 * 0.90065 = 173.8; the top is 200 * 0.90065 =
+  // 180.1.
   EXPECT_EQ(pixel(20.0, 38), 174);
   EXPECT_EQ(pixel(20.0, 36), 180);
 }

@@ -188,7 +188,7 @@ TEST(ReadWorld, ExamplesOfTheFormatsPageAreSound) {
     if (line == "```json") {
       example = "";
     } else if (line == "```" && example) {
-      // The map of the one example with a picture is the reader's own.
+      // The example with plan.png needs a picture that the page's reader provides.
       if (example->find("plan.png") == std::string::npos) {
         ++examples;
         for (const ConfigIssue& issue : issues_of(*example)) {
@@ -225,11 +225,11 @@ TEST(ReadWorld, AllErrorsComeAtOnceInTheOrderOfTheirLines) {
 }
 
 TEST(ReadWorld, ABadValueIsReportedOnceAndNotForItsDefaultToo) {
-  // The pose falls back to (0, 0), where the robot would stick out of the floor.
+  // The pose defaults to (0, 0), where the robot would extend beyond the floor.
   const std::vector<ConfigIssue> pose = issues_of(R"({"robots": [{"pose": {"x": "a", "y": 1}}]})");
   ASSERT_THAT(pose, SizeIs(1));
   EXPECT_EQ(pose[0].pointer, "/robots/0/pose/x");
-  // The arena falls back to another size, in which the robot would be outside.
+  // The arena defaults to another size, in which the robot would be outside.
   const std::vector<ConfigIssue> arena =
       issues_of(R"({"arena": {"size": [9, "9"]}, "robots": [{"pose": {"x": 8, "y": 8}}]})");
   ASSERT_THAT(arena, SizeIs(1));
@@ -245,7 +245,7 @@ TEST(ReadWorld, RobotsGetDistinctNamesPortsAndColours) {
     names.push_back(robot.name);
     ports.push_back(robot.port);
   }
-  // r2 is taken, so the second is the next that is free; so is port 6665 for the first.
+  // The name r2 and the port 6665 are taken, so the other robots get the next free ones.
   EXPECT_THAT(names, ElementsAre("r2", "r3", "r4", "r5"));
   EXPECT_THAT(std::set<std::string>(names.begin(), names.end()), SizeIs(4));
   EXPECT_THAT(std::set<int>(ports.begin(), ports.end()), SizeIs(4));
@@ -263,16 +263,16 @@ TEST(ReadWorld, RobotsGetDistinctNamesPortsAndColours) {
 TEST(ReadWorld, RobotsWithoutAPoseAreGivenFreePlaces) {
   std::string text = R"({"robots": [{"pose": {"x": 0.5, "y": 0.4, "yaw_deg": 90}})";
   for (int i = 1; i < 13; ++i) text += ", {}";
-  // check_world, which read calls, would refuse places that are not free.
+  // check_world, which read() calls, would refuse places that are not free.
   EXPECT_THAT(read(text + "]}").robots, SizeIs(13));
 }
 
 TEST(ReadWorld, AnEmptyRoomPutsItsRobotInTheMiddle) {
   const WorldDescription world = read(R"({"arena": {"size": [4, 2], "origin": [1, 1]}})");
   ASSERT_THAT(world.robots, SizeIs(1));
-  EXPECT_NEAR(world.robots[0].pose.x_m, 3.0, 0.05);  // half the spacing of places tried
+  EXPECT_NEAR(world.robots[0].pose.x_m, 3.0, 0.05);  // half the spacing of the candidate places
   EXPECT_NEAR(world.robots[0].pose.y_m, 2.0, 0.05);
-  EXPECT_EQ(world.robots[0].pose.yaw_rad, 0.0);  // the longer way
+  EXPECT_EQ(world.robots[0].pose.yaw_rad, 0.0);  // the direction with more room
 }
 
 TEST(ReadWorld, AnEmptyListOfRobotsIsLegal) {
@@ -359,7 +359,7 @@ TEST(ReadWorld, FilesThatCannotBeReadAreExplained) {
   const std::vector<ConfigIssue> a_folder = issues_of_file(folder);
   ASSERT_THAT(a_folder, SizeIs(1));
   EXPECT_EQ(a_folder[0].id, "file/not-a-file");
-  EXPECT_THAT(a_folder[0].hint, HasSubstr("cave.json"));  // the first one in it
+  EXPECT_THAT(a_folder[0].hint, HasSubstr("cave.json"));  // the first file in it
 
   const std::vector<ConfigIssue> endless = issues_of_file("/dev/zero");
   ASSERT_THAT(endless, SizeIs(1));
@@ -377,7 +377,7 @@ TEST(ReadWorld, FilesOfStageAndPlayerPointToThePageAboutThem) {
     EXPECT_THAT(issues[0].found, HasSubstr(name == std::string("simple.cfg") ? "Player" : "Stage"));
     EXPECT_THAT(issues[0].hint, HasSubstr("docs/coming_from_stage.md"));
   }
-  // The ending alone says nothing, nor does a file without a word in it.
+  // The extension alone is not sufficient, and neither is an empty file.
   EXPECT_THAT(issues_of_file(folder.write("json.world", "// ours\n{}")), testing::IsEmpty());
   const std::vector<ConfigIssue> empty = issues_of_file(folder.write("empty.world", " \n"));
   ASSERT_THAT(empty, SizeIs(1));
@@ -402,7 +402,7 @@ TEST(ReadWorld, HundredThousandUnknownKeysEndInAShortReport) {
   EXPECT_THAT(issues_of(text + "}"), SizeIs(101));
 }
 
-/// The message of a world file that is refused.
+/// The error for a world file that is refused.
 std::string refusal_of(const std::string& file) {
   try {
     static_cast<void>(read_world(file, test::device_table()));
@@ -434,7 +434,7 @@ TEST(NamedFiles, AreRegularFiles) {
   EXPECT_THAT(refusal_of(folder / "loop"), HasSubstr("links that lead round in a circle"));
 }
 
-// A world of a stranger may name any file: what that holds is nobody's business.
+// A stranger's world may name any file; error messages must not reveal the file's content.
 TEST(NamedFiles, AreNotQuotedUnlessTheyAreJsonObjects) {
   const test_support::TemporaryFolder folder;
   const std::string world = folder.write("world.json", R"({"robots": [{"model": "./secret"}]})");
@@ -449,7 +449,7 @@ TEST(NamedFiles, AreNotQuotedUnlessTheyAreJsonObjects) {
                                testing::Not(HasSubstr("accepted"))))
         << text;
   }
-  // A model with an error shows its line as before.
+  // Errors in a model still quote its line.
   folder.write("secret", "// a robot\n{\"name\": oops}");
   EXPECT_THAT(refusal_of(world), HasSubstr("'oops' in the line: {\"name\": oops}"));
 }

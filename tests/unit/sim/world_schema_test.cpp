@@ -26,8 +26,8 @@ json schema() {
   return json::parse(stream);
 }
 
-/// Keys that the reader knows in each object, as it names them when it meets one it does not know
-/// ("zz"), by the pointer of the object.
+/// The keys that the reader knows in each object, by the object's pointer. They come from the
+/// reader's messages about an unknown key ("zz").
 std::map<std::string, std::set<std::string>> keys_of_reader() {
   constexpr const char* kWorld = R"({
     "zz": 0,

@@ -12,10 +12,10 @@ import sys
 
 import jsonschema
 
-# A string, or a comment; strings first, so that "//" in one stays.
+# A string or a comment. Strings come first, so that "//" inside a string stays.
 TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
-# Bad worlds whose fault is one of form, which a schema can see.
+# Bad worlds with an error of form, which a schema can detect.
 FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "bad_colour",
                  "bad_colour_of_obstacle", "bad_name", "missing_key", "reserved_port", "conflicting_keys",
                  "obstacle_too_thin", "obstacle_next_to_nothing", "separator_too_thin",
@@ -45,7 +45,7 @@ def main(source):
         print(f"only {len(good)} worlds in {worlds}")
         failures += 1
 
-    # What it takes from the worlds' schema is put in its place.
+    # Inlines the parts that it references from the worlds' schema.
     model_schema = load(worlds / "schema" / "model.schema.json")
     model_schema["properties"]["devices"] = schema["$defs"]["robot"]["properties"]["devices"]
     model_schema["$defs"] = {**schema["$defs"], **model_schema["$defs"]}

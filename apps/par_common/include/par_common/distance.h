@@ -7,37 +7,37 @@
 
 namespace par {
 
-/// What lies beyond the edge of a grid.
+/// How the cells beyond the edge of a grid count.
 enum class Outside { kFree, kBlocked };
 
 /// Distance from the centre of each cell to the centre of the nearest blocked cell [m]; 0 on
-/// blocked cells, infinity if there is none.
+/// blocked cells, infinity if no cell is blocked.
 ///
 /// The exact Euclidean distance transform of P. F. Felzenszwalb and D. P. Huttenlocher, "Distance
-/// transforms of sampled functions" (Theory of Computing 8, 2012): the squared distance is a sum
-/// over x and y, so it is found by columns first and then by rows, and in one dimension it is the
-/// lower envelope of one parabola a cell, which a single sweep finds. O(cells), whatever the
-/// distances.
+/// transforms of sampled functions" (Theory of Computing 8, 2012). The squared distance is a sum
+/// over x and y, so the algorithm processes first the columns and then the rows. In one dimension
+/// the result is the lower envelope of one parabola per cell, which a single sweep finds. O(cells),
+/// independent of the distances.
 ///
 /// @param outside  kBlocked: the grid is surrounded by blocked cells.
 [[nodiscard]] Grid<double> distance_to_blocked_m(const Mask& blocked,
                                                  Outside outside = Outside::kBlocked);
 
-/// Blocked cells grown by a radius: those whose centre is at most radius_m from that of a blocked
-/// one. With the radius of the robot's circle the robot becomes a point, and may be planned for as
-/// one (T. Lozano-Perez, "Spatial planning: a configuration space approach", IEEE Transactions on
-/// Computers 32(2), 1983).
+/// Inflates blocked cells by a radius: the result contains the cells whose centre is at most
+/// radius_m from the centre of a blocked cell. With the radius of the robot's circle, a planner can
+/// treat the robot as a point (T. Lozano-Perez, "Spatial planning: a configuration space approach",
+/// IEEE Transactions on Computers 32(2), 1983).
 ///
-/// Distances are from centre to centre, and what stands in a cell may fill it: to be on the safe
-/// side add half a cell's diagonal (0.71 cells) to the radius. The S1R's own circle has 0.098 m.
+/// Distances are between centres, but an obstacle may fill its whole cell. To be safe, add half a
+/// cell's diagonal (0.71 cells) to the radius. The S1R's own circle has a radius of 0.098 m.
 /// @throw std::invalid_argument if radius_m is negative or not a number.
 [[nodiscard]] Mask inflate(const Mask& blocked, double radius_m,
                            Outside outside = Outside::kBlocked);
 
-/// The free cell nearest to a given one (itself, if it is free), by the distance of their centres;
-/// of equally near ones the one that comes first in row-major order. For a robot that finds itself
-/// a little inside an inflated wall. nullopt if none is within max_distance_m.
-/// `from` may lie outside the grid.
+/// The free cell nearest to `from` (`from` itself, if it is free), by the distance of their
+/// centres. Of equally near cells, the first in row-major order. Use it for a robot whose own cell
+/// is inside an inflated wall. nullopt if no free cell is within max_distance_m. `from` may be
+/// outside the grid.
 [[nodiscard]] std::optional<Cell> nearest_free(const Mask& blocked, const Cell& from,
                                                double max_distance_m);
 

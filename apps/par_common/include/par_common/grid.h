@@ -10,17 +10,16 @@
 #include <vector>
 
 /// Building blocks for the course's planning and exploration tasks: grids, planners, frontiers, a
-/// path follower. Plain C++17; it knows neither the simulator nor the Player library, so it can be
-/// tried, tested and reused without either.
+/// path follower. Plain C++17. It depends neither on the simulator nor on the Player library, so
+/// you can try, test and reuse it without either.
 ///
 /// Metres are in the frame W of the arena (origin bottom left, x right, y up, angles
 /// counter-clockwise from x in radians). Cells count as on the canvas: columns from the left, rows
 /// from the TOP.
 ///
-/// Nothing here is thread-safe: objects that several threads use need a mutex around them.
-/// Functions only read what they are given by const reference, so many may run at once on data that
-/// nobody changes. No function depends on chance or on time: equal arguments give equal results to
-/// the bit.
+/// Nothing here is thread-safe: protect objects that several threads use with a mutex. Functions
+/// only read arguments passed by const reference, so many may run at once on data that nobody
+/// changes. All functions are deterministic: equal arguments give bit-identical results.
 namespace par {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -68,9 +67,9 @@ struct Cell {
   return std::hypot(static_cast<double>(a.column - b.column), static_cast<double>(a.row - b.row));
 }
 
-/// Where a grid lies in the world: its size in cells, and how cells and metres belong together.
+/// Position of a grid in the world: its size in cells, and the mapping between cells and metres.
 ///
-/// The rule is the canvas's: column = floor((x - origin.x) / cell_size_m),
+/// The mapping is that of the canvas: column = floor((x - origin.x) / cell_size_m),
 /// row = height - 1 - floor((y - origin.y) / cell_size_m). With the default arena's canvas (172 x
 /// 186 cells of 0.02 m, origin 0) a cell of the grid is a pixel of the picture.
 struct GridFrame {
@@ -87,18 +86,18 @@ struct GridFrame {
   [[nodiscard]] bool contains(const Cell& cell) const {
     return cell.column >= 0 && cell.row >= 0 && cell.column < width && cell.row < height;
   }
-  /// Place of a cell in a row-major list that begins with the top row. @pre contains(cell)
+  /// Index of a cell in a row-major list that begins with the top row. @pre contains(cell)
   [[nodiscard]] std::size_t index(const Cell& cell) const {
     return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width) +
            static_cast<std::size_t>(cell.column);
   }
-  /// The cell at a place of that list; the inverse of index().
+  /// The cell at an index of that list; the inverse of index().
   [[nodiscard]] Cell cell_at(std::size_t index) const {
     const std::size_t columns = static_cast<std::size_t>(width);
     return {static_cast<int>(index % columns), static_cast<int>(index / columns)};
   }
-  /// The cell that a position lies in. Positions outside the grid give cells outside it (ask
-  /// contains()); far away, columns and rows stop at about a thousand million.
+  /// The cell that contains a position. Positions outside the grid give cells outside it (check
+  /// with contains()). Columns and rows saturate at about a thousand million.
   [[nodiscard]] Cell cell_of(const Point& point) const;
   /// Position of a cell's centre [m]; also of cells outside the grid.
   [[nodiscard]] Point centre_of(const Cell& cell) const {
@@ -119,7 +118,7 @@ class Grid {
  public:
   /// A grid without cells.
   Grid() { frame_.width = frame_.height = 0; }
-  /// A grid that has this value everywhere.
+  /// A grid with the same value in every cell.
   /// @throw std::invalid_argument unless sides and cell size are > 0.
   explicit Grid(const GridFrame& frame, T value = T()) : frame_(frame) {
     if (frame.width <= 0 || frame.height <= 0 || !(frame.cell_size_m > 0.0)) {
@@ -141,8 +140,7 @@ class Grid {
     return contains(cell) ? (*this)[cell] : outside;
   }
 
-  /// All values, row-major, the top row first: the order in which GridMapLayer::SetCells wants
-  /// them.
+  /// All values, row-major, the top row first: the order that GridMapLayer::SetCells expects.
   [[nodiscard]] const std::vector<T>& values() const { return values_; }
   [[nodiscard]] std::vector<T>& values() { return values_; }
 
@@ -151,14 +149,14 @@ class Grid {
   std::vector<T> values_;
 };
 
-/// A set of cells: 1 in it, 0 not. Obstacles are given so: 1 is blocked, 0 is free. (Not bool:
-/// std::vector<bool> packs bits, which is slower and has no data().)
+/// A set of cells: 1 if a cell belongs to it, 0 if not. For obstacles, 1 is blocked and 0 is free.
+/// (Not bool: std::vector<bool> packs bits, which is slower and has no data().)
 using Mask = Grid<std::uint8_t>;
 
 /// Number of cells in a set.
 [[nodiscard]] std::size_t count(const Mask& mask);
 
-/// Cells (as a path has them) to the positions of their centres.
+/// Converts cells (as in a path) to the positions of their centres.
 [[nodiscard]] std::vector<Point> to_points(const GridFrame& frame, const std::vector<Cell>& cells);
 
 }  // namespace par

@@ -8,57 +8,57 @@
 
 namespace par {
 
-/// What a map says of a cell.
+/// State of a cell in a map.
 enum class CellState : std::uint8_t { kUnknown, kFree, kOccupied };
 
-/// A laser scan, ready for a map.
+/// A laser scan as input of a map.
 struct Scan {
-  Pose sensor;                     ///< where the LASER was, not the robot's centre, in W
-  double first_bearing_rad = 0.0;  ///< direction of beam 0 against sensor.yaw [rad]
-  double bearing_step_rad = 0.0;   ///< from a beam to the next, counter-clockwise [rad]
-  double max_range_m = 5.0;        ///< a beam that reads this or more met nothing [m]
+  Pose sensor;                     ///< pose of the LASER, not of the robot's centre, in W
+  double first_bearing_rad = 0.0;  ///< direction of beam 0 relative to sensor.yaw [rad]
+  double bearing_step_rad = 0.0;   ///< angle between neighbouring beams, counter-clockwise [rad]
+  double max_range_m = 5.0;        ///< a beam that reads this or more hit nothing [m]
   std::vector<double> ranges_m;    ///< [m]
 };
 
-/// How much a measurement counts.
+/// Weights of the measurements, and thresholds.
 struct OccupancyParams {
   /// Added to the log odds of a cell where a beam ends: log(p / (1 - p)) for p = 0.7.
   double hit_log_odds = 0.85;
-  /// Added to those of a cell that a beam passes: p = 0.4.
+  /// Added to the log odds of a cell that a beam passes: p = 0.4.
   double miss_log_odds = -0.40;
-  /// Log odds stay within +-this, so that a cell that was seen free a thousand times can still
-  /// change its mind in a dozen scans when somebody moves a block: p = 0.97.
+  /// Log odds are clamped to +-limit (p = 0.97). So a cell that was seen free a thousand times can
+  /// still become occupied within a dozen scans when somebody moves a block.
   double limit_log_odds = 3.5;
-  /// Probabilities above this are occupied ...
+  /// A cell with a higher probability is occupied.
   double occupied_threshold = 0.65;
-  /// ... below this free, and between them unknown. (The prior is 0.5.) Both are those by which
-  /// ROS's map_saver judges: what is called known here is known in a saved map, too. A cell is free
-  /// once four scans more have seen it free than not.
+  /// A cell with a lower probability is free; between the thresholds it is unknown. (The prior is
+  /// 0.5.) Both are the thresholds of ROS's map_saver, so a cell that is known here is also known
+  /// in a saved map. A cell becomes free after four more free than occupied measurements.
   double free_threshold = 0.196;
-  /// A beam ends on the face of an obstacle, and where faces lie on borders of cells, rounding and
-  /// noise put half the ends into the free cell in front. So the end is taken this much further
-  /// along the beam [m].
+  /// The end of a beam is shifted this much further along the beam [m]. A beam ends on the face of
+  /// an obstacle. Where faces lie on borders of cells, rounding and noise would put half of the
+  /// ends into the free cell in front.
   double depth_m = 0.01;
-  /// Beams are used up to here [m]: a longer one tells that so much is free, and nothing of its
-  /// end. Far ends are uncertain, and a small error of heading moves them far.
+  /// Beams are used up to this range [m]. A longer beam only marks cells up to this range as free.
+  /// Far ends are uncertain, because a small heading error moves them far.
   double usable_range_m = 5.0;
 };
 
-/// An occupancy grid: for each cell, how likely something stands there, learned from scans.
+/// An occupancy grid: the probability of each cell to be occupied, learned from scans.
 ///
 /// H. Moravec and A. Elfes, "High resolution maps from wide angle sonar", ICRA 1985; in the form of
-/// S. Thrun, W. Burgard and D. Fox, Probabilistic Robotics (2005), table 9.1: cells are taken as
-/// independent, each keeps the logarithm of its odds l = log(p / (1 - p)), and Bayes's rule becomes
-/// an addition: l += l_measured (the prior's l is 0: p = 0.5, unknown). Measured is a hit in the
-/// cell where a beam ends, and a miss in each cell before it, which Bresenham's line names.
+/// S. Thrun, W. Burgard and D. Fox, Probabilistic Robotics (2005), table 9.1. Cells are assumed to
+/// be independent. Each cell stores its log odds l = log(p / (1 - p)), and Bayes's rule becomes an
+/// addition: l += l_measured (the prior is l = 0: p = 0.5, unknown). A scan measures a hit in the
+/// cell where a beam ends, and a miss in each cell before it on Bresenham's line.
 ///
-/// Unlike the book's, a cell changes at most once a scan, and a hit goes before a miss (as in
-/// W. Hess, D. Kohler, H. Rapp and D. Andor, "Real-time loop closure in 2D LIDAR SLAM", ICRA 2016,
-/// sec. IV): near the sensor dozens of beams cross one cell, which are far from independent, and
-/// beams that graze a wall pass cells that their neighbours hit.
+/// Unlike in the book, a cell changes at most once per scan, and a hit takes precedence over a miss
+/// (as in W. Hess, D. Kohler, H. Rapp and D. Andor, "Real-time loop closure in 2D LIDAR SLAM", ICRA
+/// 2016, sec. IV). The reason: near the sensor dozens of beams cross one cell, and they are far
+/// from independent; and beams that graze a wall pass cells that their neighbours hit.
 class OccupancyGrid {
  public:
-  /// A map in which all is unknown.
+  /// A map in which all cells are unknown.
   /// @throw std::invalid_argument for a frame without cells, or if the signs or the order of
   ///        params make no sense (hit > 0 > miss, limit > 0, free < 0.5 < occupied, ...).
   explicit OccupancyGrid(const GridFrame& frame, const OccupancyParams& params = OccupancyParams());
@@ -66,25 +66,25 @@ class OccupancyGrid {
   [[nodiscard]] const GridFrame& frame() const { return log_odds_.frame(); }
   [[nodiscard]] const OccupancyParams& params() const { return params_; }
 
-  /// Learns from a scan. Ranges that are not numbers, or not above 0, are left out; so is the part
-  /// of a beam that lies outside the grid. O(beams x cells of a beam).
+  /// Adds a scan to the map. Ignores ranges that are not numbers or not above 0, and the part of a
+  /// beam outside the grid. O(beams x cells of a beam).
   void update(const Scan& scan);
 
-  /// What is known of a cell; outside the grid, unknown.
+  /// State of a cell; unknown outside the grid.
   [[nodiscard]] CellState state(const Cell& cell) const;
-  /// Probability that a cell is occupied, 0..1; outside the grid 0.5.
+  /// Probability that a cell is occupied, 0..1; 0.5 outside the grid.
   [[nodiscard]] double probability(const Cell& cell) const;
-  /// Log odds of a cell; outside the grid 0.
+  /// Log odds of a cell; 0 outside the grid.
   [[nodiscard]] double log_odds(const Cell& cell) const { return log_odds_.value_or(cell, 0.0F); }
 
   /// Probabilities of all cells, for a grey layer: 0 free (white) .. 1 occupied (black).
   [[nodiscard]] Grid<float> probabilities() const;
-  /// States of all cells, for frontiers.
+  /// States of all cells, for finding frontiers.
   [[nodiscard]] Grid<CellState> states() const;
 
-  /// Forgets what is known of cells within a circle, and takes them as free: the robot stands
-  /// there, so nothing else does, however blind its laser is close by. Cells whose centre lies
-  /// within radius_m of the centre.
+  /// Sets all cells whose centre is within radius_m of `centre` to free, regardless of earlier
+  /// measurements. Use it for the place where the robot stands: nothing else can be there, and the
+  /// laser may not see it.
   void set_free(const Point& centre, double radius_m);
 
  private:
@@ -92,16 +92,16 @@ class OccupancyGrid {
 
   OccupancyParams params_;
   Grid<float> log_odds_;
-  std::vector<std::uint8_t> seen_;    // of this scan, by cell: 0 nothing, 1 miss, 2 hit
+  std::vector<std::uint8_t> seen_;    // per cell, for the current scan: 0 nothing, 1 miss, 2 hit
   std::vector<std::size_t> touched_;  // cells with seen_ != 0
 };
 
-/// The cells that are in one state.
+/// The cells with a given state.
 [[nodiscard]] Mask cells_in_state(const Grid<CellState>& states, CellState state);
 
-/// The cells of Bresenham's line (J. E. Bresenham, "Algorithm for computer control of a digital
-/// plotter", IBM Systems Journal 4(1), 1965) from one cell to another, both included, in order:
-/// max(|columns|, |rows|) + 1 of them, each next to the one before.
+/// The cells of Bresenham's line from one cell to another (J. E. Bresenham, "Algorithm for computer
+/// control of a digital plotter", IBM Systems Journal 4(1), 1965), in order and including both
+/// ends. They are max(|columns|, |rows|) + 1 cells, each next to the previous one.
 [[nodiscard]] std::vector<Cell> bresenham_line(const Cell& from, const Cell& to);
 
 }  // namespace par

@@ -9,100 +9,103 @@
 
 namespace par {
 
-/// A way over a grid.
+/// A path over a grid.
 struct Path {
-  std::vector<Cell> cells;   ///< from start to goal, both included; empty: there is no way
+  std::vector<Cell> cells;   ///< from start to goal, both included; empty: there is no path
   double length_m = 0.0;     ///< sum of the distances from cell to cell [m]
-  std::size_t expanded = 0;  ///< cells that the planner looked at the neighbours of: its work
+  std::size_t expanded = 0;  ///< number of cells that the planner expanded: its effort
 
   [[nodiscard]] bool found() const { return !cells.empty(); }
 };
 
-/// The length of a way along the centres of cells [m].
+/// Length of a path along the centres of cells [m].
 [[nodiscard]] double path_length_m(const GridFrame& frame, const std::vector<Cell>& cells);
-/// The length of a way along points [m].
+/// Length of a path along points [m].
 [[nodiscard]] double path_length_m(const std::vector<Point>& points);
 
-// All planners: a robot that is a point (inflate the map first) steps from a free cell to one of
-// its 8 free neighbours; a straight step costs 1 cell, a diagonal one sqrt(2) cells, and a diagonal
-// one is allowed only if both cells beside it are free: corners are not cut. Where start or goal is
-// blocked or outside the grid there is no way. Start = goal: a way of one cell.
+// All planners treat the robot as a point (inflate the map first) that steps from a free cell to
+// one of its 8 free neighbours. A straight step costs 1 cell, a diagonal step sqrt(2) cells. A
+// diagonal step is allowed only if both cells beside it are free, so paths do not cut corners.
+// There is no path if start or goal is blocked or outside the grid. If start = goal, the path has
+// one cell.
 
-/// Shortest ways from one cell to all others.
+/// Shortest paths from one cell to all others.
 ///
 /// E. W. Dijkstra, "A note on two problems in connexion with graphs", Numerische Mathematik 1,
-/// 1959: of all cells reached but not finished, take the one nearest to the start; it is finished,
-/// as every other way to it leads through something farther; see whether its neighbours are better
-/// reached through it. One run tells the way to every goal, so use it when there are many: which
-/// frontier is the nearest? O(n log n) for n cells.
+/// 1959. In each iteration, take the cell nearest to the start that is reached but not finished. It
+/// is now finished, because every other path to it leads through a cell farther away. Then check
+/// whether its neighbours have a shorter path through it. One run gives the path to every goal, so
+/// use it when there are many goals, for example to find the nearest frontier. O(n log n) for n
+/// cells.
 class DistanceField {
  public:
   /// Runs Dijkstra's algorithm from `start` over the whole grid.
   DistanceField(const Mask& blocked, const Cell& start);
 
-  /// Length of the shortest way to a cell [m]; infinity if there is none.
+  /// Length of the shortest path to a cell [m]; infinity if there is none.
   [[nodiscard]] double distance_m(const Cell& cell) const;
   [[nodiscard]] bool reachable(const Cell& cell) const;
-  /// The way to a cell.
+  /// The path to a cell.
   [[nodiscard]] Path path_to(const Cell& cell) const;
-  /// All cells that can be reached, the start among them.
+  /// All reachable cells, including the start.
   [[nodiscard]] Mask reachable() const;
   [[nodiscard]] const GridFrame& frame() const { return distance_.frame(); }
 
  private:
   Grid<double> distance_;             // [cells]
-  std::vector<std::int32_t> parent_;  // index of the cell before, -1: none
+  std::vector<std::int32_t> parent_;  // index of the previous cell, -1: none
   std::size_t expanded_ = 0;
 };
 
-/// Shortest way by Dijkstra's algorithm, which ends as soon as the goal is finished.
+/// Shortest path by Dijkstra's algorithm, which stops as soon as the goal is finished.
 [[nodiscard]] Path dijkstra(const Mask& blocked, const Cell& start, const Cell& goal);
 
-/// Shortest way by A*: as Dijkstra's, but the cells are taken in the order of g + h, the way so far
-/// plus an estimate of the rest, so that the search runs towards the goal.
+/// Shortest path by A*. It differs from Dijkstra's algorithm in the order of expansion: by g + h,
+/// the length so far plus an estimate of the rest. So the search is directed towards the goal.
 ///
 /// P. E. Hart, N. J. Nilsson and B. Raphael, "A formal basis for the heuristic determination of
 /// minimum cost paths", IEEE Transactions on Systems Science and Cybernetics 4(2), 1968. The
-/// estimate is the octile distance, the length of the way if nothing were blocked: it never says
-/// too much, so the way found is as short as Dijkstra's.
+/// estimate is the octile distance: the length of the path if no cell were blocked. It never
+/// overestimates, so the path is as short as Dijkstra's.
 [[nodiscard]] Path a_star(const Mask& blocked, const Cell& start, const Cell& goal);
 
-/// A way of any angle by Theta*: as A*, but a cell may have any cell that it can see as its
-/// predecessor. When s is expanded and its neighbour t is in sight of s's own predecessor p, then t
-/// is reached from p straight away, which by the triangle inequality is never longer than over s.
+/// An any-angle path by Theta*. It differs from A* in that the predecessor of a cell may be any
+/// cell in its line of sight. When s is expanded and its neighbour t is in sight of s's predecessor
+/// p, then t is reached directly from p. By the triangle inequality this is never longer than the
+/// path over s.
 ///
 /// A. Nash, K. Daniel, S. Koenig and A. Felner, "Theta*: any-angle path planning on grids", AAAI
-/// 2007. Two things are different. Sight is line_of_sight() between centres of cells. And a
-/// finished cell that is later reached by a shorter way is taken up again: in the paper's algorithm
-/// it is not, as f need not grow along a way; with it the way is never longer than A*'s (before the
-/// goal is taken, some cell of A*'s way is open with a g no greater than along that way, so its f
-/// is at most the length of that way). The result holds only the cells where the way turns, and is
-/// short, but not always the shortest.
+/// 2007. This implementation differs in two points. Line of sight is line_of_sight() between
+/// centres of cells. And a finished cell is reopened when a shorter path to it is found; the
+/// paper's algorithm does not do that, although f may decrease along a path. With reopening, the
+/// path is never longer than A*'s: before the goal is taken, some cell of A*'s path is open with a
+/// g no greater than along that path, so its f is at most the length of that path. The result
+/// contains only the cells where the path turns. It is short, but not always the shortest.
 [[nodiscard]] Path theta_star(const Mask& blocked, const Cell& start, const Cell& goal);
 
 /// Whether the straight line between the centres of two cells touches no blocked cell, not even at
-/// a corner; the same whichever is named first. For neighbours it is the rule of the planners: no
-/// corners cut. False if either end is blocked or outside. Whole numbers only: exact. O(cells
-/// between).
+/// a corner. Symmetric in a and b. For neighbours it equals the planners' rule of not cutting
+/// corners. False if either end is blocked or outside. Exact, because it uses integers only.
+/// O(cells between).
 [[nodiscard]] bool line_of_sight(const Mask& blocked, const Cell& a, const Cell& b);
 
-/// The same way with fewer turns: from each turn that is kept straight to the last cell of the way
-/// that can be seen from there. A way on 8 neighbours turns by multiples of 45 degrees only, and is
-/// up to 8 % longer than it need be; pulled straight like this it is easier to drive, and never
-/// longer (triangle inequality). It passes each obstacle on the side on which the way did, even
-/// where the other side has become the shorter one; Theta* looks for such while it searches.
+/// Removes turns from a path: connects each kept turn to the last cell of the path that is in line
+/// of sight. A path over 8 neighbours turns only by multiples of 45 degrees and is up to 8 % longer
+/// than necessary. The smoothed path is easier to drive, and never longer (triangle inequality). It
+/// passes each obstacle on the same side as the original path, even if the other side has become
+/// shorter; Theta* considers both sides during its search.
 ///
-/// Known as string pulling; C. Thorpe, "Path relaxation: path planning for a mobile robot", AAAI
-/// 1984, is an early one for grids.
-/// @return first and last cell and the turns between; empty for an empty way.
+/// This method is known as string pulling; C. Thorpe, "Path relaxation: path planning for a mobile
+/// robot", AAAI 1984, is an early version for grids.
+/// @return first and last cell and the turns between them; empty for an empty path.
 [[nodiscard]] Path smooth(const Mask& blocked, const Path& path);
 
-/// Every cell on the straight lines between the cells of a way, in order, each next to the one
-/// before: for drawing a way that has turns only, or for seeing whether it is still free in a new
-/// map.
+/// Every cell on the straight lines between the cells of a path, in order, each next to the
+/// previous one. Use it to draw a path that consists of turns, or to check whether it is still free
+/// in a new map.
 [[nodiscard]] std::vector<Cell> trace(const std::vector<Cell>& turns);
 
-/// Whether a way is free in a map: each stretch of it in line of sight.
+/// Whether a path is free in a map: each segment is in line of sight.
 [[nodiscard]] bool is_free(const Mask& blocked, const std::vector<Cell>& turns);
 
 }  // namespace par

@@ -9,17 +9,18 @@
 
 namespace par {
 
-/// A map file that cannot be read; what() says where, what was expected and what was found.
+/// A map file that cannot be read; what() says where the error is, what was expected and what was
+/// found.
 class MapError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Reads a map from text: a line with the number of rows, then so many rows of equal length, the
-/// top one first, `.` for a free cell and `#` for a wall. Spaces at the ends of lines, line ends of
-/// Windows, and empty lines after the last row do not matter.
+/// Reads a map from text. The first line is the number of rows. The rows follow from top to bottom,
+/// all of equal length: `.` is a free cell and `#` a wall. Spaces at the ends of lines, Windows
+/// line ends, and empty lines after the last row are ignored.
 ///
-/// @param name         of the text, for messages.
+/// @param name         name of the text, for error messages.
 /// @param cell_size_m  side of a cell [m]; the grid's origin is (0, 0).
 /// @return 1 where there is a wall.
 /// @throw MapError     "NAME:LINE: ..." unless the text is such a map of 1..8192 rows and columns.
@@ -29,7 +30,7 @@ class MapError : public std::runtime_error {
 /// Reads a map from a file. @throw MapError also if the file cannot be opened.
 [[nodiscard]] Mask load_text_map(const std::string& path, double cell_size_m = 0.02);
 
-/// A map as read_text_map() reads it.
+/// Writes a map in the format that read_text_map() reads.
 [[nodiscard]] std::string to_text_map(const Mask& walls);
 
 }  // namespace par

@@ -9,25 +9,24 @@
 
 namespace playerlike {
 
-/// Opens the session that a client's host name means:
-/// - "localhost" and "127.0.0.1": the embedded simulation of this process, of the world file named
-///   by PLAYPEN_WORLD, else of the default world; or, if PLAYPEN_WORLD is "tcp://HOST[:PORT]", the
-///   server there;
+/// Opens the session for a client's host name:
+/// - "localhost" and "127.0.0.1": the embedded simulation of this process. PLAYPEN_WORLD names its
+///   world file; without it, the default world is used. If PLAYPEN_WORLD is "tcp://HOST[:PORT]",
+///   that server is used instead;
 /// - "sim:FILE": an embedded simulation of that file;
-/// - "tcp://HOST[:PORT]" or "HOST:PORT": the server there (`playpen serve`), on TCP port 4000
-///   unless told otherwise. An IPv6 address is in brackets. PLAYPEN_TOKEN holds the tokens to be
-///   presented, separated by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
-/// - any other "HOST": the server there; but as "localhost", with a warning, where PLAYPEN_WORLD is
-///   set, for programs that name a real robot's host.
+/// - "tcp://HOST[:PORT]" or "HOST:PORT": a server (`playpen serve`); the default TCP port is 4000.
+///   An IPv6 address is written in brackets. PLAYPEN_TOKEN contains the client's tokens, separated
+///   by commas; PLAYPEN_ENCODING is "cbor" (default) or "json";
+/// - any other "HOST": the server there. If PLAYPEN_WORLD is set, it means "localhost" instead,
+///   with a warning: this supports programs that name a real robot's host.
 ///
-/// All clients that name the same world file share one simulation, which lives until the program
-/// ends.
-/// @param port  Player port: of a robot, or 4000 for all. Not the server's TCP port.
+/// All clients with the same world file share one simulation, which exists until the program ends.
+/// @param port  Player port: a robot's port, or 4000 for all robots. Not the server's TCP port.
 /// @throws SessionError, sim::ConfigError.
 [[nodiscard]] std::unique_ptr<Session> open_session(const std::string& host, int port);
 
-/// Ends all embedded simulations and forgets them, so that the next client starts afresh.
-/// For tests and for programs that run one world after another.
+/// Ends and removes all embedded simulations, so that the next client starts a new one. For tests
+/// and for programs that run several worlds in sequence.
 void close_embedded_hosts();
 
 }  // namespace playerlike

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "playerlike/process/thinker.h"
+#include "playerlike/process/thread_id.h"
 #include "playerlike/session/session.h"
 #include "sim/simulation/simulation.h"
 
@@ -17,26 +17,26 @@ namespace playerlike {
 class Host;
 struct Client;
 
-/// Drawings that are carried out piece by piece, see EventClient::draw_some().
+/// Drawings that are executed in several parts; see EventClient::draw_some().
 struct DrawWork {
   std::vector<sim::DrawOperation> operations;
   sim::DrawProgress progress;
-  std::size_t written = 0;  ///< cells, so far
+  std::size_t written = 0;  ///< number of cells written so far
   bool begun = false;
 };
 
-/// A client of a host without a thread of its own, for event loops: waiting is begun, and its end
-/// is told. See Host::connect_events(). All members may be called from any thread, but by one at a
-/// time.
+/// A client of a host for event loops, without its own thread. A call begins a wait and returns; a
+/// callback reports the end of the wait. See Host::connect_events(). Any thread may call the
+/// members, but only one at a time.
 class EventClient final {
  public:
-  /// How a wait stands.
+  /// State of a wait.
   enum class Outcome {
-    kIdle,      ///< none was begun, or it was cancelled
-    kWaiting,   ///< not over yet
-    kData,      ///< a reading waits to be taken
-    kTime,      ///< the time is over
-    kFinished,  ///< the run is over, and nothing is left to take
+    kIdle,      ///< no wait has begun, or it was cancelled
+    kWaiting,   ///< the wait is not over
+    kData,      ///< a reading is available
+    kTime,      ///< the timeout has expired
+    kFinished,  ///< the run is over, and no reading is left
   };
 
   EventClient(std::shared_ptr<Host> host, std::shared_ptr<Client> client);
@@ -45,32 +45,35 @@ class EventClient final {
   /// Closes the session.
   ~EventClient();
 
-  /// All that does not wait. Its wait() and peek() must not be called, nor may it be asked to join
-  /// or sleep.
+  /// The session, for calls that do not block. Do not call its wait() or peek(), and do not send a
+  /// JoinRequest or SleepRequest.
   [[nodiscard]] Session& session() noexcept { return *session_; }
 
-  /// As Session::wait(): over with kData or kFinished.
-  /// @return the outcome, kWaiting if it is not over yet; so for the calls below.
-  Outcome begin_wait(ThinkerId thinker);
-  /// As Session::peek(): over with kData, kTime or kFinished. In a paced simulation it does not end
-  /// by time: who began it cancels it.
-  Outcome begin_peek(ThinkerId thinker, std::chrono::milliseconds timeout);
-  /// As SleepRequest: over with kTime or kFinished.
+  /// Begins a wait like Session::wait(). It ends with kData or kFinished.
+  /// @return the outcome, or kWaiting if the wait is not over. The same applies to the functions
+  ///         below.
+  Outcome begin_wait(ThreadId thread_id);
+  /// Begins a wait like Session::peek(). It ends with kData, kTime or kFinished. In a paced
+  /// simulation the timeout does not end it: the caller must cancel it.
+  Outcome begin_peek(ThreadId thread_id, std::chrono::milliseconds timeout);
+  /// Begins a wait like SleepRequest. It ends with kTime or kFinished.
   /// @throws SessionError kBadArgument.
-  Outcome begin_sleep(ThinkerId thinker, double seconds);
-  /// As JoinRequest.
-  void join(ThinkerId thinker);
+  Outcome begin_sleep(ThreadId thread_id, double seconds);
+  /// Joins the lockstep like JoinRequest.
+  void join(ThreadId thread_id);
 
-  /// Carries on with drawings as Session::draw() does, until about so many cells have been written
-  /// (a row of tiles or a line more at most); the simulation is locked for that long only. What the
-  /// session has drawn before comes first. Drawings that a later fill of the same layer covers are
-  /// left out.
-  /// @return whether all is done. @throws SessionError kDisconnected once the session is closed.
+  /// Continues drawings like Session::draw(), until about this number of cells has been written (at
+  /// most a row of tiles or a line more). The simulation is locked only for this time. Earlier
+  /// drawings of the session are executed first. Drawings that a later fill of the same layer
+  /// covers are skipped.
+  /// @return whether all drawings are complete.
+  /// @throws SessionError kDisconnected once the session is closed.
   bool draw_some(DrawWork& work, std::size_t cells);
 
-  /// How the last wait stands.
+  /// State of the last wait.
   [[nodiscard]] Outcome outcome() const;
-  /// Ends a wait: outcome() is kIdle then. In lockstep the client thinks again.
+  /// Cancels a wait; outcome() is then kIdle. In lockstep, simulated time stands still for this
+  /// client again.
   void cancel();
 
  private:
@@ -79,17 +82,18 @@ class EventClient final {
   std::unique_ptr<Session> session_;
 };
 
-/// Something that an event loop waits for besides its clients' readings.
+/// An event that an event loop waits for, in addition to its clients' readings.
 struct Alarm {
-  std::optional<sim::SimTime> until_ns;  ///< over when simulated time has come so far
-  /// Over when this is so; asked after each step, with the simulation locked. May be empty.
+  std::optional<sim::SimTime> until_ns;  ///< the alarm is due at this simulated time
+  /// The alarm is due when this returns true. It is called after each step, with the simulation
+  /// locked. May be empty.
   std::function<bool(const sim::Simulation&)> condition;
-  bool lets_time_pass = false;  ///< whether lockstep time goes on for it while no client takes part
-  /// Called once when it is over or the run is, with the simulation locked, by whichever thread
-  /// steps: it must do no more than pass the news on. The alarm is gone then.
+  bool lets_time_pass = false;  ///< lockstep time advances even if no client takes part
+  /// Called once when the alarm is due or the run is over, by the thread that steps, with the
+  /// simulation locked. It must only forward the notification. The alarm is removed afterwards.
   std::function<void()> notify;
 };
-/// Names an alarm; never given twice.
+/// Id of an alarm; never reused.
 using AlarmId = std::uint64_t;
 
 }  // namespace playerlike

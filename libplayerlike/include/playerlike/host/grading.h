@@ -9,32 +9,33 @@
 
 namespace playerlike {
 
-/// What a grader asks for, and what a host has run: a grade counts only if the two are the same.
-/// The host writes it into report.json under "graded", with a signature over the whole report.
+/// The run that a grader requests, or the run that a host has executed. A grade counts only if the
+/// two are equal. The host writes this data to report.json under "graded", with a signature over
+/// the whole report.
 ///
-/// Program, library and host are one process, so this finds mistakes (another world, another
-/// program's report, a report that was edited), not a program that is made to deceive.
+/// Program, library and host are one process. The check therefore detects mistakes (another world,
+/// another program's report, an edited report), but not a program that deceives deliberately.
 struct Grading {
-  std::string nonce;        ///< the grader's, other for each run; "": nobody grades
-  std::string world_name;   ///< for messages
+  std::string nonce;        ///< nonce of the grader, unique for each run; "": the run is not graded
+  std::string world_name;   ///< name of the world, for messages
   std::uint64_t world = 0;  ///< sim::world_hash()
   std::uint64_t seed = 0;
-  std::optional<double> duration_s;  ///< simulated
-  std::string time = "lockstep";     ///< or the factor of real time
+  std::optional<double> duration_s;  ///< simulated duration
+  std::string time = "lockstep";     ///< "lockstep", or the real-time factor
 };
 
-/// The grading of a run of that world.
-/// @param world  as the host simulates it: after RunSettings::apply_to().
+/// Returns the grading data of a run of this world.
+/// @param world  world as simulated, i.e. after RunSettings::apply_to().
 [[nodiscard]] Grading grading_of(const std::string& nonce, const sim::WorldDescription& world);
 
-/// A report with the entry "graded"; the same report if nobody grades.
+/// Adds the entry "graded" to a report. Returns the report unchanged if the run is not graded.
 /// @param report  JSON.
 [[nodiscard]] std::string signed_report(const std::string& report, const Grading& grading);
 
-/// Why a report is not that of the run that a grader asked for, in words for a verdict: not signed,
-/// of another run, world, seed, duration or time, changed afterwards, or of a simulation that
-/// never stepped. nullopt if it is.
-/// @throws nlohmann::json::exception if the report is no JSON, or not as a host writes it.
+/// Checks that a report belongs to the run that a grader requested. Returns nullopt if it does,
+/// otherwise the reason as text for the verdict: the report is not signed, it has another run,
+/// world, seed, duration or time mode, it was changed afterwards, or its simulation never stepped.
+/// @throws nlohmann::json::exception if the report is not JSON or not in the host's format.
 [[nodiscard]] std::optional<std::string> fault_of_graded(const std::string& report,
                                                          const Grading& expected);
 

@@ -18,12 +18,13 @@ class TurnClock;
 
 /// Runs a simulation for clients, in lockstep or paced (DESIGN section 3).
 ///
-/// Lockstep: no thread is started; the thread that waits last steps the world. Paced: one thread
-/// of the host steps it against the wall clock. All members may be called from any thread.
+/// Lockstep: the host starts no thread; the last thread that begins to wait steps the world. Paced:
+/// one thread of the host steps the world against the wall clock. All members may be called from
+/// any thread.
 class Host : public std::enable_shared_from_this<Host> {
  public:
-  /// @throws sim::ConfigError if the world is not sound; std::runtime_error if the output folder
-  ///         cannot be made.
+  /// @throws sim::ConfigError if the world is invalid; std::runtime_error if the output folder
+  ///         cannot be created.
   [[nodiscard]] static std::shared_ptr<Host> create(sim::WorldDescription world,
                                                     RunSettings settings = {},
                                                     sim::LogHook log = {});
@@ -37,73 +38,78 @@ class Host : public std::enable_shared_from_this<Host> {
 
   /// @name For servers and other event loops
   ///
-  /// In lockstep a simulation with such clients needs somebody to step it: advance().
+  /// In lockstep, the event loop must call advance() to step a simulation with such clients.
   /// @{
 
-  /// As connect(), for a client without a thread of its own.
-  /// @param notify    called when a wait that was begun is over, with the simulation locked, by
-  ///                  whichever thread steps: it must do no more than pass the news on.
+  /// Opens a session like connect(), for a client without its own thread.
+  /// @param notify    called at the end of a wait, by the thread that steps, with the simulation
+  ///                  locked. It must only forward the notification.
   /// @param follower  see Session::open_follower().
-  /// @throws SessionError as connect().
+  /// @throws SessionError for the same errors as connect().
   [[nodiscard]] std::unique_ptr<EventClient> connect_events(int port, std::function<void()> notify,
                                                             bool follower = false);
 
-  /// Lockstep: steps the simulation while all who take part wait, for about so long at most.
-  /// @return whether it could go on at once: call again soon.
+  /// Lockstep: steps the simulation while all participants wait, for at most about this wall time.
+  /// @return whether stepping could continue immediately; the caller should then call again soon.
   bool advance(std::chrono::microseconds slice);
-  /// Lockstep: looks for clients that have been silent for too long, see
-  /// RunSettings::silence_limit_s, and no longer waits for them. To be called now and then.
+  /// Lockstep: finds clients that have been silent for longer than RunSettings::silence_limit_s,
+  /// and no longer waits for them. Call it periodically.
   void check_silence();
 
-  /// For the simulation of a program in this process, in lockstep: from now on the program is told,
-  /// as a warning, when it has used RunSettings::silence_limit_s of processor time without letting
-  /// any simulated time pass, though it has subscribed to a device or commanded one.
+  /// For a program in this process, in lockstep: enables a warning for a program that has
+  /// subscribed to a device or commanded one, but uses RunSettings::silence_limit_s of processor
+  /// time without letting simulated time advance.
   void watch_program();
-  /// That program ends with this exit status: it is told, as a warning, if it has let no simulated
-  /// time pass. Not if the status is not 0, as it then knows of an error.
+  /// Notes that the program ends with this exit status. If the status is 0 and simulated time never
+  /// advanced, a warning is printed.
   void note_program_ends(int status);
-  /// A signal has asked for the end of the run, for the report; finish() is to follow.
+  /// Notes for the report that a signal has requested the end of the run. The caller must call
+  /// finish() afterwards.
   void note_end_request(int signal);
 
-  /// A thinker takes no more part, see EventClient.
-  void thinker_ended(ThinkerId thinker) noexcept;
+  /// Notes that a thread no longer takes part; see EventClient.
+  void thread_ended(ThreadId thread_id) noexcept;
 
-  /// Asks to be told of a moment; at once (before this returns) if it has come or the run is over.
+  /// Sets an alarm. If it is already due or the run is over, it is notified before this function
+  /// returns.
   AlarmId set_alarm(Alarm alarm);
-  /// Forgets an alarm. @return whether it was still set: else it is being, or has been, notified.
+  /// Removes an alarm.
+  /// @return whether it was still set. If not, it has been notified or is being notified.
   bool cancel_alarm(AlarmId alarm);
 
-  /// Does something with the simulation between two steps. `action` must not call the host.
+  /// Calls `action` with the simulation between two steps. `action` must not call the host.
   void with_simulation(const std::function<void(sim::Simulation&)>& action);
 
-  /// Limits how many steps may still be made, for clock synchronisation; nullopt: no limit (at
-  /// first). In lockstep time then goes on while no client takes part, too.
+  /// Limits the number of further steps, for clock synchronisation; nullopt (initially): no limit.
+  /// With a limit, lockstep time also advances while no client takes part.
   void set_step_credit(std::optional<std::uint64_t> steps);
-  /// Allows so many further steps, if there is a limit.
+  /// Adds this number of steps to the limit, if there is one.
   void add_step_credit(std::uint64_t steps);
 
-  /// Simulated seconds a wall second, from now on; > 0.
-  /// @return nothing if done; else why not: in lockstep there is no such thing.
+  /// Sets the simulated seconds per wall second, from now on; > 0.
+  /// @return nullopt on success, otherwise the reason: a lockstep simulation has no time factor.
   std::optional<std::string> set_time_factor(double factor);
 
-  /// The world's robots and devices, as sessions have them; constant.
+  /// The world's robots and devices, as in Session::robots(); constant.
   [[nodiscard]] const std::vector<RobotInfo>& robots() const noexcept;
-  /// Whether clients read their own robots' sensors only, see sim::SimulationDescription; a server
-  /// sees to that for its own. Thread-safe.
+  /// Whether clients may read only their own robots' sensors; see sim::SimulationDescription. A
+  /// server enforces this for its clients. Thread-safe.
   [[nodiscard]] bool own_sensors_only() const noexcept;
   /// @}
 
-  /// Ends the run: stops the clock, writes report and pictures (once). Sessions then report
-  /// kFinished. Called at the end of the duration, by the destructor and at the program's end.
+  /// Ends the run: stops the clock and writes report and pictures (once). Sessions then report
+  /// kFinished. Called at the end of the duration, by the destructor, and at the end of the
+  /// program.
   void finish() noexcept;
   [[nodiscard]] bool finished() const;
 
   [[nodiscard]] TimeStatistics time() const;
-  /// What a robot has been through so far. @param robot  its index in the world; it must exist.
+  /// Statistics of a robot up to now.
+  /// @param robot  index of the robot in the world; it must exist.
   [[nodiscard]] sim::RobotStatistics statistics(int robot) const;
 
-  /// What the threads of the program wait for in virtual time, see virtual_time::attach(). Keeps
-  /// the host.
+  /// Clock for the program's threads in virtual time; see virtual_time::attach(). It keeps the host
+  /// alive.
   [[nodiscard]] std::shared_ptr<TurnClock> clock();
 
   /// Hash of the simulation's state, see sim::Simulation::state_hash.

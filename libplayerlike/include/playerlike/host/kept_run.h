@@ -8,34 +8,34 @@ namespace playerlike {
 
 struct KeptHeader;
 
-/// Memory that a process shares with the host of a run in the program that it starts. The host
-/// keeps it up to date; what is in it outlives the program, however that ends.
+/// Memory shared between a process and the host in the program that it starts. The host keeps the
+/// data current. The data survives any end of the program, including a crash.
 ///
-/// The program learns of it by RunSettings::kept_run and does not inherit it. What it holds was
-/// written by the program and may be anything: readers check it.
+/// The program gets the file name from RunSettings::kept_run and does not inherit the memory. The
+/// program writes the data, so readers must validate it.
 class KeptRun {
  public:
-  /// How far a run is.
+  /// Progress of a run.
   enum class Phase : std::uint32_t {
-    kNone,      ///< no host was made
-    kRunning,   ///< there is a host, and its run has not ended
-    kEnded,     ///< the run has ended; nothing of its results is complete
+    kNone,      ///< no host was created
+    kRunning,   ///< the host exists and its run has not ended
+    kEnded,     ///< the run has ended; no result is complete
     kReported,  ///< report and trajectory are complete
-    kDone,      ///< all results that could be written are complete
+    kDone,      ///< all possible results are complete
   };
 
-  /// @throws std::runtime_error if the system gives no such memory.
+  /// @throws std::runtime_error if the system cannot provide the memory.
   KeptRun();
   KeptRun(const KeptRun&) = delete;
   KeptRun& operator=(const KeptRun&) = delete;
   ~KeptRun();
 
-  /// For RunSettings::kept_run, as long as this process lives.
+  /// File name for RunSettings::kept_run; valid as long as this process exists.
   [[nodiscard]] std::string file() const;
   [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
   [[nodiscard]] Phase phase() const noexcept;
-  /// The first signal that the host has noted as one that asks for the end of its run; 0: none.
+  /// The first signal that the host has noted as a request to end its run; 0: none.
   [[nodiscard]] int interrupt_noted() const noexcept;
 
  private:

@@ -14,11 +14,11 @@
 #include "playerlike/host/kept_run.h"
 #include "playerlike/host/run_settings.h"
 
-/// Running a client program as a process of its own, as `playpen run` does. What the program's
-/// embedded simulation must know is passed in the environment (RunSettings::from_environment).
+/// Runs a client program as a separate process, for `playpen run`. The environment passes the
+/// settings to the program's embedded simulation (RunSettings::from_environment).
 namespace playerlike {
 
-/// A program that can't be started, in a sentence for the user.
+/// Error for a program that cannot be started, with a text for the user.
 class ProgramError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,124 +27,129 @@ class ProgramError : public std::runtime_error {
 /// Variables to set (or, with nullopt, to remove) in a program's environment.
 using EnvironmentChanges = std::map<std::string, std::optional<std::string>>;
 
-/// How a program ended: by itself with a status, or by a signal.
+/// End of a program: exit with a status, or termination by a signal.
 struct ProgramEnd {
-  int status = 0;                   ///< exit status, 0..255; 0 if a signal ended it
-  std::optional<int> signal;        ///< number of the signal that ended it
-  std::optional<int> request = {};  ///< run_program(): the first signal by which this process was
-                                    ///< asked to end the run
-  bool forced = false;              ///< run_program(): it was killed because of that
+  int status = 0;                   ///< exit status, 0..255; 0 if a signal terminated the program
+  std::optional<int> signal;        ///< number of the signal that terminated the program
+  std::optional<int> request = {};  ///< run_program(): first signal that requested the end of the
+                                    ///< run
+  bool forced = false;              ///< run_program(): whether that request killed the program
 
-  /// Whether it ended by itself with status 0.
+  /// Whether the program exited with status 0.
   [[nodiscard]] bool success() const noexcept { return status == 0 && !signal; }
-  /// What to tell a user, e.g. "ended with status 3" or "was ended by signal 11 (Segmentation
+  /// Text for the user, e.g. "ended with status 3" or "was ended by signal 11 (Segmentation
   /// fault)".
   [[nodiscard]] std::string text() const;
 };
 
-/// Finds a program as a shell does: a name with a slash is a path, another one is looked up in the
+/// Finds a program like a shell: a name with a slash is a path; any other name is searched in the
 /// folders of PATH.
 /// @return a path that names an executable file.
-/// @throws ProgramError saying what is wrong: no such file, a folder, not executable.
+/// @throws ProgramError with the reason: no such file, a folder, or not executable.
 [[nodiscard]] std::string find_program(const std::string& name);
 
-/// Whether a signal that asks for the end belongs to the request that an earlier one has made, and
-/// is no second request: a copy of it within half a second, as `timeout` sends them to a process
-/// and to its group, or a further SIGHUP after a first one.
+/// Whether a termination signal belongs to the request of an earlier signal and is not a second
+/// request. That is so for a copy within half a second (`timeout` signals both the process and its
+/// group) and for a SIGHUP after an earlier SIGHUP.
 /// @param first  the earlier signal.
-/// @param age    how long ago it came.
+/// @param age    time since the earlier signal.
 [[nodiscard]] bool is_same_request(int first, int signal, std::chrono::nanoseconds age) noexcept;
 
-/// The environment by which a program's embedded simulation learns of its run; the inverse of
-/// RunSettings::from_environment(). Settings that are left out are removed from the environment, so
-/// that a run means what it was told and not what the shell happens to hold. The silence limit is
-/// passed on as it is.
-/// @param world_file  "": the default world. Relative names here and in the settings are made
-///                    absolute: a program may change its folder.
+/// Returns the environment that passes settings to a program's embedded simulation; the inverse of
+/// RunSettings::from_environment(). Variables of unset settings are removed, so that variables of
+/// the shell do not affect the run. The silence limit is passed on unchanged.
+/// @param world_file  name of the world file; "" for the default world. Relative paths here and in
+///                    the settings are made absolute, because a program may change its working
+///                    directory.
 [[nodiscard]] EnvironmentChanges run_environment(const std::string& world_file,
                                                  const RunSettings& settings);
 
-/// What run_program() knows of the simulated run in its program, and whom it tells.
+/// Data and callbacks that run_program() needs for the simulated run in its program.
 struct RunWatch {
-  const KeptRun* kept = nullptr;                      ///< what the program's host keeps up to date
-  std::function<void(const std::string&)> tell = {};  ///< takes a sentence for the user
-  /// Called once the program and all that it has started are gone, while signals are still held: in
-  /// this process or, if this one was killed, in another one that then ends.
+  const KeptRun* kept = nullptr;                      ///< current data of the program's host
+  std::function<void(const std::string&)> tell = {};  ///< receives messages for the user
+  /// Called when the program and all its descendants have ended, while signals are still blocked.
+  /// It runs in this process or, if this process was killed, in another process that then ends.
   std::function<void(const ProgramEnd&)> on_end = {};
 };
 
 /// Runs a program to its end, with this process's terminal and standard streams.
 ///
-/// While it runs, SIGINT, SIGTERM, SIGHUP and SIGQUIT that another process sends to this one are
-/// passed on to it; those that the terminal sends reach it anyway. Signals that this process
-/// ignores stay ignored. The first signal asks the program to end. If a host in the program has
-/// noted it (KeptRun::interrupt_noted()), the program is killed on the second signal, or if the
-/// simulated run has not ended after 1.5 s of wall time. Copies of the first signal within half a
-/// second (`timeout` sends two), and every further SIGHUP after a first one, do not count. A
-/// program that handles the signal itself is not killed.
+/// Signals: SIGINT, SIGTERM, SIGHUP and SIGQUIT that another process sends to this process are
+/// forwarded to the program; the terminal's signals reach the program directly. Signals that this
+/// process ignores stay ignored. The first signal requests the program to end. If a host in the
+/// program has noted it (KeptRun::interrupt_noted()), the program is killed at the second signal,
+/// or if the simulated run has not ended after 1.5 s of wall time. Signals for which
+/// is_same_request() is true do not count as a second signal. A program that handles the signal
+/// itself is not killed.
 ///
-/// What the program leaves running gets SIGTERM when the program ends, and SIGKILL a second later.
-/// If this process is killed, so are the program and all that it has started.
+/// Descendants: processes that the program leaves running get SIGTERM when the program ends, and
+/// SIGKILL one second later. If this process is killed, the program and all its descendants are
+/// killed too.
 ///
 /// @param command  path (see find_program()) and arguments; not empty.
-/// @throws ProgramError if the program can't be started.
-/// @note Changes the calling thread's signal mask while the program runs, and the process's
-///       disposition of SIGCHLD; makes the process a reaper of orphans (PR_SET_CHILD_SUBREAPER).
-///       For a command's main thread, one program at a time, and a process without other threads.
+/// @throws ProgramError if the program cannot be started.
+/// @note Changes the calling thread's signal mask while the program runs and the process's
+///       disposition of SIGCHLD, and makes the process a child subreaper (PR_SET_CHILD_SUBREAPER).
+///       Call it only in the main thread of a process without other threads, for one program at a
+///       time.
 [[nodiscard]] ProgramEnd run_program(const std::vector<std::string>& command,
                                      const EnvironmentChanges& environment,
                                      const RunWatch& watch = {});
 
-/// A program to be run beside others by run_programs().
+/// A program for run_programs().
 struct ProgramJob {
   std::vector<std::string> command;  ///< path (see find_program()) and arguments; not empty
   EnvironmentChanges environment;
-  std::string output_file;         ///< gets its standard output and standard error, overwritten
-  std::string folder = {};         ///< that must not become too large; "": none
-  std::uint64_t folder_limit = 0;  ///< bytes of all its files
-  std::uint64_t output_limit = 10'000'000;  ///< bytes of that; what is over is dropped, and told in
-                                            ///< the file's last line
+  std::string output_file;         ///< receives standard output and standard error; overwritten
+  std::string folder = {};         ///< folder whose size is limited; "": none
+  std::uint64_t folder_limit = 0;  ///< maximum size of all files in the folder [bytes]
+  std::uint64_t output_limit = 10'000'000;  ///< of output_file [bytes]; further output is dropped,
+                                            ///< and the file's last line says so
 };
 
-/// What became of a ProgramJob.
+/// Result of a ProgramJob.
 struct JobEnd {
   enum class Kind {
-    kEnded,          ///< by itself, or by a signal that others sent
-    kTimedOut,       ///< it was ended because it took too long
-    kInterrupted,    ///< it was ended because this process was told to end
-    kTooMuchOutput,  ///< it was ended because its folder had become too large
-    kNotStarted,     ///< this process was told to end before its turn came
+    kEnded,          ///< the program exited, or a signal from elsewhere terminated it
+    kTimedOut,       ///< it was terminated because it took too long
+    kInterrupted,    ///< it was terminated because this process was requested to end
+    kTooMuchOutput,  ///< it was terminated because its folder became too large
+    kNotStarted,     ///< this process was requested to end before the program was started
   };
   Kind kind = Kind::kNotStarted;
-  ProgramEnd program;        ///< how it ended in the end; of kNotStarted: nothing
-  double wall_time_s = 0.0;  ///< from its start to its end by the clock on the wall [s]
+  ProgramEnd program;        ///< end of the program; default value for kNotStarted
+  double wall_time_s = 0.0;  ///< wall time from start to end [s]
 };
 
-/// How run_programs() goes about it.
+/// Limits for run_programs().
 struct JobLimits {
-  int at_once = 1;         ///< programs that run side by side, >= 1
-  double timeout_s = 0.0;  ///< wall time that a program may take [s]; 0: no limit
-  double grace_s = 5.0;    ///< from the polite signal to the one that can't be refused [s], >= 0
+  int at_once = 1;         ///< number of programs that run concurrently, >= 1
+  double timeout_s = 0.0;  ///< wall-clock limit of a program [s]; 0: no limit
+  double grace_s = 5.0;    ///< time from SIGTERM to SIGKILL [s], >= 0
 };
 
-/// Runs many programs, several side by side, to their ends.
+/// Runs many programs to their ends, several of them concurrently.
 ///
-/// Each runs in a process group of its own with an empty standard input. One that takes too long
-/// gets SIGTERM, on which an embedded simulation writes its results, and SIGKILL after the grace;
-/// signals go to the whole group. What a program leaves running, in its group or not, gets SIGTERM
-/// when it ends, and SIGKILL a second later. On SIGINT, SIGTERM, SIGHUP or SIGQUIT to this process
-/// all are ended in the same way and no more are started; a second one of these signals ends the
-/// grace (see run_program() for what counts as one). If this process is killed, so are the
-/// programs. A program whose folder has become too large is killed; that is looked at five times a
-/// second.
+/// Each program runs in its own process group with an empty standard input. A program that takes
+/// too long gets SIGTERM, at which an embedded simulation writes its results, and SIGKILL after the
+/// grace period. Signals are sent to the whole group. Processes that a program leaves running,
+/// inside or outside its group, get SIGTERM when it ends, and SIGKILL one second later.
 ///
-/// @param on_start  called as a job has started, if set.
-/// @param on_end    called as a job has ended, in the order in which they end, if set. Not called
+/// If this process gets SIGINT, SIGTERM, SIGHUP or SIGQUIT, it terminates all programs in this way
+/// and starts no more. A second signal ends the grace period; see is_same_request() for signals
+/// that do not count as a second one. If this process is killed, the programs are killed too.
+///
+/// The size of the folders is checked five times a second. A program whose folder is too large is
+/// killed.
+///
+/// @param on_start  if set, called after the start of each job.
+/// @param on_end    if set, called after the end of each job, in the order of the ends. Not called
 ///                  for jobs that were not started.
 /// @return the ends, in the order of the jobs.
-/// @throws ProgramError if a program can't be started or its output file can't be made, and what
-///         the callbacks throw; nothing is left running then.
-/// @note As for run_program(): for a command's main thread, one call at a time.
+/// @throws ProgramError if a program cannot be started or its output file cannot be created.
+///         Exceptions of the callbacks are passed on. No program is left running then.
+/// @note Call it only in the main thread, one call at a time, as for run_program().
 [[nodiscard]] std::vector<JobEnd> run_programs(
     const std::vector<ProgramJob>& jobs, const JobLimits& limits,
     const std::function<void(std::size_t)>& on_start = {},

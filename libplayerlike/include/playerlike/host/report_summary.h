@@ -5,15 +5,16 @@
 
 namespace playerlike {
 
-/// The main figures of a run's report.json as a short table for a terminal: simulated and wall
-/// time, real-time factor, seed; path, collisions, least clearance and stalled time of each robot.
-/// @param file  the report.
-/// @return lines of at most 100 columns (but for long names), each ended by '\n'.
-/// @throws std::runtime_error naming the file if it can't be read or is no such report.
+/// Returns the main results in a run's report.json as a short table for a terminal: simulated time,
+/// wall time, real-time factor and seed; for each robot its path length, collisions, minimum
+/// clearance and stalled time.
+/// @param file  path of the report.
+/// @return lines of at most 100 columns (unless names are long), each ended by '\n'.
+/// @throws std::runtime_error naming the file, if it cannot be read or is not a report.
 [[nodiscard]] std::string summarize_report(const std::string& file);
 
-/// How long a run was, as its report.json says: simulated time [s].
-/// @throws std::runtime_error as summarize_report().
+/// Returns the simulated duration of a run from its report.json [s].
+/// @throws std::runtime_error for the same errors as summarize_report().
 [[nodiscard]] double simulated_time_of_report(const std::string& file);
 
 }  // namespace playerlike

@@ -5,11 +5,11 @@
 
 namespace playerlike {
 
-/// Removes what runs write into their output folder (report.json, scene.png, canvas.png,
-/// trajectory.csv, the layers' files in layers/, the pictures in snapshots/, those saved from the
-/// live window), so that what lies there after the next run is of that run. Other files stay. No
-/// folder, nothing to do.
-/// @throws std::runtime_error naming the file that can't be removed and the reason.
+/// Removes the results of earlier runs from an output folder (report.json, scene.png, canvas.png,
+/// trajectory.csv, the layers' files in layers/, the pictures in snapshots/, and pictures saved
+/// from the live window), so that the results there belong to the next run. Other files are kept.
+/// Does nothing if the folder does not exist.
+/// @throws std::runtime_error naming a file that cannot be removed, and the reason.
 void remove_results(const std::string& folder);
 
 }  // namespace playerlike

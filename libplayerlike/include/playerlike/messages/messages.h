@@ -16,48 +16,48 @@
 #include "sim/devices/device.h"
 #include "sim/simulation/simulation.h"
 
-/// What passes between a simulation's host and its clients: plain structs.
-/// Readings and commands are libsim's own (sim::Reading and those derived from it, sim::Command).
+/// Messages between a simulation's host and its clients, as plain structs. Readings and commands
+/// are libsim's types (sim::Reading and its derived classes, sim::Command).
 namespace playerlike {
 
-/// A device of a simulation, by the indices of its robot and of itself.
+/// Identifies a device of a simulation by the indices of its robot and of the device.
 using DeviceId = sim::Simulation::DeviceId;
 
 /// The port on which all robots of a world are visible (MORSE's).
 inline constexpr int kMorsePort = 4000;
 
-/// A device as clients are told of it.
+/// Description of a device for clients.
 struct DeviceInfo {
   DeviceId id{-1, -1};
-  std::string name;                          ///< in its robot, e.g. "laser"
+  std::string name;                          ///< name within the robot, e.g. "laser"
   std::string type;                          ///< e.g. "laser"
-  std::map<std::string, double> properties;  ///< its numeric settings, SI units and radians
+  std::map<std::string, double> properties;  ///< numeric settings, in SI units and radians
 };
 
-/// A robot as clients are told of it.
+/// Description of a robot for clients.
 struct RobotInfo {
   std::string name;
   std::string model;
   sim::Colour colour;
   sim::Pose initial_pose;                  ///< X_WB at the start
-  int port = 0;                            ///< its Player port
-  double length_m = 0.0;                   ///< of the footprint's bounding box along x, B [m]
-  double width_m = 0.0;                    ///< along y [m]
+  int port = 0;                            ///< the robot's Player port
+  double length_m = 0.0;                   ///< footprint's bounding box along x of B [m]
+  double width_m = 0.0;                    ///< that box along y [m]
   double height_m = 0.0;                   ///< [m]
-  sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
+  sim::Vec2 center_m = sim::Vec2::Zero();  ///< centre of that box, in B [m]
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
   bool shares_port = false;  ///< other robots have this port, too; see note_shared_ports()
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, and of the first device
-                                       ///< on a shared port, where the world says so
+                                       ///< on a shared port, from the world file
   std::map<std::string, std::vector<std::string>>
-      interfaces;  ///< interface -> names of devices in order of index, where the world says so
-  std::vector<sim::DriverDescription> drivers;    ///< as the world file has them
-  std::vector<SndDriverDescription> snd_drivers;  ///< the same, understood
+      interfaces;  ///< interface -> device names in order of index, from the world file
+  std::vector<sim::DriverDescription> drivers;    ///< as in the world file
+  std::vector<SndDriverDescription> snd_drivers;  ///< parsed entries of drivers with type "snd"
   std::vector<DeviceInfo> devices;
 };
 
-/// The grid-map's size and place.
+/// Size and position of the grid-map.
 struct CanvasInfo {
   int width = 0;
   int height = 0;
@@ -66,40 +66,41 @@ struct CanvasInfo {
   double origin_y_m = 0.0;
 };
 
-/// How far a simulation is.
+/// Progress of a simulation.
 struct TimeStatistics {
   sim::SimTime sim_time_ns = 0;
   std::uint64_t steps = 0;
   double step_s = 0.0;
-  double wall_time_s = 0.0;          ///< since its first step
-  double real_time_factor = 0.0;     ///< simulated over wall time; 0 before the first step
-  std::optional<double> duration_s;  ///< of the run, if it has an end
+  double wall_time_s = 0.0;          ///< wall time since the first step
+  double real_time_factor = 0.0;     ///< simulated time / wall time; 0 before the first step
+  std::optional<double> duration_s;  ///< simulated duration of the run; nullopt if unlimited
   sim::TimeMode mode = sim::TimeMode::kLockstep;
   bool finished = false;
-  /// Why another run of the same may differ: what rules of the wall clock had a say in. Known where
-  /// the simulation is.
+  /// Reasons why a repetition of this run may differ, namely decisions that depended on the wall
+  /// clock. Only available in the process of the simulation.
   std::vector<std::string> unrepeatable;
 };
 
-/// A property of a robot or an obstacle: numbers (SI units and radians), or a text.
+/// Value of a robot's or obstacle's property: numbers (SI units and radians) or a text.
 using PropertyValue = std::variant<std::vector<double>, std::string>;
 
-/// What the log of a port does.
+/// State of a port's log.
 struct LogStatus {
-  bool replay = false;  ///< readings come from the log, not from the devices; else they are written
-  bool running = false;  ///< it does so now
-  std::string file;      ///< in the run's output folder
+  bool replay = false;   ///< true: readings come from the log; false: readings are written to the
+                         ///< log
+  bool running = false;  ///< whether the log is running
+  std::string file;      ///< file name in the run's output folder
 };
 
-/// A call that could not be carried out. Player's layer turns it into PlayerCc::PlayerError.
+/// Error of a failed call. Player's layer converts it to PlayerCc::PlayerError.
 class SessionError : public std::runtime_error {
  public:
   enum class Code {
     kFinished,      ///< the simulated duration is over
     kDisconnected,  ///< the connection is closed
-    kNoSuchDevice,  ///< the world has no such device; the message names those it has
+    kNoSuchDevice,  ///< the world has no such device; the message names the existing ones
     kNotAvailable,  ///< not possible with this kind of session
-    kBadArgument,   ///< a value that cannot be meant, e.g. NaN
+    kBadArgument,   ///< an invalid value, e.g. NaN
   };
   SessionError(Code code, const std::string& message) : std::runtime_error(message), code_(code) {}
   [[nodiscard]] Code code() const noexcept { return code_; }
@@ -108,86 +109,88 @@ class SessionError : public std::runtime_error {
   Code code_;
 };
 
-/// Refuses a command with a number that cannot be meant, before it is sent.
-/// @throws SessionError kBadArgument if any of its numbers is NaN or infinite.
+/// Checks the numbers of a command before it is sent.
+/// @throws SessionError kBadArgument if any number is NaN or infinite.
 void require_finite(const sim::Command& command);
 
-/// Whether devices of a type carry an interface, e.g. "pose" devices carry "position2d".
+/// Whether devices of a type provide an interface, e.g. "pose" devices provide "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 
-/// All interfaces that devices carry, in alphabetical order.
+/// All interfaces that devices provide, in alphabetical order.
 [[nodiscard]] std::vector<std::string_view> interface_names();
 
-/// Names of a robot's devices that carry an interface, by index on the robot's own port.
+/// Names of a robot's devices that provide an interface, by index on the robot's own port.
 [[nodiscard]] std::vector<std::string> device_order(const sim::RobotDescription& robot,
                                                     std::string_view interface);
 
-/// The world that comes with Playpen for trying an interface: it has a robot with a device that
-/// carries it.
-/// @return its name in the folder of worlds, e.g. "devices/laser.json"; "" if no device carries the
+/// Returns an example world for an interface. It is shipped with Playpen and has a robot with a
+/// device that provides the interface.
+/// @return name in the folder of worlds, e.g. "devices/laser.json"; "" if no device provides the
 ///         interface.
 [[nodiscard]] std::string example_world(std::string_view interface);
 
-/// Checks the orders of devices that robots give for interfaces, and the indices of devices on a
-/// port that robots share.
-/// @throws sim::ConfigError naming each interface that there is not, each device that does not
-///         carry the one it is listed for, and each index that two devices of a shared port have.
+/// Checks the `interfaces` tables of a world's robots, and the indices of devices on a shared port.
+/// @throws sim::ConfigError naming each unknown interface, each device that does not provide the
+///         interface of its entry, and each index that two devices of a shared port have.
 void check_interfaces(const sim::WorldDescription& world);
 
-/// Notes which robots share a port.
+/// Sets RobotInfo::shares_port of all robots.
 void note_shared_ports(std::vector<RobotInfo>& robots);
 
-/// Builds what clients are told of a simulation's robots.
-/// @throws sim::ConfigError if their drivers are not sound, see check_drivers().
+/// Returns the descriptions of a simulation's robots for clients.
+/// @throws sim::ConfigError if the drivers are invalid; see check_drivers().
 [[nodiscard]] std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation);
 
-/// The cells of the map of an arena's whole floor.
-/// @throws SessionError kBadArgument as WorldMapRequest.
+/// Returns the grid of the map of an arena's whole floor.
+/// @throws SessionError kBadArgument for the same errors as WorldMapRequest.
 [[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
                                               double cell_size_m);
 
-/// The first robot that has a port; null if none has this one.
+/// Returns the first robot with this port, or null if there is none.
 [[nodiscard]] const RobotInfo* robot_at(const std::vector<RobotInfo>& robots, int port);
-/// Whether clients can connect to a port: a robot's, or that of all robots.
+/// Whether clients can connect to a port, which is a robot's port or kMorsePort.
 [[nodiscard]] bool is_open(const std::vector<RobotInfo>& robots, int port);
 
-/// Which devices stand behind a Player device address.
+/// The devices behind a Player device address.
 struct InterfaceBinding {
-  DeviceId reading{-1, -1};        ///< whose readings the interface carries; none: the world's own
+  DeviceId reading{-1, -1};        ///< device of the readings; none for the world's interfaces
   std::optional<DeviceId> motion;  ///< the robot's motors, for position2d
-  int robot = -1;                  ///< -1: no robot's, but the world's
-  const SndDriverDescription* driver = nullptr;  ///< what takes goals for it, if it is a driver's;
-                                                 ///< lives as long as the list of robots
+  int robot = -1;                  ///< index of the robot; -1 for the world's interfaces
+  const SndDriverDescription* driver = nullptr;  ///< driver that receives goals, or null; belongs
+                                                 ///< to the list of robots
 
-  /// Whether the world itself stands there, not a device: it answers requests, and makes no
-  /// readings.
+  /// Whether the address belongs to the world instead of a device. The world answers requests and
+  /// makes no readings.
   [[nodiscard]] bool is_world() const { return robot < 0; }
 };
 
-/// Finds the device behind (port, interface, index). On a robot's own port, index i is that
-/// robot's i-th device with the interface, in the order that its `interfaces` give or else in order
-/// of type and name, and drivers have the indices that the world gives them
-/// (by default the first free ones); on port 4000 the index is the one that the world's
-/// `proxies` table gives, by default the robot's number counted from 0. On a port that robots share
-/// it is the same, but a robot's further devices follow the index that `proxies` gives.
-/// Interfaces known: "position2d" (pose, then odometry devices), "localize" (pose devices),
+/// Finds the device behind (port, interface, index).
+///
+/// On a robot's own port, index i is the robot's i-th device with the interface. The order is that
+/// of the robot's `interfaces` table, by default by type and name. Drivers have the indexes that
+/// the world defines, by default the first free ones. On port 4000, the world's `proxies` table
+/// defines the index, by default the robot's number, counted from 0. A
+/// port that robots share has the same indices, and a robot's further devices follow the index in
+/// its `proxies`.
+///
+/// Known interfaces: "position2d" (pose, then odometry devices), "localize" (pose devices),
 /// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"
-/// (batteries), "graphics2d" (pens); those of the devices that have their names ("aio",
+/// (batteries), "graphics2d" (pens); interfaces with the names of their devices ("aio",
 /// "blinkenlight", "bumper", "dio", "fiducial", "gps", "gripper", "imu", "opaque", "speech",
-/// "wifi"); and "log", "map" and "simulation", the world's own, with index 0 on every port.
-/// @throws SessionError kNoSuchDevice, naming the addresses that exist and, where the port has none
-///         of the interface, the world that does (example_world()).
+/// "wifi"); and the world's interfaces "log", "map" and "simulation", with index 0 on every port.
+/// @throws SessionError kNoSuchDevice, naming the existing addresses and, if the port does not have
+///         the interface at all, a world that has it (example_world()).
 [[nodiscard]] InterfaceBinding find_interface(const std::vector<RobotInfo>& robots, int port,
                                               std::string_view interface, int index);
 
-/// One address of a port, for lists and messages.
+/// An address of a port, for lists and messages.
 struct InterfaceAddress {
   std::string interface;
   int index = 0;
-  std::string robot;  ///< empty: the world's
+  std::string robot;  ///< empty for the world's interfaces
   std::string device;
 };
-/// All addresses of a port.
+/// Returns all addresses of a port.
 [[nodiscard]] std::vector<InterfaceAddress> list_interfaces(const std::vector<RobotInfo>& robots,
                                                             int port);
 

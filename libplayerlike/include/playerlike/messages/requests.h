@@ -18,40 +18,39 @@
 #include "sim/world/occupancy_map.h"
 #include "sim/world/view_mode.h"
 
-/// What a client may ask of a simulation besides readings: a struct for each request.
+/// Requests from a client to a simulation, besides readings and commands: one struct per request.
 ///
-/// A request that Playpen's protocol has, also has
-/// - `kName`: its name there; one without never leaves the process;
-/// - `kFields`: its members as messages have them, in the order in which a wrong key is told which
-///   keys there are;
-/// - `kAnswer`: the key of its result in the answer, unless the result has `kFields` itself;
+/// A request of Playpen's protocol also has
+/// - `kName`: its name in the protocol. A request without it never leaves the process;
+/// - `kFields`: its members in messages, in the order in which an error for a wrong key lists them;
+/// - `kAnswer`: the key of its result in the answer, unless the result itself has `kFields`;
 /// - `kTellsTruth`: a private world (sim::SimulationDescription::own_sensors_only) answers it only
-///   for those who may command all robots.
+///   for clients that may command all robots.
 ///
-/// All of them happen at once. They throw SessionError kDisconnected on a closed session, but for
-/// those that only look at time, canvas size, view mode and overflow.
+/// All requests are executed immediately. On a closed session they throw SessionError
+/// kDisconnected, except those that only read time, canvas size, view mode or overflow.
 namespace playerlike {
 
-/// Whether a message has a field.
+/// Whether a message contains a field.
 enum class Presence {
-  kAlways,    ///< must be there
-  kOptional,  ///< may be left out: then the member stays as it is
-  kNullable,  ///< null if the member has no value; may also be left out
+  kAlways,    ///< required
+  kOptional,  ///< may be missing; the member then keeps its value
+  kNullable,  ///< null if the member has no value; may also be missing
 };
 
-/// The whole numbers that a field may hold.
+/// Range of an integer field.
 struct WholeRange {
   std::int64_t least = 0;
   std::int64_t most = std::numeric_limits<std::int64_t>::max();
 };
-/// Columns, rows and sides in cells.
+/// Range of columns, rows and side lengths in cells.
 inline constexpr WholeRange kCellRange{-(1 << 30), 1 << 30};
-/// Numbers of layers.
+/// Range of layer numbers.
 inline constexpr WholeRange kLayerRange{0, 1 << 30};
-/// Sides of a canvas or a map in cells.
+/// Range of the side lengths of a canvas or map in cells.
 inline constexpr WholeRange kMapSideRange{1, 8192};
 
-/// A member of a struct as messages have it.
+/// Description of a struct's member in messages.
 template <typename Struct, typename Value>
 struct MessageField {
   const char* key;
@@ -59,14 +58,15 @@ struct MessageField {
   Presence presence;
   WholeRange range;
 };
-/// A row of `kFields`. @param range  of a whole number.
+/// Makes an entry of `kFields`.
+/// @param range  range of an integer.
 template <typename Struct, typename Value>
 constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
                                             WholeRange range = {},
                                             Presence presence = Presence::kAlways) {
   return {key, member, presence, range};
 }
-/// The same of what is no whole number.
+/// Makes an entry of `kFields` for a member that is not an integer.
 template <typename Struct, typename Value>
 constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*member,
                                             Presence presence) {
@@ -76,9 +76,10 @@ constexpr MessageField<Struct, Value> field(const char* key, Value Struct::*memb
 /// @name Readings and time
 /// @{
 
-/// Asks for a device's readings, as often as an UnsubscribeRequest follows later.
+/// Subscribes to a device's readings. Subscriptions are counted: each needs its own
+/// UnsubscribeRequest.
 /// @throws SessionError kNoSuchDevice; kBadArgument for a device without readings; kNotAvailable
-///         for another robot's in a private world.
+///         for a device of another robot in a private world.
 struct SubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "subscribe";
@@ -86,7 +87,7 @@ struct SubscribeRequest {
   static constexpr std::tuple kFields{field("device", &SubscribeRequest::device)};
 };
 
-/// Takes back a SubscribeRequest; readings that wait are gone with the last one.
+/// Ends a subscription. The last one discards the device's waiting readings.
 struct UnsubscribeRequest {
   using Result = void;
   static constexpr const char* kName = "unsubscribe";
@@ -94,46 +95,48 @@ struct UnsubscribeRequest {
   static constexpr std::tuple kFields{field("device", &UnsubscribeRequest::device)};
 };
 
-/// Whether a newer reading replaces an older one that was not taken yet (default), or queues
-/// behind it (at most 1000; then the oldest is dropped and counted as overflow).
+/// Sets whether a new reading replaces an older one that was not taken (default), or is queued
+/// behind it. A queue has at most 1000 readings; when it is full, the oldest one is dropped and
+/// counted as overflow.
 struct ReplaceRequest {
   using Result = void;
   static constexpr const char* kName = "replace";
   std::optional<DeviceId> device =
-      std::nullopt;  ///< none: all devices, also those subscribed to later
+      std::nullopt;  ///< none: all devices, including later subscriptions
   bool replace = true;
   static constexpr std::tuple kFields{field("device", &ReplaceRequest::device, Presence::kNullable),
                                       field("replace", &ReplaceRequest::replace)};
 };
 
-/// How many readings were dropped so far.
+/// Returns the number of dropped readings.
 struct OverflowRequest {
   using Result = std::uint32_t;
 };
 
-/// Takes part in the lockstep from now on, with the calling thread as the session's owner, as after
-/// Session::wait(), but without waiting: simulated time stands until this thread waits. So a
-/// thread can join before the one that started it goes on. Also undoes being silent for too long.
+/// Joins the lockstep without waiting. The calling thread becomes the session's owner, as after
+/// Session::wait(), and simulated time stands still until this thread waits. A thread can thus join
+/// before the thread that started it continues. The request also readmits a client that was silent
+/// for too long.
 struct JoinRequest {
   using Result = void;
 };
 
-/// Lets simulated time pass (lockstep), or waits (paced).
-/// @throws SessionError kBadArgument unless it is in 0..1e9.
+/// Advances simulated time (lockstep), or waits (paced).
+/// @throws SessionError kBadArgument if seconds is outside 0..1e9.
 struct SleepRequest {
   using Result = void;
   double seconds = 0.0;
 };
 
-/// How far the simulation is.
+/// Returns the progress of the simulation.
 struct TimeRequest {
   using Result = TimeStatistics;
   static constexpr const char* kName = "time";
   static constexpr const char* kAnswer = "time";
 };
 
-/// For clients that read in the background: switches a lockstep simulation whose time mode nobody
-/// chose to real time, once, with a warning. See docs/architecture.md.
+/// For clients that read in the background: if no time mode was chosen, switches a lockstep
+/// simulation to real time, once, with a warning. See docs/architecture.md.
 struct PreferRealTimeRequest {
   using Result = void;
   static constexpr const char* kName = "prefer_real_time";
@@ -141,46 +144,48 @@ struct PreferRealTimeRequest {
   static constexpr std::tuple kFields{field("reason", &PreferRealTimeRequest::reason)};
 };
 
-/// Notes that the program has looked at readings. A session whose simulated time passes only while
-/// the program waits warns one that goes on looking or commanding without ever waiting.
+/// Notes that the program has accessed readings. If simulated time advances only while the program
+/// waits, the session warns a program that keeps reading or commanding without ever waiting.
 struct NoteLooksRequest {
   using Result = void;
-  int count = 0;          ///< times that it has looked since the last such request
-  bool has_data = false;  ///< whether the device it looked at last has had a reading
+  int count = 0;          ///< number of accesses since the last such request
+  bool has_data = false;  ///< whether the last accessed device has had a reading
 };
 
-/// How long an answer may take before the connection counts as lost. Nothing changes where requests
-/// are no messages. Waiting for simulated time is not limited by it.
+/// Sets the timeout of an answer, after which the connection counts as lost. It has no effect
+/// inside a process, where requests are not messages. It does not limit waiting for simulated time.
 struct AnswerTimeoutRequest {
   using Result = void;
   double seconds = 10.0;  ///< > 0
 };
 
-/// What is done about a lost connection: the call that meets the loss tries to connect again. The
-/// new connection has the same subscriptions, and no layers. Nothing changes where there is none to
-/// lose.
+/// Configures reconnecting: the call that detects a lost connection tries to reconnect. The new
+/// connection has the same subscriptions, but no layers. It has no effect inside a process, which
+/// has no connection.
 struct RetriesRequest {
   using Result = void;
-  int limit = 0;        ///< attempts; < 0: for ever
-  double time_s = 0.0;  ///< between them, >= 0
+  int limit = 0;        ///< maximum number of attempts; < 0: no limit
+  double time_s = 0.0;  ///< time between attempts, >= 0
 };
 /// @}
 
 /// @name The canvas and its layers
 ///
-/// The session's drawings that wait in its queue are carried out first, see Session.
-/// A layer belongs to the session that made it; only this one may name it. It stays when the
-/// session ends, until one on the same port makes a layer of the same name. Who names a layer that
-/// is not the base layer or its own gets SessionError kBadArgument.
+/// These requests first execute the session's queued drawings; see Session. A layer belongs to the
+/// session that created it, and only this session may access it. It remains after the end of the
+/// session, until a session on the same port creates a layer of the same name. A request for a
+/// layer that is neither the base layer nor the session's own throws SessionError kBadArgument.
 /// @{
 
-/// Carries out what waits in the draw queue, and gives it its first room.
+/// Executes the queued drawings, and allocates the draw queue's buffers if necessary.
 struct FlushDrawingsRequest {
   using Result = void;
 };
 
-/// Gives each cell of a rectangle its value, row-major from the top, without blending; clipped.
-/// @throws SessionError kBadArgument unless there are as many values as the rectangle has cells.
+/// Sets the cells of a rectangle, row-major from the top, without blending. The rectangle is
+/// clipped to the canvas.
+/// @throws SessionError kBadArgument if the number of values differs from the number of the
+///         rectangle's cells.
 struct SetCellsRequest {
   using Result = void;
   static constexpr const char* kName = "set_cells";
@@ -192,7 +197,7 @@ struct SetCellsRequest {
                                       field("cells", &SetCellsRequest::cells)};
 };
 
-/// Value of a cell; nullopt outside.
+/// Returns the value of a cell; nullopt outside the canvas.
 struct CellRequest {
   using Result = std::optional<sim::CellValue>;
   static constexpr const char* kName = "cell";
@@ -205,7 +210,7 @@ struct CellRequest {
                                       field("row", &CellRequest::row, kCellRange)};
 };
 
-/// All cells of a layer, row-major from the top.
+/// Returns all cells of a layer, row-major from the top.
 struct CellsRequest {
   using Result = std::vector<sim::CellValue>;
   static constexpr const char* kName = "cells";
@@ -214,11 +219,11 @@ struct CellsRequest {
   static constexpr std::tuple kFields{field("layer", &CellsRequest::layer, kLayerRange)};
 };
 
-/// Makes a layer. One of the same name that an ended session of this port left is taken out.
+/// Creates a layer. Removes a layer of the same name that an ended session on this port has left.
 /// @throws SessionError kBadArgument for a name that is not 1 to kMaxLayerName printable bytes
-///         (UTF-8 may be among them) or that this session has already, "canvas" among them;
-///         kNotAvailable if it has kMaxLayers, or all layers together would hold more than
-///         kMaxLayerCells cells.
+///         (UTF-8 is allowed), that is "canvas", or that another layer of this session has;
+///         kNotAvailable if the session has kMaxLayers layers, or all layers together would have
+///         more than kMaxLayerCells cells.
 struct CreateLayerRequest {
   using Result = sim::LayerId;
   static constexpr const char* kName = "create_layer";
@@ -229,7 +234,8 @@ struct CreateLayerRequest {
                                       field("style", &CreateLayerRequest::style)};
 };
 
-/// Takes one of this session's layers out. @throws SessionError kNotAvailable for the base layer.
+/// Removes one of this session's layers.
+/// @throws SessionError kNotAvailable for the base layer.
 struct RemoveLayerRequest {
   using Result = void;
   static constexpr const char* kName = "remove_layer";
@@ -237,10 +243,9 @@ struct RemoveLayerRequest {
   static constexpr std::tuple kFields{field("layer", &RemoveLayerRequest::layer, kLayerRange)};
 };
 
-/// Changes how a layer is drawn over others. The base layer's may be changed too (by any session),
-/// but for its name.
-/// @throws SessionError kBadArgument for a name as in CreateLayerRequest; kNotAvailable for another
-///         name of the base layer.
+/// Changes the style of a layer. Any session may change the base layer's style, except its name.
+/// @throws SessionError kBadArgument for an invalid name, as in CreateLayerRequest; kNotAvailable
+///         for a new name of the base layer.
 struct SetLayerStyleRequest {
   using Result = void;
   static constexpr const char* kName = "set_layer_style";
@@ -250,35 +255,35 @@ struct SetLayerStyleRequest {
                                       field("style", &SetLayerStyleRequest::style)};
 };
 
-/// The base layer and this session's own, lowest first.
+/// Returns the base layer and this session's layers, lowest first.
 struct LayersRequest {
   using Result = std::vector<sim::LayerInfo>;
   static constexpr const char* kName = "layers";
   static constexpr const char* kAnswer = "layers";
 };
 
-/// A picture of the canvas.
+/// An image of the canvas.
 struct CanvasImage {
   std::vector<std::uint8_t> rgba;  ///< row-major from the top
   CanvasInfo canvas;
   static constexpr std::tuple kFields{field("image", &CanvasImage::rgba),
                                       field("canvas", &CanvasImage::canvas)};
 };
-/// All visible layers of all clients over one another.
+/// Returns the composition of all visible layers of all clients.
 struct CanvasImageRequest {
   using Result = CanvasImage;
   static constexpr const char* kName = "canvas_image";
 };
 
-/// Size and place of the canvas now.
+/// Returns the current size and position of the canvas.
 struct CanvasInfoRequest {
   using Result = CanvasInfo;
 };
 
-/// Gives the canvas, with all layers of all clients, another number of columns and rows. What is
-/// drawn stays where it is in the world.
-/// @throws SessionError kBadArgument for sides outside 1..8192; kNotAvailable if all layers
-///         together would hold more than kMaxLayerCells cells.
+/// Changes the numbers of columns and rows of the canvas, with all layers of all clients. Drawings
+/// keep their positions in the world.
+/// @throws SessionError kBadArgument for a width or height outside 1..8192; kNotAvailable if all
+///         layers together would have more than kMaxLayerCells cells.
 struct ResizeCanvasRequest {
   using Result = CanvasInfo;
   static constexpr const char* kName = "resize_canvas";
@@ -289,25 +294,26 @@ struct ResizeCanvasRequest {
                                       field("height", &ResizeCanvasRequest::height, kCellRange)};
 };
 
-/// Writes the canvas image as a PNG into the run's output folder.
-/// @throws SessionError kBadArgument for a name that is not plain or a scale outside 1..64;
-///         kNotAvailable if the run has no output folder, or the file cannot be written.
+/// Writes the canvas image as a PNG file to the run's output folder.
+/// @throws SessionError kBadArgument for a name that is not a plain file name or a scale outside
+///         1..64; kNotAvailable if the run has no output folder, or the file cannot be written.
 struct SaveImageRequest {
   using Result = void;
   static constexpr const char* kName = "save_image";
-  std::string name;  ///< a plain file name; ".png" is added unless it is there
-  int scale = 1;     ///< scale x scale pixels a cell
+  std::string name;  ///< a plain file name; ".png" is appended if it is missing
+  int scale = 1;     ///< scale x scale pixels per cell
   std::optional<sim::LayerId> layer =
-      std::nullopt;  ///< this one alone instead, also if it is hidden
+      std::nullopt;  ///< writes only this layer, even if it is hidden
   static constexpr std::tuple kFields{
       field("name", &SaveImageRequest::name),
       field("scale", &SaveImageRequest::scale, kCellRange, Presence::kOptional),
       field("layer", &SaveImageRequest::layer, kLayerRange, Presence::kOptional)};
 };
 
-/// Writes a grey layer as the pair of files that ROS's map_server reads, NAME.yaml and NAME.pgm,
-/// into the run's output folder: see sim::io::write_map().
-/// @throws SessionError as SaveImageRequest, also kBadArgument for a layer of another kind.
+/// Writes a grey layer as a map for ROS's map_server, NAME.yaml and NAME.pgm, to the run's output
+/// folder; see sim::io::write_map().
+/// @throws SessionError for the same errors as SaveImageRequest; also kBadArgument for a layer of
+///         another kind.
 struct SaveMapRequest {
   using Result = void;
   static constexpr const char* kName = "save_map";
@@ -319,14 +325,14 @@ struct SaveMapRequest {
                                       field("mode", &SaveMapRequest::mode, Presence::kOptional)};
 };
 
-/// How pictures show the canvas now.
+/// Returns how pictures currently show the canvas.
 struct ViewModeRequest {
   using Result = sim::ViewMode;
   static constexpr const char* kName = "view_mode";
   static constexpr const char* kAnswer = "mode";
 };
 
-/// @throws SessionError kNotAvailable if the world has locked another mode.
+/// @throws SessionError kNotAvailable if the world file has locked another mode.
 struct SetViewModeRequest {
   using Result = void;
   static constexpr const char* kName = "set_view_mode";
@@ -335,12 +341,12 @@ struct SetViewModeRequest {
 };
 /// @}
 
-/// The map of an arena's floor, or a tile of it.
+/// A map of an arena's floor, or a tile of that map.
 struct WorldMap {
   sim::OccupancyMap map;
-  // Of a tile: what it is a tile of.
-  std::optional<int> width = std::nullopt;         ///< columns
-  std::optional<int> height = std::nullopt;        ///< rows
+  // For a tile: size and origin of the whole map.
+  std::optional<int> width = std::nullopt;         ///< number of columns
+  std::optional<int> height = std::nullopt;        ///< number of rows
   std::optional<sim::Pose> origin = std::nullopt;  ///< X_WM of the bottom left corner
   static constexpr std::tuple kFields{
       field("map", &WorldMap::map),
@@ -348,39 +354,41 @@ struct WorldMap {
       field("height", &WorldMap::height, kMapSideRange, Presence::kOptional),
       field("origin", &WorldMap::origin, Presence::kOptional)};
 };
-/// The true map of the arena's floor with its obstacles as they stand now, see sim::true_map().
-/// Across a network it is fetched in tiles.
-/// @throws SessionError kBadArgument if the cell size is not a positive number, or the map would
-///         have more than 8192 cells along a side, or has no such tile.
+/// Returns the true map of the arena's floor with the current obstacles; see sim::true_map().
+/// Clients of a server fetch it in tiles.
+/// @throws SessionError kBadArgument if the cell size is not a positive number, if the map would
+///         have more than 8192 cells along a side, or if the tile lies outside the map.
 struct WorldMapRequest {
   using Result = WorldMap;
   static constexpr const char* kName = "world_map";
   static constexpr bool kTellsTruth = true;
   double cell_size_m = 0.0;
-  std::optional<sim::CellRect> tile = std::nullopt;  ///< what of it lies outside the map is cut off
+  std::optional<sim::CellRect> tile = std::nullopt;  ///< clipped to the map
   static constexpr std::tuple kFields{field("cell_size", &WorldMapRequest::cell_size_m),
                                       field("tile", &WorldMapRequest::tile, Presence::kOptional)};
 };
 
 /// @name Robots and obstacles by name, and the log
 ///
-/// Names are those of the world's robots, obstacles and dock separators, "border" and "wall". Where
-/// somebody else is told to watch over a robot (a server's tokens) only those who may command it
-/// may move or change it, and only those who may command all robots may do so with obstacles.
-/// A name or property that is not there throws SessionError kBadArgument, which tells what is;
-/// so does what cannot be done (a place that is taken). kNotAvailable: the world has locked its
-/// objects, see sim::SimulationDescription::objects_locked.
+/// Names are those of the world's robots, obstacles and dock separators, and "border" and "wall".
+///
+/// Permissions: if a server requires tokens, only clients that may command a robot may move or
+/// change it, and only clients that may command all robots may move or change obstacles.
+///
+/// Errors: SessionError kBadArgument for an unknown name or property (the text lists the known
+/// ones) and for an impossible request, e.g. an occupied place; kNotAvailable if the world has
+/// locked its objects, see sim::SimulationDescription::objects_locked.
 /// @{
 
-/// Where a robot or an obstacle is.
+/// Pose of a robot or an obstacle.
 struct ObjectPose {
-  sim::Pose pose;            ///< X_WB of a robot; the middle of anything else, in W
-  sim::SimTime time_ns = 0;  ///< now
+  sim::Pose pose;            ///< X_WB of a robot; for other objects, pose of the centre in W
+  sim::SimTime time_ns = 0;  ///< current simulated time
   static constexpr std::tuple kFields{field("pose", &ObjectPose::pose),
                                       field("t", &ObjectPose::time_ns)};
 };
-/// Where a robot or an obstacle is. @throws SessionError kBadArgument if there is none of that
-/// name.
+/// Returns the pose of a robot or an obstacle.
+/// @throws SessionError kBadArgument for an unknown name.
 struct ObjectPoseRequest {
   using Result = ObjectPose;
   static constexpr const char* kName = "object_pose";
@@ -389,7 +397,7 @@ struct ObjectPoseRequest {
   static constexpr std::tuple kFields{field("name", &ObjectPoseRequest::name)};
 };
 
-/// Puts a robot or a block somewhere, see sim::Simulation::place_object().
+/// Moves a robot or a block to a pose; see sim::Simulation::place_object().
 struct PlaceObjectRequest {
   using Result = void;
   static constexpr const char* kName = "place_object";
@@ -400,7 +408,7 @@ struct PlaceObjectRequest {
                                       field("pose", &PlaceObjectRequest::pose)};
 };
 
-/// A property, see docs/simulation.md for those there are.
+/// Returns a property; docs/simulation.md lists them.
 struct ObjectPropertyRequest {
   using Result = PropertyValue;
   static constexpr const char* kName = "object_property";
@@ -412,9 +420,9 @@ struct ObjectPropertyRequest {
                                       field("property", &ObjectPropertyRequest::property)};
 };
 
-/// Changes a property, see docs/simulation.md for those there are.
-/// @throws SessionError kBadArgument for what is not there or cannot be; kNotAvailable if objects
-/// are locked.
+/// Changes a property; docs/simulation.md lists them.
+/// @throws SessionError kBadArgument for an unknown name or property or an invalid value;
+///         kNotAvailable if objects are locked.
 struct SetObjectPropertyRequest {
   using Result = void;
   static constexpr const char* kName = "set_object_property";
@@ -427,13 +435,13 @@ struct SetObjectPropertyRequest {
                                       field("value", &SetObjectPropertyRequest::value)};
 };
 
-/// Saves the state of the whole simulation under a name, in place of the one that had it: robots,
-/// obstacles, devices with their noise and commands, and the canvas. All clients have saved states
-/// in common; they end with the simulation. Of this client's commands, those that wait for the next
-/// step are not part of it.
+/// Saves the state of the whole simulation under a name: robots, obstacles, devices with their
+/// noise and commands, and the canvas. It replaces an earlier state of this name. All clients share
+/// the saved states, which exist until the end of the simulation. This client's queued commands for
+/// the next step are not saved.
 /// @throws SessionError kBadArgument for a name that is not 1 to 64 printable bytes; kNotAvailable
-///         if objects are locked, 64 states are there, or all together would have more than
-///         256 MiB.
+///         if objects are locked, if 64 states exist, or if all states together would exceed 256
+///         MiB.
 struct SaveStateRequest {
   using Result = void;
   static constexpr const char* kName = "save_state";
@@ -442,11 +450,11 @@ struct SaveStateRequest {
   static constexpr std::tuple kFields{field("name", &SaveStateRequest::name)};
 };
 
-/// Lets the world go back to a saved state, at once and for all clients. Time does not: clock,
-/// duration, report, film and log go on, as sim::RestoreScope::kWorld has it. Readings that wait
-/// are still handed out, commands that wait are carried out in the next step.
-/// @throws SessionError kBadArgument if no state was saved under that name; kNotAvailable if
-///         objects are locked.
+/// Restores a saved state of the world immediately, for all clients. Time is not restored: clock,
+/// duration, report, film and log continue; see sim::RestoreScope::kWorld. Waiting readings are
+/// still delivered, and queued commands are executed in the next step.
+/// @throws SessionError kBadArgument if no state has this name; kNotAvailable if objects are
+///         locked.
 struct RestoreStateRequest {
   using Result = void;
   static constexpr const char* kName = "restore_state";
@@ -455,20 +463,20 @@ struct RestoreStateRequest {
   static constexpr std::tuple kFields{field("name", &RestoreStateRequest::name)};
 };
 
-/// Changes what the log of this session's port does, in the order of the members, or (without
-/// changes) only tells it. The log has the readings of that port's robots, see docs/log.md. All
-/// sessions of a port have it in common.
-/// @throws SessionError kBadArgument for a name that is not plain, a file that is no log, or
-///         changes of file or direction while it runs; kNotAvailable if the run has no output
-///         folder, or the file cannot be opened.
+/// Configures the log of this session's port and returns its state. Changes are applied in the
+/// order of the members; a request without members set changes nothing. The log contains the
+/// readings of the port's robots; see docs/log.md. All sessions of a port share it.
+/// @throws SessionError kBadArgument for a name that is not a plain file name, for a file that is
+///         not a log, or for changes of file or direction while the log runs; kNotAvailable if the
+///         run has no output folder, or the file cannot be opened.
 struct LogRequest {
   using Result = LogStatus;
   static constexpr const char* kName = "log";
   static constexpr const char* kAnswer = "log";
   std::optional<std::string> file =
-      std::nullopt;  ///< a plain name; ".jsonl" is added unless it is there
+      std::nullopt;  ///< a plain file name; ".jsonl" is appended if it is missing
   std::optional<bool> replay = std::nullopt;
-  std::optional<bool> rewind = std::nullopt;  ///< true: a replay begins anew
+  std::optional<bool> rewind = std::nullopt;  ///< true: restarts a replay from the beginning
   std::optional<bool> running = std::nullopt;
   static constexpr std::tuple kFields{field("file", &LogRequest::file, Presence::kOptional),
                                       field("replay", &LogRequest::replay, Presence::kOptional),
@@ -489,13 +497,14 @@ using Request =
                  ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
                  RestoreStateRequest, LogRequest>;
 
-/// The result of any request; std::monostate for those without.
+/// The result of any request; std::monostate for requests without a result.
 using Answer =
     std::variant<std::monostate, std::uint32_t, sim::LayerId, std::optional<sim::CellValue>,
                  std::vector<sim::CellValue>, std::vector<sim::LayerInfo>, CanvasImage, CanvasInfo,
                  sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics>;
 
-/// What `visitor` makes of a request; its functions return the `Result` of what they are given.
+/// Calls the function of `visitor` for the type of a request. The function returns the `Result` of
+/// the request's type.
 template <typename Visitor>
 Answer answer_by(Visitor&& visitor, const Request& request) {
   return std::visit(

@@ -10,36 +10,37 @@ namespace playerlike {
 
 /// Settings of Smooth Nearness-Diagram navigation (docs/snd.md); ranges in snd_setting_table().
 struct SndSettings {
-  double robot_radius_m = 0.1;      ///< of the disc round the axle's middle that holds the robot
-  double safety_distance_m = 0.15;  ///< obstacles nearer to the disc than this deflect and slow
+  double robot_radius_m = 0.1;      ///< radius of a disc about the axle's centre that holds the
+                                    ///< robot
+  double safety_distance_m = 0.15;  ///< nearer obstacles deflect and slow the robot
   double max_speed_mps = 0.3;
   double max_turn_rate_radps = 1.5;
-  double goal_distance_m = 0.05;  ///< the goal's position is reached within this
-  double goal_angle_rad = 0.1;    ///< and its heading within this
-  double patience_s = 20.0;       ///< blocked when it comes no nearer to the goal for so long
+  double goal_distance_m = 0.05;  ///< tolerance of the goal's position
+  double goal_angle_rad = 0.1;    ///< tolerance of the goal's heading
+  double patience_s = 20.0;       ///< the goal counts as blocked after this time without progress
 };
 
-/// A number among the settings: how it is called and bounded.
+/// Description of a setting: name and range.
 struct SndSettingRow {
-  const char* key;   ///< in world files; one that ends in "_deg" is in degrees there
-  const char* unit;  ///< in world files, "m", "m/s", ...
+  const char* key;   ///< key in world files; a value whose key ends in "_deg" is in degrees there
+  const char* unit;  ///< unit in world files, "m", "m/s", ...
   double SndSettings::*value;
-  double above;    ///< greater than this [SI]
+  double above;    ///< exclusive lower bound [SI]
   double at_most;  ///< [SI]
 };
-/// All of them, in the order of docs/snd.md.
+/// Returns all settings, in the order of docs/snd.md.
 [[nodiscard]] const std::vector<SndSettingRow>& snd_setting_table();
 
-/// What is wrong with settings, e.g. "robot_radius must be greater than 0 and at most 10 m, but is
-/// -1"; empty if nothing is.
+/// Returns the faults of settings, e.g. "robot_radius must be greater than 0 and at most 10 m, but
+/// is -1"; empty if the settings are valid.
 [[nodiscard]] std::string fault_of(const SndSettings& settings);
 
-/// A driver of a world's `drivers` table, of type "snd".
+/// A driver of type "snd" in a world's `drivers` table.
 struct SndDriverDescription {
   SndSettings settings;
-  int index = -1;    ///< of its position2d on the robot's port
-  int position = 0;  ///< the robot's position2d that tells where it is
-  int laser = 0;     ///< the robot's laser to look with
+  int index = -1;    ///< index of its position2d on the robot's port
+  int position = 0;  ///< index of the position2d that measures the robot's pose
+  int laser = 0;     ///< index of the laser
 };
 
 /// Reads the `drivers` of one robot; no other type than "snd" is known.
@@ -51,7 +52,7 @@ struct SndDriverDescription {
                                                              const std::string& file,
                                                              const std::string& pointer);
 
-/// Reads the drivers of all robots, only to see that they are sound.
+/// Checks the drivers of all robots.
 /// @throws sim::ConfigError with all that is wrong.
 void check_drivers(const sim::WorldDescription& world);
 

@@ -5,8 +5,8 @@
 
 namespace playerlike {
 
-/// A log hook that writes to stderr, one line each, by spdlog. Thread-safe.
-/// @param least  what matters less is left out.
+/// Returns a log hook that writes each message as a line to stderr, with spdlog. Thread-safe.
+/// @param least  lowest level that is logged.
 [[nodiscard]] sim::LogHook log_to_stderr(sim::LogLevel least = sim::LogLevel::kInfo);
 
 }  // namespace playerlike

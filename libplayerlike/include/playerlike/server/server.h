@@ -12,37 +12,40 @@
 
 namespace playerlike {
 
-/// Offers a simulation over TCP: MORSE's protocol and Playpen's own on one port (docs/protocol.md).
+/// Serves a simulation over TCP, with MORSE's protocol and Playpen's protocol on one port
+/// (docs/protocol.md).
 ///
-/// One thread of its own does all input and output; in lockstep it also steps the simulation. The
-/// simulation never waits for a socket.
+/// The server has one thread for all input and output; in lockstep this thread also steps the
+/// simulation. The simulation never waits for a socket.
 class Server {
  public:
-  /// Listens and starts the thread.
-  /// @param host  whose robots must be those that settings.access names.
-  /// @param log   told of connections (kInfo) and of what goes wrong; called from the thread.
+  /// Opens the listening sockets and starts the thread.
+  /// @param host  the simulation; it must have all robots that settings.access names.
+  /// @param log   receives messages about connections (kInfo) and errors; called from the server's
+  ///              thread.
   /// @throws sim::ConfigError server/port-taken, server/address, server/token-needed,
   ///         access/unknown-robot.
   Server(std::shared_ptr<Host> host, ServerSettings settings, sim::LogHook log = {});
-  /// Throws what the constructor would throw for these settings and robots, and leaves nothing
-  /// behind: for those who have something to tidy up before a simulation can be made.
+  /// Throws the errors that the constructor would throw for these settings and robots, without side
+  /// effects. It allows a check before a simulation is created.
   static void check(const ServerSettings& settings, const std::vector<std::string>& robots);
-  /// As stop().
+  /// Calls stop().
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// The TCP port that it listens on.
+  /// The TCP port on which the server listens.
   [[nodiscard]] int port() const noexcept;
-  /// Of the clock synchronisation; 0 without.
+  /// Port of the clock synchronisation; 0 if it is off.
   [[nodiscard]] int sync_port() const noexcept;
   [[nodiscard]] std::size_t connections() const noexcept;
-  /// Whether a client has asked for the end (MORSE's `quit`), or the run is over and all clients
-  /// have gone.
+  /// Whether a client has requested the end (MORSE's `quit`), or the run is over and all clients
+  /// have disconnected.
   [[nodiscard]] bool done() const noexcept;
 
-  /// Tells all clients good-bye, sends what is due to them for a moment, closes everything and
-  /// ends the thread. The host goes on; call Host::finish() first to have clients told of the end.
+  /// Sends a closing message to all clients, spends a short time on sending queued data, closes all
+  /// connections and ends the thread. The host continues. To notify clients of the end of the run,
+  /// call Host::finish() first.
   void stop() noexcept;
 
  private:

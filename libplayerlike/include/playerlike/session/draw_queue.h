@@ -12,15 +12,15 @@
 
 namespace playerlike {
 
-/// Drawings of a client on their way to the simulation: a buffer of fixed size that any thread may
-/// push to, guarded by a spin lock that is never held for longer than it takes to copy a drawing.
+/// A queue of drawings from a client to the simulation. It is a buffer of fixed size to which any
+/// thread may push. A spin lock guards it and is held no longer than it takes to copy a drawing.
 ///
-/// Two buffers take turns. Whoever empties the queue swaps them under the spin lock and then
-/// carries the drawings out of the one without it, so that pushing goes on meanwhile. Lock order:
-/// what serialises drain(), then the spin lock. Takes no memory before reserve().
+/// The queue is double-buffered. drain() swaps the buffers under the spin lock and then executes
+/// the drawings without it, so that other threads can push meanwhile. Lock order: first the lock
+/// that serialises drain(), then the spin lock. No memory is allocated before reserve().
 class DrawQueue {
  public:
-  /// Drawings that wait at most.
+  /// Maximum number of queued drawings.
   static constexpr std::size_t kCapacity = 8192;
 
   DrawQueue() = default;
@@ -32,8 +32,9 @@ class DrawQueue {
     return push_by([&](sim::DrawOperation& place) { place = operation; });
   }
 
-  /// As push(), but fill(sim::DrawOperation&) writes the drawing where it is to wait, which saves a
-  /// copy. What its kind does not use may be left as it is. It must be quick and must not throw.
+  /// Like push(), but fill(sim::DrawOperation&) writes the drawing directly into the buffer, which
+  /// saves a copy. It need not set members that the kind of drawing does not use. It must be fast
+  /// and must not throw.
   template <typename Fill>
   [[nodiscard]] bool push_by(Fill fill) noexcept {
     const Guard guard(locked_);
@@ -44,10 +45,11 @@ class DrawQueue {
     return true;
   }
 
-  /// Whether nothing waits, as far as the calling thread can know.
+  /// Whether the queue is empty, as visible to the calling thread.
   [[nodiscard]] bool empty() const noexcept { return size_.load(std::memory_order_relaxed) == 0; }
 
-  /// Makes room, if there is none yet. Calls of this, drain() and close() must be serialised.
+  /// Allocates the buffers if this has not been done. Calls of reserve(), drain() and close() must
+  /// be serialised.
   void reserve() {
     if (back_ != nullptr || closed_) return;
     auto front = std::make_unique_for_overwrite<sim::DrawOperation[]>(kCapacity);
@@ -57,7 +59,7 @@ class DrawQueue {
     limit_ = kCapacity;
   }
 
-  /// Empties the queue: calls apply(std::span<const sim::DrawOperation>), unless it is empty.
+  /// Empties the queue: calls apply(std::span<const sim::DrawOperation>) unless the queue is empty.
   template <typename Apply>
   void drain(Apply apply) {
     if (size_.load(std::memory_order_relaxed) == 0) return;
@@ -70,7 +72,7 @@ class DrawQueue {
     apply(std::span<const sim::DrawOperation>(back_.get(), size));
   }
 
-  /// Forgets what waits; from now on no push succeeds.
+  /// Discards all queued drawings. Every later push fails.
   void close() noexcept {
     closed_ = true;
     const Guard guard(locked_);
@@ -89,7 +91,7 @@ class DrawQueue {
     Guard& operator=(const Guard&) = delete;
 
    private:
-    // The holder may have lost the processor in the middle of its few instructions.
+    // Yields because the holder may have been preempted inside its short critical section.
     void wait() const noexcept {
       for (int i = 0; i < 64; ++i) {
         if (!locked_.load(std::memory_order_relaxed)) return;
@@ -100,11 +102,11 @@ class DrawQueue {
   };
 
   std::atomic<bool> locked_{false};
-  // Under the spin lock; the size may be looked at without it.
+  // Guarded by the spin lock; the size may be read without it.
   std::atomic<std::size_t> size_{0};
   std::size_t limit_ = 0;
   std::unique_ptr<sim::DrawOperation[]> front_;
-  // Of whoever may call drain().
+  // Used only by the thread that may call drain().
   std::unique_ptr<sim::DrawOperation[]> back_;
   bool closed_ = false;
 };

@@ -7,34 +7,34 @@
 #include <optional>
 #include <string>
 
-/// What passes between a simulation's host and the process that shows its window (playpen-view).
+/// Messages between a simulation's host and the process that shows its window (playpen-view).
 ///
-/// Both run on one machine, at the ends of a socketpair() of type SOCK_STREAM, so numbers keep the
-/// machine's byte order. The viewer speaks first: kHello, once its window is open. Then the host
-/// sends a frame, and the next one only after the viewer has said kShown: a viewer that is slow, or
-/// hangs, costs frames and nothing else. The host ends the window by closing its end.
-/// Header only: the viewer needs nothing else of the client library.
+/// Both processes run on one machine and are connected by a socketpair() of type SOCK_STREAM, so
+/// numbers have the machine's byte order. The viewer sends kHello once its window is open. Then the
+/// host sends a frame. It sends the next frame only after the viewer has sent kShown, so that a
+/// slow or hanging viewer only loses frames. The host closes its end to close the window. Header
+/// only: the viewer needs no other part of the client library.
 namespace playerlike::view {
 
-/// Begins every message; also tells versions apart.
+/// First word of every message; identifies the version of the protocol.
 inline constexpr std::uint32_t kMagic = 0x31565050;  // "PPV1"
 
-/// Kinds of messages that the viewer sends.
+/// Types of messages from the viewer.
 enum class ViewerMessageKind : std::uint32_t {
-  kHello = 1,       ///< the window is open; a, b: width and height that pictures may have [pixels]
-  kShown = 2,       ///< a: number of the frame that is on the screen now
+  kHello = 1,       ///< the window is open; a, b: maximum width and height of pictures [pixels]
+  kShown = 2,       ///< a: number of the frame on the screen
   kKey = 3,         ///< a: X11 keysym; b: KeyFlag
-  kReleaseAll = 4,  ///< the window has lost the keyboard: no key counts as pressed any more
+  kReleaseAll = 4,  ///< the window has lost the keyboard focus: all keys count as released
   kClosed = 5,      ///< the user closed the window
 };
 
 /// Flags of a kKey message.
 enum KeyFlag : std::uint32_t {
-  kPressed = 1,  ///< went down; else it was released
-  kControl = 2,  ///< with a Ctrl key held
+  kPressed = 1,  ///< the key was pressed; without this flag, released
+  kControl = 2,  ///< a Ctrl key was held
 };
 
-/// A message of the viewer; all are of this size.
+/// A message from the viewer. All messages have this size.
 struct ViewerMessage {
   std::uint32_t magic = kMagic;
   ViewerMessageKind kind = ViewerMessageKind::kHello;
@@ -43,45 +43,46 @@ struct ViewerMessage {
 };
 static_assert(sizeof(ViewerMessage) == 16);
 
-/// Least side of a picture that a viewer may ask for [pixels].
+/// Minimum width and height of a picture [pixels].
 inline constexpr std::uint32_t kLeastSide_px = 64;
-/// Greatest one [pixels].
+/// Maximum width and height of a picture [pixels].
 inline constexpr std::uint32_t kGreatestSide_px = 8192;
-/// Bound of a frame's text [bytes].
+/// Maximum length of a frame's text [bytes].
 inline constexpr std::uint32_t kGreatestText = 4096;
 
-/// A frame: this, then 3 * width * height RGB bytes, row-major from the top, then the text.
+/// Header of a frame. It is followed by 3 * width * height RGB bytes, row-major from the top, and
+/// by the text.
 ///
-/// The text is ASCII, lines ended by '\n': what stands in the status line, a passing message for
-/// it, and any number of lines of help, in each of which keys and what they do alternate, two or
-/// more blanks apart.
+/// The text is ASCII, with lines ended by '\n': the status line, a temporary message for the status
+/// line, and any number of help lines. In a help line, keys and their functions alternate,
+/// separated by two or more spaces.
 struct FrameHeader {
   std::uint32_t magic = kMagic;
-  std::uint32_t number = 0;  ///< counts frames from 1
+  std::uint32_t number = 0;  ///< number of the frame, from 1
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint32_t text_bytes = 0;
-  std::uint32_t robot_colour = 0;  ///< of the chosen robot, 0xRRGGBB
-  std::uint32_t paused = 0;        ///< 1: time stands still, so the status line stands out
+  std::uint32_t robot_colour = 0;  ///< colour of the selected robot, 0xRRGGBB
+  std::uint32_t paused = 0;        ///< 1: time is paused, and the status line is highlighted
 };
 static_assert(sizeof(FrameHeader) == 28);
 
-/// Whether a header is one that the host may have sent.
-[[nodiscard]] inline bool is_sound(const FrameHeader& header) noexcept {
+/// Whether a header is valid.
+[[nodiscard]] inline bool is_valid(const FrameHeader& header) noexcept {
   return header.magic == kMagic && header.width > 0 && header.width <= kGreatestSide_px &&
          header.height > 0 && header.height <= kGreatestSide_px &&
          header.text_bytes <= kGreatestText && header.paused <= 1;
 }
 
-/// Bytes that follow a sound header.
+/// Number of bytes that follow a valid header.
 [[nodiscard]] inline std::size_t body_bytes(const FrameHeader& header) noexcept {
   return 3 * static_cast<std::size_t>(header.width) * header.height + header.text_bytes;
 }
 
-/// Takes the first message out of what was received.
-/// @param[in,out] received  bytes in order; those of the message are removed.
-/// @param[out] garbage      set if these bytes are no message of a viewer; nothing is removed then.
-/// @return the message; nullopt if there is no whole one yet, or garbage.
+/// Extracts the first message from received bytes.
+/// @param[in,out] received received bytes in order; the message's bytes are removed.
+/// @param[out] garbage      set if the bytes are not a valid message; nothing is removed then.
+/// @return the message; nullopt if it is incomplete or invalid.
 [[nodiscard]] inline std::optional<ViewerMessage> take_message(std::string& received,
                                                                bool& garbage) {
   ViewerMessage message;

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Clocks, and what waits for the real ones: that cannot be simulated.
+// Clocks, and functions that use real clocks and cannot be simulated.
 #include <string.h>
 #include <sys/sem.h>
 #include <sys/time.h>
@@ -8,7 +8,7 @@
 
 #include "virtual_time/preload/common.h"
 
-// What stands in for the C library's functions has to lie in the global namespace.
+// Functions that replace the C library's must be in the global namespace.
 using namespace playerlike::preload;  // NOLINT(google-build-using-namespace)
 
 namespace {
@@ -41,7 +41,7 @@ EXPORTED time_t time(time_t* result) noexcept {
   return now.tv_sec;
 }
 
-// Its second parameter has another type in other versions of the C library.
+// The type of the second parameter differs between versions of the C library.
 EXPORTED int gettimeofday(timeval* __restrict result, void* __restrict zone) noexcept {
   timespec now{};
   if (!virtual_realtime(now, CALLER)) return next_gettimeofday(result, zone);
@@ -53,7 +53,7 @@ EXPORTED int gettimeofday(timeval* __restrict result, void* __restrict zone) noe
 EXPORTED int clock_gettime(clockid_t clock, timespec* result) noexcept {
   const long long start_ns = clock_start(clock);
   long long elapsed_ns = 0;
-  // Libraries measure with those of the processor's time; programs wait for them.
+  // Libraries measure durations with the clocks of processor time, while programs poll them.
   if (start_ns < 0 || (start_ns == 0 && !is_programs(CALLER)) ||
       !virtual_now(elapsed_ns, true, CALLER)) {
     return next_clock_gettime(clock, result);
@@ -75,11 +75,11 @@ EXPORTED clock_t clock() noexcept {
   return static_cast<clock_t>(elapsed_ns / (kSecond_ns / CLOCKS_PER_SEC));
 }
 
-// --- What cannot be simulated
+// --- Real-time facilities that cannot be simulated
 
 namespace {
 
-void tell_of_real_time(const char* what, const void* caller) {
+void report_real_time(const char* what, const void* caller) {
   if (!is_programs(caller)) return;
   const int error = errno;
   playpen()->waits_for_real(what);
@@ -89,20 +89,20 @@ void tell_of_real_time(const char* what, const void* caller) {
 }  // namespace
 
 EXPORTED unsigned alarm(unsigned seconds) noexcept {
-  if (seconds != 0) tell_of_real_time("alarm()", CALLER);
+  if (seconds != 0) report_real_time("alarm()", CALLER);
   return next_alarm(seconds);
 }
 
 EXPORTED useconds_t ualarm(useconds_t value, useconds_t interval) noexcept {
-  if (value != 0) tell_of_real_time("ualarm()", CALLER);
+  if (value != 0) report_real_time("ualarm()", CALLER);
   return next_ualarm(value, interval);
 }
 
-// Its first parameter has another type in C.
+// The type of the first parameter differs in C.
 EXPORTED int setitimer(int which, const itimerval* __restrict value,
                        itimerval* __restrict old) noexcept {
   if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_usec != 0)) {
-    tell_of_real_time("setitimer()", CALLER);
+    report_real_time("setitimer()", CALLER);
   }
   return next_setitimer(which, value, old);
 }
@@ -110,7 +110,7 @@ EXPORTED int setitimer(int which, const itimerval* __restrict value,
 EXPORTED int timer_settime(timer_t timer, int flags, const itimerspec* __restrict value,
                            itimerspec* __restrict old) noexcept {
   if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0)) {
-    tell_of_real_time("timer_settime()", CALLER);
+    report_real_time("timer_settime()", CALLER);
   }
   return next_timer_settime(timer, flags, value, old);
 }
@@ -118,13 +118,13 @@ EXPORTED int timer_settime(timer_t timer, int flags, const itimerspec* __restric
 EXPORTED int timerfd_settime(int timer, int flags, const itimerspec* value,
                              itimerspec* old) noexcept {
   if (value != nullptr && (value->it_value.tv_sec != 0 || value->it_value.tv_nsec != 0)) {
-    tell_of_real_time("timerfd_settime()", CALLER);
+    report_real_time("timerfd_settime()", CALLER);
   }
   return next_timerfd_settime(timer, flags, value, old);
 }
 
 EXPORTED int semtimedop(int semaphores, sembuf* operations, size_t count,
                         const timespec* timeout) noexcept {
-  if (timeout != nullptr) tell_of_real_time("semtimedop()", CALLER);
+  if (timeout != nullptr) report_real_time("semtimedop()", CALLER);
   return next_semtimedop(semaphores, operations, count, timeout);
 }

@@ -10,21 +10,21 @@ NEXT(clock_gettime);
 
 void forget_playpen() { hooks.store(nullptr); }
 
-/// Lets simulated time pass instead of waiting.
-/// @param left_ns  set to what is left if a signal ends that.
-Slept sleep_virtually(long long duration_ns, const void* caller, long long& left_ns) {
+/// Advances simulated time instead of sleeping.
+/// @param left_ns  receives the remaining time if a signal ends the sleep.
+SleepResult sleep_virtually(long long duration_ns, const void* caller, long long& left_ns) {
   const auto* const table = playpen();
-  if (table == nullptr) return Slept::kNo;
+  if (table == nullptr) return SleepResult::kNo;
   const int error = errno;
-  // The simulation must not be left in the middle of a step: the thread ends after it.
+  // Cancellation must not leave the simulation in the middle of a step; it happens afterwards.
   int done = 0;
   {
     const NotCancelled whole;
     done = table->sleep(duration_ns, caller, &left_ns);
   }
   errno = error;
-  if (done == 0) return Slept::kNo;
-  return done == 1 ? Slept::kYes : Slept::kInterrupted;
+  if (done == 0) return SleepResult::kNo;
+  return done == 1 ? SleepResult::kYes : SleepResult::kInterrupted;
 }
 
 timespec real_deadline(clockid_t clock, long long duration_ns) {
@@ -54,14 +54,14 @@ void* find_next(const char* name, const char* version) {
   return plain;
 }
 
-Slept sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns) {
-  const Slept slept = sleep_virtually(duration_ns, caller, left_ns);
-  if (slept != Slept::kNo) pthread_testcancel();
+SleepResult sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns) {
+  const SleepResult slept = sleep_virtually(duration_ns, caller, left_ns);
+  if (slept != SleepResult::kNo) pthread_testcancel();
   return slept;
 }
 
-int result_of(Slept slept) {
-  if (slept == Slept::kYes) return 0;
+int result_of(SleepResult slept) {
+  if (slept == SleepResult::kYes) return 0;
   errno = EINTR;
   return -1;
 }
@@ -76,7 +76,7 @@ bool virtual_now(long long& elapsed_ns, bool ask, const void* caller) {
 }
 
 bool is_duration(const timespec& time) {
-  constexpr time_t kMost_s = 4'000'000'000;  // more does not fit into nanoseconds; 126 years
+  constexpr time_t kMost_s = 4'000'000'000;  // 126 years; more seconds overflow 64 bits [ns]
   return time.tv_sec >= 0 && time.tv_sec < kMost_s && time.tv_nsec >= 0 &&
          time.tv_nsec < kSecond_ns;
 }
@@ -123,7 +123,7 @@ void wake(const void* object, int most) {
 
 EXPORTED int playpen_virtual_time_register(const PlaypenVirtualTimeHooks* table) {
   if (table->version != PLAYPEN_VIRTUAL_TIME_VERSION) return 0;
-  // A forked child has none of the simulation's threads.
+  // A forked child does not have the simulation's threads.
   if (playpen() == nullptr) pthread_atfork(nullptr, nullptr, forget_playpen);
   hooks.store(table, std::memory_order_release);
   return 1;

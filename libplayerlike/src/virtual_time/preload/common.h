@@ -1,18 +1,18 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// @file
-/// The library that `playpen run` preloads into client programs: stands in for the functions of the
-/// C library that wait for time to pass, or tell it, and asks Playpen in the same process what to
-/// do. As long as no Playpen has registered, in other programs and in children, it passes all on.
+/// @file The library that `playpen run` preloads into client programs. It replaces the functions of
+/// the C library that wait for time to pass, or read it, and asks Playpen in the same process what
+/// to do. While no Playpen has registered, as in other programs and in children, it forwards all
+/// calls.
 ///
-/// It uses the C library only, so that it can be loaded into anything. This is what its sources
-/// have in common; each includes it first.
+/// It uses the C library only, so that it can be loaded into any program. Each of its sources
+/// includes this header first.
 
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
 #endif
-// What is defined here must not be replaced by inline forms.
+// Fortified inline forms must not replace the functions that are defined here.
 #undef _FORTIFY_SOURCE
 
 #include <dlfcn.h>
@@ -31,20 +31,20 @@ namespace playerlike::preload {
 
 constexpr long long kSecond_ns = 1'000'000'000;
 
-/// What Playpen has registered; nullptr: nothing.
+/// The registered hooks; nullptr: none.
 inline std::atomic<const PlaypenVirtualTimeHooks*> hooks{nullptr};
 inline const PlaypenVirtualTimeHooks* playpen() { return hooks.load(std::memory_order_acquire); }
 
-/// Whether a call comes from the program, not from a library.
+/// Whether a call comes from the program and not from a library.
 bool is_programs(const void* caller);
 
 // --- The C library's own functions
 
-/// The next definition of a function after this library's. Of functions that the C library has in
-/// several versions, the newest: the plain lookup may find the oldest.
+/// The next definition of a function after this library's. @param version  the newest version, for
+/// a function that the C library has in several: the plain look-up may find the oldest.
 void* find_next(const char* name, const char* version);
 
-/// The real function behind one that this library stands in for.
+/// The real function that this library replaces.
 template <typename Function>
 class Next {
  public:
@@ -72,8 +72,8 @@ constexpr const char* kConditions = "GLIBC_2.3.2";
 constexpr const char* kConditions = nullptr;
 #endif
 
-// Named for what they stand for; the function types are those of the headers, whose attributes do
-// not matter here.
+// Named like the real functions. The types of the functions are those of the headers; their
+// attributes do not matter here.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wignored-attributes"
 #endif
@@ -83,7 +83,7 @@ constexpr const char* kConditions = nullptr;
 
 // --- Sleeping
 
-/// While one lives, its thread is not cancelled.
+/// While an object exists, its thread cannot be cancelled.
 class NotCancelled {
  public:
   NotCancelled() { pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before_); }
@@ -95,27 +95,27 @@ class NotCancelled {
   int before_ = PTHREAD_CANCEL_ENABLE;
 };
 
-enum class Slept { kNo, kYes, kInterrupted };
+enum class SleepResult { kNo, kYes, kInterrupted };
 
-/// Lets simulated time pass instead of waiting, in functions in which a thread may be cancelled.
-/// @param left_ns  set to what is left if a signal ends that.
-Slept sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns);
+/// Advances simulated time instead of sleeping, in functions that are cancellation points.
+/// @param left_ns  receives the remaining time if a signal ends the sleep.
+SleepResult sleep_cancellably(long long duration_ns, const void* caller, long long& left_ns);
 
-/// For functions that are -1 and EINTR after a signal.
-int result_of(Slept slept);
+/// Sets errno to EINTR and returns -1 after a signal; otherwise returns 0.
+int result_of(SleepResult slept);
 
-/// nanosleep() and clock_nanosleep(), also as system calls.
+/// nanosleep() and clock_nanosleep(), also called as system calls.
 int nanosleep_from(const timespec* duration, timespec* rest, const void* caller);
 int clock_nanosleep_from(clockid_t clock, int flags, const timespec* time, timespec* rest,
                          const void* caller);
 
 // --- Time
 
-/// Time since the program's start, if that is virtual for this thread.
+/// Reads the time since the program's start, if time is virtual for this thread.
 bool virtual_now(long long& elapsed_ns, bool ask, const void* caller);
 
-/// A wait for no time at all is one for the least time, so that loops of such waits end.
-inline long long at_least_one(long long duration_ns) {
+/// Lengthens a wait of zero time, so that loops of such waits end.
+inline long long at_least_1us(long long duration_ns) {
   return duration_ns > 0 ? duration_ns : 1'000;
 }
 
@@ -127,52 +127,52 @@ inline timespec to_timespec(long long time_ns) {
   return {static_cast<time_t>(time_ns / kSecond_ns), static_cast<long>(time_ns % kSecond_ns)};
 }
 
-/// Whether it fits into nanoseconds.
+/// Whether a time fits into 64 bits of nanoseconds.
 bool is_duration(const timespec& time);
 
-/// What a clock shows at the program's start [ns]; < 0 for clocks that stay real.
+/// The value of a clock at the program's start [ns]; < 0 for clocks that stay real.
 long long clock_start(clockid_t clock);
 
-/// A moment that a wait is to end.
+/// The deadline of a wait.
 struct Deadline {
-  long long elapsed_ns = -1;  ///< since the program's start; < 0: never, or of the real clock
+  long long elapsed_ns = -1;  ///< since the program's start; < 0: none, or on a real clock
   bool is_virtual = false;
-  timespec real{};  ///< for a wait for real
+  timespec real{};  ///< for a wait in real time
 };
 
-/// @param time  nullptr: never.
+/// @param time  nullptr: no deadline.
 Deadline deadline_of(const timespec* time, clockid_t clock, const void* caller);
 
 // --- Waiting
 
-using IsThere = int (*)(const void* object, unsigned value);
+using IsReady = int (*)(const void* object, unsigned value);
 
-/// Waits until somebody wakes the thread, or until what it waits for is there.
-/// @param before  done when the wait has begun: nobody who wakes the thread is missed.
-/// @return a PlaypenWaitEnd; < 0: the thread is to wait for real.
+/// Waits until another thread wakes this one, or until `is_ready` says that the wait is over.
+/// @param before  called when the wait has begun, so that no wake-up is missed.
+/// @return a PlaypenWaitEnd; < 0: the thread must wait in real time.
 template <typename Before>
-int wait_virtually(const void* object, int kind, const Deadline& deadline, IsThere is_there,
+int wait_virtually(const void* object, int kind, const Deadline& deadline, IsReady is_ready,
                    unsigned value, Before before) {
   const auto* const table = playpen();
   const bool real = deadline.elapsed_ns < 0 && deadline.real.tv_sec != 0;
   if (table == nullptr || real) return -1;
   const int error = errno;
   const NotCancelled whole;
-  const int begun = table->begin_wait(object, kind, deadline.elapsed_ns, is_there, value);
+  const int begun = table->begin_wait(object, kind, deadline.elapsed_ns, is_ready, value);
   if (begun == 0) return -1;
-  if (begun == 2) return kPlaypenWaitThere;
+  if (begun == 2) return kPlaypenWaitReady;
   before();
   const int end = table->finish_wait();
   errno = error;
   return end;
 }
 
-inline int wait_virtually(const void* object, int kind, const Deadline& deadline, IsThere is_there,
+inline int wait_virtually(const void* object, int kind, const Deadline& deadline, IsReady is_ready,
                           unsigned value) {
-  return wait_virtually(object, kind, deadline, is_there, value, [] {});
+  return wait_virtually(object, kind, deadline, is_ready, value, [] {});
 }
 
-/// Tells that what others wait for may be there.
+/// Wakes up to `most` threads that wait for an object.
 void wake(const void* object, int most);
 
 }  // namespace playerlike::preload

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// System calls: futexes, with which libstdc++ and others wait.
+// The system call futex, with which libstdc++ and other libraries wait.
 #include <limits.h>
 #include <linux/futex.h>
 #include <stdarg.h>
@@ -8,7 +8,7 @@
 
 #include "virtual_time/preload/common.h"
 
-// What stands in for the C library's functions has to lie in the global namespace.
+// Functions that replace the C library's must be in the global namespace.
 using namespace playerlike::preload;  // NOLINT(google-build-using-namespace)
 
 namespace {
@@ -19,7 +19,7 @@ int word_differs(const void* word, unsigned value) {
   return __atomic_load_n(static_cast<const unsigned*>(word), __ATOMIC_SEQ_CST) != value ? 1 : 0;
 }
 
-/// @return whether it was done, with its result.
+/// @return whether the wait was virtual; `result` is its result then.
 bool wait_for_futex(unsigned* word, int operation, unsigned value, const timespec* time,
                     unsigned bits, const void* caller, long& result, timespec& real) {
   const auto* const table = playpen();
@@ -48,7 +48,7 @@ bool wait_for_futex(unsigned* word, int operation, unsigned value, const timespe
   return true;
 }
 
-/// @return how many were woken.
+/// @return the number of threads woken.
 int wake_futex(const unsigned* word, int most) {
   const auto* const table = playpen();
   if (table == nullptr || __atomic_load_n(table->object_waits, __ATOMIC_SEQ_CST) <= 0) return 0;
@@ -57,7 +57,7 @@ int wake_futex(const unsigned* word, int most) {
 
 }  // namespace
 
-// libstdc++ and others wait with futexes by this function.
+// libstdc++ and other libraries call futex through this function.
 EXPORTED long syscall(long number, ...) noexcept {
   va_list arguments;
   va_start(arguments, number);

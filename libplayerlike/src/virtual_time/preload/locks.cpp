@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Waits for other threads: mutexes, condition variables, semaphores, locks, barriers.
+// Waits for other threads: mutexes, condition variables, semaphores, read-write locks, barriers.
 #include <limits.h>
 #include <linux/futex.h>
 #include <sched.h>
@@ -10,7 +10,7 @@
 
 #include "virtual_time/preload/common.h"
 
-// What stands in for the C library's functions has to lie in the global namespace.
+// Functions that replace the C library's must be in the global namespace.
 using namespace playerlike::preload;  // NOLINT(google-build-using-namespace)
 
 namespace {
@@ -57,7 +57,7 @@ int is_free(const void* mutex, unsigned /*value*/) {
   return mutex_is_free(static_cast<const pthread_mutex_t*>(mutex)) ? 1 : 0;
 }
 
-// Shared with other processes, or with a protocol of its own.
+// Whether a mutex is shared with other processes or has a priority protocol.
 bool is_special(const pthread_mutex_t* mutex) {
   constexpr int kShared = 128;
   constexpr int kInherits = 32;
@@ -65,9 +65,9 @@ bool is_special(const pthread_mutex_t* mutex) {
   return (mutex->__data.__kind & (kShared | kInherits | kProtects)) != 0;
 }
 
-/// A mutex whose holder waits for its turn cannot be waited for for real: that would come to
-/// nothing. It is handed on in the order in which threads began to wait.
-/// @param real  waits for real.
+/// Locks a mutex. If its owner waits for its turn, a real wait would deadlock, so the wait is
+/// virtual. Such waits are served in the order in which they began.
+/// @param real  locks in real time.
 template <typename Real>
 int lock_mutex(const PlaypenVirtualTimeHooks* table, pthread_mutex_t* mutex,
                const Deadline& deadline, Real real) {
@@ -109,7 +109,7 @@ int unlock_mutex(pthread_mutex_t* mutex) {
 
 // --- Condition variables and semaphores
 
-// Shared with other processes, which do not take turns.
+// Whether other processes, which do not take turns, share a condition variable.
 bool is_shared(const pthread_cond_t* condition) { return (condition->__data.__wrefs & 1U) != 0; }
 
 template <typename Real>
@@ -123,7 +123,7 @@ int wait_for_condition(pthread_cond_t* condition, pthread_mutex_t* mutex, const 
     const NotCancelled whole;
     lock_mutex(mutex);
   }
-  pthread_testcancel();  // with the mutex, as those who tidy up expect
+  pthread_testcancel();  // with the mutex locked, as cleanup handlers expect
   return end == kPlaypenWaitTime ? ETIMEDOUT : 0;
 }
 
@@ -147,8 +147,8 @@ int wait_for_semaphore(sem_t* semaphore, const Deadline& deadline, Real real) {
   }
 }
 
-/// For locks for reading and writing.
-/// @param attempt  0 if it has succeeded, EBUSY if it may later.
+/// Locks a read-write lock.
+/// @param attempt  returns 0 if it succeeds, EBUSY if it must be repeated later.
 template <typename Attempt, typename Real>
 int wait_by_trying(const void* object, const Deadline& deadline, Attempt attempt, Real real) {
   for (;;) {
@@ -198,7 +198,8 @@ EXPORTED int sem_wait(sem_t* semaphore) {
 EXPORTED int pthread_cond_timedwait(pthread_cond_t* __restrict condition,
                                     pthread_mutex_t* __restrict mutex,
                                     const timespec* __restrict time) {
-  // Its clock is an attribute that cannot be read; the virtual ones are 50 years apart.
+  // The condition variable's clock cannot be queried. The two virtual clocks are 50 years apart, so
+  // the value tells which one it is.
   constexpr time_t kBetween_s = playerlike::kVirtualEpoch_s / 2;
   const clockid_t clock = time->tv_sec < kBetween_s ? CLOCK_MONOTONIC : CLOCK_REALTIME;
   const Deadline deadline = deadline_of(time, clock, CALLER);
@@ -278,7 +279,7 @@ EXPORTED int pthread_rwlock_unlock(pthread_rwlock_t* lock) noexcept {
 
 namespace {
 
-/// A barrier that threads of this process wait at. Theirs cannot be asked who waits there.
+/// A barrier of this process. The system's barrier does not reveal how many threads wait.
 struct Barrier {
   std::atomic<const pthread_barrier_t*> which{nullptr};
   std::atomic<unsigned> arrived{0};
@@ -286,7 +287,7 @@ struct Barrier {
 };
 constinit Barrier barriers[64];
 
-// As the C library lays it out.
+// The C library's layout of a barrier.
 struct BarrierFields {
   unsigned in;
   unsigned current_round;
@@ -302,7 +303,7 @@ BarrierFields fields_of(const pthread_barrier_t* barrier) {
   return fields;
 }
 
-/// @return nullptr: there are too many.
+/// @return nullptr if there are too many barriers.
 Barrier* find_barrier(const pthread_barrier_t* which) {
   for (Barrier& barrier : barriers) {
     const pthread_barrier_t* known = barrier.which.load();

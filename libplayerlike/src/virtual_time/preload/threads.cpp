@@ -1,11 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Threads: their beginning, their end, and what others do to them.
+// Threads: start, end, join, cancellation and signals.
 #include <signal.h>
 #include <stdlib.h>
 
 #include "virtual_time/preload/common.h"
 
-// What stands in for the C library's functions has to lie in the global namespace.
+// Functions that replace the C library's must be in the global namespace.
 using namespace playerlike::preload;  // NOLINT(google-build-using-namespace)
 
 namespace {
@@ -61,8 +61,8 @@ EXPORTED int pthread_create(pthread_t* __restrict thread, const pthread_attr_t* 
 
 namespace {
 
-/// Waits until a thread has ended, but for what the system does then.
-/// @return 0, or ETIMEDOUT.
+/// Waits virtually until a thread has ended, except for its exit in the system. @return 0 or
+/// ETIMEDOUT.
 int wait_for_end(pthread_t thread, const Deadline& deadline) {
   const auto* const handle = reinterpret_cast<const void*>(thread);
   const auto* const table = playpen();
@@ -118,7 +118,8 @@ EXPORTED int pthread_kill(pthread_t thread, int signal) noexcept {
     const bool handled = sigaction(signal, nullptr, &action) == 0 &&
                          ((action.sa_flags & SA_SIGINFO) != 0 ||
                           (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN));
-    // Told first, so that it is not chance which of both the other one finds.
+    // Notified before the signal, so that the order in which the other thread sees the two is
+    // fixed.
     if (handled) table->signalled(reinterpret_cast<const void*>(thread));
     errno = error;
   }

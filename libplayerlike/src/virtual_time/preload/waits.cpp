@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Waits for time to pass, and for what others send: sleeps, descriptors, signals, queues.
+// Waits for time and for input from elsewhere: sleeps, descriptors, signals, queues.
 #include <fcntl.h>
 #include <limits.h>
 #include <mqueue.h>
@@ -15,12 +15,12 @@
 
 #include "virtual_time/preload/common.h"
 
-// What stands in for the C library's functions has to lie in the global namespace.
+// Functions that replace the C library's must be in the global namespace.
 using namespace playerlike::preload;  // NOLINT(google-build-using-namespace)
 
 namespace {
 
-// How long a wait for what no thread of the program brings sleeps before it looks again.
+// Polling period of waits for events from outside of the program.
 constexpr long long kSlice_ns = 10'000'000;
 
 NEXT(sleep);
@@ -49,80 +49,80 @@ bool no_descriptors(int count, const fd_set* read, const fd_set* write, const fd
   return true;
 }
 
-/// For what no thread of the program brings: looks every so often, in simulated time.
-/// @param left_ns  how long.
-/// @param look     >= 0: the result.
-/// @return the result; -1: there was none in this time; -2: the rest is to be waited for real;
-///         -3: a signal came.
-template <typename Look>
-int wait_by_looking(long long& left_ns, const void* caller, Look look) {
+/// Polls, in simulated time, for an event from outside of the program.
+/// @param left_ns  time limit.
+/// @param check    polls; >= 0: the result.
+/// @return the result; -1: time limit; -2: the rest must be waited in real time; -3: a signal
+/// arrived.
+template <typename Check>
+int wait_by_polling(long long& left_ns, const void* caller, Check check) {
   for (;;) {
-    if (const int result = look(); result >= 0) return result;
+    if (const int result = check(); result >= 0) return result;
     if (left_ns <= 0) return -1;
     const long long slice_ns = left_ns < kSlice_ns ? left_ns : kSlice_ns;
     long long rest_ns = 0;
-    const Slept slept = sleep_cancellably(slice_ns, caller, rest_ns);
-    if (slept == Slept::kNo) return -2;
-    if (slept == Slept::kInterrupted) return -3;
+    const SleepResult slept = sleep_cancellably(slice_ns, caller, rest_ns);
+    if (slept == SleepResult::kNo) return -2;
+    if (slept == SleepResult::kInterrupted) return -3;
     left_ns -= slice_ns;
   }
 }
 
-/// @return as nanosleep(), in `result`; false: it is to be done for real.
+/// Sleeps like nanosleep(). @return false if the sleep must be real; otherwise `result` is set.
 bool sleep_with_rest(long long duration_ns, timespec* rest, const void* caller, int& result) {
   long long left_ns = 0;
-  const Slept slept = sleep_cancellably(duration_ns, caller, left_ns);
-  if (slept == Slept::kNo) return false;
-  if (slept == Slept::kInterrupted && rest != nullptr) *rest = to_timespec(left_ns);
+  const SleepResult slept = sleep_cancellably(duration_ns, caller, left_ns);
+  if (slept == SleepResult::kNo) return false;
+  if (slept == SleepResult::kInterrupted && rest != nullptr) *rest = to_timespec(left_ns);
   result = result_of(slept);
   return true;
 }
 
-/// Whether a program that waits for these waits for a key: all are its standard input or a
-/// terminal. Its wait is simulated time then. What others send takes the time it takes.
-class Keys {
+/// Tells whether a program waits for a key: all descriptors are standard input or terminals. Such a
+/// wait takes simulated time. Input from elsewhere takes real time.
+class KeyboardWait {
  public:
   void add(int descriptor) {
     struct stat status {};
     if (isatty(descriptor) == 0 && (descriptor != STDIN_FILENO || fstat(descriptor, &status) != 0 ||
                                     S_ISSOCK(status.st_mode))) {
-      only_ = false;
+      only_keyboard_ = false;
     }
     any_ = true;
   }
-  [[nodiscard]] bool only() const { return any_ && only_; }
+  [[nodiscard]] bool keyboard_only() const { return any_ && only_keyboard_; }
 
  private:
   bool any_ = false;
-  bool only_ = true;
+  bool only_keyboard_ = true;
 };
 
-/// poll() by another name.
-/// @param again  with another time-out [ns], < 0: for ever.
+/// Implements the variants of poll().
+/// @param again  the real function, with another timeout [ns]; < 0: none.
 template <typename Again>
 int poll_from(const pollfd* descriptors, nfds_t count, long long timeout_ns, const void* caller,
               Again again) {
   if (timeout_ns < 0) return again(timeout_ns);
   if (count == 0) {
     long long left_ns = 0;
-    const Slept slept = sleep_cancellably(at_least_one(timeout_ns), caller, left_ns);
-    return slept == Slept::kNo ? again(timeout_ns) : result_of(slept);
+    const SleepResult slept = sleep_cancellably(at_least_1us(timeout_ns), caller, left_ns);
+    return slept == SleepResult::kNo ? again(timeout_ns) : result_of(slept);
   }
   if (!is_programs(caller)) return again(timeout_ns);
-  Keys keys;
+  KeyboardWait keyboard_wait;
   for (nfds_t i = 0; i < count; ++i) {
-    if (descriptors[i].fd >= 0) keys.add(descriptors[i].fd);
+    if (descriptors[i].fd >= 0) keyboard_wait.add(descriptors[i].fd);
   }
-  if (!keys.only()) return again(timeout_ns);
-  long long left_ns = at_least_one(timeout_ns);
+  if (!keyboard_wait.keyboard_only()) return again(timeout_ns);
+  long long left_ns = at_least_1us(timeout_ns);
   int found = 0;
-  const int result = wait_by_looking(left_ns, caller, [&] {
+  const int result = wait_by_polling(left_ns, caller, [&] {
     found = again(0);
     return found != 0 ? 1 : -1;
   });
   if (result >= 0) return found;
   if (result == -2) return again(left_ns);
-  return result_of(result == -1 ? Slept::kYes : Slept::kInterrupted);
+  return result_of(result == -1 ? SleepResult::kYes : SleepResult::kInterrupted);
 }
 
 int poll_ms(long long timeout_ns) {
@@ -131,42 +131,43 @@ int poll_ms(long long timeout_ns) {
   return whole_ms > INT_MAX ? INT_MAX : static_cast<int>(whole_ms);
 }
 
-/// select() by another name; the same.
+/// Implements the variants of select().
+/// @param again  the real function, with another timeout [ns]; < 0: none.
 template <typename Again>
 int select_from(int count, fd_set* read, fd_set* write, fd_set* except, long long timeout_ns,
                 const void* caller, Again again) {
   if (no_descriptors(count, read, write, except)) {
     long long left_ns = 0;
-    const Slept slept = sleep_cancellably(at_least_one(timeout_ns), caller, left_ns);
-    return slept == Slept::kNo ? again(timeout_ns) : result_of(slept);
+    const SleepResult slept = sleep_cancellably(at_least_1us(timeout_ns), caller, left_ns);
+    return slept == SleepResult::kNo ? again(timeout_ns) : result_of(slept);
   }
   if (count > FD_SETSIZE || !is_programs(caller)) return again(timeout_ns);
-  Keys keys;
+  KeyboardWait keyboard_wait;
   fd_set* const sets[] = {read, write, except};
   fd_set wanted[3];
   for (int i = 0; i < 3; ++i) {
     if (sets[i] == nullptr) continue;
     wanted[i] = *sets[i];
     for (int descriptor = 0; descriptor < count; ++descriptor) {
-      if (FD_ISSET(descriptor, sets[i])) keys.add(descriptor);
+      if (FD_ISSET(descriptor, sets[i])) keyboard_wait.add(descriptor);
     }
   }
-  if (!keys.only()) return again(timeout_ns);
+  if (!keyboard_wait.keyboard_only()) return again(timeout_ns);
   const auto put_back = [&] {
     for (int i = 0; i < 3; ++i) {
       if (sets[i] != nullptr) *sets[i] = wanted[i];
     }
   };
-  long long left_ns = at_least_one(timeout_ns);
+  long long left_ns = at_least_1us(timeout_ns);
   int found = 0;
-  const int result = wait_by_looking(left_ns, caller, [&] {
+  const int result = wait_by_polling(left_ns, caller, [&] {
     put_back();
     found = again(0);
     return found != 0 ? 1 : -1;
   });
   if (result >= 0 || result == -1) return result >= 0 ? found : 0;
   put_back();
-  return result == -2 ? again(left_ns) : result_of(Slept::kInterrupted);
+  return result == -2 ? again(left_ns) : result_of(SleepResult::kInterrupted);
 }
 
 }  // namespace
@@ -176,7 +177,7 @@ namespace playerlike::preload {
 int nanosleep_from(const timespec* duration, timespec* rest, const void* caller) {
   int result = 0;
   if (duration != nullptr && is_duration(*duration) &&
-      sleep_with_rest(at_least_one(nanoseconds(*duration)), rest, caller, result)) {
+      sleep_with_rest(at_least_1us(nanoseconds(*duration)), rest, caller, result)) {
     return result;
   }
   return next_nanosleep(duration, rest);
@@ -189,7 +190,7 @@ int clock_nanosleep_from(clockid_t clock, int flags, const timespec* time, times
   const auto error = [&result] { return result == 0 ? 0 : EINTR; };
   if (start_ns > 0 && time != nullptr && is_duration(*time)) {
     if ((flags & TIMER_ABSTIME) == 0) {
-      if (sleep_with_rest(at_least_one(nanoseconds(*time)), rest, caller, result)) return error();
+      if (sleep_with_rest(at_least_1us(nanoseconds(*time)), rest, caller, result)) return error();
     } else {
       long long now_ns = 0;
       if (virtual_now(now_ns, false, caller)) {
@@ -207,13 +208,13 @@ int clock_nanosleep_from(clockid_t clock, int flags, const timespec* time, times
 
 EXPORTED unsigned sleep(unsigned seconds) {
   long long left_ns = 0;
-  switch (sleep_cancellably(at_least_one(seconds * kSecond_ns), CALLER, left_ns)) {
-    case Slept::kNo:
+  switch (sleep_cancellably(at_least_1us(seconds * kSecond_ns), CALLER, left_ns)) {
+    case SleepResult::kNo:
       return next_sleep(seconds);
-    case Slept::kYes:
+    case SleepResult::kYes:
       return 0;
     default:
-      // Rounded, but never to nothing: it was interrupted.
+      // Rounded, but at least 1, since the sleep was interrupted.
       return left_ns < kSecond_ns ? 1U
                                   : static_cast<unsigned>((left_ns + kSecond_ns / 2) / kSecond_ns);
   }
@@ -221,8 +222,9 @@ EXPORTED unsigned sleep(unsigned seconds) {
 
 EXPORTED int usleep(useconds_t microseconds) {
   long long left_ns = 0;
-  const Slept slept = sleep_cancellably(at_least_one(microseconds * 1'000LL), CALLER, left_ns);
-  return slept == Slept::kNo ? next_usleep(microseconds) : result_of(slept);
+  const SleepResult slept =
+      sleep_cancellably(at_least_1us(microseconds * 1'000LL), CALLER, left_ns);
+  return slept == SleepResult::kNo ? next_usleep(microseconds) : result_of(slept);
 }
 
 EXPORTED int nanosleep(const timespec* duration, timespec* rest) {
@@ -239,7 +241,7 @@ EXPORTED int select(int count, fd_set* read, fd_set* write, fd_set* except, time
     return next_select(count, read, write, except, timeout);
   }
   const long long timeout_ns = timeout->tv_sec * kSecond_ns + timeout->tv_usec * 1'000LL;
-  // What is left of it, as Linux has it.
+  // Linux stores the remaining time in `timeout`.
   return select_from(count, read, write, except, timeout_ns, CALLER, [&](long long again_ns) {
     *timeout = {again_ns / kSecond_ns, again_ns % kSecond_ns / 1'000};
     return next_select(count, read, write, except, timeout);
@@ -275,7 +277,7 @@ EXPORTED int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout,
   });
 }
 
-// What poll and ppoll are in programs built with _FORTIFY_SOURCE.
+// poll and ppoll of programs that were built with _FORTIFY_SOURCE.
 // NOLINTBEGIN(readability-identifier-naming): the C library's names
 EXPORTED int __poll_chk(pollfd* descriptors, nfds_t count, int timeout_ms, std::size_t size) {
   return poll_from(descriptors, count, timeout_ms * 1'000'000LL, CALLER, [&](long long again_ns) {
@@ -297,7 +299,7 @@ EXPORTED int __ppoll_chk(pollfd* descriptors, nfds_t count, const timespec* time
 
 namespace {
 
-/// Whether nothing is registered with an epoll: waiting for it is sleeping.
+/// Whether an epoll has no descriptors, so that waiting for it is a sleep.
 bool watches_nothing(int epoll) {
   char path[] = "/proc/self/fdinfo/0000000000";
   char* end = path + sizeof "/proc/self/fdinfo/" - 1;
@@ -323,8 +325,8 @@ template <typename Again>
 int epoll_from(int epoll, int timeout_ms, const void* caller, Again again) {
   if (timeout_ms <= 0 || !is_programs(caller) || !watches_nothing(epoll)) return again();
   long long left_ns = 0;
-  const Slept slept = sleep_cancellably(timeout_ms * 1'000'000LL, caller, left_ns);
-  return slept == Slept::kNo ? again() : result_of(slept);
+  const SleepResult slept = sleep_cancellably(timeout_ms * 1'000'000LL, caller, left_ns);
+  return slept == SleepResult::kNo ? again() : result_of(slept);
 }
 
 }  // namespace
@@ -347,7 +349,7 @@ EXPORTED int sigtimedwait(const sigset_t* __restrict set, siginfo_t* __restrict 
   }
   constexpr timespec kNow = {0, 0};
   long long left_ns = nanoseconds(*timeout);
-  const int result = wait_by_looking(left_ns, CALLER, [&] {
+  const int result = wait_by_polling(left_ns, CALLER, [&] {
     const int found = next_sigtimedwait(set, info, &kNow);
     return found < 0 && errno == EAGAIN ? -1 : (found < 0 ? 0 : found);
   });
@@ -363,7 +365,7 @@ EXPORTED int sigtimedwait(const sigset_t* __restrict set, siginfo_t* __restrict 
 
 namespace {
 
-/// @param attempt  a call with a deadline that has passed, or with another one.
+/// @param attempt  the call, with a deadline that has passed or with another one.
 template <typename Result, typename Attempt>
 Result wait_for_queue(const timespec* deadline, const void* caller, Attempt attempt) {
   const Deadline end = deadline_of(deadline, CLOCK_REALTIME, caller);
@@ -372,7 +374,7 @@ Result wait_for_queue(const timespec* deadline, const void* caller, Attempt atte
   constexpr timespec kPassed = {0, 0};
   long long left_ns = end.elapsed_ns - now_ns;
   Result found = -1;
-  const int result = wait_by_looking(left_ns, caller, [&] {
+  const int result = wait_by_polling(left_ns, caller, [&] {
     found = attempt(&kPassed);
     return found < 0 && errno == ETIMEDOUT ? -1 : 0;
   });

@@ -14,15 +14,14 @@ namespace sim {
 
 /// The grid-map raster that robots draw on.
 ///
-/// Cells are square; column 0 is the left, row 0 the top of the picture:
+/// Cells are square; column 0 is at the left, row 0 at the top of the picture:
 /// column = floor((x - origin_x) / cell), row = height - 1 - floor((y - origin_y) / cell).
-/// Row-major RGBA, 4 bytes a cell. A fresh canvas is transparent black (0, 0, 0, 0).
-/// Its size is changed by the LayerStack that it is the base of, with that of the other layers.
-/// Not thread-safe: its owner serialises.
+/// Row-major RGBA, 4 bytes per cell. A new canvas is transparent black (0, 0, 0, 0). Its LayerStack
+/// resizes it together with the other layers. Not thread-safe; the owner must serialise access.
 class Canvas {
  public:
-  /// @pre sides in 1..kMaxCanvasSide cells, cell size > 0 (asserted; check_world reports it to
-  /// users).
+  /// @pre sides in 1..kMaxCanvasSide cells, cell size > 0 (asserted; check_world reports violations
+  ///     to users).
   explicit Canvas(const CanvasDescription& description);
 
   [[nodiscard]] int width() const noexcept { return cells_.width(); }
@@ -38,18 +37,19 @@ class Canvas {
     return cells_.contains(column, row);
   }
 
-  /// Sets one cell; outside the canvas nothing happens. Alpha below 255 blends over what is there
-  /// (source-over, Porter and Duff 1984, in whole numbers, so the same everywhere); 255 replaces.
+  /// Sets one cell; does nothing outside the canvas. A colour with alpha below 255 is blended over
+  /// the old one (source-over, Porter and Duff 1984, in integers, so bit-identical on all
+  /// machines); 255 replaces it.
   void set_pixel(int column, int row, Colour colour) noexcept { cells_.blend(column, row, colour); }
-  /// Colour of a cell; nullopt outside.
+  /// Colour of a cell; nullopt outside the canvas.
   [[nodiscard]] std::optional<Colour> pixel(int column, int row) const noexcept;
-  /// Line by Bresenham's algorithm (IBM Systems Journal 4(1), 1965), both ends drawn, each cell
-  /// once, clipped exactly (the cells inside are those of the unclipped line); the same cells
-  /// whichever end is named first. Any int coordinates; cost grows with the cells inside.
-  /// A line midway between two cells takes the one further from its left end (its upper end, if
-  /// it is steeper than a diagonal).
+  /// Draws a line by Bresenham's algorithm (IBM Systems Journal 4(1), 1965). Both ends are drawn,
+  /// each cell once. Clipping is exact: the cells inside the canvas are those of the unclipped
+  /// line. The order of the ends does not matter. Takes any int coordinates; the cost grows with
+  /// the cells inside. Where the line is midway between two cells, it takes the one further from
+  /// its left end (from its upper end if it is steeper than a diagonal).
   void draw_line(int column0, int row0, int column1, int row1, Colour colour) noexcept;
-  /// Gives every cell this colour; no blending.
+  /// Sets every cell to this colour without blending.
   void clear(Colour colour = {0, 0, 0, 0}) noexcept;
 
   /// Cells as RGBA bytes, row-major from the top; width * height * 4 of them.
@@ -59,7 +59,7 @@ class Canvas {
   void archive(StateArchive& archive) { cells_.archive(archive); }
 
  private:
-  friend class LayerStack;  // resizes it with the other layers, and looks at what has changed
+  friend class LayerStack;  // resizes it with the other layers, and reads its marks
 
   static_assert(sizeof(Colour) == sizeof(CellValue), "a cell is copied as one Colour");
 

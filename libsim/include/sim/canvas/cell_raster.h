@@ -14,7 +14,7 @@ namespace sim {
 
 class StateArchive;
 
-/// What a cell of a grid-map holds, in four bytes, whatever its layer's kind.
+/// Content of a grid-map cell in four bytes, for every kind of layer.
 struct CellValue {
   std::uint32_t bits = 0;
 
@@ -40,11 +40,12 @@ struct CellRect {
   int height = 0;
 };
 
-/// `above` over `below`, neither premultiplied: source-over of Porter and Duff (Compositing
-/// Digital Images, SIGGRAPH 1984, table 1) in whole numbers, so the same on every machine.
+/// Blends `above` over `below`, neither of them premultiplied: source-over of Porter and Duff
+/// (Compositing Digital Images, SIGGRAPH 1984, table 1) in integers, so bit-identical on all
+/// machines.
 ///
 /// With weights wa = a_above * 255 and wb = a_below * (255 - a_above), alpha = (wa + wb) / 255 and
-/// each channel is the weighted mean, both rounded to nearest. A colour of alpha 0 changes nothing.
+/// each channel is the weighted mean, both rounded to nearest. A colour with alpha 0 has no effect.
 [[nodiscard]] inline Colour source_over(Colour above, Colour below) noexcept {
   if (above.a == 255 || (below.a == 0 && above.a != 0)) return above;
   if (above.a == 0) return below;
@@ -57,26 +58,26 @@ struct CellRect {
     return Colour{channel(above.r, below.r), channel(above.g, below.g), channel(above.b, below.b),
                   static_cast<std::uint8_t>((total + 127) / 255)};
   };
-  // Over what is opaque the weights add up to a constant, which compilers divide by quickly.
+  // With an opaque `below` the sum of the weights is a constant, by which compilers divide quickly.
   if (below.a == 255) return mix(255u * 255u);
   return mix(weight_above + weight_below);
 }
 
-/// Cells of four bytes in rows, row 0 at the top: the store below the canvas and every layer.
+/// Cells of four bytes in rows, row 0 at the top: the storage of the canvas and of every layer.
 ///
-/// Keeps book, tile by tile (kTileSide x kTileSide cells), of what has been written since somebody
-/// last looked, at the price of one byte stored with each cell. A tile that is not "used" holds
-/// nothing but blank cells. Drawings are clipped. Not thread-safe: its owner serialises.
+/// Tracks changes per tile (kTileSide x kTileSide cells), at the cost of one byte stored with each
+/// written cell. A tile without kUsed holds only blank cells. Drawings are clipped. Not
+/// thread-safe; the owner must serialise access.
 class CellRaster {
  public:
   static constexpr int kTileShift = 4;
   static constexpr int kTileSide = 1 << kTileShift;
-  /// Bits of a tile's mark.
-  static constexpr std::uint8_t kChanged = 1;  ///< written to since mark_seen()
+  /// Flags of a tile.
+  static constexpr std::uint8_t kChanged = 1;  ///< written since clear_changed()
   static constexpr std::uint8_t kUsed = 2;     ///< may hold cells that are not blank
-  static constexpr std::uint8_t kUnkept = 4;   ///< written to since mark_kept()
+  static constexpr std::uint8_t kUnsaved = 4;  ///< written since clear_unsaved()
 
-  /// @param blank  what all cells hold at first, and what resize() adds.
+  /// @param blank  initial value of all cells, and of those that resize() adds.
   /// @pre sides >= 1.
   CellRaster(int width, int height, CellValue blank);
 
@@ -92,18 +93,18 @@ class CellRaster {
     std::memcpy(&value, row_bytes(row) + byte_offset(column), sizeof value);
     return value;
   }
-  /// Cells as bytes, row-major from the top, four a cell.
+  /// Cells as bytes, row-major from the top, four per cell.
   [[nodiscard]] const std::vector<std::uint8_t>& data() const noexcept { return data_; }
   /// The first byte of a row. @pre 0 <= row < height()
   [[nodiscard]] const std::uint8_t* row_bytes(int row) const noexcept {
     return data_.data() + static_cast<std::size_t>(row) * byte_offset(width_);
   }
 
-  /// Gives a cell a value; outside nothing happens.
+  /// Sets a cell; does nothing outside the raster.
   void put(int column, int row, CellValue value) noexcept {
     if (contains(column, row)) write(column, row, value);
   }
-  /// Draws a colour over what the cell holds (source_over); outside nothing happens.
+  /// Blends a colour over the cell's content (source_over); does nothing outside the raster.
   void blend(int column, int row, Colour colour) noexcept {
     if (!contains(column, row)) return;
     if (colour.a == 255) {
@@ -116,44 +117,44 @@ class CellRaster {
   void put_line(int column0, int row0, int column1, int row1, CellValue value) noexcept;
   /// blend() along a line, see Canvas::draw_line.
   void blend_line(int column0, int row0, int column1, int row1, Colour colour) noexcept;
-  /// Gives every cell that value.
+  /// Sets every cell to that value.
   void fill(CellValue value) noexcept { fill_rows(0, height_, value); }
-  /// Gives every cell of the rows from `begin` to before `end` that value.
+  /// Sets every cell of the rows from `begin` to before `end` to that value.
   /// @pre 0 <= begin <= end <= height()
   void fill_rows(int begin, int end, CellValue value) noexcept;
-  /// Gives each cell of a rectangle its value from a row-major list; what lies outside is left
-  /// out. Tiles whose cells all have their value already are not marked.
+  /// Sets the cells of a rectangle from a row-major list; the part outside the raster is ignored.
+  /// Tiles in which no cell changes are not marked.
   /// @pre values.size() == rect.width * rect.height, sides >= 0.
   void set_cells(const CellRect& rect, std::span<const CellValue> values) noexcept;
-  /// Changes the number of columns and rows; the bottom left cell stays what it is, cells are cut
-  /// off or added (blank) at the top and the right. Marks every tile as changed.
-  /// @param zeros  4 * width * height bytes, all 0, to use as the new store, so that no memory has
-  /// to
-  ///               be prepared in this call; of any other size: they are not used.
-  /// @return the old store.
+  /// Changes the number of columns and rows. The bottom left cell stays in place; cells are cut off
+  /// or added (blank) at the top and the right. Marks every tile as changed.
+  /// @param zeros  4 * width * height bytes, all 0, that become the new storage, so that this call
+  ///     need not allocate and clear memory; a vector of any other size is ignored.
+  /// @return the old storage.
   /// @pre sides >= 1.
   std::vector<std::uint8_t> resize(int width, int height, std::vector<std::uint8_t> zeros = {});
 
   [[nodiscard]] int tile_columns() const noexcept { return tiles_across(width_); }
   [[nodiscard]] int tile_rows() const noexcept { return tiles_across(height_); }
-  /// kChanged, kUsed and kUnkept of each tile, row-major from the top; tile_columns() x
+  /// Flags kChanged, kUsed and kUnsaved of each tile, row-major from the top; tile_columns() x
   /// tile_rows().
   [[nodiscard]] const std::vector<std::uint8_t>& tiles() const noexcept { return tiles_; }
-  /// Takes kChanged off all tiles.
-  void mark_seen() noexcept;
-  /// Takes kUnkept off all tiles.
-  void mark_kept() noexcept;
+  /// Clears kChanged of all tiles.
+  void clear_changed() noexcept;
+  /// Clears kUnsaved of all tiles.
+  void clear_unsaved() noexcept;
 
-  /// How many tiles cover so many cells.
-  /// Writes or reads size and cells; blank tiles cost a byte. What was read counts as written.
+  /// Writes or reads size and cells; a blank tile takes one byte. Cells that were read count as
+  /// written.
   void archive(StateArchive& archive);
 
+  /// Number of tiles that cover this many cells.
   [[nodiscard]] static int tiles_across(int cells) noexcept {
     return (cells + kTileSide - 1) >> kTileShift;
   }
 
  private:
-  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnkept;
+  static constexpr std::uint8_t kWritten = kChanged | kUsed | kUnsaved;
 
   [[nodiscard]] static std::size_t byte_offset(int cells) noexcept {
     return static_cast<std::size_t>(cells) * sizeof(CellValue);

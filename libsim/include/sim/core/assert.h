@@ -4,12 +4,12 @@
 #include <cstdlib>
 
 namespace sim::detail {
-/// Writes where and which condition failed to stderr, then aborts.
+/// Writes the failed condition and its place to stderr, then aborts.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line) noexcept;
 }  // namespace sim::detail
 
-/// Checks a condition whose failure is a bug of ours, never of the user's input.
-/// On in Debug and RelWithDebInfo builds; not evaluated in Release.
+/// Checks a condition that can only fail because of a bug in Playpen, never because of user input.
+/// Enabled in Debug and RelWithDebInfo builds; not evaluated in Release.
 #ifdef SIM_ENABLE_ASSERTS
 #define SIM_ASSERT(condition)         \
   ((condition) ? static_cast<void>(0) \

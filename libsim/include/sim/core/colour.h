@@ -8,7 +8,7 @@
 
 namespace sim {
 
-/// A colour, 8 bits a channel; alpha 255 is opaque.
+/// A colour with 8 bits per channel; alpha 255 is opaque.
 struct Colour {
   std::uint8_t r = 0;
   std::uint8_t g = 0;

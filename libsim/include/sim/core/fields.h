@@ -19,9 +19,9 @@
 #include "sim/core/pose.h"
 
 /// @file
-/// A struct that crosses a border (settings, readings, commands, requests) lists its fields once,
-/// in a FieldTable beside it. Readers, writers, checks, hashes and documentation walk that table;
-/// none of them is a template, so a further struct costs its table and no code.
+/// A struct that is read, written or sent (settings, readings, commands, requests) lists its fields
+/// once, in a FieldTable beside it. Readers, writers, checks, hashes and documentation walk that
+/// table. None of them is a template, so a further struct adds its table and no code.
 ///
 ///     constexpr Field kReadingFields[] = {
 ///         field<&LaserReading::ranges_m>("ranges", "m"),
@@ -34,7 +34,7 @@ namespace io {
 class Reader;
 }
 
-/// Bounds of a number; the text says them as a person would.
+/// Bounds of a number. Error messages state them in words.
 struct NumberRange {
   double min = -1e9;
   double max = 1e9;
@@ -51,7 +51,7 @@ enum class FieldType : std::uint8_t {
   kUint64,   ///< std::uint64_t, at most 2^63 - 1
   kBool,     ///< bool
   kText,     ///< std::string
-  kChoice,   ///< an enumeration of the size of an int, whose values count from 0: see Field::words
+  kChoice,   ///< enumeration of the size of an int, with values that count from 0; see Field::words
   kColour,   ///< Colour
   kVec2,     ///< Vec2
   kPose,     ///< Pose
@@ -61,19 +61,19 @@ enum class FieldType : std::uint8_t {
   kNumbers,  ///< std::vector<double>
   kTexts,    ///< std::vector<std::string>
   kPoses,    ///< std::vector<Pose>
-  kList,     ///< std::vector of structs that have a table, or of what Field::element reads
+  kList,     ///< std::vector of structs that have a table, or of values that Field::element reads
   kStruct,   ///< a struct that has a table
-  kInclude,  ///< a base class that has a table: its fields stand among those of the derived class
+  kInclude,  ///< base class that has a table; its fields appear among those of the derived class
   kCustom,   ///< see Field::custom
 };
 
-/// What is wrong with the fields of a struct together.
-struct FieldFault {
+/// An error in the combination of a struct's fields.
+struct FieldError {
   std::string id;        ///< in world files, e.g. "device/battery-voltage"
   std::string expected;  ///< in words, after "expected "
   std::string found;
   std::string hint;
-  const char* key = "";  ///< the field that is at fault; empty: the struct
+  const char* key = "";  ///< the wrong field; empty if it is the struct as a whole
 };
 
 struct Field;
@@ -81,11 +81,11 @@ struct Field;
 /// The fields of a struct, in the order in which they are read, written and shown.
 struct FieldTable {
   std::span<const Field> fields;
-  /// Looks at all fields together once they are read; nullptr: nothing to look at.
-  std::optional<FieldFault> (*check)(const void* object) = nullptr;
+  /// Checks all fields together after they are read; nullptr if there is nothing to check.
+  std::optional<FieldError> (*check)(const void* object) = nullptr;
 };
 
-/// The table of a struct: specialised beside the struct.
+/// The table of a struct; specialised next to the struct.
 template <typename Struct>
 [[nodiscard]] const FieldTable& fields_of();
 
@@ -98,7 +98,7 @@ template <typename Struct>
     return kTable;                                      \
   }
 
-/// How to walk a std::vector of a type that the walker does not know.
+/// Access to a std::vector whose element type the caller does not know.
 struct ListAccess {
   std::size_t (*size)(const void* list);
   const void* (*at)(const void* list, std::size_t index);
@@ -106,54 +106,57 @@ struct ListAccess {
   void (*clear)(void* list);
 };
 
-/// An element of a list that stands in world files as a single value.
+/// A list element that is written as a single value in world files.
 struct ElementType {
-  bool (*read)(const io::Reader& value, void* element);  ///< false: it makes no sense
+  bool (*read)(const io::Reader& value, void* element);  ///< false: the value is invalid
   std::string (*text)(const void* element);              ///< as JSON
   const char* schema;                                    ///< JSON schema of a value
 };
 
-/// A field that no FieldType fits; its functions are given the struct itself. World files only.
+/// A field that no FieldType fits. Its functions get the whole struct. Used in world files only.
 struct CustomField {
   void (*read)(io::Reader& settings, const Field& field, void* object);
   std::string (*text)(const void* object);  ///< as JSON
-  void (*tell)(const void* object, std::map<std::string, double>& properties);
+  void (*add_properties)(const void* object, std::map<std::string, double>& properties);
   const char* schema;  ///< members of its JSON schema, without braces
 };
 
 /// One field of a struct. Made by field<>(), include<>() and custom<>().
 struct Field {
-  const char* name;  ///< its key; empty for a vector or pose whose parts stand in its place
+  const char* name;  ///< its key; empty if the parts of a vector or pose appear as fields of the
+                     ///< struct itself
   FieldType type;
-  NumberRange range = {};    ///< of a number, or of each part; its unit is that of the field
+  NumberRange range = {};    ///< of a number or of each part; range.unit is the field's unit
   const char* meaning = "";  ///< a phrase in lower case, in Markdown
-  std::int64_t least = 0;    ///< of a whole number
+  std::int64_t least = 0;    ///< smallest value of a whole number
   std::int64_t greatest = 0;
-  std::size_t fewest = 0;  ///< elements of a list
-  std::size_t most = std::numeric_limits<std::size_t>::max();
-  std::span<const char* const> words = {};  ///< of a choice, in the order of its values
-  /// What clients are told it is; nullptr: the name without _deg.
+  std::size_t min_count = 0;  ///< minimum number of elements of a list
+  std::size_t max_count = std::numeric_limits<std::size_t>::max();
+  std::span<const char* const> words = {};  ///< names of a choice's values, in their order
+  /// Name of the property that clients see; nullptr: the field's name without "_deg".
   const char* property = nullptr;
-  bool told = true;              ///< clients are told of it
-  bool told_only = false;        ///< it is no setting of world files
-  bool tells_elements = false;   ///< clients are told of each element, not of their number alone
-  bool may_be_left_out = false;  ///< on the wire, where it keeps its default
-  bool is_angle = false;         ///< in degrees in world files, in radians elsewhere
-  const char* needed_for = nullptr;  ///< a name that must be there, and what for
-  const char* fault_id = nullptr;    ///< of a list with wrong elements, or too few or many of them
-  const char* fault_text = nullptr;  ///< what was expected then
-  const FieldTable& (*table)() = nullptr;  ///< of a struct, or of a list's elements
+  bool is_property = true;           ///< clients see it as a property
+  bool read_only = false;            ///< clients see it, but world files cannot set it
+  bool lists_elements = false;       ///< clients see each element's fields, not only the number of
+                                     ///< elements
+  bool may_be_left_out = false;      ///< may be missing in messages, and then keeps its default
+  bool is_angle = false;             ///< in degrees in world files, in radians elsewhere
+  const char* needed_for = nullptr;  ///< the field must name something; what it is needed for
+  const char* issue_id = nullptr;    ///< issue id for a list with wrong, too few or too many
+                                     ///< elements
+  const char* issue_expected = nullptr;    ///< the text after "expected" in that issue
+  const FieldTable& (*table)() = nullptr;  ///< table of a struct, or of a list's elements
   const ListAccess* list = nullptr;
   const ElementType* element = nullptr;
   const CustomField* custom = nullptr;
-  /// The value in an object; nullptr if it is a std::optional without one.
+  /// Pointer to the value in an object; nullptr if the value is an empty std::optional.
   const void* (*get)(const void* object) = nullptr;
-  /// The same to write to; a std::optional gets a value by it.
+  /// Pointer for writing the value; fills an empty std::optional first.
   void* (*set)(void* object) = nullptr;
-  /// Takes the value of a std::optional away; nullptr for other members.
+  /// Resets a std::optional; nullptr for other members.
   void (*drop)(void* object) = nullptr;
 
-  /// @name For tables: the same field with a trait more
+  /// @name For tables: a copy of the field with one property changed
   /// @{
   template <auto kTrait, typename Value>
   [[nodiscard]] constexpr Field with(Value value) const {
@@ -174,7 +177,7 @@ struct Field {
     return made;
   }
   [[nodiscard]] constexpr Field counting(std::size_t from, std::size_t to) const {
-    return with<&Field::fewest>(from).with<&Field::most>(to);
+    return with<&Field::min_count>(from).with<&Field::max_count>(to);
   }
   [[nodiscard]] constexpr Field one_of(std::span<const char* const> all) const {
     return with<&Field::words>(all);
@@ -185,21 +188,23 @@ struct Field {
     made.table = nullptr;
     return made;
   }
-  [[nodiscard]] constexpr Field or_fault(const char* id, const char* expected) const {
-    return with<&Field::fault_id>(id).with<&Field::fault_text>(expected);
+  [[nodiscard]] constexpr Field with_issue(const char* id, const char* expected) const {
+    return with<&Field::issue_id>(id).with<&Field::issue_expected>(expected);
   }
-  [[nodiscard]] constexpr Field told_as(const char* key) const {
+  [[nodiscard]] constexpr Field property_name(const char* key) const {
     return with<&Field::property>(key);
   }
   [[nodiscard]] constexpr Field needed(const char* what_for) const {
     return with<&Field::needed_for>(what_for);
   }
-  /// As numbers from 0 to 255, not as opaque bytes.
+  /// As a list of numbers from 0 to 255, not as opaque bytes.
   [[nodiscard]] constexpr Field as_octets() const { return with<&Field::type>(FieldType::kOctets); }
   [[nodiscard]] constexpr Field or_default() const { return with<&Field::may_be_left_out>(true); }
-  [[nodiscard]] constexpr Field untold() const { return with<&Field::told>(false); }
-  [[nodiscard]] constexpr Field only_told() const { return with<&Field::told_only>(true); }
-  [[nodiscard]] constexpr Field telling_each() const { return with<&Field::tells_elements>(true); }
+  [[nodiscard]] constexpr Field not_property() const { return with<&Field::is_property>(false); }
+  [[nodiscard]] constexpr Field as_read_only() const { return with<&Field::read_only>(true); }
+  [[nodiscard]] constexpr Field listing_elements() const {
+    return with<&Field::lists_elements>(true);
+  }
   /// @}
 };
 
@@ -261,7 +266,7 @@ template <typename T>
   return kIsVector<T> ? FieldType::kList : FieldType::kStruct;
 }
 
-/// Least and greatest whole number of a type that messages can hold.
+/// Smallest and largest value of an integer type that messages can hold.
 template <typename T>
 [[nodiscard]] constexpr std::pair<std::int64_t, std::int64_t> integer_range() {
   if constexpr (std::is_same_v<T, std::uint64_t>) {
@@ -286,9 +291,10 @@ inline constexpr ListAccess kAccess = {
 }  // namespace field_detail
 /// @endcond
 
-/// A member of a struct, or of a member: field<&PoseReading::twist, &Twist::v_mps>("v", "m/s").
-/// @param unit     for messages and pages; empty if it has none.
-/// @param meaning  for pages and schema.
+/// A member of a struct, or a member of a member: field<&PoseReading::twist, &Twist::v_mps>("v",
+/// "m/s").
+/// @param unit     shown in messages and pages; empty if it has none.
+/// @param meaning  shown in pages and in the schema.
 template <auto kFirst, auto... kRest>
 [[nodiscard]] constexpr Field field(const char* name, const char* unit = "",
                                     const char* meaning = "") {
@@ -336,7 +342,7 @@ template <auto kFirst, auto... kRest>
   return made;
 }
 
-/// The fields of a base class, among those of the class that derives from it.
+/// The fields of a base class, listed among those of the derived class.
 template <typename Derived, typename Base>
 [[nodiscard]] constexpr Field include() {
   Field made{"", FieldType::kInclude};
@@ -362,8 +368,8 @@ template <typename Derived, typename Base>
   return made;
 }
 
-/// The fields of a table, those of included tables in their place.
-/// @param visit  called with each field and the object that it belongs to.
+/// Visits the fields of a table; fields of an included table are visited in its place.
+/// @param visit  called with each field and the object that contains it.
 template <typename Object, typename Visit>
 void for_each_field(const FieldTable& table, Object* object, const Visit& visit) {
   for (const Field& one : table.fields) {
@@ -377,20 +383,21 @@ void for_each_field(const FieldTable& table, Object* object, const Visit& visit)
   }
 }
 
-/// A whole number or a choice, whatever its size.
+/// Reads a whole number or a choice of any size.
 [[nodiscard]] std::int64_t integer_at(const Field& field, const void* value);
-/// The same, written.
+/// Writes a whole number or a choice of any size.
 void set_integer(const Field& field, void* value, std::int64_t number);
 
 /// Whether all numbers of a struct are finite.
 [[nodiscard]] bool all_finite(const FieldTable& table, const void* object);
 
-/// The numbers of a struct as clients are told of them, in SI units and radians. Of a list their
-/// number, or with tells_elements each element's fields with "_0", "_1", ... at their end.
-void tell_fields(const FieldTable& table, const void* object,
-                 std::map<std::string, double>& properties, const std::string& suffix = "");
+/// Adds the numbers of a struct to the properties that clients see, in SI units and radians. A list
+/// adds its length; with lists_elements, it adds each element's fields with the suffixes "_0",
+/// "_1", ...
+void add_properties(const FieldTable& table, const void* object,
+                    std::map<std::string, double>& properties, const std::string& suffix = "");
 
-/// An alternative of a variant of structs: its name on the wire and its fields.
+/// One alternative of a variant of structs: its name in messages and its fields.
 template <typename Variant>
 struct AlternativeKind {
   const char* name;
@@ -398,8 +405,8 @@ struct AlternativeKind {
   Variant (*make)();
 };
 
-/// The alternatives of a variant in its order.
-/// @param names  one an alternative.
+/// The alternatives of a variant, in its order.
+/// @param names  one per alternative.
 template <typename Variant>
 [[nodiscard]] constexpr auto alternative_kinds(
     const std::array<const char*, std::variant_size_v<Variant>>& names) {
@@ -411,7 +418,7 @@ template <typename Variant>
   (std::make_index_sequence<std::variant_size_v<Variant>>());
 }
 
-/// The struct that a variant holds.
+/// Pointer to the struct that a variant holds.
 template <typename Variant>
 [[nodiscard]] auto* object_in(Variant& variant) {
   using Object = std::conditional_t<std::is_const_v<Variant>, const void, void>;

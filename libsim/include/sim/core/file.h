@@ -8,39 +8,38 @@
 
 namespace sim {
 
-/// Why the content of a file cannot be had.
+/// Why a file cannot be read.
 enum class FileFault : std::uint8_t {
-  kMissing,       ///< no file of that name
-  kFolder,        ///< the name is a folder's
+  kMissing,       ///< no file has that name
+  kFolder,        ///< the name is that of a folder
   kNotRegular,    ///< a device or a socket, or a pipe where none is allowed
-  kNoPermission,  ///< the system does not let this user read it
+  kNoPermission,  ///< this user may not read it
   kLinkLoop,      ///< symbolic links that lead back to themselves
   kTooLarge,      ///< more bytes than the limit
-  kSilent,        ///< a pipe that has given nothing for the limit of silence
-  kOther,         ///< an error of the system
+  kSilent,        ///< a pipe that sent nothing within the time limit
+  kOther,         ///< another system error
 };
 
-/// What went wrong, and the same in words that go on from "found": "a folder".
+/// The kind of error, and a text for messages that follows the word "found", e.g. "a folder".
 struct FileError {
   FileFault fault;
   std::string found;
 };
 
-/// How much is read, and from what.
+/// Limits on how much is read, and from what.
 struct FileLimits {
   std::size_t most_bytes = std::size_t{16} << 20;
-  /// Whether a pipe is read as well: only for files that the user has named, as in
-  /// `playpen run <(generator)`. A file that another file names must be a regular one.
+  /// Whether pipes are read as well. Only for files that the user names directly, as in `playpen
+  /// run <(generator)`. A file that another file names must be a regular one.
   bool pipes = false;
-  /// A pipe that gives nothing for so long is an error [ms]. Each byte starts the time anew.
+  /// A pipe that sends nothing for this long is an error [ms]. Each byte restarts the timer.
   int silence_ms = 30'000;
 };
 
-/// Reads a file to its end. Everything that reads files of users goes through this function: it
-/// never blocks on a device or on a pipe without a writer, and takes at most limits.most_bytes of
-/// memory.
+/// Reads a file to its end. All user files are read through this function. It never blocks on a
+/// device or on a pipe without a writer, and uses at most limits.most_bytes of memory.
 /// @param content  gets the bytes; empty after an error.
-/// @return the error; nullopt if there was none.
+/// @return the error; nullopt on success.
 [[nodiscard]] std::optional<FileError> read_whole_file(const std::string& path,
                                                        const FileLimits& limits,
                                                        std::string& content);

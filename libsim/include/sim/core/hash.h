@@ -10,10 +10,11 @@
 
 namespace sim {
 
-/// Running 64-bit FNV-1a hash of a simulation's state, over 8-byte words
-/// (http://www.isthe.com/chongo/tech/comp/fnv/, with words in place of bytes).
+/// Running hash of a simulation's state: 64-bit FNV-1a
+/// (http://www.isthe.com/chongo/tech/comp/fnv/), applied to 8-byte words instead of bytes.
 ///
-/// For comparing runs, not against an adversary. -0.0 and 0.0 hash alike; NaNs do not occur.
+/// Serves to compare runs; it does not resist an adversary. add(double) treats -0.0 as
+/// 0.0; add_bytes() tells them apart.
 class StateHash {
  public:
   void add(std::uint64_t word) noexcept {
@@ -35,7 +36,7 @@ class StateHash {
       add(word);
     }
     std::uint64_t tail = 0;
-    if (size > 0) std::memcpy(&tail, bytes, size);  // of nothing there may be no address
+    if (size > 0) std::memcpy(&tail, bytes, size);  // data may be null if it is empty
     add(tail);
   }
 

@@ -7,11 +7,11 @@
 
 namespace sim {
 
-/// How much a message matters: for developers, good to know, suspicious, gone wrong.
+/// Severity of a message.
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
-/// Receives what libsim has to say. Given to a Simulation by its owner; libsim itself prints
-/// nothing. Called from the thread that steps the simulation.
+/// Receives libsim's log messages; libsim itself prints nothing. The owner of a Simulation passes
+/// it in. Called from the thread that steps the simulation.
 using LogHook = std::function<void(LogLevel level, std::string_view message)>;
 
 }  // namespace sim

@@ -7,10 +7,10 @@
 
 namespace sim {
 
-/// A point or a vector in the plane; metres unless its name says otherwise.
+/// A point or a vector in the plane, in metres unless its name says otherwise.
 using Vec2 = Eigen::Vector2d;
 
-/// The same direction as `angle_rad`, in (-pi, pi].
+/// Wraps an angle into (-pi, pi].
 /// @param angle_rad  any finite angle [rad].
 [[nodiscard]] inline double normalize_angle(double angle_rad) {
   if (angle_rad > -std::numbers::pi && angle_rad <= std::numbers::pi) return angle_rad;
@@ -18,7 +18,8 @@ using Vec2 = Eigen::Vector2d;
   return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 
-/// Pose of a frame B in a frame A: where B's origin lies in A and how far B is turned against A.
+/// Pose of a frame B in a frame A: the position of B's origin in A, and the rotation of B against
+/// A.
 ///
 /// Written X_AB (frames as in docs/conventions.md: W world, B body, L laser); p_AQ = X_AB * p_BQ.
 /// Axes: x forward, y left; yaw counter-clockwise.

@@ -10,7 +10,7 @@ namespace sim {
 
 class StateArchive;
 
-/// std::mt19937_64, whose output the C++ standard fixes, with a state that can be saved.
+/// A std::mt19937_64 whose state can be saved. The C++ standard fixes its output.
 ///
 /// M. Matsumoto and T. Nishimura, "Mersenne twister: a 623-dimensionally equidistributed uniform
 /// pseudo-random number generator", ACM TOMACS 8(1), 1998; the 64-bit constants are those of the
@@ -39,11 +39,12 @@ class MersenneTwister {
   std::size_t next_;
 };
 
-/// A stream of random numbers of one component, independent of all others.
+/// The random numbers of one component, independent of all other streams.
 ///
-/// Seeded by the world's seed and the component's path (e.g. "r1/laser"), so that adding a
-/// sensor leaves the noise of the others unchanged. Distributions are ours, since the standard
-/// leaves theirs open. Not thread-safe; each stream belongs to one component.
+/// The seed is made of the world's seed and the component's path (e.g. "r1/laser"), so adding a
+/// sensor does not change the noise of the others. The distributions are implemented here, because
+/// the standard does not fix the output of its own. Not thread-safe; each stream belongs to one
+/// component.
 class RandomStream {
  public:
   RandomStream(std::uint64_t world_seed, std::string_view component_path);
@@ -55,12 +56,13 @@ class RandomStream {
   /// convenient method for generating normal variables", SIAM Review 6(3), 1964).
   [[nodiscard]] double normal();
 
-  /// Gaussian with mean 0 and the given deviation; exactly 0, and no draw, when sigma is 0.
+  /// Gaussian with mean 0 and the given standard deviation. If sigma is 0, the result is exactly 0
+  /// and no number is drawn.
   [[nodiscard]] double gaussian(double sigma) { return sigma > 0.0 ? sigma * normal() : 0.0; }
 
-  /// How many 64-bit words were drawn.
+  /// Number of 64-bit words drawn so far.
   [[nodiscard]] std::uint64_t draws() const noexcept { return draws_; }
-  /// Writes or reads the state. One that nothing was drawn from is as its seed made it.
+  /// Writes or reads the state. A stream that has not been drawn from is stored as its seed alone.
   void archive(StateArchive& archive);
 
  private:

@@ -6,19 +6,19 @@
 
 namespace sim {
 
-/// The name under which a file is written before it takes its own: "scene.png" becomes
-/// "scene.part.png", so that the ending still tells the kind.
-[[nodiscard]] std::string part_name(const std::string& path);
+/// The temporary name of a file while it is written: "scene.png" becomes "scene.part.png", so that
+/// the extension still shows the type.
+[[nodiscard]] std::string part_file_name(const std::string& path);
 
-/// Writes a file so that whoever looks finds the former one or the whole new one, and nothing in
-/// between: beside it, under part_name(), and then renamed. On failure the former file stays, and
-/// nothing else does. What is there and no regular file (a pipe, a device, a link) is written
-/// directly.
-/// @return 0, or the errno of what failed.
+/// Replaces a file atomically: readers see either the old content or the complete new content.
+/// Writes to part_file_name() in the same folder, then renames. On failure the old file stays and
+/// the temporary file is removed. A path that exists and is not a regular file (a pipe, a device, a
+/// link) is written directly.
+/// @return 0, or the errno of the failed call.
 [[nodiscard]] int replace_file(const std::string& path, std::string_view bytes) noexcept;
 
-/// Lets a file written under part_name(path) take its name.
-/// @return 0, or the errno of what failed.
-[[nodiscard]] int adopt_part(const std::string& path) noexcept;
+/// Renames a file that was written as part_file_name(path) to its final name.
+/// @return 0, or the errno of the failed call.
+[[nodiscard]] int rename_part_file(const std::string& path) noexcept;
 
 }  // namespace sim

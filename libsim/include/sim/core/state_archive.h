@@ -22,7 +22,7 @@
 
 namespace sim {
 
-/// Why a snapshot is refused; what() is one sentence: "snapshot: expected X, found Y".
+/// A snapshot was refused. what() is one sentence: "snapshot: expected X, found Y".
 class SnapshotError : public std::runtime_error {
  public:
   SnapshotError(const std::string& expected, const std::string& found)
@@ -31,36 +31,37 @@ class SnapshotError : public std::runtime_error {
 
 /// Writes a state as bytes, or reads it back.
 ///
-/// What has state lists its members once, for both ways, in a function archive(StateArchive&). That
-/// of a Battery is:
+/// A class with state lists its members once, for both directions, in a function
+/// archive(StateArchive&). For example, Battery has:
 ///
 ///     SensorOf::archive(archive);  // the newest reading, and what all sensors have
 ///     archive(energy_j_, power_w_, docked_);
 ///
-/// An object that is read has been made by the same settings.
-/// Bytes are those of the machine's own numbers. Whoever reads expects nothing of them: counts
-/// are compared with what is left, floating numbers are finite, and expect() states the rest.
+/// An object that is read was constructed from the same settings as the one that was written.
+/// Numbers are stored in the machine's own representation. Reading trusts nothing: counts are
+/// compared with the remaining bytes, floating-point numbers must be finite, and expect() checks
+/// the rest.
 class StateArchive {
  public:
-  /// Writes.
+  /// An archive for writing.
   StateArchive() = default;
-  /// Reads bytes, which stay with the caller.
+  /// An archive for reading; the caller keeps the bytes alive.
   explicit StateArchive(std::span<const std::uint8_t> bytes) : reading_(true), left_(bytes) {}
 
   [[nodiscard]] bool reading() const noexcept { return reading_; }
-  /// What was written, whose capacity is then gone.
+  /// Returns the bytes written so far and leaves the archive without memory.
   [[nodiscard]] std::vector<std::uint8_t> take();
-  /// What was written so far.
+  /// The bytes written so far.
   [[nodiscard]] std::span<const std::uint8_t> written() const noexcept {
     return {written_.data(), end_};
   }
-  /// What is left to read.
+  /// Number of bytes not yet read.
   [[nodiscard]] std::size_t left() const noexcept { return left_.size(); }
 
-  /// Writes or reads members in this order. They may be numbers, enumerations (see choice()),
-  /// texts, poses and the like, anything with a function archive(StateArchive&), and std::optional,
-  /// std::vector, std::deque and std::array of such.
-  /// @throws SnapshotError if the bytes make no sense, or end before.
+  /// Writes or reads members in this order. Supported are numbers, enumerations (see choice()),
+  /// texts, poses and similar types, any class with a function archive(StateArchive&), and
+  /// std::optional, std::vector, std::deque and std::array of these.
+  /// @throws SnapshotError if the bytes are invalid or end too early.
   template <typename... Members>
   void operator()(Members&... members) {
     (member(members), ...);
@@ -71,7 +72,7 @@ class StateArchive {
     raw(&number, sizeof number);
     if (reading_) expect(!std::isnan(number), "a number");
   }
-  /// A moment or a duration [ns], which can be reckoned with.
+  /// A point in time or a duration [ns], limited so that arithmetic on it cannot overflow.
   void time(SimTime& time_ns) {
     member(time_ns);
     constexpr SimTime kMost_ns = SimTime{1} << 61;
@@ -87,7 +88,7 @@ class StateArchive {
     expect(number >= 0 && number <= static_cast<std::int32_t>(last), "a choice that there is");
     value = static_cast<Enum>(number);
   }
-  /// An index: least <= index < end.
+  /// An index with least <= index < end.
   template <std::integral Number>
   void index(Number& number, std::size_t end, Number least = 0) {
     member(number);
@@ -96,7 +97,7 @@ class StateArchive {
              "an index of something that there is");
     }
   }
-  /// A list whose elements one(element) archives.
+  /// A list whose elements are archived by one(element).
   template <typename List, typename One>
   void list(List& list, One one) {
     std::uint64_t count = list.size();
@@ -109,13 +110,13 @@ class StateArchive {
     list.clear();
     for (; count > 0; --count) one(list.emplace_back());
   }
-  /// The fields of a struct that has a table of them.
+  /// All fields of a struct that has a FieldTable.
   template <typename Struct>
   void fields(Struct& object) {
     table(fields_of<Struct>(), &object);
   }
   void table(const FieldTable& table, void* object);
-  /// Bytes as they are.
+  /// Raw bytes.
   void raw(void* data, std::size_t size) {
     if (reading_) {
       expect(size <= left_.size(), "more bytes");
@@ -128,8 +129,8 @@ class StateArchive {
     end_ += size;
   }
 
-  /// While reading, refuses the snapshot unless something holds.
-  /// @param what  was expected.
+  /// While reading, refuses the snapshot unless a condition holds.
+  /// @param what  what was expected, for the message.
   void expect(bool holds, const char* what) const {
     if (reading_ && !holds) refuse(what);
   }
@@ -191,7 +192,7 @@ class StateArchive {
   requires requires(T& object, StateArchive& archive) { object.archive(archive); }
   void member(T& object) { object.archive(*this); }
 
-  /// A list of numbers, all at once.
+  /// A list of numbers, copied in one block.
   template <typename List>
   void packed(List& list) {
     using Element = typename List::value_type;
@@ -206,7 +207,7 @@ class StateArchive {
 
   bool reading_ = false;
   std::span<const std::uint8_t> left_;
-  std::vector<std::uint8_t> written_;  // whose first end_ bytes are
+  std::vector<std::uint8_t> written_;  // only the first end_ bytes are in use
   std::size_t end_ = 0;
 };
 

@@ -5,16 +5,16 @@
 
 namespace sim {
 
-/// A point in simulated time, or a span of it: whole nanoseconds since the simulation's start.
+/// A point in simulated time, or a duration: whole nanoseconds since the simulation's start.
 ///
-/// Whole numbers, so that a million steps of 10 ms are exactly 10 000 s and two runs agree to
-/// the bit. 2^63 ns are 292 years.
+/// Integers make a million steps of 10 ms exactly 10 000 s, and make two runs agree to the bit.
+/// 2^63 ns are 292 years.
 using SimTime = std::int64_t;
 
 /// Units of SimTime in a second.
 inline constexpr SimTime kNanosecondsPerSecond = 1'000'000'000;
 
-/// Seconds as a number for people and formulas; exact to 2^-53 relative.
+/// Seconds as a floating-point number, with a relative error of at most 2^-53.
 [[nodiscard]] constexpr double to_seconds(SimTime time_ns) noexcept {
   return static_cast<double>(time_ns) / static_cast<double>(kNanosecondsPerSecond);
 }

@@ -4,14 +4,15 @@
 #include <cstddef>
 #include <string_view>
 
-/// UTF-8 as the Unicode Standard 15 has it (table 3-7: no overlong forms, no surrogates, nothing
-/// above U+10FFFF).
+/// UTF-8 as defined by the Unicode Standard 15 (table 3-7: no overlong forms, no surrogates,
+/// nothing above U+10FFFF).
 namespace sim {
 
-/// Bytes of the character that a text begins with, 1 to 4; 0 if it begins with none, or is empty.
+/// Number of bytes of the text's first character, 1 to 4; 0 if the text is empty or starts with an
+/// invalid sequence.
 [[nodiscard]] std::size_t utf8_length(std::string_view text) noexcept;
 
-/// Offset of the first byte that begins no character, or npos.
+/// Offset of the first byte that starts no valid character, or npos.
 [[nodiscard]] std::size_t find_invalid_utf8(std::string_view text) noexcept;
 
 }  // namespace sim

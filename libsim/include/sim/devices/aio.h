@@ -11,46 +11,46 @@
 
 namespace sim {
 
-/// What an analog input shows of its robot.
+/// State of the robot that an analog input shows.
 enum class AnalogSignal {
-  kSpeed,     ///< forward speed, 1 V for each m/s
-  kTurnRate,  ///< counter-clockwise, 1 V for each rad/s
+  kSpeed,     ///< forward speed, 1 V per m/s
+  kTurnRate,  ///< turn rate, counter-clockwise, 1 V per rad/s
 };
-/// The voltage of a robot's battery, by the name of that device.
+/// The voltage of a battery device of the same robot, by the device's name.
 struct BatteryTap {
   std::string device = "battery";
 };
-/// What stands at an analog input: a constant voltage [V], its robot's state or battery, an output
-/// of an aio device, or a range that a laser, sonar or infra-red measures (1 V for each m).
+/// Source of an analog input: a constant voltage [V], the robot's state or battery, an output of an
+/// aio device, or a range of a laser, sonar or infrared device (1 V per m).
 using AnalogSource = std::variant<double, AnalogSignal, BatteryTap, Wire>;
 
 /// Settings of analog inputs and outputs.
 struct AioParams {
-  static constexpr int kMaxLines = 8;       ///< inputs, and outputs (Player's limit)
-  static constexpr double kMaxVolts = 1e6;  ///< of an output, to either side
+  static constexpr int kMaxLines = 8;  ///< maximum number of inputs or outputs (Player's limit)
+  static constexpr double kMaxVolts = 1e6;  ///< maximum magnitude of an output voltage
 
   double frequency_hz = 10.0;  ///< (0, 1000]
   double noise_v = 0.0;        ///< standard deviation of each input [V], >= 0
-  /// What input 0, 1, ... is wired to; at most kMaxLines.
+  /// Sources of inputs 0, 1, ...; at most kMaxLines.
   std::vector<AnalogSource> inputs = {AnalogSignal::kSpeed, AnalogSignal::kTurnRate};
   int outputs = 2;  ///< 0..kMaxLines
 };
 
-/// The voltages at the inputs, and the outputs.
+/// The voltages of all inputs and outputs.
 struct AioReading final : Reading {
   std::vector<double> inputs_v;   ///< [V]
   std::vector<double> outputs_v;  ///< [V]
 };
 
-/// Analog inputs and outputs. Outputs are 0 V at first and keep what AnalogOutputCommand sets;
-/// inputs of any robot may be wired to them. Inputs that follow a sensor show its newest reading
-/// (0 V before the first), and each input adds normal noise of its own.
+/// Analog inputs and outputs. Outputs are initially 0 V and keep what AnalogOutputCommand sets;
+/// inputs of any robot may be wired to them. An input that follows a sensor shows its newest
+/// reading (0 V before the first). Each input adds its own Gaussian noise.
 class Aio final : public SensorOf<AioReading> {
  public:
   Aio(std::string name, const AioParams& params, RandomStream noise);
 
   [[nodiscard]] const AioParams& params() const noexcept { return params_; }
-  /// Voltage of an output now [V]; 0 for one that is not there.
+  /// Current voltage of an output [V]; 0 if there is no such output.
   [[nodiscard]] double output_v(int index) const noexcept {
     return index >= 0 && index < params_.outputs ? outputs_v_[static_cast<std::size_t>(index)]
                                                  : 0.0;
@@ -70,7 +70,7 @@ class Aio final : public SensorOf<AioReading> {
 
   AioParams params_;
   RandomStream noise_;
-  std::vector<const Device*> wired_;  ///< for each input; nullptr: to no device
+  std::vector<const Device*> wired_;  ///< for each input; nullptr if its source is not a device
   std::vector<double> outputs_v_;
 };
 

@@ -10,60 +10,60 @@
 
 namespace sim {
 
-/// Settings of a battery; the defaults last an S1R for about eight hours at rest.
+/// Settings of a battery. With the defaults, an S1R at rest runs for about eight hours.
 struct BatteryParams {
   double frequency_hz = 10.0;             ///< (0, 1000]
   double capacity_wh = 50.0;              ///< energy of a full battery [W h], > 0
   double initial_charge_percent = 100.0;  ///< of the capacity, [0, 100]
-  double idle_power_w = 6.0;              ///< drawn at all times [W], >= 0
-  double drive_power_ws_per_m = 8.0;  ///< drawn for each m/s that the wheels are driven at, mean of
-                                      ///< both [W s/m], >= 0
-  double charging_power_w = 40.0;     ///< what a dock puts into the battery [W], >= 0
+  double idle_power_w = 6.0;              ///< constant consumption [W], >= 0
+  double drive_power_ws_per_m = 8.0;  ///< consumption per m/s of wheel speed, averaged over both
+                                      ///< wheels [W s/m], >= 0
+  double charging_power_w = 40.0;     ///< power that a dock supplies to the battery [W], >= 0
   double full_voltage_v = 12.6;       ///< at full charge [V], > 0
-  double empty_voltage_v = 9.0;       ///< at none [V], > 0, at most full_voltage_v
+  double empty_voltage_v = 9.0;       ///< when empty [V], > 0, at most full_voltage_v
 };
 
-/// What a battery is at.
+/// Charging state of a battery.
 enum class BatteryStatus {
-  kCharged,      ///< full, in a dock
-  kCharging,     ///< in a dock, not full yet
-  kDischarging,  ///< in no dock, be it full or empty
+  kCharged,      ///< in a dock and full
+  kCharging,     ///< in a dock and not full
+  kDischarging,  ///< not in a dock, whatever the charge
 };
 
-/// MORSE's words: "Charged", "Charging" or "Discharging".
+/// MORSE's names: "Charged", "Charging" or "Discharging".
 [[nodiscard]] std::string_view to_string(BatteryStatus status);
 
-/// How full a battery is.
+/// State of a battery.
 struct BatteryReading final : Reading {
   double charge_percent = 0.0;  ///< of the capacity, [0, 100]
   BatteryStatus status = BatteryStatus::kDischarging;
   double voltage_v = 0.0;    ///< see battery_voltage_v() [V]
-  double energy_wh = 0.0;    ///< what is left [W h]
-  double capacity_wh = 0.0;  ///< of a full battery, as set [W h]
-  double power_w = 0.0;      ///< that goes into the battery; negative: that it gives [W]
+  double energy_wh = 0.0;    ///< remaining energy [W h]
+  double capacity_wh = 0.0;  ///< energy of a full battery, as configured [W h]
+  double power_w = 0.0;      ///< power into the battery [W]; negative if it is drawn from
 };
 
-/// Power that a robot draws: idle + drive (|v_left| + |v_right|) / 2, of its wheels' speeds
-/// v -+ omega separation / 2; for v an omnidirectional drive's speed whichever way.
-/// @param commanded           what the motors strive for, so that a stalled robot draws as much as
-///                            one that drives, and one that is shoved no more than at rest.
+/// Power that a robot consumes: idle + drive (|v_left| + |v_right|) / 2, with the wheel speeds v -+
+/// omega separation / 2. For an omnidirectional drive, v is the magnitude of its velocity.
+/// @param commanded           target velocity of the motors. So a stalled robot consumes as much as
+///     a driving one, and a robot that is pushed no more than at rest.
 /// @param wheel_separation_m  between the wheels' planes [m].
 /// @return [W], >= 0.
 [[nodiscard]] double battery_load_w(const BatteryParams& params, const Twist& commanded,
                                     double wheel_separation_m);
 
-/// Voltage at a charge: linear from empty to full.
-/// @param charge  share of the capacity, [0, 1].
+/// Voltage at a charge; linear between empty and full.
+/// @param charge  fraction of the capacity, [0, 1].
 /// @return [V]
 [[nodiscard]] double battery_voltage_v(const BatteryParams& params, double charge);
 
-/// Whether a point lies on a dock's area, its edges included.
-/// @param p_W  [m], in W.
+/// Whether a point lies on a dock's area, including its edges.
+/// @param p_W  position in W [m].
 [[nodiscard]] bool is_on_dock(const DockDescription& dock, const Vec2& p_W);
 
-/// A robot's battery: loses battery_load_w() in each step; while the middle of the axle is on a
-/// dock of the arena the dock feeds the robot, and charging_power_w goes into the battery. The
-/// robot's heading there does not matter. An empty battery only reads so: the robot drives on.
+/// A robot's battery. Each step draws battery_load_w() from it. While the centre of the axle is on
+/// a dock of the arena, the dock powers the robot and charges the battery with charging_power_w;
+/// the robot's heading does not matter. An empty battery has no effect on the robot.
 class Battery final : public SensorOf<BatteryReading> {
  public:
   /// @param wheel_separation_m  of the robot's model [m].

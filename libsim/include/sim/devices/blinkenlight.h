@@ -8,22 +8,22 @@
 
 namespace sim {
 
-/// Settings of a light; all but the place are those at the start.
+/// Settings of a light. Commands can change all but the position.
 struct BlinkenlightParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
   Colour colour{0xff, 0x3b, 0x30, 0xff};
   bool enabled = false;
-  double period_s = 1.0;     ///< of one on and off, >= 0; 0: it does not blink [s]
-  double duty_cycle = 0.5;   ///< share of the period that it is lit, [0, 1]
-  Vec2 p_BL = {-0.05, 0.0};  ///< where it is on the robot, in B [m]
+  double period_s = 1.0;     ///< of one on-off cycle, >= 0 [s]; 0: does not blink
+  double duty_cycle = 0.5;   ///< fraction of the period in which it is lit, [0, 1]
+  Vec2 p_BL = {-0.05, 0.0};  ///< position on the robot, in B [m]
 };
 
-/// Whether a light that blinks is lit: it is from each multiple of the period on, for duty_cycle of
-/// it; one that does not blink (period 0) always is.
+/// Whether a light is lit at a given time. It is lit from each multiple of the period on, for the
+/// fraction duty_cycle of the period; with period 0 it is always lit.
 /// @param time_ns  simulated time, >= 0.
 [[nodiscard]] bool is_lit(double period_s, double duty_cycle, SimTime time_ns);
 
-/// How a light is set, and whether it was lit at the moment of the reading.
+/// Settings of a light, and whether it was lit at the time of the reading.
 struct BlinkenlightReading final : Reading {
   bool enabled = false;
   Colour colour;
@@ -32,8 +32,8 @@ struct BlinkenlightReading final : Reading {
   bool lit = false;
 };
 
-/// A light on the robot's back, for pictures: other robots' sensors do not see it. Takes
-/// LightCommand.
+/// A light on the robot's back, shown in pictures only; sensors of other robots do not see it.
+/// Takes LightCommand.
 class Blinkenlight final : public SensorOf<BlinkenlightReading> {
  public:
   Blinkenlight(std::string name, const BlinkenlightParams& params);

@@ -17,34 +17,34 @@ class ColumnView;
 /// Settings of a blobfinder.
 struct BlobfinderParams : ViewParams {
   double frequency_hz = 10.0;   ///< (0, 1000]
-  std::vector<Colour> colours;  ///< that it sees, at most kMaxColours; none: all
+  std::vector<Colour> colours;  ///< colours that it detects, at most kMaxColours; empty: all
   double noise_m = 0.0;         ///< standard deviation of a blob's range [m], >= 0
 
   static constexpr std::size_t kMaxColours = 256;
 };
 
-/// Blobs of colour in view, from right to left (as Stage tells them).
+/// Colour blobs in view, from right to left (Stage's order).
 struct BlobfinderReading final : Reading {
-  /// Pixels of one colour that hang together, edge to edge.
+  /// An edge-connected area of pixels of one colour.
   struct Blob {
     Colour colour;         ///< opaque
-    int area = 0;          ///< how many pixels
-    int x = 0;             ///< column that their middle lies in
-    int y = 0;             ///< row that their middle lies in; row 0 is the top one
+    int area = 0;          ///< number of pixels
+    int x = 0;             ///< column of the centroid
+    int y = 0;             ///< row of the centroid; row 0 is at the top
     int left = 0;          ///< first column
     int right = 0;         ///< last column
     int top = 0;           ///< first row
     int bottom = 0;        ///< last row
-    double range_m = 0.0;  ///< level distance, the mean over its columns
+    double range_m = 0.0;  ///< horizontal distance, averaged over its columns
   };
   int width = 0;   ///< of the picture [pixels]
   int height = 0;  ///< [pixels]
   std::vector<Blob> blobs;
 };
 
-/// Sees other robots, and those extended obstacles to which the world gave a colour, as blobs in a
-/// picture (PinholeView): Stage's model of that name, with true heights. Of two things in a line
-/// the nearer one hides the other as far as it is high. Colours are told apart exactly.
+/// Detects other robots, and extended obstacles that have a colour in the world, as blobs in a
+/// picture (PinholeView). This is Stage's model of that name with true heights: a nearer object
+/// hides a farther one only up to its own height. Colours are compared exactly.
 class Blobfinder final : public SensorOf<BlobfinderReading> {
  public:
   Blobfinder(std::string name, const BlobfinderParams& params, RandomStream noise);

@@ -17,53 +17,54 @@
 
 namespace sim {
 
-/// What a kind of device measures; empty pointers for a kind that makes no readings.
+/// The type of reading of a device kind; null pointers for a kind that makes no readings.
 struct ReadingKind {
   const FieldTable* fields = nullptr;
   const std::type_info* type = nullptr;
   std::unique_ptr<Reading> (*make)() = nullptr;
 
-  /// The reading as FieldTable's users want it.
-  /// @throws std::bad_cast if it is of another kind.
+  /// Pointer to the reading for functions that take a FieldTable.
+  /// @throws std::bad_cast if the reading has another type.
   [[nodiscard]] const void* object(const Reading& reading) const;
   [[nodiscard]] void* object(Reading& reading) const;
 };
 
-/// An interface, by its name in Player, under which clients find devices of a kind.
-struct CarriedInterface {
+/// An interface (named as in Player) under which clients find devices of a kind.
+struct ProvidedInterface {
   const char* name;
-  int rank = 0;  ///< of the kinds that carry it, the one of the least rank has index 0
+  int rank = 0;  ///< among the kinds with this interface, the least rank has index 0
 };
 
-/// A row of the table of device kinds: what its settings and readings are, and how it is made.
+/// A row of the table of device kinds: its settings, its readings, and its factory function.
 struct DeviceKind : io::DeviceType {
   const FieldTable* settings = nullptr;
-  /// The struct that `settings` describes, in what parse() and defaults() give.
+  /// Pointer to the struct that `settings` describes, inside the result of parse() or defaults().
   const void* (*settings_in)(const std::any& params) = nullptr;
   ReadingKind reading;
-  std::vector<CarriedInterface> interfaces;
+  std::vector<ProvidedInterface> interfaces;
+  /// Creates a device.
   /// @param world_seed  seed of the run, for the device's noise stream.
   std::function<std::unique_ptr<Device>(const DeviceDescription&, const RobotDescription&,
                                         const RobotModel&, std::uint64_t world_seed)>
       create;
-  /// Those of properties() that also depend on the robot's model, to take the place of the ones
-  /// there; empty for kinds without such.
+  /// Properties that also depend on the robot's model; they replace those of properties(). Empty
+  /// for kinds without such properties.
   std::function<std::map<std::string, double>(const std::any& params, const RobotModel& model)>
       model_properties;
 
-  /// The numeric settings as clients are told of them, SI units and radians.
+  /// The numeric settings as clients see them, in SI units and radians.
   [[nodiscard]] std::map<std::string, double> properties(const std::any& params) const;
 };
 
-/// All kinds of device that libsim has.
+/// All kinds of devices in libsim.
 [[nodiscard]] const std::vector<DeviceKind>& device_kinds();
 /// The kind of that name; nullptr if there is none.
 [[nodiscard]] const DeviceKind* find_device_kind(std::string_view name);
 
-/// The same as device_kinds(), as io wants it.
+/// All kinds of devices in the form that io needs.
 [[nodiscard]] std::vector<io::DeviceType> device_types();
 
-/// The kinds of commands, in the order of Command.
+/// All kinds of commands, in the order of Command.
 [[nodiscard]] std::span<const AlternativeKind<Command>> command_kinds();
 
 }  // namespace sim

@@ -17,23 +17,23 @@ class ColumnView;
 
 /// Settings of a camera.
 struct CameraParams : ViewParams {
-  double frequency_hz = 10.0;  ///< pictures a second, (0, 1000]
+  double frequency_hz = 10.0;  ///< pictures per second, (0, 1000]
 };
 
-/// A picture: red, green and blue of each pixel, row by row from the top.
+/// A picture: red, green and blue of each pixel, row-major from the top.
 struct CameraReading final : Reading {
   int width = 0;                     ///< [pixels]
   int height = 0;                    ///< [pixels]
   std::vector<std::uint8_t> pixels;  ///< width * height * 3
 };
 
-/// Brightness of what a camera sees at a depth: 1 - 0.6 depth / range_max, and 0.4 beyond.
+/// Brightness of a surface at a depth: 1 - 0.6 depth / range_max, and 0.4 beyond range_max.
 [[nodiscard]] double brightness(double depth_m, double range_max_m);
 
-/// Takes pictures (PinholeView) of floor, walls, obstacles and robots in the colours that they have
-/// in the pictures of a run, darker with brightness(). Sides whose normal points along W's x axis
-/// are lighter than those along its y axis, by 0.85 + 0.15 cos(2 yaw), as by windows on two sides.
-/// What lies on the floor, docks and drawings, is not seen.
+/// Takes pictures (PinholeView) of floor, walls, obstacles and robots. Their colours are those of
+/// the run's pictures, darkened by brightness(). Faces whose normal is along W's x axis are
+/// brighter than those along its y axis, by the factor 0.85 + 0.15 cos(2 yaw), as if there were
+/// windows on two sides. Docks and drawings on the floor are not visible.
 class Camera final : public SensorOf<CameraReading> {
  public:
   Camera(std::string name, const CameraParams& params);
@@ -51,7 +51,7 @@ class Camera final : public SensorOf<CameraReading> {
   void paint_background();
 
   std::unique_ptr<ColumnView> view_;
-  std::vector<std::uint8_t> background_;  // for a head that looks like this:
+  std::vector<std::uint8_t> background_;  // valid for these angles of the head:
   double background_tilt_rad_ = 0.0;
   double background_view_rad_ = 0.0;
 };

@@ -16,12 +16,12 @@ struct CompassParams {
                                               ///< counter-clockwise from x [rad]
 };
 
-/// What a compass tells.
+/// A compass reading.
 struct CompassReading final : Reading {
   double heading_rad = 0.0;  ///< of B's x axis from magnetic north, counter-clockwise, (-pi, pi]
 };
 
-/// Noise-free heading of a robot from magnetic north.
+/// Noise-free heading of a robot relative to magnetic north.
 ///
 /// Frames: W world; B body.
 /// @param X_WB       pose of B in W [m, rad].

@@ -14,16 +14,16 @@ struct CollisionParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
 };
 
-/// What a robot has touched since the reading before, this moment included.
+/// What the robot has touched since the previous reading, including the current moment.
 struct CollisionReading final : Reading {
-  bool collision = false;            ///< anything at all
-  std::vector<std::string> objects;  ///< names of obstacles, dock separators and robots; "border"
-                                     ///< and "wall" (of a map); sorted, each once
+  bool collision = false;            ///< whether it touched anything
+  std::vector<std::string> objects;  ///< names of obstacles, dock separators and robots, "border"
+                                     ///< and "wall" (of a map); sorted, without duplicates
 };
 
-/// Bumpers all round the footprint. They are looked at in each step, so that a contact which begins
-/// and ends between two readings is told in the second. Touching is what the physics calls so:
-/// outlines closer than 2 mm.
+/// Detects contacts all around the footprint. Checks in each step, so the second of two readings
+/// also reports a contact that begins and ends between them. As in the physics, touching means that
+/// the outlines are closer than 2 mm.
 class CollisionSensor final : public SensorOf<CollisionReading> {
  public:
   CollisionSensor(std::string name, const CollisionParams& params);
@@ -35,7 +35,7 @@ class CollisionSensor final : public SensorOf<CollisionReading> {
   void measure(const StepContext& context) override;
 
  private:
-  std::vector<std::string> touched_;  ///< names, since the last reading; sorted, each once
+  std::vector<std::string> touched_;  ///< names since the last reading; sorted, without duplicates
 };
 
 }  // namespace sim

@@ -12,28 +12,27 @@
 
 namespace sim {
 
-/// What a digital input shows of its robot.
+/// State of the robot that a digital input shows.
 enum class DigitalSignal {
   kContact,  ///< something solid touches the robot
-  kStalled,  ///< something holds the robot up, see BodyState::stalled
-  kDock,     ///< the middle of its axle is on a dock
+  kStalled,  ///< something blocks the robot, see BodyState::stalled
+  kDock,     ///< the centre of its axle is on a dock
 };
-/// What stands at a digital input: always the same, its robot's state, or an output of a dio
-/// device.
+/// Source of a digital input: a constant level, the robot's state, or an output of a dio device.
 using DigitalSource = std::variant<bool, DigitalSignal, Wire>;
 
 /// Settings of digital inputs and outputs.
 struct DioParams {
-  static constexpr int kMaxLines = 32;  ///< inputs, and outputs
+  static constexpr int kMaxLines = 32;  ///< maximum number of inputs or outputs
 
   double frequency_hz = 10.0;  ///< (0, 1000]
-  /// What input 0, 1, ... is wired to; at most kMaxLines.
+  /// Sources of inputs 0, 1, ...; at most kMaxLines.
   std::vector<DigitalSource> inputs = {DigitalSignal::kContact, DigitalSignal::kStalled,
                                        DigitalSignal::kDock};
   int outputs = 8;  ///< 0..kMaxLines
 };
 
-/// The inputs as they were at the moment of the reading, and the outputs.
+/// The inputs at the time of the reading, and the outputs.
 struct DioReading final : Reading {
   int input_count = 0;
   std::uint32_t inputs = 0;  ///< input i is bit i
@@ -41,15 +40,15 @@ struct DioReading final : Reading {
   std::uint32_t outputs = 0;  ///< output i is bit i
 };
 
-/// Digital inputs and outputs. Outputs are low at first and keep what DigitalOutputCommand sets;
-/// inputs of any robot may be wired to them. An output that a command sets before a step is seen at
-/// inputs in that step's readings, whatever the order of the robots.
+/// Digital inputs and outputs. Outputs are initially low and keep what DigitalOutputCommand sets;
+/// inputs of any robot may be wired to them. If a command sets an output before a step, the inputs
+/// wired to it show it in that step's readings, whatever the order of the robots.
 class Dio final : public SensorOf<DioReading> {
  public:
   Dio(std::string name, const DioParams& params);
 
   [[nodiscard]] const DioParams& params() const noexcept { return params_; }
-  /// Level of an output now; low for one that is not there.
+  /// Current level of an output; low if there is no such output.
   [[nodiscard]] bool output(int index) const noexcept {
     return index >= 0 && index < params_.outputs && ((outputs_ >> index) & 1U) != 0;
   }
@@ -64,7 +63,7 @@ class Dio final : public SensorOf<DioReading> {
 
  private:
   DioParams params_;
-  std::vector<const Dio*> wired_;  ///< for each input; nullptr: not a wire
+  std::vector<const Dio*> wired_;  ///< for each input; nullptr if its source is not a wire
   std::uint32_t outputs_ = 0;
 };
 

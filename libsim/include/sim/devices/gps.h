@@ -10,24 +10,24 @@
 
 namespace sim {
 
-/// Settings of a satellite receiver. The arena lies on the Earth: W's origin at a latitude and
-/// longitude, by default in Prague.
+/// Settings of a satellite receiver. The origin of W has a latitude and a longitude on the Earth,
+/// by default in Prague.
 struct GpsParams {
   double frequency_hz = 10.0;                                 ///< (0, 1000]
   double latitude_rad = 50.0764 * std::numbers::pi / 180.0;   ///< of W's origin, north > 0
   double longitude_rad = 14.4178 * std::numbers::pi / 180.0;  ///< of W's origin, east > 0
-  double altitude_m = 200.0;                  ///< of the floor, over the ellipsoid [m]
+  double altitude_m = 200.0;                  ///< of the floor, above the ellipsoid [m]
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of north in W, counter-clockwise from x
   double noise_m = 0.0;           ///< standard deviation to the east and to the north [m], >= 0
   double noise_vertical_m = 0.0;  ///< standard deviation of the altitude [m], >= 0
   int satellites = 8;             ///< in view, 0 to 64; below 4 there is no fix
 };
 
-/// Where a receiver is. Without a fix (quality 0) the numbers but time and satellites are 0.
+/// Position of a receiver. Without a fix (quality 0), all numbers except time and satellites are 0.
 struct GpsReading final : Reading {
   double latitude_rad = 0.0;   ///< north > 0
   double longitude_rad = 0.0;  ///< east > 0, (-pi, pi]
-  double altitude_m = 0.0;     ///< over the ellipsoid [m]
+  double altitude_m = 0.0;     ///< above the ellipsoid [m]
   double speed_mps = 0.0;      ///< over ground [m/s]
   double course_rad = 0.0;     ///< of motion, clockwise from north, [0, 2 pi); 0 at rest
   double utm_easting_m = 0.0;  ///< in the zone of W's origin [m]
@@ -48,32 +48,32 @@ struct Ellipsoid {
   double flattening = 1.0 / 298.257223563;
 };
 
-/// The point that lies so far east and north of another one, on the plane that touches the
-/// ellipsoid there: the shifts are divided by the radii of curvature along the parallel and the
-/// meridian (Snyder, Map Projections - A Working Manual, USGS Professional Paper 1395, 1987,
-/// eq. 4-18 and 4-20), those of the floor's height. Against the curved Earth
-/// the error is some e n tan(latitude) / radius: 0.2 m at 1 km to either side.
+/// The point that is east and north of another one by the given distances, measured on the plane
+/// that touches the ellipsoid there. The distances are divided by the radii of curvature along the
+/// parallel and the meridian at the floor's altitude (Snyder, Map Projections - A Working Manual,
+/// USGS Professional Paper 1395, 1987, eq. 4-18 and 4-20). Against the curved Earth the error is
+/// about e n tan(latitude) / radius for the distances e and n: 0.2 m for 1 km each.
 [[nodiscard]] GeoPoint shifted(const GeoPoint& from, double east_m, double north_m,
                                double altitude_m, const Ellipsoid& ellipsoid = {});
 
-/// Transverse Mercator projection by its series (Snyder, eq. 3-21, 8-9 and 8-10).
-/// @param central_rad  the central meridian.
-/// @param scale        along it, 0.9996 in UTM.
-/// @return [m] to the east of the central meridian and to the north of the equator; to a millimetre
-///         within 4 degrees of it.
+/// Transverse Mercator projection, computed by its series (Snyder, eq. 3-21, 8-9 and 8-10).
+/// @param central_rad  longitude of the central meridian.
+/// @param scale        scale factor along it, 0.9996 in UTM.
+/// @return [m] east of the central meridian and north of the equator; accurate to a millimetre
+///     within 4 degrees of the meridian.
 [[nodiscard]] Vec2 transverse_mercator_m(const GeoPoint& point, double central_rad, double scale,
                                          const Ellipsoid& ellipsoid = {});
 
-/// Number of the UTM zone of a longitude, 1 to 60; the exceptions in Norway and Spitsbergen are
-/// not made.
+/// Number of the UTM zone of a longitude, 1 to 60. The exceptions for Norway and Spitsbergen are
+/// not implemented.
 [[nodiscard]] int utm_zone(double longitude_rad);
 
-/// UTM coordinates: easting with 500 km at the zone's middle, northing from the equator, with
-/// 10 000 km added south of it [m].
+/// UTM coordinates [m]: easting with 500 km at the zone's central meridian, northing from the
+/// equator, with 10 000 km added south of it.
 [[nodiscard]] Vec2 utm_m(const GeoPoint& point, int zone);
 
-/// A satellite receiver at the middle of the axle: the truth with Gaussian noise, each reading with
-/// noise of its own (a real one's errors wander). Speed and course have none.
+/// A satellite receiver at the centre of the axle: the true position with Gaussian noise, drawn
+/// independently for each reading (the errors of real receivers drift). Speed and course are exact.
 class Gps final : public SensorOf<GpsReading> {
  public:
   Gps(std::string name, const GpsParams& params, RandomStream noise);

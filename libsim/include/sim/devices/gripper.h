@@ -14,76 +14,76 @@
 
 namespace sim {
 
-/// Settings of a gripper; size and speed are those of Stage's first one (model_gripper).
+/// Settings of a gripper. The defaults for size and speed are those of Stage's gripper
+/// (model_gripper).
 struct GripperParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
-  /// Where the paddles begin, half-way between them; they point along x. None: the middle of the
+  /// Base of the paddles, half-way between them; the paddles point along x. None: the middle of the
   /// robot's front.
   std::optional<Pose> X_BG;
   double length_m = 0.12;      ///< of a paddle, > 0 [m]
   double thickness_m = 0.03;   ///< of a paddle, >= 0 [m]
   double opening_m = 0.22;     ///< between the open paddles, > 0 [m]
-  double height_m = 0.05;      ///< of paddles and beams above the floor [m]; what is not higher is
-                               ///< neither felt nor taken
+  double height_m = 0.05;      ///< height of paddles and beams above the floor [m]; objects that
+                               ///< are not higher are neither detected nor gripped
   double travel_time_s = 2.0;  ///< from open to closed, and back, > 0 [s]
   int capacity = 0;            ///< of the store, 0..kMaxStored
   static constexpr int kMaxStored = 100;
 };
 
-/// What the paddles do.
+/// State of the paddles.
 enum class GripperState {
-  kOpen,    ///< as far as they can, or stopped on the way
-  kClosed,  ///< they hold something, or have met
+  kOpen,    ///< fully open, or stopped on the way
+  kClosed,  ///< holding an object, or touching each other
   kMoving,  ///< opening or closing
-  kError,  ///< something that cannot be taken stopped them, or what they hold has no room to be put
-           ///< down; until the next command that they can follow
+  kError,  ///< stopped by an object that cannot be gripped, or no room to put the held object down;
+           ///< until the next command that succeeds
 };
 
 /// "open", "closed", "moving" or "error".
 [[nodiscard]] std::string_view to_string(GripperState state) noexcept;
 
-/// What a gripper tells.
+/// A gripper reading.
 struct GripperReading final : Reading {
   GripperState state = GripperState::kOpen;
   bool outer_beam = false;  ///< the beam near the paddles' tips is broken
-  bool inner_beam = false;  ///< that near the robot is
-  bool holding = false;     ///< something is between the paddles, and moves with the robot
-  int stored = 0;           ///< things in the store
+  bool inner_beam = false;  ///< the beam near the robot is broken
+  bool holding = false;     ///< an object is between the paddles and moves with the robot
+  int stored = 0;           ///< number of objects in the store
   double gap_m = 0.0;       ///< between the paddles now [m]
 };
 
-/// The part of a box that lies in a strip across the gripper: how far it reaches.
+/// Extent of the part of a box that lies in a strip across the gripper.
 ///
-/// Frames: G gripper; T thing, its middle and own axes.
+/// Frames: G gripper; T object, its centre and axes.
 /// @param X_GT     pose of the box in G.
 /// @param size_m   of the box along its own axes [m].
 /// @param from_m, to_m  the strip is from_m <= x <= to_m in G [m].
-/// @return least and greatest y in G [m]; nullopt if no part lies in the strip.
+/// @return minimum and maximum y in G [m]; nullopt if no part lies in the strip.
 [[nodiscard]] std::optional<std::pair<double, double>> reach_across(const Pose& X_GT,
                                                                     const Vec2& size_m,
                                                                     double from_m, double to_m);
 
-/// Two paddles before the robot, with two break beams between them.
+/// Two paddles in front of the robot, with two break beams between them. Takes GripCommand.
 ///
-/// Takes GripCommand. Closing, the paddles move towards each other until one of them touches an
-/// obstacle that is `portable` and stands between them: it is taken as it stands, and carried
-/// (RobotControl::pick_up). Opening puts it down. The paddles themselves are in nobody's way.
-/// The outer beam lies at three quarters of the paddles' length, the inner one at a quarter, as
-/// Stage's.
-/// While the robot is suspended, or the device switched off, the paddles stand still.
+/// When closing, the paddles move towards each other until one of them touches a `portable`
+/// obstacle between them. The obstacle is gripped in its current pose and carried
+/// (RobotControl::pick_up). Opening puts it down. The paddles themselves collide with nothing. As
+/// in Stage, the outer beam is at three quarters of the paddles' length, the inner one at a
+/// quarter. The paddles stand still while the robot is suspended or the device is inactive.
 class Gripper final : public SensorOf<GripperReading> {
  public:
-  /// @param X_BG  where the paddles begin, in place of params.X_BG.
+  /// @param X_BG  base of the paddles; replaces params.X_BG.
   Gripper(std::string name, const GripperParams& params, const Pose& X_BG);
 
   [[nodiscard]] const GripperParams& params() const noexcept { return params_; }
   [[nodiscard]] const Pose& X_BG() const noexcept { return X_BG_; }
-  /// Between the paddles now [m].
+  /// Current distance between the paddles [m].
   [[nodiscard]] double gap_m() const noexcept;
-  /// Outlines of both paddles now, left and right, in B [m].
+  /// Current outlines of both paddles, left and right, in B [m].
   [[nodiscard]] std::vector<std::vector<Vec2>> paddles() const;
 
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   void act(RobotControl& robot) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
@@ -93,7 +93,7 @@ class Gripper final : public SensorOf<GripperReading> {
 
  private:
   enum class Motion { kStill, kOpening, kClosing };
-  // A thing between the paddles, or in the store with how it was held before.
+  // An object between the paddles, or in the store with the pose at which it was held.
   struct Held {
     int obstacle;
     Pose X_BT;
@@ -107,18 +107,18 @@ class Gripper final : public SensorOf<GripperReading> {
   std::optional<std::string> store(RobotControl& robot);
   std::optional<std::string> retrieve(RobotControl& robot);
   void close_further(RobotControl& robot, const StepContext& now);
-  void forget_lost(const StepContext& now);
+  void drop_missing(const StepContext& now);
   [[nodiscard]] bool is_stopped_at(const StepContext& now, double gap_m) const;
   [[nodiscard]] bool is_broken(const StepContext& now, double x_m) const;
 
   GripperParams params_;
   Pose X_BG_;
   SimTime travel_ns_;
-  SimTime closed_ns_ = 0;  // how much of travel_ns_ the paddles have closed: 0 is open
+  SimTime closed_ns_ = 0;  // progress of closing, from 0 (open) to travel_ns_
   Motion motion_ = Motion::kStill;
   bool fault_ = false;
   std::optional<Held> held_;
-  std::vector<Held> stored_;  // the newest last
+  std::vector<Held> stored_;  // the newest is last
 };
 
 }  // namespace sim

@@ -11,39 +11,41 @@
 
 namespace sim {
 
-/// Settings of an inertial measurement unit in the middle of the axle, its axes those of the body.
+/// Settings of an inertial measurement unit at the centre of the axle, aligned with the body.
 struct ImuParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
   double noise_mps2 = 0.0;     ///< standard deviation of an acceleration [m/s^2], >= 0
-  double noise_radps = 0.0;    ///< of a turning rate [rad/s], >= 0
-  double noise_ut = 0.0;       ///< of the magnetic field [uT], >= 0
-  double bias_mps2 = 0.0;      ///< standard deviation of the constant error of each axis, >= 0
-  double bias_radps = 0.0;     ///< the same of the turning rates [rad/s], >= 0
-  double field_horizontal_ut = 20.0;  ///< of the Earth's magnetic field, to the north [uT], >= 0
-  double field_down_ut = 45.0;        ///< downwards [uT]; the defaults are about those of Prague
+  double noise_radps = 0.0;    ///< standard deviation of a turning rate [rad/s], >= 0
+  double noise_ut = 0.0;       ///< standard deviation of the magnetic field [uT], >= 0
+  double bias_mps2 = 0.0;      ///< standard deviation of the constant bias of each acceleration
+                               ///< [m/s^2], >= 0
+  double bias_radps = 0.0;     ///< standard deviation of the constant bias of each turning rate
+                               ///< [rad/s], >= 0
+  double field_horizontal_ut = 20.0;  ///< horizontal magnetic field of the Earth [uT], >= 0
+  double field_down_ut = 45.0;        ///< downward component [uT]; by default about that in Prague
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of north in W, counter-clockwise from x
 };
 
-/// What an inertial unit measures, in the body's frame: x forward, y left, z up.
+/// A reading of an inertial unit, in the body's frame: x forward, y left, z up.
 struct ImuReading final : Reading {
   std::array<double, 3> acceleration_mps2{};  ///< specific force: at rest z reads +g [m/s^2]
   std::array<double, 3> rate_radps{};         ///< turning rates [rad/s]
   std::array<double, 3> field_ut{};           ///< magnetic field [uT]
-  double yaw_rad = 0.0;  ///< the measured turning rate added up, from the true heading in W at the
-                         ///< start on, or what SetPoseCommand said it was, (-pi, pi]
+  double yaw_rad = 0.0;  ///< integral of the measured turning rate, (-pi, pi]; starts at the true
+                         ///< heading in W, or at the one that SetPoseCommand set
 };
 
 /// Standard acceleration of gravity (ISO 80000-3) [m/s^2].
 inline constexpr double kGravity_mps2 = 9.80665;
 
-/// The Earth's magnetic field in a body's frame [uT].
+/// The Earth's magnetic field in the body's frame [uT].
 /// @param yaw_rad  heading of the body in W.
 [[nodiscard]] std::array<double, 3> field_in_body_ut(const ImuParams& params, double yaw_rad);
 
-/// An inertial measurement unit. Accelerations and turning rates are means over the time since the
-/// reading before, so that none is missed: in the body's frame a = dv/dt + omega x v. Then come
-/// biases, drawn once, and white noise. Being placed somewhere is not felt. Of a SetPoseCommand it
-/// takes the heading: the present one is that.
+/// An inertial measurement unit. Accelerations and turning rates are averages over the time since
+/// the previous reading, so no motion is missed. In the body's frame, a = dv/dt + omega x v.
+/// Constant biases, drawn once, and white noise are added. Placing the robot causes no
+/// acceleration. A SetPoseCommand sets the current heading; its position is ignored.
 class Imu final : public SensorOf<ImuReading> {
  public:
   /// @param yaw_rad  true heading in W at the start.
@@ -62,10 +64,10 @@ class Imu final : public SensorOf<ImuReading> {
   RandomStream noise_;
   std::array<double, 3> bias_mps2_{};
   std::array<double, 3> bias_radps_{};
-  Twist before_;               ///< at the end of the last step
-  double gained_x_mps_ = 0.0;  ///< acceleration times time since the last reading
-  double gained_y_mps_ = 0.0;
-  double turned_rad_ = 0.0;
+  Twist before_;                        ///< twist at the end of the last step
+  double velocity_change_x_mps_ = 0.0;  ///< integral of the acceleration since the last reading
+  double velocity_change_y_mps_ = 0.0;
+  double rotation_rad_ = 0.0;
   double time_s_ = 0.0;
   double yaw_rad_;
 };

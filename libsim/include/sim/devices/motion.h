@@ -6,62 +6,65 @@
 
 namespace sim {
 
-/// Settings of the motors and of their position control. Acceleration limits of 0 mean: none.
+/// Settings of the motors and of their position control. An acceleration limit of 0 means no limit.
 struct MotionParams {
   double max_speed_mps = 0.5;                 ///< > 0
   double max_turn_rate_radps = 3.0;           ///< > 0
-  double max_acceleration_mps2 = 0.0;         ///< >= 0; 0: no limit, speed changes at once
+  double max_acceleration_mps2 = 0.0;         ///< >= 0; 0: no limit, the speed changes at once
   double max_turn_acceleration_radps2 = 0.0;  ///< >= 0; 0: no limit
-  bool enabled_at_start = true;               ///< whether the motors are on before a client says so
-  double approach_gain = 2.0;                 ///< speed for each metre that is missing [1/s], > 0
-  double turn_gain = 2.0;                     ///< turn rate for each radian missing [1/s], > 0
-  double tolerance_m = 0.01;                  ///< so near to its goal a robot is there [m], > 0
-  double heading_tolerance_rad = 0.01;        ///< the same for its heading [rad], > 0
+  bool enabled_at_start = true;               ///< whether the motors are initially on
+  double approach_gain = 2.0;                 ///< speed per remaining metre [1/s], > 0
+  double turn_gain = 2.0;                     ///< turn rate per remaining radian [1/s], > 0
+  double tolerance_m = 0.01;                  ///< distance to the goal on arrival [m], > 0
+  double heading_tolerance_rad = 0.01;        ///< heading error on arrival [rad], > 0
 };
 
-/// Position control: how a robot gets to a pose, step by step.
+/// Position control: drives a robot to a pose, step by step.
 ///
-/// Frames: all poses of B in one frame that does not move. With the distance d of the goal, its
-/// bearing a in B, in (-pi, pi], and the heading e that is missing, and gains k and h
-/// (approach_gain, turn_gain):
+/// All poses are those of B in one fixed frame. Symbols: the distance d of the goal; its bearing a
+/// in B, in (-pi, pi]; the remaining rotation e to the goal's heading; the gains k and h
+/// (approach_gain, turn_gain).
 ///
-/// - A differential drive that is away from the goal by more than the tolerance turns with
-///   omega = h a, on the spot while |a| > 0.5, else driving v = k d cos a; then it turns on the
-///   spot with omega = h e. Pushed away by more than three tolerances, it drives again.
-/// - An omnidirectional one does both at once: v = k d towards the goal, omega = h e.
-/// - A car steers along the arc through the goal, of curvature 2 sin a / d (pure pursuit with the
-///   goal as the point that is looked at: R. C. Coulter, "Implementation of the pure pursuit path
-///   tracking algorithm", CMU-RI-TR-92-01, 1992), backwards towards a goal behind it. A goal
-///   within its turning circle is left first, steering the other way. The heading at the goal is
-///   that of the arc, unless it is sought: where the way to the goal lies within 78 degrees of it
-///   and the car's steering allows, the point looked at is half the distance before the goal, along
-///   the goal's heading. What the way is off from that heading then falls with d, and with it what
-///   the car is. If the goal comes within the turning circle meanwhile, the heading is given up.
+/// - A differential drive farther from the goal than the tolerance turns with omega = h a. It turns
+///   on the spot while |a| > 0.5, and otherwise drives with v = k d cos a. At the goal it turns on
+///   the spot with omega = h e. If it is pushed away by more than three tolerances, it drives
+///   again.
+/// - An omnidirectional drive does both at once: v = k d towards the goal, omega = h e.
+/// - A car steers along the arc through the goal, of curvature 2 sin a / d. This is pure pursuit
+///   with the goal as the look-ahead point (R. C. Coulter, "Implementation of the pure pursuit path
+///   tracking algorithm", CMU-RI-TR-92-01, 1992). It drives backwards to a goal behind it. If the
+///   goal is within its turning circle, the car first drives away from it, steering the other way.
+///   The heading at the goal is that of the arc, unless the controller seeks the goal's heading: if
+///   the direction to the goal is within 78 degrees of that heading and the steering allows, the
+///   look-ahead point is half the distance before the goal, along the goal's heading. The angle
+///   between the two directions then decreases with d, and so does the car's heading error. If the
+///   goal comes within the turning circle meanwhile, the controller gives up the heading.
 ///
-/// Speeds are bounded by the command's limits, and by sqrt(a d) (sqrt(alpha e)) where an
-/// acceleration limit a (alpha) is set, so that the robot can brake before the goal.
-/// Proportional control of position with bounded speeds, as Siegwart, Nourbakhsh, Scaramuzza,
-/// Introduction to Autonomous Mobile Robots, 2nd ed., sec. 3.6.2, though theirs goes by curves.
+/// Speeds are bounded by the command's limits. With an acceleration limit a (or alpha), they are
+/// also bounded by sqrt(a d) (or sqrt(alpha e)), so that the robot can brake before the goal.
+/// Proportional position control with bounded speeds is described in Siegwart, Nourbakhsh,
+/// Scaramuzza, Introduction to Autonomous Mobile Robots, 2nd ed., sec. 3.6.2; their controller
+/// drives curves.
 class PositionControl {
  public:
-  /// What to do in the next step.
+  /// Output of the controller for the next step.
   struct Step {
     Twist twist;                ///< [m/s], [rad/s]
-    double steering_rad = 0.0;  ///< of a car, which has no turn rate of its own
-    bool arrived = false;       ///< there is nothing left to do; the twist is zero
+    double steering_rad = 0.0;  ///< of a car, instead of a turn rate
+    bool arrived = false;       ///< the goal is reached; the twist is zero
   };
 
   PositionControl() = default;
-  /// @pre speeds of the command > 0: limits already applied.
+  /// @pre the command's speeds are > 0, with limits already applied.
   PositionControl(const DriveDescription& drive, const MotionParams& params,
                   const PositionCommand& command)
       : drive_(drive), params_(params), command_(command) {}
 
-  /// @param X_FB  where the robot is, in the goal's frame.
+  /// @param X_FB  the robot's pose in the goal's frame.
   [[nodiscard]] Step step(const Pose& X_FB);
 
   [[nodiscard]] const PositionCommand& command() const noexcept { return command_; }
-  /// Writes or reads the state; `drive` and `params` are those it was made with.
+  /// Writes or reads the state. `drive` and `params` are those passed to the constructor.
   void archive(StateArchive& archive, const DriveDescription& drive, const MotionParams& params);
 
  private:
@@ -74,45 +77,46 @@ class PositionControl {
   DriveDescription drive_;
   MotionParams params_;
   PositionCommand command_;
-  bool aligning_ = false;   ///< differential: arrived, turning to the goal's heading
-  bool backwards_ = false;  ///< car: the direction it drives in
-  bool leaving_ = false;    ///< car: getting away from a goal within its turning circle
-  bool sought_ = false;     ///< car: has sought the goal's heading
-  bool given_up_ = false;   ///< car: and could not have it
+  bool aligning_ = false;           ///< differential: at the goal, turning to its heading
+  bool backwards_ = false;          ///< car: driving backwards
+  bool leaving_ = false;            ///< car: driving away from a goal within its turning circle
+  bool sought_heading_ = false;     ///< car: the controller has sought the goal's heading
+  bool heading_abandoned_ = false;  ///< car: the controller has abandoned the goal's heading
 };
 
-/// Motors of a robot, commanded by twist, by heading, by position, or as a car.
+/// The motors of a robot. Takes commands by twist, by heading, by position, or like a car.
 ///
-/// Each command ends the one before. What a drive cannot do is left out: a differential drive and a
-/// car ignore speeds to the left; a car, whose front wheels are turned at the rate of its model,
-/// stands when told to turn on the spot; any other robot told to drive as a car turns at
-/// v tan(steering) / wheelbase, the wheelbase its own length.
+/// Each command replaces the one before. What a drive cannot do is ignored: differential drives and
+/// cars ignore speeds to the left; a car stands still when commanded to turn on the spot. The front
+/// wheels of a car turn at the rate of its model. Any other drive that gets a CarCommand turns at v
+/// tan(steering) / wheelbase, with the length of the robot as its wheelbase.
 class Motion final : public Actuator {
  public:
-  /// @param drive  of the robot; its wheelbase is also what CarCommand pretends for other drives.
+  /// @param drive  of the robot; CarCommand uses its wheelbase for other drives as well.
   Motion(std::string name, const MotionParams& params, const DriveDescription& drive = {});
 
-  /// Takes TwistCommand (components clamped to the limits), HeadingCommand, PositionCommand,
-  /// CarCommand and MotorEnableCommand.
+  /// Takes TwistCommand (clamped to the limits), HeadingCommand, PositionCommand, CarCommand and
+  /// MotorEnableCommand.
   std::optional<std::string> apply(const Command& command) override;
-  /// As apply(); what drives also takes the motors from whatever else steers, unless they are off.
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
-  /// Holds the heading, or goes on to the position, if that was commanded.
+  /// Like apply(). A command to drive also takes the motors from other devices, unless they are
+  /// off.
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
+  /// Continues to hold a heading or to drive to a position, if commanded.
   void act(RobotControl& robot) override;
-  void motors_taken() override;
+  void on_motors_taken() override;
   void placed(const Pose& X_WB) override;
 
   [[nodiscard]] Motion* motion() noexcept override { return this; }
 
-  /// The twist to strive for during the next step of dt_s, limits applied; advances the ramp.
+  /// The target twist for the next step of dt_s, with limits applied; advances the ramp.
   [[nodiscard]] Twist next_target(double dt_s);
 
   [[nodiscard]] const MotionParams& params() const noexcept { return params_; }
   [[nodiscard]] bool enabled() const noexcept { return enabled_; }
   [[nodiscard]] const Twist& commanded() const noexcept { return commanded_; }
-  /// Of a car: where its front wheels point now, counter-clockwise [rad]; else 0.
+  /// Current angle of a car's front wheels, counter-clockwise [rad]; 0 for other drives.
   [[nodiscard]] double steering_rad() const noexcept { return steering_rad_; }
-  /// A command that, given again, lets it go on with what it does now.
+  /// A command that makes the device continue what it is doing now.
   [[nodiscard]] Command present_command() const;
   void archive(StateArchive& archive) override;
 
@@ -127,17 +131,17 @@ class Motion final : public Actuator {
   void command_car(double v_mps, double steering_rad);
   void command_turn(double v_mps, double lateral_mps, double turn_rate_radps);
 
-  // What each step asks for comes first: it shares lines of the cache.
+  // What each step needs comes first, so that it shares cache lines.
   Mode mode_ = Mode::kTwist;
   bool enabled_;
-  Twist commanded_;  ///< clamped, as last told
+  Twist commanded_;  ///< last command, clamped
   Twist target_;     ///< after the acceleration limit
   MotionParams params_;
   DriveDescription drive_;
   HeadingCommand heading_;
   PositionControl position_;
   double commanded_steering_rad_ = 0.0;  ///< of a car
-  double steering_rad_ = 0.0;            ///< of a car, after the limit of its rate
+  double steering_rad_ = 0.0;            ///< of a car, after the rate limit
 };
 
 }  // namespace sim

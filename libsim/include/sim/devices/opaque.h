@@ -11,28 +11,29 @@
 
 namespace sim {
 
-/// Settings of a device for messages of any bytes.
+/// Settings of a device for messages of arbitrary bytes.
 struct OpaqueParams {
   static constexpr std::size_t kMaxSenders = 64;
 
-  double frequency_hz = 10.0;  ///< readings, and so messages at most, a simulated second, (0, 1000]
-  /// Whose messages arrive here: "ROBOT", for its device "opaque", or "ROBOT.DEVICE"; at most
-  /// kMaxSenders. None: its own, as an echo.
+  double frequency_hz = 10.0;  ///< readings per simulated second, each with at most one message,
+                               ///< (0, 1000]
+  /// Senders of the messages: "ROBOT", for its device "opaque", or "ROBOT.DEVICE"; at most
+  /// kMaxSenders. Empty: the device itself, which gives an echo.
   std::vector<std::string> from;
 };
 
 /// A message, if one has arrived.
 struct OpaqueReading final : Reading {
-  std::vector<std::uint8_t> data;  ///< empty: none has arrived since the reading before
-  std::uint64_t number = 0;        ///< messages that arrived so far, this one included
-  std::uint64_t lost = 0;          ///< messages that found no room in the queue so far
+  std::vector<std::uint8_t> data;  ///< empty if none has arrived since the previous reading
+  std::uint64_t number = 0;        ///< messages received so far, including this one
+  std::uint64_t lost = 0;          ///< messages dropped so far because the queue was full
 };
 
-/// Carries messages from robot to robot, or back to the sender, as a cable does: neither distance
-/// nor walls matter. What an OpaqueCommand sends before a step arrives in that step, whatever the
-/// order of the robots; messages of several senders arrive in the order in which `from` lists
-/// these. Each reading takes one message, oldest first. Up to kMaxQueue wait; of more the oldest
-/// are lost. Refused are messages of more than kMaxOpaque bytes; an empty one is none.
+/// Transmits messages from robot to robot, or back to the sender, regardless of distance and walls.
+/// A message sent by an OpaqueCommand before a step arrives in that step, whatever the order of the
+/// robots. Messages of several senders arrive in the order of `from`. Each reading takes one
+/// message, oldest first. The queue holds kMaxQueue messages; when it is full, the oldest is
+/// dropped. Messages over kMaxOpaque bytes are refused; an empty message counts as none.
 class Opaque final : public SensorOf<OpaqueReading> {
  public:
   static constexpr std::size_t kMaxQueue = 256;
@@ -50,16 +51,16 @@ class Opaque final : public SensorOf<OpaqueReading> {
 
  private:
   using Message = std::vector<std::uint8_t>;
-  struct Line {
+  struct Connection {
     const Opaque* sender = nullptr;
-    std::uint64_t heard = 0;  ///< messages of that sender so far
+    std::uint64_t received_count = 0;  ///< number of messages received from that sender
   };
-  void hear(Line& line);
+  void receive(Connection& connection);
 
   OpaqueParams params_;
-  std::vector<Line> lines_;
-  /// Messages sent since the step before the last one, the newest having number sent_: all others
-  /// have heard the older ones.
+  std::vector<Connection> connections_;
+  /// Messages sent since the step before the last one; the newest has the number sent_. All
+  /// receivers have already received the older ones.
   std::deque<Message> sent_messages_;
   std::uint64_t sent_ = 0;
   std::uint64_t sent_before_step_ = 0;

@@ -9,19 +9,19 @@ namespace sim {
 /// Settings of a pen.
 struct PenParams {
   Colour colour{0x00, 0xc8, 0x00, 0xff};  ///< of the trail
-  bool trail = false;                     ///< draw where the robot drives, without being told
+  bool trail = false;                     ///< draw a trail while the robot drives
 };
 
-/// The pen by which a robot draws on the canvas. Clients draw what they like with it; with
-/// `trail` on it also marks the robot's way by itself.
+/// The pen with which a robot draws on the canvas. Clients may draw anything with it; with `trail`
+/// it also draws the robot's path.
 class Pen final : public Actuator {
  public:
   Pen(std::string name, const PenParams& params);
 
   [[nodiscard]] const PenParams& params() const noexcept { return params_; }
-  /// Marks the way from the last position to this one, if the trail is on and the pen active.
+  /// Draws the path from the last position to this one, if the trail is on and the pen is active.
   void mark_trail(const Pose& X_WB, Canvas& canvas);
-  void placed(const Pose&) override { has_last_ = false; }  // no line to there
+  void placed(const Pose&) override { has_last_ = false; }  // leave a gap in the trail
   [[nodiscard]] Pen* pen() noexcept override { return this; }
   void archive(StateArchive& archive) override;
 

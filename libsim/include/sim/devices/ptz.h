@@ -10,34 +10,34 @@
 
 namespace sim {
 
-/// Settings of a head that pans, tilts and zooms. Angles and speeds of pan and tilt, and the
-/// narrowest view, are those of a Sony EVI-D30 (its data sheet), which Pioneers carried; the
-/// widest view is that of the other devices that look.
+/// Settings of a head that pans, tilts and zooms. The default angles and speeds of pan and tilt,
+/// and the narrowest field of view, are those of the Sony EVI-D30 of Pioneer robots (from its data
+/// sheet). The default widest field of view is that of the other viewing devices.
 struct PtzParams {
   double frequency_hz = 10.0;                                 ///< (0, 1000]
   double pan_max_rad = 100.0 / 180.0 * std::numbers::pi;      ///< to either side, [0, pi]
   double tilt_max_rad = 25.0 / 180.0 * std::numbers::pi;      ///< up and down, [0, pi/3]
   double view_min_rad = 4.4 / 180.0 * std::numbers::pi;       ///< field of view, zoomed in
   double view_max_rad = std::numbers::pi / 3.0;               ///< field of view, zoomed out
-  double pan_speed_radps = 80.0 / 180.0 * std::numbers::pi;   ///< at most, > 0
-  double tilt_speed_radps = 50.0 / 180.0 * std::numbers::pi;  ///< at most, > 0
-  double zoom_speed_radps = 30.0 / 180.0 * std::numbers::pi;  ///< of the field of view, > 0
+  double pan_speed_radps = 80.0 / 180.0 * std::numbers::pi;   ///< maximum, > 0
+  double tilt_speed_radps = 50.0 / 180.0 * std::numbers::pi;  ///< maximum, > 0
+  double zoom_speed_radps = 30.0 / 180.0 * std::numbers::pi;  ///< of the view, maximum, > 0
 };
 
-/// Where a head points.
+/// Direction of a head.
 struct PtzReading final : Reading {
   double pan_rad = 0.0;   ///< to the left
   double tilt_rad = 0.0;  ///< upwards
-  double view_rad = 0.0;  ///< field of view from side to side
+  double view_rad = 0.0;  ///< horizontal field of view
   double pan_speed_radps = 0.0;
   double tilt_speed_radps = 0.0;
-  double zoom_speed_radps = 0.0;  ///< how fast the field of view widens
+  double zoom_speed_radps = 0.0;  ///< rate of change of the field of view
   bool moving = false;
 };
 
-/// A head that turns to where it is told at the speed it is told, without inertia, within its
-/// limits. At the start it looks straight ahead, zoomed out. Takes PointCommand and PanCommand.
-/// Blobfinders and cameras of the same robot may sit on it (ViewParams::ptz).
+/// A head that turns to a commanded direction at a commanded speed, without inertia, within its
+/// limits. Initially it points straight ahead, zoomed out. Takes PointCommand and PanCommand.
+/// Blobfinders and cameras of the same robot may be mounted on it (ViewParams::ptz).
 class Ptz final : public SensorOf<PtzReading> {
  public:
   Ptz(std::string name, const PtzParams& params);
@@ -54,7 +54,7 @@ class Ptz final : public SensorOf<PtzReading> {
   void measure(const StepContext& context) override;
 
  private:
-  /// One of the three motions.
+  /// One of the three axes.
   struct Axis {
     double least;
     double most;
@@ -63,9 +63,10 @@ class Ptz final : public SensorOf<PtzReading> {
     double goal;
     double speed;        ///< >= 0, on the way to the goal
     double moved = 0.0;  ///< speed in the last step
-    /// Strives for a goal, brought into the limits. @param at  speed; 0: as fast as it goes.
+    /// Sets the goal, clamped to the limits.
+    /// @param at  speed; 0: the maximum.
     void go_to(double where, double at);
-    /// Moves on for dt_s.
+    /// Moves for dt_s.
     void step(double dt_s);
   };
 

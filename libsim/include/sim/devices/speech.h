@@ -9,21 +9,21 @@ namespace sim {
 
 /// Settings of a voice.
 struct SpeechParams {
-  double shown_s = 4.0;  ///< for so long a text stands over the robot in pictures [s], > 0
+  double shown_s = 4.0;  ///< display time of a text in pictures [s], > 0
 };
 
-/// A robot's voice. What it says by a SayCommand stands over the robot in pictures until it says
-/// something else or its time is over, and in the log and the report of the run. An empty text
-/// takes away what stands there. No other robot hears it. Refused are texts of more than kMaxSpeech
-/// bytes.
+/// A robot's voice. The text of a SayCommand appears next to the robot in pictures until the robot
+/// says something else or the display time is over, and in the log and the report of the run. An
+/// empty text removes the current one. No other robot hears it. Texts over kMaxSpeech bytes are
+/// refused.
 class Speech final : public Actuator {
  public:
   Speech(std::string name, const SpeechParams& params);
 
-  /// What stands over the robot now; empty: nothing.
+  /// The text shown now; empty: none.
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   void integrate(const StepContext& context) override;
   void show(SimTime now_ns, RobotSnapshot& shot) const override;
   void archive(StateArchive& archive) override;
@@ -34,7 +34,7 @@ class Speech final : public Actuator {
  private:
   SpeechParams params_;
   std::string text_;
-  SimTime left_ns_ = 0;  ///< until it goes
+  SimTime left_ns_ = 0;  ///< remaining display time
 };
 
 }  // namespace sim

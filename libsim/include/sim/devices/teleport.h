@@ -8,22 +8,23 @@
 
 namespace sim {
 
-/// Settings of the teleport actuator: it has none.
+/// Settings of the teleport actuator: none.
 struct TeleportParams {};
 
-/// Puts its robot somewhere else at once, without a way in between.
+/// Moves its robot to another place at once.
 ///
-/// Takes PlaceCommand, TranslateCommand and RotateCommand. The robot is then at rest there: its
-/// motors' last twist is forgotten and a waypoint in transit stops. Localisation shows the new
-/// pose; odometry notices nothing, as no wheel has turned; a pen's trail has a gap; contacts are
-/// found anew in the next step; the way is not counted.
-/// Refused, with a sentence, are numbers that are not finite and a place off the floor, in an
-/// obstacle, a wall or another robot; the robot then stays where it is.
+/// Takes PlaceCommand, TranslateCommand and RotateCommand. Afterwards the robot is at rest: the
+/// motors' last twist is discarded, and a waypoint device in transit stops. Localisation shows the
+/// new pose. Odometry does not change, since no wheel has turned. A pen's trail has a gap. The next
+/// step determines contacts anew. The distance does not count as path length.
+///
+/// Numbers that are not finite, and poses off the floor or inside an obstacle, a wall or another
+/// robot, are refused with a reason; the robot then stays where it is.
 class Teleport final : public Actuator {
  public:
   Teleport(std::string name, const TeleportParams& params);
 
-  std::optional<std::string> carry_out(const Command& command, RobotControl& robot) override;
+  std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
 };
 
 }  // namespace sim

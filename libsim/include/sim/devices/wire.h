@@ -5,14 +5,14 @@
 
 namespace sim {
 
-/// What an input is wired to: one of the outputs, or values, of a device.
+/// The source that an input is wired to: an output or a value of a device.
 struct Wire {
-  std::string robot;   ///< empty: the input's own robot
-  std::string device;  ///< its name
-  int index = 0;       ///< which of its outputs or values, from 0
+  std::string robot;   ///< empty: the robot of the input
+  std::string device;  ///< name of the device
+  int index = 0;       ///< index of its output or value, from 0
 };
 
-/// As world files name it: "ROBOT.DEVICE.INDEX", or "DEVICE.INDEX" for the own robot.
+/// The form in world files: "ROBOT.DEVICE.INDEX", or "DEVICE.INDEX" for the same robot.
 [[nodiscard]] inline std::string to_string(const Wire& wire) {
   return (wire.robot.empty() ? "" : wire.robot + ".") + wire.device + "." +
          std::to_string(wire.index);

@@ -6,8 +6,8 @@
 
 namespace sim::io {
 
-/// Reads the fields of a struct from an object of a world file. Keys that are left out keep what
-/// `object` has; what is wrong is recorded with its place, as by Reader's getters.
+/// Reads the fields of a struct from an object of a world file. Missing keys leave the values in
+/// `object` unchanged. Errors are recorded with their place, as Reader's getters do.
 void read_fields(Reader& settings, const FieldTable& table, void* object);
 
 }  // namespace sim::io

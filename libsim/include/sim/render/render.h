@@ -17,9 +17,9 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
-/// What to draw of a scene.
+/// Which parts of a scene to draw.
 struct RenderOptions {
-  int size_px = 1000;  ///< the longer side of the picture, 64..8192; below 200 there is no text
+  int size_px = 1000;  ///< longer side of the picture, 64..8192; no text below 200
   bool canvas = true;  ///< the grid-map
   bool trails = true;
   bool scans = true;  ///< laser fans, sonar cones, infrared rays, lines to fiducials
@@ -29,35 +29,34 @@ struct RenderOptions {
   friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
 };
 
-/// Draws scenes one after another, as for a film or a window: what does not change from one
-/// picture to the next (floor, blocks, borders, texts, cells that nobody drew on) is kept.
+/// Draws scenes one after another, as for a film or a window. Keeps what does not change from one
+/// picture to the next: floor, blocks, borders, texts, cells without drawings.
 ///
-/// The view modes, all in a picture of one size, which depends on the arena and the options alone:
+/// All view modes give a picture of the same size, which depends only on the arena and the options:
 /// - ground: floor, canvas on it, docks, obstacles, borders, trails, laser fans, sonar cones with
-///   an arc where the echo came from, infrared rays, lines to fiducials in view, robots with their
-///   bumpers, pressed segments in red. The W axes
-///   point right and up. The arena is as large as margins and footer let it; a very narrow one gets
-///   wider margins, so that the footer has room. A robot too small to be seen is marked by a disc
-///   of its colour, one that is stalled by a red ring, one that is marked by a dark one. Lights lie
-///   on the robots; what robots say stands beside them in bubbles of two lines at most. Laser fans
-///   and trails end at the edge of the floor. Coordinates that are not finite or absurdly far away
-///   (1e9 pixels) are left out.
-/// - mini-map: the same with a bare floor; the canvas, framed, with a dot for each robot, in that
-///   corner of the floor where it covers least of obstacles and docks.
-/// - full-screen: the canvas on white, each cell the same whole number of pixels wide, in the
-///   middle of the picture. One with more cells than the picture has pixels is shrunk, each pixel
-///   showing the mean of the cells under it. The robots stand on it, at its scale and cut off at
-///   its edge, with their lights, bumpers, rings, names and bubbles as on the ground; nothing else
-///   of the arena is drawn.
+///   an arc at the echo's distance, infrared rays, lines to fiducials in view, robots with their
+///   bumpers, pressed segments in red. The W axes point right and up. The arena is as large as
+///   margins and footer allow; a very narrow arena gets wider margins, so that the footer fits. A
+///   disc of its colour marks a robot that is too small to be seen, a red ring a stalled robot, a
+///   dark ring a marked one. Lights are drawn on the robots; texts that robots say appear beside
+///   them in bubbles of at most two lines. Laser fans and trails end at the edge of the floor.
+///   Coordinates that are not finite or too far away (1e9 pixels) are not drawn.
+/// - mini-map: like ground, but with a bare floor; the canvas, framed, with a dot for each robot,
+///   is in the corner of the floor where it covers the least of obstacles and docks.
+/// - full-screen: the canvas on white, centred, with each cell the same whole number of pixels
+///   wide. A canvas with more cells than the picture has pixels is shrunk, so that each pixel shows
+///   the mean of its cells. Robots are drawn on it at its scale and clipped at its edge, with their
+///   lights, bumpers, rings, names and bubbles as in the ground mode; nothing else of the arena is
+///   drawn.
 ///
-/// The legend names the visible layers but the base: a swatch of a layer's colour, for a grey layer
-/// the shades of free, unknown and occupied. What has no room is left out: first the words for
-/// the shades, then the topmost layers, whose number is told instead.
+/// The legend names the visible layers except the base: a swatch of a layer's colour, for a grey
+/// layer the shades of free, unknown and occupied. If space runs out, first the words for the
+/// shades are left out, then the topmost layers, whose number is shown instead.
 ///
-/// The same scene gives the same picture to the bit, whatever was drawn before.
-/// Not thread-safe; several renderers are independent of one another. Deterministic, on the calling
-/// thread. Cost: a few milliseconds at 800 px; tens for the first picture and when an obstacle, the
-/// arena's or the picture's size has changed.
+/// The same scene gives a bit-identical picture, whatever was drawn before. Not thread-safe, but
+/// several renderers are independent. Deterministic; uses only the calling thread. Cost: a few
+/// milliseconds at 800 px; tens of milliseconds for the first picture, and after an obstacle or the
+/// size of the arena or picture has changed.
 class SceneRenderer {
  public:
   /// @throws std::invalid_argument if size_px is out of range.
@@ -66,12 +65,13 @@ class SceneRenderer {
   SceneRenderer(SceneRenderer&&) noexcept;
   SceneRenderer& operator=(SceneRenderer&&) noexcept;
 
-  /// Draws a scene in its view mode. The picture may be read until the next call.
-  /// @throws std::invalid_argument if the canvas has not as many bytes as its description says.
+  /// Draws a scene in its view mode. The picture is valid until the next call.
+  /// @throws std::invalid_argument if the number of the canvas's bytes does not match its
+  ///     description.
   [[nodiscard]] const Image& draw(const SceneSnapshot& scene) {
     return draw(scene, scene.view_mode);
   }
-  /// As above, in another view mode than its own.
+  /// Draws a scene in another view mode than its own.
   [[nodiscard]] const Image& draw(const SceneSnapshot& scene, ViewMode mode);
 
  private:
@@ -79,70 +79,72 @@ class SceneRenderer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One picture of a scene in its view mode: SceneRenderer(options).draw(scene).
-/// @throws std::invalid_argument as SceneRenderer.
+/// Draws one picture of a scene in its view mode: SceneRenderer(options).draw(scene).
+/// @throws std::invalid_argument like SceneRenderer.
 [[nodiscard]] Image draw_view(const SceneSnapshot& scene, const RenderOptions& options = {});
 
-/// One picture of a scene in the view mode ground, whatever its own is.
-/// @throws std::invalid_argument as SceneRenderer.
+/// Draws one picture of a scene in the view mode ground, whatever its own mode is.
+/// @throws std::invalid_argument like SceneRenderer.
 [[nodiscard]] Image draw_scene(const SceneSnapshot& scene, const RenderOptions& options = {});
 
-/// Draws the canvas alone, each cell `scale` pixels a side, transparent cells as white.
-/// @throws std::invalid_argument if scale < 1, a side of the picture were over 32768 pixels, or
-///     `rgba` has not 4 bytes a cell.
+/// Draws the canvas alone, with `scale` x `scale` pixels per cell and transparent cells in white.
+/// @throws std::invalid_argument if scale < 1, if a side of the picture would exceed 32768 pixels,
+///     or if `rgba` does not have 4 bytes per cell.
 [[nodiscard]] Image draw_canvas(const CanvasDescription& description,
                                 const std::vector<std::uint8_t>& rgba, int scale);
 
-/// How much work goes into making a PNG small.
+/// How much effort to spend on a small PNG file.
 enum class PngEffort {
-  kQuick,  ///< a few times faster, the file a third larger or so
+  kQuick,  ///< a few times faster; the file is about a third larger
   kSmall,
 };
 
-/// Writes a PNG; equal pictures give equal bytes. @throws std::runtime_error naming the file and
-/// the reason.
+/// Writes a PNG; equal pictures give equal bytes.
+/// @throws std::runtime_error naming the file and the reason.
 void write_png(const Image& image, const std::string& path, PngEffort effort = PngEffort::kSmall);
 
-/// Loads what draws letters: OpenCV, in a module of its own, which otherwise the first picture
-/// loads. Call it before std::atexit() with a handler that draws pictures: handlers run in reverse
-/// order, so what the module keeps then outlives the handler. Not needed otherwise. Where the
-/// module is missing, this does nothing, and the first picture tells why.
+/// Loads the module that draws text with OpenCV; otherwise the first picture loads it. Call this
+/// before std::atexit() if the handler draws pictures: handlers run in reverse order, so the
+/// module's own data then outlives the handler. Not needed otherwise. If the module is missing,
+/// this function does nothing, and drawing the first picture reports the reason.
 void prepare_pictures() noexcept;
 
-/// Loads what encodes films, as prepare_pictures() does for pictures.
+/// Loads the module that encodes films, like prepare_pictures() for pictures.
 void prepare_films() noexcept;
 
-/// Writes a film, frame by frame: ".mp4" (H.264, or MPEG-4 Part 2 where FFmpeg lacks that) or
-/// ".avi" (Motion JPEG) by the file's ending, or a folder of pictures frame_000001.png,
-/// frame_000002.png, ... if the name has no ending, ends in a slash or is that of a folder. A
-/// folder that is not there is made; frames of an earlier film in it are removed. A film is
-/// complete after finish(), or when the writer is destroyed; without a frame no file and no new
-/// folder remains. Equal pictures give equal films on one machine; FFmpeg's encoder of H.264 uses
-/// threads of its own, as many as suit the processors, and its bytes depend on how many.
+/// Writes a film, frame by frame. The file's extension selects the format: ".mp4" (H.264, or MPEG-4
+/// Part 2 if FFmpeg lacks H.264) or ".avi" (Motion JPEG). A name without an extension, with a slash
+/// at its end, or of an existing folder stands for a folder of pictures frame_000001.png,
+/// frame_000002.png, ... A missing folder is created; frames of an earlier film in it are removed.
+/// A film is complete after finish(), or when the writer is destroyed; without any frame, no file
+/// and no new folder remains. Equal pictures give equal films on one machine. FFmpeg's H.264
+/// encoder uses its own threads; their number depends on the processor and affects the encoded
+/// bytes.
 class FilmWriter {
  public:
-  /// @param frames_per_second  1..1000; a folder of pictures does not keep it.
-  /// @throws std::runtime_error naming the file and the reason: the file or folder cannot be made,
-  ///     the ending is unknown, or the rate is out of range.
+  /// @param frames_per_second  1..1000; a folder of pictures does not store it.
+  /// @throws std::runtime_error naming the file and the reason: the file or folder cannot be
+  ///     created, the extension is unknown, or the rate is out of range.
   FilmWriter(const std::string& path, double frames_per_second);
   ~FilmWriter();
   FilmWriter(FilmWriter&&) noexcept;
   FilmWriter& operator=(FilmWriter&&) noexcept;
 
-  /// Whether `path` is the name of a film that can be written, by its ending.
+  /// Whether `path` has the name of a film that can be written, judged by its extension.
   [[nodiscard]] static bool is_film_name(const std::string& path);
 
-  /// All frames must have the size of the first (the film's sides are cut to even numbers).
+  /// Adds a frame. All frames must have the size of the first one. Odd sides of a film are cut to
+  /// even numbers.
   /// @throws std::runtime_error naming the file and the reason: another size, or no encoder.
   void add(const Image& frame);
 
-  /// Bytes that it has on the disk by now.
+  /// Number of bytes written to the disk so far.
   [[nodiscard]] std::uint64_t size() const;
   /// Completes the film. add() must not be called afterwards.
-  /// @throws std::runtime_error naming the file if it is not whole, as when the disk was full.
+  /// @throws std::runtime_error naming the file if it is incomplete, e.g. because the disk is full.
   void finish();
 
-  struct Impl;  ///< what writes one kind of film
+  struct Impl;  ///< writer of one format of film
 
  private:
   std::unique_ptr<Impl> impl_;

@@ -9,29 +9,29 @@
 
 namespace sim::scan {
 
-/// A cone from a point: what lies within half its angle on either side of where it looks.
+/// A cone from a point: everything within half the opening angle on either side of its direction.
 struct Cone {
-  double x_m = 0.0;                ///< its apex, in the frame of the edges [m]
+  double x_m = 0.0;                ///< apex, in the frame of the edges [m]
   double y_m = 0.0;                ///< [m]
-  double yaw_rad = 0.0;            ///< where it looks, counter-clockwise from the frame's x axis
+  double yaw_rad = 0.0;            ///< direction, counter-clockwise from the frame's x axis
   double field_of_view_rad = 0.0;  ///< full angle, [0, pi]; 0: a single ray
 };
 
-/// Least distance from a cone's apex to an edge that faces it, within the cone.
+/// Least distance within the cone from its apex to an edge that faces the apex.
 ///
-/// Each edge is clipped to the two half-planes that make the cone; of what is left the point
-/// nearest to the apex counts, which nothing can hide: what did would be nearer, and within the
-/// cone as well. So the result is exact but for rounding: 1e-15 of the coordinates.
-/// A ray meets an edge that begins on its left (or on it) and ends on its right, so that it meets
-/// one of two edges that share the bits of a corner.
-/// @return [m], in [0, range_max_m]; range_max_m where nothing is met.
-/// @note O(edges), a few nanoseconds each. Safe from many threads.
+/// Each edge is clipped to the two half-planes that bound the cone, and the nearest point of the
+/// rest counts. Nothing can hide that point: an occluder would be nearer and inside the cone as
+/// well. So the result is exact except for rounding (1e-15 of the coordinates). A single ray meets
+/// an edge that begins on its left (or on it) and ends on its right. Therefore it meets exactly one
+/// of two edges that share a corner bit by bit.
+/// @return [m], in [0, range_max_m]; range_max_m if nothing is met.
+/// @note O(edges), a few nanoseconds each. Thread-safe.
 [[nodiscard]] double least_range_in_cone_m(std::span<const Edge> edges, const Cone& cone,
                                            double range_max_m);
 
-/// Edges in columns, so that processors look at several at a time: for many cones over the same
-/// edges. Gives the bits that least_range_in_cone_m() of the edges gives.
-/// Not thread-safe (scratch memory); clear() keeps the memory.
+/// Edges as columns (structure of arrays), so that vector instructions test several at a time; for
+/// many cones over the same edges. The results are bit-identical to least_range_in_cone_m() of the
+/// edges. Not thread-safe (scratch memory). clear() keeps the memory.
 class EdgeColumns {
  public:
   void clear() noexcept;

@@ -9,11 +9,11 @@
 
 namespace sim::scan {
 
-/// One straight piece of an outline, from (x0, y0) to (x1, y1), with the solid on its left, so its
-/// outer face is on its right; a sensor on the left of it, or in line with it, does not see it.
-/// Coordinates are relative to the sensor's position, but W-aligned (not turned) [m].
+/// One straight piece of an outline, from (x0, y0) to (x1, y1), with the solid on its left. Its
+/// outer face is on its right; a sensor on its left, or in line with it, does not see it.
+/// Coordinates are relative to the sensor's position, with the axes of W (not rotated) [m].
 ///
-/// Outlines are closed for beams where two edges hold the same bits for the corner they share.
+/// No beam passes between two edges whose shared corner has identical bits in both.
 struct alignas(16) Edge {
   float x0_m;
   float y0_m;
@@ -21,11 +21,11 @@ struct alignas(16) Edge {
   float y1_m;
 };
 
-/// The edges that a scan may meet. Filled by physics, read by ScanKernel, reused from scan to
-/// scan: clear() keeps the memory, so that none is taken in steady state.
+/// The edges that a scan may meet. Physics fills it and ScanKernel reads it. It is reused from scan
+/// to scan: clear() keeps the memory, so nothing is allocated in steady state.
 class EdgeBuffer {
  public:
-  bool inside = false;  ///< the sensor's origin lies inside a solid: every beam reads 0
+  bool inside = false;  ///< the sensor's origin is inside a solid, so every beam reads 0
 
   /// Forgets all edges and `inside`; keeps the memory.
   void clear() noexcept {
@@ -33,14 +33,14 @@ class EdgeBuffer {
     inside = false;
   }
 
-  /// Adds one edge; see Edge for the meaning.
+  /// Adds one edge.
   void add(float x0_m, float y0_m, float x1_m, float y1_m) {
     *append(1) = Edge{x0_m, y0_m, x1_m, y1_m};
   }
 
-  /// Adds `count` edges at once and returns where to write them: the caller must write all of
-  /// them. The pointer holds until the next append(), add() or destruction. To add at most
-  /// `count` edges, append that many, write some and give the rest back with truncate().
+  /// Adds `count` edges at once and returns a pointer for the caller to write all of them. The
+  /// pointer is valid until the next append(), add() or destruction. To add at most `count` edges,
+  /// append that many, write some and remove the rest with truncate().
   [[nodiscard]] Edge* append(std::size_t count) {
     const std::size_t begin = size_;
     size_ += count;
@@ -54,7 +54,7 @@ class EdgeBuffer {
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] std::span<const Edge> edges() const noexcept { return {storage_.data(), size_}; }
 
-  /// Edges after the last that may be read, though they mean nothing: the kernel reads in groups.
+  /// Number of readable but meaningless edges after the last one, since the kernel reads in groups.
   static constexpr std::size_t kPadding = 8;
 
  private:
@@ -64,13 +64,13 @@ class EdgeBuffer {
   std::size_t size_ = 0;
 };
 
-/// Discs that hold solids, a robot each for instance: what a scan asks about before it takes their
-/// edges. clear() keeps the memory.
+/// Discs that enclose solids, e.g. one per robot. A scan tests them before it gathers the edges of
+/// the solids. clear() keeps the memory.
 class DiscBuffer {
  public:
   /// Forgets all discs; keeps the memory.
   void clear() noexcept { size_ = group_count_ = 0; }
-  /// Adds a disc round (x, y), in W [m].
+  /// Adds a disc around (x, y), in W [m].
   void add(float x_m, float y_m, float radius_m) {
     if (size_ + kPadding >= x_.size()) grow();
     x_[size_] = x_m;
@@ -80,19 +80,20 @@ class DiscBuffer {
   }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-  /// Lets a scan pass over many discs at once: finds a circle round the first kGroupSize of them,
-  /// round the next, and so on. Call it after the last add(); worth it where discs that follow one
-  /// another are near each other.
+  /// Enables a scan to skip several discs at once: computes a circle around each group of
+  /// kGroupSize consecutive discs. Call it after the last add(). It pays off if consecutive discs
+  /// are near each other.
   void group();
   static constexpr std::int32_t kGroupSize = 8;
-  /// How many groups there are; 0 if group() has not been called since clear().
+  /// Number of groups; 0 if group() has not been called since clear().
   [[nodiscard]] std::size_t group_count() const noexcept { return group_count_; }
 
-  /// Coordinates and radii, an array each; kPadding more may be read, though they mean nothing [m].
+  /// Coordinates and radii, one array each [m]; kPadding further elements are readable but
+  /// meaningless.
   [[nodiscard]] const float* x_m() const noexcept { return x_.data(); }
   [[nodiscard]] const float* y_m() const noexcept { return y_.data(); }
   [[nodiscard]] const float* radius_m() const noexcept { return radius_.data(); }
-  /// The same of the groups' circles.
+  /// Coordinates and radii of the groups' circles [m].
   [[nodiscard]] const float* group_x_m() const noexcept { return group_x_.data(); }
   [[nodiscard]] const float* group_y_m() const noexcept { return group_y_.data(); }
   [[nodiscard]] const float* group_radius_m() const noexcept { return group_radius_.data(); }
@@ -115,8 +116,8 @@ namespace detail {
 struct ScanSteps;
 }  // namespace detail
 
-/// Directions of a scanner's beams: `beam_count` of them, `resolution_rad` apart, symmetric
-/// about forward; beam 0 is the rightmost (least angle).
+/// Directions of a scanner's beams: `beam_count` beams, `resolution_rad` apart, symmetric about the
+/// forward direction. Beam 0 is the rightmost (least angle).
 struct ScanGeometry {
   int beam_count = 682;         ///< 1 to 1 000 000
   double resolution_rad = 0.0;  ///< > 0; (beam_count - 1) * resolution <= 2 pi
@@ -133,32 +134,33 @@ struct ScanGeometry {
   }
 };
 
-/// Instructions that a kernel may use. All give the same bits.
+/// Instruction set of a kernel. All give bit-identical results.
 enum class InstructionSet {
-  kScalar,  ///< plain C++, on every processor
-  kSse2,    ///< every x86-64 processor
-  kAvx2,    ///< x86-64 processors since about 2013
+  kScalar,  ///< plain C++, for every processor
+  kSse2,    ///< for every x86-64 processor
+  kAvx2,    ///< for x86-64 processors since about 2013
 };
 
-/// Least distance to any edge, for every beam of a scanner at once.
+/// Computes the least distance to any edge for every beam of a scanner at once.
 ///
-/// Edges that face the sensor are swept into the interval of beams they span; each beam keeps
-/// the nearest. Work grows with edges + beams covered, not with their product.
+/// Each edge that faces the sensor is mapped to the interval of beams that it spans; each beam
+/// keeps the nearest edge. The cost grows with the number of edges plus the number of beams that
+/// they cover, not with the product of edges and beams.
 ///
-/// Result: range in [0, range_max]; range_max where nothing is met. Against exact geometry the
-/// error is below 1e-6 of the range. Which beams an edge spans, its ends included, is decided to
-/// the last bits of double precision, so nothing is seen through the joint of two edges that share
-/// a corner. The same bits on every x86-64 processor: the wider instruction paths, chosen at run
-/// time, do the same operations in the same order.
-/// Not thread-safe (scratch memory); one kernel a sensor. A copy shares the tables of its beams
-/// with the original: equal sensors should be copies of one kernel, to leave more of the cache.
+/// A range is in [0, range_max], and range_max where nothing is met. Its error against exact
+/// geometry is below 1e-6 of the range. Which beams an edge spans, including its ends, is decided
+/// to the last bits of double precision, so no beam passes through the joint of two edges that
+/// share a corner. The results are bit-identical on every x86-64 processor: the wider instruction
+/// paths, chosen at run time, do the same operations in the same order. Not thread-safe (scratch
+/// memory); use one kernel per sensor. A copy shares the beam tables with the original: sensors of
+/// equal geometry should use copies of one kernel, which leaves more of the cache free.
 class ScanKernel {
  public:
-  /// Uses the widest instructions that this processor has.
-  /// @param geometry  valid as ScanGeometry says.
+  /// Uses the widest instruction set of this processor.
+  /// @param geometry  within the limits of ScanGeometry.
   explicit ScanKernel(const ScanGeometry& geometry);
 
-  /// @param instructions  the instructions to use; they must be available().
+  /// @param instructions  must be available().
   ScanKernel(const ScanGeometry& geometry, InstructionSet instructions);
 
   ScanKernel(const ScanKernel& other);
@@ -167,34 +169,36 @@ class ScanKernel {
   ScanKernel& operator=(ScanKernel&& other) noexcept;
   ~ScanKernel();
 
-  /// Whether this processor and this build of the library have the instructions.
+  /// Whether this processor and this build of the library support the instruction set.
   [[nodiscard]] static bool available(InstructionSet instructions) noexcept;
 
-  /// @param edges    edges near the sensor, relative to its position, W-aligned [m].
+  /// Computes the ranges of all beams.
+  /// @param edges    edges near the sensor, relative to its position, with the axes of W [m].
   /// @param yaw_rad  the sensor's heading in W [rad].
-  /// @param ranges_m beam_count values out, beam 0 the rightmost [m].
+  /// @param ranges_m receives beam_count values, beam 0 the rightmost [m].
   void scan(const EdgeBuffer& edges, double yaw_rad, std::span<double> ranges_m);
 
-  /// The same in parts: begin(), add() for some edges after the other, finish(). So what is nearest
-  /// may come first, and what visible() then does not list need not be added at all: the
-  /// ranges are the same to the last bit.
+  /// Starts a scan in parts: begin(), any number of add(), finish(). The caller can add near edges
+  /// first and then skip the edges of discs that visible() does not list; the ranges are
+  /// bit-identical to those of scan().
   /// @param yaw_rad  as for scan().
   void begin(double yaw_rad);
-  /// Adds edges to the scan that was begun. If the sensor is inside a solid, so says `edges`.
+  /// Adds edges to the current scan. `edges.inside` says whether the sensor is inside a solid.
   void add(const EdgeBuffer& edges);
 
-  /// Discs whose middles are nearer than this are better added at once than asked about [m].
+  /// Discs whose centres are nearer than this should be added without a visibility test [m].
   static constexpr float kNear_m = 2.0F;
-  /// Finds where discs stand, as seen by the scan that was begun. (x, y) is the sensor's place in
-  /// W [m]; errors of single precision are allowed for. The discs must not change before the last
+  /// Locates discs relative to the current scan. (x, y) is the sensor's position in W [m]; the
+  /// method allows for single-precision errors. The discs must not change before the last
   /// visible().
   void locate(const DiscBuffer& discs, float x_m, float y_m);
-  /// Indices of the near ones of which a part may be in view. Errs on the side of listing. Holds
+  /// Indices of the near discs that may be partly in view. Conservative: may list too many. Valid
   /// until the next locate().
   [[nodiscard]] std::span<const std::int32_t> near() const;
-  /// Indices of those that are not near, but that some beam may meet before any edge that was
-  /// added; the others are hidden. Errs on the side of listing. Holds until the next call.
+  /// Indices of the discs that are not near and that some beam may meet before any added edge; all
+  /// other distant discs are hidden. Conservative: may list too many. Valid until the next call.
   [[nodiscard]] std::span<const std::int32_t> visible();
+  /// Ends the current scan.
   /// @param ranges_m  as for scan().
   void finish(std::span<double> ranges_m);
 
@@ -206,7 +210,7 @@ class ScanKernel {
 
   ScanGeometry geometry_;
   InstructionSet instructions_;
-  const detail::ScanSteps* steps_;  ///< by these instructions
+  const detail::ScanSteps* steps_;  ///< implementation for `instructions_`
   std::unique_ptr<Scratch> scratch_;
 };
 

@@ -11,15 +11,16 @@
 
 namespace sim {
 
-/// All that a picture of a simulation needs. Plain data: may be drawn on another thread.
+/// Everything that a picture of a simulation needs. Plain data, which may be drawn on another
+/// thread.
 struct SceneSnapshot {
   std::string world_name;
-  ArenaDescription arena;  ///< obstacles with their present state
+  ArenaDescription arena;  ///< obstacles with their current state
   CanvasDescription canvas_description;
-  std::vector<std::uint8_t> canvas;  ///< RGBA as Canvas::data(), all visible layers over one
-                                     ///< another; empty: no canvas
-  std::vector<LayerInfo> layers;     ///< all, hidden ones and the base too, lowest first; for
-                                     ///< legends
+  std::vector<std::uint8_t> canvas;  ///< RGBA like Canvas::data(), all visible layers composed;
+                                     ///< empty: no canvas
+  std::vector<LayerInfo> layers;     ///< all layers, including hidden ones and the base, lowest
+                                     ///< first; for legends
   ViewMode view_mode = ViewMode::kGround;
   std::vector<RobotSnapshot> robots;
   double time_s = 0.0;

@@ -7,12 +7,13 @@
 
 namespace sim {
 
-/// Tells worlds apart: a hash of what a run depends on, except what RunSettings of a host may
-/// change (seed, duration, time mode and factor, view mode).
+/// Hash that identifies a world. It covers everything that a run depends on, except what a host's
+/// RunSettings may change (seed, duration, time mode and factor, view mode).
 ///
-/// Arena, obstacles, walls, models, robots, their devices with all numeric settings, the canvas
-/// and the step count; the names of files do not. Equal descriptions give equal hashes on every
-/// machine of one byte order; two different worlds give the same one only by chance (2^-64).
+/// It includes the arena, obstacles, walls, models, robots, their devices with all numeric
+/// settings, the canvas and the step length, but not names of files. Equal descriptions give equal
+/// hashes on all machines of the same byte order; two different worlds have equal hashes only by
+/// chance (2^-64).
 [[nodiscard]] std::uint64_t world_hash(const WorldDescription& world);
 
 }  // namespace sim

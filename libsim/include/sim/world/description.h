@@ -13,79 +13,80 @@
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
 
-/// What a world is: plain structs, no behaviour. io fills them from a file, a program may fill
-/// them by hand; Simulation takes them as they are (check them with sim::io::check_world first).
+/// The description of a world: plain structs without behaviour. io fills them from a file; a
+/// program may also fill them itself. Simulation uses them without further checks (call
+/// sim::io::check_world first).
 namespace sim {
 
-/// Outline of a solid, a polygon in its own frame, counter-clockwise [m].
+/// Outline of a solid: a polygon in the solid's own frame, counter-clockwise [m].
 using Polygon = std::vector<Vec2>;
 
-/// Whether an obstacle can be moved out of the way.
+/// Whether an obstacle can be retracted into the floor.
 enum class ObstacleType {
   kStatic,   ///< always there (light grey in pictures)
-  kDynamic,  ///< can be extended from the floor and retracted into it while running (red)
+  kDynamic,  ///< can be extended and retracted while running (red)
 };
 
-/// Whether a dynamic obstacle stands in the arena now.
+/// Whether a dynamic obstacle is extended or retracted now.
 enum class ObstacleState { kExtended, kRetracted };
 
-/// A block of the arena: a box standing on the floor.
+/// A block of the arena: a box that stands on the floor.
 struct ObstacleDescription {
   std::string name;  ///< unique in the world
   ObstacleType type = ObstacleType::kStatic;
   Vec2 center = Vec2::Zero();  ///< in W [m]
   Vec2 size = {0.2, 0.2};      ///< along its own x and y axes [m], each > 0
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
-  double height_m = 0.16;      ///< a sensor mounted at or above this looks over it [m]
+  double height_m = 0.16;      ///< a sensor mounted at this height or above looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
-  int fiducial = 0;                   ///< what fiducial devices read of it; 0: they do not see it
-  std::optional<Colour> colour = {};  ///< none: in pictures that of its type, and no blobfinder
-                                      ///< sees it
+  int fiducial = 0;                   ///< number that fiducial devices read; 0: they do not see it
+  std::optional<Colour> colour = {};  ///< none: pictures use the colour of its type, and
+                                      ///< blobfinders do not see it
   bool portable = false;              ///< grippers can take and carry it
-  int carried_by = -1;                ///< index of the robot that carries it now; -1: it stands
+  int carried_by = -1;                ///< index of the robot that carries it now; -1: none
 };
 
-/// Corners of a box whose middle has the pose X_WB, counter-clockwise from its front right one, in
-/// W [m].
+/// Corners of a box in W, counter-clockwise from the front right one [m].
+/// @param X_WB  pose of the box's centre.
 /// @param size  along its own axes [m].
 [[nodiscard]] inline std::vector<Vec2> box_corners(const Pose& X_WB, const Vec2& size) {
   const Vec2 h = 0.5 * size;
   return {X_WB * Vec2(h.x(), -h.y()), X_WB * Vec2(h.x(), h.y()), X_WB * Vec2(-h.x(), h.y()),
           X_WB * Vec2(-h.x(), -h.y())};
 }
-/// Corners of an obstacle, likewise.
+/// Corners of an obstacle in W, counter-clockwise from the front right one [m].
 [[nodiscard]] inline std::vector<Vec2> box_corners(const ObstacleDescription& box) {
   return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
 }
 
-/// A charging dock: a marked place on the floor, no obstacle.
+/// A charging dock: a marked place on the floor, not an obstacle.
 struct DockDescription {
   std::string name;          ///< unique among docks
   Pose pose;                 ///< X_WD: centre; a docked robot faces along its x axis
   Vec2 size = {0.24, 0.24};  ///< along its own axes [m]
 };
 
-/// A wall that came from a map: a closed outline, solid on its left, as vertices in W [m].
-/// The outer ring of a solid region runs counter-clockwise, the ring of a hole in it clockwise.
+/// A wall from a map: a closed outline with the solid on its left, as vertices in W [m]. The outer
+/// ring of a solid region runs counter-clockwise, the ring of a hole clockwise.
 struct WallLoop {
   std::vector<Vec2> vertices;
 };
 
-/// Where the walls of an arena drawn as a picture came from (the loops are in ArenaDescription).
+/// The map image of an arena's walls (the resulting loops are in ArenaDescription).
 struct MapDescription {
   std::string image;                ///< file, relative to the world file
   double resolution_m = 0.05;       ///< side of a pixel [m]
   Vec2 origin = Vec2::Zero();       ///< W position of the picture's bottom left corner [m]
-  double occupied_threshold = 0.5;  ///< pixels darker than this share of white are walls, (0, 1)
-  double simplify_m = 0.0;  ///< outlines may be straightened by so much [m]; 0: pixel by pixel
+  double occupied_threshold = 0.5;  ///< pixels darker than this fraction of white are walls, (0, 1)
+  double simplify_m = 0.0;          ///< tolerance for straightening outlines [m]; 0: none
 };
 
-/// The room: floor from `origin` to `origin + size`, borders round it unless turned off.
+/// The room: floor from `origin` to `origin + size`, with borders around it unless turned off.
 struct ArenaDescription {
   std::string preset;             ///< "syrotek", or "" for an arena described in full
   Vec2 origin = Vec2::Zero();     ///< bottom left corner of the floor in W [m]
   Vec2 size = {3.42, 3.72};       ///< [m]
-  bool border = true;             ///< walls round the floor
+  bool border = true;             ///< walls around the floor
   double border_height_m = 0.16;  ///< [m]
   std::vector<ObstacleDescription> obstacles;
   std::vector<DockDescription> docks;
@@ -94,23 +95,23 @@ struct ArenaDescription {
   std::vector<WallLoop> walls;  ///< of the map, merged into few edges
 };
 
-/// Lockstep: time advances when all clients wait in Read(). Paced: real time times a factor.
+/// Lockstep: time advances when all clients wait in Read(). Paced: wall-clock time times a factor.
 enum class TimeMode { kLockstep, kPaced };
 
-/// How simulated time runs: its step, its end and its relation to the clock on the wall.
+/// How simulated time runs: its step, its end and its relation to wall-clock time.
 struct SimulationDescription {
   SimTime step_ns = 10'000'000;  ///< length of a step [ns], > 0
   std::uint64_t seed = 1;
-  std::optional<SimTime> duration_ns;  ///< the run ends then; none: it goes on
+  std::optional<SimTime> duration_ns;  ///< the run ends then; none: it does not end
   TimeMode time_mode = TimeMode::kLockstep;
-  bool time_mode_given = false;  ///< somebody chose it; else a host may change it, see
-                                 ///< playerlike::PreferRealTimeRequest
-  double time_factor = 1.0;      ///< paced: simulated seconds a wall second, > 0
-  int start_gate_clients = 1;    ///< the clock waits until so many clients have joined, >= 1
-  bool objects_locked = false;   ///< clients may look at robots and obstacles by name, but not move
+  bool time_mode_given = false;  ///< the world or the user chose the mode; otherwise a host may
+                                 ///< change it, see playerlike::PreferRealTimeRequest
+  double time_factor = 1.0;      ///< paced: simulated seconds per wall-clock second, > 0
+  int start_gate_clients = 1;    ///< the clock waits until this many clients have joined, >= 1
+  bool objects_locked = false;   ///< clients may look up robots and obstacles by name, but not move
                                  ///< or change them
-  bool own_sensors_only = false;  ///< for contests: clients read their own robots' sensors only,
-                                  ///< and neither objects by name nor the map
+  bool own_sensors_only = false;  ///< for contests: clients read only the sensors of their own
+                                  ///< robots, and neither objects by name nor the map
 };
 
 /// A sensor or actuator of a robot.
@@ -120,8 +121,8 @@ struct DeviceDescription {
   std::any params;   ///< that type's params struct, e.g. LaserParams
 };
 
-/// A driver of the client side (e.g. SND) that a host runs for a robot; settings as text, which
-/// libsim carries but does not read.
+/// A client-side driver (e.g. SND) that a host runs for a robot. libsim passes its settings on as
+/// text and does not read them.
 struct DriverDescription {
   std::string type;
   std::map<std::string, std::string> settings;
@@ -129,31 +130,31 @@ struct DriverDescription {
 
 struct RobotModel;
 
-/// A robot as the world starts: model, place, devices and how clients reach it.
+/// A robot at the start of the world: model, pose, devices and addresses for clients.
 struct RobotDescription {
   std::string name;           ///< unique in the world; letters, digits, _ and -
   std::string model = "s1r";  ///< see find_robot_model()
   Pose pose;                  ///< X_WB at the start
   Colour colour{0xff, 0x88, 0x00, 0xff};
-  int port = 0;  ///< Player port; the reader gives the one that robots share, else 6665, ...
-  std::vector<DeviceDescription> devices;  ///< in order of name
+  int port = 0;  ///< Player port; the reader assigns the shared one, else 6665, 6666, ...
+  std::vector<DeviceDescription> devices;  ///< sorted by name
   std::map<std::string, int> proxies;      ///< interface name -> index on port 4000, and of the
-                                           ///< first device on a port that robots share
+                                           ///< first device on a shared port
   std::map<std::string, std::vector<std::string>>
-      interfaces;  ///< interface name -> names of devices, by index on the robot's own port; those
-                   ///< not named follow in the usual order
+      interfaces;  ///< interface name -> names of devices, by index on the robot's own port;
+                   ///< devices not named here follow in the usual order
   std::vector<DriverDescription> drivers;
-  int fiducial = 0;  ///< what fiducial devices of other robots read of it; 0: they do not see it
+  int fiducial = 0;  ///< number that fiducial devices of other robots read; 0: they do not see it
 };
 
 /// How the grid-map is shown in pictures, films and windows.
 enum class ViewMode {
-  kGround,      ///< it lies on the floor; obstacles and robots stand on it
-  kMiniMap,     ///< in a corner of the picture of the arena
-  kFullScreen,  ///< instead of the arena, its cells crisp, the robots on it
+  kGround,      ///< on the floor, under obstacles and robots
+  kMiniMap,     ///< in a corner of the arena's picture
+  kFullScreen,  ///< instead of the arena, with crisp cells and the robots on it
 };
 
-/// The most cells along a side of the grid-map.
+/// Maximum number of cells along a side of the grid-map.
 inline constexpr int kMaxCanvasSide = 8192;
 
 /// The grid-map that robots draw on with their pens.
@@ -162,18 +163,18 @@ struct CanvasDescription {
   int height = 186;                        ///< cells, 1..kMaxCanvasSide
   double cell_size_m = 0.02;               ///< [m]
   Vec2 origin = Vec2::Zero();              ///< W position of the canvas's bottom left corner [m]
-  ViewMode view_mode = ViewMode::kGround;  ///< at the start
-  bool view_mode_locked = false;           ///< nobody may change it while running
+  ViewMode view_mode = ViewMode::kGround;  ///< initial mode
+  bool view_mode_locked = false;           ///< the mode cannot be changed while running
 };
 
 /// A whole world, as a file describes it.
 struct WorldDescription {
   std::string name = "unnamed";
-  std::string description;  ///< for people, a sentence; "": none
-  std::string file;         ///< where it was read from, "" if nowhere
+  std::string description;  ///< one sentence for people; "": none
+  std::string file;         ///< path of the world file, "" if there is none
   ArenaDescription arena;
   SimulationDescription simulation;
-  /// The kinds of robot that are not the library's own, by what RobotDescription::model says.
+  /// Robot models that are not built in, by the name in RobotDescription::model.
   std::map<std::string, std::shared_ptr<const RobotModel>> models;
   std::vector<RobotDescription> robots;
   int robots_on_port = 0;  ///< Player port that robots without one of their own share; 0: none

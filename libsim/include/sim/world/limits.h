@@ -3,26 +3,27 @@
 
 #include <algorithm>
 
-/// Sizes and places that a world may have. Physics counts in single precision, 0.25 mm apart at
-/// worst for what it keeps apart, so smaller or farther solids cannot be built from it.
+/// Limits for sizes and positions in a world. Physics uses single precision, whose spacing is at
+/// worst 0.25 mm for the solids it must keep apart, so smaller or more distant solids cannot be
+/// simulated.
 namespace sim {
 
-/// The least side of a solid, of a robot's body or of a wheel [m].
+/// Minimum side of a solid, of a robot's body or of a wheel [m].
 inline constexpr double kLeastLength_m = 0.001;
 
-/// The longest side of a floor, and of a box on it [m].
+/// Maximum side of a floor, and of a box on it [m].
 inline constexpr double kGreatestLength_m = 10'000.0;
 
-/// The least mass of a robot [kg].
+/// Minimum mass of a robot [kg].
 inline constexpr double kLeastMass_kg = 0.001;
-inline constexpr double kGreatestMass_kg = 10'000.0;  ///< the greatest [kg]
+inline constexpr double kGreatestMass_kg = 10'000.0;  ///< maximum mass of a robot [kg]
 
-/// How far from the origin of W, along x or y, a floor and all that stands on it may reach [m].
+/// Maximum distance from the origin of W, along x or y, of a floor and everything on it [m].
 inline constexpr double kFarthest_m = 10'000.0;
 
-/// The least side of a solid that reaches so far from the origin of W [m]: kLeastLength_m up to
-/// 1 km, then a millionth of the distance, which is ten times what single precision tells apart.
-/// @param farthest_m  the greatest coordinate of the solid, without sign.
+/// Minimum side of a solid that reaches this far from the origin of W [m]: kLeastLength_m up to 1
+/// km, then a millionth of the distance, which is ten times the resolution of single precision.
+/// @param farthest_m  largest absolute coordinate of the solid [m].
 [[nodiscard]] inline double least_length_m(double farthest_m) {
   return std::max(kLeastLength_m, 1e-6 * farthest_m);
 }

@@ -9,12 +9,12 @@
 
 namespace sim {
 
-/// All view modes, as one steps through them.
+/// All view modes, in the order in which a viewer cycles through them.
 inline constexpr std::array<ViewMode, 3> kViewModes{ViewMode::kGround, ViewMode::kMiniMap,
                                                     ViewMode::kFullScreen};
 
-/// The mode of that name, as world files, options and the environment write it: "ground",
-/// "mini-map" or "full-screen"; nullopt for anything else.
+/// The mode with that name in world files, options and environment variables: "ground", "mini-map"
+/// or "full-screen"; nullopt for anything else.
 [[nodiscard]] std::optional<ViewMode> parse_view_mode(std::string_view text);
 
 /// The name that parse_view_mode reads.

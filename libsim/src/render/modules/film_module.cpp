@@ -25,7 +25,7 @@ struct Codec {
   int name;
 };
 
-// H.264 is what browsers play. FFmpeg may be built without it, and OpenCV without FFmpeg.
+// Browsers play H.264. FFmpeg may be built without it, and OpenCV without FFmpeg.
 std::vector<Codec> codecs(bool motion_jpeg) {
   const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
   const int mpeg4 = cv::VideoWriter::fourcc('m', 'p', '4', 'v');
@@ -53,7 +53,7 @@ FilmEncoder* open(const char* path, bool motion_jpeg, double frames_per_second, 
 
 bool add(FilmEncoder* film, const std::uint8_t* rgb, std::size_t stride, char* problem,
          std::size_t problem_size) {
-  // Swapped by hand: cv::cvtColor may use OpenCV's pool of threads.
+  // Channels are swapped here, because cv::cvtColor may use OpenCV's thread pool.
   for (int y = 0; y < film->bgr.rows; ++y) {
     const std::uint8_t* in = rgb + static_cast<std::size_t>(y) * stride;
     std::uint8_t* out = film->bgr.ptr(y);

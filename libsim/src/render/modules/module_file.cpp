@@ -28,7 +28,7 @@ fs::path own_folder() {
     const fs::path file = fs::canonical(info.dli_fname, error);
     if (!error) return file.parent_path();
   }
-  // A program's own name may be relative to a folder that it has left since.
+  // argv[0] may be relative to a folder that the program has left.
   return fs::read_symlink("/proc/self/exe", error).parent_path();
 }
 
@@ -43,7 +43,7 @@ std::vector<fs::path> own_folders() {
   return folders;
 }
 
-/// The last problem of the dynamic loader.
+/// The last error of the dynamic loader.
 std::string loader_problem() {
   const char* const problem = dlerror();
   return problem == nullptr ? "unknown reason" : problem;
@@ -51,7 +51,7 @@ std::string loader_problem() {
 
 void* open(const std::string& name) { return dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL); }
 
-/// @return null if there is no such file anywhere; `places` gets where it was looked for.
+/// @return null if no place has such a file; `places` receives the searched places.
 void* open_somewhere(const std::string& file, std::string& places) {
   const std::vector<fs::path> folders = own_folders();
   const char* const named = std::getenv("PLAYPEN_LIBRARIES");
@@ -67,7 +67,7 @@ void* open_somewhere(const std::string& file, std::string& places) {
     if (void* const module = try_folder(folder)) return module;
   }
   if (void* const module = open(file)) return module;
-  // That it is there but lacks a library of its own must not pass for its absence.
+  // A module that exists but lacks one of its own libraries must not be reported as missing.
   const std::string problem = loader_problem();
   if (!problem.starts_with(file + ": ")) {
     throw std::runtime_error("the library " + file +
@@ -130,7 +130,7 @@ void prepare_pictures() noexcept {
   try {
     static_cast<void>(modules::text_functions());
   } catch (const std::exception&) {
-    // Whoever draws is told.
+    // Drawing a picture reports the error.
   }
 }
 
@@ -138,7 +138,7 @@ void prepare_films() noexcept {
   try {
     static_cast<void>(modules::film_functions());
   } catch (const std::exception&) {
-    // Whoever begins a film is told.
+    // Starting a film reports the error.
   }
 }
 

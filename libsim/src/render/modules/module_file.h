@@ -7,25 +7,25 @@
 
 namespace sim::render::modules {
 
-/// The functions of the text module, which is loaded by the first call.
-/// Where modules are looked for: load_module().
-/// @throws std::runtime_error naming the module and the places where it was looked for.
-/// Safe from many threads.
+/// The functions of the text module. The first call loads the module; load_module() documents where
+/// it is searched.
+/// @throws std::runtime_error naming the module and the searched places.
+/// Thread-safe.
 [[nodiscard]] const TextFunctions& text_functions();
 
-/// The functions of the film module, which is loaded by the first call.
-/// @throws std::runtime_error as text_functions().
-/// Safe from many threads.
+/// The functions of the film module. The first call loads the module.
+/// @throws std::runtime_error like text_functions().
+/// Thread-safe.
 [[nodiscard]] const FilmFunctions& film_functions();
 
-/// Loads a module, for as long as the process runs, and finds the function `entry` in it.
+/// Loads a module for the lifetime of the process, and returns its function `entry`.
 ///
-/// It is looked for as `file` in these places, one after the other:
-/// 1. folder `playpen` beside the shared library or the program that this code is part of, and
-///    `../lib/playpen` and `../LIBDIR/playpen` from there: so an installed tree can be moved;
-/// 2. wherever the dynamic loader looks: the RUNPATH that programs linked with the static library
-///    get from playpen's CMake package, and LD_LIBRARY_PATH;
-/// 3. the folder that the environment variable PLAYPEN_LIBRARIES names, which `playpen run` sets.
+/// `file` is searched in these places, in this order:
+/// 1. the folder `playpen` next to the shared library or program that contains this code, and
+///    `../lib/playpen` and `../LIBDIR/playpen` from there, so that an installed tree can be moved;
+/// 2. the dynamic loader's search path: LD_LIBRARY_PATH, and the RUNPATH that playpen's CMake
+///    package adds to programs linked with the static library;
+/// 3. the folder in the environment variable PLAYPEN_LIBRARIES, which `playpen run` sets.
 /// @throws std::runtime_error "FILE ... is missing; looked for in ..." or with the reason why it
 ///     cannot be loaded.
 [[nodiscard]] void* load_module(const std::string& file, const char* entry);

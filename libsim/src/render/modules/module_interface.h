@@ -4,29 +4,30 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the modules of pictures offer to libsim, which loads them when a picture or a film is
-/// wanted (see modules/module_file.h). OpenCV is linked by the modules only: its libraries bring
-/// up to 250 others along, which take a tenth of a second to load.
+/// The interface of the picture modules to libsim, which loads them when a picture or a film is
+/// needed (see modules/module_file.h). Only the modules link OpenCV: its libraries load up to 250
+/// others, which takes a tenth of a second.
 ///
-/// Each module exports one function, whose name is given here. It returns a table of functions
-/// that stays valid for as long as the process runs. No exception leaves a module. A module and the
-/// libsim that loads it come from one build: the interface is told apart by Playpen's version only.
+/// Each module exports one function, whose name is given here. It returns a table of functions that
+/// is valid for the lifetime of the process. No exception leaves a module. A module and the libsim
+/// that loads it must come from the same build; the interface is identified only by Playpen's
+/// version.
 namespace sim::render::modules {
 
-/// The table of `libplaypen_text.so`: letters of the Hershey font "simplex" (OpenCV's putText).
+/// The functions of `libplaypen_text.so`: text in the Hershey font "simplex" (OpenCV's putText).
 struct TextFunctions {
-  /// The version of Playpen that the module belongs to.
+  /// Playpen's version that the module was built with.
   const char* version;
 
   /// Width of a text [pixels].
-  /// @param scale   size of the letters; capitals are 21 pixels high at 1.
+  /// @param scale   font scale; capital letters are 21 pixels high at 1.
   /// @param stroke  width of the strokes [pixels], at least 1.
   int (*width)(const char* text, double scale, int stroke);
 
-  /// Draws a text in white, with smooth edges, into a grey raster.
+  /// Draws an anti-aliased text in white into a grey raster.
   /// @param x, y    left end of the base line [pixels], from the top left corner.
   /// @param raster  row-major, width * height bytes.
-  /// @return whether it could be drawn.
+  /// @return whether drawing succeeded.
   bool (*draw)(const char* text, int x, int y, double scale, int stroke, std::uint8_t* raster,
                int width, int height);
 };
@@ -35,27 +36,27 @@ struct TextFunctions {
 inline constexpr const char* kTextEntry = "playpen_text_functions";
 using TextEntry = const TextFunctions* (*)();
 
-/// A film that is being written.
+/// A film in progress.
 struct FilmEncoder;
 
-/// The table of `libplaypen_film.so`: OpenCV's VideoWriter.
+/// The functions of `libplaypen_film.so`: OpenCV's VideoWriter.
 struct FilmFunctions {
-  /// The version of Playpen that the module belongs to.
+  /// Playpen's version that the module was built with.
   const char* version;
 
-  /// Begins a film in a file.
-  /// @param motion_jpeg    Motion JPEG in an AVI, else H.264, or MPEG-4 Part 2, in an MP4.
+  /// Starts a film in a file.
+  /// @param motion_jpeg    true: Motion JPEG in an AVI; false: H.264 or MPEG-4 Part 2 in an MP4.
   /// @param width, height  of its frames [pixels], even.
-  /// @param problem        gets the reason if there is no film: text that ends with 0, cut to
-  ///                       `problem_size` bytes.
-  /// @return the film, to be given to close(); null if there is none.
+  /// @param problem        receives the reason of a failure as a null-terminated text, truncated to
+  ///     `problem_size` bytes.
+  /// @return the film, which close() must end; null on failure.
   FilmEncoder* (*open)(const char* path, bool motion_jpeg, double frames_per_second, int width,
                        int height, char* problem, std::size_t problem_size);
 
   /// Adds a frame.
   /// @param rgb     RGB bytes, row-major from the top left, of at least the film's size.
   /// @param stride  bytes from one row to the next.
-  /// @return whether it could be added; if not, `problem` gets the reason.
+  /// @return whether the frame was added; if not, `problem` receives the reason.
   bool (*add)(FilmEncoder* film, const std::uint8_t* rgb, std::size_t stride, char* problem,
               std::size_t problem_size);
 

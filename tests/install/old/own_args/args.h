@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// A program's own header for the command line. It asks Player's playerconfig.h what the system has,
-// and has Player's replacements for the rest, as the one of Player 3's examples does.
+// A program's own header for the command line. It checks with Player's playerconfig.h what the
+// system provides, and uses Player's replacements for the rest, like an example of Player 3.
 #ifndef OWN_ARGS_H
 #define OWN_ARGS_H
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "playerlike/session/layer_book.h"
+#include "playerlike/session/layer_registry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,19 +30,19 @@ void require_transparency(const sim::LayerStyle& style) {
 
 }  // namespace
 
-bool LayerBook::owns(int client, sim::LayerId layer) const noexcept {
+bool LayerRegistry::owns(int client, sim::LayerId layer) const noexcept {
   return std::any_of(entries_.begin(), entries_.end(),
                      [&](const Entry& e) { return e.layer == layer && e.client == client; });
 }
 
-void LayerBook::require(int client, sim::LayerId layer) const {
+void LayerRegistry::require(int client, sim::LayerId layer) const {
   if (may_use(client, layer)) return;
   refuse(SessionError::Code::kBadArgument,
          "this client has no layer with the number " + std::to_string(layer));
 }
 
-void LayerBook::require_name(const sim::LayerStack& stack, int client, sim::LayerId layer,
-                             const std::string& name) const {
+void LayerRegistry::require_name(const sim::LayerStack& stack, int client, sim::LayerId layer,
+                                 const std::string& name) const {
   if (name.empty() || name.size() > kMaxLayerName || !is_printable(name)) {
     refuse(SessionError::Code::kBadArgument,
            "a layer's name has 1 to " + std::to_string(kMaxLayerName) +
@@ -57,8 +57,8 @@ void LayerBook::require_name(const sim::LayerStack& stack, int client, sim::Laye
   }
 }
 
-// Takes layers that nobody owns out, oldest first, until one more fits.
-void LayerBook::make_room(sim::LayerStack& stack, int client) {
+// Evicts layers without an owner, oldest first, until one more fits.
+void LayerRegistry::make_room(sim::LayerStack& stack, int client) {
   const auto own = static_cast<std::size_t>(std::count_if(
       entries_.begin(), entries_.end(), [&](const Entry& e) { return e.client == client; }));
   if (own >= kMaxLayers) {
@@ -80,8 +80,8 @@ void LayerBook::make_room(sim::LayerStack& stack, int client) {
   }
 }
 
-sim::LayerId LayerBook::create(sim::LayerStack& stack, int client, int port, sim::LayerKind kind,
-                               sim::LayerStyle style) {
+sim::LayerId LayerRegistry::create(sim::LayerStack& stack, int client, int port,
+                                   sim::LayerKind kind, sim::LayerStyle style) {
   require_name(stack, client, kNoLayer, style.name);
   require_transparency(style);
   const auto left_behind = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) {
@@ -98,7 +98,7 @@ sim::LayerId LayerBook::create(sim::LayerStack& stack, int client, int port, sim
   return layer;
 }
 
-void LayerBook::remove(sim::LayerStack& stack, int client, sim::LayerId layer) {
+void LayerRegistry::remove(sim::LayerStack& stack, int client, sim::LayerId layer) {
   require(client, layer);
   if (layer == sim::kBaseLayer) {
     refuse(SessionError::Code::kNotAvailable,
@@ -108,8 +108,8 @@ void LayerBook::remove(sim::LayerStack& stack, int client, sim::LayerId layer) {
   std::erase_if(entries_, [&](const Entry& e) { return e.layer == layer; });
 }
 
-void LayerBook::set_style(sim::LayerStack& stack, int client, sim::LayerId layer,
-                          sim::LayerStyle style) {
+void LayerRegistry::set_style(sim::LayerStack& stack, int client, sim::LayerId layer,
+                              sim::LayerStyle style) {
   require(client, layer);
   require_transparency(style);
   if (style.name != stack.style(layer).name) {
@@ -122,7 +122,7 @@ void LayerBook::set_style(sim::LayerStack& stack, int client, sim::LayerId layer
   stack.set_style(layer, std::move(style));
 }
 
-void LayerBook::require_size(const sim::LayerStack& stack, int width, int height) const {
+void LayerRegistry::require_size(const sim::LayerStack& stack, int width, int height) const {
   if (width < 1 || height < 1 || width > sim::kMaxCanvasSide || height > sim::kMaxCanvasSide) {
     refuse(SessionError::Code::kBadArgument,
            "the grid-map's sides are 1 to " + std::to_string(sim::kMaxCanvasSide) + " cells, but " +
@@ -137,13 +137,13 @@ void LayerBook::require_size(const sim::LayerStack& stack, int width, int height
   }
 }
 
-std::vector<std::vector<std::uint8_t>> LayerBook::resize(
+std::vector<std::vector<std::uint8_t>> LayerRegistry::resize(
     sim::LayerStack& stack, int width, int height, std::vector<std::vector<std::uint8_t>> zeros) {
   require_size(stack, width, height);
   return stack.resize(width, height, std::move(zeros));
 }
 
-std::vector<sim::LayerInfo> LayerBook::list(const sim::LayerStack& stack, int client) const {
+std::vector<sim::LayerInfo> LayerRegistry::list(const sim::LayerStack& stack, int client) const {
   std::vector<sim::LayerInfo> layers = stack.layers();
   std::erase_if(layers, [&](const sim::LayerInfo& layer) {
     return layer.id != sim::kBaseLayer && !owns(client, layer.id);
@@ -151,7 +151,7 @@ std::vector<sim::LayerInfo> LayerBook::list(const sim::LayerStack& stack, int cl
   return layers;
 }
 
-void LayerBook::leave(int client) noexcept {
+void LayerRegistry::leave(int client) noexcept {
   for (Entry& entry : entries_) {
     if (entry.client == client) entry.client = kNobody;
   }

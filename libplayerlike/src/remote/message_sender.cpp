@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "remote/socket_line.h"
+#include "remote/message_sender.h"
 
 #include <algorithm>
 #include <map>
@@ -14,11 +14,11 @@ using nlohmann::json;
 using protocol::Encoding;
 using std::chrono::milliseconds;
 
-// Drawings in a paced simulation wait no longer than this for being sent, twice over.
+// Period of the flusher: in a paced simulation a drawing waits at most twice this long.
 constexpr milliseconds kFlushPeriod(20);
-// A server that does not say good-bye in return is left without.
+// How long to wait for the server's good-bye.
 constexpr milliseconds kGoodBye(1000);
-// What a message is besides its drawings, and the most that one takes [bytes].
+// Maximum size of a `draw` message without its drawings, and of one drawing [bytes].
 constexpr std::size_t kCallOverhead = 256;
 constexpr std::size_t drawing_bytes(Encoding encoding) {
   return encoding == Encoding::kCbor ? 28 : 96;
@@ -43,48 +43,49 @@ std::shared_ptr<RemoteSimulation> RemoteSimulation::of(const std::string& name) 
   return simulation;
 }
 
-void RemoteSimulation::add(const std::shared_ptr<SocketLine>& line) {
+void RemoteSimulation::add(const std::shared_ptr<MessageSender>& sender) {
   const std::lock_guard lock(mutex_);
-  lines_.push_back(line);
+  senders_.push_back(sender);
 }
 
-void RemoteSimulation::remove(const SocketLine& line) noexcept {
+void RemoteSimulation::remove(const MessageSender& sender) noexcept {
   const std::lock_guard lock(mutex_);
-  std::erase_if(lines_, [&](const auto& weak) {
-    const std::shared_ptr<SocketLine> known = weak.lock();
-    return !known || known.get() == &line;
+  std::erase_if(senders_, [&](const auto& weak) {
+    const std::shared_ptr<MessageSender> known = weak.lock();
+    return !known || known.get() == &sender;
   });
 }
 
-std::vector<std::shared_ptr<SocketLine>> RemoteSimulation::others(const SocketLine& line) const {
-  std::vector<std::shared_ptr<SocketLine>> others;
+std::vector<std::shared_ptr<MessageSender>> RemoteSimulation::others(
+    const MessageSender& sender) const {
+  std::vector<std::shared_ptr<MessageSender>> others;
   const std::lock_guard lock(mutex_);
-  if (lines_.size() < 2) return others;
-  for (const auto& weak : lines_) {
-    std::shared_ptr<SocketLine> other = weak.lock();
-    if (other && other.get() != &line) others.push_back(std::move(other));
+  if (senders_.size() < 2) return others;
+  for (const auto& weak : senders_) {
+    std::shared_ptr<MessageSender> other = weak.lock();
+    if (other && other.get() != &sender) others.push_back(std::move(other));
   }
   return others;
 }
 
-// --- SocketLine
+// --- MessageSender
 
-SocketLine::SocketLine(std::shared_ptr<Connection> connection, const std::string& simulation)
+MessageSender::MessageSender(std::shared_ptr<Connection> connection, const std::string& simulation)
     : connection_(std::move(connection)), simulation_(RemoteSimulation::of(simulation)) {}
 
-SocketLine::~SocketLine() { close(); }
+MessageSender::~MessageSender() { close(); }
 
-std::shared_ptr<Connection> SocketLine::connection() const {
+std::shared_ptr<Connection> MessageSender::connection() const {
   const std::lock_guard lock(connection_mutex_);
   return connection_;
 }
 
-std::shared_ptr<RemoteSimulation> SocketLine::simulation() const {
+std::shared_ptr<RemoteSimulation> MessageSender::simulation() const {
   const std::lock_guard lock(connection_mutex_);
   return simulation_;
 }
 
-void SocketLine::replace(std::shared_ptr<Connection> connection, const std::string& simulation) {
+void MessageSender::replace(std::shared_ptr<Connection> connection, const std::string& simulation) {
   const std::shared_ptr<RemoteSimulation> now = RemoteSimulation::of(simulation);
   const std::shared_ptr<RemoteSimulation> before = this->simulation();
   if (before != now) {
@@ -97,7 +98,7 @@ void SocketLine::replace(std::shared_ptr<Connection> connection, const std::stri
   joined_ = false;
 }
 
-std::string SocketLine::take_drawings(Encoding encoding, std::size_t limit) {
+std::string MessageSender::take_drawings(Encoding encoding, std::size_t limit) {
   std::string bytes;
   const std::size_t room = limit > kCallOverhead ? limit - kCallOverhead : 0;
   const std::size_t most = std::max<std::size_t>(room / drawing_bytes(encoding), 1);
@@ -107,14 +108,14 @@ std::string SocketLine::take_drawings(Encoding encoding, std::size_t limit) {
       drawings = drawings.subspan(part.size());
       bytes += protocol::encode(
           json{{"do", "draw"}, {"drawings", protocol::encode_drawings(part, encoding)}}, encoding);
-      said_.fetch_add(1);
+      sent_.fetch_add(1);
     }
   });
   return bytes;
 }
 
-void SocketLine::flush() {
-  const Lock lock(say_mutex_);
+void MessageSender::flush() {
+  const Lock lock(send_mutex_);
   if (!has_room_) {
     drawings_.reserve();
     has_room_ = true;
@@ -122,79 +123,79 @@ void SocketLine::flush() {
   }
   const std::shared_ptr<Connection> connection = this->connection();
   const std::string bytes = take_drawings(connection->encoding(), connection->message_limit());
-  connection->tell(bytes);  // also if there is nothing to send: it says whether it is lost
+  connection->tell(bytes);  // even without drawings, since it throws if the connection is lost
 }
 
-json SocketLine::ask(json& request, Connection::Patience patience, bool waits,
-                     std::shared_ptr<Connection>* answered_by) {
+json MessageSender::ask(json& request, Connection::WaitPolicy policy, bool waits,
+                        std::shared_ptr<Connection>* answered_by) {
   const std::shared_ptr<Connection> connection = this->connection();
   if (answered_by != nullptr) *answered_by = connection;
   std::uint64_t id = 0;
-  std::uint64_t said = 0;
+  std::uint64_t sent = 0;
   {
-    const Lock lock(say_mutex_);
+    const Lock lock(send_mutex_);
     std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
     id = connection->ask(request, std::move(drawings));
-    said = said_;
-    // Time stands still until the server has read that this client waits.
-    if (waits && joined_) settled_ = said;
+    sent = sent_;
+    // Time stands still until the server has read this request, and so the messages before it.
+    if (waits && joined_) acknowledged_ = sent;
   }
-  json answer = connection->answer(id, patience);
-  settled_ = said;
+  json answer = connection->answer(id, policy);
+  acknowledged_ = sent;
   if (waits) joined_ = true;
   return answer;
 }
 
-json SocketLine::ask(json& request, Connection::Patience patience) {
-  return ask(request, patience, false, nullptr);
+json MessageSender::ask(json& request, Connection::WaitPolicy policy) {
+  return ask(request, policy, false, nullptr);
 }
 
-json SocketLine::ask(json& request, std::shared_ptr<Connection>& answered_by) {
-  return ask(request, Connection::Patience::kTimeout, false, &answered_by);
+json MessageSender::ask(json& request, std::shared_ptr<Connection>& answered_by) {
+  return ask(request, Connection::WaitPolicy::kTimeout, false, &answered_by);
 }
 
-json SocketLine::wait(json& request) {
-  if (!paced_) settle_others();
-  return ask(request, Connection::Patience::kLiving, true, nullptr);
+json MessageSender::wait(json& request) {
+  if (!paced_) confirm_others();
+  return ask(request, Connection::WaitPolicy::kWhileAlive, true, nullptr);
 }
 
-void SocketLine::tell(const json& message) {
-  const Lock lock(say_mutex_);
+void MessageSender::tell(const json& message) {
+  const Lock lock(send_mutex_);
   const std::shared_ptr<Connection> connection = this->connection();
-  said_.fetch_add(1);
+  sent_.fetch_add(1);
   connection->tell(take_drawings(connection->encoding(), connection->message_limit()) +
                    protocol::encode(message, connection->encoding()));
 }
 
-void SocketLine::settle() noexcept {
-  if (said_ == settled_ && drawings_.empty()) return;
+void MessageSender::flush_and_confirm() noexcept {
+  if (sent_ == acknowledged_ && drawings_.empty()) return;
   try {
     json question = {{"do", "time"}};
     ask(question);
   } catch (const std::exception&) {
-    // Its own session will meet the trouble.
+    // Its own session will report the error.
   }
 }
 
-void SocketLine::settle_others() noexcept {
-  for (const auto& other : simulation()->others(*this)) other->settle();
+void MessageSender::confirm_others() noexcept {
+  for (const auto& other : simulation()->others(*this)) other->flush_and_confirm();
 }
 
-void SocketLine::set_paced(bool paced) {
+void MessageSender::set_paced(bool paced) {
   paced_ = paced;
-  const Lock lock(say_mutex_);
+  const Lock lock(send_mutex_);
   start_flusher();
 }
 
-// With `say_mutex_` held.
-void SocketLine::start_flusher() {
+// The caller holds `send_mutex_`.
+void MessageSender::start_flusher() {
   if (!paced_ || !has_room_) return;
   const Lock lock(flusher_mutex_);
   if (closing_ || flusher_.joinable()) return;
   flusher_ = std::thread([this] { flush_now_and_then(); });
 }
 
-void SocketLine::flush_now_and_then() {
+void MessageSender::flush_now_and_then() {
   Lock lock(flusher_mutex_);
   while (!closing_) {
     flusher_changed_.wait_for(lock, kFlushPeriod);
@@ -203,13 +204,13 @@ void SocketLine::flush_now_and_then() {
     try {
       flush();
     } catch (const std::exception&) {
-      // The program's next call will meet the trouble.
+      // The program's next call will report the error.
     }
     lock.lock();
   }
 }
 
-void SocketLine::close() noexcept {
+void MessageSender::close() noexcept {
   {
     const Lock lock(flusher_mutex_);
     if (closing_) return;
@@ -223,20 +224,20 @@ void SocketLine::close() noexcept {
       std::uint64_t id = 0;
       json bye = {{"do", "bye"}};
       {
-        const Lock lock(say_mutex_);
+        const Lock lock(send_mutex_);
         std::string drawings = take_drawings(connection->encoding(), connection->message_limit());
         id = connection->ask(bye, std::move(drawings));
       }
-      static_cast<void>(connection->answer(id, Connection::Patience::kTimeout, kGoodBye));
+      static_cast<void>(connection->answer(id, Connection::WaitPolicy::kTimeout, kGoodBye));
     }
   } catch (const std::exception&) {
-    // It is gone already.
+    // The connection is lost already.
   }
   {
-    const Lock lock(say_mutex_);
+    const Lock lock(send_mutex_);
     drawings_.close();
   }
-  connection->shut("the connection is closed");
+  connection->close("the connection is closed");
   simulation()->remove(*this);
 }
 

@@ -10,38 +10,41 @@
 
 namespace playerlike {
 
-/// Who owns which layer of a stack, and what sessions may do with layers: the rules that requests
-/// document, for those who implement it. Remembers only; the stack is the simulation's.
+/// Ownership of a stack's layers and the permissions of sessions, for implementations of sessions.
+/// The requests document the rules. This class only stores the owners; the simulation owns the
+/// stack.
 ///
-/// Layers are stacked by port, then by age: unlike the order in which clients connect, that does
-/// not depend on how their threads were scheduled. Not thread-safe: its owner serialises.
-class LayerBook {
+/// Layers are stacked by port, then by age. Unlike the order in which clients connect, this order
+/// does not depend on the scheduling of their threads. Not thread-safe: the owner must serialise
+/// calls.
+class LayerRegistry {
  public:
-  /// @param client  number that no other session has had, >= 0.
-  /// @param port    of the session.
-  /// @throws SessionError as CreateLayerRequest.
+  /// @param client  unique number of the session, >= 0; never reused.
+  /// @param port    port of the session.
+  /// @throws SessionError for the same errors as CreateLayerRequest.
   sim::LayerId create(sim::LayerStack& stack, int client, int port, sim::LayerKind kind,
                       sim::LayerStyle style);
-  /// @throws SessionError as RemoveLayerRequest.
+  /// @throws SessionError for the same errors as RemoveLayerRequest.
   void remove(sim::LayerStack& stack, int client, sim::LayerId layer);
-  /// @throws SessionError as SetLayerStyleRequest.
+  /// @throws SessionError for the same errors as SetLayerStyleRequest.
   void set_style(sim::LayerStack& stack, int client, sim::LayerId layer, sim::LayerStyle style);
-  /// @throws SessionError as ResizeCanvasRequest.
+  /// @throws SessionError for the same errors as ResizeCanvasRequest.
   void require_size(const sim::LayerStack& stack, int width, int height) const;
-  /// @param zeros  see sim::LayerStack::resize(). @return memory that is no longer used.
-  /// @throws SessionError as ResizeCanvasRequest.
+  /// @param zeros  see sim::LayerStack::resize().
+  /// @return memory that is no longer used.
+  /// @throws SessionError for the same errors as ResizeCanvasRequest.
   std::vector<std::vector<std::uint8_t>> resize(sim::LayerStack& stack, int width, int height,
                                                 std::vector<std::vector<std::uint8_t>> zeros = {});
 
-  /// The base layer and the client's own, lowest first.
+  /// Returns the base layer and the client's layers, lowest first.
   [[nodiscard]] std::vector<sim::LayerInfo> list(const sim::LayerStack& stack, int client) const;
-  /// Whether it is the base layer or one of the client's.
+  /// Whether the layer is the base layer or one of the client's.
   [[nodiscard]] bool may_use(int client, sim::LayerId layer) const noexcept {
     return layer == sim::kBaseLayer || owns(client, layer);
   }
   /// Throws SessionError kBadArgument unless may_use().
   void require(int client, sim::LayerId layer) const;
-  /// The session has ended: its layers stay, without an owner.
+  /// Notes that a session has ended. Its layers remain, without an owner.
   void leave(int client) noexcept;
 
  private:

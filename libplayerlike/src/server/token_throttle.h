@@ -9,37 +9,37 @@
 
 namespace playerlike::server {
 
-/// Slows down those who guess tokens. Counts wrong tokens by the address that they come from: the
-/// first ones cost some ms, as a slip may happen, later ones more and more. After many in a minute
-/// right tokens from that address are answered as late as wrong ones, so that nobody can tell by
-/// the time which of his guesses to give up. Used by the server's thread only.
-class TokenGuard {
+/// Slows down guessing of tokens by counting the wrong tokens of each address. The first ones,
+/// which may be typing errors, cost some ms; the delay doubles with each further one. After
+/// kMostOfAnAddress wrong tokens, right tokens from that address are delayed like wrong ones, so
+/// that response times do not tell them apart. Used by the server's thread only.
+class TokenThrottle {
  public:
   using Clock = std::chrono::steady_clock;
 
   /// Wrong tokens after which a connection is closed.
   static constexpr int kMostOfAConnection = 5;
-  /// Wrong tokens after which right ones of the address have to wait, too.
+  /// Wrong tokens of an address after which its right tokens are delayed too.
   static constexpr int kMostOfAnAddress = 60;
   /// How long an address is remembered after its last wrong token.
   static constexpr std::chrono::seconds kMemory{60};
-  /// Of the answer to the first wrong token; each further one takes twice as long, up to the
-  /// second.
+  /// Delay of the answer to the first wrong token. It doubles with each further one, up to
+  /// kLongestDelay.
   static constexpr std::chrono::milliseconds kFirstDelay{25};
   static constexpr std::chrono::milliseconds kLongestDelay{5000};
-  /// Addresses that are remembered; the one heard of longest ago makes room.
+  /// Maximum number of addresses; the least recently used one is evicted.
   static constexpr std::size_t kMostAddresses = 4096;
 
-  /// How long the answer to a right token takes.
+  /// Delay of the answer to a right token.
   /// @param peer  "ADDRESS:PORT".
   [[nodiscard]] std::chrono::milliseconds delay_of_right(const std::string& peer,
                                                          Clock::time_point now);
 
-  /// What a wrong token costs.
+  /// The consequences of a wrong token.
   struct Cost {
-    std::chrono::milliseconds delay{0};  ///< of its answer
-    int count = 0;                       ///< wrong ones of this address in the last while
-    bool tell = false;                   ///< whether the log is told: of the 1st, 2nd, 4th, 8th ...
+    std::chrono::milliseconds delay{0};  ///< before its answer
+    int count = 0;                       ///< recent wrong tokens of this address
+    bool tell = false;                   ///< whether to log it: the 1st, 2nd, 4th, 8th ...
   };
   Cost note_wrong(const std::string& peer, Clock::time_point now);
 

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "physics/sight.h"
+#include "physics/sensor_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +10,14 @@
 namespace sim::physics {
 namespace {
 
-// More static edges than this are searched by Box2D's tree instead of swept.
+// Larger numbers of static edges are searched with Box2D's tree instead of a sweep.
 constexpr std::size_t kSweepLimit = 512;
 
-// Edges are many, so they are handled as one vector each.
+// One vector per edge, since there are many edges.
 using Four = double __attribute__((vector_size(4 * sizeof(double))));
 using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
 
-// Writes the edge between two points of W, which follow one another in memory, relative to
-// `origin`.
+// Writes the edge between two points in W, relative to `origin`. The points are adjacent in memory.
 void put_edge(scan::Edge* to, const double* points, const Four& origin) {
   static_assert(sizeof(scan::Edge) == sizeof(FourFloats));
   Four both;
@@ -27,7 +26,7 @@ void put_edge(scan::Edge* to, const double* points, const Four& origin) {
   std::memcpy(&to->x0_m, &edge, sizeof edge);
 }
 
-// Appends the edges of list[first, last) that stand higher than the sensor, relative to it.
+// Appends the edges of list[first, last) that are higher than the sensor, relative to it.
 void append_edges(const EdgeList& list, std::size_t first, std::size_t last, const Vec2& p_WL,
                   double sensor_height_m, scan::EdgeBuffer& out) {
   static_assert(sizeof(Edge) == sizeof(Four));
@@ -45,7 +44,7 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
 
 }  // namespace
 
-void Sight::solids_changed() {
+void SensorView::solids_changed() {
   sweep_ = bodies_.edges().edges.size() <= kSweepLimit;
   fixed_edges_.clear();
   if (!sweep_) return;
@@ -60,12 +59,12 @@ void Sight::solids_changed() {
   }
 }
 
-void Sight::robot_was_placed() {
-  for (Spot& spot : by_place_) spot.until_m = 0.0;
+void SensorView::robot_was_placed() {
+  for (HilbertEntry& entry : by_hilbert_index_) entry.until_m = 0.0;
   outlines_fresh_ = false;
 }
 
-void Sight::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
+void SensorView::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
   r.details->load.clear();
   r.details->load_obstacles.clear();
   r.details->seen_radius_m = r.radius_m;
@@ -83,32 +82,34 @@ void Sight::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
   outlines_fresh_ = false;
 }
 
-// Puts the robots in the order in which a Hilbert curve meets them, so that those that follow one
-// another are near each other. Which way a robot went since it was put somewhere in it matters
-// little for a while.
-void Sight::sort_by_place() {
+// Sorts the robots by their position on a Hilbert curve, so that consecutive robots are near each
+// other. A position is kept until the robot has moved by kWhile_m, since small moves hardly matter.
+void SensorView::sort_by_hilbert_index() {
   constexpr double kWhile_m = 0.1;
-  for (Spot& spot : by_place_) {
-    const Robot& r = bodies_.robot(spot.robot);
-    if (r.gone_m < spot.until_m) continue;
-    spot.place = along_hilbert_curve(r.X_WB.position());
-    spot.until_m = r.gone_m + kWhile_m;
+  for (HilbertEntry& entry : by_hilbert_index_) {
+    const Robot& r = bodies_.robot(entry.robot);
+    if (r.cumulative_max_travel_m < entry.until_m) continue;
+    entry.hilbert_index = along_hilbert_curve(r.X_WB.position());
+    entry.until_m = r.cumulative_max_travel_m + kWhile_m;
   }
-  for (std::size_t i = 1; i < by_place_.size(); ++i) {  // insertion sort: nearly sorted already
-    const Spot moving = by_place_[i];
+  // Insertion sort, since the robots are nearly sorted already.
+  for (std::size_t i = 1; i < by_hilbert_index_.size(); ++i) {
+    const HilbertEntry moving = by_hilbert_index_[i];
     std::size_t j = i;
-    for (; j > 0 && by_place_[j - 1].place > moving.place; --j) by_place_[j] = by_place_[j - 1];
-    by_place_[j] = moving;
+    for (; j > 0 && by_hilbert_index_[j - 1].hilbert_index > moving.hilbert_index; --j) {
+      by_hilbert_index_[j] = by_hilbert_index_[j - 1];
+    }
+    by_hilbert_index_[j] = moving;
   }
 }
 
-void Sight::rebuild_outlines() {
+void SensorView::rebuild_outlines() {
   load_edges_.clear();
   outlines_.resize(bodies_.robots().size());
   robot_discs_.clear();
-  sort_by_place();
-  for (std::size_t k = 0; k < by_place_.size(); ++k) {
-    const Robot& r = bodies_.robot(by_place_[k].robot);
+  sort_by_hilbert_index();
+  for (std::size_t k = 0; k < by_hilbert_index_.size(); ++k) {
+    const Robot& r = bodies_.robot(by_hilbert_index_[k].robot);
     robot_discs_.add(static_cast<float>(r.X_WB.x_m), static_cast<float>(r.X_WB.y_m),
                      static_cast<float>(r.details->seen_radius_m));
     const double c = std::cos(r.X_WB.yaw_rad);
@@ -124,7 +125,7 @@ void Sight::rebuild_outlines() {
     outline.p_WB = r.X_WB.position();
     outline.seen_radius_m = r.details->seen_radius_m;
     outline.height_m = r.details->height_m;
-    outline.robot = by_place_[k].robot;
+    outline.robot = by_hilbert_index_[k].robot;
     outline.first_load = load_edges_.edges.size();
     for (std::size_t i = 0; i < r.details->load.edges.size(); ++i) {
       const Edge& e = r.details->load.edges[i];
@@ -138,10 +139,10 @@ void Sight::rebuild_outlines() {
   outlines_fresh_ = true;
 }
 
-// Casts a ray from A to C at the robots that may(robot) lets: calls visit(fraction of the line)
-// for each that it meets from outside, until that returns false.
+// Casts a ray from A to C at the robots for which may(robot) is true. Calls visit(fraction of the
+// line) for each robot that it hits from outside, until visit returns false.
 template <typename Filter, typename Visitor>
-void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
+void SensorView::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit) {
   const Vec2 line = p_WC - p_WA;
   b2RayCastInput input;
   input.p1 = to_box2d(p_WA);
@@ -152,7 +153,7 @@ void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visit
       p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Bodies::Circle& circle) {
         if (!more) return;
         const Vec2 p_AB = Vec2(circle.x, circle.y) - p_WA;
-        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // times the line's length
+        const double aside = line.x() * p_AB.y() - line.y() * p_AB.x();  // distance * |line|
         if (aside * aside > circle.radius * circle.radius * line.squaredNorm()) return;
         if (!may(circle.robot)) return;
         const Robot& r = bodies_.robot(circle.robot);
@@ -162,14 +163,14 @@ void Sight::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visit
       });
 }
 
-scan::ScanKernel& Sight::kernel_of(const scan::ScanGeometry& geometry) {
+scan::ScanKernel& SensorView::kernel_of(const scan::ScanGeometry& geometry) {
   const auto it = std::find_if(kernels_.begin(), kernels_.end(),
                                [&](const scan::ScanKernel& k) { return k.geometry() == geometry; });
   return it != kernels_.end() ? *it : kernels_.emplace_back(geometry);
 }
 
 // Appends the edges of a robot's outline.
-void Sight::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
+void SensorView::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out) {
   static_assert(sizeof(Vec2) == 2 * sizeof(double));
   scan::Edge* const target = out.append(outline.count);
   const Four origin = {p_WL.x(), p_WL.y(), p_WL.x(), p_WL.y()};
@@ -178,8 +179,8 @@ void Sight::append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuf
   }
 }
 
-void Sight::collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
-                                 scan::EdgeBuffer& edges) {
+void SensorView::collect_static_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                                      scan::EdgeBuffer& edges) {
   edges.clear();
   if (sweep_) {
     append_edges(fixed_edges_, 0, fixed_edges_.edges.size(), p_WL, sensor_height_m, edges);
@@ -193,8 +194,8 @@ void Sight::collect_static_edges(const Vec2& p_WL, double radius_m, double senso
   });
 }
 
-void Sight::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m, int own_robot,
-                          bool test_inside, scan::EdgeBuffer& edges) {
+void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_height_m,
+                               int own_robot, bool test_inside, scan::EdgeBuffer& edges) {
   collect_static_edges(p_WL, radius_m, sensor_height_m, edges);
   if (!outlines_fresh_) rebuild_outlines();
   for (const Outline& outline : outlines_) {
@@ -213,8 +214,8 @@ void Sight::collect_edges(const Vec2& p_WL, double radius_m, double sensor_heigh
   if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
 }
 
-void Sight::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
-                 int own_robot, bool test_inside, std::span<double> ranges_m) {
+void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
+                      int own_robot, bool test_inside, std::span<double> ranges_m) {
   if (!outlines_fresh_) rebuild_outlines();
   scan::ScanKernel& kernel = kernel_of(geometry);
   scan::EdgeBuffer& edges = scan_edges_;
@@ -241,8 +242,8 @@ void Sight::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double se
   kernel.finish(ranges_m);
 }
 
-void Sight::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
-                          std::vector<Face>& faces) {
+void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
+                               std::vector<Face>& faces) {
   faces.clear();
   if (!outlines_fresh_) rebuild_outlines();
   const auto add = [&](const Edge& e, Contact::Kind kind, int index, double height_m) {
@@ -269,8 +270,8 @@ void Sight::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
   }
 }
 
-bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
-                         const Contact& target) {
+bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, int own_robot,
+                              const Contact& target) {
   struct Blocked : b2RayCastCallback {
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
       const FixtureInfo& info = info_of(fixture);
@@ -287,9 +288,9 @@ bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, in
   callback.height_m = height_m;
   callback.target_kind = target.kind;
   callback.target_index = target.index;
-  // Box2D takes no line without a length.
+  // Box2D does not accept a line of length 0.
   if ((p_WC - p_WA).squaredNorm() <= 0.0) return true;
-  // Robots first, which cost less to ask.
+  // Robots first, since their test is cheaper.
   const int target_robot = target.kind == Contact::Kind::kRobot ? target.index : -1;
   bool blocked = false;
   cast_at_robots(
@@ -307,7 +308,7 @@ bool Sight::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_m, in
   return !callback.blocked;
 }
 
-bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
+bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   bool inside = false;
   visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
     if (info_of(&fixture).height_m <= height_m) return;
@@ -319,8 +320,8 @@ bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
     inside = r.details->shape.TestPoint(transform_of(r), to_box2d(p_W));
   });
   if (inside || !bodies_.has_walls()) return inside;
-  // Walls of a map are closed outlines: inside where a ray to the far right crosses an odd number
-  // of them (half-open rule at vertices).
+  // Walls of a map are closed outlines. A point is inside if a ray to the far right crosses an odd
+  // number of edges (half-open rule at vertices).
   int crossings = 0;
   visit_fixed(bodies_.world(), p_W, {bodies_.wall_right_m(), p_W.y()},
               [&](const b2Fixture& fixture) {
@@ -334,7 +335,8 @@ bool Sight::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   return crossings % 2 == 1;
 }
 
-double Sight::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m, int own_robot) {
+double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
+                              int own_robot) {
   struct Closest : b2RayCastCallback {
     float fraction = 1.0F;
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {

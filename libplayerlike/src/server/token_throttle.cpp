@@ -1,26 +1,26 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "server/token_guard.h"
+#include "server/token_throttle.h"
 
 #include <algorithm>
 
 namespace playerlike::server {
 
-std::map<std::string, TokenGuard::Address>::iterator TokenGuard::find(const std::string& peer,
-                                                                      Clock::time_point now) {
+std::map<std::string, TokenThrottle::Address>::iterator TokenThrottle::find(const std::string& peer,
+                                                                            Clock::time_point now) {
   const auto it = addresses_.find(peer.substr(0, peer.rfind(':')));
   if (it == addresses_.end() || now - it->second.last < kMemory) return it;
   addresses_.erase(it);
   return addresses_.end();
 }
 
-std::chrono::milliseconds TokenGuard::delay_of_right(const std::string& peer,
-                                                     Clock::time_point now) {
+std::chrono::milliseconds TokenThrottle::delay_of_right(const std::string& peer,
+                                                        Clock::time_point now) {
   const auto it = find(peer, now);
   const bool suspect = it != addresses_.end() && it->second.wrong >= kMostOfAnAddress;
   return suspect ? kLongestDelay : std::chrono::milliseconds(0);
 }
 
-TokenGuard::Cost TokenGuard::note_wrong(const std::string& peer, Clock::time_point now) {
+TokenThrottle::Cost TokenThrottle::note_wrong(const std::string& peer, Clock::time_point now) {
   auto it = find(peer, now);
   if (it == addresses_.end()) {
     if (addresses_.size() >= kMostAddresses) {

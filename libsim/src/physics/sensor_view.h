@@ -14,21 +14,21 @@ namespace sim::physics {
 
 using Face = PhysicsWorld::Face;
 
-/// What sensors see: edges and faces of solids, robots and what they carry. The functions are those
-/// of PhysicsWorld.
-class Sight {
+/// What sensors see: edges and faces of solids, of robots and of carried objects. The functions
+/// have the same meaning as in PhysicsWorld.
+class SensorView {
  public:
-  explicit Sight(Bodies& bodies) : bodies_(bodies) { solids_changed(); }
+  explicit SensorView(Bodies& bodies) : bodies_(bodies) { solids_changed(); }
 
-  /// Writes or reads the state but for what robots carry. When reading, that of the solids is there
-  /// already.
+  /// Writes or reads the state, except what robots carry. When reading, the state of the solids
+  /// must have been read before.
   void archive(StateArchive& archive);
-  /// Obstacles were changed, extended or retracted.
+  /// Must be called after obstacles were changed, extended or retracted.
   void solids_changed();
-  /// Robots have moved, or carry something else.
+  /// Must be called after robots have moved or their loads have changed.
   void robots_changed() noexcept { outlines_fresh_ = false; }
-  /// A robot was added, or put somewhere.
-  void add_robot(int robot) { by_place_.push_back({0, robot, 0.0}); }
+  /// Must be called after a robot was added or placed.
+  void add_robot(int robot) { by_hilbert_index_.push_back({0, robot, 0.0}); }
   void robot_was_placed();
 
   void set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads);
@@ -44,22 +44,22 @@ class Sight {
                                   int own_robot);
 
  private:
-  // A robot in the order of its place.
-  struct Spot {
-    std::uint32_t place;
+  // A robot with its index along the Hilbert curve.
+  struct HilbertEntry {
+    std::uint32_t hilbert_index;
     int robot;
-    double until_m;  // good until the robot has gone so far
+    double until_m;  // valid until the robot's cumulative travel has this value
   };
-  // Of a robot and what it carries, in W.
+  // The outlines of a robot and its load, in W.
   struct Outline {
     Vec2 p_WB;
-    double seen_radius_m;  // round it, of all
+    double seen_radius_m;  // bounding radius of robot and load
     std::array<Vec2, b2_maxPolygonVertices + 1>
-        corners;        // of the robot, the first once more at last
-    std::size_t count;  // of its edges
+        corners;        // of the robot; the first corner is repeated at the end
+    std::size_t count;  // number of the robot's edges
     double height_m;
     int robot;
-    std::size_t first_load;  // the edges of what it carries, in load_edges_
+    std::size_t first_load;  // range of the load's edges in load_edges_
     std::size_t end_load;
 
     [[nodiscard]] Edge edge(std::size_t i) const {
@@ -67,7 +67,7 @@ class Sight {
     }
   };
 
-  void sort_by_place();
+  void sort_by_hilbert_index();
   void rebuild_outlines();
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
   template <typename Filter, typename Visitor>
@@ -77,14 +77,14 @@ class Sight {
                             scan::EdgeBuffer& edges);
 
   Bodies& bodies_;
-  EdgeList fixed_edges_;  // of what is there now and does not move, if the world is small
-  bool sweep_ = true;     // it is
+  EdgeList fixed_edges_;  // static solids that exist now, if the world is small
+  bool sweep_ = true;     // the world is small
   EdgeList load_edges_;
   std::vector<Outline> outlines_;
-  scan::DiscBuffer robot_discs_;           // round them
-  std::vector<Spot> by_place_;             // the order of both
-  std::vector<scan::ScanKernel> kernels_;  // of scan(), one a geometry
-  scan::EdgeBuffer scan_edges_;            // scratch memory of scan()
+  scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`
+  std::vector<HilbertEntry> by_hilbert_index_;  // order of `outlines_` and `robot_discs_`
+  std::vector<scan::ScanKernel> kernels_;       // for scan(), one per geometry
+  scan::EdgeBuffer scan_edges_;                 // scratch memory of scan()
   bool outlines_fresh_ = false;
 };
 

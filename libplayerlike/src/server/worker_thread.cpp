@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "server/workshop.h"
+#include "server/worker_thread.h"
 
 #include <pthread.h>
 
@@ -16,16 +16,16 @@ std::size_t canvas_cells(Session& session) {
 bool Job::work() {
   std::exception_ptr error;
   try {
-    if (piece()) return true;
+    if (run_slice()) return true;
   } catch (...) {
     error = std::current_exception();
   }
-  piece = nullptr;  // what it holds goes before anybody is told
+  run_slice = nullptr;  // releases its captures before `done` is called
   std::exchange(done, nullptr)(error);
   return false;
 }
 
-void Workshop::add(Job job) {
+void WorkerThread::add(Job job) {
   const std::lock_guard lock(mutex_);
   if (closed_) return;
   jobs_.push_back(std::move(job));
@@ -35,7 +35,7 @@ void Workshop::add(Job job) {
   changed_.notify_one();
 }
 
-void Workshop::close() noexcept {
+void WorkerThread::close() noexcept {
   std::deque<Job> dropped;
   {
     const std::lock_guard lock(mutex_);
@@ -46,8 +46,8 @@ void Workshop::close() noexcept {
   if (thread_.joinable()) thread_.join();
 }
 
-void Workshop::work() {
-  // Signals are for the program's own threads.
+void WorkerThread::work() {
+  // Signals are left to the program's own threads.
   sigset_t all;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, nullptr);

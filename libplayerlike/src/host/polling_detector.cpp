@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-#include "host/idle_calls.h"
+#include "host/polling_detector.h"
 
 #include <sys/resource.h>
 
@@ -13,7 +13,7 @@
 namespace playerlike {
 namespace {
 
-// How often the calling thread has gone to sleep by itself.
+// Number of voluntary context switches of the calling thread.
 long own_sleeps() {
   rusage usage{};
   return getrusage(RUSAGE_THREAD, &usage) == 0 ? usage.ru_nvcsw : 0;
@@ -21,29 +21,29 @@ long own_sleeps() {
 
 }  // namespace
 
-void IdleCalls::begin_at(sim::SimTime now_ns) {
-  *this = IdleCalls();
+void PollingDetector::begin_at(sim::SimTime now_ns) {
+  *this = PollingDetector();
   since_ns_ = now_ns;
 }
 
-bool IdleCalls::note(sim::SimTime now_ns, double share) {
+bool PollingDetector::note(sim::SimTime now_ns, double weight) {
   if (now_ns != since_ns_) begin_at(now_ns);
-  used_ += share;
-  return used_ >= next_look_;
+  used_ += weight;
+  return used_ >= next_check_;
 }
 
-bool IdleCalls::note_command(sim::SimTime now_ns, double share, double share_after_sleep) {
+bool PollingDetector::note_command(sim::SimTime now_ns, double weight, double weight_after_sleep) {
   if (now_ns != since_ns_) begin_at(now_ns);
-  // Not of the first one: most programs send one command and read.
+  // The first command does not count as one after a sleep: most programs send one command and read.
   if (used_ > 0.0) {
     const long sleeps = own_sleeps();
     const long before = std::exchange(own_sleeps_, sleeps);
-    if (before >= 0 && sleeps != before) share = share_after_sleep;
+    if (before >= 0 && sleeps != before) weight = weight_after_sleep;
   }
-  return note(now_ns, share);
+  return note(now_ns, weight);
 }
 
-bool IdleCalls::look(sim::SimTime now_ns) {
+bool PollingDetector::check(sim::SimTime now_ns) {
   if (now_ns != since_ns_) return false;
   postpone();
   const std::optional<Sleepers> before = std::move(sleepers_);
@@ -51,7 +51,7 @@ bool IdleCalls::look(sim::SimTime now_ns) {
   return used_ >= 1.0 && sleepers_ && sleepers_ == before;
 }
 
-std::optional<IdleCalls::Sleepers> IdleCalls::sleepers() {
+std::optional<PollingDetector::Sleepers> PollingDetector::sleepers() {
   Sleepers found;
   std::error_code error;
   const pid_t self = this_thread();

@@ -1,0 +1,106 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "playerlike/session/draw_queue.h"
+#include "remote/connection.h"
+
+namespace playerlike {
+
+class RemoteSimulation;
+
+/// Sends a socket session's messages to the server in order, drawings before the messages that
+/// follow them. Other sessions of the process, and threads that end, use it to make sure that
+/// messages have arrived. All members may be called from any thread.
+class MessageSender : public std::enable_shared_from_this<MessageSender> {
+ public:
+  /// @param simulation  the server's name for its simulation.
+  MessageSender(std::shared_ptr<Connection> connection, const std::string& simulation);
+  ~MessageSender();
+  MessageSender(const MessageSender&) = delete;
+  MessageSender& operator=(const MessageSender&) = delete;
+
+  [[nodiscard]] std::shared_ptr<Connection> connection() const;
+  /// Continues with another connection.
+  void replace(std::shared_ptr<Connection> connection, const std::string& simulation);
+  [[nodiscard]] std::shared_ptr<RemoteSimulation> simulation() const;
+
+  [[nodiscard]] DrawQueue& drawings() noexcept { return drawings_; }
+  /// Sends the draw queue. The first call allocates the queue. @throws ConnectionLost.
+  void flush();
+  /// Sends drawings and a request, and waits for the answer. @throws as Connection.
+  nlohmann::json ask(nlohmann::json& request,
+                     Connection::WaitPolicy policy = Connection::WaitPolicy::kTimeout);
+  /// As above; also returns the connection that answered.
+  nlohmann::json ask(nlohmann::json& request, std::shared_ptr<Connection>& answered_by);
+  /// Sends a request by which a thread waits. Before, it makes sure that all earlier messages of
+  /// the process's other sessions have arrived, so that the next step sees them.
+  nlohmann::json wait(nlohmann::json& request);
+  /// Sends a message without an answer. @throws ConnectionLost.
+  void tell(const nlohmann::json& message);
+  /// Makes sure that all messages sent so far have arrived.
+  void flush_and_confirm() noexcept;
+  /// Calls flush_and_confirm() for all other sessions of this process in the same simulation.
+  void confirm_others() noexcept;
+
+  /// Sets whether time follows the wall clock; then a thread flushes the draw queue periodically.
+  void set_paced(bool paced);
+  [[nodiscard]] bool paced() const noexcept { return paced_; }
+
+  /// Sends the draw queue and a good-bye, and ends the connection.
+  void close() noexcept;
+
+ private:
+  using Lock = std::unique_lock<std::mutex>;
+  /// Encodes the draw queue. The caller holds `send_mutex_`.
+  [[nodiscard]] std::string take_drawings(protocol::Encoding encoding, std::size_t limit);
+  nlohmann::json ask(nlohmann::json& request, Connection::WaitPolicy policy, bool waits,
+                     std::shared_ptr<Connection>* answered_by);
+  void start_flusher();
+  void flush_now_and_then();
+
+  mutable std::mutex connection_mutex_;  // guards the next two; a leaf mutex
+  std::shared_ptr<Connection> connection_;
+  std::shared_ptr<RemoteSimulation> simulation_;
+
+  std::mutex send_mutex_;  // guards the consumer's end of the draw queue and the order of messages
+  DrawQueue drawings_;
+  bool has_room_ = false;
+  std::atomic<std::uint64_t> sent_{0};          // messages without answers so far
+  std::atomic<std::uint64_t> acknowledged_{0};  // how many of them have arrived
+  std::atomic<bool> joined_{false};             // this client has joined the lockstep
+
+  std::atomic<bool> paced_{false};
+  std::mutex flusher_mutex_;  // guards the members below
+  std::condition_variable flusher_changed_;
+  std::thread flusher_;
+  bool closing_ = false;
+};
+
+/// A server's simulation, shared by the sessions of this process.
+class RemoteSimulation {
+ public:
+  /// The simulation of a name; one object as long as it is in use.
+  [[nodiscard]] static std::shared_ptr<RemoteSimulation> of(const std::string& name);
+
+  void add(const std::shared_ptr<MessageSender>& sender);
+  void remove(const MessageSender& sender) noexcept;
+  /// All senders except the given one.
+  [[nodiscard]] std::vector<std::shared_ptr<MessageSender>> others(
+      const MessageSender& sender) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::weak_ptr<MessageSender>> senders_;
+};
+
+}  // namespace playerlike
