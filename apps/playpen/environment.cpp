@@ -12,6 +12,7 @@ const std::vector<EnvironmentVariable>& environment_variables() {
       {"PLAYPEN_DURATION", "Simulated seconds after which a run ends.", true},
       {"PLAYPEN_ENCODING", "How a program talks to a server: cbor or json.", false},
       {"PLAYPEN_GRADE", "The number by which a grader knows the report of a run.", true},
+      {"PLAYPEN_INTERFACES", "Which device answers as which interface and index.", true},
       {"PLAYPEN_LIBRARIES",
        "The folder of the modules that draw letters and encode films, where they do not lie beside "
        "Playpen's own libraries.",

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "parsed_option.h"
 #include "sim/render/render.h"
@@ -108,6 +110,19 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
                return good;
              });
   add_view_mode(line, command, settings.view_mode);
+  add_parsed(command, "--interface",
+             "Which device answers as INTERFACE:INDEX, of each robot that has it or of ROBOT "
+             "[the world's order]; can be repeated",
+             "[ROBOT.]INTERFACE:INDEX=DEVICE", playerlike::kInterfaceChoiceExpected,
+             [&settings](const std::string& text) {
+               playerlike::InterfaceChoice choice;
+               const bool good = playerlike::parse_interface_choice(text, choice);
+               if (good) settings.interfaces.push_back(std::move(choice));
+               return good;
+             })
+      ->expected(1)
+      ->take_all()
+      ->trigger_on_parse();
 }
 
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world) {

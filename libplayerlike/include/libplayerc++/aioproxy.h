@@ -20,12 +20,13 @@ class AioProxy : public ClientProxy {
 
   /// Number of inputs; 0 before the first reading.
   uint32_t GetCount() const;
-  /// Voltage at an input [V].
-  /// @throws PlayerError kBadArgument if there is no such input; the text says how many there are.
+  /// Voltage at an input [V]. An input that does not exist reads 0; a warning says how many there
+  /// are, once for each proxy.
   double GetVoltage(uint32_t aIndex) const;
   /// Sets an output, from the next step on.
+  /// An output that does not exist is not set; a warning says so, once for each proxy.
   /// @param aVoltage  [V], at most 1e6 to either side.
-  /// @throws PlayerError kBadArgument if there is no such output, or no output has that voltage.
+  /// @throws PlayerError kBadArgument if no output can have that voltage.
   void SetVoltage(uint32_t aIndex, double aVoltage);
   /// Same as GetVoltage().
   double operator[](uint32_t aIndex) const { return GetVoltage(aIndex); }

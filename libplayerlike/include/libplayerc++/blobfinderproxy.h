@@ -17,8 +17,8 @@ namespace PlayerCc {
 /// `bottom`, its outermost columns and rows (inclusive); `range`, its distance [m]; `id`, always 0.
 /// Column 0 is on the left, row 0 at the top. Before the first reading there are 0 blobs.
 ///
-/// Errors: while there are blobs, an index that is not below GetCount() is refused with PlayerError
-/// kBadArgument; while there are none, every blob is zero.
+/// A blob whose index is not below GetCount() is all zeros; while there are blobs, a warning on
+/// standard error says so, once for each proxy.
 class BlobfinderProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.

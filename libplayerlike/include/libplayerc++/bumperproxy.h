@@ -15,8 +15,8 @@ namespace PlayerCc {
 /// first reading there are 0 segments, and each of them reads 0. The geometry is known from the
 /// start.
 ///
-/// Errors: from the first reading on an index that is not below GetCount() is refused with
-/// PlayerError kBadArgument, at any time one of GetPose() that is not below GetPoseCount().
+/// An element whose index is not below its count reads 0; after the first reading a warning on
+/// standard error says so, once for each proxy.
 class BumperProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.

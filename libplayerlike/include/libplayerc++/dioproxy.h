@@ -21,13 +21,13 @@ class DioProxy : public ClientProxy {
   uint32_t GetCount() const;
   /// All inputs as a bit mask: bit i is input i.
   uint32_t GetDigin() const;
-  /// One input.
-  /// @throws PlayerError kBadArgument if there is no such input; the text says how many there are.
+  /// One input. An input that does not exist reads false; a warning says how many there are, once
+  /// for each proxy.
   bool GetInput(uint32_t aIndex) const;
   /// Sets the first outputs, from the next step on; the others stay as they are.
-  /// @param aCount   how many.
+  /// @param aCount   how many; if there are fewer outputs, all of them are set, and a warning says
+  ///                 so, once for each proxy.
   /// @param aDigout  output i gets bit i.
-  /// @throws PlayerError kBadArgument if there are not as many outputs.
   void SetOutput(uint32_t aCount, uint32_t aDigout);
   /// GetInput() as 0 or 1.
   uint32_t operator[](uint32_t aIndex) const { return GetInput(aIndex) ? 1 : 0; }

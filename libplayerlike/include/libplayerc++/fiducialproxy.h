@@ -17,8 +17,8 @@ namespace PlayerCc {
 /// the sensor's frame; `upose`, the standard deviations of `pose`. Before the first reading there
 /// are 0 items, and each of them is zero.
 ///
-/// Errors: while there are items, an index that is not below GetCount() is refused with PlayerError
-/// kBadArgument; while there are none, every item is zero.
+/// An item whose index is not below GetCount() is all zeros; while there are items, a warning on
+/// standard error says so, once for each proxy.
 class FiducialProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.

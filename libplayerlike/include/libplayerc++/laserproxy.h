@@ -16,9 +16,8 @@ namespace PlayerCc {
 /// beam that detects nothing reads GetMaxRange(). Before the first reading there are 0 beams; the
 /// settings (angles, resolution, maximum range, frequency, poses) are known from the start.
 ///
-/// Beams that there are not, before the first reading or at an index that is not below GetCount(),
-/// read 0, as in Player: programs look before their first Read(), or were written for a laser with
-/// more beams. Of the latter a warning on standard error tells, once for each proxy.
+/// A beam whose index is not below GetCount() reads 0; after the first reading a warning on
+/// standard error says so, once for each proxy.
 class LaserProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
@@ -107,7 +106,6 @@ class LaserProxy : public ClientProxy {
   std::size_t mStride = 1;
   std::size_t mShown = 0;
   double mRangeRes = 0.0;  // 0: not rounded
-  mutable bool mHasWarned = false;
 };
 
 }  // namespace PlayerCc

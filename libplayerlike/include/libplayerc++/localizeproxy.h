@@ -37,7 +37,8 @@ class LocalizeProxy : public ClientProxy {
   uint32_t GetHypothCount() const;
   /// The pose that is thought possible: mean [m, rad], covariance [m^2, rad^2] (of x, y and yaw,
   /// then 0 off the diagonal) and weight 1.
-  /// @throws PlayerError kBadArgument for an index beyond GetHypothCount().
+  /// An index that is not below GetHypothCount() gives zeros; after the first reading a warning
+  /// says so, once for each proxy.
   player_localize_hypoth_t GetHypoth(uint32_t aIndex) const;
   /// Same as GetHypothCount().
   uint32_t GetNumHypoths() const;
@@ -46,7 +47,7 @@ class LocalizeProxy : public ClientProxy {
   /// @return 0, or -1 before the first reading.
   int GetParticles();
   /// Pose of a particle that GetParticles() fetched [m, rad].
-  /// @throws PlayerError kBadArgument for an index beyond GetNumParticles().
+  /// An index outside of GetNumParticles() gives zeros; a warning says so, once for each proxy.
   player_pose2d_t GetParticlePose(int index) const;
   /// Number of particles that GetParticles() has fetched: 1, or 0 before that call.
   uint32_t GetNumParticles() const;

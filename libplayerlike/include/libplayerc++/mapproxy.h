@@ -34,7 +34,7 @@ class MapProxy : public ClientProxy {
   /// checked.
   int GetCellIndex(int x, int y) const;
   /// What a cell holds: -1 free, 0 unknown, 1 occupied. The simulator's map knows all.
-  /// @throws PlayerError kBadArgument if there is no such cell; the text says which there are.
+  /// A cell outside of the map reads 0; a warning on standard error says so, once for each proxy.
   int8_t GetCell(int x, int y) const;
 
   double GetResolution() const;  ///< side length of a cell [m]

@@ -20,7 +20,8 @@ namespace PlayerCc {
 /// Indexes: by default a robot's lasers come first, then its sonars, then its infrared rangers. The
 /// world's `interfaces` can define another order.
 ///
-/// Errors: an index that is not below the count is refused with PlayerError kBadArgument.
+/// A range, point or element whose index is not below its count reads 0; after the first reading a
+/// warning on standard error says so, once for each proxy.
 class RangerProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
@@ -46,7 +47,7 @@ class RangerProxy : public ClientProxy {
   /// above that pose.
   player_point_3d_t GetPoint(uint32_t aIndex) const;
   uint32_t GetIntensityCount() const;          ///< 0: the simulated rangers measure ranges only
-  double GetIntensity(uint32_t aIndex) const;  ///< refuses every index, see GetIntensityCount()
+  double GetIntensity(uint32_t aIndex) const;  ///< 0, see GetIntensityCount()
 
   void SetPower(bool aEnable);          ///< no effect: simulated rangers are always on
   void SetIntensityData(bool aEnable);  ///< no effect, see GetIntensityCount()
@@ -81,7 +82,7 @@ class RangerProxy : public ClientProxy {
   double GetAngularRes() const;  ///< angle between shown beams, or full angle of a cone [rad]
   double GetMinRange() const;    ///< [m], see Configure()
   double GetMaxRange() const;    ///< [m], see Configure()
-  double GetRangeRes() const;    ///< [m], see Configure(); 0: not rounded
+  double GetRangeRes() const;    ///< [m], see Configure(); 0.001 by default
   double GetFrequency() const;   ///< readings a simulated second [Hz]
 
   /// Same as GetElementCount().

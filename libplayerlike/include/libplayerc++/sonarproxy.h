@@ -19,13 +19,14 @@ class SonarProxy : public ClientProxy {
   ~SonarProxy() override;
 
   uint32_t GetCount() const;  ///< ranges of the newest reading
-  /// A range [m]; -1 for an index that is not below GetCount(), as Player has it.
+  /// A range [m]; -1 for an index that is not below GetCount(), as Player has it. After the first
+  /// reading a warning on standard error says so, once for each proxy.
   double GetScan(uint32_t aIndex) const;
   /// Same as GetScan().
   double operator[](uint32_t aIndex) const;
   uint32_t GetPoseCount() const;  ///< number of transducers with known pose
   /// Where a transducer is, in the robot's body; it looks along its x axis.
-  /// @throws PlayerError kBadArgument if the index is not below GetPoseCount().
+  /// Zeros for an index that is not below GetPoseCount(); see GetScan().
   player_pose3d_t GetPose(uint32_t aIndex) const;
   /// Requests the poses. They are known from the start, so nothing changes.
   void RequestGeom();

@@ -14,8 +14,8 @@ namespace PlayerCc {
 ///
 /// Returned pointers to texts and links belong to the proxy and are valid until the next Read().
 ///
-/// Errors: an index that is not below GetLinkCount() is refused with PlayerError kBadArgument, but
-/// for GetLink(), which gives a null pointer.
+/// A link whose index is not below GetLinkCount() reads 0 and "", and a warning on standard error
+/// says so, once for each proxy; GetLink() gives a null pointer there.
 class WiFiProxy : public ClientProxy {
  public:
   /// @throws PlayerError kNoSuchDevice if the device does not exist; the text names those that do.
@@ -42,6 +42,7 @@ class WiFiProxy : public ClientProxy {
   playerc_wifi_link_t& Link(int aIndex, const char* aFun) const;
 
   mutable std::vector<playerc_wifi_link_t> mLinks;  // mutable: Player hands out their texts
+  mutable playerc_wifi_link_t mNoLink;              // what links past the end read
   mutable char mOwnIp[32];
 };
 

@@ -61,6 +61,7 @@ struct KeptRobot {
   double path_length_m = 0.0;
   double least_clearance_m = 0.0;
   double stalled_time_s = 0.0;
+  double driven_time_s = 0.0;
   double x_m = 0.0, y_m = 0.0, yaw_rad = 0.0;
   std::int32_t collisions = 0;
   std::uint32_t stalled = 0;

@@ -117,6 +117,7 @@ std::string completed_report(ordered_json report, const LastStep& last, const Pr
     robot["collisions"] = kept.collisions;
     robot["least_clearance"] = kept.least_clearance_m;
     robot["stalled_time"] = kept.stalled_time_s;
+    robot["driven_time"] = kept.driven_time_s;
     robot["final_pose"] = {{"x", kept.x_m}, {"y", kept.y_m}, {"yaw", kept.yaw_rad}};
   }
   if (report.value("ended", ordered_json()).is_null()) report["ended"] = to_json(run_end(end));

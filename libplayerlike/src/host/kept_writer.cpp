@@ -156,6 +156,7 @@ void KeptWriter::keep_step(const TimeStatistics& time, const Recorder& recorder,
     kept.path_length_m = statistics.path_length_m;
     kept.least_clearance_m = statistics.least_clearance_m;
     kept.stalled_time_s = statistics.stalled_time_s;
+    kept.driven_time_s = recorder.driven_time_s(i).value_or(0.0);
     kept.collisions = statistics.collisions;
     kept.x_m = body.X_WB.x_m;
     kept.y_m = body.X_WB.y_m;

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host/picture_sizes.h"
+#include "host/recorder.h"
 #include "playerlike/host/results.h"
 #include "sim/canvas/layers.h"
 #include "sim/core/replace_file.h"
@@ -156,7 +157,7 @@ void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goal
   }
 }
 
-nlohmann::ordered_json report(const sim::Simulation& simulation, const std::vector<Goal>& goals,
+nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder& recorder,
                               const TimeStatistics& time) {
   nlohmann::ordered_json robots = nlohmann::ordered_json::array();
   for (int i = 0; i < simulation.robot_count(); ++i) {
@@ -168,6 +169,9 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const std::vect
                       {"least_clearance", s.least_clearance_m},
                       {"stalled_time", s.stalled_time_s},
                       {"final_pose", {{"x", X_WB.x_m}, {"y", X_WB.y_m}, {"yaw", X_WB.yaw_rad}}}});
+    if (const auto driven_s = recorder.driven_time_s(static_cast<std::size_t>(i))) {
+      robots.back()["driven_time"] = *driven_s;
+    }
   }
   nlohmann::ordered_json said = nlohmann::ordered_json::array();
   for (const sim::SpokenText& u : simulation.spoken_texts()) {
@@ -185,7 +189,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const std::vect
                                     {"state_hash", hex(simulation.state_hash())}}},
                                   {"robots", robots},
                                   {"said", said}};
-  add_events(simulation, goals, whole);
+  add_events(simulation, recorder.goals().goals(), whole);
   // Where the scene can be found again, for `playpen plot`.
   std::error_code error;
   const fs::path file = fs::absolute(simulation.world().file, error);
@@ -289,9 +293,9 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
   return ended;
 }
 
-std::string report_text(const sim::Simulation& simulation, const std::vector<Goal>& goals,
+std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
                         const TimeStatistics& time, const RunEnd& end) {
-  nlohmann::ordered_json whole = report(simulation, goals, time);
+  nlohmann::ordered_json whole = report(simulation, recorder, time);
   whole["ended"] = to_json(end);
   // Texts of robots may be invalid UTF-8.
   return whole.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';

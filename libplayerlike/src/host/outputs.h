@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "host/goal_book.h"
 #include "playerlike/messages/messages.h"
 #include "sim/canvas/layers.h"
 #include "sim/io/map_file.h"
@@ -18,6 +17,8 @@
 #include "sim/world/occupancy_map.h"
 
 namespace playerlike {
+
+class Recorder;
 
 /// Folder of the pictures that are made while a run goes on, in its output folder.
 inline constexpr const char* kSnapshotFolder = "snapshots";
@@ -46,9 +47,8 @@ struct RunEnd {
 [[nodiscard]] nlohmann::ordered_json to_json(const RunEnd& end);
 
 /// The text of report.json.
-[[nodiscard]] std::string report_text(const sim::Simulation& simulation,
-                                      const std::vector<Goal>& goals, const TimeStatistics& time,
-                                      const RunEnd& end);
+[[nodiscard]] std::string report_text(const sim::Simulation& simulation, const Recorder& recorder,
+                                      const TimeStatistics& time, const RunEnd& end);
 /// Writes report.json into `folder`; see sim::replace_file().
 /// @throws std::runtime_error naming the file if it could not be written.
 void write_report(const std::string& folder, const std::string& text);

@@ -308,6 +308,11 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
                          : std::nullopt;
   changes["PLAYPEN_CLIENTS"] =
       settings.clients ? std::optional(std::to_string(*settings.clients)) : std::nullopt;
+  std::string interfaces;
+  for (const InterfaceChoice& choice : settings.interfaces) {
+    interfaces += (interfaces.empty() ? "" : ",") + choice.text();
+  }
+  changes["PLAYPEN_INTERFACES"] = interfaces.empty() ? std::nullopt : std::optional(interfaces);
   changes["PLAYPEN_SEED"] =
       settings.seed ? std::optional(std::to_string(*settings.seed)) : std::nullopt;
   changes["PLAYPEN_DURATION"] =

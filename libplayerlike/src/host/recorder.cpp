@@ -87,9 +87,12 @@ void Recorder::observe(const sim::Simulation& simulation) {
 }
 
 void Recorder::extend_trails(const sim::Simulation& simulation) {
+  const sim::SimTime step_ns = simulation.world().simulation.step_ns;
   for (std::size_t i = 0; i < trails_.size(); ++i) {
     Trail& trail = trails_[i];
-    const sim::Vec2 p = simulation.body(static_cast<int>(i)).X_WB.position();
+    const sim::BodyState& body = simulation.body(static_cast<int>(i));
+    if (body.commanded != sim::Twist{}) trail.driven_ns += step_ns;
+    const sim::Vec2 p = body.X_WB.position();
     if (!trail.points.empty() && (p - trail.points.back()).norm() < trail.spacing_m) continue;
     trail.points.push_back(p);
     if (trail.points.size() < kMostTrailPoints) continue;

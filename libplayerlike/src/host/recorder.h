@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,12 @@ class Recorder {
   /// The goals of the robots so far.
   [[nodiscard]] GoalBook& goals() noexcept { return goals_; }
   [[nodiscard]] const GoalBook& goals() const noexcept { return goals_; }
-  /// The scene now, with trails, goals and collisions.
+  /// How long a robot's motors were commanded to move it [s]; none where nothing is recorded.
+  [[nodiscard]] std::optional<double> driven_time_s(std::size_t robot) const {
+    if (!active_ || robot >= trails_.size()) return std::nullopt;
+    return sim::to_seconds(trails_[robot].driven_ns);
+  }
+  /// The current scene, with trails, goals and collisions.
   [[nodiscard]] sim::SceneSnapshot scene(const sim::Simulation& simulation) const;
 
   /// Completes trajectory.csv. observe() must not be called afterwards. @throws std::runtime_error
@@ -51,6 +57,7 @@ class Recorder {
   struct Trail {
     std::vector<sim::Vec2> points;
     double spacing_m = 0.01;
+    sim::SimTime driven_ns = 0;  // here because both are followed in each step
   };
   void extend_trails(const sim::Simulation& simulation);
   void write_rows(const sim::Simulation& simulation);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "sim/core/file.h"
+#include "sim/core/number_text.h"
 
 namespace playerlike {
 namespace {
@@ -30,6 +31,23 @@ constexpr Column kColumns[] = {
 
 int width_of(const Column& column) {
   return static_cast<int>(std::string(column.heading).size()) + 2;
+}
+
+// A line for each robot that stalled for most of the time that it drove.
+std::string stall_advice(const nlohmann::json& report) {
+  constexpr double kMost = 0.5;
+  constexpr double kLeastDriven_s = 1.0;  // a robot that only starts says nothing yet
+  std::string advice;
+  for (const nlohmann::json& robot : report.at("robots")) {
+    const double driven_s = robot.value("driven_time", 0.0);
+    const double stalled_s = robot.at("stalled_time").get<double>();
+    if (driven_s < kLeastDriven_s || stalled_s <= kMost * driven_s) continue;
+    advice += robot.at("name").get<std::string>() + " was stalled for " +
+              sim::fixed_text(100.0 * std::min(stalled_s / driven_s, 1.0), 0) +
+              " % of the time that it drove: docs/which_world.md names the world that suits a "
+              "program\n";
+  }
+  return advice;
 }
 
 std::string summarize(const nlohmann::json& report) {
@@ -65,7 +83,7 @@ std::string summarize(const nlohmann::json& report) {
     }
     out << '\n';
   }
-  return out.str();
+  return out.str() + stall_advice(report);
 }
 
 template <typename Use>

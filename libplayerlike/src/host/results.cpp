@@ -24,8 +24,7 @@ Results::Results(const RunSettings& settings, sim::Simulation& simulation,
   recorder_ = std::make_unique<Recorder>(settings, simulation);
   kept_ = KeptWriter::open(settings.kept_run);
   if (kept_ && !settings.output_folder.empty()) {
-    kept_->keep_looks(report_text(simulation_, recorder_->goals().goals(), {}, RunEnd{}),
-                      simulation_);
+    kept_->keep_looks(report_text(simulation_, *recorder_, {}, RunEnd{}), simulation_);
     kept_->keep_step({}, *recorder_, simulation_);
   }
   if (settings.quiet_end) note_interrupts(kept_ ? &kept_->noted() : nullptr);
@@ -79,8 +78,7 @@ void Results::write() {
   attempt(kMissing, [&] { recorder_->close_trajectory(); });
   if (!folder.empty()) {
     const TimeStatistics time = time_();
-    const std::string report =
-        report_text(simulation_, recorder_->goals().goals(), time, reason_of_end());
+    const std::string report = report_text(simulation_, *recorder_, time, reason_of_end());
     if (kept_) {
       kept_->keep_step(time, *recorder_, simulation_);
       kept_->keep_looks(report, simulation_);
@@ -100,7 +98,7 @@ void Results::write() {
 }
 
 std::string Results::report_now() const {
-  return report_text(simulation_, recorder_->goals().goals(), time_(), RunEnd{});
+  return report_text(simulation_, *recorder_, time_(), RunEnd{});
 }
 
 RunEnd Results::reason_of_end() const {

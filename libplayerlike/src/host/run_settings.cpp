@@ -94,6 +94,9 @@ auto into(Target& target, bool (*parse)(const std::string&, T&)) {
   };
 }
 
+constexpr const char* kInterfaceChoicesExpected =
+    "choices of the form [ROBOT.]INTERFACE:INDEX=DEVICE, separated by commas";
+
 // Variables of the environment, and what is wrong with them.
 class Variables {
  public:
@@ -314,6 +317,17 @@ RunSettings RunSettings::from_environment() {
   });
   settings.grading.nonce = environment("PLAYPEN_GRADE");
   variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
+  variables.read("PLAYPEN_INTERFACES", kInterfaceChoicesExpected, [&](const std::string& text) {
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      InterfaceChoice choice;
+      if (!parse_interface_choice(text.substr(begin, end - begin), choice)) return false;
+      settings.interfaces.push_back(std::move(choice));
+      begin = end + 1;
+    }
+    return true;
+  });
   settings.progress = is_set("PLAYPEN_PROGRESS");
   settings.quiet_end = is_set("PLAYPEN_RUN");
   settings.virtual_time = is_set("PLAYPEN_VIRTUAL_TIME");
@@ -379,6 +393,7 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
     }
     world.canvas.view_mode = *view_mode;
   }
+  apply_interface_choices(world, interfaces);
 }
 
 }  // namespace playerlike

@@ -2,8 +2,10 @@
 #include "playerlike/messages/messages.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <locale>
+#include <map>
 #include <sstream>
 #include <tuple>
 
@@ -36,23 +38,24 @@ const std::vector<InterfaceRow>& interface_table() {
 }
 
 // The robot's devices that carry the interface: those that the robot names, then the others in the
-// table's order.
-std::vector<const DeviceInfo*> carriers(const RobotInfo& robot, std::string_view interface) {
-  std::vector<const DeviceInfo*> found;
+// table's order. Robot is a RobotInfo or a sim::RobotDescription.
+template <typename Robot, typename Device = typename decltype(Robot::devices)::value_type>
+std::vector<const Device*> carriers(const Robot& robot, std::string_view interface) {
+  std::vector<const Device*> found;
   for (const InterfaceRow& row : interface_table()) {
     if (row.interface != interface) continue;
-    for (const DeviceInfo& device : robot.devices) {
+    for (const Device& device : robot.devices) {
       if (device.type == row.device_type) found.push_back(&device);
     }
   }
   const auto named = robot.interfaces.find(std::string(interface));
   if (named == robot.interfaces.end()) return found;
   const std::vector<std::string>& names = named->second;
-  const auto place = [&](const DeviceInfo* device) {
+  const auto place = [&](const Device* device) {
     return std::find(names.begin(), names.end(), device->name) - names.begin();
   };
   std::stable_sort(found.begin(), found.end(),
-                   [&](const DeviceInfo* a, const DeviceInfo* b) { return place(a) < place(b); });
+                   [&](const Device* a, const Device* b) { return place(a) < place(b); });
   return found;
 }
 
@@ -64,14 +67,6 @@ bool is_of_world(std::string_view interface) {
          std::end(kWorldInterfaces);
 }
 
-std::vector<std::string_view> interface_names() {
-  std::vector<std::string_view> names;
-  for (const InterfaceRow& row : interface_table()) {
-    if (names.empty() || names.back() != row.interface) names.push_back(row.interface);
-  }
-  return names;
-}
-
 // The end of a message about an interface that a port does not have.
 std::string where_else(std::string_view interface) {
   const std::string world = example_world(interface);
@@ -80,25 +75,54 @@ std::string where_else(std::string_view interface) {
              : "; of the worlds that come with Playpen, worlds/" + world + " has one";
 }
 
-// The index that a robot's first device of an interface has on port 4000.
-int shared_index(const RobotInfo& robot, std::size_t number, std::string_view interface) {
-  const auto given = robot.proxies.find(std::string(interface));
-  return given != robot.proxies.end() ? given->second : static_cast<int>(number);
+// What a port with several robots shows of one robot.
+struct SharedDevices {
+  std::int64_t first_index = 0;  // of the robot's first device; servers may say any int
+  std::size_t count = 0;         // devices that are shown, with indices in a row
+};
+
+// @param number  of the robot among those of the port.
+SharedDevices shared_devices(const std::map<std::string, int>& proxies, int number,
+                             std::string_view interface, std::size_t carriers, int port) {
+  const auto given = proxies.find(std::string(interface));
+  const std::size_t first = std::min<std::size_t>(carriers, 1);
+  if (given == proxies.end()) return {number, first};
+  return {given->second, port == kMorsePort ? first : carriers};
+}
+
+// Numbers of the robots of a port that shows several; none if it is one robot's own.
+std::vector<std::size_t> sharing(const std::vector<RobotInfo>& robots, int port) {
+  std::vector<std::size_t> found;
+  const RobotInfo* const first = robot_at(robots, port);
+  if (port != kMorsePort && (first == nullptr || !first->shares_port)) return found;
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    if (port == kMorsePort || robots[r].port == port) found.push_back(r);
+  }
+  return found;
 }
 
 // Calls visit(interface, index, robot, device, driver) for every address of a port. `driver` is
 // null except for the positions of a robot's drivers, which only the robot's own port offers.
 template <typename Visit>
 void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visit) {
+  const std::vector<std::size_t> shown = sharing(robots, port);
   for (const std::string_view interface : interface_names()) {
+    int number = 0;  // of the robot among those of the port
+    for (const std::size_t r : shown) {
+      const auto devices = carriers(robots[r], interface);
+      const SharedDevices shared =
+          shared_devices(robots[r].proxies, number++, interface, devices.size(), port);
+      for (std::size_t i = 0; i < shared.count; ++i) {
+        visit(interface, static_cast<int>(shared.first_index + static_cast<std::int64_t>(i)),
+              static_cast<int>(r), *devices[i], nullptr);
+      }
+    }
+    if (!shown.empty()) continue;
     for (std::size_t r = 0; r < robots.size(); ++r) {
       const RobotInfo& robot = robots[r];
       const auto devices = carriers(robot, interface);
       if (devices.empty()) continue;
-      if (port == kMorsePort) {
-        visit(interface, shared_index(robot, r, interface), static_cast<int>(r), *devices.front(),
-              nullptr);
-      } else if (port == robot.port) {
+      if (port == robot.port) {
         for (std::size_t i = 0; i < devices.size(); ++i) {
           visit(interface, static_cast<int>(i), static_cast<int>(r), *devices[i], nullptr);
         }
@@ -114,17 +138,19 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
 
 std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, int port,
                                         std::string_view interface, int index) {
-  if (port == kMorsePort) {
-    for (std::size_t r = 0; r < robots.size(); ++r) {
-      if (shared_index(robots[r], r, interface) != index) continue;
-      const auto devices = carriers(robots[r], interface);
-      if (devices.empty()) continue;
-      return InterfaceBinding{devices.front()->id, std::nullopt, static_cast<int>(r), nullptr};
-    }
-    return std::nullopt;
+  const std::vector<std::size_t> shown = sharing(robots, port);
+  int place = 0;  // of the robot among those of the port
+  for (const std::size_t r : shown) {
+    const auto devices = carriers(robots[r], interface);
+    const SharedDevices shared =
+        shared_devices(robots[r].proxies, place++, interface, devices.size(), port);
+    const std::int64_t i = index - shared.first_index;
+    if (i < 0 || static_cast<std::size_t>(i) >= shared.count) continue;
+    return InterfaceBinding{devices[static_cast<std::size_t>(i)]->id, std::nullopt,
+                            static_cast<int>(r), nullptr};
   }
   const RobotInfo* const robot = robot_at(robots, port);
-  if (robot == nullptr) return std::nullopt;
+  if (!shown.empty() || robot == nullptr) return std::nullopt;
   const auto number = static_cast<int>(robot - robots.data());
   const auto devices = carriers(*robot, interface);
   if (index >= 0 && static_cast<std::size_t>(index) < devices.size()) {
@@ -170,6 +196,23 @@ bool carries(std::string_view device_type, std::string_view interface) {
   });
 }
 
+std::vector<std::string_view> interface_names() {
+  std::vector<std::string_view> names;
+  for (const InterfaceRow& row : interface_table()) {
+    if (names.empty() || names.back() != row.interface) names.push_back(row.interface);
+  }
+  return names;
+}
+
+std::vector<std::string> device_order(const sim::RobotDescription& robot,
+                                      std::string_view interface) {
+  std::vector<std::string> names;
+  for (const sim::DeviceDescription* device : carriers(robot, interface)) {
+    names.push_back(device->name);
+  }
+  return names;
+}
+
 std::string example_world(std::string_view interface) {
   // Each device type has a world of its name; the tests check this.
   for (const InterfaceRow& row : interface_table()) {
@@ -177,6 +220,40 @@ std::string example_world(std::string_view interface) {
   }
   return "";
 }
+
+namespace {
+
+// Two devices may not have one index on a port that robots share.
+void check_shared_indices(const sim::WorldDescription& world,
+                          std::vector<sim::ConfigIssue>& issues) {
+  if (world.robots_on_port == 0) return;
+  for (const std::string_view interface : interface_names()) {
+    std::map<std::int64_t, std::string> taken;  // index -> ROBOT.DEVICE
+    int number = 0;
+    for (std::size_t r = 0; r < world.robots.size(); ++r) {
+      const sim::RobotDescription& robot = world.robots[r];
+      if (robot.port != world.robots_on_port) continue;
+      const std::vector<std::string> devices = device_order(robot, interface);
+      const SharedDevices shared =
+          shared_devices(robot.proxies, number++, interface, devices.size(), robot.port);
+      for (std::size_t i = 0; i < shared.count; ++i) {
+        const std::int64_t index = shared.first_index + static_cast<std::int64_t>(i);
+        const auto [other, added] = taken.emplace(index, robot.name + '.' + devices[i]);
+        if (added) continue;
+        issues.push_back(
+            {"world/duplicate-index", world.file,
+             "/robots/" + std::to_string(r) + "/proxies/" + std::string(interface),
+             "an index of its own for each device on port " + std::to_string(robot.port),
+             std::string(interface) + ':' + std::to_string(index) + " for " + robot.name + '.' +
+                 devices[i] + ", which " + other->second + " has",
+             "a robot's devices of an interface follow the index in its \"proxies\""});
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace
 
 void check_interfaces(const sim::WorldDescription& world) {
   const std::vector<std::string_view> interfaces = interface_names();
@@ -209,7 +286,16 @@ void check_interfaces(const sim::WorldDescription& world) {
       }
     }
   }
+  check_shared_indices(world, issues);
   if (!issues.empty()) throw sim::ConfigError(std::move(issues));
+}
+
+void note_shared_ports(std::vector<RobotInfo>& robots) {
+  std::map<int, RobotInfo*> first;
+  for (RobotInfo& robot : robots) {
+    const auto [other, added] = first.emplace(robot.port, &robot);
+    other->second->shares_port = robot.shares_port = !added || other->second->shares_port;
+  }
 }
 
 std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
@@ -258,6 +344,7 @@ std::vector<RobotInfo> describe_robots(const sim::Simulation& simulation) {
     }
     robots.push_back(std::move(robot));
   }
+  note_shared_ports(robots);
   return robots;
 }
 

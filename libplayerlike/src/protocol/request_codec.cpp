@@ -495,6 +495,7 @@ std::vector<RobotInfo> decode_robots(const json& robots) {
                    encode_device_id(devices[d].id));
     }
   }
+  note_shared_ports(decoded);
   return decoded;
 }
 

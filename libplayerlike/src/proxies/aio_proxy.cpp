@@ -25,11 +25,8 @@ uint32_t AioProxy::GetCount() const {
 double AioProxy::GetVoltage(uint32_t aIndex) const {
   const char* fun = "AioProxy::GetVoltage";
   const scoped_lock_t lock(LockData(fun));
-  const std::vector<double>& inputs = mLink->newest.as<sim::AioReading>().inputs_v;
-  if (aIndex < inputs.size()) return inputs[aIndex];
-  playerlike::refuse(fun, "there is no analog input " + std::to_string(aIndex) +
-                              ": the newest reading has " + std::to_string(inputs.size()) +
-                              ", counted from 0");
+  return mLink->element_or_zero(fun, {"analog input", "inputs"}, aIndex,
+                                mLink->newest.as<sim::AioReading>().inputs_v);
 }
 
 void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
@@ -37,11 +34,16 @@ void AioProxy::SetVoltage(uint32_t aIndex, double aVoltage) {
   const scoped_lock_t lock(LockData(fun));
   const double count = std::clamp<double>(mLink->property("outputs", sim::AioParams::kMaxLines),
                                           0.0, sim::AioParams::kMaxLines);
-  if (!(aIndex < count && std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
+  if (!(std::abs(aVoltage) <= sim::AioParams::kMaxVolts)) {
     playerlike::refuse(fun, "output " + std::to_string(aIndex) + " cannot have " +
                                 sim::rounded_text(aVoltage, 6) + " V: there are " +
                                 std::to_string(static_cast<int>(count)) +
                                 " outputs, counted from 0, of at most 1e6 V to either side");
+  }
+  if (!(aIndex < count)) {
+    return mLink->warn_once(fun, "there is no analog output " + std::to_string(aIndex) +
+                                     ": there are " + std::to_string(static_cast<int>(count)) +
+                                     ", counted from 0; setting it has no effect");
   }
   mLink->send(fun, sim::AnalogOutputCommand{static_cast<int>(aIndex), aVoltage});
 }

@@ -16,6 +16,10 @@
 
 namespace PlayerCc::detail {
 
+/// Resolution of ranges that rangefinders report unless Configure() chose another: what both the
+/// S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets [m].
+inline constexpr double kRangeResolution_m = 0.001;
+
 /// What a laser's settings say before its first scan.
 struct ScannerSettings {
   std::size_t count = 0;    ///< number of beams

@@ -56,8 +56,9 @@ playerc_blobfinder_blob_t BlobfinderProxy::GetBlob(uint32_t aIndex) const {
   const char* fun = "BlobfinderProxy::GetBlob";
   return Look<BlobfinderReading>(
       [&](const auto& r) {
-        return r.blobs.empty() ? playerc_blobfinder_blob_t{}
-                               : shown(detail::element_or_zero(fun, "blob", aIndex, r.blobs));
+        return mLink->has_element(fun, {"blob", "blobs"}, aIndex, r.blobs.size())
+                   ? shown(r.blobs[aIndex])
+                   : playerc_blobfinder_blob_t{};
       },
       fun);
 }

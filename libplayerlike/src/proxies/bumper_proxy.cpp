@@ -13,6 +13,12 @@ namespace PlayerCc {
 
 using sim::BumperReading;
 
+namespace {
+
+constexpr ElementWords kSegments{"segment", "segments"};
+
+}  // namespace
+
 BumperProxy::BumperProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
   const char* fun = "BumperProxy::BumperProxy";
   Attach(PLAYER_BUMPER_CODE, aIndex, fun);
@@ -33,7 +39,7 @@ uint32_t BumperProxy::GetCount() const {
 uint32_t BumperProxy::IsBumped(uint32_t aIndex) const {
   const char* fun = "BumperProxy::IsBumped";
   return Look<BumperReading>(
-      [&](const auto& r) { return detail::element_or_zero(fun, "segment", aIndex, r.pressed); },
+      [&](const auto& r) { return mLink->element_or_zero(fun, kSegments, aIndex, r.pressed); },
       fun);
 }
 
@@ -54,8 +60,7 @@ uint32_t BumperProxy::GetPoseCount() const {
 player_bumper_define_t BumperProxy::GetPose(uint32_t aIndex) const {
   const char* fun = "BumperProxy::GetPose";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "segment", aIndex, mPoses.size());
-  return mPoses[aIndex];
+  return mLink->element_or_zero(fun, kSegments, aIndex, mPoses);
 }
 
 bool BumperProxy::operator[](uint32_t aIndex) const { return IsBumped(aIndex) != 0; }

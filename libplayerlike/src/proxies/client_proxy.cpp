@@ -2,8 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <string>
+#include <utility>
 
 #include "devices/errors.h"
+#include "devices/warnings.h"
 #include "libplayerc++/clientproxy.h"
 #include "proxies/link.h"
 #include "virtual_time/virtual_time.h"
@@ -66,6 +69,22 @@ double ClientProxy::Link::property(const std::string& name, double otherwise) co
   return it == properties.end() ? otherwise : it->second;
 }
 
+bool ClientProxy::Link::has_element(const char* fun, const ElementWords& words, std::int64_t index,
+                                    std::size_t count) const {
+  if (index >= 0 && static_cast<std::uint64_t>(index) < count) return true;
+  if (count > 0) {
+    warn_once(fun, std::string("there is no ") + words.one + ' ' + std::to_string(index) + ": " +
+                       words.owner_has + ' ' + std::to_string(count) + ", counted from 0; " +
+                       words.many + " beyond the last read " + words.value);
+  }
+  return false;
+}
+
+void ClientProxy::Link::warn_once(const char* fun, const std::string& text) const {
+  if (std::exchange(*has_warned, true)) return;
+  playerlike::warn(std::string(fun) + ": " + text);
+}
+
 // --- ClientProxy
 
 ClientProxy::ClientProxy(PlayerClient* aPc, uint32_t aIndex)
@@ -98,6 +117,7 @@ ClientProxy::ClientProxy(const ClientProxy& aOther)
     mLink->measured = other.measured;
     mLink->newest.valid = other.newest.valid;
     mLink->device = other.device;
+    mLink->has_warned = other.has_warned;
     mLink->device.id = this;
     mFresh = aOther.mFresh;
     if (other.core->listens(*aOther.mLink)) other.core->add(other.binding.reading, *mLink);

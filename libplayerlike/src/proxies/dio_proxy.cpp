@@ -1,9 +1,9 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cstddef>
 #include <ostream>
 #include <string>
 
-#include "devices/errors.h"
 #include "libplayerc++/dioproxy.h"
 #include "proxies/link.h"
 #include "sim/devices/dio.h"
@@ -27,23 +27,21 @@ bool DioProxy::GetInput(uint32_t aIndex) const {
   const char* fun = "DioProxy::GetInput";
   const scoped_lock_t lock(LockData(fun));
   const auto& newest = mLink->newest.as<DioReading>();
-  const auto count = static_cast<uint32_t>(newest.input_count);
-  if (aIndex < count) return ((newest.inputs >> aIndex) & 1U) != 0;
-  playerlike::refuse(fun, "there is no digital input " + std::to_string(aIndex) +
-                              ": the newest reading has " + std::to_string(count) +
-                              ", counted from 0");
+  const auto count = static_cast<std::size_t>(newest.input_count);
+  if (!mLink->has_element(fun, {"digital input", "inputs"}, aIndex, count)) return false;
+  return ((newest.inputs >> aIndex) & 1U) != 0;
 }
 
 void DioProxy::SetOutput(uint32_t aCount, uint32_t aDigout) {
   const char* fun = "DioProxy::SetOutput";
   const scoped_lock_t lock(LockData(fun));
-  const double count = std::clamp<double>(mLink->property("outputs", sim::DioParams::kMaxLines),
-                                          0.0, sim::DioParams::kMaxLines);
-  if (!(aCount <= count)) {
-    playerlike::refuse(fun, std::to_string(aCount) + " outputs are to be set, but there are " +
-                                std::to_string(static_cast<int>(count)));
+  const auto outputs = static_cast<uint32_t>(std::clamp<double>(
+      mLink->property("outputs", sim::DioParams::kMaxLines), 0.0, sim::DioParams::kMaxLines));
+  if (aCount > outputs) {
+    mLink->warn_once(fun, std::to_string(aCount) + " outputs are to be set, but there are " +
+                              std::to_string(outputs) + "; the others have no effect");
   }
-  mLink->send(fun, sim::DigitalOutputCommand{static_cast<int>(aCount), aDigout});
+  mLink->send(fun, sim::DigitalOutputCommand{static_cast<int>(std::min(aCount, outputs)), aDigout});
 }
 
 }  // namespace PlayerCc

@@ -27,8 +27,8 @@ player_fiducial_item_t FiducialProxy::GetFiducialItem(uint32_t aIndex) const {
   const scoped_lock_t lock(LockData(fun));
   player_fiducial_item_t item = {};
   const auto& marks = mLink->newest.as<FiducialReading>().marks;
-  if (marks.empty()) return item;
-  detail::require_index(fun, "thing in view", aIndex, marks.size());
+  constexpr ElementWords kThings{"thing in view", "things"};
+  if (!mLink->has_element(fun, kThings, aIndex, marks.size())) return item;
   const FiducialReading::Mark& mark = marks[aIndex];
   item.id = mark.id;
   item.pose = {mark.X_ST.x_m, mark.X_ST.y_m, 0.0, 0.0, 0.0, mark.X_ST.yaw_rad};

@@ -30,17 +30,16 @@ double IrProxy::GetRange(uint32_t aIndex) const {
   if (mElements.Find(aIndex, range)) return range;
   const char* fun = "IrProxy::GetRange";
   const scoped_lock_t lock(mLink->lock_element(fun));
-  return detail::element_or_zero(fun, "transducer", aIndex,
-                                 mLink->newest.as<RangerReading>().ranges_m);
+  return mLink->element_or_zero(fun, detail::kTransducers, aIndex,
+                                mLink->newest.as<RangerReading>().ranges_m);
 }
 
 double IrProxy::GetVoltage(uint32_t aIndex) const {
   const char* fun = "IrProxy::GetVoltage";
   const scoped_lock_t lock(LockData(fun));
   const std::vector<double>& ranges = mLink->newest.as<RangerReading>().ranges_m;
-  const double range = detail::element_or_zero(fun, "transducer", aIndex, ranges);
-  if (ranges.empty()) return 0.0;
-  return sim::infrared_voltage_v(range, mLink->property("voltage_gain", 0.0),
+  if (!mLink->has_element(fun, detail::kTransducers, aIndex, ranges.size())) return 0.0;
+  return sim::infrared_voltage_v(ranges[aIndex], mLink->property("voltage_gain", 0.0),
                                  mLink->property("voltage_shift", 0.0));
 }
 
@@ -52,8 +51,7 @@ uint32_t IrProxy::GetPoseCount() const {
 player_pose3d_t IrProxy::GetPose(uint32_t aIndex) const {
   const char* fun = "IrProxy::GetPose";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "transducer", aIndex, mPoses.size());
-  return mPoses[aIndex];
+  return mLink->element_or_zero(fun, detail::kTransducers, aIndex, mPoses);
 }
 
 void IrProxy::RequestGeom() { const scoped_lock_t lock(LockData("IrProxy::RequestGeom")); }

@@ -4,10 +4,8 @@
 #include <numeric>
 #include <ostream>
 #include <string>
-#include <utility>
 
 #include "devices/errors.h"
-#include "devices/warnings.h"
 #include "libplayerc++/laserproxy.h"
 #include "proxies/beam_window.h"
 #include "proxies/link.h"
@@ -20,8 +18,7 @@ using sim::LaserReading;
 
 namespace {
 
-// What both the S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets.
-constexpr double kRangeResolution_m = 0.001;
+constexpr ElementWords kBeams{"beam", "beams", "the scan has"};
 
 uint32_t count(const LaserReading& scan) { return static_cast<uint32_t>(scan.ranges_m.size()); }
 
@@ -68,14 +65,7 @@ void LaserProxy::View() {
 
 // The caller holds the client's mutex.
 double LaserProxy::CheckedRange(uint32_t aIndex, const char* aFun) const {
-  const std::vector<double>& ranges = mLink->newest.as<LaserReading>().ranges_m;
-  if (aIndex < ranges.size()) return ranges[aIndex];
-  if (!ranges.empty() && !std::exchange(mHasWarned, true)) {
-    playerlike::warn(std::string(aFun) + ": there is no beam " + std::to_string(aIndex) +
-                     ": the scan has " + std::to_string(ranges.size()) +
-                     ", counted from 0; beams beyond the last read 0");
-  }
-  return 0.0;
+  return mLink->element_or_zero(aFun, kBeams, aIndex, mLink->newest.as<LaserReading>().ranges_m);
 }
 
 uint32_t LaserProxy::GetCount() const { return Look<LaserReading>(count, "LaserProxy::GetCount"); }
@@ -88,7 +78,7 @@ double LaserProxy::GetScanRes() const {
 
 double LaserProxy::GetRangeRes() const {
   const scoped_lock_t lock(LockData("LaserProxy::GetRangeRes"));
-  return mRangeRes > 0.0 ? mRangeRes : kRangeResolution_m;
+  return mRangeRes > 0.0 ? mRangeRes : detail::kRangeResolution_m;
 }
 
 double LaserProxy::GetScanningFrequency() const {

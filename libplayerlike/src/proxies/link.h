@@ -1,16 +1,27 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "devices/client_core.h"
 #include "libplayerc++/clientproxy.h"
 #include "playerlike/messages/messages.h"
 
 namespace PlayerCc {
+
+/// What a proxy has several of, in the words of a warning.
+struct ElementWords {
+  const char* one;                      ///< "beam"
+  const char* many;                     ///< "beams"
+  const char* owner_has = "there are";  ///< before their number
+  const char* value = "0";              ///< what those past the end read
+};
 
 /// The end of a proxy that sessions see: receives readings, and knows which devices stand behind
 /// it.
@@ -48,6 +59,23 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   /// A property of the device that makes the readings.
   [[nodiscard]] double property(const std::string& name, double otherwise) const;
 
+  /// Whether `index` is below `count`: the check of all getters and setters of one element.
+  ///
+  /// If it is not, a warning says so, once for this proxy and its copies; Player's proxies read
+  /// other memory there, so callers go on with 0. There is no warning while `count` is 0, since
+  /// programs look at elements before their first Read().
+  [[nodiscard]] bool has_element(const char* fun, const ElementWords& words, std::int64_t index,
+                                 std::size_t count) const;
+  /// The element of a list, or a zero; see has_element().
+  template <typename T>
+  [[nodiscard]] T element_or_zero(const char* fun, const ElementWords& words, std::int64_t index,
+                                  const std::vector<T>& list) const {
+    if (!has_element(fun, words, index, list.size())) return T{};
+    return list[static_cast<std::size_t>(index)];
+  }
+  /// Warns in the name of `fun`, unless this proxy or a copy of it has warned before.
+  void warn_once(const char* fun, const std::string& text) const;
+
   /// Gives a command to the device that readings come from; with the client's mutex held.
   void send(const char* fun, const sim::Command& command) const {
     core->send(fun, binding.reading, command);
@@ -61,6 +89,8 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   playerlike::Newest newest;    ///< the exposed reading
   sim::SharedReading measured;  ///< of rangefinders: the whole scan
   playerc_device_t device = {};
+  /// Shared by copies: programs pass proxies by value in loops.
+  std::shared_ptr<bool> has_warned = std::make_shared<bool>(false);
 };
 
 template <typename Reading, typename Function>

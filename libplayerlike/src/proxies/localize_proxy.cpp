@@ -16,15 +16,6 @@ player_pose2d_t mean_of(const sim::PoseReading& reading) {
   return {reading.pose.x_m, reading.pose.y_m, reading.pose.yaw_rad};
 }
 
-// What an index beyond the end is answered with.
-PlayerError no_such(const char* fun, const std::string& what, const std::string& index,
-                    std::size_t count, const char* call) {
-  return {fun,
-          "there is no " + what + ' ' + index + ": there are " + std::to_string(count) +
-              (count == 0 ? std::string(" (call ") + call + " first)" : ", counted from 0"),
-          PlayerError::kBadArgument};
-}
-
 }  // namespace
 
 LocalizeProxy::LocalizeProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex) {
@@ -51,12 +42,11 @@ player_localize_hypoth_t LocalizeProxy::GetHypoth(uint32_t aIndex) const {
   const char* fun = "LocalizeProxy::GetHypoth";
   const scoped_lock_t lock(LockData(fun));
   const auto* reading = mLink->newest.find<sim::PoseReading>();
-  if (reading == nullptr || aIndex > 0) {
-    throw no_such(fun, "hypothesis", std::to_string(aIndex), reading == nullptr ? 0 : 1, "Read()");
-  }
+  player_localize_hypoth_t hypoth = {};
+  constexpr ElementWords kHypotheses{"hypothesis", "hypotheses"};
+  if (!mLink->has_element(fun, kHypotheses, aIndex, reading == nullptr ? 0 : 1)) return hypoth;
   const double noise_m = mLink->property("noise", 0.0);
   const double noise_yaw_rad = mLink->property("noise_yaw", 0.0);
-  player_localize_hypoth_t hypoth = {};
   hypoth.mean = mean_of(*reading);
   hypoth.cov[0] = noise_m * noise_m;
   hypoth.cov[1] = noise_m * noise_m;
@@ -76,10 +66,7 @@ int LocalizeProxy::GetParticles() {
 player_pose2d_t LocalizeProxy::GetParticlePose(int index) const {
   const char* fun = "LocalizeProxy::GetParticlePose";
   const scoped_lock_t lock(LockData(fun));
-  if (index < 0 || static_cast<std::size_t>(index) >= mParticles.size()) {
-    throw no_such(fun, "particle", std::to_string(index), mParticles.size(), "GetParticles()");
-  }
-  return mParticles[static_cast<std::size_t>(index)];
+  return mLink->element_or_zero(fun, {"particle", "particles"}, index, mParticles);
 }
 
 uint32_t LocalizeProxy::GetNumParticles() const {

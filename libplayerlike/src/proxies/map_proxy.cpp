@@ -67,11 +67,13 @@ int8_t MapProxy::GetCell(int x, int y) const {
   const char* fun = "MapProxy::GetCell";
   const scoped_lock_t lock(LockData(fun));
   if (x < 0 || y < 0 || static_cast<uint32_t>(x) >= mWidth || static_cast<uint32_t>(y) >= mHeight) {
-    playerlike::refuse(
-        fun, "there is no cell (" + std::to_string(x) + ", " + std::to_string(y) + "): " +
-                 (mCells.empty() ? std::string("there is no map yet (call RequestMap())")
-                                 : "the map has " + std::to_string(mWidth) + " x " +
-                                       std::to_string(mHeight) + " cells, counted from 0"));
+    mLink->warn_once(fun,
+                     "there is no cell (" + std::to_string(x) + ", " + std::to_string(y) + "): " +
+                         (mCells.empty() ? std::string("there is no map yet (call RequestMap())")
+                                         : "the map has " + std::to_string(mWidth) + " x " +
+                                               std::to_string(mHeight) + " cells, counted from 0") +
+                         "; cells outside of the map read 0: unknown");
+    return 0;
   }
   return mCells[static_cast<std::size_t>(y) * mWidth + static_cast<std::size_t>(x)];
 }

@@ -18,6 +18,9 @@ using sim::RangerReading;
 
 namespace {
 
+constexpr ElementWords kRanges{"range", "ranges"};
+constexpr ElementWords kElements{"element", "elements"};
+
 const std::vector<double>& ranges_of(const playerlike::Newest& newest) {
   const auto* scan = newest.find<LaserReading>();
   return scan != nullptr ? scan->ranges_m : newest.as<RangerReading>().ranges_m;
@@ -107,15 +110,14 @@ player_bbox3d_t RangerProxy::GetDeviceSize() const {
 player_pose3d_t RangerProxy::GetElementPose(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetElementPose";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "element", aIndex, mPoses.size());
-  return mPoses[aIndex];
+  return mLink->element_or_zero(fun, kElements, aIndex, mPoses);
 }
 
 player_bbox3d_t RangerProxy::GetElementSize(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetElementSize";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "element", aIndex, mPoses.size());
-  if (!mIsLaser) return {0.0, 0.0, 0.0};
+  if (!mLink->has_element(fun, kElements, aIndex, mPoses.size()) || !mIsLaser)
+    return {0.0, 0.0, 0.0};
   return detail::scanner_settings(mLink->info().properties).size;
 }
 
@@ -127,9 +129,7 @@ uint32_t RangerProxy::GetRangeCount() const {
 double RangerProxy::LockedRange(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetRange";
   const scoped_lock_t lock(mLink->lock_element(fun));
-  const std::vector<double>& ranges = ranges_of(mLink->newest);
-  detail::require_index(fun, "range", aIndex, ranges.size());
-  return ranges[aIndex];
+  return mLink->element_or_zero(fun, kRanges, aIndex, ranges_of(mLink->newest));
 }
 
 uint32_t RangerProxy::GetPointCount() const { return GetRangeCount(); }
@@ -138,7 +138,7 @@ player_point_3d_t RangerProxy::GetPoint(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetPoint";
   const scoped_lock_t lock(LockData(fun));
   const std::vector<double>& ranges = ranges_of(mLink->newest);
-  detail::require_index(fun, "point", aIndex, ranges.size());
+  if (!mLink->has_element(fun, kRanges, aIndex, ranges.size())) return {0.0, 0.0, 0.0};
   const double range = ranges[aIndex];
   if (mIsLaser) {
     const double bearing = detail::bearing_rad(mLink->newest.as<LaserReading>(), aIndex);
@@ -158,8 +158,9 @@ uint32_t RangerProxy::GetIntensityCount() const {
 double RangerProxy::GetIntensity(uint32_t aIndex) const {
   const char* fun = "RangerProxy::GetIntensity";
   const scoped_lock_t lock(LockData(fun));
-  playerlike::refuse(fun, "there is no intensity " + std::to_string(aIndex) +
-                              ": the simulated rangers measure ranges only");
+  mLink->warn_once(fun, "there is no intensity " + std::to_string(aIndex) +
+                            ": the simulated rangers measure ranges only; intensities read 0");
+  return 0.0;
 }
 
 void RangerProxy::SetPower(bool aEnable) {
@@ -235,7 +236,10 @@ double RangerProxy::GetAngularRes() const {
 
 double RangerProxy::GetMinRange() const { return GetVar(mMinRange); }
 double RangerProxy::GetMaxRange() const { return GetVar(mMaxRange); }
-double RangerProxy::GetRangeRes() const { return GetVar(mRangeRes); }
+double RangerProxy::GetRangeRes() const {
+  const scoped_lock_t lock(LockData("RangerProxy::GetRangeRes"));
+  return mRangeRes > 0.0 ? mRangeRes : detail::kRangeResolution_m;
+}
 
 double RangerProxy::GetFrequency() const {
   const scoped_lock_t lock(LockData());

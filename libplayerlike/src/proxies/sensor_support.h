@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "devices/errors.h"
 #include "libplayerc++/playererror.h"
 #include "libplayerc++/playerstructs.h"
 #include "proxies/link.h"
@@ -18,24 +17,8 @@
 /// Shared helpers of the proxies of sensors with several elements.
 namespace PlayerCc::detail {
 
-/// Refuses an index that is not below `count`.
-/// @param what  one of the things that are counted: "beam".
-inline void require_index(const char* fun, const char* what, uint32_t index, std::size_t count) {
-  if (index < count) return;
-  playerlike::refuse(fun,
-                     std::string("there is no ") + what + ' ' + std::to_string(index) + ": " +
-                         (count == 0 ? std::string("there are none now (has Read() been called?)")
-                                     : "there are " + std::to_string(count) + ", counted from 0"));
-}
-
-/// An element of a list that Player's C library had in an array of zeros before the first reading,
-/// and so does this one: a zero while there are none, then an element or an error.
-template <typename T>
-T element_or_zero(const char* fun, const char* what, uint32_t index, const std::vector<T>& list) {
-  if (list.empty()) return T{};
-  require_index(fun, what, index, list.size());
-  return list[index];
-}
+/// Of sonars and infrared rings.
+inline constexpr ElementWords kTransducers{"transducer", "transducers"};
 
 /// The number of ranges in a reading.
 inline uint32_t count_of_ranges(const sim::RangerReading& reading) {

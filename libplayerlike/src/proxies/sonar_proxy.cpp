@@ -28,9 +28,11 @@ uint32_t SonarProxy::GetCount() const {
 double SonarProxy::GetScan(uint32_t aIndex) const {
   double range = 0.0;
   if (mElements.Find(aIndex, range)) return range;
-  const scoped_lock_t lock(mLink->lock_element("SonarProxy::GetScan"));
+  const char* fun = "SonarProxy::GetScan";
+  const scoped_lock_t lock(mLink->lock_element(fun));
   const std::vector<double>& ranges = mLink->newest.as<RangerReading>().ranges_m;
-  return aIndex < ranges.size() ? ranges[aIndex] : -1.0;
+  constexpr ElementWords kScans{"transducer", "transducers", "there are", "-1"};
+  return mLink->has_element(fun, kScans, aIndex, ranges.size()) ? ranges[aIndex] : -1.0;
 }
 
 double SonarProxy::operator[](uint32_t aIndex) const { return GetScan(aIndex); }
@@ -43,8 +45,7 @@ uint32_t SonarProxy::GetPoseCount() const {
 player_pose3d_t SonarProxy::GetPose(uint32_t aIndex) const {
   const char* fun = "SonarProxy::GetPose";
   const scoped_lock_t lock(LockData(fun));
-  detail::require_index(fun, "transducer", aIndex, mPoses.size());
-  return mPoses[aIndex];
+  return mLink->element_or_zero(fun, detail::kTransducers, aIndex, mPoses);
 }
 
 void SonarProxy::RequestGeom() { const scoped_lock_t lock(LockData("SonarProxy::RequestGeom")); }

@@ -27,7 +27,8 @@ char* text_of(uint8_t (&bytes)[size]) {
 
 }  // namespace
 
-WiFiProxy::WiFiProxy(PlayerClient* aPc, uint32_t aIndex) : ClientProxy(aPc, aIndex), mOwnIp() {
+WiFiProxy::WiFiProxy(PlayerClient* aPc, uint32_t aIndex)
+    : ClientProxy(aPc, aIndex), mNoLink(), mOwnIp() {
   Attach(PLAYER_WIFI_CODE, aIndex, "WiFiProxy::WiFiProxy");
 }
 
@@ -56,8 +57,11 @@ void WiFiProxy::HandleReading() {
 
 // The caller holds the client's mutex.
 playerc_wifi_link_t& WiFiProxy::Link(int aIndex, const char* aFun) const {
-  detail::require_index(aFun, "link", static_cast<uint32_t>(aIndex), mLinks.size());
-  return mLinks[static_cast<std::size_t>(aIndex)];
+  if (mLink->has_element(aFun, {"link", "links"}, aIndex, mLinks.size())) {
+    return mLinks[static_cast<std::size_t>(aIndex)];
+  }
+  mNoLink = {};  // the program may have written into its texts
+  return mNoLink;
 }
 
 const playerc_wifi_link_t* WiFiProxy::GetLink(int aLink) {

@@ -305,6 +305,7 @@ class Checker {
             "\"s1r\" or one of WorldDescription::models", '"' + robot.model + '"');
       }
       if (!trusted_(robot_pointer(i) + "/port") || robot.port == 0) continue;
+      if (robot.port == world_.robots_on_port) continue;  // robots share it
       const auto [first, added] = ports.emplace(robot.port, i);
       if (!added) {
         add("world/duplicate-port", robot_pointer(i) + "/port", "a port of its own for each robot",

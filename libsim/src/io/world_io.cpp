@@ -377,6 +377,7 @@ class WorldReader {
   }
 
   void read_robots(Reader& root) {
+    world_.robots_on_port = read_port(root, "robots_on_port");
     std::vector<std::size_t> unplaced;
     if (!root.has("robots")) {
       RobotDescription robot;
@@ -403,6 +404,7 @@ class WorldReader {
     for (std::size_t i = 0; i < world_.robots.size(); ++i) {
       RobotDescription& robot = world_.robots[i];
       if (robot.name.empty()) robot.name = free_name("r", i + 1, names);
+      if (robot.port == 0) robot.port = world_.robots_on_port;
       if (robot.port == 0) {
         int port = kFirstPort + static_cast<int>(i);
         while (!ports.insert(port).second) ++port;
@@ -449,6 +451,18 @@ class WorldReader {
     }
   }
 
+  /// @return 0 if there is none.
+  static int read_port(Reader& reader, const char* key) {
+    constexpr int kFirstFree = 1024;  // lower ports are reserved by the system
+    constexpr int kLast = 65535;
+    if (!reader.has(key)) return 0;
+    const int port = static_cast<int>(reader.integer(key, 0, kFirstFree, kLast));
+    if (port != kMorsePort) return port;
+    reader.issue("world/reserved-port", "a port other than 4000", "4000",
+                 "on port 4000 all robots are visible", key);
+    return 0;
+  }
+
   void read_robot(Reader& reader, RobotDescription& robot) {
     robot.name = reader.name("name", "");
     robot.model = reader.string("model", robot.model);
@@ -456,16 +470,7 @@ class WorldReader {
     if (!model_is_valid) robot.model = default_robot_model().name;
     robot.pose = reader.pose("pose", robot.pose);
     robot.colour = reader.colour("colour", robot.colour);
-    if (reader.has("port")) {
-      constexpr int kFirstFree = 1024;  // lower ports are reserved by the system
-      constexpr int kLast = 65535;
-      robot.port = static_cast<int>(reader.integer("port", 0, kFirstFree, kLast));
-      if (robot.port == kMorsePort) {
-        reader.issue("world/reserved-port", "a port other than 4000", "4000",
-                     "on port 4000 all robots are visible", "port");
-        robot.port = 0;
-      }
-    }
+    robot.port = read_port(reader, "port");
     if (!model_is_valid) return;  // the rest depends on the model
     const RobotModel& model = *find_robot_model(world_, robot.model);
     robot.devices = read_devices(reader, default_devices(reader, model, types_), types_);

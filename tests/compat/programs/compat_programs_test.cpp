@@ -57,6 +57,13 @@ std::vector<Case> cases() {
        "examples/bigbob.json",
        {"4 sonars, 180 beams", "between the teeth: orange1", "orange2 is at -10 -10"},
        5.0},
+      {"bigbob_pair",
+       "examples/bigbob_pair.json",
+       {"puck4 is at -1.5 -6.2", "puck1 moved to 6.0 -6.5", "3 rays, 180 beams"},
+       5.0,
+       kAny,
+       2,  // bob2 touches a puck
+       2},
       {"blob_chase", kPioneer, {"of 80x60 reached", "#2040e0"}, 0.5, 3.0},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
       {"can_collector", "examples/pioneer_gripper.json", {"can 1", "2 cans in the store"}, 4.0},
@@ -73,10 +80,18 @@ std::vector<Case> cases() {
       {"logger", kPioneer, {"position2d:0", "laser:0"}, 1.8, 2.2, 0, 1, {"log.txt"}},
       {"map_reader", kOffice, {"occupied", "#"}, 0.0, 0.01, 0, 0},
       {"never_deleted", kPioneer, {"stopped at"}, 0.3},
+      {"one_port",
+       "examples/one_port.json",
+       {"robot 12: ", "13 of 13 robots drove", ", 16 sonars"},
+       8.0,
+       kAny,
+       0,
+       13},
       {"omnidirectional", "examples/omni.json", {"to the left"}, 0.7, 1.5},
       {"own_goto", kPioneer, {"distance left 0.0"}, 1.4, 2.5},
       {"own_proxy", kPioneer, {"50 scans"}, 0.0, 0.01, 0, 0},
       {"posix_threads", kCave, {"nearest"}, 0.5},
+      {"past_the_end", kCave, {"sonar 99 reads -1", "nothing was thrown"}, 3.0},
       {"potential_field", kCave, {}, 2.0},
       {"read_signals", kCave, {"150 poses"}, 1.0},
       {"roomba_goal",
@@ -85,6 +100,7 @@ std::vector<Case> cases() {
        11.0,
        13.0},
       {"roomba_maze", kMaze, {"out of the maze", "straight ahead"}, 60.0, 110.0, 60, 1, {}, "400"},
+      {"scorpion_wander", "examples/scorpion.json", {"16 infra-reds", "to -22.5 degrees"}, 6.0},
       {"simulation", kPioneer, {"moved by 0.3", "nobody is at 42"}, 0.1, kAny, 0, 1, {"pioneer1"}},
       {"speaking", kPioneer, {"inputs"}, 1.8, 2.2},
       {"sonar_ranger",
@@ -151,6 +167,43 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   }
   EXPECT_LE(collisions, c.most_collisions) << result.out << result.err;
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
+}
+
+// A program that meets another world than the one that it was written for.
+TEST(StalledProgram, IsPointedToThePageOfWorlds) {
+  const TemporaryFolder folder;
+  const ProcessResult result = playpen(
+      {"run", "cave", "--out", folder / "out", "--duration", "60", "--", PROGRAMS "push_wall"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("\npioneer1 was stalled for [5-9][0-9] % of the "
+                                                 "time that it drove: docs/which_world.md"));
+  EXPECT_THAT(result.out, Not(HasSubstr("pioneer2 was")));
+  const json report = json::parse(read_bytes(folder / "out/report.json"));
+  const json& robot = report.at("robots")[0];
+  EXPECT_NEAR(robot.at("driven_time"), 28.9, 0.2);
+  EXPECT_GT(robot.at("stalled_time"), 0.5 * robot.at("driven_time").get<double>());
+  EXPECT_EQ(report.at("robots")[1].at("driven_time"), 0.0);
+}
+
+TEST(InterfacesOfARun, AreThoseOfTheCommandLine) {
+  const TemporaryFolder folder;
+  const auto run = [&](std::vector<std::string> options) {
+    std::vector<std::string> call = {"run",          "pioneer_laser", "--out",
+                                     folder / "out", "--duration",    "20"};
+    call.insert(call.end(), options.begin(), options.end());
+    call.insert(call.end(), {"--", PROGRAMS "sonar_ranger"});
+    return playpen(call);
+  };
+  EXPECT_THAT(run({}).out, Not(HasSubstr("16 sonars")));
+  const ProcessResult chosen = run({"--interface", "ranger:0=sonar"});
+  EXPECT_EQ(chosen.status, 0) << chosen.err;
+  EXPECT_THAT(chosen.out, HasSubstr("16 sonars, 361 beams"));
+  EXPECT_THAT(run({"--interface", "ranger:1=laser", "--interface", "ranger:0=sonar"}).out,
+              HasSubstr("16 sonars, 361 beams"));
+  const ProcessResult wrong = run({"--interface", "ranger:0=radar"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--interface ranger:0=radar: expected a device with the "
+                                   "interface ranger of a robot of this world: laser, sonar"));
 }
 
 // Pictures and films need OpenCV, which brings 250 libraries along: only who draws loads it.

@@ -41,7 +41,7 @@ class Outputs : public testing::Test {
     return simulation_.layers().add(kind, style, owner);
   }
   void write() const {
-    write_report(folder_.path(), report_text(simulation_, {}, {}, {}));
+    write_report(folder_.path(), report_text(simulation_, Recorder({}, simulation_), {}, {}));
     write_pictures(folder_.path(), simulation_.layers(), simulation_.snapshot());
   }
   [[nodiscard]] std::vector<std::string> layer_files() const {
@@ -178,7 +178,8 @@ std::map<std::string, std::string> all_texts_of_a_run() {
     TimeStatistics time;
     time.wall_time_s = 12.345;
     time.real_time_factor = 1234.5;
-    write_report(settings.output_folder, report_text(simulation, {}, time, {}));
+    write_report(settings.output_folder,
+                 report_text(simulation, Recorder({}, simulation), time, {}));
     write_pictures(settings.output_folder, simulation.layers(), recorder.scene(simulation));
   }
   for (const auto& entry : fs::recursive_directory_iterator(settings.output_folder)) {

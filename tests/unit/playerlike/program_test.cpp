@@ -42,8 +42,9 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_CROP", std::nullopt), Pair("PLAYPEN_HIDE", std::nullopt),
           Pair("PLAYPEN_COLOUR_BY", std::nullopt), Pair("PLAYPEN_SNAPSHOT_EVERY", std::nullopt),
           Pair("PLAYPEN_VIEW_MODE", std::nullopt), Pair("PLAYPEN_VIEW", std::nullopt),
-          Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_GRADE", std::nullopt),
-          Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt), Pair("PLAYPEN_STATE", std::nullopt)));
+          Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
+          Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
+          Pair("PLAYPEN_STATE", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
@@ -99,6 +100,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   settings.quiet_end = true;
   settings.virtual_time = true;
   settings.clients = 12;
+  settings.interfaces = {{"", "ranger", 0, "sonar"}, {"r.1", "position2d", 1, "pose"}};
   const ScopedEnvironment environment(run_environment("/world.json", settings));
   const RunSettings read = RunSettings::from_environment();
   EXPECT_EQ(read.seed, settings.seed);
@@ -115,8 +117,14 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(read.quiet_end, settings.quiet_end);
   EXPECT_EQ(read.virtual_time, settings.virtual_time);
   EXPECT_EQ(read.clients, settings.clients);
+  ASSERT_EQ(read.interfaces.size(), 2U);
+  EXPECT_EQ(read.interfaces[0].text(), "ranger:0=sonar");
+  EXPECT_EQ(read.interfaces[1].text(), "r.1.position2d:1=pose");
+  EXPECT_EQ(read.interfaces[1].robot, "r.1");
   sim::WorldDescription world;
-  read.apply_to(world);
+  RunSettings without_robots = read;
+  without_robots.interfaces.clear();
+  without_robots.apply_to(world);
   EXPECT_EQ(world.simulation.start_gate_clients, 12);
 }
 
@@ -128,13 +136,19 @@ TEST(RunEnvironment, LockstepIsReadBackAsLockstep) {
 }
 
 TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
-  const EnvironmentChanges bad = {
-      {"PLAYPEN_RECORD", "film.gif"},   {"PLAYPEN_RECORD_FPS", "0"},
-      {"PLAYPEN_RECORD_SPEED", "1001"}, {"PLAYPEN_RECORD_SIZE", "640x63"},
-      {"PLAYPEN_FOLLOW", "r1,0"},       {"PLAYPEN_CROP", "0,0,1"},
-      {"PLAYPEN_HIDE", "fans,walls"},   {"PLAYPEN_COLOUR_BY", "speed"},
-      {"PLAYPEN_SNAPSHOT_EVERY", "0"},  {"PLAYPEN_VIEW_MODE", "fullscreen"},
-      {"PLAYPEN_CLIENTS", "1001"},      {"PLAYPEN_OUT", "out"}};
+  const EnvironmentChanges bad = {{"PLAYPEN_RECORD", "film.gif"},
+                                  {"PLAYPEN_RECORD_FPS", "0"},
+                                  {"PLAYPEN_RECORD_SPEED", "1001"},
+                                  {"PLAYPEN_RECORD_SIZE", "640x63"},
+                                  {"PLAYPEN_FOLLOW", "r1,0"},
+                                  {"PLAYPEN_CROP", "0,0,1"},
+                                  {"PLAYPEN_HIDE", "fans,walls"},
+                                  {"PLAYPEN_COLOUR_BY", "speed"},
+                                  {"PLAYPEN_SNAPSHOT_EVERY", "0"},
+                                  {"PLAYPEN_VIEW_MODE", "fullscreen"},
+                                  {"PLAYPEN_CLIENTS", "1001"},
+                                  {"PLAYPEN_INTERFACES", "ranger:0=laser,ranger=sonar"},
+                                  {"PLAYPEN_OUT", "out"}};
   const ScopedEnvironment environment(bad);
   try {
     static_cast<void>(RunSettings::from_environment());

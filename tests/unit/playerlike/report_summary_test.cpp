@@ -14,6 +14,7 @@ namespace {
 using test_support::TemporaryFolder;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
 
 TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
@@ -30,6 +31,25 @@ TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
             "  robot      path [m]  collisions  least clearance [m]  stalled [s]\n"
             "  r1            23.80           0                0.023         0.00\n"
             "  long_name      0.00          12                0.000         3.46\n");
+}
+
+TEST(ReportSummary, NamesRobotsThatStalledForMostOfTheTimeThatTheyDrove) {
+  const TemporaryFolder folder;
+  // r1 stalled for 9 of 12 s, r2 for exactly half, r3 has only begun to drive.
+  const std::string file = folder.write("report.json", R"({
+    "run": {"sim_time": 20.0, "wall_time": 0.1, "real_time_factor": 200.0, "seed": 7},
+    "robots": [
+      {"name": "r1", "path_length": 1.0, "collisions": 1, "least_clearance": 0.0,
+       "stalled_time": 9.0, "driven_time": 12.0},
+      {"name": "r2", "path_length": 1.0, "collisions": 1, "least_clearance": 0.0,
+       "stalled_time": 6.0, "driven_time": 12.0},
+      {"name": "r3", "path_length": 1.0, "collisions": 1, "least_clearance": 0.0,
+       "stalled_time": 0.7, "driven_time": 0.9}]})");
+  const std::string summary = summarize_report(file);
+  EXPECT_THAT(summary, HasSubstr("\nr1 was stalled for 75 % of the time that it drove: "
+                                 "docs/which_world.md names the world that suits a program\n"));
+  EXPECT_THAT(summary, Not(HasSubstr("r2 was stalled")));
+  EXPECT_THAT(summary, Not(HasSubstr("r3 was stalled")));
 }
 
 TEST(ReportSummary, SaysWhyAnotherRunMayDiffer) {

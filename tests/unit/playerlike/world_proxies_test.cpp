@@ -452,8 +452,8 @@ TEST_P(WorldProxies, ReadAndSetLines) {
   AioProxy aio(first.get(), 0);
   EXPECT_EQ(dio.GetCount(), 0U);
   EXPECT_EQ(aio.GetCount(), 0U);
-  EXPECT_EQ(error_of([&] { dio.GetInput(0); }).GetErrorCode(), PlayerError::kBadArgument);
-  EXPECT_EQ(error_of([&] { aio.GetVoltage(0); }).GetErrorCode(), PlayerError::kBadArgument);
+  EXPECT_FALSE(dio.GetInput(0));
+  EXPECT_EQ(aio.GetVoltage(0), 0.0);
   other.SetOutput(1, 1);
   aio.SetVoltage(1, -0.5);
   first->Read();
@@ -466,8 +466,6 @@ TEST_P(WorldProxies, ReadAndSetLines) {
   EXPECT_EQ(aio.GetCount(), 2U);
   EXPECT_EQ(aio.GetVoltage(0), 5.0);
   EXPECT_EQ(aio[1], -0.5);
-  EXPECT_THAT(error_of([&] { dio.SetOutput(5, 0); }).GetErrorStr(), HasSubstr("there are 4"));
-  EXPECT_THAT(error_of([&] { aio.SetVoltage(2, 0.0); }).GetErrorStr(), HasSubstr("2 outputs"));
   EXPECT_THAT(error_of([&] { aio.SetVoltage(0, INFINITY); }).GetErrorStr(), HasSubstr("inf"));
   std::ostringstream text;
   text << dio << aio;

@@ -77,12 +77,12 @@ TEST(ShippedModels, AreTheFilesOfTheFolderAndSound) {
     EXPECT_EQ(simulation.body(0).X_WB, (Pose{3.0, 3.0, 0.0}));
   }
   EXPECT_THAT(names, ElementsAre("bigbob", "car", "epuck", "omni", "pioneer2dx", "pioneer3dx",
-                                 "roomba", "s1r_full", "s1r_sonar"));
+                                 "roomba", "s1r_full", "s1r_sonar", "scorpion"));
 }
 
 // Robots turn about their axles, which may differ from the centres of their bodies.
 TEST(ShippedModels, TurnAndArcAboutTheirAxles) {
-  for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni", "roomba"}) {
+  for (const char* name : {"pioneer2dx", "pioneer3dx", "epuck", "omni", "roomba", "scorpion"}) {
     SCOPED_TRACE(name);
     Simulation simulation(world_with(name));
     const int motion = simulation.find_device(0, "motion").value();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "playerlike/host/grading.h"
 #include "sim/core/log.h"
@@ -11,6 +12,17 @@
 #include "sim/world/description.h"
 
 namespace playerlike {
+
+/// Which device answers under an interface and index, instead of the world's order.
+struct InterfaceChoice {
+  std::string robot;      ///< name; "": each robot that has the device
+  std::string interface;  ///< e.g. "ranger"
+  int index = 0;          ///< on the robot's own port, from 0
+  std::string device;     ///< e.g. "laser"
+
+  /// "ranger:0=laser" or "r1.ranger:0=laser".
+  [[nodiscard]] std::string text() const;
+};
 
 /// Settings of a run: overrides of the world file, and the destination of the results.
 struct RunSettings {
@@ -29,7 +41,8 @@ struct RunSettings {
                                             ///< folder's snapshots/ [s], 0.001..1e9
   std::optional<int> clients;  ///< start gate, 1..1000: time starts when this number of clients has
                                ///< joined
-  std::optional<sim::ViewMode> view_mode;  ///< initial view mode; overrides the world's
+  std::optional<sim::ViewMode> view_mode;   ///< initial view mode; overrides the world's
+  std::vector<InterfaceChoice> interfaces;  ///< override the world's order of devices
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
   bool start_at_once = false;  ///< paced time does not wait for the first client (unless the
@@ -53,19 +66,21 @@ struct RunSettings {
   /// rest.
   Grading grading;
 
-  /// From the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME (lockstep, real or a
-  /// factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS, PLAYPEN_RECORD_SPEED,
-  /// PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP, PLAYPEN_HIDE, PLAYPEN_COLOUR_BY,
-  /// PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground, mini-map or full-screen),
-  /// PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
-  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE.
-  /// @throws sim::ConfigError naming the variable, what it should be and what it is.
+  /// Reads the settings from the environment: PLAYPEN_SEED, PLAYPEN_DURATION, PLAYPEN_TIME
+  /// (lockstep, real or a factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS,
+  /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP, PLAYPEN_HIDE,
+  /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
+  /// mini-map or full-screen), PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN,
+  /// PLAYPEN_VIRTUAL_TIME, PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES (choices,
+  /// separated by commas).
+  /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Puts seed, duration, time mode, clients and view mode into the world.
-  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode,
-  ///         run/follow if it has no robot of the name to follow, run/crop if nothing of the arena
-  ///         lies within the part to show.
+  /// Applies seed, duration, time mode, clients, view mode and interfaces to the world.
+  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode;
+  ///         run/follow if the world lacks the robot to follow; run/crop if the part to show
+  ///         contains nothing of the floor; run/interface for each choice of an interface that the
+  ///         world's robots cannot follow.
   void apply_to(sim::WorldDescription& world) const;
 };
 
@@ -76,6 +91,16 @@ struct RunSettings {
 /// Parses a number of clients, 1..1000.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_clients(const std::string& text, int& clients);
+
+/// Parses "[ROBOT.]INTERFACE:INDEX=DEVICE". @return whether the text has this form.
+[[nodiscard]] bool parse_interface_choice(const std::string& text, InterfaceChoice& choice);
+
+/// Gives devices the indices that choices name; the other devices of the interface keep their
+/// order. A choice without a robot holds for each robot that has the device.
+/// @throws sim::ConfigError run/interface for each unknown robot, interface or device, an index
+///         that the robot does not have, and an index or device that is chosen twice.
+void apply_interface_choices(sim::WorldDescription& world,
+                             const std::vector<InterfaceChoice>& choices);
 
 /// Parses the frames per second of a film, 1..240.
 /// @return whether the text is valid.
@@ -107,6 +132,9 @@ struct RunSettings {
 
 /// Description of the values that parse_clients() accepts, for messages.
 inline constexpr const char* kClientsExpected = "a whole number from 1 to 1000";
+/// Description of the values that parse_interface_choice() accepts, for messages.
+inline constexpr const char* kInterfaceChoiceExpected =
+    "[ROBOT.]INTERFACE:INDEX=DEVICE, such as ranger:0=laser or r1.ranger:0=laser";
 /// Description of the values that parse_film_fps() accepts, for messages.
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// Description of the values that parse_film_speed() accepts, for messages.

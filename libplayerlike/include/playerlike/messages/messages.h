@@ -49,7 +49,9 @@ struct RobotInfo {
   double mass_kg = 0.0;                    ///< [kg]; 0: not known
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
-  std::map<std::string, int> proxies;  ///< interface -> index on port 4000, from the world file
+  bool shares_port = false;  ///< other robots have this port, too; see note_shared_ports()
+  std::map<std::string, int> proxies;  ///< interface -> index on port 4000, and of the first device
+                                       ///< on a shared port, from the world file
   std::map<std::string, std::vector<std::string>>
       interfaces;  ///< interface -> device names in order of index, from the world file
   std::vector<sim::DriverDescription> drivers;    ///< as in the world file
@@ -116,16 +118,26 @@ void require_finite(const sim::Command& command);
 /// Whether devices of a type provide an interface, e.g. "pose" devices provide "position2d".
 [[nodiscard]] bool carries(std::string_view device_type, std::string_view interface);
 
+/// All interfaces that devices provide, in alphabetical order.
+[[nodiscard]] std::vector<std::string_view> interface_names();
+
+/// Names of a robot's devices that provide an interface, by index on the robot's own port.
+[[nodiscard]] std::vector<std::string> device_order(const sim::RobotDescription& robot,
+                                                    std::string_view interface);
+
 /// Returns an example world for an interface. It is shipped with Playpen and has a robot with a
 /// device that provides the interface.
 /// @return name in the folder of worlds, e.g. "devices/laser.json"; "" if no device provides the
 ///         interface.
 [[nodiscard]] std::string example_world(std::string_view interface);
 
-/// Checks the `interfaces` tables of a world's robots.
-/// @throws sim::ConfigError naming each unknown interface, and each device that does not provide
-///         the interface of its entry.
+/// Checks the `interfaces` tables of a world's robots, and the indices of devices on a shared port.
+/// @throws sim::ConfigError naming each unknown interface, each device that does not provide the
+///         interface of its entry, and each index that two devices of a shared port have.
 void check_interfaces(const sim::WorldDescription& world);
+
+/// Sets RobotInfo::shares_port of all robots.
+void note_shared_ports(std::vector<RobotInfo>& robots);
 
 /// Returns the descriptions of a simulation's robots for clients.
 /// @throws sim::ConfigError if the drivers are invalid; see check_drivers().
@@ -136,7 +148,7 @@ void check_interfaces(const sim::WorldDescription& world);
 [[nodiscard]] sim::CanvasDescription map_grid(const sim::ArenaDescription& arena,
                                               double cell_size_m);
 
-/// Returns the robot with this port, or null if there is none.
+/// Returns the first robot with this port, or null if there is none.
 [[nodiscard]] const RobotInfo* robot_at(const std::vector<RobotInfo>& robots, int port);
 /// Whether clients can connect to a port, which is a robot's port or kMorsePort.
 [[nodiscard]] bool is_open(const std::vector<RobotInfo>& robots, int port);
@@ -159,7 +171,9 @@ struct InterfaceBinding {
 /// On a robot's own port, index i is the robot's i-th device with the interface. The order is that
 /// of the robot's `interfaces` table, by default by type and name. Drivers have the indexes that
 /// the world defines, by default the first free ones. On port 4000, the world's `proxies` table
-/// defines the index, by default the robot's number, counted from 0.
+/// defines the index, by default the robot's number, counted from 0. A
+/// port that robots share has the same indices, and a robot's further devices follow the index in
+/// its `proxies`.
 ///
 /// Known interfaces: "position2d" (pose, then odometry devices), "localize" (pose devices),
 /// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"

@@ -136,9 +136,10 @@ struct RobotDescription {
   std::string model = "s1r";  ///< see find_robot_model()
   Pose pose;                  ///< X_WB at the start
   Colour colour{0xff, 0x88, 0x00, 0xff};
-  int port = 0;  ///< Player port; the reader assigns 6665, 6666, ... by default
+  int port = 0;  ///< Player port; the reader assigns the shared one, else 6665, 6666, ...
   std::vector<DeviceDescription> devices;  ///< sorted by name
-  std::map<std::string, int> proxies;      ///< interface name -> index on port 4000
+  std::map<std::string, int> proxies;      ///< interface name -> index on port 4000, and of the
+                                           ///< first device on a shared port
   std::map<std::string, std::vector<std::string>>
       interfaces;  ///< interface name -> names of devices, by index on the robot's own port;
                    ///< devices not named here follow in the usual order
@@ -176,6 +177,7 @@ struct WorldDescription {
   /// Robot models that are not built in, by the name in RobotDescription::model.
   std::map<std::string, std::shared_ptr<const RobotModel>> models;
   std::vector<RobotDescription> robots;
+  int robots_on_port = 0;  ///< Player port that robots without one of their own share; 0: none
   CanvasDescription canvas;
 };
 
