@@ -37,7 +37,7 @@ int plot(const PlotRequest& request) {
 
 void add_plot(CommandLine& line) {
   const auto request = std::make_shared<PlotRequest>();
-  CLI::App& command = line.add_command("plot", "Draw charts of runs, and their ways");
+  CLI::App& command = line.add_command("plot", "Draw charts and trajectories of runs");
   CLI::Option* const folders = command.add_option(
       "folders", request->folders, "Folders of results, as 'playpen run --out' makes them");
   line.takes(folders->required()->type_name(""), ValueKind::Kind::kFolder);
@@ -49,8 +49,8 @@ void add_plot(CommandLine& line) {
                  });
   line.takes(out, ValueKind::Kind::kFile);
   command.footer(
-      "Shows speed, turn rate, clearance and path over time, and the ways over the scene. The\n"
-      "lines of a second run and those that follow are dashed. For example:\n"
+      "Draws speed, turn rate, clearance and path length over time, and trajectories over\n"
+      "the scene. Lines of the second and later runs are dashed. For example:\n"
       "  playpen plot out/first out/second --out compared.png");
   command.callback([request, &line] { line.status = plot(*request); });
 }
