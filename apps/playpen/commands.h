@@ -83,9 +83,9 @@ struct RenderRequest {
   std::string file;   ///< .png, or .yaml with `map`
   int size_px = 1000;
   std::optional<sim::ViewMode> view_mode;  ///< instead of the world's
-  sim::render::RenderOptions pictures;     ///< what the picture shows; `size_px` is its size
-  bool canvas = false;                     ///< the canvas alone
-  bool map = false;                        ///< the true map
+  sim::render::RenderOptions pictures;     ///< contents and size (`size_px`) of the picture
+  bool canvas = false;                     ///< draw only the canvas
+  bool map = false;                        ///< draw the true map
 };
 
 /// Draws a world in its initial state, only its canvas, its true map, or a map file. Pictures of
@@ -94,15 +94,16 @@ struct RenderRequest {
 ///         or the world lacks what the request asks for.
 [[nodiscard]] int render(const RenderRequest& request);
 
-/// What `playpen plot` was asked for.
+/// Options of `playpen plot`.
 struct PlotRequest {
-  std::vector<std::string> folders;  ///< of results
+  std::vector<std::string> folders;  ///< result folders, one per run
   std::string file = "plot.png";     ///< .png or .svg
 };
 
-/// Draws charts of runs. What cannot be shown because a world's file is gone is said on the
-/// standard error.
-/// @throws std::runtime_error naming the folder or file that is no run's, or cannot be written.
+/// Draws charts of runs. If the world of a run is unknown, a message on standard error gives the
+/// reason and names the charts that are omitted.
+/// @throws std::runtime_error naming the folder that does not contain a run, or the file that
+///         cannot be written.
 [[nodiscard]] int plot(const PlotRequest& request);
 
 }  // namespace playpen

@@ -60,7 +60,7 @@ Track& track_of(RunData& run, std::string_view robot) {
   return run.tracks.back();
 }
 
-// Appends a row. @return whether it is one.
+// Appends a row to the tracks. @return whether the row is valid.
 bool add_row(RunData& run, std::string_view row) {
   constexpr std::size_t kColumns = 8;
   std::array<std::string_view, kColumns> words;
@@ -95,7 +95,7 @@ void read_trajectory(const fs::path& file, RunData& run) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string_view row = std::string_view(text).substr(begin, end - begin);
-    // A program that died may have left half of the last row.
+    // If the program crashed, the last row may be incomplete.
     const bool is_whole = end < text.size();
     begin = end + 1;
     ++line;
@@ -110,7 +110,7 @@ void read_trajectory(const fs::path& file, RunData& run) {
   }
 }
 
-// The index of a robot's track; none for a robot without one.
+// Returns the index of a robot's track, or none if the robot has no track.
 std::optional<int> index_of(const RunData& run, const std::string& robot) {
   for (std::size_t i = 0; i < run.tracks.size(); ++i) {
     if (run.tracks[i].robot == robot) return static_cast<int>(i);
@@ -173,7 +173,7 @@ double distance_m(const Vec2& point, const Vec2& a, const Vec2& b) {
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Of two lines from point to point: 0 if they cross.
+// Distance between two line segments; 0 if they cross.
 double distance_m(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const bool cross_ab = cross(b - a, c - a) * cross(b - a, d - a) < 0.0;
   const bool cross_cd = cross(d - c, a - c) * cross(d - c, b - c) < 0.0;
@@ -182,7 +182,7 @@ double distance_m(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
       {distance_m(a, c, d), distance_m(b, c, d), distance_m(c, a, b), distance_m(d, a, b)});
 }
 
-// A closed outline, and a disc round it.
+// A closed outline and its bounding circle.
 struct Outline {
   explicit Outline(std::vector<Vec2> vertices) : points(std::move(vertices)) {
     for (const Vec2& p : points) center += p / static_cast<double>(points.size());
@@ -195,7 +195,7 @@ struct Outline {
 
 double distance_m(const Outline& body, const Outline& other, double least_m) {
   const double gap_m = (body.center - other.center).norm() - body.radius_m;
-  // An outline may surround the body, as a border does.
+  // An outline such as the border may surround the body.
   if (gap_m - other.radius_m >= least_m) return least_m;
   for (std::size_t k = 0; k < other.points.size(); ++k) {
     const Vec2& c = other.points[k];
@@ -276,7 +276,7 @@ void measure_clearances(RunData& run) {
         least_m =
             distance_m(body, Outline(body_at(models[k]->footprint, other.X_WB[row])), least_m);
       }
-      if (!std::isfinite(least_m)) {  // there is nothing solid
+      if (!std::isfinite(least_m)) {  // the world has no solid objects
         track.clearance_m.clear();
         break;
       }

@@ -9,38 +9,40 @@
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/world/description.h"
 
-/// What `playpen plot` reads from the folders of runs.
+/// The data that `playpen plot` reads from result folders.
 namespace playpen {
 
-/// A robot's way through a run: lists of one length, a value for each row of trajectory.csv.
+/// The trajectory of a robot. All lists have one value per row of trajectory.csv.
 struct Track {
   std::string robot;
   std::vector<double> time_s;
   std::vector<sim::Pose> X_WB;
   std::vector<double> v_mps;
   std::vector<double> omega_radps;
-  std::vector<double> path_m;       ///< length of the way so far
-  std::vector<double> clearance_m;  ///< to anything solid; empty: the world is not known
+  std::vector<double> path_m;  ///< length of the path so far
+  /// Distance to the nearest solid object; empty if the world is unknown.
+  std::vector<double> clearance_m;
 };
 
-/// A run, by its folder.
+/// A run, read from its result folder.
 struct RunData {
   std::string folder;
   std::string world_name;
-  std::optional<sim::WorldDescription> world;  ///< none: see `world_problem`
-  std::string world_problem;                   ///< why the world is not known
+  std::optional<sim::WorldDescription> world;  ///< none: `world_problem` gives the reason
+  std::string world_problem;                   ///< why the world is unknown
   std::vector<Track> tracks;                   ///< in the order of trajectory.csv
-  std::vector<sim::CollisionMark> collisions;  ///< robots are indexes of `tracks`
-  std::vector<sim::GoalMark> goals;            ///< likewise
+  std::vector<sim::CollisionMark> collisions;  ///< robots are indices into `tracks`
+  std::vector<sim::GoalMark> goals;            ///< robots are indices into `tracks`
 };
 
-/// Reads trajectory.csv and report.json of a run's folder, and the world that the report names.
-/// @throws std::runtime_error naming the file or folder, what was expected and what was found.
+/// Reads trajectory.csv and report.json from a result folder, and the world that the report names.
+/// @throws std::runtime_error naming the file or folder, the expected content and the actual
+///         content.
 [[nodiscard]] RunData read_run(const std::string& folder);
 
-/// Distances of the robots' bodies to everything solid, into the tracks' `clearance_m`. Obstacles
-/// count as they are at the start, other robots where they are at the time. Does nothing without a
-/// world.
+/// Computes the distance of each robot's body to the nearest solid object and stores it in
+/// `clearance_m`. Obstacles have their initial poses; other robots have their poses at that time.
+/// Does nothing if the run has no world.
 void measure_clearances(RunData& run);
 
 }  // namespace playpen

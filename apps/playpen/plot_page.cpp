@@ -24,11 +24,11 @@ using Align = Drawing::Align;
 
 constexpr int kWidth = 1200;
 constexpr int kHeight = 780;
-constexpr double kLeft = 62.0;    // of the panels
-constexpr double kRight = 640.0;  // likewise
+constexpr double kLeft = 62.0;    // left edge of the panels [pixels]
+constexpr double kRight = 640.0;  // right edge of the panels [pixels]
 constexpr double kTop = 92.0;
 constexpr double kBottom = 734.0;
-constexpr double kTitleGap = 30.0;  // above each panel, for its title
+constexpr double kTitleGap = 30.0;  // space for the title above each panel
 constexpr int kSceneSide = 530;
 constexpr double kSceneLeft = 662.0;
 constexpr double kText = 10.0;  // height of a capital letter [pixels]
@@ -38,9 +38,9 @@ constexpr Colour kFaintInk{0x6d, 0x6f, 0x72, 0xff};
 constexpr Colour kGrid{0xe4, 0xe4, 0xe2, 0xff};
 constexpr Colour kFrame{0xb4, 0xb6, 0xb8, 0xff};
 constexpr Colour kRed{0xe0, 0x1e, 0x37, 0xff};
-constexpr std::size_t kMostEntries = 8;  // of the legend
+constexpr std::size_t kMostEntries = 8;  // maximum number of entries in the legend
 
-// A line of the charts: a robot of a run.
+// A curve in the charts: one robot of one run.
 struct Series {
   const Track* track;
   std::size_t run;
@@ -64,7 +64,7 @@ double difference(Colour a, Colour b) {
   return std::sqrt(square(a.r - b.r) + square(a.g - b.g) + square(a.b - b.b));
 }
 
-// Robots keep the colours of their world where these can be told apart.
+// Robots keep the colours of their world if these colours are distinguishable.
 std::vector<Series> series_of(const std::vector<RunData>& runs) {
   constexpr double kFarEnough = 70.0;
   std::vector<Series> all;
@@ -107,7 +107,7 @@ std::string tick_text(double value) {
   return sim::rounded_text(std::abs(value) < 1e-12 ? 0.0 : value, 6);
 }
 
-// One chart over time.
+// A chart of one quantity over time.
 class Chart {
  public:
   Chart(Drawing& page, const Panel& panel, double top, double bottom, double end_s)
@@ -164,13 +164,14 @@ class Chart {
     page_.add_line({{kLeft, top_}, {kLeft, bottom_}, {kRight, bottom_}}, kFrame, 1.2);
   }
 
-  // @return whether there was anything to draw.
+  // @return whether the chart has data.
   bool draw_line(const Series& series) {
     const std::vector<double>& values = series.track->*panel_.values;
     std::vector<Vec2> points;
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Vec2 point(x(series.track->time_s[i]), y(values[i]));
-      // Of many values in one column of pixels the curve needs the first, the extremes, the last.
+      // If one column of pixels contains many values, the curve needs only the first and last
+      // value, the minimum and the maximum.
       if (points.size() > 2 && point.x() - points[points.size() - 2].x() < 0.25 &&
           (point.y() - points.back().y()) * (points.back().y() - points[points.size() - 2].y()) >=
               0.0) {
@@ -192,7 +193,7 @@ class Chart {
   double high_ = 1.0;
 };
 
-// The scene of the first run, with the ways of all.
+// Draws the scene of the first run with the trajectories of all runs.
 sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<Series>& all) {
   sim::SceneSnapshot scene;
   Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
@@ -226,7 +227,7 @@ sim::SceneSnapshot scene_of(const std::vector<RunData>& runs, const std::vector<
     scene.arena.size = high - low + Vec2::Constant(2.0 * room_m);
     scene.arena.border = false;
   }
-  int first = 0;  // robot of a run
+  int first = 0;  // index of the robot in its run
   for (const RunData& run : runs) {
     for (sim::CollisionMark mark : run.collisions) {
       mark.robot += first;

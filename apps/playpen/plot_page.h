@@ -9,12 +9,13 @@
 
 namespace playpen {
 
-/// Numbers for the ticks of an axis: round, evenly spaced, within [least, most].
-/// @param count  how many there may be, about.
+/// Returns the values of an axis's ticks: round, evenly spaced numbers in [least, most].
+/// @param count  approximate number of ticks.
 [[nodiscard]] std::vector<double> ticks(double least, double most, int count);
 
-/// The page of `playpen plot`: speed, turn rate, clearance and path over time on the left, the ways
-/// over the scene on the right. The first run's lines are solid, those of the others dashed.
+/// Draws the page of `playpen plot`. The left side shows speed, turn rate, clearance and path
+/// length over time. The right side shows the trajectories on the scene. The first run has solid
+/// curves, the other runs have dashed curves.
 /// @pre !runs.empty()
 [[nodiscard]] sim::render::Drawing plot_page(const std::vector<RunData>& runs);
 

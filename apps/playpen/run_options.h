@@ -17,7 +17,8 @@ namespace playpen {
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
                       const std::string& default_time);
 
-/// Adds what pictures and films show: --follow, --crop, --hide and --colour-by.
+/// Adds the options for the contents of pictures and films: --follow, --crop, --hide and
+/// --colour-by.
 void add_picture_options(CommandLine& line, CLI::App& command,
                          sim::render::RenderOptions& pictures);
 

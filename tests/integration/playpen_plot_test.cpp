@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// playpen plot as a user runs it.
+// Runs the command `playpen plot`.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(PlaypenPlot, DrawsARunAsPngAndAsSvg) {
   }
   EXPECT_THAT(svg, Not(HasSubstr("not known")));
   EXPECT_THAT(svg, Not(HasSubstr("stroke-dasharray")));
-  // The same run gives the same bytes.
+  // Two plots of one run are byte-identical.
   ASSERT_EQ(plot(folder, {"one"}, "b.svg").status, 0);
   EXPECT_EQ(read_bytes(folder / "b.svg"), svg);
 }

@@ -25,8 +25,8 @@ struct MorseDeviceInfo {
 };
 
 /// A robot of the world, as a client sees it. A small value: copies stand for the same robot. Made
-/// by MorseClient::GetRobot(). What it tells of the robot does not change while the simulation
-/// runs, and can be asked after the client is gone; the position goal needs the client.
+/// by MorseClient::GetRobot(). The properties of the robot are constant during the simulation and
+/// remain available after the client is destroyed. The position goal requires the client.
 class MorseRobot {
  public:
   std::string GetName() const;
@@ -36,7 +36,7 @@ class MorseRobot {
   double GetLength() const;                ///< size of the body along x [m]
   double GetWidth() const;                 ///< size of the body along y [m]
   double GetHeight() const;                ///< [m]
-  double GetWeight() const;                ///< [kg]; 0 if the server does not tell it
+  double GetWeight() const;                ///< [kg]; 0 if the server does not send it
   double GetMaxSpeed() const;              ///< [m/s]
   double GetMaxTurnRate() const;           ///< [rad/s]
   std::vector<std::string> GetDeviceNames() const;
@@ -46,23 +46,24 @@ class MorseRobot {
   /// Returns all devices, sorted by name.
   std::vector<MorseDeviceInfo> GetDevices() const;
 
-  /// Sets the position goal: the robot's motors drive there by themselves, straight on and round
-  /// nothing, and turn to the heading at the end (docs/devices/motion.md). Takes effect with the
-  /// next step and returns at once; Read() lets the robot drive. Any other command for the motors
-  /// replaces the goal. Copies of this value share the goal.
-  /// @param aX, aY  in the world [m].
-  /// @param aYaw    heading there [rad]; without it: the direction from where the robot was when a
-  ///                Position2dProxy of this client was last read, else from its start.
+  /// Sets the position goal. The robot's motors drive straight to the goal without avoiding
+  /// obstacles, and then turn to the heading (docs/devices/motion.md). The call returns at once,
+  /// and the goal takes effect in the next step. The robot drives during Read(). Any other command
+  /// for the motors replaces the goal. Copies of this value share the goal.
+  /// @param aX, aY  position in the world frame [m].
+  /// @param aYaw  heading at the goal [rad]. Without it, the heading is the direction to the goal
+  ///     from the robot's position at the last reading of a Position2dProxy of this client, or from
+  ///     the start position if there was no reading.
   /// @throws MorseError kNotAvailable if the robot has no motors, kBadArgument for NaN or infinity,
-  ///         kDisconnected once the client is gone.
+  ///         kDisconnected after the client was destroyed.
   void SetPositionGoal(double aX, double aY, double aYaw);
   void SetPositionGoal(double aX, double aY);  ///< as above
-  /// Whether this client has set a position goal and not cleared it.
+  /// Returns whether this client has set a position goal and has not cleared it.
   bool HasPositionGoal() const;
-  /// The goal that this client set last [m, rad].
+  /// Returns the last goal that this client set [m, rad].
   /// @throws MorseError kNotAvailable if there is none, see HasPositionGoal().
   player_pose2d_t GetPositionGoal() const;
-  /// Drops the position goal and stops the motors.
+  /// Clears the position goal and stops the motors.
   /// @throws MorseError as SetPositionGoal().
   void ClearPositionGoal();
 

@@ -13,27 +13,30 @@ class SndThread;
 
 namespace CCMorse {
 
-/// A setting of a SndDriver that was not given: the driver takes it from the robot's model.
+/// Default value of a setting of a SndDriver: the driver derives the setting from the robot's
+/// model.
 constexpr double SND_FROM_ROBOT = -1.0;
 
-/// Settings of a SndDriver. Each must be greater than 0, and at most what stands beside it. Those
-/// that are SND_FROM_ROBOT follow from the model of the robot; what the driver makes of them is
-/// told by SndDriver::GetSettings().
+/// Settings of a SndDriver. Each must be greater than 0 and at most the maximum in its description.
+/// The driver derives settings that are SND_FROM_ROBOT from the robot's model.
+/// SndDriver::GetSettings() returns the derived values.
 struct SndSettings {
-  /// Of the disc round the axle's middle that holds the robot [m]; 10. From the robot: its
-  /// footprint's radius, rounded up to whole centimetres (S1R: 0.1).
+  /// Radius of the disc around the middle of the axle that contains the robot [m]; maximum 10.
+  /// SND_FROM_ROBOT: radius of the footprint, rounded up to whole centimetres (S1R: 0.1).
   double robot_radius = SND_FROM_ROBOT;
-  /// What comes nearer to the disc deflects and slows [m]; 10. From the robot: one and a half times
-  /// the radius (S1R: 0.15).
+  /// Distance from the disc below which obstacles deflect and slow the robot [m]; maximum 10.
+  /// SND_FROM_ROBOT: 1.5 times the radius (S1R: 0.15).
   double safety_distance = SND_FROM_ROBOT;
-  /// [m/s]; 10. From the robot: 0.6 of its greatest speed (S1R: 0.3).
+  /// Maximum speed [m/s]; maximum 10. SND_FROM_ROBOT: 0.6 times the robot's maximum speed (S1R:
+  /// 0.3).
   double max_speed = SND_FROM_ROBOT;
-  /// [rad/s]; 20 pi. From the robot: half of its greatest turn rate (S1R: 1.5).
+  /// Maximum turn rate [rad/s]; maximum 20 pi. SND_FROM_ROBOT: half of the robot's maximum turn
+  /// rate (S1R: 1.5).
   double max_turn_rate = SND_FROM_ROBOT;
-  double goal_distance = 0.05;  ///< a goal's position is reached within this [m]; 10
-  double goal_angle = 0.1;      ///< its heading is reached within this [rad]; pi
-  double patience = 20.0;       ///< blocked after so long without coming nearer to the goal
-                                ///< (simulated time) [s]; 1e6
+  double goal_distance = 0.05;  ///< tolerance of the goal's position [m]; maximum 10
+  double goal_angle = 0.1;      ///< tolerance of the goal's heading [rad]; maximum pi
+  double patience = 20.0;  ///< simulated time without progress towards the goal after which the
+                           ///< status is BLOCKED [s]; maximum 1e6
 };
 
 /// Drives a robot to goals and avoids obstacles, with Smooth Nearness-Diagram navigation (J. W.
@@ -92,7 +95,7 @@ class SndDriver {
   /// @throws PlayerError kRunIsOver if the run ends meanwhile.
   Status WaitForGoal(double aTimeout = -1.0);
 
-  /// Those in use; none is SND_FROM_ROBOT.
+  /// Returns the settings in use; none of them is SND_FROM_ROBOT.
   SndSettings GetSettings() const;
   /// Changes the settings, also for the current goal.
   void SetSettings(const SndSettings& aSettings);

@@ -19,7 +19,7 @@ class SonarProxy : public ClientProxy {
   ~SonarProxy() override;
 
   uint32_t GetCount() const;  ///< ranges of the newest reading
-  /// A range [m]; -1 for an index that is not below GetCount(), as Player has it. After the first
+  /// A range [m]; -1 for an index that is not below GetCount(), as in Player. After the first
   /// reading a warning on standard error says so, once for each proxy.
   double GetScan(uint32_t aIndex) const;
   /// Same as GetScan().

@@ -42,7 +42,7 @@ class WiFiProxy : public ClientProxy {
   playerc_wifi_link_t& Link(int aIndex, const char* aFun) const;
 
   mutable std::vector<playerc_wifi_link_t> mLinks;  // mutable: Player hands out their texts
-  mutable playerc_wifi_link_t mNoLink;              // what links past the end read
+  mutable playerc_wifi_link_t mNoLink;              // value of links past the end
   mutable char mOwnIp[32];
 };
 

@@ -104,14 +104,14 @@ class ClientCore final : private ReadingSink {
   void note_pose(int robot, const sim::Pose& pose, bool absolute);
   [[nodiscard]] std::optional<sim::Pose> last_pose(int robot) const;
 
-  /// The position goals that MorseRobot has set, by robot, in W; under the mutex.
+  /// The position goals that MorseRobot has set, by robot, in W; guarded by the mutex.
   std::map<int, sim::Pose>& position_goals() noexcept { return position_goals_; }
 
-  /// A layer of the session for a Graphics2dProxy: one that an earlier proxy has given back, or a
-  /// new one, under the first of the names "graphics2d", "graphics2d_1", ... that no proxy uses and
-  /// no other layer has. The mutex is held by the caller.
+  /// A layer for a Graphics2dProxy: one that an earlier proxy gave back, or a new one. A new layer
+  /// takes the first of the names "graphics2d", "graphics2d_1", ... that neither a proxy nor
+  /// another layer uses. The caller holds the mutex.
   [[nodiscard]] sim::LayerId acquire_layer();
-  /// The reverse; the layer stays as it is. Takes the mutex; never throws.
+  /// Gives a layer of acquire_layer() back; its contents stay. Locks the mutex; never throws.
   void release_layer(sim::LayerId layer) noexcept;
 
   /// Replace rules for interfaces whose devices are subscribed to later. The caller holds the

@@ -28,7 +28,7 @@ playerlike::SndSettings checked(const char* fun, const SndSettings& s) {
   return settings;
 }
 
-// The settings with what the robot's model says of those that were not given.
+// Replaces the settings that are SND_FROM_ROBOT by values from the robot's model.
 SndSettings filled(SndSettings settings, const SndSettings& of_robot) {
   for (double SndSettings::*value : {&SndSettings::robot_radius, &SndSettings::safety_distance,
                                      &SndSettings::max_speed, &SndSettings::max_turn_rate}) {
@@ -49,7 +49,7 @@ SndSettings in_players_form(const playerlike::SndSettings& s) {
   return settings;
 }
 
-// What suits the robot of a position2d.
+// Default settings for the robot of a position2d device.
 SndSettings of_robot(playerlike::ClientCore& core, uint32_t position) {
   const std::vector<playerlike::RobotInfo>& robots = core.session().robots();
   const playerlike::InterfaceBinding binding = playerlike::find_interface(

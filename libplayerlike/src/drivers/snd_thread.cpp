@@ -89,7 +89,7 @@ void SndThread::round() {
   const sim::SimTime now_ns = session().request(TimeRequest{}).sim_time_ns;
   take_requests(now_ns);
   if (unnoted_ && position_.IsValid()) note_goal(*std::exchange(unnoted_, std::nullopt));
-  // Without a scan and a pose there is nothing to go by yet.
+  // Navigation needs both a scan and a pose.
   if (navigation_.state() == SndState::kMoving && laser_.IsFresh() && position_.IsValid()) {
     laser_.NotFresh();
     const uint32_t count = laser_.GetCount();
@@ -137,8 +137,8 @@ void SndThread::begin(const Goal& goal) {
   unnoted_ = goal.position;
 }
 
-// The goal is in the frame of the position device, which may be that of an odometry: the host knows
-// where the robot is, and is told where the goal lies from there.
+// The goal is in the frame of the position device, which may be the frame of odometry. The host
+// knows the true pose of the robot, so the request contains the goal relative to the robot.
 void SndThread::note_goal(const sim::Vec2& goal) {
   const sim::Pose X_FB{position_.GetXPos(), position_.GetYPos(), position_.GetYaw()};
   const InterfaceBinding binding = find_interface(
@@ -147,7 +147,8 @@ void SndThread::note_goal(const sim::Vec2& goal) {
     session().request(NoteGoalRequest{binding.motion.value_or(binding.reading),
                                       X_FB.inverse() * goal, in_use_.goal_distance_m});
   } catch (const SessionError&) {
-    // An older server knows no such request. If the session has ended, the next round finds out.
+    // An older server refuses this request. If the session has ended, the next iteration detects
+    // it.
   }
 }
 

@@ -74,7 +74,7 @@ class SndThread final : public GoalDriver {
   SndSettings in_use_;
   SmoothNearnessDiagram navigation_;
   SndScan scan_;
-  std::optional<sim::Vec2> unnoted_;  ///< a goal that the host is to be told of
+  std::optional<sim::Vec2> unnoted_;  ///< goal that the host has not received yet
 
   mutable std::mutex mutex_;  // guards the members below; the host's mutex is locked under it
   std::condition_variable started_changed_;

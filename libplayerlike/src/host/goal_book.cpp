@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSamePlace_m = 1e-3;
 
-// The place of a goal of the motors in W; none unless they drive to one.
+// Returns the position goal of the motors in W, or none if the motors do not drive to a position.
 std::optional<sim::Vec2> place_of(const sim::Simulation& simulation, int robot,
                                   const sim::Command& command) {
   const auto* const position = std::get_if<sim::PositionCommand>(&command);

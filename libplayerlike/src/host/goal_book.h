@@ -10,31 +10,31 @@
 
 namespace playerlike {
 
-/// Where a robot was to drive, and when.
+/// A goal of a robot, with its times.
 struct Goal {
   int robot = 0;                           ///< index
   sim::Vec2 place = sim::Vec2::Zero();     ///< in W [m]
-  double tolerance_m = 0.0;                ///< the robot has arrived when it is so near
+  double tolerance_m = 0.0;                ///< distance within which the goal is reached [m]
   sim::SimTime set_ns = 0;                 ///< when the goal was set
-  std::optional<sim::SimTime> reached_ns;  ///< when the robot first arrived
+  std::optional<sim::SimTime> reached_ns;  ///< when the robot first reached the goal
 };
 
-/// The goals of a run's robots: those of their waypoint devices, those that their motors drive to,
-/// and those that client programs tell of (NoteGoalRequest). The newest kMostGoals are kept. A
-/// robot's newest goal is the one that it can reach. Setting the same goal again, within 1 mm, is
-/// no new goal.
+/// Records the goals of a run's robots: goals of waypoint devices, position goals of motors, and
+/// goals that clients announce (NoteGoalRequest). It keeps the newest kMostGoals goals. Only the
+/// newest goal of a robot can be reached. A goal within 1 mm of the robot's newest goal is not
+/// recorded again.
 /// Not thread-safe: guarded by the host's mutex.
 class GoalBook {
  public:
   static constexpr std::size_t kMostGoals = 1024;
 
-  /// A client says that a robot is to drive somewhere.
+  /// Records a goal that a client announces.
   void note(int robot, const sim::Vec2& place, double tolerance_m, sim::SimTime now_ns);
-  /// Looks at the robots after a step.
+  /// Updates the goals after a step.
   void observe(const sim::Simulation& simulation);
-  /// Oldest first.
+  /// Returns the goals, oldest first.
   [[nodiscard]] const std::vector<Goal>& goals() const noexcept { return goals_; }
-  /// The same for pictures.
+  /// Returns the goals as marks for pictures.
   [[nodiscard]] std::vector<sim::GoalMark> marks() const;
 
  private:
@@ -46,7 +46,7 @@ class GoalBook {
 
   std::vector<Goal> goals_;
   std::vector<Devices> devices_;  // by robot
-  std::vector<int> newest_;       // by robot: index of its newest goal, -1: none
+  std::vector<int> newest_;       // by robot: index of the newest goal; -1: none
 };
 
 }  // namespace playerlike

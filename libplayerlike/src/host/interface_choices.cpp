@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Which device of a robot answers under which index of an interface, as a run chooses it.
+// Assigns indices of interfaces to devices, as the settings of a run choose them.
 #include <algorithm>
 #include <charconv>
 #include <map>
@@ -28,7 +28,7 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return nearest.empty() ? "" : "did you mean \"" + nearest + "\"?";
 }
 
-// Puts choices into a world, or collects what is wrong with them.
+// Applies choices to a world and collects the issues of invalid choices.
 class Choices {
  public:
   explicit Choices(sim::WorldDescription& world) : world_(world) {}
@@ -68,7 +68,7 @@ class Choices {
                        std::move(found), std::move(hint)});
   }
 
-  // The robots that a choice is for; if there are none, that is an issue.
+  // Returns the robots of a choice; adds an issue if there are none.
   std::vector<std::size_t> robots_of(const InterfaceChoice& choice) {
     std::vector<std::size_t> named;
     std::vector<std::size_t> with_device;

@@ -242,7 +242,7 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
   }
 }
 
-/// The marks of collisions and goals, as the report tells of them.
+/// Adds the collisions and goals of the report as marks.
 void take_marks(const ordered_json& report, sim::SceneSnapshot& scene) {
   const auto robot_of = [&scene](const ordered_json& event) {
     const auto name = event.at("robot").get<std::string>();
@@ -268,7 +268,7 @@ void take_marks(const ordered_json& report, sim::SceneSnapshot& scene) {
   }
 }
 
-/// Draws what was kept. @throws std::exception for what cannot be.
+/// Draws the pictures from the memory. @throws std::exception for invalid data.
 void complete_pictures(const KeptMemory& memory, const KeptHeader& header, const LastStep& last,
                        const ordered_json& report, const sim::WorldDescription& world,
                        const RunSettings& settings) {

@@ -131,7 +131,7 @@ std::string hex(std::uint64_t value) {
   return text.data();
 }
 
-// Where and when robots hit something, and where they were to drive.
+// Collisions and goals of the robots, with their times.
 void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goals,
                 nlohmann::ordered_json& report) {
   const auto name_of = [&](int robot) {
@@ -190,7 +190,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
                                   {"robots", robots},
                                   {"said", said}};
   add_events(simulation, recorder.goals().goals(), whole);
-  // Where the scene can be found again, for `playpen plot`.
+  // `playpen plot` reads the scene from this file.
   std::error_code error;
   const fs::path file = fs::absolute(simulation.world().file, error);
   if (!error && fs::is_regular_file(file, error)) whole["run"]["world_file"] = file.string();

@@ -56,11 +56,13 @@ void write_report(const std::string& folder, const std::string& text);
 /// Writes scene.png, canvas.png and, for each layer, layers/NAME.png (for grey layers also NAME.pgm
 /// and NAME.yaml, see sim::io::write_map) into `folder`.
 ///
-/// scene.png shows the ground, or the mini-map if that is the view mode; canvas.png all visible
-/// layers over one another. Letters, digits, '-' and '_' of a layer's name stay, others become '_';
-/// layers of one name get their clients' ports behind it, and a number if that is not enough.
-/// @param options  what scene.png shows; it has a size of its own.
-/// @throws std::runtime_error naming the first file that could not be written; the others are.
+/// scene.png shows the ground, or the mini-map if that is the view mode. canvas.png shows all
+/// visible layers, composed. In a layer's NAME, characters other than letters, digits, '-' and '_'
+/// become '_'. Equal names get their client's port as a suffix, and a number if they are still
+/// equal.
+/// @param options  contents of scene.png; the size in it is ignored.
+/// @throws std::runtime_error with the first file that could not be written; the other files are
+///         written nevertheless.
 void write_pictures(const std::string& folder, const sim::LayerStack& layers,
                     const sim::SceneSnapshot& scene,
                     const sim::render::RenderOptions& options = {});

@@ -28,11 +28,11 @@ class PictureThread {
   };
 
   /// @param film  takes the frames; may be null if no job has any.
-  /// @param film_limit  bytes at which the film ends; finish() tells.
-  /// @param options  what pictures show; its size is that of the film.
+  /// @param film_limit  bytes at which the film ends; finish() reports it.
+  /// @param options  contents of the pictures, and size of the film.
   PictureThread(std::unique_ptr<sim::render::FilmWriter> film, std::uint64_t film_limit,
                 const sim::render::RenderOptions& options);
-  /// Does what is left.
+  /// Completes the queued jobs.
   ~PictureThread();
   PictureThread(const PictureThread&) = delete;
   PictureThread& operator=(const PictureThread&) = delete;

@@ -35,10 +35,11 @@ class Recorder {
   [[nodiscard]] const std::vector<sim::Vec2>& trail(std::size_t robot) const {
     return trails_[robot].points;
   }
-  /// The goals of the robots so far.
+  /// Returns the goals of the robots so far.
   [[nodiscard]] GoalBook& goals() noexcept { return goals_; }
   [[nodiscard]] const GoalBook& goals() const noexcept { return goals_; }
-  /// How long a robot's motors were commanded to move it [s]; none where nothing is recorded.
+  /// Returns the time during which a robot's motors were commanded to move it [s]; none if the run
+  /// records nothing.
   [[nodiscard]] std::optional<double> driven_time_s(std::size_t robot) const {
     if (!active_ || robot >= trails_.size()) return std::nullopt;
     return sim::to_seconds(trails_[robot].driven_ns);
@@ -57,7 +58,7 @@ class Recorder {
   struct Trail {
     std::vector<sim::Vec2> points;
     double spacing_m = 0.01;
-    sim::SimTime driven_ns = 0;  // here because both are followed in each step
+    sim::SimTime driven_ns = 0;  // updated in each step, like the trail
   };
   void extend_trails(const sim::Simulation& simulation);
   void write_rows(const sim::Simulation& simulation);

@@ -33,10 +33,10 @@ int width_of(const Column& column) {
   return static_cast<int>(std::string(column.heading).size()) + 2;
 }
 
-// A line for each robot that stalled for most of the time that it drove.
+// Returns a line for each robot that stalled for more than half of its driven time.
 std::string stall_advice(const nlohmann::json& report) {
   constexpr double kMost = 0.5;
-  constexpr double kLeastDriven_s = 1.0;  // a robot that only starts says nothing yet
+  constexpr double kLeastDriven_s = 1.0;  // shorter times are not significant
   std::string advice;
   for (const nlohmann::json& robot : report.at("robots")) {
     const double driven_s = robot.value("driven_time", 0.0);

@@ -34,7 +34,7 @@ class Results {
   /// Writes all results once. A failure is logged as a warning.
   void write();
 
-  /// A client says where a robot is to drive. @param place  in W [m].
+  /// Records a goal that a client announces for a robot. @param place  goal in W [m].
   void note_goal(int robot, const sim::Vec2& place, double tolerance_m) {
     recorder_->goals().note(robot, place, tolerance_m, simulation_.now_ns());
   }

@@ -54,7 +54,7 @@ bool parse_positive_seconds(const std::string& text, double& value) {
   return parse_whole(text, value) && positive(value) && value <= kLongest_s;
 }
 
-// The words between the commas of a text.
+// Splits a text at its commas.
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -65,7 +65,7 @@ std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
-// What pictures can leave out.
+// The parts that pictures can omit.
 struct HiddenPart {
   std::string_view word;
   bool sim::render::RenderOptions::*shown;
@@ -83,7 +83,7 @@ constexpr HiddenPart kHidden[] = {
 // In the order of sim::render::ColourBy.
 constexpr std::string_view kColourSources[] = {"world", "robot", "none"};
 
-// What reads a text into the target if parse(text, value) understands it.
+// A function that parses a text with parse(text, value) and stores the value in the target.
 template <typename T, typename Target>
 auto into(Target& target, bool (*parse)(const std::string&, T&)) {
   return [&target, parse](const std::string& text) {
@@ -337,7 +337,7 @@ RunSettings RunSettings::from_environment() {
 
 namespace {
 
-// @throws sim::ConfigError if pictures of a world cannot show what they are to show.
+// @throws sim::ConfigError if the world does not contain the robot or the part that pictures show.
 void check_pictures(const sim::render::RenderOptions& pictures,
                     const sim::WorldDescription& world) {
   const std::string place = world.file.empty() ? world.name : world.file;

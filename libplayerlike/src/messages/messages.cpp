@@ -37,8 +37,8 @@ const std::vector<InterfaceRow>& interface_table() {
   return *table;
 }
 
-// The robot's devices that carry the interface: those that the robot names, then the others in the
-// table's order. Robot is a RobotInfo or a sim::RobotDescription.
+// Returns the robot's devices with the interface: first the devices that the robot names, then the
+// others in the table's order. Robot is a RobotInfo or a sim::RobotDescription.
 template <typename Robot, typename Device = typename decltype(Robot::devices)::value_type>
 std::vector<const Device*> carriers(const Robot& robot, std::string_view interface) {
   std::vector<const Device*> found;
@@ -75,13 +75,13 @@ std::string where_else(std::string_view interface) {
              : "; of the worlds that come with Playpen, worlds/" + world + " has one";
 }
 
-// What a port with several robots shows of one robot.
+// The devices of one robot that a port with several robots shows.
 struct SharedDevices {
-  std::int64_t first_index = 0;  // of the robot's first device; servers may say any int
-  std::size_t count = 0;         // devices that are shown, with indices in a row
+  std::int64_t first_index = 0;  // index of the robot's first device; servers may send any int
+  std::size_t count = 0;         // number of shown devices, which have consecutive indices
 };
 
-// @param number  of the robot among those of the port.
+// @param number  number of the robot among the robots of the port.
 SharedDevices shared_devices(const std::map<std::string, int>& proxies, int number,
                              std::string_view interface, std::size_t carriers, int port) {
   const auto given = proxies.find(std::string(interface));
@@ -90,7 +90,7 @@ SharedDevices shared_devices(const std::map<std::string, int>& proxies, int numb
   return {given->second, port == kMorsePort ? first : carriers};
 }
 
-// Numbers of the robots of a port that shows several; none if it is one robot's own.
+// Returns the numbers of the robots of a port with several robots; none for the port of one robot.
 std::vector<std::size_t> sharing(const std::vector<RobotInfo>& robots, int port) {
   std::vector<std::size_t> found;
   const RobotInfo* const first = robot_at(robots, port);
@@ -107,7 +107,7 @@ template <typename Visit>
 void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visit) {
   const std::vector<std::size_t> shown = sharing(robots, port);
   for (const std::string_view interface : interface_names()) {
-    int number = 0;  // of the robot among those of the port
+    int number = 0;  // of the robot among the robots of the port
     for (const std::size_t r : shown) {
       const auto devices = carriers(robots[r], interface);
       const SharedDevices shared =
@@ -139,7 +139,7 @@ void for_each_address(const std::vector<RobotInfo>& robots, int port, Visit visi
 std::optional<InterfaceBinding> look_up(const std::vector<RobotInfo>& robots, int port,
                                         std::string_view interface, int index) {
   const std::vector<std::size_t> shown = sharing(robots, port);
-  int place = 0;  // of the robot among those of the port
+  int place = 0;  // of the robot among the robots of the port
   for (const std::size_t r : shown) {
     const auto devices = carriers(robots[r], interface);
     const SharedDevices shared =
@@ -223,7 +223,7 @@ std::string example_world(std::string_view interface) {
 
 namespace {
 
-// Two devices may not have one index on a port that robots share.
+// Checks that the devices of a shared port have different indices.
 void check_shared_indices(const sim::WorldDescription& world,
                           std::vector<sim::ConfigIssue>& issues) {
   if (world.robots_on_port == 0) return;

@@ -197,7 +197,7 @@ const std::vector<SndSettingRow>& snd_setting_table() {
 }
 
 SndSettings snd_settings_for(double radius_m, double max_speed_mps, double max_turn_rate_radps) {
-  constexpr double kRounding = 1e-6;  // a radius of whole centimetres gets no further one
+  constexpr double kRounding = 1e-6;  // a radius of whole centimetres is not rounded up
   constexpr double kSpeedShare = 0.6;
   constexpr double kTurnShare = 0.5;
   SndSettings settings;

@@ -349,7 +349,7 @@ void decode_field(const json& message, const MessageField<Struct, Value>& field,
   }
 }
 
-// The keys of a field in messages: a point has two.
+// The keys of a field in messages; a point has two keys.
 template <typename Struct, typename Value>
 void add_keys(const MessageField<Struct, Value>& field, std::vector<std::string>& keys) {
   if constexpr (std::is_same_v<Value, sim::Vec2>) {

@@ -16,8 +16,8 @@
 
 namespace PlayerCc::detail {
 
-/// Resolution of ranges that rangefinders report unless Configure() chose another: what both the
-/// S1R's Hokuyo URG-04LX and a SICK LMS200 report of themselves, by their data sheets [m].
+/// Resolution of ranges that rangefinders report until Configure() sets another one [m]. It is the
+/// resolution in the data sheets of the S1R's Hokuyo URG-04LX and of the SICK LMS200.
 inline constexpr double kRangeResolution_m = 0.001;
 
 /// What a laser's settings say before its first scan.

@@ -15,12 +15,12 @@
 
 namespace PlayerCc {
 
-/// What a proxy has several of, in the words of a warning.
+/// The name of a proxy's elements, for warnings.
 struct ElementWords {
   const char* one;                      ///< "beam"
   const char* many;                     ///< "beams"
-  const char* owner_has = "there are";  ///< before their number
-  const char* value = "0";              ///< what those past the end read
+  const char* owner_has = "there are";  ///< text before the count
+  const char* value = "0";              ///< value of elements past the end
 };
 
 /// The end of a proxy that sessions see: receives readings, and knows which devices stand behind
@@ -59,14 +59,15 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   /// A property of the device that makes the readings.
   [[nodiscard]] double property(const std::string& name, double otherwise) const;
 
-  /// Whether `index` is below `count`: the check of all getters and setters of one element.
+  /// Returns whether `index` is below `count`. All getters and setters of one element use this
+  /// check.
   ///
-  /// If it is not, a warning says so, once for this proxy and its copies; Player's proxies read
-  /// other memory there, so callers go on with 0. There is no warning while `count` is 0, since
-  /// programs look at elements before their first Read().
+  /// If it is not, the function warns once for this proxy and its copies. Callers continue with 0,
+  /// because Player's proxies read undefined memory in this case. There is no warning while `count`
+  /// is 0, because programs access elements before their first Read().
   [[nodiscard]] bool has_element(const char* fun, const ElementWords& words, std::int64_t index,
                                  std::size_t count) const;
-  /// The element of a list, or a zero; see has_element().
+  /// Returns the element of a list, or zero if it does not exist; see has_element().
   template <typename T>
   [[nodiscard]] T element_or_zero(const char* fun, const ElementWords& words, std::int64_t index,
                                   const std::vector<T>& list) const {
@@ -89,7 +90,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
   playerlike::Newest newest;    ///< the exposed reading
   sim::SharedReading measured;  ///< of rangefinders: the whole scan
   playerc_device_t device = {};
-  /// Shared by copies: programs pass proxies by value in loops.
+  /// Copies share it, because programs pass proxies by value in loops.
   std::shared_ptr<bool> has_warned = std::make_shared<bool>(false);
 };
 

@@ -17,7 +17,7 @@
 /// Shared helpers of the proxies of sensors with several elements.
 namespace PlayerCc::detail {
 
-/// Of sonars and infrared rings.
+/// Elements of sonars and infrared rings.
 inline constexpr ElementWords kTransducers{"transducer", "transducers"};
 
 /// The number of ranges in a reading.

@@ -60,7 +60,7 @@ playerc_wifi_link_t& WiFiProxy::Link(int aIndex, const char* aFun) const {
   if (mLink->has_element(aFun, {"link", "links"}, aIndex, mLinks.size())) {
     return mLinks[static_cast<std::size_t>(aIndex)];
   }
-  mNoLink = {};  // the program may have written into its texts
+  mNoLink = {};  // the program may have changed its texts
   return mNoLink;
 }
 

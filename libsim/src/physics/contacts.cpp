@@ -6,7 +6,7 @@ namespace {
 
 Vec2 in_metres(const b2Vec2& p) { return {metres(p.x), metres(p.y)}; }
 
-// The middle of a contact's points.
+// Returns the mean of a contact's points.
 std::optional<Vec2> middle_of(const b2Contact& contact) {
   const int32 count = contact.GetManifold()->pointCount;
   if (count == 0) return std::nullopt;
@@ -15,7 +15,7 @@ std::optional<Vec2> middle_of(const b2Contact& contact) {
   return 0.5 * (in_metres(points.points[0]) + in_metres(points.points[count - 1]));
 }
 
-// What a contact's points span, for one of the two robots that may be in it.
+// Adds the line between a contact's points to the touches of one of its robots.
 void add_touch(const b2Contact& contact, int robot, std::vector<Touch>& into) {
   const int32 count = contact.GetManifold()->pointCount;
   if (count == 0) return;

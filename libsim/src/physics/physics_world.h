@@ -59,7 +59,7 @@ class PhysicsWorld {
     int robot;
     Kind kind;
     int index;                      ///< of the obstacle, separator or robot
-    std::optional<Vec2> p_WC = {};  ///< a point of the contact when it began; none: not known
+    std::optional<Vec2> p_WC = {};  ///< contact point at the start of the contact; none: unknown
   };
   /// Contacts that began in the last step. A contact between two robots is listed for both.
   [[nodiscard]] const std::vector<Contact>& new_contacts() const noexcept;

@@ -41,7 +41,7 @@ class GroundPainter {
     }
     const double width_px = layout_.line_px(1.0, 0.7);
     Shape grid;
-    // Of a large arena only the lines that can be seen.
+    // Draw only the visible lines of a large arena.
     const Vec2 begin = layout_.origin.cwiseMax(layout_.view_low);
     const Vec2 end = (layout_.origin + arena_.size).cwiseMin(layout_.view_low + layout_.view_size);
     const auto line = [&](const Vec2& p_WA, const Vec2& p_WB) {

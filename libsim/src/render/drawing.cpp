@@ -18,7 +18,7 @@
 namespace sim::render {
 namespace {
 
-constexpr double kDash = 4.0;  // widths of a line
+constexpr double kDash = 4.0;  // length of a dash, in widths of the line
 constexpr double kGap = 2.6;
 
 TextStyle style_of(double cap_height_px, Colour colour) {
@@ -28,10 +28,10 @@ TextStyle style_of(double cap_height_px, Colour colour) {
   return style;
 }
 
-// Adds the dashes of a line to a shape.
+// Adds the dashes of a line to a path.
 void add_dashes(Shape& shape, const std::vector<Vec2>& points, double width_px) {
   std::vector<Vec2> dash;
-  double left_px = kDash * width_px;  // of the dash or the gap that has begun
+  double left_px = kDash * width_px;  // rest of the current dash or gap
   bool drawn = true;
   const auto end_dash = [&] {
     if (dash.size() > 1) shape.add_line(dash, width_px);
@@ -170,7 +170,7 @@ struct Drawing::SvgWriter {
            "\"/>\n";
   }
   void operator()(const Text& text) const {
-    constexpr double kFontSize = 1.37;  // of common fonts, in heights of a capital letter
+    constexpr double kFontSize = 1.37;  // font size of common fonts, in heights of a capital letter
     constexpr std::array<const char*, 3> kAnchors = {"start", "middle", "end"};
     out += "<text x=\"" + number(text.place.x()) + "\" y=\"" + number(text.place.y()) +
            "\" font-size=\"" + number(kFontSize * text.cap_height_px) + "\" fill=\"" +
@@ -247,7 +247,7 @@ Colour distinct_colour(std::size_t number) {
                                                 {0xd9, 0x5f, 0xa8},
                                                 {0x7f, 0x5a, 0x3c},
                                                 {0x4c, 0x5b, 0x9e}}};
-  // Each further round of them is darker or lighter.
+  // Each repetition of the series is darker or lighter.
   const std::size_t round = number / kColours.size();
   const Colour colour = kColours.at(number % kColours.size());
   if (round == 0) return colour;

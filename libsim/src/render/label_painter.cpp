@@ -102,7 +102,7 @@ class LabelPainter {
     std::vector<Vec2> tail;
   };
 
-  // Whether a robot is in the picture, and not under what covers a part of it.
+  // Whether a robot is in the picture and outside of the covered rectangle.
   [[nodiscard]] bool is_seen(const RobotSnapshot& robot) const {
     if (!has_place(robot, layout_)) return false;
     const Vec2 center = layout_(robot.X_WB.position());
@@ -110,7 +110,8 @@ class LabelPainter {
              center.y() > covered_.top && center.y() < covered_.bottom);
   }
 
-  // A text as the painter can write it: blanks in place of control characters.
+  // Returns a text with control characters replaced by blanks, because the painter cannot draw
+  // them.
   static std::string plain(const std::string& text) {
     std::string printable = text;
     for (char& c : printable) {
@@ -134,7 +135,7 @@ class LabelPainter {
       if (!fits(rest.substr(0, at))) break;
       end = at;
     }
-    if (end == 0) {  // a word that is longer than a line
+    if (end == 0) {  // a word longer than a line
       end = end_of_character(rest, 0);
       while (end < rest.size() && fits(rest.substr(0, end_of_character(rest, end)))) {
         end = end_of_character(rest, end);
@@ -193,7 +194,7 @@ class LabelPainter {
                                   direction[1] * (radius + gap + half.y()));
       const Vec2 wanted = middle;
       const double bottom = std::max(layout_.view.bottom, 2.0 * half.y() + 2.0 * edge);
-      // Over the floor where it is wide enough, else anywhere in the picture.
+      // Inside the floor if it is wide enough, otherwise anywhere in the picture.
       const bool fits = layout_.view.right - layout_.view.left > 2.0 * (half.x() + edge);
       const double least_x = (fits ? layout_.view.left : 0.0) + half.x() + edge;
       const double most_x = (fits ? layout_.view.right : layout_.width) - half.x() - edge;
@@ -280,7 +281,7 @@ class LabelPainter {
         const double reach = label.radius_px + gap * layout_.unit_px;
         Vec2 middle = label.center +
                       Vec2(direction[0] * (reach + half.x()), direction[1] * (reach + half.y()));
-        // On the floor where it is wide enough, else in the picture and above the footer.
+        // Inside the floor if it is wide enough, otherwise in the picture above the footer.
         const bool fits = layout_.view.right - layout_.view.left > 2.0 * (half.x() + edge);
         const double least_x = fits ? layout_.view.left : 0.0;
         const double most_x = fits ? layout_.view.right : layout_.width;

@@ -58,7 +58,7 @@ Layout::Layout(const ArenaDescription& arena, const RenderOptions& options,
                const std::optional<ScenePart>& part)
     : cropped(part.has_value()), view_only(part.has_value()) {
   const bool exact = options.width_px > 0 && options.height_px > 0;
-  // Lines and texts of a long narrow picture are those of one half as long.
+  // Lines and texts of a long narrow picture have the sizes of a picture of half the length.
   const int size = exact ? std::min(std::max(options.width_px, options.height_px),
                                     2 * std::min(options.width_px, options.height_px))
                          : options.size_px;
@@ -78,8 +78,8 @@ Layout::Layout(const ArenaDescription& arena, const RenderOptions& options,
     view_low = middle - 0.5 * view_size;
   }
   const Vec2 size_px = view_size * pixels_per_m;
-  // A narrow arena stands in the middle of a picture wide enough for the footer; a flat one gets
-  // a picture of at least a hand's breadth.
+  // A narrow arena is centred in a picture that is wide enough for the footer. A flat arena gets a
+  // picture of a minimum height.
   const double least_width = legend ? std::min<double>(size, 480.0 * unit_px) : 0.0;
   width = exact ? options.width_px
                 : static_cast<int>(std::lround(std::max(size_px.x() + 2.0 * margin, least_width)));

@@ -77,15 +77,15 @@ struct Layout {
   double footer_px = 0.0;  ///< height of the footer below the arena
   double border_px = 0.0;  ///< width of the border around the floor; 0: none
   double pixels_per_m = 1.0;
-  Rectangle floor;  ///< where the arena's floor lies; may reach beyond the view
-  Rectangle view;   ///< where the scene is drawn: the floor, or the part of it that was asked for
-  bool cropped = false;           ///< the view shows a part of the world
+  Rectangle floor;                ///< floor of the arena; may extend beyond the view
+  Rectangle view;                 ///< area of the scene: the floor, or the requested part of it
+  bool cropped = false;           ///< whether the view shows a part of the world
   Vec2 view_low = Vec2::Zero();   ///< W position of the view's bottom left corner [m]
   Vec2 view_size = Vec2::Zero();  ///< [m]
   Vec2 origin = Vec2::Zero();     ///< W position of the floor's bottom left corner [m]
-  bool view_only = false;         ///< robots that lie beyond the view are left out
+  bool view_only = false;         ///< robots beyond the view are not drawn
 
-  /// @param part  what to show; none: the whole arena.
+  /// @param part  part to show; none: the whole arena.
   Layout(const ArenaDescription& arena, const RenderOptions& options,
          const std::optional<ScenePart>& part = {});
 
@@ -96,7 +96,7 @@ struct Layout {
   }
   [[nodiscard]] std::vector<Vec2> operator()(const std::vector<Vec2>& points_in_world) const;
 
-  /// The pixels of the view that the floor covers, in part or whole; at least one.
+  /// The pixels of the view that the floor covers completely or partly; at least one.
   [[nodiscard]] PixelRect floor_pixels() const;
 
   /// A line width proportional to the picture's size, but at least `least_px`.

@@ -10,7 +10,7 @@
 namespace sim::render {
 namespace {
 
-// Whether the middle of a mark is in the picture.
+// Whether the centre of a mark is in the picture.
 bool is_marked(const Vec2& center, const Layout& layout) {
   return is_drawable(center) &&
          (!layout.view_only || (center.x() > layout.view.left && center.x() < layout.view.right &&
@@ -35,7 +35,7 @@ void fill_disc(Painter& painter, const Vec2& center, double radius_px, Colour co
 
 }  // namespace
 
-// A red cross with a light rim. A robot that hits the same place again and again gets one cross.
+// Draws a red cross with a light rim. Repeated collisions of a robot at one place get one cross.
 void draw_collisions(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
   const double arm_px = layout.line_px(6.0, 3.5);
   const double apart_px = 1.5 * arm_px;
@@ -60,8 +60,8 @@ void draw_collisions(const SceneSnapshot& scene, const Layout& layout, Painter& 
   painter.fill(crosses(layout.line_px(3.0, 1.8)), palette::kStalled);
 }
 
-// A target in the robot's colour: a ring, with a dot in it once the goal was reached. Goals before
-// a robot's newest one are smaller.
+// Draws a ring in the robot's colour, with a dot in it if the goal was reached. The newest goal of
+// a robot has a larger ring than its earlier goals.
 void draw_goals(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {
   for (const GoalMark& goal : scene.goals) {
     const Vec2 center = layout(goal.place);

@@ -501,7 +501,7 @@ double Painter::text_width_px(const std::string& text, const TextStyle& style) {
 Painter::TextMask Painter::make_outline_mask(const std::string& text, const TextStyle& style,
                                              int quarter_px, double rim_px) {
   const TextOutline outline = text_outline(text, style.cap_height_px);
-  // Accents stand above capitals, and some characters go far below the base line.
+  // Accents extend above capitals, and some characters extend far below the base line.
   const int room = static_cast<int>(std::ceil(0.7 * style.cap_height_px + style.halo_px)) + 2;
   const int cap_height = static_cast<int>(std::ceil(style.cap_height_px));
   TextMask mask;
@@ -514,8 +514,8 @@ Painter::TextMask Painter::make_outline_mask(const std::string& text, const Text
   const Vec2 offset(room + static_cast<double>(quarter_px) / kTextOversampling,
                     static_cast<double>(-mask.top));
   Rasteriser rasteriser;
-  // Letters have edges that turn one way and the other, strokes all turn alike: they cannot be
-  // filled as one shape.
+  // The contours of letters have both orientations, strokes have only one. They cannot be filled as
+  // one path.
   const auto add = [&](const Shape& shape) {
     rasteriser.rasterise(
         shape, {0, 0, mask.width, mask.height}, [&](int y, int begin, int end, float coverage) {
@@ -530,7 +530,7 @@ Painter::TextMask Painter::make_outline_mask(const std::string& text, const Text
   };
   Shape letters;
   Shape strokes;
-  // The font's strokes are as strong as those of the other letters at a weight of 0.13.
+  // At a weight of 0.13, the strokes of the Hershey letters are as wide as the font's.
   const double stroke_px = 2.0 * rim_px + std::max(0.0, style.weight - 0.13) * style.cap_height_px;
   for (std::vector<Vec2> contour : outline.contours) {
     for (Vec2& point : contour) point += offset;

@@ -187,9 +187,9 @@ class Painter {
 
   /// Length of a line of text [pixels].
   [[nodiscard]] static double text_width_px(const std::string& text, const TextStyle& style);
-  /// Writes a line of text in UTF-8, its base line beginning at `start`. Texts of ASCII alone are
-  /// written by strokes, others as outlines of a font (text_outline.h).
-  /// Texts are remembered: what was written before costs less.
+  /// Draws a line of text in UTF-8 whose base line begins at `start`. ASCII texts are drawn as
+  /// strokes, all other texts as outlines of a font (text_outline.h). Rendered texts are cached, so
+  /// repeated texts cost less.
   void draw_text(const std::string& text, const Vec2& start, const TextStyle& style);
 
  private:

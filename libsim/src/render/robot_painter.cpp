@@ -15,7 +15,7 @@ namespace {
 // Deviation of a line from its points that is invisible.
 constexpr double kTolerance_px = 0.15;
 constexpr double kAnyLength_px = 1e9;
-// More robots than this get short fans.
+// Fans are short if there are more robots than this.
 constexpr std::ptrdiff_t kMostFans = 20;
 
 // Simplifies a polyline: the result passes all omitted points within `tolerance_px`, and none of
@@ -193,8 +193,8 @@ class RobotPainter {
     }
   }
 
-  // Whole fans of many robots would mix their colours into grey: of each only what is near its
-  // robot is drawn, and fades out.
+  // Complete fans of many robots would mix their colours to grey. Therefore only the part near the
+  // robot is drawn, and it fades out.
   void draw_short_fans() {
     constexpr double kRadii = 5.0;
     const Vec2 floor_px = scene_.arena.size * layout_.pixels_per_m;
@@ -219,8 +219,8 @@ class RobotPainter {
     }
   }
 
-  // A line that is fainter where it is older. The parts' opacities are united by the greatest one,
-  // so that neither joints nor crossings stand out.
+  // Draws a line that fades with age. The segments' opacities are combined by their maximum, so
+  // that neither joints nor crossings are visible.
   void draw_trails(const std::vector<std::uint8_t>& cells) {
     constexpr int kShades = 24;
     for (const RobotSnapshot& robot : scene_.robots) {
@@ -371,7 +371,7 @@ class RobotPainter {
                          [](const auto& robot) { return !robot.scan_points.empty(); });
   }
 
-  // Fans of many robots lie upon each other: together they must not hide the floor.
+  // Opacity factor for overlapping fans of many robots, which together must not hide the floor.
   [[nodiscard]] double fan_strength() const {
     const std::ptrdiff_t count = fan_count();
     return 1.0 / std::pow(static_cast<double>(std::max<std::ptrdiff_t>(count, 1)), 0.7);

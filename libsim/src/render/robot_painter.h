@@ -20,18 +20,19 @@ void draw_fans(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cell
 void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& cells,
                  const Layout& layout, Painter& painter);
 
-/// What lies over blocks and borders: surfaces that lasers have met, lines to what fiducial finders
-/// see, robots with their bumpers.
+/// Draw what lies above blocks and borders: surfaces that lasers have met, lines to detected
+/// fiducials, and robots with their bumpers.
 void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
-/// Names, and what the robots say, in bubbles on top of all else. Robots under what covers a part
-/// of the picture, as a mini-map does, get neither; an empty rectangle covers nothing.
+/// Draws the names of the robots, and what the robots say in bubbles, on top of everything else.
+/// Robots inside the covered rectangle, for example a mini-map, get neither. An empty rectangle
+/// covers nothing.
 void draw_names(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
                 Painter& painter);
 void draw_speech(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
                  Painter& painter);
 
-/// Marks where robots have hit something, and where they were to drive, over the robots.
+/// Draws the marks of collisions and goals above the robots.
 void draw_collisions(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_goals(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 

@@ -164,7 +164,7 @@ class ArenaView {
     if (options_.collisions) draw_collisions(scene, layout_, painter_);
   }
 
-  // Hides what lies beyond the part that is shown, and frames it.
+  // Covers everything outside of the shown part and draws a frame around the part.
   void draw_surround() {
     const Rectangle& view = layout_.view;
     const double width = layout_.width;
@@ -190,8 +190,9 @@ class ArenaView {
   // mini-map would otherwise jump in a film. Robots appear in it as dots.
   void draw_mini_map(const SceneSnapshot& scene) {
     const CanvasDescription& canvas = scene.canvas_description;
-    constexpr double kShare = 0.36;         // of the floor's sides, at most
-    constexpr double kCrispAtLeast = 0.75;  // of that, for whole pixels a cell
+    constexpr double kShare = 0.36;  // maximum fraction of the floor's sides
+    // Minimum fraction of the above size for integer pixels per cell.
+    constexpr double kCrispAtLeast = 0.75;
     const Rectangle& floor = layout_.view;
     const double room_x = kShare * (floor.right - floor.left);
     const double room_y = kShare * (floor.bottom - floor.top);
@@ -347,7 +348,7 @@ class ArenaView {
   CanvasView alone_;
 };
 
-// @throws std::invalid_argument naming what is out of range.
+// @throws std::invalid_argument naming the value that is out of range.
 void check(const RenderOptions& options) {
   const auto check_side = [](const char* what, int side_px) {
     if (side_px >= kLeastSizePx && side_px <= kGreatestSizePx) return;
@@ -367,7 +368,7 @@ void check(const RenderOptions& options) {
   }
 }
 
-// What to show of a scene; none: the whole arena.
+// Returns the part of a scene to show; none: the whole arena.
 std::optional<ScenePart> shown_part(const SceneSnapshot& scene, const RenderOptions& options,
                                     ViewMode mode) {
   if (mode == ViewMode::kFullScreen) return std::nullopt;

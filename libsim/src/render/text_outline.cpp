@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t kReplacement = 0xfffd;
 constexpr std::size_t kMostCharacters = 256;
-constexpr int kCurveParts = 6;  // fine enough for letters of 100 pixels
+constexpr int kCurveParts = 6;  // segments per curve, sufficient for letters of 100 pixels
 
 // Collects the contours of one character.
 struct Collector {
@@ -50,11 +50,11 @@ modules::OutlineSink sink_of(Collector& into) {
   return sink;
 }
 
-// A box in place of a character. @return its width [heights of a capital letter].
+// Adds a box as a placeholder for a character. @return width [heights of a capital letter].
 double add_box(Collector& into) {
   constexpr double kWidth = 0.62;
   constexpr double kEdge = 0.09;
-  constexpr double kSide = 0.1;  // free on either side
+  constexpr double kSide = 0.1;  // margin on both sides
   const auto add = [&](double grown, bool hole) {
     std::vector<Vec2> corners = {{kSide - grown, -grown},
                                  {kSide - grown, 1.0 + grown},

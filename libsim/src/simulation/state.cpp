@@ -133,7 +133,7 @@ void Simulation::Impl::archive(StateArchive& archive) {
 
 void Simulation::Impl::archive_pictures(StateArchive& archive) {
   archive.choice(view_mode, ViewMode::kFullScreen);
-  // Only pictures and reports tell of them: the hash of the state does not cover them.
+  // The hash of the state excludes them, because only pictures and reports use them.
   for (Collision& collision : collisions) archive(collision.place);
   layers.archive_others(archive);
 }

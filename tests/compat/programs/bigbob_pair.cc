@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Two Bigbobs, one client each. The first wanders by its sonars and the three rays of ranger:2, the
-// second by the rays alone, and backs off when something lies between its teeth; meanwhile the pucks are listed and one is moved, as the tutorial does with oranges.
+// Drives two Bigbobs with one client each. The first robot wanders with its sonars and the three
+// rays of ranger:2. The second robot uses only the rays, and backs off if an object is between its
+// teeth. The program also lists the pucks and moves one of them, as the tutorial does with oranges.
 #include <stdio.h>
 #include <libplayerc++/playerc++.h>
 

@@ -169,7 +169,7 @@ TEST_P(CompatPrograms, DoWhatTheyWereWrittenFor) {
   EXPECT_EQ(moving, c.moving_robots) << result.out << result.err;
 }
 
-// A program that meets another world than the one that it was written for.
+// Runs a program in a world for which it was not written.
 TEST(StalledProgram, IsPointedToThePageOfWorlds) {
   const TemporaryFolder folder;
   const ProcessResult result = playpen(

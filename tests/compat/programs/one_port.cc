@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Thirteen robots through one client: every proxy is on the same port, the index tells the robot.
+// Drives thirteen robots with one client. All proxies use one port, and their index selects the
+// robot.
 #include <libplayerc++/playerc++.h>
 #include <iostream>
 #include <vector>
@@ -21,7 +22,7 @@ int main()
     pos[i]->SetMotorEnable(true);
   }
 
-  // on a circle, anticlockwise, each keeps clear of what its laser sees
+  // Each robot drives anticlockwise on a circle and avoids obstacles with its laser.
   for (int step = 0; step < 550; step++) {
     client.Read();
     for (int i = 0; i < ROBOTS; i++) {

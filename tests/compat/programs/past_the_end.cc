@@ -1,6 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Written for robots with more of everything: looks at elements past the end of each list, as Player's
-// proxies let it, while it wanders.
+// Wanders, and reads elements past the end of each list, which Player's proxies permit. The program
+// was written for robots with more devices and elements.
 #include <cstring>
 #include <iostream>
 #include <libplayerc++/playerc++.h>

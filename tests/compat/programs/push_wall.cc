@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Drives straight on, whatever is there.
+// Drives straight ahead without using sensors.
 #include <libplayerc++/playerc++.h>
 
 int main()

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Wanders by a ring of sixteen infra-red rangers; 0 looks ahead, the others follow anticlockwise.
+// Wanders with a ring of sixteen infrared rangers. Ranger 0 points ahead; the numbers increase
+// anticlockwise.
 #include <iostream>
 #include <libplayerc++/playerc++.h>
 using namespace PlayerCc;
@@ -17,7 +18,7 @@ int main(int argc, char **argv)
   bool turning = false;
   for (int t = 0; t < 590; t++) {
     client.Read();
-    // the five that look forward
+    // the five rangers that point forward
     double front = 10, left = 0, right = 0;
     for (int i = -2; i <= 2; i++) {
       double r = ir[(i + IRS) % IRS];

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Which device answers under which index of an interface, as a run chooses it (--interface).
+// Choices of devices for indices of an interface (--interface).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <libplayerc++/playerc++.h>
@@ -38,7 +38,7 @@ std::vector<InterfaceChoice> choices(std::initializer_list<const char*> texts) {
   return all;
 }
 
-/// The rangers of a robot after the choices.
+/// Returns the rangers of a robot after the choices were applied.
 std::vector<std::string> rangers(std::size_t robot, std::initializer_list<const char*> texts) {
   sim::WorldDescription world = sim::load_world_text(kWorld);
   apply_interface_choices(world, choices(texts));

@@ -502,12 +502,13 @@ TEST_F(MorseInARoom, RobotDrivesToItsPositionGoal) {
   const double y = pose.GetY();
   robot.SetPositionGoal(x, y, 1.0);
   EXPECT_TRUE(robot.HasPositionGoal());
-  EXPECT_DOUBLE_EQ(client.GetRobot().GetPositionGoal().px, x);  // copies share it
+  EXPECT_DOUBLE_EQ(client.GetRobot().GetPositionGoal().px, x);  // copies share the goal
   for (int i = 0; i < 60; ++i) client.Read();
   EXPECT_NEAR(pose.GetX(), x, 0.03);
   EXPECT_NEAR(pose.GetY(), y, 0.03);
   EXPECT_NEAR(pose.GetYaw(), 1.0, 0.1);
-  // Without a heading: the direction from its start, (1, 2), as no Position2dProxy has read since.
+  // The default heading is the direction from the start, (1, 2), because no Position2dProxy has
+  // been read.
   robot.SetPositionGoal(2.0, 3.0);
   EXPECT_NEAR(robot.GetPositionGoal().pa, 0.785398, 1e-4);
   for (int i = 0; i < 10; ++i) client.Read();
@@ -528,7 +529,7 @@ TEST(MorseGoals, ARobotWithoutMotorsTakesNoPositionGoal) {
   MorseRobot robot = client.GetRobot();
   EXPECT_EQ(error_code_of([&] { robot.SetPositionGoal(1.0, 1.0, 0.0); }),
             MorseError::kNotAvailable);
-  EXPECT_EQ(robot.GetWeight(), 0.0);  // not told
+  EXPECT_EQ(robot.GetWeight(), 0.0);  // the server does not send the weight
 }
 
 TEST_F(MorseInARoom, WaypointStopsAndResumes) {

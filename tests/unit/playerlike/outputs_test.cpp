@@ -186,7 +186,7 @@ std::map<std::string, std::string> all_texts_of_a_run() {
     if (!entry.is_regular_file()) continue;
     std::string& text = texts[fs::relative(entry.path(), settings.output_folder)];
     text = read_bytes(entry.path());
-    // The report names the world's file; each call has a folder of its own.
+    // The report names the world's file, and each call uses a different folder.
     const std::string own = folder.path();
     if (const std::size_t at = text.find(own); at != text.npos) text.replace(at, own.size(), "");
   }

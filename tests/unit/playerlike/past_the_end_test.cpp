@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Elements past the end of each proxy's lists: they read 0 with one warning, and nothing throws.
+// Elements past the end of each proxy's lists read 0 with one warning and without an exception.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <libplayerc++/playerc++.h>
@@ -30,7 +30,7 @@ constexpr const char* kWorld = R"({
       "dio": {"inputs": [true, true], "outputs": 4}, "aio": {"inputs": [5], "outputs": 2}}},
     {"name": "r2", "pose": {"x": 1, "y": 3}, "devices": {"wifi": {}}}]})";
 
-/// What an action that must not throw prints on standard error.
+/// Returns the standard error of an action that must not throw.
 template <typename Action>
 std::string warning_of(Action action) {
   testing::internal::CaptureStderr();
@@ -38,7 +38,7 @@ std::string warning_of(Action action) {
   return testing::internal::GetCapturedStderr();
 }
 
-/// The action warns with this text, and says nothing when it is done again.
+/// Expects that the action prints this warning the first time and nothing the second time.
 template <typename Action>
 void expect_one_warning(Action action, const std::string& text) {
   const std::string warning = warning_of(action);
@@ -66,7 +66,7 @@ TEST_P(PastTheEnd, RangefindersReadZero) {
   RangerProxy sonars(&client, 1);
   SonarProxy sonar(&client);
   IrProxy ir(&client);
-  EXPECT_EQ(warning_of([&] {  // programs look before their first Read()
+  EXPECT_EQ(warning_of([&] {  // programs access elements before their first Read()
               EXPECT_EQ(laser[9] + ranger[9] + ir[9] + ir.GetVoltage(9), 0.0);
               EXPECT_EQ(sonar[9], -1.0);
             }),
@@ -101,7 +101,7 @@ TEST_P(PastTheEnd, WhatSensorsSeeIsZero) {
   WiFiProxy wifi(&client);
   LocalizeProxy localize(&client);
   client.Read();
-  ASSERT_EQ(bumper.GetCount(), 8U);  // a side of the octagon each
+  ASSERT_EQ(bumper.GetCount(), 8U);  // one per side of the octagon
   expect_one_warning([&] { EXPECT_FALSE(bumper[8]); }, "there is no segment 8: there are 8");
   EXPECT_EQ(bumper.GetPose(8).length, 0.0F);
   ASSERT_EQ(fiducials.GetCount(), 1U);

@@ -980,9 +980,9 @@ TEST_P(PlayercEverywhere, InputsAndOutputs) {
   EXPECT_EQ(playerc_aio_get_data(aio.get(), 1), 0.0F);
   EXPECT_EQ(playerc_aio_get_data(aio.get(), 2), 0.0F);  // there is none
   EXPECT_EQ(playerc_dio_set_output(dio.get(), 1, 1), 0);
-  EXPECT_EQ(playerc_dio_set_output(dio.get(), 9, 1), 0);  // those that there are
+  EXPECT_EQ(playerc_dio_set_output(dio.get(), 9, 1), 0);  // sets the existing outputs
   EXPECT_EQ(playerc_aio_set_output(aio.get(), 0, 2.5F), 0);
-  EXPECT_EQ(playerc_aio_set_output(aio.get(), 1, 2.5F), 0);  // there is none: no effect
+  EXPECT_EQ(playerc_aio_set_output(aio.get(), 1, 2.5F), 0);  // no effect: the output does not exist
   ASSERT_TRUE(read_until(robot.get(), dio.get()));
   ASSERT_TRUE(read_until(robot.get(), aio.get()));
   EXPECT_EQ(dio->digin, 5U);  // its own output is its third input

@@ -201,13 +201,13 @@ TEST(GoalBook, KeepsGoalsWithTheTimesAtWhichTheyWereSetAndReached) {
   sim::Simulation simulation(world);
   GoalBook book;
   book.note(0, {0.5, 0.9}, 0.05, 0);
-  book.note(0, {0.5, 0.9}, 0.05, 10);  // the same
+  book.note(0, {0.5, 0.9}, 0.05, 10);  // equal to the goal before
   book.note(0, {0.51, 0.5}, 0.05, 20);
-  book.note(0, {std::nan(""), 0.0}, 0.05, 30);  // no place
+  book.note(0, {std::nan(""), 0.0}, 0.05, 30);  // invalid position
   simulation.step();
   book.observe(simulation);
   ASSERT_EQ(book.goals().size(), 2U);
-  EXPECT_FALSE(book.goals()[0].reached_ns);  // another came before it was reached
+  EXPECT_FALSE(book.goals()[0].reached_ns);  // replaced before the robot reached it
   EXPECT_EQ(book.goals()[1].set_ns, 20);
   EXPECT_EQ(book.goals()[1].reached_ns, simulation.now_ns());
   const std::vector<sim::GoalMark> marks = book.marks();
@@ -229,7 +229,7 @@ TEST(GoalBook, FindsGoalsOfWaypointsAndMotors) {
   GoalBook book;
   ASSERT_FALSE(simulation.apply({0, simulation.find_device(0, "waypoint").value()},
                                 sim::GotoCommand{{2.0, 2.0}, 0.1, 0.5}));
-  // In the frame of odometry, which reads 0 where the robot started.
+  // The goal is in the frame of odometry, whose origin is the start of the robot.
   const int odometry = simulation.find_device(1, "odometry").value();
   ASSERT_FALSE(simulation.apply({1, simulation.find_device(1, "motion").value()},
                                 sim::PositionCommand{{0.5, 0.0, 0.0}, 0.0, 0.0, odometry}));
@@ -261,10 +261,10 @@ TEST(Recorder, SceneHasThePlacesOfCollisions) {
   }
   const sim::SceneSnapshot scene = recorder.scene(simulation);
   ASSERT_EQ(scene.collisions.size(), 1U);
-  // The border is at x = 1; the robot's nose is 0.09 m wide.
+  // The border is at x = 1, and the front of the robot is 0.09 m wide.
   EXPECT_NEAR(scene.collisions[0].place.x(), 1.0, 0.02);
   EXPECT_NEAR(scene.collisions[0].place.y(), 0.5, 0.05);
-  // It has 0.413 m to the border at 0.5 m/s.
+  // The robot drives 0.413 m to the border at 0.5 m/s.
   EXPECT_NEAR(scene.collisions[0].time_s, 0.83, 0.05);
 }
 

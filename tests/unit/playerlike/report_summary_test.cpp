@@ -35,7 +35,8 @@ TEST(ReportSummary, ShowsTheFiguresOfTheRunAndOfEachRobot) {
 
 TEST(ReportSummary, NamesRobotsThatStalledForMostOfTheTimeThatTheyDrove) {
   const TemporaryFolder folder;
-  // r1 stalled for 9 of 12 s, r2 for exactly half, r3 has only begun to drive.
+  // r1 stalled for 9 of 12 s and r2 for exactly half of its time. The driven time of r3 is too
+  // short.
   const std::string file = folder.write("report.json", R"({
     "run": {"sim_time": 20.0, "wall_time": 0.1, "real_time_factor": 200.0, "seed": 7},
     "robots": [

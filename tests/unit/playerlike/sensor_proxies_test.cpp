@@ -198,7 +198,7 @@ TEST_P(SensorProxies, SettingsAreThoseOfConfigureRightAfterIt) {
   LaserProxy laser(client.get());
   EXPECT_EQ(ranger.GetRangeRes(), 0.001);
   EXPECT_EQ(laser.GetRangeRes(), 0.001);
-  // Before the first Read(), and without asking for the settings first.
+  // Configure() sets them before the first Read() and without a request for the settings.
   ranger.Configure(-0.5, 0.5, 2.0 * kPi / 180.0, 0.1, 1.5, 0.01, 10.0);
   EXPECT_EQ(ranger.GetRangeRes(), 0.01);
   EXPECT_EQ(ranger.GetMinRange(), 0.1);

@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-// r0 and r1 number their rangers; r2 does not. r3 has a port of its own.
+// r0 and r1 set the indices of their rangers; r2 does not. r3 has its own port.
 std::string world(const std::string& rangers_of_r1) {
   const std::string devices = R"("devices": {"pose": {}, "motion": {}, "odometry": {},
                                  "laser": {"beams": 11}, "sonar": {}})";
@@ -60,7 +60,8 @@ TEST_P(SharedPort, NumbersTheFirstDeviceOfEachRobot) {
   for (int i = 0; i < 20; ++i) client.Read();
   EXPECT_GT(r1.GetXPos(), 3.2);
   EXPECT_EQ(r0.GetXPos(), 1.0);
-  // Its own port shows all of a robot's devices, the shared one only those that `proxies` number.
+  // A robot's own port shows all its devices. The shared port shows only devices that `proxies`
+  // numbers.
   const test::ReachableHost& there = host;
   PlayerClient own(there.connect(7001));
   EXPECT_EQ(Position2dProxy(&own, 1).GetDriverName(), "odometry");

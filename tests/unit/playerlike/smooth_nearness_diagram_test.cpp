@@ -233,7 +233,7 @@ TEST(SndSettings, FollowTheRobotsSizeAndSpeeds) {
   for (const SndSettingRow& row : snd_setting_table()) {
     EXPECT_DOUBLE_EQ(s1r.*row.value, defaults.*row.value) << row.key;
   }
-  EXPECT_DOUBLE_EQ(snd_settings_for(0.2, 1.0, 2.0).robot_radius_m, 0.2);  // no further centimetre
+  EXPECT_DOUBLE_EQ(snd_settings_for(0.2, 1.0, 2.0).robot_radius_m, 0.2);  // not rounded up
   const SndSettings unknown = snd_settings_for(0.0, 0.0, 0.0);
   EXPECT_DOUBLE_EQ(unknown.robot_radius_m, defaults.robot_radius_m);
   EXPECT_DOUBLE_EQ(unknown.max_speed_mps, defaults.max_speed_mps);

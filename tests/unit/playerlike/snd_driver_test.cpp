@@ -165,8 +165,8 @@ TEST_P(SndDriverTest, SettingsOutOfRangeAreRefusedByName) {
 }
 
 TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
-  // Footprint of the Pioneer 2-DX: the farthest corner is hypot(0.26, 0.1) = 0.2786 m from the
-  // axle's middle, 0.28 m in whole centimetres; 1.6 m/s and 300 degrees/s.
+  // The farthest corner of the Pioneer 2-DX is hypot(0.26, 0.1) = 0.2786 m from the middle of the
+  // axle, which is rounded up to 0.28 m. The limits of the drive are 1.6 m/s and 300 degrees/s.
   start(R"({"arena": {"size": [8, 6]}, "robots": [
     {"name": "r1", "model": "pioneer2dx", "pose": {"x": 1, "y": 3},
      "interfaces": {"position2d": ["pose"]}, "drivers": [{"type": "snd", "max_speed": 0.4}]}]})");
@@ -178,7 +178,7 @@ TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
   EXPECT_DOUBLE_EQ(settings.max_speed, 0.96);
   EXPECT_NEAR(settings.max_turn_rate, 5.0 / 6.0 * std::numbers::pi, 1e-12);
   EXPECT_EQ(settings.patience, 20.0);
-  // What was set stays; the rest follows the robot.
+  // The driver keeps given settings and derives the others from the robot.
   SndSettings own;
   own.max_speed = 0.2;
   driver.SetSettings(own);
@@ -186,7 +186,7 @@ TEST_P(SndDriverTest, TakesSizeAndSpeedsFromTheRobotsModel) {
   EXPECT_DOUBLE_EQ(driver.GetSettings().robot_radius, 0.28);
   driver.SetPatience(3.0);
   EXPECT_EQ(driver.GetSettings().max_speed, 0.2);
-  // The driver of the world likewise.
+  // The world's driver also derives its settings from the robot.
   const auto session = host->connect(6665);
   const playerlike::SndDriverDescription& of_world = session->robots()[0].snd_drivers.at(0);
   EXPECT_DOUBLE_EQ(of_world.settings.robot_radius_m, 0.28);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Pictures of a part of the world, marks of goals and collisions, and what can be left out.
+// Pictures of a part of the world, marks of goals and collisions, and optional parts of pictures.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ Rgb pixel(const Image& image, double x, double y) {
 bool is_red(const Rgb& rgb) { return rgb[0] > 190 && rgb[1] < 110 && rgb[2] < 110; }
 bool is_blue(const Rgb& rgb) { return rgb[2] > 150 && rgb[0] < 90; }
 
-// An arena of 4 x 4 m: in a picture of 1000 px without legend the floor is 924 px wide, 38 px from
-// each edge.
+// The arena is 4 x 4 m. In a picture of 1000 px without legend, the floor is 924 px wide and 38 px
+// from each edge.
 SceneSnapshot scene_of(int robots) {
   SceneSnapshot scene;
   scene.world_name = "test";
@@ -81,12 +81,13 @@ TEST(RenderParts, CropShowsThatPartAlone) {
   RenderOptions options = plain();
   options.part = ScenePart{{0.0, 0.0}, {1.0, 1.0}, false};
   const Image image = draw_scene(scene, options);
-  // A metre is 924 px: the first robot's middle is at 38 + 462, its body 92 px to each side.
+  // The scale is 924 px/m, so the centre of the first robot is at 38 + 462 px and its radius is 92
+  // px.
   EXPECT_EQ(image.width, 1000);
   EXPECT_TRUE(is_blue(pixel(image, 500 - 60, 500 + 20)));
   EXPECT_FALSE(is_blue(pixel(image, 500 - 110, 500)));
-  // Nothing beyond the part: the margin is as light as paper.
-  scene.robots[0].X_WB = {0.0, 0.5, 0.0};  // half of it in the part
+  // The margin outside of the part is white like paper.
+  scene.robots[0].X_WB = {0.0, 0.5, 0.0};  // half of the robot is in the part
   const Image cut = draw_scene(scene, options);
   EXPECT_TRUE(is_blue(pixel(cut, 38 + 20, 500 + 30)));
   EXPECT_GT(pixel(cut, 20, 500)[0], 230);
@@ -114,14 +115,14 @@ TEST(RenderParts, FollowKeepsTheRobotInTheMiddle) {
     EXPECT_TRUE(is_blue(pixel(image, 500 - 60, 500 + 20))) << x;
     EXPECT_FALSE(is_blue(pixel(image, 500 - 110, 500))) << x;
   }
-  // What is kept from one picture to the next changes none.
+  // Data that are cached between pictures do not change the pictures.
   EXPECT_EQ(renderer.draw(scene).rgb, SceneRenderer(options).draw(scene).rgb);
-  // A picture twice as wide as high shows more to the sides, at the same scale.
+  // A picture with the aspect ratio 2:1 shows more at the sides with an equal scale.
   options.width_px = 1600;
   options.height_px = 800;
   const Image wide = draw_scene(scene, options);
   EXPECT_TRUE(is_blue(pixel(wide, 800 - 40, 400 + 10)));
-  // No such robot: all of the arena.
+  // An unknown robot shows the whole arena.
   options.follow = "r9";
   EXPECT_EQ(draw_scene(scene, options).width, 1600);
 }
@@ -138,7 +139,7 @@ TEST(RenderParts, CollisionsAndGoalsAreMarkedUnlessHidden) {
   EXPECT_TRUE(is_red(at(marked, 2.0, 2.0)));
   const double ring = 10.0 / 231.0;
   EXPECT_LT(at(marked, 3.0 + ring, 3.0)[0], 100);  // the ring, in the robot's colour
-  EXPECT_GT(at(marked, 3.0, 3.0)[0], 200);         // not reached: open
+  EXPECT_GT(at(marked, 3.0, 3.0)[0], 200);         // not reached: no dot
   EXPECT_LT(at(marked, 1.0, 3.0)[0], 100);         // reached: a dot
   options.collisions = false;
   options.goals = false;
@@ -146,7 +147,7 @@ TEST(RenderParts, CollisionsAndGoalsAreMarkedUnlessHidden) {
   scene.collisions.clear();
   scene.goals.clear();
   EXPECT_EQ(without.rgb, draw_scene(scene, plain()).rgb);
-  // Marks of robots that are not there, and places that are no places, are left out.
+  // Marks of unknown robots and marks with invalid positions are not drawn.
   scene.goals = {{7, {1.0, 1.0}, true, true}};
   scene.collisions = {{0, {std::nan(""), 1.0}, 0.0}};
   EXPECT_EQ(draw_scene(scene, plain()).rgb, without.rgb);
@@ -180,7 +181,8 @@ TEST(RenderParts, AHundredLasersLeaveTheFloorLightAndColoured) {
     }
   }
   const Image image = draw_scene(scene, plain());
-  // Far from all robots the floor is as without lasers; beside one it has the robot's colour.
+  // Far from all robots, the fans do not change the floor. Near a robot, the floor has the robot's
+  // colour.
   EXPECT_GT(pixel(image, 38 + 231 * 3.8, 962 - 231 * 3.8)[0], 240);
   const Rgb beside = pixel(image, 38 + 231 * 0.37, 962 - 231 * 0.5);
   EXPECT_GT(beside[0], beside[1] + 10);
@@ -192,7 +194,7 @@ TEST(RenderParts, MiniMapHidesTheLabelsOfTheRobotsUnderIt) {
   RenderOptions options;
   options.legend = false;
   options.names = false;
-  // The map lies in the top right corner of an empty floor.
+  // The mini-map is in the top right corner of an empty floor.
   scene.robots[0].X_WB = {3.4, 3.4, 0.0};
   const Image unnamed = draw_view(scene, options);
   options.names = true;
@@ -211,7 +213,7 @@ TEST(RenderParts, MiniMapHidesTheLabelsOfTheRobotsUnderIt) {
 TEST(TextOutline, ReadsUtf8CharacterByCharacter) {
   EXPECT_EQ(code_points("a\u017d\u20ac\U0001f916"),
             (std::vector<std::uint32_t>{'a', 0x17d, 0x20ac, 0x1f916}));
-  // A byte that belongs to no character.
+  // The text contains an invalid byte.
   EXPECT_EQ(code_points("\xff\xc5z"), (std::vector<std::uint32_t>{0xfffd, 0xfffd, 'z'}));
   EXPECT_TRUE(has_wide_characters("k\u016f\u0148"));
   EXPECT_FALSE(has_wide_characters("kun"));
@@ -225,7 +227,7 @@ TEST(TextOutline, ReadsUtf8CharacterByCharacter) {
 }
 
 TEST(TextOutline, EveryCharacterHasAnOutlineOrABox) {
-  // Czech, Greek, Cyrillic, and a character that no font for Europe has.
+  // Czech, Greek and Cyrillic characters, and a character that European fonts do not contain.
   double width_px = 0.0;
   for (const char* text : {"\u017dlu\u0165ou\u010dk\u00fd", "\u0395\u03bb\u03bb\u03ac",
                            "\u041a\u0438\u0440", "\U0001fbf0"}) {
@@ -238,7 +240,7 @@ TEST(TextOutline, EveryCharacterHasAnOutlineOrABox) {
     }
   }
   EXPECT_GT(width_px, 100.0);
-  // A box: its outer and inner edge, as high as a capital letter.
+  // A box has an outer and an inner edge, and the height of a capital letter.
   const TextOutline box = text_outline("\U0001fbf0", 20.0);
   ASSERT_EQ(box.contours.size(), 2U);
   EXPECT_DOUBLE_EQ(box.contours[0][1].y(), -20.0);
@@ -254,7 +256,7 @@ TEST(TextOutline, NamesBeyondAsciiAreInThePictureAndTheSameEachTime) {
   SceneSnapshot other = scene;
   other.robots[0].name = "\u010cofie";
   EXPECT_NE(draw_scene(other, {}).rgb, first.rgb);
-  // Bytes that are no text do no harm.
+  // Invalid bytes cause no error.
   other.world_name = "\xff\xfe";
   other.robots[0].says = std::string(300, '\xc5') + "\u0148";
   static_cast<void>(draw_scene(other, {}));
@@ -269,12 +271,13 @@ TEST(Drawing, SameItemsAsPictureAndAsSvg) {
   page.add_area({{20, 10}, {40, 10}, {40, 30}, {20, 30}}, {0, 0x80, 0, 0xff});
   page.add_text("a<b & \u010d", {100, 30}, 10.0, {0, 0, 0, 0xff}, Drawing::Align::kMiddle);
   page.add_picture(Image{2, 1, {1, 2, 3, 4, 5, 6}}, {60.0, 5.0});
-  page.add_picture(Image{2, 1, {9, 9, 9, 9, 9, 9}}, {199.0, 99.0});  // beyond the edge: cut off
+  page.add_picture(Image{2, 1, {9, 9, 9, 9, 9, 9}}, {199.0, 99.0});  // clipped at the edge
   const Image image = page.image();
   EXPECT_EQ(image.width, 200);
   EXPECT_EQ(pixel(image, 100, 50), (Rgb{0xff, 0, 0}));
-  EXPECT_EQ(pixel(image, 18, 80), (Rgb{0, 0, 0xff}));          // the first dash is 16 pixels long
-  EXPECT_EQ(pixel(image, 30.5, 80), (Rgb{0xff, 0xff, 0xff}));  // the gap after it 10, less the ends
+  // The first dash is 16 pixels long, and the gap after it 10 pixels less the round ends.
+  EXPECT_EQ(pixel(image, 18, 80), (Rgb{0, 0, 0xff}));
+  EXPECT_EQ(pixel(image, 30.5, 80), (Rgb{0xff, 0xff, 0xff}));
   EXPECT_EQ(pixel(image, 30, 20), (Rgb{0, 0x80, 0}));
   EXPECT_EQ(pixel(image, 61, 5), (Rgb{4, 5, 6}));
   const std::string svg = page.svg();

@@ -8,17 +8,17 @@
 
 namespace playerlike {
 
-/// Writes those results of a run that its program has not completed before it died: the report, and
-/// then the pictures, from what its host has kept. Trails, scans and cells are those after the last
-/// step; what else pictures show of devices is up to 50 ms of wall time older. The report has no
-/// "state_hash" (null) unless it is known, and its "ended" tells of the program's end.
-/// @param world   what was run, with all settings; it is only looked at.
-/// @param settings  of the run: its output folder, what its pictures show, and the film that was to
-///                be recorded; what is there of that is of no use, and removed.
-/// @param end     the program's.
-/// @return whether there was something to complete; false for a run that is done or never began.
-/// @throws std::runtime_error saying what could not be written, or is not there; the rest is
-/// written.
+/// Completes the results of a run whose program has died: writes the missing report and pictures
+/// from the data that the host has kept. Trails, scans and cells are those after the last step;
+/// other device data in pictures is up to 50 ms of wall time older. "state_hash" in the report is
+/// null if it is unknown, and "ended" describes the end of the program.
+/// @param world  the simulated world, with all settings applied.
+/// @param settings  settings of the run: output folder, contents of pictures, and the film that was
+///     being recorded; the incomplete film is removed.
+/// @param end  end of the program.
+/// @return whether results were missing; false for a run that is complete or never began.
+/// @throws std::runtime_error naming the data that is missing or could not be written; all other
+///         results are written.
 /// @pre The program has ended.
 bool complete_results(const KeptRun& kept, const sim::WorldDescription& world,
                       const RunSettings& settings, const ProgramEnd& end);

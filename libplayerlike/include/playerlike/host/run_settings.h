@@ -13,14 +13,14 @@
 
 namespace playerlike {
 
-/// Which device answers under an interface and index, instead of the world's order.
+/// Selects the device with an interface and index. It overrides the world's order.
 struct InterfaceChoice {
   std::string robot;      ///< name; "": each robot that has the device
   std::string interface;  ///< e.g. "ranger"
   int index = 0;          ///< on the robot's own port, from 0
   std::string device;     ///< e.g. "laser"
 
-  /// "ranger:0=laser" or "r1.ranger:0=laser".
+  /// Returns the choice as text: "ranger:0=laser" or "r1.ranger:0=laser".
   [[nodiscard]] std::string text() const;
 };
 
@@ -29,13 +29,13 @@ struct RunSettings {
   std::optional<std::uint64_t> seed;
   std::optional<double> duration_s;  ///< > 0
   std::optional<sim::TimeMode> time_mode;
-  double time_factor = 1.0;   ///< with kPaced: simulated seconds a wall second
+  double time_factor = 1.0;   ///< with kPaced: simulated seconds per wall second
   std::string output_folder;  ///< "": nothing is written
-  std::string film;           ///< .mp4, .avi, or a folder that gets PNGs; "": no film
-  double film_fps = 25.0;     ///< frames a second of the film, 1..240
-  double film_speed = 1.0;    ///< simulated seconds a second of the film, 0.01..1000
-  /// What pictures and films show; size_px, width_px and height_px are those of the film, its
-  /// longer side by default 800.
+  std::string film;           ///< .mp4 or .avi file, or folder for PNGs; "": no film
+  double film_fps = 25.0;     ///< frames per second of the film, 1..240
+  double film_speed = 1.0;    ///< simulated seconds per second of film, 0.01..1000
+  /// Contents of pictures and films. size_px, width_px and height_px are the size of the film; the
+  /// default of its longer side is 800.
   sim::render::RenderOptions pictures = {.size_px = 800};
   std::optional<double> snapshot_period_s;  ///< simulated time between pictures in the output
                                             ///< folder's snapshots/ [s], 0.001..1e9
@@ -77,10 +77,10 @@ struct RunSettings {
   [[nodiscard]] static RunSettings from_environment();
 
   /// Applies seed, duration, time mode, clients, view mode and interfaces to the world.
-  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode;
-  ///         run/follow if the world lacks the robot to follow; run/crop if the part to show
-  ///         contains nothing of the floor; run/interface for each choice of an interface that the
-  ///         world's robots cannot follow.
+  /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode; run/follow
+  ///         if the world does not contain the robot to follow; run/crop if the part to show does
+  ///         not overlap the floor; run/interface for each choice of an interface that does not
+  ///         match the world's robots.
   void apply_to(sim::WorldDescription& world) const;
 };
 
@@ -95,10 +95,10 @@ struct RunSettings {
 /// Parses "[ROBOT.]INTERFACE:INDEX=DEVICE". @return whether the text has this form.
 [[nodiscard]] bool parse_interface_choice(const std::string& text, InterfaceChoice& choice);
 
-/// Gives devices the indices that choices name; the other devices of the interface keep their
-/// order. A choice without a robot holds for each robot that has the device.
-/// @throws sim::ConfigError run/interface for each unknown robot, interface or device, an index
-///         that the robot does not have, and an index or device that is chosen twice.
+/// Assigns the chosen indices to devices. The other devices of the interface keep their order. A
+/// choice without a robot applies to each robot that has the device.
+/// @throws sim::ConfigError run/interface for each unknown robot, interface or device, each index
+///         that the robot does not have, and each index or device that is chosen twice.
 void apply_interface_choices(sim::WorldDescription& world,
                              const std::vector<InterfaceChoice>& choices);
 
@@ -108,26 +108,26 @@ void apply_interface_choices(sim::WorldDescription& world,
 /// Parses the simulated seconds per second of film, 0.01..1000.
 /// @return whether the text is valid.
 [[nodiscard]] bool parse_film_speed(const std::string& text, double& speed);
-/// Reads a film's size: "640x480", or the longer side alone, "640"; each side 64..4096 pixels.
-/// @return whether the text is such a size.
+/// Parses the size of a film: "640x480", or the longer side, "640". Each side is 64..4096 pixels.
+/// @return whether the text is valid.
 [[nodiscard]] bool parse_film_size(const std::string& text, sim::render::RenderOptions& options);
-/// Reads a part of the world, "X,Y,W,H": its bottom left corner and its size [m].
-/// @return whether the text is such a part.
+/// Parses a part of the world, "X,Y,W,H": bottom left corner and size [m].
+/// @return whether the text is valid.
 [[nodiscard]] bool parse_crop(const std::string& text, sim::render::RenderOptions& options);
-/// Reads a robot's name, with or without the width to show [m]: "r1" or "r1,2.5".
-/// @return whether the text is such a thing.
+/// Parses a robot's name and optionally the width of the part to show [m]: "r1" or "r1,2.5".
+/// @return whether the text is valid.
 [[nodiscard]] bool parse_follow(const std::string& text, sim::render::RenderOptions& options);
-/// Reads what pictures leave out, e.g. "fans,labels". @return whether all of its words are known.
+/// Parses the parts that pictures omit, e.g. "fans,labels". @return whether all words are valid.
 [[nodiscard]] bool parse_hide(const std::string& text, sim::render::RenderOptions& options);
-/// Reads where colours come from: "world", "robot" or "none". @return whether it is one of these.
+/// Parses the source of colours: "world", "robot" or "none". @return whether the text is valid.
 [[nodiscard]] bool parse_colour_by(const std::string& text, sim::render::RenderOptions& options);
-/// The reverse of these: the text, or "" for the default.
+/// Inverse functions of the parsers above: return the text, or "" for the default.
 [[nodiscard]] std::string film_size_text(const sim::render::RenderOptions& options);
 [[nodiscard]] std::string crop_text(const sim::render::RenderOptions& options);       ///< as above
 [[nodiscard]] std::string follow_text(const sim::render::RenderOptions& options);     ///< as above
 [[nodiscard]] std::string hide_text(const sim::render::RenderOptions& options);       ///< as above
 [[nodiscard]] std::string colour_by_text(const sim::render::RenderOptions& options);  ///< as above
-/// Reads simulated seconds between pictures, 0.001..1e9. @return whether the text is such a number.
+/// Parses the simulated seconds between pictures, 0.001..1e9. @return whether the text is valid.
 [[nodiscard]] bool parse_snapshot_period(const std::string& text, double& period_s);
 
 /// Description of the values that parse_clients() accepts, for messages.
@@ -139,21 +139,21 @@ inline constexpr const char* kInterfaceChoiceExpected =
 inline constexpr const char* kFilmFpsExpected = "a number of frames a second from 1 to 240";
 /// Description of the values that parse_film_speed() accepts, for messages.
 inline constexpr const char* kFilmSpeedExpected = "a number from 0.01 to 1000";
-/// What parse_film_size() takes, in words for messages.
+/// Description of the values that parse_film_size() accepts, for messages.
 inline constexpr const char* kFilmSizeExpected =
     "WIDTHxHEIGHT or the longer side, in pixels from 64 to 4096, such as 640x480";
-/// What parse_crop() takes, in words for messages.
+/// Description of the values that parse_crop() accepts, for messages.
 inline constexpr const char* kCropExpected =
     "X,Y,W,H in metres: the bottom left corner, and a width and height above 0, such as 0,0,1.5,1";
-/// What parse_follow() takes, in words for messages.
+/// Description of the values that parse_follow() accepts, for messages.
 inline constexpr const char* kFollowExpected =
     "the name of a robot, and maybe the width to show in metres, such as r1 or r1,2.5";
-/// What parse_hide() takes, in words for messages.
+/// Description of the values that parse_hide() accepts, for messages.
 inline constexpr const char* kHideExpected =
     "some of fans, trails, labels, goals, collisions, legend and canvas, with commas between them";
-/// What parse_colour_by() takes, in words for messages.
+/// Description of the values that parse_colour_by() accepts, for messages.
 inline constexpr const char* kColourByExpected = "world, robot or none";
-/// What parse_snapshot_period() takes, in words for messages.
+/// Description of the values that parse_snapshot_period() accepts, for messages.
 inline constexpr const char* kSnapshotPeriodExpected = "a number of seconds from 0.001 to 1e9";
 /// Description of valid film names, for messages; see sim::render::FilmWriter.
 inline constexpr const char* kFilmExpected =

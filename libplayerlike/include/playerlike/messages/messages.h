@@ -44,12 +44,12 @@ struct RobotInfo {
   double length_m = 0.0;                   ///< footprint's bounding box along x of B [m]
   double width_m = 0.0;                    ///< that box along y [m]
   double height_m = 0.0;                   ///< [m]
-  sim::Vec2 center_m = sim::Vec2::Zero();  ///< middle of that box, in B [m]
-  double radius_m = 0.0;                   ///< of the footprint about B's origin [m]; 0: not known
-  double mass_kg = 0.0;                    ///< [kg]; 0: not known
+  sim::Vec2 center_m = sim::Vec2::Zero();  ///< centre of that box, in B [m]
+  double radius_m = 0.0;  ///< radius of the footprint about B's origin [m]; 0: unknown
+  double mass_kg = 0.0;   ///< [kg]; 0: unknown
   double max_speed_mps = 0.0;
   double max_turn_rate_radps = 0.0;
-  bool shares_port = false;  ///< other robots have this port, too; see note_shared_ports()
+  bool shares_port = false;  ///< whether other robots have this port, see note_shared_ports()
   std::map<std::string, int> proxies;  ///< interface -> index on port 4000, and of the first device
                                        ///< on a shared port, from the world file
   std::map<std::string, std::vector<std::string>>
@@ -172,8 +172,8 @@ struct InterfaceBinding {
 /// of the robot's `interfaces` table, by default by type and name. Drivers have the indexes that
 /// the world defines, by default the first free ones. On port 4000, the world's `proxies` table
 /// defines the index, by default the robot's number, counted from 0. A
-/// port that robots share has the same indices, and a robot's further devices follow the index in
-/// its `proxies`.
+/// shared port uses these indices, too. There, further devices of a robot follow the index in
+/// `proxies`.
 ///
 /// Known interfaces: "position2d" (pose, then odometry devices), "localize" (pose devices),
 /// "laser", "sonar", "ir" (infrared), "ranger" (lasers, then sonar, then infrared), "power"

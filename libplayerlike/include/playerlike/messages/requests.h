@@ -463,26 +463,26 @@ struct RestoreStateRequest {
   static constexpr std::tuple kFields{field("name", &RestoreStateRequest::name)};
 };
 
-/// Tells the simulation where a robot is to drive by commands that do not say so, as those of a
-/// program that avoids obstacles: report and pictures show the goal. Nothing else follows from it.
+/// Announces the goal of a robot whose commands do not contain it, for example of a program that
+/// avoids obstacles. The report and pictures show the goal. The request has no other effect.
 /// @throws SessionError kNoSuchDevice; kBadArgument for numbers that are not finite.
 struct NoteGoalRequest {
   using Result = void;
   static constexpr const char* kName = "note_goal";
   DeviceId device{-1, -1};               ///< any device of the robot
-  sim::Vec2 goal_m = sim::Vec2::Zero();  ///< in the robot's frame B as it stands now [m]
-  double tolerance_m = 0.0;              ///< the robot has arrived when it is so near [m]
+  sim::Vec2 goal_m = sim::Vec2::Zero();  ///< in the robot's current frame B [m]
+  double tolerance_m = 0.0;              ///< distance within which the goal is reached [m]
   static constexpr std::tuple kFields{field("device", &NoteGoalRequest::device),
                                       field("goal", &NoteGoalRequest::goal_m),
                                       field("tolerance", &NoteGoalRequest::tolerance_m)};
 };
 
-/// Changes what the log of this session's port does, in the order of the members, or (without
-/// changes) only tells it. The log has the readings of that port's robots, see docs/log.md. All
-/// sessions of a port have it in common.
-/// @throws SessionError kBadArgument for a name that is not plain, a file that is no log, or
-///         changes of file or direction while it runs; kNotAvailable if the run has no output
-///         folder, or the file cannot be opened.
+/// Configures the log of this session's port and returns its state. Changes are applied in the
+/// order of the members; a request without members set changes nothing. The log contains the
+/// readings of the port's robots; see docs/log.md. All sessions of a port share it.
+/// @throws SessionError kBadArgument for a name that is not a plain file name, for a file that is
+///         not a log, or for changes of file or direction while the log runs; kNotAvailable if the
+///         run has no output folder, or the file cannot be opened.
 struct LogRequest {
   using Result = LogStatus;
   static constexpr const char* kName = "log";

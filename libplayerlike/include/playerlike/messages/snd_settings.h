@@ -20,17 +20,18 @@ struct SndSettings {
   double patience_s = 20.0;       ///< the goal counts as blocked after this time without progress
 };
 
-/// The settings that suit a robot, for what its driver is not told otherwise: a disc that holds the
-/// footprint (its radius rounded up to whole centimetres), one and a half times that as the safety
-/// distance, 0.6 of the greatest speed and half of the greatest turn rate; the others as
-/// SndSettings has them. For an S1R these are the values of SndSettings itself.
-/// @param radius_m  of the footprint round the axle's middle [m]; 0 (not known): that of an S1R.
-/// @param max_speed_mps, max_turn_rate_radps  what the robot's drive can do; 0 (not known): what an
-///     S1R can do.
+/// Returns the default settings of a driver for a robot. The robot radius is the radius of the
+/// footprint, rounded up to whole centimetres. The safety distance is 1.5 times the robot radius.
+/// The maximum speed is 0.6 times the maximum speed of the drive; the maximum turn rate is half of
+/// the drive's. All other settings have the defaults of SndSettings. For an S1R the result equals
+/// SndSettings{}.
+/// @param radius_m  radius of the footprint around the middle of the axle [m]; 0 (unknown): the
+///     S1R's.
+/// @param max_speed_mps, max_turn_rate_radps  limits of the robot's drive; 0 (unknown): the S1R's.
 [[nodiscard]] SndSettings snd_settings_for(double radius_m, double max_speed_mps,
                                            double max_turn_rate_radps);
 
-/// A number among the settings: how it is called and bounded.
+/// Description of a setting: name and range.
 struct SndSettingRow {
   const char* key;   ///< key in world files; a value whose key ends in "_deg" is in degrees there
   const char* unit;  ///< unit in world files, "m", "m/s", ...
@@ -57,7 +58,7 @@ struct SndDriverDescription {
 /// @param robot    in the world.
 /// @param file     as messages call the world.
 /// @param pointer  JSON pointer of the robot, e.g. "/robots/0".
-/// @param defaults  settings that the world leaves out, see snd_settings_for().
+/// @param defaults  values of the settings that the world omits, see snd_settings_for().
 /// @throws sim::ConfigError with all that is wrong.
 [[nodiscard]] std::vector<SndDriverDescription> read_drivers(const sim::RobotDescription& robot,
                                                              const std::string& file,

@@ -116,9 +116,9 @@ class Motion final : public Actuator {
   [[nodiscard]] const Twist& commanded() const noexcept { return commanded_; }
   /// Current angle of a car's front wheels, counter-clockwise [rad]; 0 for other drives.
   [[nodiscard]] double steering_rad() const noexcept { return steering_rad_; }
-  /// Whether the motors drive to a position: then present_command() is a PositionCommand.
+  /// Whether the motors drive to a position. In this case present_command() is a PositionCommand.
   [[nodiscard]] bool has_position_goal() const noexcept { return mode_ == Mode::kPosition; }
-  /// A command that, given again, lets it go on with what it does now.
+  /// A command that makes the device continue what it is doing now.
   [[nodiscard]] Command present_command() const;
   void archive(StateArchive& archive) override;
 

@@ -92,9 +92,9 @@ class Waypoint final : public SensorOf<WaypointReading> {
   [[nodiscard]] std::uint64_t goal_number() const noexcept { return goal_number_; }
   /// The last accepted goal, in W [m]; before the first: the robot's start position.
   [[nodiscard]] const Vec2& goal() const noexcept { return goal_.goal_m; }
-  /// Of that goal: so near to it the robot has arrived [m].
+  /// Distance within which the goal is reached [m].
   [[nodiscard]] double tolerance_m() const noexcept { return goal_.tolerance_m; }
-  /// From the robot to the goal [m].
+  /// Distance from the robot to the goal [m].
   [[nodiscard]] double distance_m() const;
 
   void archive(StateArchive& archive) override;

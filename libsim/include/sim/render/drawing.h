@@ -11,35 +11,35 @@
 
 namespace sim::render {
 
-/// Lines, areas, texts and pictures on a white page, for charts: the same page as a picture and as
-/// SVG. Coordinates are pixels, x right and y down, (0, 0) being the top left corner.
-/// Not thread-safe. Deterministic, on the calling thread.
+/// A white page for charts with lines, areas, texts and pictures. It can be rendered as a picture
+/// and as SVG. Coordinates are pixels, x right, y down; (0, 0) is the top left corner. Not
+/// thread-safe. Deterministic; runs on the calling thread.
 class Drawing {
  public:
-  /// Which end of a text stands at its place.
+  /// The point of a text that its `place` defines.
   enum class Align { kLeft, kMiddle, kRight };
 
   /// @throws std::invalid_argument unless each side is in 64..8192 pixels.
   Drawing(int width_px, int height_px);
 
-  /// A line through points; one that is dashed has dashes of four times its width.
+  /// Adds a line through points. The dashes of a dashed line are four times as long as its width.
   void add_line(std::vector<Vec2> points, Colour colour, double width_px, bool dashed = false);
-  /// A filled area with straight edges.
+  /// Adds a filled polygon.
   void add_area(std::vector<Vec2> corners, Colour colour);
-  /// A line of text in UTF-8.
-  /// @param place  an end or the middle of its base line.
+  /// Adds a line of text in UTF-8.
+  /// @param place  an end or the middle of the base line.
   /// @param cap_height_px  height of a capital letter.
   void add_text(std::string text, const Vec2& place, double cap_height_px, Colour colour,
                 Align align = Align::kLeft);
-  /// A picture at its own size. @param place  of its top left corner, rounded to whole pixels.
+  /// Adds a picture without scaling. @param place  top left corner, rounded to whole pixels.
   void add_picture(Image image, const Vec2& place);
 
-  /// Length of a line of text as a picture has it [pixels].
+  /// Returns the length of a line of text in pictures [pixels].
   [[nodiscard]] static double text_width_px(const std::string& text, double cap_height_px);
 
-  /// The page as a picture.
+  /// Returns the page as a picture.
   [[nodiscard]] Image image() const;
-  /// The page as SVG 1.1, with the pictures in it. Its letters are those of the viewer's font.
+  /// Returns the page as SVG 1.1 with embedded pictures. Texts use the font of the viewer.
   [[nodiscard]] std::string svg() const;
 
  private:
@@ -72,10 +72,10 @@ class Drawing {
 
   int width_;
   int height_;
-  std::vector<Item> items_;  // in the order in which they lie over one another
+  std::vector<Item> items_;  // in drawing order
 };
 
-/// One of many colours that can be told apart, for the thing of that number, from 0.
+/// Returns the colour with the given number, from 0, of a series of distinguishable colours.
 [[nodiscard]] Colour distinct_colour(std::size_t number);
 
 }  // namespace sim::render

@@ -21,25 +21,25 @@ struct Image {
 
 /// A part of the world: a rectangle in W.
 struct ScenePart {
-  Vec2 low = Vec2::Zero();  ///< its bottom left corner [m]
+  Vec2 low = Vec2::Zero();  ///< bottom left corner [m]
   Vec2 size = {1.0, 1.0};   ///< [m], each > 0
-  bool fills_room = false;  ///< shows more of the world where the picture has room to
+  bool fills_room = false;  ///< shows more of the world if the picture has space for it
 
   friend bool operator==(const ScenePart&, const ScenePart&) = default;
 };
 
-/// Where the colours of robots, trails and fans come from.
+/// Source of the colours of robots, trails and fans.
 enum class ColourBy {
-  kWorld,  ///< the world gives each robot its colour
-  kRobot,  ///< each robot gets a colour of its own, by its place in the world
+  kWorld,  ///< the colours in the world
+  kRobot,  ///< a different colour for each robot, by its index in the world
   kNone,   ///< one dark grey for all
 };
 
-/// What to draw of a scene.
+/// Which parts of a scene to draw.
 struct RenderOptions {
-  int size_px = 1000;  ///< the longer side of the picture, 64..8192; below 200 there is no text
-  int width_px = 0;    ///< with height_px: the picture's exact size instead, each 64..8192, and the
-                       ///< arena in the middle of it; 0: as high and wide as the arena needs
+  int size_px = 1000;  ///< longer side of the picture, 64..8192; no text below 200
+  int width_px = 0;    ///< with height_px: exact size of the picture, each 64..8192, with the arena
+                       ///< in its centre; 0: `size_px` and the arena define the size
   int height_px = 0;
   bool canvas = true;  ///< the grid-map
   bool trails = true;
@@ -49,10 +49,13 @@ struct RenderOptions {
   bool goals = true;
   bool collisions = true;
   ColourBy colour_by = ColourBy::kWorld;
-  std::optional<ScenePart> part = {};  ///< shows this alone, not in the view mode full-screen
-  std::string follow = {};  ///< shows what is round the robot of that name, instead of `part`, not
-                            ///< in the view mode full-screen; "" or no such robot: all
-  double follow_width_m = 0.0;  ///< of what is shown round it; 0: twenty radii of its footprint
+  /// Shows only this part; ignored in the view mode full-screen.
+  std::optional<ScenePart> part = {};
+  /// Shows the surroundings of the robot with this name instead of `part`; ignored in the view mode
+  /// full-screen. "" or an unknown name: the whole arena.
+  std::string follow = {};
+  /// Width of these surroundings [m]; 0: 20 radii of the robot's footprint.
+  double follow_width_m = 0.0;
 
   friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
 };

@@ -11,22 +11,23 @@
 
 namespace sim {
 
-/// Where a robot has hit something.
+/// The place of a collision.
 struct CollisionMark {
   int robot = 0;              ///< index
   Vec2 place = Vec2::Zero();  ///< in W [m]
   double time_s = 0.0;
 };
 
-/// Where a robot was to drive.
+/// The goal of a robot.
 struct GoalMark {
   int robot = 0;              ///< index
   Vec2 place = Vec2::Zero();  ///< in W [m]
   bool reached = false;
-  bool newest = true;  ///< of this robot's goals
+  bool newest = true;  ///< whether it is the robot's newest goal
 };
 
-/// All that a picture of a simulation needs. Plain data: may be drawn on another thread.
+/// Everything that a picture of a simulation needs. Plain data, which may be drawn on another
+/// thread.
 struct SceneSnapshot {
   std::string world_name;
   ArenaDescription arena;  ///< obstacles with their current state
@@ -37,8 +38,8 @@ struct SceneSnapshot {
                                      ///< first; for legends
   ViewMode view_mode = ViewMode::kGround;
   std::vector<RobotSnapshot> robots;
-  std::vector<CollisionMark> collisions;  ///< oldest first; kept by the caller, as trails are
-  std::vector<GoalMark> goals;            ///< oldest first; kept by the caller
+  std::vector<CollisionMark> collisions;  ///< oldest first; the caller records them, like trails
+  std::vector<GoalMark> goals;            ///< oldest first; the caller records them
   double time_s = 0.0;
 };
 

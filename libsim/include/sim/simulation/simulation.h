@@ -34,7 +34,7 @@ struct Collision {
   SimTime time_ns = 0;
   int robot = 0;              ///< index
   std::string partner;        ///< name of the obstacle or robot; "border" or "wall"
-  Vec2 place = Vec2::Zero();  ///< where they touched, in W [m]
+  Vec2 place = Vec2::Zero();  ///< contact point in W [m]
 };
 
 /// A text that a robot said.

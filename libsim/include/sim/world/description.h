@@ -136,7 +136,7 @@ struct RobotDescription {
   std::string model = "s1r";  ///< see find_robot_model()
   Pose pose;                  ///< X_WB at the start
   Colour colour{0xff, 0x88, 0x00, 0xff};
-  int port = 0;  ///< Player port; the reader assigns the shared one, else 6665, 6666, ...
+  int port = 0;  ///< Player port; default: the shared port, otherwise 6665, 6666, ...
   std::vector<DeviceDescription> devices;  ///< sorted by name
   std::map<std::string, int> proxies;      ///< interface name -> index on port 4000, and of the
                                            ///< first device on a shared port
@@ -177,7 +177,7 @@ struct WorldDescription {
   /// Robot models that are not built in, by the name in RobotDescription::model.
   std::map<std::string, std::shared_ptr<const RobotModel>> models;
   std::vector<RobotDescription> robots;
-  int robots_on_port = 0;  ///< Player port that robots without one of their own share; 0: none
+  int robots_on_port = 0;  ///< Player port of all robots without their own port; 0: none
   CanvasDescription canvas;
 };
 

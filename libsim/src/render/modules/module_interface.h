@@ -14,19 +14,19 @@
 /// version.
 namespace sim::render::modules {
 
-/// Who is told the outline of a character: closed contours, each of a start and parts that follow
-/// one another. Unit: the height of a capital letter; x right, y up, (0, 0) on the base line. What
-/// is solid lies on the right of a contour.
+/// Callbacks that receive the outline of a character as closed contours. Each contour has a start
+/// and consecutive parts. The unit is the height of a capital letter; x right, y up, (0, 0) on the
+/// base line. The solid area is on the right of a contour.
 struct OutlineSink {
-  void* context;  ///< given back in each call
+  void* context;  ///< passed to each callback
   void (*start)(void* context, double x, double y);
   void (*line)(void* context, double x, double y);
-  /// A parabola: its control point, then its end.
+  /// Adds a parabola, defined by its control point and its end.
   void (*curve)(void* context, double control_x, double control_y, double x, double y);
 };
 
-/// The table of `libplaypen_text.so`: letters of the Hershey font "simplex" (OpenCV's putText), and
-/// outlines of the characters that it lacks, of the font DejaVu Sans of the system (FreeType).
+/// The functions of `libplaypen_text.so`: text in the Hershey font "simplex" (OpenCV's putText),
+/// and outlines of the other characters in the system's font DejaVu Sans (FreeType).
 struct TextFunctions {
   /// Playpen's version that the module was built with.
   const char* version;
@@ -43,10 +43,10 @@ struct TextFunctions {
   bool (*draw)(const char* text, int x, int y, double scale, int stroke, std::uint8_t* raster,
                int width, int height);
 
-  /// Tells the outline of a character. Safe from many threads.
-  /// @param advance  gets the distance to the next character, in heights of a capital letter.
-  /// @return false if there is no such character, no font, or the module was built without
-  /// FreeType.
+  /// Passes the outline of a character to the sink. Thread-safe.
+  /// @param advance  output: distance to the next character [heights of a capital letter].
+  /// @return false if the font does not contain the character, if there is no font, or if the
+  ///         module was built without FreeType.
   bool (*outline)(std::uint32_t code_point, const OutlineSink& sink, double* advance);
 };
 

@@ -15,7 +15,7 @@ using sim::render::modules::OutlineSink;
 
 #ifdef PLAYPEN_FREETYPE
 
-// Where Debian and Ubuntu, Fedora, Arch, and a user with the right to install fonts have it.
+// Paths of the font on Debian and Ubuntu, Fedora and Arch, and after a manual installation.
 constexpr const char* kFontFiles[] = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
@@ -23,10 +23,10 @@ constexpr const char* kFontFiles[] = {
     "/usr/local/share/fonts/DejaVuSans.ttf",
     "/Library/Fonts/DejaVuSans.ttf",
 };
-constexpr double kCapHeight = 1493.0;  // of DejaVu Sans, in units of the font
+constexpr double kCapHeight = 1493.0;  // height of a capital letter of DejaVu Sans [font units]
 
-/// The font. Outlines are read unscaled and without hints, so they do not
-/// hang on the version of FreeType.
+/// The font. Outlines are read unscaled and without hinting, so they do not depend on the version
+/// of FreeType.
 class Font {
  public:
   Font() {
@@ -67,7 +67,7 @@ class Font {
       told.curve(told.context, units(control->x), units(control->y), units(to->x), units(to->y));
       return 0;
     };
-    // The curves of a TrueType font are parabolas.
+    // TrueType fonts contain only parabolas.
     functions.cubic_to = [](const FT_Vector*, const FT_Vector*, const FT_Vector*, void*) {
       return 1;
     };
@@ -82,9 +82,8 @@ class Font {
   FT_Face face_ = nullptr;
 };
 
-// FreeType is not safe from many threads: each has a font of its own until it ends. A picture may
-// still be made when the main thread's variables are gone, by a handler of std::atexit(): the font
-// is then loaded once more.
+// FreeType is not thread-safe, so each thread has its own font. A handler of std::atexit() may draw
+// a picture after the destruction of the main thread's variables. The font is then loaded again.
 thread_local Font* font = nullptr;
 struct FontOwner {
   FontOwner() = default;
