@@ -24,7 +24,7 @@ constexpr double kOuterBeam = 0.75;
 constexpr double kFits_m = 1e-9;
 
 // For line-of-sight tests that exclude no solid.
-constexpr PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
+PhysicsWorld::Contact nothing() { return {-1, PhysicsWorld::Contact::Kind::kObstacle, -1}; }
 
 Pose pose_of(const ObstacleDescription& thing) {
   return {thing.center.x(), thing.center.y(), thing.yaw_rad};
@@ -224,7 +224,7 @@ bool Gripper::is_stopped_at(const StepContext& now, double gap_m) const {
     const Vec2 p_WA = X_WG * Vec2(0.0, side * gap_m);
     const Vec2 p_WC = X_WG * Vec2(params_.length_m, side * gap_m);
     if (now.physics.is_inside_solid(p_WA, params_.height_m, now.robot) ||
-        !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, kNothing)) {
+        !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, nothing())) {
       return true;
     }
   }
@@ -243,7 +243,7 @@ bool Gripper::is_broken(const StepContext& now, double x_m) const {
   const Vec2 p_WA = X_WG * Vec2(x_m, half_m);
   const Vec2 p_WC = X_WG * Vec2(x_m, -half_m);
   return now.physics.is_inside_solid(p_WA, params_.height_m, now.robot) ||
-         !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, kNothing);
+         !now.physics.is_line_free(p_WA, p_WC, params_.height_m, now.robot, nothing());
 }
 
 void Gripper::measure(const StepContext& context) {
