@@ -368,7 +368,7 @@ TEST(PhysicsWorld, RobotPutBesideAWallTouchesItUntilItIsPutElsewhere) {
 }
 
 TEST(PhysicsWorld, RobotsThatNothingIsNearAreSolidAllTheSame) {
-  constexpr PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
+  const PhysicsWorld::Contact kNothing{-1, PhysicsWorld::Contact::Kind::kObstacle, -1};
   PhysicsWorld world(floor_4x4());
   world.add_robot(s1r_model(), {1.4, 2.0, 0.0});
   world.add_robot(s1r_model(), {2.0, 2.0, 0.0});
