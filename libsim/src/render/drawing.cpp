@@ -102,7 +102,10 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
 std::string points_text(const std::vector<Vec2>& points) {
   std::string text;
   for (const Vec2& p : points) {
-    text += (text.empty() ? "" : " ") + number(p.x()) + ',' + number(p.y());
+    if (!text.empty()) text += ' ';
+    text += number(p.x());
+    text += ',';
+    text += number(p.y());
   }
   return text;
 }
