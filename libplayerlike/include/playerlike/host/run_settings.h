@@ -24,6 +24,13 @@ struct InterfaceChoice {
   [[nodiscard]] std::string text() const;
 };
 
+/// Returns the default of RunSettings::pictures: a film's longer side has 800 pixels.
+[[nodiscard]] inline sim::render::RenderOptions default_pictures() {
+  sim::render::RenderOptions options;
+  options.size_px = 800;
+  return options;
+}
+
 /// Settings of a run: overrides of the world file, and the destination of the results.
 struct RunSettings {
   std::optional<std::uint64_t> seed;
@@ -36,7 +43,7 @@ struct RunSettings {
   double film_speed = 1.0;    ///< simulated seconds per second of film, 0.01..1000
   /// Contents of pictures and films. size_px, width_px and height_px are the size of the film; the
   /// default of its longer side is 800.
-  sim::render::RenderOptions pictures = {.size_px = 800};
+  sim::render::RenderOptions pictures = default_pictures();
   std::optional<double> snapshot_period_s;  ///< simulated time between pictures in the output
                                             ///< folder's snapshots/ [s], 0.001..1e9
   std::optional<int> clients;  ///< start gate, 1..1000: time starts when this number of clients has
