@@ -49,8 +49,8 @@ void add_plot(CommandLine& line) {
                  });
   line.takes(out, ValueKind::Kind::kFile);
   command.footer(
-      "Draws speed, turn rate, clearance and path length over time, and trajectories over\n"
-      "the scene. Lines of the second and later runs are dashed. For example:\n"
+      "Draws speed, turn rate, clearance and path length over time, and trajectories\n"
+      "over the scene. Lines of the second and later runs are dashed. For example:\n"
       "  playpen plot out/first out/second --out compared.png");
   command.callback([request, &line] { line.status = plot(*request); });
 }
