@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -20,6 +19,7 @@
 #include "host/recorder.h"
 #include "playerlike/host/results.h"
 #include "sim/canvas/layers.h"
+#include "sim/core/number_text.h"
 #include "sim/core/replace_file.h"
 #include "sim/io/map_file.h"
 #include "sim/render/render.h"
@@ -125,12 +125,6 @@ void write_layers(const fs::path& folder, const sim::LayerStack& stack) {
   }
 }
 
-std::string hex(std::uint64_t value) {
-  std::array<char, 20> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
-  return text.data();
-}
-
 // Collisions and goals of the robots, with their times.
 void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goals,
                 nlohmann::ordered_json& report) {
@@ -179,16 +173,17 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
                     {"robot", simulation.world().robots[static_cast<std::size_t>(u.robot)].name},
                     {"text", u.text}});
   }
-  nlohmann::ordered_json whole = {{"run",
-                                   {{"world", simulation.world().name},
-                                    {"seed", simulation.world().simulation.seed},
-                                    {"steps", simulation.steps()},
-                                    {"sim_time", sim::to_seconds(simulation.now_ns())},
-                                    {"wall_time", time.wall_time_s},
-                                    {"real_time_factor", time.real_time_factor},
-                                    {"state_hash", hex(simulation.state_hash())}}},
-                                  {"robots", robots},
-                                  {"said", said}};
+  nlohmann::ordered_json whole = {
+      {"run",
+       {{"world", simulation.world().name},
+        {"seed", simulation.world().simulation.seed},
+        {"steps", simulation.steps()},
+        {"sim_time", sim::to_seconds(simulation.now_ns())},
+        {"wall_time", time.wall_time_s},
+        {"real_time_factor", time.real_time_factor},
+        {"state_hash", sim::hexadecimal_text(simulation.state_hash(), 16)}}},
+      {"robots", robots},
+      {"said", said}};
   add_events(simulation, recorder.goals().goals(), whole);
   // `playpen plot` reads the scene from this file.
   std::error_code error;

@@ -318,13 +318,10 @@ RunSettings RunSettings::from_environment() {
   settings.grading.nonce = environment("PLAYPEN_GRADE");
   variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
   variables.read("PLAYPEN_INTERFACES", kInterfaceChoicesExpected, [&](const std::string& text) {
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-      const std::size_t end = std::min(text.find(',', begin), text.size());
+    for (const std::string_view word : words_of(text)) {
       InterfaceChoice choice;
-      if (!parse_interface_choice(text.substr(begin, end - begin), choice)) return false;
+      if (!parse_interface_choice(std::string(word), choice)) return false;
       settings.interfaces.push_back(std::move(choice));
-      begin = end + 1;
     }
     return true;
   });

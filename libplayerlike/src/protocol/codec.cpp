@@ -3,11 +3,12 @@
 #include "protocol/codec.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include "sim/core/base64.h"
 
 namespace playerlike::protocol {
 namespace {
@@ -60,64 +61,6 @@ std::optional<std::int64_t> whole_number(const json& value) {
   return std::nullopt;
 }
 
-// --- base64, RFC 4648, section 4
-
-constexpr std::string_view kDigits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-constexpr std::array<std::int8_t, 256> digit_values() {
-  std::array<std::int8_t, 256> values{};
-  values.fill(-1);
-  for (std::size_t i = 0; i < kDigits.size(); ++i) {
-    values[static_cast<unsigned char>(kDigits[i])] = static_cast<std::int8_t>(i);
-  }
-  return values;
-}
-
-std::string to_base64(std::span<const std::uint8_t> bytes) {
-  std::string text((bytes.size() + 2) / 3 * 4, '=');
-  std::size_t out = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = unsigned{bytes[i]} << 16U;
-    if (count > 1) group |= unsigned{bytes[i + 1]} << 8U;
-    if (count > 2) group |= unsigned{bytes[i + 2]};
-    for (std::size_t d = 0; d <= count; ++d) {
-      text[out + d] = kDigits[group >> (18U - 6U * static_cast<unsigned>(d)) & 63U];
-    }
-    out += 4;
-  }
-  return text;
-}
-
-/// Decodes base64; nullopt unless to_base64() could have written the text.
-std::optional<std::vector<std::uint8_t>> from_base64(std::string_view text) {
-  static constexpr std::array<std::int8_t, 256> kValues = digit_values();
-  if (text.size() % 4 != 0) return std::nullopt;
-  std::size_t padding = 0;
-  while (padding < 2 && padding < text.size() && text[text.size() - 1 - padding] == '=') ++padding;
-  std::vector<std::uint8_t> bytes(text.size() / 4 * 3 - padding);
-  std::size_t out = 0;
-  for (std::size_t i = 0; i < text.size(); i += 4) {
-    const bool is_last = i + 4 == text.size();
-    const std::size_t digits = is_last ? 4 - padding : 4;
-    unsigned group = 0;
-    for (std::size_t d = 0; d < 4; ++d) {
-      const int value = d < digits ? kValues[static_cast<unsigned char>(text[i + d])] : 0;
-      if (value < 0) return std::nullopt;
-      group = group << 6U | static_cast<unsigned>(value);
-    }
-    for (std::size_t b = 0; b < digits - 1; ++b) {
-      bytes[out++] = static_cast<std::uint8_t>(group >> (16U - 8U * static_cast<unsigned>(b)));
-    }
-    // The unused bits before the padding must be zero.
-    if ((group & ((1U << (8U * static_cast<unsigned>(4 - digits))) - 1U)) != 0) {
-      return std::nullopt;
-    }
-  }
-  return bytes;
-}
-
 /// The bytes of a value. @param key  names the value in errors.
 std::vector<std::uint8_t> bytes_of(const json& value, const char* key, Encoding encoding) {
   if (encoding == Encoding::kCbor) {
@@ -125,7 +68,7 @@ std::vector<std::uint8_t> bytes_of(const json& value, const char* key, Encoding 
     refuse_value(key, "a byte string", value);
   }
   if (const auto* text = value.get_ptr<const std::string*>()) {
-    if (auto decoded = from_base64(*text)) return std::move(*decoded);
+    if (auto decoded = sim::from_base64(*text)) return std::move(*decoded);
   }
   refuse_value(key, "bytes as a text in base64", value);
 }
@@ -344,7 +287,7 @@ void refuse_unknown_keys(const json& object, std::span<const std::string_view> k
 
 json bytes(std::vector<std::uint8_t> value, Encoding encoding) {
   if (encoding == Encoding::kCbor) return json::binary(std::move(value));
-  return to_base64(value);
+  return sim::to_base64(value);
 }
 
 std::vector<std::uint8_t> require_bytes(const json& object, const char* key, Encoding encoding) {

@@ -13,6 +13,7 @@
 #include "canvas/png_codec.h"
 #include "render/layout.h"
 #include "render/painter.h"
+#include "sim/core/base64.h"
 #include "sim/core/number_text.h"
 
 namespace sim::render {
@@ -82,21 +83,6 @@ std::string escaped(std::string_view text) {
     }
   }
   return safe;
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8U | (k < count ? bytes[i + k] : 0U);
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? kDigits[group >> (18U - 6U * k) & 63U] : '=';
-    }
-  }
-  return text;
 }
 
 std::string points_text(const std::vector<Vec2>& points) {
@@ -188,7 +174,7 @@ struct Drawing::SvgWriter {
     out += "<image x=\"" + std::to_string(picture.left) + "\" y=\"" + std::to_string(picture.top) +
            "\" width=\"" + std::to_string(picture.image.width) + "\" height=\"" +
            std::to_string(picture.image.height) + "\" xlink:href=\"data:image/png;base64," +
-           base64(png) + "\"/>\n";
+           to_base64(png) + "\"/>\n";
   }
 };
 

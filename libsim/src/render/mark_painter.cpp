@@ -17,16 +17,6 @@ bool is_marked(const Vec2& center, const Layout& layout) {
                                 center.y() > layout.view.top && center.y() < layout.view.bottom));
 }
 
-void fill_ring(Painter& painter, const Vec2& center, double radius_px, double width_px,
-               Colour colour) {
-  Shape ring;
-  ring.add_disc(center, radius_px + 0.5 * width_px);
-  Shape hole;
-  hole.add_disc(center, std::max(radius_px - 0.5 * width_px, 0.0));
-  ring.cut(hole);
-  painter.fill(ring, colour);
-}
-
 void fill_disc(Painter& painter, const Vec2& center, double radius_px, Colour colour) {
   Shape disc;
   disc.add_disc(center, radius_px);
@@ -72,9 +62,8 @@ void draw_goals(const SceneSnapshot& scene, const Layout& layout, Painter& paint
     const Colour colour = mix(opaque(scene.robots[robot].colour), palette::kInk, 0.3);
     const double radius_px = share * layout.line_px(10.0, 5.0);
     const double width_px = share * layout.line_px(3.2, 1.8);
-    fill_ring(painter, center, radius_px, width_px + 2.0 * layout.line_px(1.6, 0.9),
-              palette::kHalo);
-    fill_ring(painter, center, radius_px, width_px, colour);
+    painter.fill_ring(center, radius_px, width_px + 2.0 * layout.line_px(1.6, 0.9), palette::kHalo);
+    painter.fill_ring(center, radius_px, width_px, colour);
     if (goal.newest) {
       Shape hairs;
       for (const Vec2& side : {Vec2(1, 0), Vec2(-1, 0), Vec2(0, 1), Vec2(0, -1)}) {

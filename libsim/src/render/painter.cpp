@@ -443,6 +443,15 @@ void Painter::fill(const Shape& shape, Colour colour, double opacity) {
   });
 }
 
+void Painter::fill_ring(const Vec2& center, double radius_px, double width_px, Colour colour) {
+  Shape ring;
+  ring.add_disc(center, radius_px + 0.5 * width_px);
+  Shape hole;
+  hole.add_disc(center, std::max(radius_px - 0.5 * width_px, 0.0));
+  ring.cut(hole);
+  fill(ring, colour);
+}
+
 void Painter::fill_fading(const Shape& shape, Colour colour, const Vec2& center, double radius_px,
                           double opacity_center, double opacity_rim) {
   const float alpha = static_cast<float>(colour.a) / 255.0F;

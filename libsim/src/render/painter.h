@@ -172,6 +172,8 @@ class Painter {
 
   /// Blends a colour over the shape. The opacity, in [0, 1], multiplies the colour's alpha.
   void fill(const Shape& shape, Colour colour, double opacity = 1.0);
+  /// Fills a ring whose line is centred on the circle of `radius_px`.
+  void fill_ring(const Vec2& center, double radius_px, double width_px, Colour colour);
   /// Like fill, but the opacity falls with the square of the distance from `center`, from
   /// `opacity_center` there to `opacity_rim` at `radius_px` and beyond.
   void fill_fading(const Shape& shape, Colour colour, const Vec2& center, double radius_px,

@@ -152,7 +152,7 @@ class RobotPainter {
         Shape halo;
         halo.add_disc(b, radius + layout_.line_px(1.6, 0.9));
         painter_.fill(halo, palette::kHalo, 0.85);
-        ring(b, radius, layout_.line_px(1.8, 1.0), opaque(robot.colour));
+        painter_.fill_ring(b, radius, layout_.line_px(1.8, 1.0), opaque(robot.colour));
       }
       painter_.fill(lines, opaque(robot.colour), 0.7);
     }
@@ -421,22 +421,13 @@ class RobotPainter {
     const Vec2 ahead(std::cos(robot.X_WB.yaw_rad), -std::sin(robot.X_WB.yaw_rad));
     rim.add_line({center, center + ahead * (1.7 * radius)}, layout_.line_px(2.0, 1.0));
     painter_.fill(rim, mix(colour, palette::kWheel, 0.3));
-    ring(center, radius, layout_.line_px(1.4), mix(colour, palette::kWheel, 0.3));
-  }
-
-  void ring(const Vec2& center, double radius, double width_px, Colour colour) {
-    Shape outer;
-    outer.add_disc(center, radius + 0.5 * width_px);
-    Shape inner;
-    inner.add_disc(center, std::max(radius - 0.5 * width_px, 0.0));
-    outer.cut(inner);
-    painter_.fill(outer, colour);
+    painter_.fill_ring(center, radius, layout_.line_px(1.4), mix(colour, palette::kWheel, 0.3));
   }
 
   void draw_stall_ring(const Vec2& center, double robot_radius) {
     const double radius = robot_radius + 6.0 * layout_.unit_px;
-    ring(center, radius, layout_.line_px(6.0), palette::kHalo);
-    ring(center, radius, layout_.line_px(3.2), palette::kStalled);
+    painter_.fill_ring(center, radius, layout_.line_px(6.0), palette::kHalo);
+    painter_.fill_ring(center, radius, layout_.line_px(3.2), palette::kStalled);
   }
 
   // Draws the corners of a square around the robot that the user selected.
