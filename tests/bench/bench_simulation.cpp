@@ -164,7 +164,7 @@ void save_figures() {
   }
   world.robots.clear();
   for (int i = 0; i < 1000; ++i) {
-    robot.name = "r" + std::to_string(i);
+    robot.name = std::string("r").append(std::to_string(i));
     robot.port = 20'000 + i;
     robot.pose = {1.0 + 2.0 * (i % 32), 1.0 + 2.0 * (i / 32), 0.1 * i};
     world.robots.push_back(robot);
