@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/alarms.h"
+#include "host/blackboard.h"
 #include "host/client_files.h"
 #include "host/clients.h"
 #include "host/inputs.h"
@@ -197,6 +198,7 @@ class Host::Core {
   std::atomic<std::uint64_t> canvas_generation_{0};
   ClientFiles client_files_;
   SavedStates saved_states_;
+  Blackboard blackboard_;
 
   Clients clients_;
   Lockstep lockstep_;

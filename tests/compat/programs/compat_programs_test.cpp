@@ -64,6 +64,7 @@ std::vector<Case> cases() {
        kAny,
        2,  // bob2 touches a puck
        2},
+      {"blackboard", kCave, {"at first 0 bytes", "places heard, looks at it"}, 2.0},
       {"blob_chase", kPioneer, {"of 80x60 reached", "#2040e0"}, 0.5, 3.0},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
       {"can_collector", "examples/pioneer_gripper.json", {"can 1", "2 cans in the store"}, 4.0},

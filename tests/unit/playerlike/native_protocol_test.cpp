@@ -424,6 +424,7 @@ TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
       {"set_object_property", {{"name", "r1"}, {"property", "color"}, {"value", {255, 0, 0}}}},
       {"save_state", {{"name", "s"}}},
       {"restore_state", {{"name", "s"}}},
+      {"blackboard", json::object()},
       {"world_map", {{"cell_size", 0.1}}},
       {"watch", {{"rate", 10}}}};
   for (const auto& [name, request] : truths) {

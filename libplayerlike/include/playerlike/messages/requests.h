@@ -477,6 +477,60 @@ struct NoteGoalRequest {
                                       field("tolerance", &NoteGoalRequest::tolerance_m)};
 };
 
+/// A value of the blackboard, which all clients of a host share (docs/blackboard.md).
+struct BlackboardEntry {
+  std::string group;  ///< at most 255 printable bytes; "" is a group, too
+  std::string key;    ///< 1 to 255 printable bytes, unique in its group
+  int type = 0;       ///< for the programs; the blackboard only keeps it
+  int subtype = 0;    ///< for the programs
+  std::vector<std::uint8_t> data;
+  sim::SimTime time_ns = 0;  ///< of the last change
+  std::int64_t change = 0;   ///< number of the last change among all of the blackboard, from 1
+  static constexpr WholeRange kTypeRange{0, 65535};
+  static constexpr std::tuple kFields{field("group", &BlackboardEntry::group),
+                                      field("key", &BlackboardEntry::key),
+                                      field("type", &BlackboardEntry::type, kTypeRange),
+                                      field("subtype", &BlackboardEntry::subtype, kTypeRange),
+                                      field("data", &BlackboardEntry::data),
+                                      field("t", &BlackboardEntry::time_ns),
+                                      field("change", &BlackboardEntry::change)};
+};
+
+/// Sets an entry of the blackboard, which then has the present time and the next number.
+/// @throws SessionError kBadArgument for a group or key that is not as BlackboardEntry says, or
+///         data of more than 64 KiB; kNotAvailable if there is no room, or in a private world.
+struct SetBlackboardRequest {
+  using Result = void;
+  static constexpr const char* kName = "set_blackboard";
+  static constexpr bool kTellsTruth = true;
+  std::string group;
+  std::string key;
+  int type = 0;
+  int subtype = 0;
+  std::vector<std::uint8_t> data;
+  static constexpr std::tuple kFields{
+      field("group", &SetBlackboardRequest::group), field("key", &SetBlackboardRequest::key),
+      field("type", &SetBlackboardRequest::type, BlackboardEntry::kTypeRange),
+      field("subtype", &SetBlackboardRequest::subtype, BlackboardEntry::kTypeRange),
+      field("data", &SetBlackboardRequest::data)};
+};
+
+/// Entries of the blackboard, in the order of their changes.
+/// @throws SessionError kNotAvailable in a private world.
+struct BlackboardRequest {
+  using Result = std::vector<BlackboardEntry>;
+  static constexpr const char* kName = "blackboard";
+  static constexpr const char* kAnswer = "entries";
+  static constexpr bool kTellsTruth = true;
+  std::int64_t after = 0;  ///< only entries whose number of change is greater
+  std::optional<std::string> group = std::nullopt;  ///< only those of this group
+  std::optional<std::string> key = std::nullopt;    ///< only those of this key
+  static constexpr std::tuple kFields{
+      field("after", &BlackboardRequest::after, WholeRange{}, Presence::kOptional),
+      field("group", &BlackboardRequest::group, Presence::kOptional),
+      field("key", &BlackboardRequest::key, Presence::kOptional)};
+};
+
 /// Configures the log of this session's port and returns its state. Changes are applied in the
 /// order of the members; a request without members set changes nothing. The log contains the
 /// readings of the port's robots; see docs/log.md. All sessions of a port share it.
@@ -509,13 +563,15 @@ using Request =
                  ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
                  SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
                  ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
-                 RestoreStateRequest, NoteGoalRequest, LogRequest>;
+                 RestoreStateRequest, NoteGoalRequest, LogRequest, SetBlackboardRequest,
+                 BlackboardRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =
     std::variant<std::monostate, std::uint32_t, sim::LayerId, std::optional<sim::CellValue>,
                  std::vector<sim::CellValue>, std::vector<sim::LayerInfo>, CanvasImage, CanvasInfo,
-                 sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics>;
+                 sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics,
+                 std::vector<BlackboardEntry>>;
 
 /// Calls the function of `visitor` for the type of a request. The function returns the `Result` of
 /// the request's type.
