@@ -27,8 +27,8 @@ class ReadingListener {
   virtual void on_reading(const sim::SharedReading& reading) = 0;
   /// Called after a round that had readings for this listener. The mutex is held.
   virtual void on_round() {}
-  /// Asks the session for news in each round, for listeners that listen to no device. The mutex is
-  /// held, and begin_change() was called. @return whether there is any.
+  /// Called in each round for listeners of ClientCore::add_poller(): requests new data from the
+  /// session. The mutex is held, and begin_change() was called. @return whether there are any.
   virtual bool on_poll() { return false; }
   /// The function to call after the round without the mutex; empty: none. The mutex is held.
   virtual std::function<void()> notification() { return {}; }
@@ -54,8 +54,8 @@ class ClientCore final : private ReadingSink {
   /// Subscribes a listener to a device. The caller holds the mutex.
   /// @param replace  see ReplaceRequest; nullopt: the session's default.
   void add(DeviceId device, ReadingListener& listener, std::optional<bool> replace = std::nullopt);
-  /// Adds a listener that listens to no device: its on_poll() is called in each round. The caller
-  /// holds the mutex.
+  /// Adds a listener without a device. Its on_poll() is called in each round. The caller holds the
+  /// mutex.
   void add_poller(ReadingListener& listener);
   /// Whether a listener is registered. The caller holds the mutex.
   [[nodiscard]] bool listens(const ReadingListener& listener) const noexcept;
@@ -151,7 +151,7 @@ class ClientCore final : private ReadingSink {
   using Notifications = std::vector<std::function<void()>>;
 
   void on_reading(DeviceId device, const sim::SharedReading& reading) override;
-  /// Whether no device is listened to.
+  /// Whether no listener has a device.
   [[nodiscard]] bool listens_to_nothing() const noexcept;
   /// Delivers the readings that have arrived. The mutex is held. @return the number of readings.
   int hand_out(Notifications& notifications);

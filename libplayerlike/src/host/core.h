@@ -166,6 +166,12 @@ class Host::Core {
   /// The end of a peek that begins now in lockstep.
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
 
+  /// The thread for which a client's changes of the blackboard wait until the next step; 0: they
+  /// take effect at once. They wait if threads compute side by side between two steps.
+  [[nodiscard]] ThreadId blackboard_thread(const Client& client) const;
+  /// Lets the waiting changes of the blackboard take effect, in the order of the clients.
+  void publish_blackboard();
+
   /// Makes a step. @return the result of release_waiters().
   bool advance();
   /// Ends the waits that are over. @return whether a client may have stopped waiting.

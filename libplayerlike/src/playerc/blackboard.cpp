@@ -2,7 +2,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libplayerc++/blackboardproxy.h"
@@ -12,24 +15,67 @@ namespace {
 
 using playerlike::clib::with_device;
 
-// Kinds of values that playerc_blackboard_set_string() and the like write, as Player numbers them.
+// Player's numbers for the values of playerc_blackboard_set_string() and similar functions.
 constexpr std::uint16_t kSimple = 1;
 constexpr std::uint16_t kString = 1;
 constexpr std::uint16_t kInt = 2;
 constexpr std::uint16_t kDouble = 3;
 
+// A change that was read, but not reported to the program yet.
+struct Event {
+  explicit Event(const player_blackboard_entry_t& from)
+      : entry(from),
+        key(from.key),
+        group(from.group),
+        data(from.data, from.data + from.data_count) {}
+  // The entry with pointers into this object.
+  [[nodiscard]] player_blackboard_entry_t shown() {
+    entry.key = key.data();
+    entry.group = group.data();
+    entry.data = data.data();
+    return entry;
+  }
+
+  player_blackboard_entry_t entry;
+  std::string key;
+  std::string group;
+  std::vector<std::uint8_t> data;
+};
+
 class Blackboard final
     : public playerlike::clib::ProxyBacked<playerc_blackboard_t, PlayerCc::BlackBoardProxy> {
+ public:
+  Blackboard() = default;
+  Blackboard(const Blackboard&) = delete;
+  Blackboard& operator=(const Blackboard&) = delete;
+  ~Blackboard() override { *exists_ = false; }
+
  protected:
   void attach(PlayerCc::PlayerClient& player) override {
     ProxyBacked::attach(player);
-    proxy_or_throw().SetEventFunction([this](const player_blackboard_entry_t& entry) {
-      if (on_blackboard_event != nullptr) on_blackboard_event(this, entry);
-    });
+    proxy_or_throw().SetEventFunction(
+        [this](const player_blackboard_entry_t& entry) { events_.emplace_back(entry); });
   }
+  void detach() noexcept override {
+    ProxyBacked::detach();
+    events_.clear();
+  }
+  // The program's function may destroy the device, or its client.
+  std::function<void()> take_events() override {
+    return [this, exists = exists_, events = std::exchange(events_, {})]() mutable {
+      for (Event& event : events) {
+        if (!*exists || info.subscribed == 0 || on_blackboard_event == nullptr) return;
+        on_blackboard_event(this, event.shown());
+      }
+    };
+  }
+
+ private:
+  std::vector<Event> events_;
+  std::shared_ptr<bool> exists_ = std::make_shared<bool>(true);
 };
 
-// Hands an entry over to a caller who has said where, or not.
+// Passes an entry to the caller; frees it if the caller passed a null pointer.
 void hand_over(player_blackboard_entry_t* entry, player_blackboard_entry_t** where) {
   if (where != nullptr) {
     *where = entry;

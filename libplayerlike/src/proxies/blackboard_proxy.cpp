@@ -1,10 +1,13 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 #include <ostream>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,10 +21,10 @@ namespace PlayerCc {
 using playerlike::BlackboardEntry;
 using playerlike::BlackboardRequest;
 
-/// Changes that were read and not delivered yet. A handler may delete the proxy.
+/// Changes that were read, but not delivered to the handler yet. A handler may delete the proxy.
 struct BlackBoardProxy::Events {
-  std::vector<BlackboardEntry> waiting;
-  bool gone = false;
+  std::vector<BlackboardEntry> waiting;  ///< guarded by the client's mutex
+  std::atomic<bool> proxy_deleted{false};
 };
 
 namespace {
@@ -33,7 +36,7 @@ std::string text_of(const char* fun, const char* text) {
   return text;
 }
 
-/// An entry in Player's struct, which shows the bytes of another one.
+/// Returns Player's struct with pointers into `entry`.
 player_blackboard_entry_t shown(BlackboardEntry& entry) {
   player_blackboard_entry_t out = {};
   out.key = entry.key.data();
@@ -49,7 +52,7 @@ player_blackboard_entry_t shown(BlackboardEntry& entry) {
   return out;
 }
 
-/// Bytes that free() takes; never null.
+/// Returns a copy of the bytes that free() accepts; never null.
 void* copied(const void* from, std::size_t count) {
   void* const to = std::malloc(std::max<std::size_t>(count, 1));
   if (to == nullptr) throw std::bad_alloc();
@@ -57,24 +60,28 @@ void* copied(const void* from, std::size_t count) {
   return to;
 }
 
-/// A copy for the caller, who frees it.
+/// Returns a copy that the caller frees.
 player_blackboard_entry_t* owned(BlackboardEntry entry) {
+  using Bytes = std::unique_ptr<void, decltype(&std::free)>;
   player_blackboard_entry_t out = shown(entry);
-  out.key = static_cast<char*>(copied(out.key, out.key_count));
-  out.group = static_cast<char*>(copied(out.group, out.group_count));
-  out.data = static_cast<uint8_t*>(copied(out.data, out.data_count));
-  return static_cast<player_blackboard_entry_t*>(copied(&out, sizeof out));
+  Bytes key(copied(out.key, out.key_count), &std::free);
+  Bytes group(copied(out.group, out.group_count), &std::free);
+  Bytes data(copied(out.data, out.data_count), &std::free);
+  out.key = static_cast<char*>(key.get());
+  out.group = static_cast<char*>(group.get());
+  out.data = static_cast<uint8_t*>(data.get());
+  auto* const owned_entry = static_cast<player_blackboard_entry_t*>(copied(&out, sizeof out));
+  static_cast<void>(key.release());
+  static_cast<void>(group.release());
+  static_cast<void>(data.release());
+  return owned_entry;
 }
 
-/// The entry as it is now; of type 0 if it was never set.
+/// Returns the present entry; an empty one if it was never set.
 BlackboardEntry entry_now(playerlike::Session& session, const std::string& group,
                           const std::string& key) {
   std::vector<BlackboardEntry> found = session.request(BlackboardRequest{0, group, key});
-  if (!found.empty()) return std::move(found.front());
-  BlackboardEntry none;
-  none.group = group;
-  none.key = key;
-  return none;
+  return found.empty() ? BlackboardEntry{} : std::move(found.front());
 }
 
 }  // namespace
@@ -91,7 +98,7 @@ BlackBoardProxy::BlackBoardProxy(PlayerClient* aPc, uint32_t aIndex)
 }
 
 BlackBoardProxy::~BlackBoardProxy() {
-  mEvents->gone = true;
+  mEvents->proxy_deleted = true;
   ClientProxy::Unsubscribe();
 }
 
@@ -102,6 +109,8 @@ player_blackboard_entry_t* BlackBoardProxy::SubscribeToKey(const char* key, cons
   return playerlike::translated(fun, [&] {
     BlackboardEntry entry = entry_now(mLink->core->session(), name.first, name.second);
     mKeys[name] = entry.change;
+    entry.group = name.first;  // as in Player, also if the entry was never set
+    entry.key = name.second;
     return owned(std::move(entry));
   });
 }
@@ -113,11 +122,15 @@ void BlackBoardProxy::UnsubscribeFromKey(const char* key, const char* group) {
   mKeys.erase(name);
 }
 
-void BlackBoardProxy::SubscribeToGroup(const char* key) {
+void BlackBoardProxy::SubscribeToGroup(const char* group) {
   const char* fun = "BlackBoardProxy::SubscribeToGroup";
-  const std::string group = text_of(fun, key);
+  const std::string name = text_of(fun, group);
   const scoped_lock_t lock(LockData(fun));
-  mGroups.emplace(group, 0);
+  // Read() would throw in a private world, so ask now: no change has a greater number.
+  playerlike::translated(fun, [&] {
+    static_cast<void>(mLink->core->session().request(BlackboardRequest{INT64_MAX, name}));
+  });
+  mGroups.emplace(name, 0);
 }
 
 void BlackBoardProxy::UnsubscribeFromGroup(const char* group) {
@@ -165,12 +178,21 @@ void BlackBoardProxy::SetEventFunction(EventHandler handler) {
 
 bool BlackBoardProxy::HandlePoll() {
   if (mKeys.empty() && mGroups.empty()) return false;
-  // Changes up to the least of these have all been reported.
-  int64_t after = INT64_MAX;
-  for (const auto& key : mKeys) after = std::min(after, key.second);
-  for (const auto& group : mGroups) after = std::min(after, group.second);
-  playerlike::Session& session = mLink->core->session();
-  const std::vector<BlackboardEntry> changes = session.request(BlackboardRequest{after});
+  // All changes up to `after` have been reported. Programs usually subscribe within one group; then
+  // the entries of other groups are not transferred.
+  BlackboardRequest what;
+  what.after = INT64_MAX;
+  std::set<std::string> groups;
+  for (const auto& key : mKeys) {
+    what.after = std::min(what.after, key.second);
+    groups.insert(key.first.first);
+  }
+  for (const auto& group : mGroups) {
+    what.after = std::min(what.after, group.second);
+    groups.insert(group.first);
+  }
+  if (groups.size() == 1) what.group = *groups.begin();
+  const std::vector<BlackboardEntry> changes = mLink->core->session().request(what);
   bool is_new = false;
   for (const BlackboardEntry& entry : changes) {
     const auto key = mKeys.find({entry.group, entry.key});
@@ -204,7 +226,7 @@ void BlackBoardProxy::DeliverEvents() {
   if (!handler) return;
   for (BlackboardEntry& entry : entries) {
     handler(shown(entry));
-    if (events->gone) return;
+    if (events->proxy_deleted) return;
   }
 }
 

@@ -5,10 +5,14 @@
 #include <libplayerc++/playerc++.h>
 #include <libplayerc/playerc.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <memory>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "player_errors.h"
@@ -87,8 +91,10 @@ TEST_P(Blackboard, KeepsWhatOneClientSetsForTheOthers) {
   EXPECT_EQ(one.GetInterfaceStr(), "blackboard");
   EXPECT_EQ(one.HasCapability(PLAYER_MSGTYPE_DATA, PLAYER_BLACKBOARD_DATA_UPDATE), 1);
   const Entry none(two.GetEntry("k", "g"));
-  EXPECT_EQ(text_of(*none), "g/k=");
+  EXPECT_EQ(text_of(*none), "/=") << "as in Player, an entry that was never set has no name";
   EXPECT_EQ(none->type, 0);
+  const Entry named(two.SubscribeToKey("k", "g"));
+  EXPECT_EQ(text_of(*named), "g/k=");
   set(one, "g", "k", std::string("a\0\xff", 3), 2);
   set(one, "", "k", "other group");
   const Entry found(two.GetEntry("k", "g"));
@@ -168,12 +174,137 @@ TEST_P(Blackboard, RefusesNullPointersAndWhatIsTooLong) {
   EXPECT_EQ(code([&] { set(one, "", std::string(256, 'k'), "x"); }), PlayerError::kBadArgument);
   EXPECT_EQ(code([&] { set(one, "", "k", std::string(65537, 'x')); }), PlayerError::kBadArgument);
   set(one, "", "k", std::string(65536, 'x'));
-  for (int i = 1; i < 15; ++i) set(one, "", std::to_string(i), std::string(65536, 'x'));
+  for (int i = 1; i < 7; ++i) set(one, "", std::to_string(i), std::string(65536, 'x'));
   const PlayerError error = test::error_of([&] { set(one, "", "last", std::string(65536, 'x')); });
   EXPECT_EQ(error.GetErrorCode(), PlayerError::kNotAvailable);
   EXPECT_THAT(error.GetErrorStr(), HasSubstr("the blackboard is full"));
   set(one, "", "k", "x");  // a shorter value makes room
   set(one, "", "last", std::string(65000, 'x'));
+}
+
+TEST_P(Blackboard, DeliversAllOfAFullBlackboard) {
+  BlackBoardProxy one(&first, 0);
+  BlackBoardProxy two(&second, 0);
+  for (int i = 0; i < 1024; ++i) set(one, "", std::to_string(i), std::string(500, 'x'));
+  EXPECT_EQ(error_code_of([&] { set(one, "", "more", ""); }), PlayerError::kNotAvailable);
+  std::size_t bytes = 0;
+  int count = 0;
+  two.SetEventFunction([&](const player_blackboard_entry_t& entry) {
+    bytes += entry.data_count;
+    ++count;
+  });
+  two.SubscribeToGroup("");
+  second.Read();
+  EXPECT_EQ(count, 1024);
+  EXPECT_EQ(bytes, 1024U * 500U);
+}
+
+TEST_P(Blackboard, KeepsItsEntriesWhenAStateIsRestored) {
+  BlackBoardProxy one(&first, 0);
+  PlayerCc::SimulationProxy simulation(&first, 0);
+  simulation.SaveState("before");
+  set(one, "g", "k", "1");
+  simulation.RestoreState("before");
+  EXPECT_EQ(text_of(*Entry(one.GetEntry("k", "g"))), "g/k=1");
+}
+
+TEST_P(Blackboard, LetsItsHandlerDeleteTheProxy) {
+  BlackBoardProxy one(&first, 0);
+  auto two = std::make_unique<BlackBoardProxy>(&second, 0);
+  int count = 0;
+  two->SetEventFunction([&](const player_blackboard_entry_t&) {
+    ++count;
+    two.reset();
+  });
+  two->SubscribeToGroup("g");
+  set(one, "g", "a", "1");
+  set(one, "g", "b", "2");
+  second.Read();
+  EXPECT_EQ(count, 1);
+  second.Read();
+}
+
+TEST_P(Blackboard, ReportsChangesToAThreadThatReadsInTheBackground) {
+  BlackBoardProxy one(&first, 0);
+  BlackBoardProxy two(&second, 0);
+  std::promise<std::string> reported;
+  two.SetEventFunction([&](const player_blackboard_entry_t& entry) {
+    if (std::string(entry.key) == "last") reported.set_value(text_of(entry));
+  });
+  two.SubscribeToGroup("g");
+  second.StartThread();
+  for (int i = 0; i < 100; ++i) {
+    set(one, "g", std::to_string(i), "x");
+    EXPECT_EQ(two.GetInterfaceStr(), "blackboard");
+  }
+  set(one, "g", "last", "y");
+  EXPECT_EQ(reported.get_future().get(), "g/last=y");
+  second.StopThread();
+}
+
+/// A program that sets its own entry and one that all programs share, and reads another's entry.
+struct Program {
+  static constexpr int kRounds = 50;
+
+  explicit Program(std::unique_ptr<playerlike::Session> session)
+      : client(std::move(session)), position(&client, 0), board(&client, 0) {}
+
+  void run(const std::string& own, const std::string& other) {
+    std::string event = "none";
+    board.SetEventFunction([&](const player_blackboard_entry_t& entry) {
+      if (entry.key == other) event = text_of(entry);
+    });
+    board.SubscribeToGroup("");
+    const auto value = [&](const std::string& key) {
+      return text_of(*Entry(board.GetEntry(key.c_str(), "")));
+    };
+    for (int i = 0; i < kRounds; ++i) {
+      client.Read();
+      rounds.push_back(event + ' ' + value(other) + ' ' + value("shared"));
+      set(board, "", own, std::to_string(i));
+      set(board, "", "shared", own);
+      rounds.back() += ' ' + value(own) + ' ' + value("shared") + ' ' + value(other);
+    }
+    board.SetEventHandler(nullptr);
+  }
+
+  PlayerClient client;
+  Position2dProxy position;
+  BlackBoardProxy board;
+  std::vector<std::string> rounds;
+};
+
+std::vector<std::string> rounds_of(const std::string& own, const std::string& other) {
+  std::vector<std::string> rounds{"none /= /= /" + own + "=0 /shared=" + own + " /="};
+  for (int i = 1; i < Program::kRounds; ++i) {
+    const std::string others_value = '/' + other + '=' + std::to_string(i - 1);
+    rounds.push_back(others_value + ' ' + others_value + " /shared=b /" + own + '=' +
+                     std::to_string(i) + " /shared=" + own + ' ' + others_value);
+  }
+  return rounds;
+}
+
+struct BlackboardInLockstep : testing::TestWithParam<Transport> {};
+
+INSTANTIATE_TEST_SUITE_P(Transports, BlackboardInLockstep,
+                         testing::Values(Transport::kInProcess, Transport::kCbor, Transport::kJson),
+                         [](const auto& instance) { return transport_name(instance.param); });
+
+// The threads compute side by side between two steps. What one of them reads must not depend on
+// how fast the other one is. The last change of the shared entry is that of the newer client.
+TEST_P(BlackboardInLockstep, ShowsTheChangesOfOtherThreadsFromTheNextStepOn) {
+  const test::ReachableHost host(
+      playerlike::Host::create(sim::load_world_text(R"({"simulation": {"clients": 2},
+          "arena": {"size": [4, 4]}, "robots": [{"pose": {"x": 1, "y": 1}},
+                                                  {"pose": {"x": 3, "y": 3}}]})")),
+      GetParam());
+  Program a(host.connect(6665));
+  Program b(host.connect(6666));
+  std::thread thread([&] { a.run("a", "b"); });
+  b.run("b", "a");
+  thread.join();
+  EXPECT_EQ(a.rounds, rounds_of("a", "b"));
+  EXPECT_EQ(b.rounds, rounds_of("b", "a"));
 }
 
 TEST(BlackboardOfAPrivateWorld, IsClosed) {
@@ -182,6 +313,11 @@ TEST(BlackboardOfAPrivateWorld, IsClosed) {
   PlayerClient client(host->connect(6665));
   BlackBoardProxy board(&client, 0);
   EXPECT_EQ(error_code_of([&] { set(board, "", "k", "x"); }), PlayerError::kNotAvailable);
+  EXPECT_EQ(error_code_of([&] { board.GetEntry("k", ""); }), PlayerError::kNotAvailable);
+  EXPECT_EQ(error_code_of([&] { board.SubscribeToKey("k"); }), PlayerError::kNotAvailable);
+  EXPECT_EQ(error_code_of([&] { board.SubscribeToGroup("g"); }), PlayerError::kNotAvailable);
+  board.UnsubscribeFromGroup("g");
+  client.Read();  // a subscription that was refused has no effect
 }
 
 std::vector<std::string> heard_by_c;
@@ -230,6 +366,39 @@ TEST(BlackboardOfTheCLibrary, SetsGetsAndReports) {
   playerc_blackboard_destroy(board);
   playerc_client_disconnect(client);
   playerc_client_destroy(client);
+}
+
+// The library must not access what the program's function has destroyed; the sanitizer builds check
+// this.
+TEST(BlackboardOfTheCLibrary, LetsTheProgramsFunctionDestroyTheDeviceAndTheClient) {
+  const test::ReachableHost host(playerlike::Host::create(sim::load_world_text(kWorld)),
+                                 Transport::kCbor);
+  static playerc_client_t* client = nullptr;
+  static int events = 0;
+  for (const bool client_too : {false, true}) {
+    client = playerc_client_create(nullptr, host.name().c_str(), 6665);
+    ASSERT_EQ(playerc_client_connect(client), 0) << playerc_error_str();
+    playerc_blackboard_t* const board = playerc_blackboard_create(client, 0);
+    ASSERT_EQ(playerc_blackboard_subscribe(board, PLAYERC_OPEN_MODE), 0) << playerc_error_str();
+    events = 0;
+    board->on_blackboard_event = [](playerc_blackboard_t* device, player_blackboard_entry_t) {
+      ++events;
+      playerc_blackboard_destroy(device);
+    };
+    if (client_too) {
+      board->on_blackboard_event = [](playerc_blackboard_t* device, player_blackboard_entry_t) {
+        ++events;
+        playerc_blackboard_destroy(device);
+        playerc_client_destroy(client);
+      };
+    }
+    ASSERT_EQ(playerc_blackboard_subscribe_to_group(board, "g"), 0);
+    ASSERT_EQ(playerc_blackboard_set_int(board, "a", "g", 1), 0);
+    ASSERT_EQ(playerc_blackboard_set_int(board, "b", "g", 2), 0);
+    while (events == 0) ASSERT_NE(playerc_client_read(client), nullptr) << playerc_error_str();
+    EXPECT_EQ(events, 1);
+    if (!client_too) playerc_client_destroy(client);
+  }
 }
 
 }  // namespace

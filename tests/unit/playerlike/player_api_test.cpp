@@ -95,25 +95,11 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
                                            refusal<StereoProxy>(client),
                                            refusal<VectorMapProxy>(client),
                                            refusal<WSNProxy>(client)};
-  const std::vector<std::string> interfaces = {"actarray",
-                                               "audio",
-                                               "blobfinder",
-                                               "camera",
-                                               "coopobject",
-                                               "graphics3d",
-                                               "health",
-                                               "limb",
-                                               "joystick",
-                                               "planner",
-                                               "pointcloud3d",
-                                               "position1d",
-                                               "position3d",
-                                               "ptz",
-                                               "rfid",
-                                               "speech_recognition",
-                                               "stereo",
-                                               "vectormap",
-                                               "wsn"};
+  const std::vector<std::string> interfaces = {
+      "actarray",           "audio",      "blobfinder", "camera",   "coopobject",
+      "graphics3d",         "health",     "limb",       "joystick", "planner",
+      "pointcloud3d",       "position1d", "position3d", "ptz",      "rfid",
+      "speech_recognition", "stereo",     "vectormap",  "wsn"};
   ASSERT_EQ(errors.size(), interfaces.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_EQ(errors[i].GetErrorCode(), PlayerError::kNoSuchDevice);
