@@ -76,8 +76,7 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
 }
 
 TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
-  const std::vector<PlayerError> errors = {refusal<ActArrayProxy>(client),
-                                           refusal<AudioProxy>(client),
+  const std::vector<PlayerError> errors = {refusal<AudioProxy>(client),
                                            refusal<BlackBoardProxy>(client),
                                            refusal<BlobfinderProxy>(client),
                                            refusal<CameraProxy>(client),
@@ -96,8 +95,7 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
                                            refusal<StereoProxy>(client),
                                            refusal<VectorMapProxy>(client),
                                            refusal<WSNProxy>(client)};
-  const std::vector<std::string> interfaces = {"actarray",
-                                               "audio",
+  const std::vector<std::string> interfaces = {"audio",
                                                "blackboard",
                                                "blobfinder",
                                                "camera",
@@ -207,7 +205,7 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
     }
   }
   EXPECT_GE(works, 10);
-  EXPECT_EQ(refused, 17);
+  EXPECT_EQ(refused, 16);
 }
 
 TEST(PageOfProxies, SaysWhatPioneersHave) {
