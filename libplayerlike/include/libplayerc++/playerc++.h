@@ -4,6 +4,7 @@
 /// @file
 /// Player's C++ client library: the only header that client programs need to include.
 
+#include "libplayerc++/actarrayproxy.h"
 #include "libplayerc++/aioproxy.h"
 #include "libplayerc++/armproxies.h"
 #include "libplayerc++/blackboardproxy.h"

@@ -214,6 +214,8 @@ void take_looks(const json& looks, sim::RobotSnapshot& robot) {
   each("sights", [&](const json& s) { robot.sights.emplace_back(point(s.at(0)), point(s.at(1))); });
   robot.paddles.clear();
   each("paddles", [&](const json& p) { robot.paddles.push_back(points(p)); });
+  robot.arms.clear();
+  each("arms", [&](const json& arm) { robot.arms.push_back(points(arm)); });
 }
 
 void take_scan(const KeptScan& kept, sim::RobotSnapshot& robot) {

@@ -52,6 +52,11 @@ const std::string kMaze = "examples/roomba_maze.json";
 
 std::vector<Case> cases() {
   return {
+      {"arm_waves",
+       "examples/pioneer_arm.json",
+       {"6 joints", "joint 5: linear, 0.02 m, from 0.00 to 0.06", "reached it", "stalled at 2.09",
+        "braked 1", "home again"},
+       0.5},
       {"background_thread", kCave, {"ended at"}, 1.5},
       {"bigbob_collects",
        "examples/bigbob.json",

@@ -76,8 +76,7 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
 }
 
 TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
-  const std::vector<PlayerError> errors = {refusal<ActArrayProxy>(client),
-                                           refusal<AudioProxy>(client),
+  const std::vector<PlayerError> errors = {refusal<AudioProxy>(client),
                                            refusal<BlobfinderProxy>(client),
                                            refusal<CameraProxy>(client),
                                            refusal<CoopObjectProxy>(client),
@@ -96,10 +95,10 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
                                            refusal<VectorMapProxy>(client),
                                            refusal<WSNProxy>(client)};
   const std::vector<std::string> interfaces = {
-      "actarray",           "audio",      "blobfinder", "camera",   "coopobject",
-      "graphics3d",         "health",     "limb",       "joystick", "planner",
-      "pointcloud3d",       "position1d", "position3d", "ptz",      "rfid",
-      "speech_recognition", "stereo",     "vectormap",  "wsn"};
+      "audio",      "blobfinder", "camera",   "coopobject", "graphics3d",
+      "health",     "limb",       "joystick", "planner",    "pointcloud3d",
+      "position1d", "position3d", "ptz",      "rfid",       "speech_recognition",
+      "stereo",     "vectormap",  "wsn"};
   ASSERT_EQ(errors.size(), interfaces.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_EQ(errors[i].GetErrorCode(), PlayerError::kNoSuchDevice);
