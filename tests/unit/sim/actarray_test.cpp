@@ -13,10 +13,12 @@
 
 #include "sim/core/degrees.h"
 #include "sim/core/error.h"
+#include "sim/core/fields.h"
 #include "sim/core/state_archive.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/simulation/simulation.h"
+#include "temporary_folder.h"
 
 namespace sim {
 namespace {
@@ -480,6 +482,13 @@ TEST(ActArraySettings, AreClientsProperties) {
   EXPECT_NEAR(properties.at("centre_0"), 15 * kDegrees, 1e-12);
   EXPECT_EQ(properties.at("home_2"), 0.05);
   EXPECT_EQ(kind->model_properties({}, RobotModel{}).at("count"), 5.0);
+}
+
+TEST(ActArraySettings, OfJointsAreOnThePage) {
+  const std::string page = test_support::read_bytes(PLAYPEN_SOURCE_DIR "/docs/devices/actarray.md");
+  for (const Field& field : fields_of<JointParams>().fields) {
+    EXPECT_THAT(page, HasSubstr('`' + std::string(field.name) + '`'));
+  }
 }
 
 struct Wrong {
