@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "io/controller_io.h"
 #include "io/cross.h"
 #include "io/document.h"
 #include "io/solid_limits.h"
@@ -242,6 +243,9 @@ class Checker {
       check_robot_poses();
     }
     check_canvas();
+    for (ConfigIssue& issue : check_controller(world_, trusted_)) {
+      issues_.push_back(std::move(issue));
+    }
     return std::move(issues_);
   }
 

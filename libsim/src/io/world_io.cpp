@@ -15,6 +15,7 @@
 
 #include "canvas/image_file.h"
 #include "io/check_world.h"
+#include "io/controller_io.h"
 #include "io/document.h"
 #include "io/map_io.h"
 #include "io/robot_io.h"
@@ -76,6 +77,7 @@ class WorldReader {
     read_simulation(root);
     read_canvas(root);
     read_robots(root);
+    world_.controller = read_controller(root, world_.arena);
     root.finish();
     for (ConfigIssue& issue : check_world_parts(world_, [this](const std::string& pointer) {
            return !document_.has_issue_at(pointer);
@@ -160,6 +162,14 @@ class WorldReader {
                      "\"retracted\"", "only an obstacle of type \"dynamic\" can be retracted",
                      "state");
       }
+    }
+    block.rise_speed_mps =
+        reader.number("rise_speed", block.rise_speed_mps, {0.0, kMaxRiseSpeed_mps, false, "m/s"});
+    block.when_blocked = read_when_blocked(reader);
+    for (const char* key : {"rise_speed", "when_blocked"}) {
+      if (block.type == ObstacleType::kDynamic || !reader.has(key)) continue;
+      reader.issue("world/static-obstacle", "a dynamic obstacle",
+                   in_quotes(key) + " of a static one", "add \"type\": \"dynamic\"", key);
     }
   }
 

@@ -146,17 +146,24 @@ void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
   b2Body& body = obstacle(index);
   b2Fixture* before = body.GetFixtureList();
   auto* info = reinterpret_cast<FixtureInfo*>(before->GetUserData().pointer);
-  info->height_m = now.height_m;
   const std::vector<Vec2> corners = box_corners(now);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2& a = corners[i];
     const Vec2& b = corners[(i + 1) % corners.size()];
     edges_.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
-    edges_.heights_m[info->first_edge + i] = now.height_m;
   }
-  edges_.least_height_m = std::min(edges_.least_height_m, now.height_m);
+  set_height(index, standing_height_m(now));
   body.DestroyFixture(before);
   attach(&body, polygon_shape(corners), info, 0.0F);
+}
+
+void Bodies::set_height(int index, double height_m) {
+  b2Fixture* fixture = obstacle(index).GetFixtureList();
+  auto* info = reinterpret_cast<FixtureInfo*>(fixture->GetUserData().pointer);
+  info->height_m = height_m;
+  const auto first = edges_.heights_m.begin() + static_cast<std::ptrdiff_t>(info->first_edge);
+  std::fill_n(first, info->edge_count, height_m);
+  edges_.least_height_m = std::min(edges_.least_height_m, height_m);
 }
 
 int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {

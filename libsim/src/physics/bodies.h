@@ -82,6 +82,7 @@ class Bodies {
   }
   [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
   void change_obstacle(int index, const ObstacleDescription& now);
+  void set_height(int index, double height_m);
   /// Writes or reads the state, including the shapes of obstacles.
   void archive(StateArchive& archive);
   /// All existing fixtures, by FixtureInfo::id; nullptr if Box2D has none of that id.

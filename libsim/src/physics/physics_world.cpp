@@ -88,9 +88,14 @@ void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->sensor_view.solids_changed();
 }
 
-bool PhysicsWorld::robot_stands_on(int obstacle) const {
+int PhysicsWorld::robot_on(int obstacle) const {
   const b2Body& block = impl_->bodies.obstacle(obstacle);
-  return impl_->bodies.robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform()) >= 0;
+  return impl_->bodies.robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform());
+}
+
+void PhysicsWorld::set_height(int obstacle, double height_m) {
+  impl_->bodies.set_height(obstacle, height_m);
+  impl_->sensor_view.solids_changed();
 }
 
 void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now) {

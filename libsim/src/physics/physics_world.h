@@ -80,8 +80,10 @@ class PhysicsWorld {
 
   /// Extends (true) or retracts a dynamic obstacle, given by its index in the arena.
   void set_extended(int obstacle, bool extended);
-  /// Whether any robot's footprint overlaps the obstacle's area.
-  [[nodiscard]] bool robot_stands_on(int obstacle) const;
+  /// The first robot whose footprint overlaps the obstacle's area; -1 if there is none.
+  [[nodiscard]] int robot_on(int obstacle) const;
+  /// Sets the height up to which the obstacle stands now, >= 0 [m]. Sensors above it look over it.
+  void set_height(int obstacle, double height_m);
   /// Changes position, rotation, size or height of an obstacle, given by its index. It stays
   /// extended or retracted as it is.
   void change_obstacle(int obstacle, const ObstacleDescription& now);

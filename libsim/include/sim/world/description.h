@@ -12,6 +12,7 @@
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
+#include "sim/world/controller.h"
 
 /// The description of a world: plain structs without behaviour. io fills them from a file; a
 /// program may also fill them itself. Simulation uses them without further checks (call
@@ -44,7 +45,17 @@ struct ObstacleDescription {
                                       ///< blobfinders do not see it
   bool portable = false;              ///< grippers can take and carry it
   int carried_by = -1;                ///< index of the robot that carries it now; -1: none
+  double rise_speed_mps = 0.0;        ///< of a dynamic one, upwards and downwards [m/s]; 0: at once
+  WhenBlocked when_blocked = WhenBlocked::kRefuse;  ///< of a dynamic one, if a robot stands on it
+                                                    ///< when it is to be extended
+  std::optional<double> present_height_m = {};  ///< while it rises or sinks, [0, height_m] [m]; its
+                                                ///< state is kExtended then
 };
+
+/// Present height of an extended obstacle [m].
+[[nodiscard]] inline double standing_height_m(const ObstacleDescription& obstacle) {
+  return obstacle.present_height_m.value_or(obstacle.height_m);
+}
 
 /// Corners of a box in W, counter-clockwise from the front right one [m].
 /// @param X_WB  pose of the box's centre.
@@ -179,6 +190,7 @@ struct WorldDescription {
   std::vector<RobotDescription> robots;
   int robots_on_port = 0;  ///< Player port of all robots without their own port; 0: none
   CanvasDescription canvas;
+  ControllerDescription controller;  ///< timers, traps and configurations of the arena
 };
 
 }  // namespace sim
