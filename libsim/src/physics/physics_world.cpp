@@ -89,8 +89,7 @@ void PhysicsWorld::set_extended(int obstacle, bool extended) {
 }
 
 bool PhysicsWorld::robot_stands_on(int obstacle) const {
-  const b2Body& block = impl_->bodies.obstacle(obstacle);
-  return impl_->bodies.robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform()) >= 0;
+  return impl_->bodies.robot_stands_on(obstacle);
 }
 
 void PhysicsWorld::change_obstacle(int obstacle, const ObstacleDescription& now) {
@@ -103,8 +102,8 @@ void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
   impl_->sensor_view.set_load(impl_->bodies.robot(robot), loads);
 }
 
-int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
-  return impl_->bodies.robot_within(polygon_shape(box_corners(box)), identity_transform());
+int PhysicsWorld::robot_within(const ObstacleDescription& solid) const {
+  return impl_->bodies.robot_within(solid);
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {

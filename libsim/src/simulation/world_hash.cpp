@@ -39,6 +39,10 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   hash.add(box.colour.has_value() ? 1 : 0);
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
+  if (box.shape == ObstacleShape::kBox) return;
+  hash.add(static_cast<int>(box.shape));
+  hash.add(box.outline.size());
+  for (const Vec2& vertex : box.outline) add(hash, vertex);
 }
 
 void add(StateHash& hash, const std::vector<ObstacleDescription>& boxes) {

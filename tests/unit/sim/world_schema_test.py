@@ -19,7 +19,10 @@ TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "bad_colour",
                  "bad_colour_of_obstacle", "bad_name", "missing_key", "reserved_port", "conflicting_keys",
                  "obstacle_too_thin", "obstacle_next_to_nothing", "separator_too_thin",
-                 "map_resolution_too_fine"]
+                 "map_resolution_too_fine", "circle_with_size", "circle_without_radius",
+                 "circle_too_small", "outline_missing", "outline_of_two_points",
+                 "outline_of_too_many_points", "outline_not_a_number", "outline_without_shape",
+                 "separator_with_shape", "unknown_shape"]
 
 
 def load(path):
