@@ -214,6 +214,7 @@ void SensorView::visit_cylinders(const Vec2& low, const Vec2& high, Visitor visi
 // than height_m; 1 if it enters none. Exact, while circles in Box2D have a skin.
 double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double height_m,
                                      const Contact* ignored) {
+  if (bodies_.cylinders().empty()) return 1.0;
   const double length_m = (p_WC - p_WA).norm();
   const Vec2 along = (p_WC - p_WA) / length_m;
   double least_m = length_m;
