@@ -40,9 +40,14 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   hash.add(box.colour.has_value() ? 1 : 0);
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
-  if (box.rise_speed_mps == 0.0 && box.when_blocked == WhenBlocked::kRefuse) return;
-  hash.add(box.rise_speed_mps);
-  hash.add(static_cast<int>(box.when_blocked));
+  if (box.rise_speed_mps != 0.0 || box.when_blocked != WhenBlocked::kRefuse) {
+    hash.add(box.rise_speed_mps);
+    hash.add(static_cast<int>(box.when_blocked));
+  }
+  if (box.shape == ObstacleShape::kBox) return;
+  hash.add(static_cast<int>(box.shape));
+  hash.add(box.outline.size());
+  for (const Vec2& vertex : box.outline) add(hash, vertex);
 }
 
 void add(StateHash& hash, const std::vector<ObstacleDescription>& boxes) {
