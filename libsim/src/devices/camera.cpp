@@ -70,7 +70,7 @@ double brightness(double depth_m, double range_max_m) {
 }
 
 Camera::Camera(std::string name, const CameraParams& params)
-    : SensorOf(std::move(name), "camera", params.frequency_hz),
+    : SensorOf(std::move(name), "camera", params.frequency_hz, params.latency_s),
       view_(std::make_unique<ColumnView>(params)) {
   auto& first = edit();
   first.width = params.width;
@@ -134,12 +134,11 @@ void Camera::paint_background() {
   }
 }
 
-void Camera::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  const std::int64_t size = std::int64_t{3} * reading().width * reading().height;
-  archive.expect(
-      reading().pixels.empty() || static_cast<std::int64_t>(reading().pixels.size()) == size,
-      "three bytes for each pixel");
+void Camera::archive_reading(StateArchive& archive, CameraReading& reading) {
+  SensorOf::archive_reading(archive, reading);
+  const std::int64_t size = std::int64_t{3} * reading.width * reading.height;
+  archive.expect(reading.pixels.empty() || static_cast<std::int64_t>(reading.pixels.size()) == size,
+                 "three bytes for each pixel");
 }
 
 namespace {
@@ -156,6 +155,7 @@ std::optional<FieldError> check_pixels(const void* object) {
 constexpr Field kCameraSettings[] = {
     frequency_field<&CameraParams::frequency_hz>("pictures per simulated second"),
     include<CameraParams, ViewParams>(),
+    latency_field<&CameraParams::latency_s>(),
 };
 SIM_FIELDS(CameraParams, kCameraSettings)
 

@@ -20,6 +20,7 @@
 #include "io/obstacle_io.h"
 #include "io/robot_io.h"
 #include "sim/world/limits.h"
+#include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
 
 namespace sim::io {
@@ -252,6 +253,9 @@ class WorldReader {
     simulation.start_gate_clients =
         static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
     simulation.objects_locked = reader->boolean("lock_objects", simulation.objects_locked);
+    simulation.realism =
+        parse_realism(reader->choice("realism", "course", {"ideal", "course", "real"}))
+            .value_or(simulation.realism);
     simulation.own_sensors_only = reader->choice("privacy", "none", {"none", "own"}) == "own";
     if (const std::optional<Reader> time = reader->child("time")) {
       simulation.time_mode_given = true;

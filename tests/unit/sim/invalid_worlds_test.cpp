@@ -254,6 +254,7 @@ const BadWorld kBadWorlds[] = {
     {"unknown_shape", "world/unknown-value", "/arena/obstacles/0/shape", 1,
      "\"box\", \"circle\" or \"polygon\"", "\"circel\" (did you mean \"circle\"?)"},
     {"unknown_value", "world/unknown-value", "/arena/preset", 1, "\"syrotek\"", "\"syrotec\""},
+    {"unknown_realism", "world/unknown-value", "/simulation/realism", 1, "\"ideal\"", "\"true\""},
     {"unknown_view_mode", "world/unknown-value", "/canvas/view_mode", 1,
      "\"ground\", \"mini-map\" or \"full-screen\"", "\"minimap\" (did you mean \"mini-map\"?)"},
     {"wrong_type", "world/wrong-type", "/robots/0/pose/x", 1, "a number",

@@ -99,7 +99,11 @@ WorldDescription full_world() {
     robot.devices = devices;
     for (DeviceDescription& device : robot.devices) {
       if (device.type == "opaque") std::any_cast<OpaqueParams&>(device.params).from = {next};
-      if (device.type == "laser") std::any_cast<LaserParams&>(device.params).noise_m = 0.01;
+      if (device.type == "laser") {
+        auto& laser = std::any_cast<LaserParams&>(device.params);
+        laser.noise_m = 0.01;
+        laser.latency_s = 0.0;  // a test counts the steps until its readings
+      }
       if (device.type == "camera") {
         std::any_cast<CameraParams&>(device.params).width = 32;
         std::any_cast<CameraParams&>(device.params).height = 24;

@@ -121,6 +121,13 @@ struct ArenaDescription {
 /// Lockstep: time advances when all clients wait in Read(). Paced: wall-clock time times a factor.
 enum class TimeMode { kLockstep, kPaced };
 
+/// How exactly devices measure and move (sim/world/realism.h).
+enum class Realism {
+  kIdeal,   ///< without noise, drift, slip and latency, whatever the settings say
+  kCourse,  ///< as the settings say
+  kReal,    ///< as the settings say; those that are left out get the figures of real devices
+};
+
 /// How simulated time runs: its step, its end and its relation to wall-clock time.
 struct SimulationDescription {
   SimTime step_ns = 10'000'000;  ///< length of a step [ns], > 0
@@ -133,6 +140,7 @@ struct SimulationDescription {
   int start_gate_clients = 1;    ///< the clock waits until this many clients have joined, >= 1
   bool objects_locked = false;   ///< clients may look up robots and obstacles by name, but not move
                                  ///< or change them
+  Realism realism = Realism::kCourse;
   bool own_sensors_only = false;  ///< for contests: clients read only the sensors of their own
                                   ///< robots, and neither objects by name nor the map
 };
@@ -142,6 +150,7 @@ struct DeviceDescription {
   std::string name;  ///< unique in its robot, e.g. "laser"; path is ROBOT.NAME
   std::string type;  ///< a name in the device table (sim/devices/builtin.h), e.g. "laser"
   std::any params;   ///< that type's params struct, e.g. LaserParams
+  std::vector<std::string> given = {};  ///< keys of the settings that a file states, sorted
 };
 
 /// A client-side driver (e.g. SND) that a host runs for a robot. libsim passes its settings on as
