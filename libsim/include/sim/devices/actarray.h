@@ -20,7 +20,14 @@ enum class JointType {
 };
 
 /// Axis of a joint in its own frame.
-enum class JointAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
+enum class JointAxis {
+  kX,       ///< forwards, along the link
+  kY,       ///< to the left
+  kZ,       ///< upwards
+  kMinusX,  ///< opposite to kX
+  kMinusY,  ///< opposite to kY: positive positions lift the link
+  kMinusZ,  ///< opposite to kZ
+};
 
 /// Settings of one joint. A rotary joint uses the members in radians, a linear joint those in
 /// metres; travel_of() fills in what is missing.
@@ -30,12 +37,12 @@ enum class JointAxis { kX, kY, kZ, kMinusX, kMinusY, kMinusZ };
 /// The joint turns about or slides along its axis in this frame. Its link extends along the x axis
 /// of the moved frame.
 struct JointParams {
-  JointType type = JointType::kRotary;
-  double length_m = 0.1;  ///< of the link, [0, 10] [m]
-  double roll_rad = 0.0;  ///< orientation at position 0 relative to the previous link [rad]
-  double pitch_rad = 0.0;
-  double yaw_rad = 0.0;
-  JointAxis axis = JointAxis::kZ;
+  JointType type = JointType::kRotary;  ///< whether it turns or slides
+  double length_m = 0.1;                ///< of the link, [0, 10] [m]
+  double roll_rad = 0.0;   ///< orientation at position 0 relative to the previous link [rad]
+  double pitch_rad = 0.0;  ///< as roll_rad; positive: downwards [rad]
+  double yaw_rad = 0.0;    ///< as roll_rad; counter-clockwise [rad]
+  JointAxis axis = JointAxis::kZ;  ///< in the joint's frame
 
   std::optional<double> min_rad;     ///< default -pi/2
   std::optional<double> centre_rad;  ///< default: half-way between the limits
@@ -57,20 +64,20 @@ struct JointParams {
   std::optional<double> acceleration_mps2;      ///< as acceleration_radps2
   std::optional<double> acceleration_max_mps2;  ///< default 0.2
 
-  bool has_brake = false;
+  bool has_brake = false;      ///< whether it has a brake
   double current_max_a = 1.0;  ///< maximum current of the motor, (0, 1000] [A]
 };
 
 /// Limits of a joint: in m and s for a linear joint, in rad and s for a rotary joint.
 struct JointTravel {
-  double min = 0.0;
-  double centre = 0.0;
-  double max = 0.0;
-  double home = 0.0;
-  double speed = 0.0;  ///< initial speed of position commands
-  double speed_max = 0.0;
-  double acceleration = 0.0;  ///< initial acceleration
-  double acceleration_max = 0.0;
+  double min = 0.0;               ///< minimum position
+  double centre = 0.0;            ///< centre position
+  double max = 0.0;               ///< maximum position
+  double home = 0.0;              ///< home position
+  double speed = 0.0;             ///< initial speed of position commands
+  double speed_max = 0.0;         ///< maximum speed
+  double acceleration = 0.0;      ///< initial acceleration
+  double acceleration_max = 0.0;  ///< maximum acceleration
 };
 
 /// The limits of a joint, with defaults for settings that are missing.
@@ -84,9 +91,9 @@ struct ActArrayParams {
   /// Base of the arm on the body, seen from above. The link of the first joint points along its x
   /// axis if the joint has no orientation of its own and is at position 0.
   Pose X_BA;
-  double height_m = 0.3;  ///< of the base above the floor, [0, 100] [m]
-  double roll_rad = 0.0;  ///< orientation of the base, besides the yaw of X_BA [rad]
-  double pitch_rad = 0.0;
+  double height_m = 0.3;            ///< of the base above the floor, [0, 100] [m]
+  double roll_rad = 0.0;            ///< orientation of the base, besides the yaw of X_BA [rad]
+  double pitch_rad = 0.0;           ///< as roll_rad; positive: downwards [rad]
   bool is_powered = true;           ///< initially
   std::vector<JointParams> joints;  ///< at most kMaxJoints; empty: default_joints()
 };
@@ -104,25 +111,25 @@ enum class JointState {
 
 /// Motion of a joint at a moment. Lengths are in m for a linear joint, in rad for a rotary joint.
 struct JointReading {
-  JointState state = JointState::kIdle;
-  double position = 0.0;
-  double speed = 0.0;
-  double acceleration = 0.0;          ///< mean value over the last step
-  double current_a = 0.0;             ///< through the motor; the sign is the direction [A]
-  double speed_setting = 0.0;         ///< for position commands
-  double acceleration_setting = 0.0;  ///< for all commands
+  JointState state = JointState::kIdle;  ///< what the joint does
+  double position = 0.0;                 ///< within the limits
+  double speed = 0.0;                    ///< positive: towards the maximum
+  double acceleration = 0.0;             ///< mean value over the last step
+  double current_a = 0.0;                ///< through the motor; the sign is the direction [A]
+  double speed_setting = 0.0;            ///< for position commands
+  double acceleration_setting = 0.0;     ///< for all commands
 };
 
 /// The motions of all joints.
 struct ActArrayReading final : Reading {
   std::vector<JointReading> joints;  ///< from the base outwards
-  bool is_powered = true;
+  bool is_powered = true;            ///< whether the motors are on
 };
 
 /// Position and speed of a joint [m or rad, m/s or rad/s].
 struct JointMotion {
-  double position = 0.0;
-  double speed = 0.0;
+  double position = 0.0;  ///< [m or rad]
+  double speed = 0.0;     ///< [m/s or rad/s]
 };
 
 /// Moves a joint towards a goal, where it stops, on the fastest trajectory with limited speed and
