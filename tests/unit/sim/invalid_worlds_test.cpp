@@ -206,8 +206,8 @@ const BadWorld kBadWorlds[] = {
      "obstacle drum, whose center is (2.00, 2.00)",
      "robot r1 at (1.45, 2.00) overlapping it by 0.037 m"},
     // r1 stands in the notch. The left arm ends at x = 1.5, r2 extends to 1.562 - 0.087 = 1.475.
-    {"robot_overlaps_notch", "world/robot-overlaps-obstacle", "/robots/1/pose", 3,
-     "obstacle notch", "robot r2 at (1.56, 2.50) overlapping it by 0.025 m"},
+    {"robot_overlaps_notch", "world/robot-overlaps-obstacle", "/robots/1/pose", 3, "obstacle notch",
+     "robot r2 at (1.56, 2.50) overlapping it by 0.025 m"},
     {"robot_overlaps_separator", "world/robot-overlaps-obstacle", "/robots/0/pose", 1,
      "separator separator1", "robot r1 at (0.20,"},
     {"robot_overlaps_wall", "world/robot-overlaps-wall", "/robots/0/pose", 3, "clear of the map",
