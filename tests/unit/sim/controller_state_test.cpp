@@ -94,6 +94,37 @@ TEST(RisingBlock, HasItsPresentHeight) {
   EXPECT_EQ(events_of(simulation).back(), "1.10 block b is retracted");
 }
 
+TEST(RisingBlock, HasAnyShape) {
+  for (
+      const char* shape :
+      {R"("shape": "circle", "radius": 0.3)",
+       R"("shape": "polygon", "outline": [[-0.3, -0.3], [0.3, -0.3], [0.3, 0.3], [-0.3, 0.3]])",
+       // Not convex.
+       R"("shape": "polygon", "outline": [[-0.3, -0.3], [0.3, -0.3], [0, 0], [0.3, 0.3], [-0.3, 0.3]])"}) {
+    SCOPED_TRACE(shape);
+    const WorldDescription world = load_world_text(
+        R"({"arena": {"size": [4, 4], "obstacles": [{"name": "b", "center": [2.3, 2], "height": 0.2,
+          "type": "dynamic", "state": "retracted", "rise_speed": 0.4, )" +
+        std::string(shape) + R"(}]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 2}}]})");
+    Simulation simulation(world);
+    ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
+    run(simulation, 0.3);  // 0.12 m
+    EXPECT_GT(ahead_m(simulation), 2.9);
+    run(simulation, 0.1);  // 0.16 m; the laser is 0.035 m before the robot's middle
+    EXPECT_NEAR(ahead_m(simulation), 1.0 - 0.035, 1e-3);
+    Simulation fork = simulation.fork();
+    run(fork, 0.2);
+    run(simulation, 0.2);
+    EXPECT_EQ(fork.state_hash(), simulation.state_hash());
+    ASSERT_FALSE(simulation.place_object("r1", {1.0, 1.0, 0.0}));
+    ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kRetracted));
+    run(simulation, 0.51);
+    ASSERT_FALSE(simulation.place_object("r1", {2.1, 2.0, 0.0}));
+    EXPECT_THAT(simulation.set_obstacle_state("b", ObstacleState::kExtended).value_or(""),
+                HasSubstr("a robot stands on it"));
+  }
+}
+
 TEST(RisingBlock, BlocksRobotsUntilItHasSunk) {
   Simulation simulation(block_room(R"("rise_speed": 0.01)"));  // 20 s
   ASSERT_FALSE(simulation.set_obstacle_state("b", ObstacleState::kExtended));
