@@ -81,6 +81,9 @@ take cave/scene.png cave
 run worlds/examples/roomba_maze.json roomba_maze --duration 400 -- "$bin/../tests/compat/programs/bin/compat_roomba_maze"
 take roomba_maze/scene.png roomba_maze
 
+"$bin/playpen" render worlds/examples/shapes.json --out "$out/shapes.png"
+take shapes.png shapes
+
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
 

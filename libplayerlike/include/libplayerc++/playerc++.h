@@ -7,6 +7,7 @@
 #include "libplayerc++/actarrayproxy.h"
 #include "libplayerc++/aioproxy.h"
 #include "libplayerc++/armproxies.h"
+#include "libplayerc++/blackboardproxy.h"
 #include "libplayerc++/blinkenlightproxy.h"
 #include "libplayerc++/blobfinderproxy.h"
 #include "libplayerc++/boostnames.h"

@@ -26,6 +26,7 @@
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike {
@@ -235,7 +236,7 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
   for (std::size_t i = 0; i < std::min(kept.size(), obstacles.size()); ++i) {
     sim::ObstacleDescription& o = obstacles[i];
     o.center = point(kept[i].at(0));
-    o.size = point(kept[i].at(1));
+    sim::resize(o, point(kept[i].at(1)));
     o.yaw_rad = number(kept[i].at(2));
     o.height_m = number(kept[i].at(3));
     o.state = choice(kept[i].at(4), sim::ObstacleState::kRetracted);

@@ -62,6 +62,31 @@ std::vector<DeviceDescription> devices_of_all_kinds() {
   return devices;
 }
 
+/// Blocks that rise slowly or wait, and an arena controller that changes them.
+void add_controller(WorldDescription& world) {
+  std::vector<std::string> blocks;
+  for (ObstacleDescription& block : world.arena.obstacles) {
+    if (block.type != ObstacleType::kDynamic) continue;
+    block.rise_speed_mps = blocks.size() % 3 == 0 ? 0.0 : 0.2;
+    block.when_blocked = blocks.size() % 2 == 0 ? WhenBlocked::kRefuse : WhenBlocked::kWait;
+    blocks.push_back(block.name);
+  }
+  TimerDescription timer;
+  timer.name = "timer";
+  timer.every_s = 0.7;
+  timer.jitter_s = 0.3;
+  timer.actions = {BlocksAction{BlocksAction::Change::kToggle, blocks},
+                   TextAction{.text = "toggled", .place = {1.0, 1.0}, .duration_s = 0.5}};
+  world.controller.timers.push_back(timer);
+  TrapDescription trap;
+  trap.name = "trap";
+  trap.region = NearRegion{world.robots[1].name, 0.6};
+  trap.on = TrapDescription::On::kStay;
+  trap.stay_s = 0.3;
+  trap.actions = {ScoreAction{}, RestartAction{{}, WhenBlocked::kWait}};
+  world.controller.traps.push_back(trap);
+}
+
 /// Thirteen robots with a device of each kind in the arena, with objects that can be taken, pushed
 /// and retracted.
 WorldDescription full_world() {
@@ -74,7 +99,11 @@ WorldDescription full_world() {
     robot.devices = devices;
     for (DeviceDescription& device : robot.devices) {
       if (device.type == "opaque") std::any_cast<OpaqueParams&>(device.params).from = {next};
-      if (device.type == "laser") std::any_cast<LaserParams&>(device.params).noise_m = 0.01;
+      if (device.type == "laser") {
+        auto& laser = std::any_cast<LaserParams&>(device.params);
+        laser.noise_m = 0.01;
+        laser.latency_s = 0.0;  // a test counts the steps until its readings
+      }
       if (device.type == "camera") {
         std::any_cast<CameraParams&>(device.params).width = 32;
         std::any_cast<CameraParams&>(device.params).height = 24;
@@ -93,6 +122,7 @@ WorldDescription full_world() {
                                    .fiducial = 99,
                                    .colour = Colour{0xff, 0, 0, 0xff},
                                    .portable = true});
+  add_controller(world);
   return world;
 }
 
@@ -477,7 +507,7 @@ TEST(Snapshots, AreRefusedWithAReason) {
   EXPECT_THAT(refusal(simulation, other), HasSubstr("a snapshot of Playpen, found other bytes"));
   other = good;
   other[8] = 200;
-  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 2, found version 200"));
+  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 3, found version 200"));
   other = good;
   other[good.size() / 2] ^= 1;
   EXPECT_THAT(refusal(simulation, other), HasSubstr("they were altered"));
