@@ -23,6 +23,11 @@ bool is_retracted(const ObstacleDescription& obstacle) {
   return obstacle.type == ObstacleType::kDynamic && obstacle.state == ObstacleState::kRetracted;
 }
 
+// Rising and sinking blocks are drawn by block_painter.cpp.
+bool is_standing(const ObstacleDescription& obstacle) {
+  return !is_retracted(obstacle) && !obstacle.present_height_m;
+}
+
 class GroundPainter {
  public:
   GroundPainter(const ArenaDescription& arena, const Layout& layout, Painter& painter)
@@ -164,7 +169,7 @@ class SolidsPainter {
       separators.add_piece(layout_(box_corners(box)));
     }
     for (const ObstacleDescription& box : arena_.obstacles) {
-      if (is_retracted(box)) continue;
+      if (!is_standing(box)) continue;
       Shape& alike = box.colour                           ? coloured
                      : box.type == ObstacleType::kDynamic ? dynamics
                                                           : statics;
@@ -195,7 +200,7 @@ class SolidsPainter {
     painter_.fill(statics, palette::kStatic);
     painter_.fill(dynamics, palette::kDynamic);
     for (const ObstacleDescription& box : arena_.obstacles) {
-      if (is_retracted(box)) continue;
+      if (!is_standing(box)) continue;
       if (box.colour) {
         Shape block;
         block.add_piece(layout_(box_corners(box)));
