@@ -18,7 +18,7 @@ if [[ -n $given ]]; then
   bin=$given
 else
   cmake --preset dev >/dev/null
-  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
+  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
     compat_four_ports compat_roomba_maze \
     par_intro_solution_wall par_intro_solution_avoid par_planning_solution_dijkstra par_planning_solution_theta \
@@ -47,6 +47,11 @@ take() {
 mkdir -p "$out"
 run worlds/examples/thirteen_robots.json thirteen --duration 9 -- "$bin/docs_thirteen"
 take thirteen/scene.png thirteen_robots
+
+run worlds/examples/living_arena.json living_arena --duration 20 --snapshot-every 0.2 -- \
+  "$bin/docs_living_arena"
+take living_arena/snapshots/scene_000006.400s.png arena_controller
+take living_arena/snapshots/scene_000014.000s.png arena_controller_waiting
 
 run worlds/tasks/par_intro.json intro --duration 120 -- "$bin/par_intro_solution_wall"
 take intro/scene.png wall_follower
