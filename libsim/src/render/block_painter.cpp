@@ -7,6 +7,7 @@
 
 #include "render/controller_painter.h"
 #include "render/robot_place.h"
+#include "sim/world/outline.h"
 
 namespace sim::render {
 namespace {
@@ -246,7 +247,8 @@ class BlockPainter {
 }  // namespace
 
 std::vector<Vec2> obstacle_outline(const ObstacleDescription& obstacle, const Layout& layout) {
-  return layout(box_corners(obstacle));
+  constexpr double kTolerance_px = 0.05;
+  return layout(outline_of(obstacle, kTolerance_px / layout.pixels_per_m));
 }
 
 void draw_moving_shadows(const SceneSnapshot& scene, const Layout& layout, Painter& painter) {

@@ -48,6 +48,8 @@ struct ArenaKey {
         add(box.center);
         add(box.size);
         numbers.push_back(box.yaw_rad);
+        numbers.push_back(static_cast<double>(box.shape));
+        for (const Vec2& vertex : box.outline) add(vertex);
         numbers.push_back(static_cast<double>(box.type));
         numbers.push_back(static_cast<double>(box.state));
         numbers.push_back(box.present_height_m ? 1.0 : 0.0);  // drawn anew in each picture

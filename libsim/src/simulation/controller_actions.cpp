@@ -157,7 +157,7 @@ void Simulation::Impl::Controller::act(const MessageAction& action, const Cause&
 
 void Simulation::Impl::Controller::act(const TextAction& action, const Cause& cause) {
   std::erase_if(texts_, [&](const Text& text) { return text.place == action.place; });
-  if (texts_.size() == kMostTexts) texts_.erase(texts_.begin());
+  if (texts_.size() >= kMostTexts) texts_.erase(texts_.begin());
   if (!action.text.empty()) {
     const SimTime end_ns =
         action.duration_s > 0.0 ? impl_.now_ns + from_seconds(action.duration_s) : kNever;
