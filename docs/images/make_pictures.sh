@@ -49,10 +49,10 @@ mkdir -p "$out"
 run worlds/examples/thirteen_robots.json thirteen --duration 9 -- "$bin/docs_thirteen"
 take thirteen/scene.png thirteen_robots
 
-run worlds/examples/living_arena.json living_arena --duration 20 --snapshot-every 0.2 -- \
+run worlds/examples/living_arena.json living_arena --duration 14 --snapshot-every 0.2 --hide fans -- \
   "$bin/docs_living_arena"
-take living_arena/snapshots/scene_000006.400s.png arena_controller
-take living_arena/snapshots/scene_000014.000s.png arena_controller_waiting
+take living_arena/snapshots/scene_000004.800s.png arena_controller
+take living_arena/snapshots/scene_000012.800s.png arena_controller_waiting
 
 run worlds/tasks/par_intro.json intro --duration 120 -- "$bin/par_intro_solution_wall"
 take intro/scene.png wall_follower

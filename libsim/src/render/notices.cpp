@@ -262,7 +262,7 @@ void Notices::add_trap_names(const Rectangle& covered) {
                            : mix(palette::kTrap, palette::kPaper, 0.45));
     name.style.weight = occupied ? 0.19 : 0.14;
     name.style.halo = palette::kHalo;
-    name.style.halo_px = std::max(2.2 * layout_.unit_px, 1.5);
+    name.style.halo_px = std::max(3.0 * layout_.unit_px, 1.5);
     name.text = shortened(printable(trap.name), name.style, 0.25 * layout_.width);
     if (name.text.empty() || !find_place(name, outline, taken, blocks)) continue;
     taken.push_back(name.place);
@@ -287,6 +287,12 @@ bool Notices::find_place(Line& name, const std::vector<Vec2>& outline,
     if (middle.y() > bottom.y()) bottom = middle;
   }
   const Rectangle bounds = bounds_of(outline);
+  constexpr std::size_t kMostCorners = 8;  // an outline with more of them is round
+  if (outline.size() > kMostCorners) {
+    const double x = 0.5 * (bounds.left + bounds.right);
+    top = {x, bounds.top};
+    bottom = {x, bounds.bottom};
+  }
   const double step = 2.4 * half.y() + 3.0 * layout_.unit_px;
   const std::array<Vec2, 6> middles = {top,
                                        bottom,
@@ -295,7 +301,7 @@ bool Notices::find_place(Line& name, const std::vector<Vec2>& outline,
                                        Vec2(bottom.x(), bounds.bottom + step),
                                        Vec2(0.5 * (top + bottom))};
   const double area = 4.0 * half.x() * half.y();
-  const Rectangle frame = grown(layout_.view, -5.0 * layout_.unit_px);
+  const Rectangle frame = grown(layout_.view, -6.0 * layout_.unit_px);
   double least = std::numeric_limits<double>::infinity();
   double overlap = 0.0;
   double preference = 0.0;
