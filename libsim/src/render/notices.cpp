@@ -54,8 +54,7 @@ std::string countdown_text(double time_s) {
 std::string message_text(const ArenaEvent& event) {
   std::string text = printable(event.text);
   if (event.kind == ArenaEventKind::kConfiguration) {
-    text = "configuration ";
-    text += event.what;
+    text = std::string("configuration ").append(event.what);
   }
   return text;
 }
@@ -168,7 +167,7 @@ void Notices::add_countdowns(const Rectangle& covered) {
   }
   if (entries.empty()) return;
   if (entries.size() > kMostCountdowns) {
-    more_ = "+";
+    more_.assign(1, '+');
     more_ += std::to_string(entries.size() - kMostCountdowns);
     more_ += " more";
     // Those that act next, in the world's order.
@@ -337,7 +336,7 @@ void Notices::add_points(const Rectangle& covered) {
       points.style.weight = 0.18;
       points.style.halo = palette::kHalo;
       points.style.halo_px = std::max(2.4 * layout_.unit_px, 1.5);
-      points.text = event.value < 0.0 ? "" : "+";
+      if (event.value >= 0.0) points.text.assign(1, '+');
       points.text += rounded_text(event.value, 6);
       const Vec2 half(0.5 * Painter::text_width_px(points.text, points.style),
                       0.5 * points.style.cap_height_px);
