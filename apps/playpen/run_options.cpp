@@ -49,7 +49,8 @@ void add_picture_options(CommandLine& line, CLI::App& command,
       [&pictures](const std::string& text) { return playerlike::parse_crop(text, pictures); })
       ->excludes(follow);
   add_parsed(command, "--hide",
-             "Leave out of pictures: fans, trails, labels, goals, collisions, legend, canvas",
+             "Leave out of pictures: fans, trails, labels, goals, collisions, legend, canvas, "
+             "traps, timers, texts, scores",
              "LIST", playerlike::kHideExpected, [&pictures](const std::string& text) {
                return playerlike::parse_hide(text, pictures);
              });

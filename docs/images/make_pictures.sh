@@ -18,7 +18,7 @@ if [[ -n $given ]]; then
   bin=$given
 else
   cmake --preset dev >/dev/null
-  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
+  cmake --build build/dev --target playpen docs_thirteen docs_layers docs_living_arena docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
     docs_actarray_actarray \
     compat_four_ports compat_roomba_maze \
@@ -48,6 +48,11 @@ take() {
 mkdir -p "$out"
 run worlds/examples/thirteen_robots.json thirteen --duration 9 -- "$bin/docs_thirteen"
 take thirteen/scene.png thirteen_robots
+
+run worlds/examples/living_arena.json living_arena --duration 14 --snapshot-every 0.2 --hide fans -- \
+  "$bin/docs_living_arena"
+take living_arena/snapshots/scene_000004.800s.png arena_controller
+take living_arena/snapshots/scene_000012.800s.png arena_controller_waiting
 
 run worlds/tasks/par_intro.json intro --duration 120 -- "$bin/par_intro_solution_wall"
 take intro/scene.png wall_follower

@@ -79,6 +79,10 @@ constexpr HiddenPart kHidden[] = {
     {"collisions", &sim::render::RenderOptions::collisions},
     {"legend", &sim::render::RenderOptions::legend},
     {"canvas", &sim::render::RenderOptions::canvas},
+    {"traps", &sim::render::RenderOptions::traps},
+    {"timers", &sim::render::RenderOptions::timers},
+    {"texts", &sim::render::RenderOptions::texts},
+    {"scores", &sim::render::RenderOptions::scores},
 };
 
 // In the order of sim::render::ColourBy.

@@ -26,6 +26,11 @@ bool is_retracted(const ObstacleDescription& obstacle) {
   return obstacle.type == ObstacleType::kDynamic && obstacle.state == ObstacleState::kRetracted;
 }
 
+// Rising and sinking blocks are drawn by block_painter.cpp.
+bool is_standing(const ObstacleDescription& obstacle) {
+  return !is_retracted(obstacle) && !obstacle.present_height_m;
+}
+
 // A counter-clockwise outline with each side moved inwards. Sharp corners move by at most twice the
 // distance, so that they stay near their places.
 std::vector<Vec2> moved_inwards(const std::vector<Vec2>& outline, double distance_m) {
@@ -182,7 +187,7 @@ class SolidsPainter {
       separators.add_piece(layout_(box_corners(box)));
     }
     for (const ObstacleDescription& box : arena_.obstacles) {
-      if (is_retracted(box)) continue;
+      if (!is_standing(box)) continue;
       Shape& alike = box.colour                           ? coloured
                      : box.type == ObstacleType::kDynamic ? dynamics
                                                           : statics;
@@ -213,7 +218,7 @@ class SolidsPainter {
     painter_.fill(statics, palette::kStatic);
     painter_.fill(dynamics, palette::kDynamic);
     for (const ObstacleDescription& box : arena_.obstacles) {
-      if (is_retracted(box)) continue;
+      if (!is_standing(box)) continue;
       if (box.colour) {
         Shape block;
         block.add_piece(outline_px(box));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/text_box.h"
 #include "sim/core/number_text.h"
 
 namespace sim::render {
@@ -32,13 +33,18 @@ class FooterPainter {
       if (layer.style.visible && layer.id != kBaseLayer) layers.push_back(&layer);
     }
     const double height = place_.bottom - place_.top;
-    draw_line(place_.top + (layers.empty() ? 0.5 : 0.3) * height);
-    if (!layers.empty()) draw_layers(layers, place_.top + 0.72 * height);
+    const bool two_lines = !layers.empty() || scene_.verdict;
+    draw_line(place_.top + (two_lines ? 0.3 : 0.5) * height, scene_.verdict && !layers.empty());
+    if (!layers.empty()) {
+      draw_layers(layers, place_.top + 0.72 * height);
+    } else if (scene_.verdict) {
+      draw_verdict(place_.left, place_.right, place_.top + 0.72 * height);
+    }
   }
 
  private:
-  // Scale bar on the left, the world's name in the middle, the time on the right.
-  void draw_line(double middle_y) {
+  // Scale bar on the left, the world's name or the verdict in the middle, the time on the right.
+  void draw_line(double middle_y, bool with_verdict) {
     const TextStyle style = layout_.text_style(15.0, palette::kInk);
     const TextStyle small = layout_.text_style(12.5, palette::kInk);
     const double gap = 24.0 * layout_.unit_px;
@@ -59,12 +65,37 @@ class FooterPainter {
     // Centred in the picture if there is room, otherwise in the remaining space.
     const double room_left = left_end + gap;
     const double room_right = time_left - gap;
+    if (with_verdict) return draw_verdict(room_left, room_right, middle_y);
     const std::string name = shortened(scene_.world_name, style, room_right - room_left);
     if (name.empty()) return;
     const double name_px = Painter::text_width_px(name, style);
     const double name_left =
         std::clamp(0.5 * (layout_.width - name_px), room_left, room_right - name_px);
     painter_.draw_text(name, {name_left, middle_y + 0.5 * style.cap_height_px}, style);
+  }
+
+  // The arena controller's verdict: a coloured pill with one word, then the reason.
+  void draw_verdict(double left, double right, double middle_y) {
+    const Verdict& verdict = *scene_.verdict;
+    TextStyle style = layout_.text_style(12.5, palette::kLight);
+    const double cap = style.cap_height_px;
+    const std::string word(verdict.passed ? "passed" : "failed");
+    const double pill_px = Painter::text_width_px(word, style) + 1.6 * cap;
+    if (pill_px > right - left) return;
+    TextStyle reason_style = style;
+    reason_style.colour = palette::kInk;
+    const std::string reason =
+        shortened(printable(verdict.reason), reason_style, right - left - pill_px - 0.8 * cap);
+    const double reason_px =
+        reason.empty() ? 0.0 : 0.8 * cap + Painter::text_width_px(reason, reason_style);
+    const double width_px = pill_px + reason_px;
+    const double x = std::clamp(0.5 * (layout_.width - width_px), left, right - width_px);
+    Shape pill;
+    pill.add_piece(rounded({x, middle_y - 1.1 * cap, x + pill_px, middle_y + 1.1 * cap}, cap));
+    painter_.fill(pill, verdict.passed ? palette::kPassed : palette::kFailed);
+    const double base = middle_y + 0.5 * cap;
+    painter_.draw_text(word, {x + 0.8 * cap, base}, style);
+    if (!reason.empty()) painter_.draw_text(reason, {x + pill_px + 0.8 * cap, base}, reason_style);
   }
 
   // A bar of two halves, the second hollow.

@@ -1,5 +1,5 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
-// Texts next to robots: their names, and what they say.
+// Texts next to robots: their names and scores, and what they say.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,16 +11,17 @@
 
 #include "render/robot_painter.h"
 #include "render/robot_place.h"
-#include "render/text_outline.h"
+#include "render/text_box.h"
+#include "sim/core/number_text.h"
 
 namespace sim::render {
 namespace {
 
 class LabelPainter {
  public:
-  LabelPainter(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+  LabelPainter(const SceneSnapshot& scene, const Layout& layout, const LabelOptions& options,
                Painter& painter)
-      : scene_(scene), layout_(layout), covered_(covered), painter_(painter) {}
+      : scene_(scene), layout_(layout), options_(options), painter_(painter) {}
 
   // Draws bubbles next to robots that say something, without overlap if there is room.
   void draw_speech() {
@@ -40,22 +41,20 @@ class LabelPainter {
       rim.add_line(bubble.tail, rim_px, true);
       painter_.fill(rim, bubble.rim);
       painter_.fill(shape, palette::kLight);
-      double base = bubble.place.top + bubble.padding_px + bubble.style.cap_height_px;
-      for (const std::string& line : bubble.lines) {
-        const double width_px = Painter::text_width_px(line, bubble.style);
-        painter_.draw_text(line, {0.5 * (bubble.place.left + bubble.place.right - width_px), base},
-                           bubble.style);
-        base += bubble.line_px;
-      }
+      bubble.draw_lines(painter_);
     }
   }
 
-  // Draws names next to the robots. Each label takes the position around its robot that covers the
-  // least of other labels and robots. A second pass moves early labels away from later ones.
-  void draw_names() {
+  // Draws names and scores next to the robots. Each label takes the position around its robot that
+  // covers the least of other labels and robots. A second pass moves early labels away from later
+  // ones.
+  void draw_labels() {
     std::vector<Label> labels;
     std::vector<Rectangle> bodies;
-    for (const RobotSnapshot& robot : scene_.robots) {
+    const bool scores = options_.scores && any_score();
+    if (!options_.names && !scores) return;
+    for (std::size_t i = 0; i < scene_.robots.size(); ++i) {
+      const RobotSnapshot& robot = scene_.robots[i];
       if (!is_seen(robot)) continue;
       Label label;
       label.center = layout_(robot.X_WB.position());
@@ -71,12 +70,17 @@ class LabelPainter {
       label.style.weight = 0.15;
       label.style.halo = palette::kHalo;
       label.style.halo_px = std::max(2.4 * layout_.unit_px, 1.5);
-      label.text = shortened(robot.name, label.style, 0.4 * layout_.width);
-      label.width_px = Painter::text_width_px(label.text, label.style);
-      if (!label.text.empty()) labels.push_back(std::move(label));
+      if (options_.names) {
+        label.text = shortened(robot.name, label.style, 0.4 * layout_.width);
+        label.width_px = Painter::text_width_px(label.text, label.style);
+      }
+      if (scores && i < scene_.scores.size()) add_score(label, scene_.scores[i]);
+      if (!label.text.empty() || !label.score.empty()) labels.push_back(std::move(label));
     }
     for (const Bubble& bubble : bubbles()) bodies.push_back(bubble.place);
-    if (covered_.right > covered_.left) bodies.push_back(covered_);
+    const Rectangle& covered = options_.covered;
+    if (covered.right > covered.left) bodies.push_back(covered);
+    bodies.insert(bodies.end(), options_.taken.begin(), options_.taken.end());
     for (const int round : {0, 1}) {
       for (std::size_t i = 0; i < labels.size(); ++i) {
         std::vector<Rectangle> names;
@@ -87,18 +91,17 @@ class LabelPainter {
       }
     }
     for (const Label& label : labels) {
-      painter_.draw_text(label.text, {label.place.left, label.place.bottom}, label.style);
+      if (!label.text.empty()) {
+        painter_.draw_text(label.text, {label.place.left, label.place.bottom}, label.style);
+      }
+      if (!label.score.empty()) draw_score(label);
     }
   }
 
  private:
-  struct Bubble {
-    std::vector<std::string> lines;
-    TextStyle style;
-    double padding_px = 0.0;
-    double line_px = 0.0;  // from one base line to the next
+  struct Bubble : TextBox {
+    using TextBox::TextBox;
     Colour rim;
-    Rectangle place;
     std::vector<Vec2> tail;
   };
 
@@ -106,44 +109,9 @@ class LabelPainter {
   [[nodiscard]] bool is_seen(const RobotSnapshot& robot) const {
     if (!has_place(robot, layout_)) return false;
     const Vec2 center = layout_(robot.X_WB.position());
-    return !(center.x() > covered_.left && center.x() < covered_.right &&
-             center.y() > covered_.top && center.y() < covered_.bottom);
-  }
-
-  // Returns a text with control characters replaced by blanks, because the painter cannot draw
-  // them.
-  static std::string plain(const std::string& text) {
-    std::string printable = text;
-    for (char& c : printable) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte < 0x20 || byte == 0x7f) c = ' ';
-    }
-    return printable;
-  }
-
-  // Wraps a text into at most two lines, broken between words; dots replace what does not fit.
-  static std::vector<std::string> wrapped(const std::string& text, const TextStyle& style,
-                                          double width_px) {
-    const auto fits = [&](const std::string& line) {
-      return Painter::text_width_px(line, style) <= width_px;
-    };
-    std::string rest = text;
-    rest.erase(0, std::min(rest.find_first_not_of(' '), rest.size()));
-    if (rest.empty() || fits(rest)) return {rest};
-    std::size_t end = 0;  // end of the first line
-    for (std::size_t at = rest.find(' '); at != std::string::npos; at = rest.find(' ', at + 1)) {
-      if (!fits(rest.substr(0, at))) break;
-      end = at;
-    }
-    if (end == 0) {  // a word longer than a line
-      end = end_of_character(rest, 0);
-      while (end < rest.size() && fits(rest.substr(0, end_of_character(rest, end)))) {
-        end = end_of_character(rest, end);
-      }
-    }
-    std::string second = rest.substr(end);
-    second.erase(0, std::min(second.find_first_not_of(' '), second.size()));
-    return {rest.substr(0, end), shortened(second, style, width_px)};
+    const Rectangle& covered = options_.covered;
+    return !(center.x() > covered.left && center.x() < covered.right && center.y() > covered.top &&
+             center.y() < covered.bottom);
   }
 
   [[nodiscard]] std::vector<Bubble> bubbles() const {
@@ -157,12 +125,9 @@ class LabelPainter {
     }
     for (const RobotSnapshot& robot : scene_.robots) {
       if (robot.says.empty() || !is_seen(robot)) continue;
-      Bubble bubble;
-      bubble.style = layout_.text_style(12.5, palette::kInk);
-      bubble.padding_px = 0.75 * bubble.style.cap_height_px;
-      bubble.line_px = 1.75 * bubble.style.cap_height_px;
+      const TextStyle style = layout_.text_style(12.5, palette::kInk);
+      Bubble bubble(wrapped(printable(robot.says), style, 0.32 * layout_.width, 2), style);
       bubble.rim = mix(opaque(robot.colour), palette::kInk, 0.55);
-      bubble.lines = wrapped(plain(robot.says), bubble.style, 0.32 * layout_.width);
       put_bubble(bubble, layout_(robot.X_WB.position()), marked_radius_px(robot, layout_), all,
                  bodies);
       all.push_back(std::move(bubble));
@@ -173,14 +138,7 @@ class LabelPainter {
   // Places a bubble around its robot where it covers the least of others, and computes its tail.
   void put_bubble(Bubble& bubble, const Vec2& center, double radius,
                   const std::vector<Bubble>& others, const std::vector<Rectangle>& bodies) const {
-    double width_px = 0.0;
-    for (const std::string& line : bubble.lines) {
-      width_px = std::max(width_px, Painter::text_width_px(line, bubble.style));
-    }
-    const auto further_lines = static_cast<double>(bubble.lines.size()) - 1.0;
-    const Vec2 half(
-        0.5 * width_px + 1.2 * bubble.padding_px,
-        0.5 * (bubble.style.cap_height_px + further_lines * bubble.line_px) + bubble.padding_px);
+    const Vec2 half = bubble.half_size();
     const double gap = 13.0 * layout_.unit_px;
     const double edge = 4.0 * layout_.unit_px;
     const double area = 4.0 * half.x() * half.y();
@@ -237,33 +195,55 @@ class LabelPainter {
     bubble.tail = {root - aside, root + aside, tip};
   }
 
-  // A rectangle with round corners.
-  static std::vector<Vec2> rounded(const Rectangle& place, double radius_px) {
-    constexpr int kParts = 6;  // of a corner
-    constexpr double kQuarter = 1.5707963267948966;
-    const double r =
-        std::min({radius_px, 0.5 * (place.right - place.left), 0.5 * (place.bottom - place.top)});
-    const std::array<Vec2, 4> centers = {
-        Vec2(place.right - r, place.bottom - r), Vec2(place.left + r, place.bottom - r),
-        Vec2(place.left + r, place.top + r), Vec2(place.right - r, place.top + r)};
-    std::vector<Vec2> points;
-    for (std::size_t i = 0; i < centers.size(); ++i) {
-      for (int k = 0; k <= kParts; ++k) {
-        const double angle = kQuarter * (static_cast<double>(i) + static_cast<double>(k) / kParts);
-        points.emplace_back(centers[i] + r * Vec2(std::cos(angle), std::sin(angle)));
-      }
-    }
-    return points;
-  }
-
   struct Label {
-    std::string text;
+    std::string text;   // the name; may be empty
+    std::string score;  // may be empty
+    double score_px = 0.0;
     TextStyle style;
-    double width_px = 0.0;
+    double width_px = 0.0;       // of name and score
     Vec2 center = Vec2::Zero();  // of the robot
     double radius_px = 0.0;      // of the robot
     Rectangle place;
   };
+
+  // Scores appear when a robot has points.
+  [[nodiscard]] bool any_score() const {
+    return std::any_of(scene_.scores.begin(), scene_.scores.end(),
+                       [](double score) { return score != 0.0; });
+  }
+
+  [[nodiscard]] static TextStyle score_style(const Label& label) {
+    TextStyle style = label.style;
+    style.halo_px = 0.0;
+    style.colour = palette::kLight;
+    return style;
+  }
+
+  static void add_score(Label& label, double score) {
+    label.score = rounded_text(score, 6);
+    const double cap_px = label.style.cap_height_px;
+    label.score_px = Painter::text_width_px(label.score, score_style(label)) + 1.1 * cap_px;
+    label.width_px += (label.text.empty() ? 0.0 : 0.6 * cap_px) + label.score_px;
+  }
+
+  // Draws the score as a pill at the right end of the label.
+  void draw_score(const Label& label) {
+    const TextStyle style = score_style(label);
+    const double above_px = 0.42 * style.cap_height_px;
+    const Rectangle pill{label.place.right - label.score_px, label.place.top - above_px,
+                         label.place.right, label.place.bottom + above_px};
+    const auto fill = [&](double grown_px, Colour colour) {
+      Shape shape;
+      shape.add_piece(rounded({pill.left - grown_px, pill.top - grown_px, pill.right + grown_px,
+                               pill.bottom + grown_px},
+                              style.cap_height_px));
+      painter_.fill(shape, colour);
+    };
+    fill(layout_.line_px(1.4, 1.0), palette::kHalo);
+    fill(0.0, palette::kInk);
+    painter_.draw_text(label.score, {pill.left + 0.55 * style.cap_height_px, label.place.bottom},
+                       style);
+  }
 
   [[nodiscard]] Rectangle best_place(const Label& label, const std::vector<Rectangle>& names,
                                      const std::vector<Rectangle>& bodies) const {
@@ -309,20 +289,20 @@ class LabelPainter {
 
   const SceneSnapshot& scene_;
   const Layout& layout_;
-  Rectangle covered_;
+  const LabelOptions& options_;
   Painter& painter_;
 };
 
 }  // namespace
 
-void draw_speech(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+void draw_speech(const SceneSnapshot& scene, const Layout& layout, const LabelOptions& options,
                  Painter& painter) {
-  LabelPainter(scene, layout, covered, painter).draw_speech();
+  LabelPainter(scene, layout, options, painter).draw_speech();
 }
 
-void draw_names(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
-                Painter& painter) {
-  LabelPainter(scene, layout, covered, painter).draw_names();
+void draw_labels(const SceneSnapshot& scene, const Layout& layout, const LabelOptions& options,
+                 Painter& painter) {
+  LabelPainter(scene, layout, options, painter).draw_labels();
 }
 
 }  // namespace sim::render

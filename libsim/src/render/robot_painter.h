@@ -24,12 +24,19 @@ void draw_trails(const SceneSnapshot& scene, const std::vector<std::uint8_t>& ce
 /// fiducials, and robots with their bumpers.
 void draw_seen_surfaces(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
 void draw_robots(const SceneSnapshot& scene, const Layout& layout, Painter& painter);
-/// Draws the names of the robots, and what the robots say in bubbles, on top of everything else.
-/// Robots inside the covered rectangle, for example a mini-map, get neither. An empty rectangle
-/// covers nothing.
-void draw_names(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
-                Painter& painter);
-void draw_speech(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+
+/// Which labels to draw next to robots.
+struct LabelOptions {
+  bool names = true;
+  bool scores = true;            ///< once a robot has points
+  Rectangle covered;             ///< e.g. a mini-map: robots inside have no label; empty: nothing
+  std::vector<Rectangle> taken;  ///< other texts, which labels avoid
+};
+/// Draws names and scores next to the robots, and what the robots say in bubbles, on top of
+/// everything else.
+void draw_labels(const SceneSnapshot& scene, const Layout& layout, const LabelOptions& options,
+                 Painter& painter);
+void draw_speech(const SceneSnapshot& scene, const Layout& layout, const LabelOptions& options,
                  Painter& painter);
 
 /// Draws the marks of collisions and goals above the robots.

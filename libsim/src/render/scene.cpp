@@ -11,6 +11,7 @@
 
 #include "render/arena_painter.h"
 #include "render/canvas_view.h"
+#include "render/controller_painter.h"
 #include "render/footer.h"
 #include "render/layout.h"
 #include "render/painter.h"
@@ -51,6 +52,7 @@ struct ArenaKey {
         for (const Vec2& vertex : box.outline) add(vertex);
         numbers.push_back(static_cast<double>(box.type));
         numbers.push_back(static_cast<double>(box.state));
+        numbers.push_back(box.present_height_m ? 1.0 : 0.0);  // drawn anew in each picture
         const Colour colour = box.colour.value_or(Colour{0, 0, 0, 0});
         for (const int channel :
              {int{colour.r}, int{colour.g}, int{colour.b}, box.colour ? 1 : 0}) {
@@ -122,8 +124,7 @@ class ArenaView {
       covered = to_rectangle(mini_place_);
     }
     if (layout_.cropped) draw_surround();
-    if (options_.names && layout_.text) draw_names(scene, layout_, covered, painter_);
-    if (layout_.text) draw_speech(scene, layout_, covered, painter_);
+    if (layout_.text) draw_texts(scene, layout_, covered, true);
     if (options_.legend && layout_.text) {
       const double border_px = layout_.cropped ? 0.0 : layout_.border_px;
       const double left = std::min(layout_.view.left - border_px, layout_.margin_px);
@@ -158,12 +159,32 @@ class ArenaView {
     const std::vector<std::uint8_t>& cells = cells_of(scene, with_canvas);
     if (options_.scans) draw_fans(scene, cells, layout_, painter_);
     if (options_.trails) draw_trails(scene, cells, layout_, painter_);
+    if (options_.traps) draw_traps(scene, layout_, painter_);
     painter_.clear_clip();
+    draw_moving_shadows(scene, layout_, painter_);
     solids_.draw_on(painter_.image(), {0, 0, layout_.width, layout_.height});
+    draw_moving_blocks(scene, layout_, painter_);
+    if (options_.traps) {
+      painter_.set_clip(floor);
+      draw_covered_traps(scene, layout_, painter_);
+      painter_.clear_clip();
+    }
     if (options_.scans) draw_seen_surfaces(scene, layout_, painter_);
     draw_robots(scene, layout_, painter_);
     if (options_.goals) draw_goals(scene, layout_, painter_);
     if (options_.collisions) draw_collisions(scene, layout_, painter_);
+    draw_events(scene, layout_, options_.traps, painter_);
+  }
+
+  // Draws all texts above the scene. `floor` says whether the scene shows the arena's floor.
+  void draw_texts(const SceneSnapshot& scene, const Layout& layout, const Rectangle& covered,
+                  bool floor) {
+    const Notices notices(scene, layout, options_, covered, floor);
+    const LabelOptions labels{options_.names, options_.scores, covered, notices.places()};
+    notices.draw_trap_names(painter_);
+    draw_labels(scene, layout, labels, painter_);
+    notices.draw_panels(painter_);
+    draw_speech(scene, layout, labels, painter_);
   }
 
   // Covers everything outside of the shown part and draws a frame around the part.
@@ -321,8 +342,7 @@ class ArenaView {
     painter_.set_clip(place);
     draw_robots(scene, on_canvas, painter_);
     painter_.clear_clip();
-    if (options_.names && layout_.text) draw_names(scene, on_canvas, {}, painter_);
-    if (layout_.text) draw_speech(scene, on_canvas, {}, painter_);
+    if (layout_.text) draw_texts(scene, on_canvas, {}, false);
     if (footer) {
       const double bottom = layout_.height;
       draw_footer(

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation/scene_snapshot.h"
 
+#include <algorithm>
+
 #include "simulation/controller.h"
 #include "simulation/simulation_impl.h"
 
@@ -34,6 +36,11 @@ SceneSnapshot Simulation::snapshot() const {
   scene.scores = impl_->scores;
   scene.verdict = impl_->verdict;
   if (impl_->controller) impl_->controller->show(scene);
+  const auto& events = impl_->events.newest;
+  const SimTime first_ns = impl_->now_ns - from_seconds(kShownEventTime_s);
+  const auto is_old = [&](const ArenaEvent& event) { return event.time_ns < first_ns; };
+  const auto newest = std::find_if(events.rbegin(), events.rend(), is_old);
+  scene.events.assign(newest.base(), events.end());
   return scene;
 }
 

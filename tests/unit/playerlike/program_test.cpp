@@ -173,6 +173,12 @@ TEST(RunSettings, PicturesAreReadBackFromTheEnvironment) {
   EXPECT_TRUE(parse_colour_by("robot", settings.pictures));
   EXPECT_FALSE(settings.pictures.names);
   EXPECT_TRUE(settings.pictures.trails);
+  EXPECT_TRUE(settings.pictures.traps);
+  EXPECT_TRUE(parse_hide("traps,timers,texts,scores", settings.pictures));
+  EXPECT_FALSE(settings.pictures.traps);
+  EXPECT_FALSE(settings.pictures.timers);
+  EXPECT_FALSE(settings.pictures.texts);
+  EXPECT_FALSE(settings.pictures.scores);
   {
     const ScopedEnvironment environment(run_environment("", settings));
     EXPECT_EQ(RunSettings::from_environment().pictures, settings.pictures);

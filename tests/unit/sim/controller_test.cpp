@@ -595,5 +595,16 @@ TEST(ArenaScene, ShowsTrapsAndTimers) {
   EXPECT_FALSE(scene.timers[1].time_left_s);
 }
 
+TEST(ArenaScene, HasTheEventsOfTheLastSecond) {
+  Simulation simulation(room(R"("timers": [{"name": "t", "at": 0.5, "every": 0.4}])"));
+  run(simulation, 2.0);
+  std::vector<double> times_s;
+  for (const ArenaEvent& event : simulation.snapshot().events) {
+    EXPECT_EQ(event.kind, ArenaEventKind::kTimer);
+    times_s.push_back(to_seconds(event.time_ns));
+  }
+  EXPECT_THAT(times_s, ElementsAre(1.3, 1.7));
+}
+
 }  // namespace
 }  // namespace sim

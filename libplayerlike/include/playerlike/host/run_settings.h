@@ -158,7 +158,8 @@ inline constexpr const char* kFollowExpected =
     "the name of a robot, and maybe the width to show in metres, such as r1 or r1,2.5";
 /// Description of the values that parse_hide() accepts, for messages.
 inline constexpr const char* kHideExpected =
-    "some of fans, trails, labels, goals, collisions, legend and canvas, with commas between them";
+    "some of fans, trails, labels, goals, collisions, legend, canvas, traps, timers, texts and "
+    "scores, with commas between them";
 /// Description of the values that parse_colour_by() accepts, for messages.
 inline constexpr const char* kColourByExpected = "world, robot or none";
 /// Description of the values that parse_snapshot_period() accepts, for messages.

@@ -48,6 +48,10 @@ struct RenderOptions {
   bool legend = true;  ///< scale bar, world name, simulated time, and the visible layers' names
   bool goals = true;
   bool collisions = true;
+  bool traps = true;   ///< of the arena controller, with their names
+  bool timers = true;  ///< countdowns of the arena controller
+  bool texts = true;   ///< texts and messages of the arena controller
+  bool scores = true;  ///< points beside the robots, once a robot has some
   ColourBy colour_by = ColourBy::kWorld;
   /// Shows only this part; ignored in the view mode full-screen.
   std::optional<ScenePart> part = {};
@@ -72,17 +76,22 @@ struct RenderOptions {
 ///   dark ring a marked one. Lights are drawn on the robots; texts that robots say appear beside
 ///   them in bubbles of at most two lines. Laser fans and trails end at the edge of the floor.
 ///   Coordinates that are not finite or too far away (1e9 pixels) are not drawn.
+///   Of an arena controller: rising and sinking blocks, filled like a gauge up to their present
+///   height, with an arrow; blocks that wait, with an hourglass; traps, dashed and in violet, paler
+///   when switched off, and with a full line while a robot is inside; texts; at most six countdowns
+///   in the corner that hides the least; marks of the events of the last simulated second.
 /// - mini-map: like ground, but with a bare floor; the canvas, framed, with a dot for each robot,
 ///   is in the corner of the floor where it covers the least of obstacles and docks.
 /// - full-screen: the canvas on white, centred, with each cell the same whole number of pixels
 ///   wide. A canvas with more cells than the picture has pixels is shrunk, so that each pixel shows
 ///   the mean of its cells. Robots are drawn on it at its scale and clipped at its edge, with their
-///   lights, bumpers, rings, names and bubbles as in the ground mode; nothing else of the arena is
-///   drawn.
+///   lights, bumpers, rings, names, scores and bubbles as in the ground mode, and so are texts,
+///   messages and countdowns; nothing else of the arena is drawn.
 ///
 /// The legend names the visible layers except the base: a swatch of a layer's colour, for a grey
 /// layer the shades of free, unknown and occupied. If space runs out, first the words for the
-/// shades are left out, then the topmost layers, whose number is shown instead.
+/// shades are left out, then the topmost layers, whose number is shown instead. It also shows the
+/// verdict of an arena controller that has ended the run.
 ///
 /// The same scene gives a bit-identical picture, whatever was drawn before. Not thread-safe, but
 /// several renderers are independent. Deterministic; uses only the calling thread. Cost: a few

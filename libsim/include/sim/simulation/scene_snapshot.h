@@ -59,6 +59,9 @@ struct TimerMark {
   std::optional<double> time_left_s;  ///< until it acts next [s]; none: it does not
 };
 
+/// How long events are shown, simulated time [s].
+inline constexpr double kShownEventTime_s = 1.0;
+
 /// Everything that a picture of a simulation needs. Plain data, which may be drawn on another
 /// thread.
 struct SceneSnapshot {
@@ -80,6 +83,7 @@ struct SceneSnapshot {
   std::vector<TimerMark> timers;           ///< in the world's order
   std::vector<double> scores;              ///< points of the robots; empty: no arena controller
   std::optional<Verdict> verdict;          ///< how the arena controller ended the run
+  std::vector<ArenaEvent> events;          ///< of the last kShownEventTime_s, oldest first
 };
 
 }  // namespace sim
