@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "controller_load.h"
 #include "crowd.h"
 #include "figures.h"
 #include "physics/physics_world.h"
@@ -230,5 +231,6 @@ int main(int argc, char** argv) {
   sim::bench::read_figures();
   sim::bench::memory_figure();
   sim::bench::save_figures();
+  sim::bench::controller_figures();
   sim::bench::print_realtime_factors();
 }

@@ -192,6 +192,32 @@ TEST_F(PlaypenEnds, ACrashLeavesTheResultsOfItsLastStep) {
   }
 }
 
+TEST_F(PlaypenEnds, AVerdictEndsTheRunAndACrashLosesNoEvent) {
+  world_ = folder_.write("arena.json", R"({"arena": {"size": [4, 4]},
+    "robots": [{"name": "r1", "pose": {"x": 2, "y": 2}}],
+    "controller": {"timers": [{"name": "tick", "every": 0.1, "do": [{"score": {"robot": "r1"}}]},
+      {"name": "end", "at": 3, "do": [{"end": {"verdict": "failed", "reason": "too late"}}]}]}})");
+  const ProcessResult end = test_support::run_process(command({}, {"drive"}));
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(report().at("ended").at("by"), "verdict");
+  EXPECT_EQ(report().at("run").at("steps"), 300);
+  EXPECT_EQ(report().at("verdict"),
+            json({{"passed", false}, {"reason", "too late"}, {"time", 3.0}}));
+  EXPECT_EQ(report().at("scores"), json({{"r1", 30.0}}));
+  EXPECT_EQ(report().at("events").size(), 62U);  // 30 times two, and the end
+  // The program dies after 2 s, with the 20th event of the timer.
+  const json before = report().at("events");
+  fs::remove_all(out_);
+  EXPECT_EQ(test_support::run_process(command({}, {"segv", "19"})).status, 1);
+  EXPECT_EQ(report().at("ended").at("by"), "signal");
+  const json events = report().at("events");
+  EXPECT_EQ(report().at("run").at("steps"), 200);
+  ASSERT_EQ(events.size(), 40U);
+  for (std::size_t i = 0; i < events.size(); ++i) EXPECT_EQ(events[i], before[i]);
+  EXPECT_EQ(report().at("scores"), json({{"r1", 20.0}}));
+  EXPECT_EQ(report().at("verdict"), nullptr);
+}
+
 TEST_F(PlaypenEnds, AProgramThatKillsWhoeverStartedItEndsToo) {
   Process process(command({}, {"killer"}));
   const ProcessResult end = process.finish();

@@ -152,6 +152,34 @@ void add_events(const sim::Simulation& simulation, const std::vector<Goal>& goal
   }
 }
 
+// Events of the arena, and the scores and the verdict of its controller.
+void add_arena(const sim::Simulation& simulation, nlohmann::ordered_json& report) {
+  using nlohmann::ordered_json;
+  if (!simulation.records_arena_events()) return;
+  ordered_json& events = report["events"] = ordered_json::array();
+  for (const sim::ArenaEvent& e : simulation.arena_events().newest) {
+    ordered_json event = {{"number", e.number},
+                          {"time", sim::to_seconds(e.time_ns)},
+                          {"kind", to_string(e.kind)},
+                          {"what", e.what}};
+    if (!e.who.empty()) event["who"] = e.who;
+    if (!e.text.empty()) event["text"] = e.text;
+    if (e.value != 0.0 || e.kind == sim::ArenaEventKind::kEnd) event["value"] = e.value;
+    events.push_back(std::move(event));
+  }
+  if (simulation.world().controller.empty()) return;
+  ordered_json& scores = report["scores"] = ordered_json::object();
+  for (std::size_t i = 0; i < simulation.scores().size(); ++i) {
+    scores[simulation.world().robots[i].name] = simulation.scores()[i];
+  }
+  report["verdict"] = nullptr;
+  if (const auto& verdict = simulation.verdict()) {
+    report["verdict"] = {{"passed", verdict->passed},
+                         {"reason", verdict->reason},
+                         {"time", sim::to_seconds(verdict->time_ns)}};
+  }
+}
+
 nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder& recorder,
                               const TimeStatistics& time) {
   nlohmann::ordered_json robots = nlohmann::ordered_json::array();
@@ -187,6 +215,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
       {"robots", robots},
       {"said", said}};
   add_events(simulation, recorder.goals().goals(), whole);
+  add_arena(simulation, whole);
   // `playpen plot` reads the scene from this file.
   std::error_code error;
   const fs::path file = fs::absolute(simulation.world().file, error);
@@ -267,6 +296,9 @@ nlohmann::ordered_json to_json(const RunEnd& end) {
       return nullptr;
     case RunEnd::By::kDuration:
       by = "duration";
+      break;
+    case RunEnd::By::kVerdict:
+      by = "verdict";
       break;
     case RunEnd::By::kProgram:
       by = "program";

@@ -32,6 +32,7 @@ struct RunEnd {
   enum class By {
     kNothing,   ///< the run continues; in reports that are written during the run
     kDuration,  ///< the simulated duration is over
+    kVerdict,   ///< the arena controller ended the run
     kProgram,   ///< the program ended, or stopped using the simulation
     kRequest,   ///< a signal requested the end
     kWindow,    ///< the user closed the window

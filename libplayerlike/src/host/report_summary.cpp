@@ -50,6 +50,24 @@ std::string stall_advice(const nlohmann::json& report) {
   return advice;
 }
 
+// Returns the scores and the verdict of the arena controller, or why there is none.
+std::string arena_summary(const nlohmann::json& report) {
+  if (!report.contains("scores")) return "";
+  std::string text;
+  for (const auto& [robot, points] : report.at("scores").items()) {
+    text += text.empty() ? "scores: " : ", ";
+    text += robot + ' ' + sim::shortest_text(points.get<double>());
+  }
+  if (!text.empty()) text += '\n';
+  const nlohmann::json& verdict = report.at("verdict");
+  if (verdict.is_null()) return text + "verdict: none\n";
+  text += verdict.at("passed").get<bool>() ? "verdict: passed" : "verdict: failed";
+  text += " after " + sim::fixed_text(verdict.at("time").get<double>(), 2) + " s";
+  const std::string reason = verdict.at("reason").get<std::string>();
+  if (!reason.empty()) text += ": " + reason;
+  return text + '\n';
+}
+
 std::string summarize(const nlohmann::json& report) {
   const nlohmann::json& run = report.at("run");
   const nlohmann::json& robots = report.at("robots");
@@ -86,7 +104,7 @@ std::string summarize(const nlohmann::json& report) {
     }
     out << '\n';
   }
-  return out.str() + stall_advice(report);
+  return out.str() + arena_summary(report) + stall_advice(report);
 }
 
 template <typename Use>

@@ -41,8 +41,10 @@ void Results::keep(WallClock::time_point now) {
   if (settings_.output_folder.empty()) return;
   if (kept_) {
     kept_->keep_step(time_(), *recorder_, simulation_);
-    if (now - last_looks_ >= kLooksPeriod) {
+    const std::uint64_t events = simulation_.arena_events().count;
+    if (now - last_looks_ >= kLooksPeriod || events != kept_events_) {
       last_looks_ = now;
+      kept_events_ = events;  // no event may get lost
       kept_->keep_looks(report_now(), simulation_);
     }
   }
@@ -102,6 +104,7 @@ std::string Results::report_now() const {
 }
 
 RunEnd Results::reason_of_end() const {
+  if (simulation_.verdict()) return {.by = RunEnd::By::kVerdict};
   if (simulation_.finished()) return {.by = RunEnd::By::kDuration};
   const int request = end_request != 0 ? end_request : settings_.quiet_end ? interrupted() : 0;
   if (request != 0) return {.by = RunEnd::By::kRequest, .signal = request};

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -61,6 +62,7 @@ class Results {
   std::unique_ptr<Recorder> recorder_;
   std::unique_ptr<KeptWriter> kept_;                ///< null unless the settings name a file
   WallClock::time_point last_looks_{};              ///< when keep_looks() was last called
+  std::uint64_t kept_events_ = 0;                   ///< number of arena events at that time
   std::optional<WallClock::time_point> last_kept_;  ///< when the report was last written
   bool write_failure_warned_ = false;               ///< about files that cannot be written
 };

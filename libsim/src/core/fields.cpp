@@ -65,6 +65,7 @@ std::string property_of(const Field& field) {
 
 void add_field(const Field& field, const void* value, std::map<std::string, double>& properties,
                const std::string& suffix) {
+  if (value == nullptr && field.type != FieldType::kPose) return;
   const std::string name = property_of(field);
   switch (field.type) {
     case FieldType::kNumber:

@@ -47,12 +47,20 @@ Colour scaled(const Colour& colour, double factor) {
   return {channel(colour.r), channel(colour.g), channel(colour.b), 255};
 }
 
-// Relative brightness of an upright face.
-double side_light(const PhysicsWorld::Face& face) {
-  const Vec2 e = face.p_WC - face.p_WA;
+// Relative brightness of an upright face along the direction e.
+double side_light(const Vec2& e) {
   // cos(2 yaw) of the normal, which is e rotated by a quarter turn.
   const double cos2 = (e.y() * e.y() - e.x() * e.x()) / e.squaredNorm();
   return 0.85 + 0.15 * cos2;
+}
+
+// The direction of an upright face in W where the ray of a column meets it.
+// @param slope    of the ray in S.
+// @param depth_m  along the x axis of S.
+Vec2 along(const PhysicsWorld::Face& face, const Pose& X_WS, double slope, double depth_m) {
+  if (face.radius_m <= 0.0) return face.p_WC - face.p_WA;
+  const Vec2 normal = X_WS * Vec2(depth_m, slope * depth_m) - face.p_WA;
+  return {-normal.y(), normal.x()};
 }
 
 }  // namespace
@@ -92,7 +100,8 @@ void Camera::measure(const StepContext& context) {
     const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
-        brightness(depth_m, params.range_max_m) * (run.top_face ? 1.0 : side_light(face));
+        brightness(depth_m, params.range_max_m) *
+        (run.top_face ? 1.0 : side_light(along(face, view_->X_WS(), slope, depth_m)));
     const Colour colour = scaled(shown_colour(face, context.world), light);
     std::uint8_t* pixel = reading.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;

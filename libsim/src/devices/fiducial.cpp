@@ -62,7 +62,7 @@ void FiducialFinder::measure(const StepContext& context) {
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const ObstacleDescription& o = obstacles[i];
     if (o.state != ObstacleState::kExtended || o.carried_by == context.robot) continue;
-    look_at(o.fiducial, {o.center.x(), o.center.y(), o.yaw_rad}, o.height_m,
+    look_at(o.fiducial, {o.center.x(), o.center.y(), o.yaw_rad}, standing_height_m(o),
             {-1, Contact::Kind::kObstacle, static_cast<int>(i)});
   }
   std::stable_sort(reading.marks.begin(), reading.marks.end(),

@@ -117,7 +117,8 @@ double Ranger::least_range_m(const scan::Cone& cone) {
     if (i > 0 && least_m < kShellLimits_m[i - 1] - reach_m_ - kSlack_m) break;
     if (shells_[i].size() > 0) least_m = shells_[i].least_range_in_cone_m(cone, least_m);
   }
-  return least_m;
+  if (edges_.circles().empty()) return least_m;
+  return scan::least_range_in_cone_m(edges_.circles(), cone, least_m);
 }
 
 void Ranger::show(SimTime, RobotSnapshot& shot) const {

@@ -11,6 +11,7 @@
 
 #include "io/solid_limits.h"
 #include "sim/world/limits.h"
+#include "sim/world/outline.h"
 
 namespace sim::io {
 namespace {

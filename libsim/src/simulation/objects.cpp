@@ -8,6 +8,7 @@
 #include "io/solid_limits.h"
 #include "sim/core/assert.h"
 #include "sim/world/limits.h"
+#include "sim/world/outline.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -27,10 +28,11 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   SIM_ASSERT(it != obstacles.end());
   ObstacleDescription now = *it;
   edit(now);
+  if (now.present_height_m) now.present_height_m = std::min(*now.present_height_m, now.height_m);
   // A portable block may be placed beyond the floor, as programs for Stage do.
   const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
   if (where) return "obstacle " + name + " would " + *where;
-  if (const auto error = io::check_box(now)) {
+  if (const auto error = io::check_obstacle(now)) {
     return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
            error->found;
   }
@@ -49,10 +51,13 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
 
 std::optional<std::string> Simulation::Impl::pick_up(std::size_t robot, int index) {
   ObstacleDescription& thing = obstacle(index);
-  if (!thing.portable || thing.state != ObstacleState::kExtended || thing.carried_by >= 0) {
+  const bool moves = thing.present_height_m.has_value();
+  if (!thing.portable || thing.state != ObstacleState::kExtended || thing.carried_by >= 0 ||
+      moves) {
     return "obstacle " + thing.name + " cannot be taken: it is " +
            (!thing.portable         ? "not portable"
             : thing.carried_by >= 0 ? "carried already"
+            : moves                 ? "moving"
                                     : "retracted");
   }
   thing.carried_by = static_cast<int>(robot);
@@ -104,8 +109,8 @@ void Simulation::Impl::update_load_outlines(std::size_t robot) {
   for (const Load& load : loads) {
     if (load.robot != robot || load.inside) continue;
     seen.push_back({load.obstacle, obstacle(load.obstacle)});
-    seen.back().box_B.center = load.X_BT.position();
-    seen.back().box_B.yaw_rad = load.X_BT.yaw_rad;
+    seen.back().solid_B.center = load.X_BT.position();
+    seen.back().solid_B.yaw_rad = load.X_BT.yaw_rad;
   }
   physics->set_load(static_cast<int>(robot), seen);
 }
@@ -214,7 +219,12 @@ std::optional<std::string> Simulation::place_object(const std::string& name, con
     return std::nullopt;
   }
   if (object->kind != "block") return object->kind + " \"" + name + "\" stands fast";
-  return impl_->change_block(name, [&](ObstacleDescription& block) {
+  return impl_->place_block(name, pose);
+}
+
+std::optional<std::string> Simulation::Impl::place_block(const std::string& name,
+                                                         const Pose& pose) {
+  return change_block(name, [&](ObstacleDescription& block) {
     block.center = pose.position();
     block.yaw_rad = pose.yaw_rad;
   });
@@ -225,12 +235,20 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   const std::optional<SceneObject> object = find_object(name);
   if (!object) return no_such_object(name);
   if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
-  // The limits of the world's reader; Box2D cannot represent smaller boxes.
+  // The limits of the world's reader; Box2D cannot represent smaller solids.
   if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
     return "the sides and the height of a block are at least 0.001 m";
   }
+  const auto& blocks = impl_->world.arena.obstacles;
+  const bool is_circle =
+      std::any_of(blocks.begin(), blocks.end(), [&name](const ObstacleDescription& block) {
+        return block.name == name && block.shape == ObstacleShape::kCircle;
+      });
+  if (is_circle && size_m.x() != size_m.y()) {
+    return "block \"" + name + "\" is a circle: both sides must be its diameter";
+  }
   return impl_->change_block(name, [&](ObstacleDescription& block) {
-    block.size = size_m;
+    resize(block, size_m);
     block.height_m = height_m;
   });
 }
@@ -262,31 +280,6 @@ std::optional<std::string> Simulation::set_object_fiducial(const std::string& na
   if (fiducial < 0) return "the number of a fiducial is at least 0";
   return impl_->change_appearance(*this, name, "bears no fiducial",
                                   [&](auto& object) { object.fiducial = fiducial; });
-}
-
-std::optional<std::string> Simulation::set_obstacle_state(const std::string& name,
-                                                          ObstacleState state) {
-  auto& obstacles = impl_->world.arena.obstacles;
-  const auto it = std::find_if(obstacles.begin(), obstacles.end(),
-                               [&](const ObstacleDescription& o) { return o.name == name; });
-  if (it == obstacles.end()) return "there is no obstacle named \"" + name + "\"";
-  if (it->type == ObstacleType::kStatic) {
-    return "obstacle \"" + name + "\" is static: it can be neither extended nor retracted";
-  }
-  if (it->carried_by >= 0) {
-    return "obstacle \"" + name + "\" is carried by robot " +
-           impl_->world.robots[static_cast<std::size_t>(it->carried_by)].name;
-  }
-  const int index = static_cast<int>(it - obstacles.begin());
-  const bool extend = state == ObstacleState::kExtended;
-  if (it->state == state) return std::nullopt;
-  if (extend && impl_->physics->robot_stands_on(index)) {
-    return "obstacle \"" + name + "\" cannot be extended: a robot stands on it";
-  }
-  impl_->physics->set_extended(index, extend);
-  it->state = state;
-  impl_->invalidate_clearances();
-  return std::nullopt;
 }
 
 }  // namespace sim

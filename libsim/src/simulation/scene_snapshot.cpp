@@ -1,6 +1,7 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sim/simulation/scene_snapshot.h"
 
+#include "simulation/controller.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -29,6 +30,10 @@ SceneSnapshot Simulation::snapshot() const {
   scene.view_mode = impl_->view_mode;
   scene.time_s = to_seconds(impl_->now_ns);
   for (int i = 0; i < robot_count(); ++i) scene.robots.push_back(robot_snapshot(i));
+  scene.moving_blocks = moving_blocks();
+  scene.scores = impl_->scores;
+  scene.verdict = impl_->verdict;
+  if (impl_->controller) impl_->controller->show(scene);
   return scene;
 }
 

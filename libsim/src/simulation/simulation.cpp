@@ -12,6 +12,7 @@
 #include "sim/devices/builtin.h"
 #include "sim/devices/realism.h"
 #include "sim/world/view_mode.h"
+#include "simulation/controller.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -110,9 +111,20 @@ Simulation::Impl::Impl(WorldDescription description, LogHook hook, bool to_be_re
     add_robot(robot);
   }
   connect_devices();
+  if (!world.controller.empty()) {
+    controller = std::make_unique<Controller>(*this);
+    scores.resize(robots.size());
+  }
+  const auto& blocks = world.arena.obstacles;
+  records_events = controller != nullptr ||
+                   std::any_of(blocks.begin(), blocks.end(), [](const ObstacleDescription& block) {
+                     return block.rise_speed_mps > 0.0 || block.when_blocked == WhenBlocked::kWait;
+                   });
   if (to_be_read) return;
   for (std::size_t i = 0; i < robots.size(); ++i) measure_clearance(i, kClearanceLimit_m);
 }
+
+Simulation::Impl::~Impl() = default;
 
 void Simulation::Impl::add_robot(const RobotDescription& robot) {
   RobotParts parts;
@@ -171,6 +183,7 @@ void Simulation::Impl::say(std::size_t robot, const std::string& text) {
 void Simulation::Impl::reset() {
   world.arena.obstacles = start_obstacles;
   loads.clear();
+  block_motions.clear();
   for (std::size_t i = 0; i < start_appearances.size(); ++i) {
     world.robots[i].colour = start_appearances[i].colour;
     world.robots[i].fiducial = start_appearances[i].fiducial;
@@ -198,6 +211,8 @@ void Simulation::Impl::reset() {
     static_cast<void>(
         physics->clearance_m(static_cast<int>(i), kClearanceLimit_m, kClearanceLimit_m));
   }
+  if (controller) controller->reset();
+  record(ArenaEventKind::kReset, "world");
 }
 
 void Simulation::Impl::note_due_times(std::size_t i) {
@@ -303,17 +318,20 @@ inline void Simulation::Impl::act(double dt_s) {
 
 void Simulation::Impl::step() {
   const double dt_s = to_seconds(world.simulation.step_ns);
+  if (controller) controller->before_step();
   act(dt_s);
   physics->step(dt_s);
   move_loads();
   now_ns += world.simulation.step_ns;
   ++steps;
   record_collisions();
+  if (!block_motions.empty()) move_blocks(dt_s);
   updated.clear();
   for (std::size_t i = 0; i < robots.size(); ++i) update_robot(i, dt_s);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (robots[i].any_measures_after_others) update_devices(i, true);
   }
+  if (controller) controller->after_step();
 }
 
 // --- Simulation
@@ -336,7 +354,7 @@ std::uint64_t Simulation::steps() const noexcept { return impl_->steps; }
 
 bool Simulation::finished() const noexcept {
   const auto& duration = impl_->world.simulation.duration_ns;
-  return duration.has_value() && impl_->now_ns >= *duration;
+  return impl_->verdict.has_value() || (duration.has_value() && impl_->now_ns >= *duration);
 }
 
 const WorldDescription& Simulation::world() const noexcept { return impl_->world; }

@@ -47,6 +47,7 @@ struct Slot {
 
 struct Simulation::Impl {
   class Control;
+  class Controller;  // see controller.h
   class Directory;
   struct Appearance {
     Colour colour;
@@ -64,9 +65,15 @@ struct Simulation::Impl {
     Pose X_BT;    // pose of the object in B
     bool inside;  // inside the robot, where no sensor sees it
   };
+  // A block that rises, sinks or waits until it can rise.
+  struct BlockMotion {
+    int obstacle;
+    BlockPhase phase;  // kRetracted: it waits
+  };
 
   // @param to_be_read  the state is read next, so nothing needs to be measured.
   Impl(WorldDescription description, LogHook hook, bool to_be_read = false);
+  ~Impl();
 
   void add_robot(const RobotDescription& robot);
   // Throws ConfigError with everything that devices are missing.
@@ -111,6 +118,7 @@ struct Simulation::Impl {
                                                const std::string& name, const char* refusal,
                                                Edit edit);
   std::optional<std::string> place(std::size_t i, const Pose& X_WB);
+  std::optional<std::string> place_block(const std::string& name, const Pose& pose);
   [[nodiscard]] ObstacleDescription& obstacle(int index) {
     return world.arena.obstacles.at(static_cast<std::size_t>(index));
   }
@@ -125,6 +133,21 @@ struct Simulation::Impl {
   // Updates what the sensors of others see of a robot's load.
   void update_load_outlines(std::size_t robot);
   void move_loads();
+
+  // --- Blocks that are extended and retracted (blocks.cpp)
+  // The index of a dynamic obstacle that is not carried, or the reason why there is none.
+  std::optional<std::string> find_free_block(const std::string& name, int& index) const;
+  std::optional<std::string> set_block(int index, bool extend);
+  [[nodiscard]] BlockPhase phase_of(int index) const;
+  void move_blocks(double dt_s);
+  // Begins to extend or retract a block. @return whether it is extended or retracted at once.
+  void begin_motion(int index, BlockPhase phase);
+  void end_motion(int index);
+  void set_enabled(int index, bool extended);
+  // Keeps and logs an event if the world records events.
+  void record(ArenaEventKind kind, std::string what, std::string who = {}, std::string text = {},
+              double value = 0.0);
+  void archive_arena(StateArchive& archive);
 
   // --- State (state.cpp)
   // Writes or reads the state. When reading, this object must be newly constructed.
@@ -156,6 +179,12 @@ struct Simulation::Impl {
   std::vector<Actor> actors;       // sorted by robot and device
   bool all_actors_called = false;  // act() of all devices has been called once
   std::vector<Load> loads;
+  std::vector<BlockMotion> block_motions;  // sorted by obstacle
+  std::unique_ptr<Controller> controller;  // null: the world has none
+  bool records_events = false;
+  ArenaEvents events;
+  std::vector<double> scores;  // of the robots; empty without a controller
+  std::optional<Verdict> verdict;
   std::vector<DeviceId> updated;
   std::vector<Collision> collisions;
   std::vector<SpokenText> spoken_texts;

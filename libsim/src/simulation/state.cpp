@@ -11,6 +11,7 @@
 #include "sim/simulation/world_hash.h"
 #include "sim/world/limits.h"
 #include "sim/world/view_mode.h"
+#include "simulation/controller.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -27,7 +28,7 @@ struct SnapshotHeader {
   std::uint64_t hash;      // of both
 };
 constexpr std::array<char, 8> kMagic = {'P', 'l', 'a', 'y', 'p', 'e', 'n', '\n'};
-constexpr std::uint64_t kSnapshotVersion = 2;
+constexpr std::uint64_t kSnapshotVersion = 3;
 
 std::uint64_t hash_of(std::span<const std::uint8_t> bytes) {
   StateHash hash;
@@ -83,9 +84,10 @@ std::uint64_t Simulation::Impl::start_hash() const {
 
 void Simulation::Impl::archive_obstacle(StateArchive& archive, ObstacleDescription& thing) {
   archive(thing.center, thing.size, thing.yaw_rad, thing.height_m, thing.fiducial, thing.colour);
+  for (Vec2& vertex : thing.outline) archive(vertex);
   archive.choice(thing.state, ObstacleState::kRetracted);
   archive.index(thing.carried_by, robots.size(), -1);
-  archive.expect(!archive.reading() || !io::check_box(thing), "obstacles that can be");
+  archive.expect(!archive.reading() || !io::check_obstacle(thing), "obstacles that can be");
 }
 
 void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {
@@ -127,6 +129,7 @@ void Simulation::Impl::archive(StateArchive& archive) {
     archive(spoken.text);
   });
   layers.archive_base(archive);
+  archive_arena(archive);
   if (!archive.reading()) return;
   for (std::size_t i = 0; i < robots.size(); ++i) update_load_outlines(i);
 }
@@ -186,6 +189,11 @@ void Simulation::Impl::take_over_from(Impl& before) {
   steps = before.steps;
   collisions = std::move(before.collisions);
   spoken_texts = std::move(before.spoken_texts);
+  events = std::move(before.events);
+  scores = std::move(before.scores);
+  verdict = std::move(before.verdict);
+  if (controller) controller->shift_times(later_ns);
+  record(ArenaEventKind::kReset, "world");
   updated.clear();
   invalidate_clearances();
   layers.resize(before.layers.width(), before.layers.height());  // keep the size that clients chose

@@ -8,6 +8,7 @@
 #include "sim/devices/builtin.h"
 #include "sim/world/realism.h"
 #include "sim/world/robot_model.h"
+#include "simulation/controller_hash.h"
 
 namespace sim {
 namespace {
@@ -40,6 +41,14 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   hash.add(box.colour.has_value() ? 1 : 0);
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
+  if (box.rise_speed_mps != 0.0 || box.when_blocked != WhenBlocked::kRefuse) {
+    hash.add(box.rise_speed_mps);
+    hash.add(static_cast<int>(box.when_blocked));
+  }
+  if (box.shape == ObstacleShape::kBox) return;
+  hash.add(static_cast<int>(box.shape));
+  hash.add(box.outline.size());
+  for (const Vec2& vertex : box.outline) add(hash, vertex);
 }
 
 void add(StateHash& hash, const std::vector<ObstacleDescription>& boxes) {
@@ -143,6 +152,7 @@ std::uint64_t world_hash(const WorldDescription& world) {
   hash.add(world.canvas.height);
   hash.add(world.canvas.cell_size_m);
   add(hash, world.canvas.origin);
+  if (!world.controller.empty()) add_controller(hash, world.controller);
   return hash.value();
 }
 

@@ -52,6 +52,11 @@ const std::string kMaze = "examples/roomba_maze.json";
 
 std::vector<Case> cases() {
   return {
+      {"arm_waves",
+       "examples/pioneer_arm.json",
+       {"6 joints", "joint 5: linear, 0.02 m, from 0.00 to 0.06", "reached it", "stalled at 2.09",
+        "braked 1", "home again"},
+       0.5},
       {"background_thread", kCave, {"ended at"}, 1.5},
       {"bigbob_collects",
        "examples/bigbob.json",
@@ -64,6 +69,7 @@ std::vector<Case> cases() {
        kAny,
        2,  // bob2 touches a puck
        2},
+      {"blackboard", kCave, {"at first 0 bytes", "places heard, looks at it"}, 2.0},
       {"blob_chase", kPioneer, {"of 80x60 reached", "#2040e0"}, 0.5, 3.0},
       {"bumper_maze", kPioneer, {"10 bumpers", "bumped"}, 2.0, kAny, 50},
       {"can_collector", "examples/pioneer_gripper.json", {"can 1", "2 cans in the store"}, 4.0},
@@ -75,6 +81,7 @@ std::vector<Case> cases() {
       {"globals", kCave, {"after main"}, 1.0},
       {"goto_goal", kPioneer, {"3 goals reached"}, 2.5, 5.0},
       {"infrared", "examples/epuck.json", {"8 sensors", "highest voltage"}, 0.5},
+      {"infrared", kOffice, {"8 sensors", "highest voltage"}, 2.0},
       {"infrared", "examples/s1r_full.json", {"8 sensors", "highest voltage"}, 2.0},
       {"instruments", kOffice, {"charge"}, 1.8, 2.2},
       {"logger", kPioneer, {"position2d:0", "laser:0"}, 1.8, 2.2, 0, 1, {"log.txt"}},
@@ -108,6 +115,7 @@ std::vector<Case> cases() {
        {"16 sonars, 361 beams, start at -7 -7"},
        10.0},
       {"square_by_odometry", kPioneer, {"closed within 0.0"}, 3.9, 4.4},
+      {"square_by_odometry", "examples/open_field.json", {"closed within 0.0"}, 3.9, 4.4},
       {"square_counting_turns", kPioneer, {"at "}, 3.8, 4.2},
       {"square_of_two_metres",
        "examples/open_field.json",
@@ -119,6 +127,7 @@ std::vector<Case> cases() {
       {"three_sonars", "examples/s1r_sonar.json", {"3 sonars"}, 6.0},
       {"two_clients_one_port", kCave, {"way "}, 1.0},
       {"urg_wander", "examples/pioneer_urg.json", {"667 beams from -120 to 120"}, 12.0},
+      {"urg_wander", "syrotek.json", {"682 beams from -134.8"}, 4.0},
       {"urg_wander", "examples/s1r_full.json", {"682 beams from -134.8"}, 4.0},
       {"wall_clock", kPioneer, {"took 1.0"}, 0.8, 1.1},
       {"wall_follow", kOffice, {}, 8.0},

@@ -8,6 +8,7 @@
 #include <clocale>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -209,6 +210,29 @@ std::map<std::string, std::string> all_texts_of_a_run() {
     }
   }
   return texts;
+}
+
+TEST(OutputsOfAnArenaController, AreEventsScoresAndVerdict) {
+  const auto report_of = [](const std::string& more) {
+    sim::Simulation simulation(sim::load_world_text(
+        R"({"arena": {"size": [4, 4]}, "robots": [{"name": "r1", "pose": {"x": 1, "y": 1}}])" +
+        more + "}"));
+    simulation.step();
+    return nlohmann::json::parse(report_text(simulation, Recorder({}, simulation), {}, {}));
+  };
+  const nlohmann::json report = report_of(R"(, "controller": {"traps": [
+      {"name": "p", "region": {"circle": {"center": [1, 1]}},
+       "do": [{"score": {"points": 2}}, {"end": {"verdict": "failed", "reason": "why"}}]}]})");
+  EXPECT_EQ(report.at("events"), nlohmann::json::parse(R"([
+    {"number": 1, "time": 0.0, "kind": "trap", "what": "p", "who": "r1", "text": "enter"},
+    {"number": 2, "time": 0.0, "kind": "score", "what": "p", "who": "r1", "value": 2.0},
+    {"number": 3, "time": 0.0, "kind": "end", "what": "p", "text": "why", "value": 0.0}])"));
+  EXPECT_EQ(report.at("scores"), nlohmann::json::parse(R"({"r1": 2.0})"));
+  EXPECT_EQ(report.at("verdict"),
+            nlohmann::json::parse(R"({"passed": false, "reason": "why", "time": 0.0})"));
+  for (const char* key : {"events", "scores", "verdict"}) {
+    EXPECT_FALSE(report_of("").contains(key)) << key;
+  }
 }
 
 TEST(OutputsInALocale, WithADecimalCommaAreTheSameBytesAsWithout) {

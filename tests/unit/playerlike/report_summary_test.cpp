@@ -53,6 +53,21 @@ TEST(ReportSummary, NamesRobotsThatStalledForMostOfTheTimeThatTheyDrove) {
   EXPECT_THAT(summary, Not(HasSubstr("r3 was stalled")));
 }
 
+TEST(ReportSummary, ShowsScoresAndVerdictOfTheArenaController) {
+  const TemporaryFolder folder;
+  const auto summary = [&](const std::string& verdict) {
+    return summarize_report(folder.write("report.json", R"({
+      "run": {"sim_time": 20.0, "wall_time": 0.1, "real_time_factor": 200.0, "seed": 7},
+      "robots": [], "scores": {"r1": 3.0, "r2": -0.5}, "verdict": )" +
+                                                            verdict + "}"));
+  };
+  EXPECT_THAT(summary(R"({"passed": true, "reason": "at the goal", "time": 9.5})"),
+              HasSubstr("scores: r1 3, r2 -0.5\nverdict: passed after 9.50 s: at the goal\n"));
+  EXPECT_THAT(summary(R"({"passed": false, "reason": "", "time": 9.5})"),
+              HasSubstr("verdict: failed after 9.50 s\n"));
+  EXPECT_THAT(summary("null"), HasSubstr("verdict: none\n"));
+}
+
 TEST(ReportSummary, NamesALevelOfRealismOtherThanTheCourses) {
   const TemporaryFolder folder;
   const auto summary_with = [&](const std::string& level) {

@@ -80,7 +80,10 @@ std::vector<Request> examples() {
           RestoreStateRequest{"s"},
           NoteGoalRequest{{1, 2}, {-0.5, 1.0 / 3.0}, 0.05},
           LogRequest{},
-          LogRequest{"f", true, false, true}};
+          LogRequest{"f", true, false, true},
+          SetBlackboardRequest{"g", "k", 1, 65535, {0, 255, 10}},
+          BlackboardRequest{},
+          BlackboardRequest{7, "", "k"}};
 }
 
 /// Names of all requests that are sent as messages.
@@ -132,6 +135,7 @@ TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
       {ObjectPropertyRequest{}, PropertyValue("text")},
       {ObjectPropertyRequest{}, PropertyValue(std::vector{0.1, -0.0})},
       {LogRequest{}, LogStatus{true, false, "f"}},
+      {BlackboardRequest{}, std::vector<BlackboardEntry>{{"", "k", 1, 2, {0, 255}, 5, 6}}},
       {TimeRequest{}, time}};
   for (const auto& [request, answer] : all) {
     const json message = encode_answer(request, answer, GetParam());

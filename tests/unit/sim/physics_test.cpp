@@ -277,9 +277,9 @@ TEST(PhysicsWorld, RetractedObstaclesAreNotThere) {
   world.set_target(0, {0.5, 0.0, 0.0});
   run(world, 50);
   EXPECT_NEAR(world.body(0).X_WB.x_m, 2.25, 1e-9);
-  EXPECT_FALSE(world.robot_stands_on(0));  // its front is at 2.337, the block begins at 2.4
+  EXPECT_EQ(world.robot_on(0), -1);  // its front is at 2.337, the block begins at 2.4
   run(world, 50);
-  EXPECT_TRUE(world.robot_stands_on(0));
+  EXPECT_EQ(world.robot_on(0), 0);
 }
 
 TEST(PhysicsWorld, WallsOfAMapStopARobotFromOutsideOnly) {

@@ -62,6 +62,31 @@ std::vector<DeviceDescription> devices_of_all_kinds() {
   return devices;
 }
 
+/// Blocks that rise slowly or wait, and an arena controller that changes them.
+void add_controller(WorldDescription& world) {
+  std::vector<std::string> blocks;
+  for (ObstacleDescription& block : world.arena.obstacles) {
+    if (block.type != ObstacleType::kDynamic) continue;
+    block.rise_speed_mps = blocks.size() % 3 == 0 ? 0.0 : 0.2;
+    block.when_blocked = blocks.size() % 2 == 0 ? WhenBlocked::kRefuse : WhenBlocked::kWait;
+    blocks.push_back(block.name);
+  }
+  TimerDescription timer;
+  timer.name = "timer";
+  timer.every_s = 0.7;
+  timer.jitter_s = 0.3;
+  timer.actions = {BlocksAction{BlocksAction::Change::kToggle, blocks},
+                   TextAction{.text = "toggled", .place = {1.0, 1.0}, .duration_s = 0.5}};
+  world.controller.timers.push_back(timer);
+  TrapDescription trap;
+  trap.name = "trap";
+  trap.region = NearRegion{world.robots[1].name, 0.6};
+  trap.on = TrapDescription::On::kStay;
+  trap.stay_s = 0.3;
+  trap.actions = {ScoreAction{}, RestartAction{{}, WhenBlocked::kWait}};
+  world.controller.traps.push_back(trap);
+}
+
 /// Thirteen robots with a device of each kind in the arena, with objects that can be taken, pushed
 /// and retracted.
 WorldDescription full_world() {
@@ -97,6 +122,7 @@ WorldDescription full_world() {
                                    .fiducial = 99,
                                    .colour = Colour{0xff, 0, 0, 0xff},
                                    .portable = true});
+  add_controller(world);
   return world;
 }
 
@@ -110,7 +136,7 @@ double signed_unit(std::mt19937& random) {
 Command random_command(std::mt19937& random) {
   const double a = signed_unit(random);
   const double b = signed_unit(random);
-  switch (number_in(random, 19)) {
+  switch (number_in(random, 21)) {
     case 0:
     case 1:
     case 2:
@@ -145,6 +171,12 @@ Command random_command(std::mt19937& random) {
       return GripCommand{static_cast<GripCommand::Action>(random() % 5)};
     case 17:
       return OpaqueCommand{{1, 2, static_cast<std::uint8_t>(random() % 256)}};
+    case 18:
+      return JointCommand{
+          static_cast<JointCommand::Mode>(random() % 3), number_in(random, 4) - 1, {a}};
+    case 19:
+      return JointSettingCommand{static_cast<JointSettingCommand::Setting>(random() % 4),
+                                 number_in(random, 4) - 1, a > -0.3 ? a : 0.0};
     default:
       return a > 0.0 ? Command(PointCommand{a, 0.3 * b, 0.5, 0.2, 0.1})
                      : Command(PanCommand{a, b, a});
@@ -225,6 +257,9 @@ std::uint64_t shown_hash(const Simulation& simulation) {
       add(to);
     }
     for (const LightSnapshot& light : shot.lights) hash.add(light.lit);
+    for (const std::vector<Vec2>& arm : shot.arms) {
+      for (const Vec2& p : arm) add(p);
+    }
     for (const Polygon& paddle : shot.paddles) {
       for (const Vec2& p : paddle) add(p);
     }
@@ -472,7 +507,7 @@ TEST(Snapshots, AreRefusedWithAReason) {
   EXPECT_THAT(refusal(simulation, other), HasSubstr("a snapshot of Playpen, found other bytes"));
   other = good;
   other[8] = 200;
-  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 2, found version 200"));
+  EXPECT_THAT(refusal(simulation, other), HasSubstr("expected version 3, found version 200"));
   other = good;
   other[good.size() / 2] ^= 1;
   EXPECT_THAT(refusal(simulation, other), HasSubstr("they were altered"));

@@ -40,7 +40,29 @@ std::map<std::string, std::set<std::string>> keys_of_reader() {
     },
     "simulation": {"zz": 0},
     "canvas": {"zz": 0},
-    "robots": [{"zz": 0, "pose": {"zz": 0}}]
+    "robots": [{"zz": 0, "pose": {"zz": 0}}],
+    "controller": {
+      "zz": 0,
+      "configurations": {"a": {"zz": 0}},
+      "timers": [{
+        "zz": 0,
+        "if": [
+          {"zz": 0, "time": {"zz": 0}}, {"count": {"zz": 0, "of": ""}},
+          {"block": {"zz": 0, "name": ""}}, {"collisions": {"zz": 0}}, {"speed": {"zz": 0}},
+          {"battery": {"zz": 0}}, {"score": {"zz": 0}}, {"fiducial": {"zz": 0, "number": 1}}
+        ],
+        "do": [
+          {"zz": 0, "place": {"zz": 0, "obstacle": "", "pose": {}}},
+          {"text": {"zz": 0, "text": ""}}, {"canvas": {"zz": 0}}, {"restart": {"zz": 0}},
+          {"score": {"zz": 0}}, {"end": {"zz": 0, "verdict": "passed"}}
+        ]
+      }],
+      "traps": [
+        {"zz": 0, "region": {"zz": 0, "box": {"zz": 0, "center": [1, 1]}}},
+        {"region": {"circle": {"zz": 0, "center": [1, 1]}}},
+        {"near": {"zz": 0, "place": [1, 1]}}
+      ]
+    }
   })";
   return test_support::known_keys(
       [&] { static_cast<void>(read_world_text(kWorld, "<memory>", test::device_table())); });
@@ -66,6 +88,30 @@ TEST(WorldSchema, HasTheKeysThatTheReaderKnows) {
       {"/canvas", "canvas"},
       {"/robots/0", "robot"},
       {"/robots/0/pose", "pose"},
+      {"/controller", "controller"},
+      {"/controller/configurations/a", "configuration"},
+      {"/controller/timers/0", "timer"},
+      {"/controller/timers/0/if/0", "condition"},
+      {"/controller/timers/0/if/0/time", "condition_time"},
+      {"/controller/timers/0/if/1/count", "condition_count"},
+      {"/controller/timers/0/if/2/block", "condition_block"},
+      {"/controller/timers/0/if/3/collisions", "condition_collisions"},
+      {"/controller/timers/0/if/4/speed", "condition_speed"},
+      {"/controller/timers/0/if/5/battery", "condition_battery"},
+      {"/controller/timers/0/if/6/score", "condition_score"},
+      {"/controller/timers/0/if/7/fiducial", "condition_fiducial"},
+      {"/controller/timers/0/do/0", "action"},
+      {"/controller/timers/0/do/0/place", "action_place"},
+      {"/controller/timers/0/do/1/text", "action_text"},
+      {"/controller/timers/0/do/2/canvas", "action_canvas"},
+      {"/controller/timers/0/do/3/restart", "action_restart"},
+      {"/controller/timers/0/do/4/score", "action_score"},
+      {"/controller/timers/0/do/5/end", "action_end"},
+      {"/controller/traps/0", "trap"},
+      {"/controller/traps/0/region", "region"},
+      {"/controller/traps/0/region/box", "region_box"},
+      {"/controller/traps/1/region/circle", "region_circle"},
+      {"/controller/traps/2/near", "near"},
   };
   const std::map<std::string, std::set<std::string>> known = keys_of_reader();
   ASSERT_EQ(known.size(), definitions.size());

@@ -19,7 +19,17 @@ TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "bad_colour",
                  "bad_colour_of_obstacle", "bad_name", "missing_key", "reserved_port", "conflicting_keys",
                  "obstacle_too_thin", "obstacle_next_to_nothing", "separator_too_thin",
-                 "map_resolution_too_fine"]
+                 "map_resolution_too_fine", "arena_action_without_kind", "arena_action_unknown",
+                 "arena_action_two_kinds", "arena_action_wrong_type", "arena_canvas_half",
+                 "arena_condition_two_kinds", "arena_configuration_name", "arena_end_verdict",
+                 "arena_end_without_verdict", "arena_message_too_long", "arena_timer_at_and_within",
+                 "arena_timer_every", "arena_timer_unknown_key", "arena_trap_near_two", "arena_trap_on",
+                 "arena_trap_polygon", "arena_trap_radius", "arena_trap_two_places",
+                 "arena_trap_without_place", "when_blocked",
+                 "circle_with_size", "circle_without_radius",
+                 "circle_too_small", "outline_missing", "outline_of_two_points",
+                 "outline_of_too_many_points", "outline_not_a_number", "outline_without_shape",
+                 "separator_with_shape", "unknown_shape"]
 
 
 def load(path):

@@ -158,6 +158,30 @@ struct PanCommand {
   double tilt_speed_radps = 0.0;  ///< upwards [rad/s]
   double zoom_speed_radps = 0.0;  ///< of the field of view, > 0 widens it [rad/s]
 };
+/// Move joints of an arm (actarray). A value has the unit of the mode and of the joint's type.
+struct JointCommand {
+  enum class Mode {
+    kPosition,  ///< to positions [m or rad]
+    kSpeed,     ///< at speeds [m/s or rad/s], until another command or a limit
+    kCurrent,   ///< with currents through the motors [A], until another command
+    kHome,      ///< to the home positions; takes no values
+  };
+  Mode mode = Mode::kPosition;
+  int joint = 0;               ///< first joint, counted from 0; -1: all joints
+  std::vector<double> values;  ///< of this joint and the following ones; one value if joint is -1
+};
+/// Change a setting of an arm's joints (actarray).
+struct JointSettingCommand {
+  enum class Setting {
+    kPower,         ///< of all joints: 0 off, otherwise on
+    kBrakes,        ///< of all joints that have brakes: 0 released, otherwise applied
+    kSpeed,         ///< for position commands, > 0 [m/s or rad/s]
+    kAcceleration,  ///< of all movements, > 0 [m/s^2 or rad/s^2]
+  };
+  Setting setting = Setting::kPower;
+  int joint = -1;  ///< counted from 0; -1: all joints; ignored for power and brakes
+  double value = 0.0;
+};
 inline constexpr std::size_t kMaxSpeech = 255;    ///< bytes
 inline constexpr std::size_t kMaxOpaque = 65536;  ///< bytes
 /// Any command to a device.
@@ -165,7 +189,8 @@ using Command =
     std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
                  ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
                  PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
-                 LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand>;
+                 LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand, JointCommand,
+                 JointSettingCommand>;
 
 class Device;
 class Sensor;

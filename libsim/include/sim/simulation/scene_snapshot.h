@@ -1,12 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "sim/canvas/canvas.h"
 #include "sim/canvas/layers.h"
 #include "sim/devices/robot_snapshot.h"
+#include "sim/simulation/arena_event.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -26,6 +28,37 @@ struct GoalMark {
   bool newest = true;  ///< whether it is the robot's newest goal
 };
 
+/// A text that the arena controller shows.
+struct SceneText {
+  Vec2 place = Vec2::Zero();          ///< of its middle, in W [m]
+  std::string text;                   ///< UTF-8
+  Colour colour;                      ///< of the letters
+  std::optional<double> time_left_s;  ///< [s]; none: until the end of the run
+};
+
+/// A dynamic block that rises, sinks, or waits until it can rise.
+struct MovingBlock {
+  int obstacle = 0;                        ///< index in the arena
+  BlockPhase phase = BlockPhase::kRising;  ///< kRetracted: it waits
+  double height_m = 0.0;                   ///< present height [m]
+};
+
+/// A trap of the arena controller.
+struct TrapMark {
+  std::string name;
+  Polygon outline;             ///< in W [m]; empty: a circle
+  Vec2 center = Vec2::Zero();  ///< of the circle, in W [m]
+  double radius_m = 0.0;       ///< of the circle [m]
+  bool enabled = true;
+  std::vector<int> robots;  ///< indices of the robots inside
+};
+
+/// A timer of the arena controller, for countdowns.
+struct TimerMark {
+  std::string name;
+  std::optional<double> time_left_s;  ///< until it acts next [s]; none: it does not
+};
+
 /// Everything that a picture of a simulation needs. Plain data, which may be drawn on another
 /// thread.
 struct SceneSnapshot {
@@ -41,6 +74,12 @@ struct SceneSnapshot {
   std::vector<CollisionMark> collisions;  ///< oldest first; the caller records them, like trails
   std::vector<GoalMark> goals;            ///< oldest first; the caller records them
   double time_s = 0.0;
+  std::vector<SceneText> texts;            ///< of the arena controller, oldest first
+  std::vector<MovingBlock> moving_blocks;  ///< by obstacle
+  std::vector<TrapMark> traps;             ///< in the world's order
+  std::vector<TimerMark> timers;           ///< in the world's order
+  std::vector<double> scores;              ///< points of the robots; empty: no arena controller
+  std::optional<Verdict> verdict;          ///< how the arena controller ended the run
 };
 
 }  // namespace sim

@@ -14,6 +14,7 @@
 #include "sim/core/state_archive.h"
 #include "sim/devices/device.h"
 #include "sim/devices/pen.h"
+#include "sim/simulation/arena_event.h"
 #include "sim/simulation/scene_snapshot.h"
 #include "sim/world/description.h"
 #include "sim/world/robot_model.h"
@@ -48,7 +49,8 @@ struct SpokenText {
 struct SceneObject {
   std::string name;  ///< as in the world; "border" and "wall" for the border and a map's walls
   std::string kind;  ///< "robot", "block", "separator", "border" or "wall"
-  Pose pose;         ///< of its bounding box in W; for a robot the pose X_WB of its body
+  Pose pose;         ///< of its bounding box in W; for a robot the pose X_WB of its body, for a
+                     ///< polygon that of its own frame
   Vec2 size = Vec2::Zero();  ///< of the bounding box along its own axes [m]
   bool dynamic = false;      ///< a robot, or a block that can be retracted
   bool extended = true;      ///< false: a block that is retracted now
@@ -80,7 +82,8 @@ class Simulation {
 
   [[nodiscard]] SimTime now_ns() const noexcept;
   [[nodiscard]] std::uint64_t steps() const noexcept;
-  /// Whether the world's duration is over. step() may still be called.
+  /// Whether the world's duration is over, or the arena controller has ended the run. step() may
+  /// still be called; the arena controller does nothing more then.
   [[nodiscard]] bool finished() const noexcept;
 
   [[nodiscard]] const WorldDescription& world() const noexcept;
@@ -119,7 +122,8 @@ class Simulation {
   ///
   /// Not reset are: the clock and the step count; sequence numbers and Waypoint::goal_number();
   /// statistics() and collisions(), which cover the whole run (the jump back to the start adds no
-  /// path length); the view mode; the layers of clients.
+  /// path length); the view mode; the layers of clients; arena_events(), scores() and verdict().
+  /// The timers and traps of the arena controller start anew.
   /// Invalidates references to devices and readings.
   void reset();
 
@@ -186,10 +190,37 @@ class Simulation {
   ///     mode.
   std::optional<std::string> set_view_mode(ViewMode mode);
 
-  /// Extends or retracts a dynamic obstacle.
+  /// Extends or retracts a dynamic obstacle, at once or with its rise_speed_mps. An obstacle with
+  /// WhenBlocked::kWait on which a robot stands waits until the robot has left.
   /// @return nothing on success, otherwise the reason: no such obstacle, a static one, or a robot
   ///     stands there.
   std::optional<std::string> set_obstacle_state(const std::string& name, ObstacleState state);
+
+  // The arena controller, see docs/arena_controller.md. Callers that act for clients must respect
+  // SimulationDescription::objects_locked.
+  /// Puts the arena into one of the world's configurations. Other blocks change even if one is
+  /// refused.
+  /// @return nothing on success, otherwise the reason: no such configuration, or what was refused.
+  std::optional<std::string> set_configuration(const std::string& name);
+  /// Switches a timer on or off. A timer that is switched on counts its times from now.
+  /// @return nothing on success or if nothing changes, otherwise the reason: no such timer.
+  std::optional<std::string> set_timer_enabled(const std::string& name, bool enabled);
+  /// Switches a trap on or off. Robots inside a trap that is switched on enter it now.
+  /// @return nothing on success or if nothing changes, otherwise the reason: no such trap.
+  std::optional<std::string> set_trap_enabled(const std::string& name, bool enabled);
+  /// Whether the timer or trap of that name is on; nullopt if there is none.
+  [[nodiscard]] std::optional<bool> timer_or_trap_enabled(const std::string& name) const;
+  /// Whether this world records events: it has an arena controller, or blocks that rise slowly or
+  /// wait.
+  [[nodiscard]] bool records_arena_events() const noexcept;
+  /// The events of the run. For those since number n: the ones with ArenaEvent::number > n.
+  [[nodiscard]] const ArenaEvents& arena_events() const noexcept;
+  /// Points of the robots, by index; empty without an arena controller. A reset keeps them.
+  [[nodiscard]] const std::vector<double>& scores() const noexcept;
+  /// How the arena controller ended the run; nullopt if it did not.
+  [[nodiscard]] const std::optional<Verdict>& verdict() const noexcept;
+  /// The dynamic obstacles that rise, sink or wait, by index.
+  [[nodiscard]] std::vector<MovingBlock> moving_blocks() const;
 
   /// Hash of the base canvas and of all state that future steps depend on: equal hashes mean equal
   /// futures. Other layers and the view mode are left out, because they only affect the clients'
@@ -198,7 +229,7 @@ class Simulation {
 
   /// Saves everything that a step or a command changes: bodies, contacts and Box2D's internal
   /// state, devices with their readings, noise and commands, carried objects, obstacles,
-  /// statistics, collisions, said texts, clock, canvas and layers.
+  /// statistics, collisions, said texts, the arena controller, clock, canvas and layers.
   ///
   /// A snapshot identifies its world and seed, but does not contain the world. It contains a hash
   /// of its bytes, so that damage is detected. It takes about 1 KB per robot, 2.5 KB per device
@@ -210,10 +241,10 @@ class Simulation {
   ///
   /// With RestoreScope::kWorld only the world is restored. Everything that reset() keeps is kept
   /// here too: the clock and the step count; sequence numbers and Waypoint::goal_number();
-  /// statistics(), collisions() and spoken_texts(), which cover the whole run; the view mode, the
-  /// size of the canvas and the layers of clients. The delay until each sensor's next measurement
-  /// is the one at the time of the snapshot. Invalidates references to devices and readings, like
-  /// reset().
+  /// statistics(), collisions(), spoken_texts(), arena_events(), scores() and verdict(), which
+  /// cover the whole run; the view mode, the size of the canvas and the layers of clients. The
+  /// delay until each sensor's next measurement is the one at the time of the snapshot. Invalidates
+  /// references to devices and readings, like reset().
   /// @throws SnapshotError if the snapshot is truncated or altered, or has another version, world
   ///     or seed. The simulation is then unchanged.
   void restore(std::span<const std::uint8_t> snapshot, RestoreScope scope = RestoreScope::kAll);

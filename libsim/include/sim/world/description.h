@@ -2,6 +2,7 @@
 #pragma once
 
 #include <any>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "sim/core/colour.h"
 #include "sim/core/pose.h"
 #include "sim/core/time.h"
+#include "sim/world/controller.h"
 
 /// The description of a world: plain structs without behaviour. io fills them from a file; a
 /// program may also fill them itself. Simulation uses them without further checks (call
@@ -30,12 +32,17 @@ enum class ObstacleType {
 /// Whether a dynamic obstacle is extended or retracted now.
 enum class ObstacleState { kExtended, kRetracted };
 
-/// A block of the arena: a box that stands on the floor.
+/// Outline of an obstacle, seen from above.
+enum class ObstacleShape { kBox, kCircle, kPolygon };
+
+/// A block of the arena: an upright solid that stands on the floor. sim/world/outline.h has
+/// functions for its shapes.
 struct ObstacleDescription {
   std::string name;  ///< unique in the world
   ObstacleType type = ObstacleType::kStatic;
-  Vec2 center = Vec2::Zero();  ///< in W [m]
-  Vec2 size = {0.2, 0.2};      ///< along its own x and y axes [m], each > 0
+  Vec2 center = Vec2::Zero();  ///< in W; of a polygon the origin of its own frame [m]
+  Vec2 size = {0.2, 0.2};      ///< extent along its own x and y axes [m], each > 0; of a circle
+                               ///< the diameter twice, of a polygon the extent of `outline`
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted at this height or above looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
@@ -44,7 +51,23 @@ struct ObstacleDescription {
                                       ///< blobfinders do not see it
   bool portable = false;              ///< grippers can take and carry it
   int carried_by = -1;                ///< index of the robot that carries it now; -1: none
+  double rise_speed_mps = 0.0;        ///< of a dynamic one, upwards and downwards [m/s]; 0: at once
+  WhenBlocked when_blocked = WhenBlocked::kRefuse;  ///< of a dynamic one, if a robot stands on it
+                                                    ///< when it is to be extended
+  std::optional<double> present_height_m = {};  ///< while it rises or sinks, [0, height_m] [m]; its
+                                                ///< state is kExtended then
+  ObstacleShape shape = ObstacleShape::kBox;
+  Polygon outline = {};  ///< of a polygon, in its own frame: simple, counter-clockwise, 3 to
+                         ///< kMostOutlineVertices vertices; otherwise empty
 };
+
+/// Present height of an extended obstacle [m].
+[[nodiscard]] inline double standing_height_m(const ObstacleDescription& obstacle) {
+  return obstacle.present_height_m.value_or(obstacle.height_m);
+}
+
+/// Maximum number of vertices of an obstacle's outline.
+inline constexpr std::size_t kMostOutlineVertices = 64;
 
 /// Corners of a box in W, counter-clockwise from the front right one [m].
 /// @param X_WB  pose of the box's centre.
@@ -54,7 +77,7 @@ struct ObstacleDescription {
   return {X_WB * Vec2(h.x(), -h.y()), X_WB * Vec2(h.x(), h.y()), X_WB * Vec2(-h.x(), h.y()),
           X_WB * Vec2(-h.x(), -h.y())};
 }
-/// Corners of an obstacle in W, counter-clockwise from the front right one [m].
+/// Corners of an obstacle that is a box in W, counter-clockwise from the front right one [m].
 [[nodiscard]] inline std::vector<Vec2> box_corners(const ObstacleDescription& box) {
   return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
 }
@@ -188,6 +211,7 @@ struct WorldDescription {
   std::vector<RobotDescription> robots;
   int robots_on_port = 0;  ///< Player port of all robots without their own port; 0: none
   CanvasDescription canvas;
+  ControllerDescription controller;  ///< timers, traps and configurations of the arena
 };
 
 }  // namespace sim
