@@ -97,7 +97,8 @@ TEST(PlaypenCommand, BadOptionValuesAreRefusedByNameAndValue) {
                                          {"--record-speed", "2000"},
                                          {"--snapshot-every", "-1"},
                                          {"--snapshot-every", "1s"},
-                                         {"--view-mode", "fullscreen"}}) {
+                                         {"--view-mode", "fullscreen"},
+                                         {"--realism", "high"}}) {
     const ProcessResult result =
         playpen({"run", world, std::string(c.option) + "=" + c.value, "--", "/bin/true"});
     EXPECT_EQ(result.status, 2) << c.option << ' ' << c.value;

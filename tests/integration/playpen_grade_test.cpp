@@ -90,6 +90,16 @@ TEST_F(PlaypenGrade, TheIntroductionsSolutionsPass) {
   }
 }
 
+TEST_F(PlaypenGrade, TheIntroductionsSolutionsPassWithRealDevices) {
+  task_ = kIntroTask;
+  for (const char* program : {WALL_PROGRAM, AVOID_PROGRAM}) {
+    const ProcessResult run = grade({"--seeds", "2", "--realism", "real"}, {program});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    const json report = json::parse(read_bytes(fs::path(out_) / "par_intro_seed2" / "report.json"));
+    EXPECT_EQ(report.at("run").at("realism"), "real");
+  }
+}
+
 TEST_F(PlaypenGrade, TheTemplateFailsWithoutCrashing) {
   task_ = kIntroTask;
   const ProcessResult run = grade({"--seeds", "1,"}, {TEMPLATE_PROGRAM});
@@ -228,6 +238,7 @@ TEST_F(PlaypenGrade, ARunOfAnotherWorldOrWithOtherSettingsDoesNotCount) {
            {"PLAYPEN_SEED=9" + exec, "the seed 9, not with 1", ""},
            {"PLAYPEN_DURATION=0.5" + exec, "a duration of 0.5 s, not of 1 s", ""},
            {"PLAYPEN_TIME=100" + exec, "the time 100, not with lockstep", ""},
+           {"PLAYPEN_REALISM=ideal" + exec, "the realism ideal, not with course", ""},
            {"PLAYPEN_GRADE=" + exec, "not signed", ""},
            {PLAYPEN_COMMAND " run " + easy +
                 " --duration 1 --out \"$PLAYPEN_OUT\" -- " TEMPLATE_PROGRAM,

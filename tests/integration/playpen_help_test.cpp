@@ -151,6 +151,7 @@ TEST(PlaypenCompletion, OfBashKnowsCommandsOptionsValuesAndNames) {
   EXPECT_THAT(completed({"run", "cave", "--snap"}), ElementsAre("--snapshot-every"));
   EXPECT_THAT(completed({"run", "cave", "--view-mode", "f"}), ElementsAre("full-screen"));
   EXPECT_THAT(completed({"run", "cave", "--view-mode", "=", "m"}), ElementsAre("mini-map"));
+  EXPECT_THAT(completed({"grade", "par_intro", "--realism", "i"}), ElementsAre("ideal"));
   EXPECT_THAT(completed({"run", "cave", "--duration", "1"}), IsEmpty());
   EXPECT_THAT(completed({"run", "off"}), ElementsAre("office"));
   EXPECT_THAT(completed({"run", "--duration", "5", "off"}), ElementsAre("office"));

@@ -341,6 +341,26 @@ TEST_F(PlaypenRun, FilmsIntoAFolderAndTakesPicturesOnTheWay) {
   EXPECT_TRUE(output("scene.png") == output("snapshots/scene_000002.000s.png"));
 }
 
+TEST_F(PlaypenRun, HasTheLevelOfRealismOfItsOptionOrOfItsWorld) {
+  json hashes;
+  for (const char* level : {"ideal", "course", "real"}) {
+    const ProcessResult result = run({"--duration", "3", "--realism", level}, {WALL_PROGRAM});
+    ASSERT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(report().at("run").at("realism"), level);
+    hashes[level] = report().at("run").at("state_hash");
+  }
+  EXPECT_NE(hashes["real"], hashes["course"]);
+  json world = json::parse(room_world());
+  world["simulation"]["realism"] = "real";
+  world_ = folder_.write("worn.json", world.dump());
+  const ProcessResult result = run({"--duration", "3"}, {WALL_PROGRAM});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("realism real"));
+  EXPECT_EQ(report().at("run").at("state_hash"), hashes["real"]);
+  ASSERT_EQ(run({"--duration", "3", "--realism", "course"}, {WALL_PROGRAM}).status, 0);
+  EXPECT_EQ(report().at("run").at("state_hash"), hashes["course"]);
+}
+
 TEST_F(PlaypenRun, RefusesAViewModeThatTheWorldDoesNotAllowBeforeTheProgramStarts) {
   json world = json::parse(room_world());
   world["canvas"]["view_mode"] = "full-screen";
