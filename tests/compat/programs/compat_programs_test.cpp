@@ -52,6 +52,13 @@ const std::string kMaze = "examples/roomba_maze.json";
 
 std::vector<Case> cases() {
   return {
+      {"arena_gate",
+       "examples/living_arena.json",
+       {"2 configurations, the last is open", "did you mean \"open\"?", "gate: sinking",
+        "gate: 0 m high", "1.6 retracted gate", "trap goal", "10 points",
+        "verdict: the runner is at the goal"},
+       2.7,
+       3.0},
       {"background_thread", kCave, {"ended at"}, 1.5},
       {"bigbob_collects",
        "examples/bigbob.json",
