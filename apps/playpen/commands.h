@@ -31,14 +31,15 @@ struct RunRequest {
 
 /// Arguments of `playpen grade`.
 struct GradeRequest {
-  std::string task;                  ///< as the user wrote it, see load_task()
-  std::vector<std::string> worlds;   ///< see find_world(); empty: those of the task
-  std::vector<std::uint64_t> seeds;  ///< empty: those of the task
-  int jobs = 0;                      ///< 0: the number of processors
-  std::optional<double> timeout_s;   ///< empty: that of the task
-  std::string output_folder;         ///< "": out/grade/TASK
-  std::string json_file;             ///< "": grade.json in the output folder
-  std::vector<std::string> command;  ///< program and arguments
+  std::string task;                     ///< as the user wrote it, see load_task()
+  std::vector<std::string> worlds;      ///< see find_world(); empty: those of the task
+  std::vector<std::uint64_t> seeds;     ///< empty: those of the task
+  int jobs = 0;                         ///< 0: the number of processors
+  std::optional<double> timeout_s;      ///< empty: that of the task
+  std::optional<sim::Realism> realism;  ///< empty: that of each world
+  std::string output_folder;            ///< "": out/grade/TASK
+  std::string json_file;                ///< "": grade.json in the output folder
+  std::vector<std::string> command;     ///< program and arguments
 };
 
 /// Runs a client program on the worlds of a task, grades it, prints a table and writes a JSON file.

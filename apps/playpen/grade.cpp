@@ -58,6 +58,7 @@ int grade_program(GradeRequest request) {
   if (!request.worlds.empty()) grade::choose_worlds(settings.task, request.worlds);
   if (!request.seeds.empty()) settings.task.seeds = request.seeds;
   if (request.timeout_s) settings.task.timeout_s = *request.timeout_s;
+  settings.realism = request.realism;
   settings.program = request.command;
   settings.program.front() = playerlike::find_program(request.command.front());
   settings.jobs = request.jobs > 0

@@ -7,6 +7,7 @@
 
 #include "command_line.h"
 #include "parsed_option.h"
+#include "run_options.h"
 
 namespace playpen {
 namespace {
@@ -65,6 +66,7 @@ void add_grade(CommandLine& line) {
                if (good) request->timeout_s = seconds;
                return good;
              });
+  add_realism(line, command, request->realism);
   CLI::Option* const out =
       command.add_option("--out", request->output_folder, "Folder for results [out/grade/<task>]");
   line.takes(out->type_name("DIR"), ValueKind::Kind::kFolder);

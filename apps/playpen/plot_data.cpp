@@ -16,6 +16,7 @@
 
 #include "sim/core/file.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
 #include "sim/world/robot_model.h"
 
 namespace playpen {
@@ -210,6 +211,9 @@ double distance_m(const Outline& body, const Outline& other, double least_m) {
   return least_m;
 }
 
+// Tolerance of the outlines of round obstacles.
+constexpr double kRoundness_m = 1e-4;
+
 std::vector<Outline> solids_of(const sim::ArenaDescription& arena) {
   std::vector<Outline> solids;
   if (arena.border) {
@@ -218,7 +222,9 @@ std::vector<Outline> solids_of(const sim::ArenaDescription& arena) {
     solids.emplace_back(std::vector<Vec2>{low, {high.x(), low.y()}, high, {low.x(), high.y()}});
   }
   for (const auto& box : arena.obstacles) {
-    if (box.state == sim::ObstacleState::kExtended) solids.emplace_back(sim::box_corners(box));
+    if (box.state == sim::ObstacleState::kExtended) {
+      solids.emplace_back(sim::outline_of(box, kRoundness_m));
+    }
   }
   for (const auto& box : arena.dock_separators) solids.emplace_back(sim::box_corners(box));
   for (const sim::WallLoop& loop : arena.walls) solids.emplace_back(loop.vertices);

@@ -9,6 +9,7 @@
 
 #include "parsed_option.h"
 #include "sim/render/render.h"
+#include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
 
 namespace playpen {
@@ -22,6 +23,18 @@ void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::View
                    return mode.has_value();
                  });
   line.takes(option, {"ground", "mini-map", "full-screen"});
+}
+
+void add_realism(CommandLine& line, CLI::App& command, std::optional<sim::Realism>& level) {
+  CLI::Option* const option = add_parsed(
+      command, "--realism",
+      "Noise, drift, slip and latency: ideal (none), course (as the world says) or real [the "
+      "world's, else course]",
+      "LEVEL", playerlike::kRealismExpected, [&level](const std::string& text) {
+        level = sim::parse_realism(text);
+        return level.has_value();
+      });
+  line.takes(option, {"ideal", "course", "real"});
 }
 
 void add_picture_options(CommandLine& line, CLI::App& command,
@@ -110,6 +123,7 @@ void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSetti
                return good;
              });
   add_view_mode(line, command, settings.view_mode);
+  add_realism(line, command, settings.realism);
   add_parsed(command, "--interface",
              "Which device answers as INTERFACE:INDEX, of each robot that has it or of ROBOT "
              "[the world's order]; can be repeated",

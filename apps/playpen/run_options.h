@@ -10,8 +10,8 @@
 
 namespace playpen {
 
-/// Adds the options of a run: --duration, --seed, --time, --out, --record..., --snapshot-every and
-/// --view-mode.
+/// Adds the options of a run: --duration, --seed, --time, --out, --record..., --snapshot-every,
+/// --view-mode and --realism.
 /// @param settings  receives the values; must outlive the command.
 /// @param default_time  default of --time, for the help.
 void add_run_settings(CommandLine& line, CLI::App& command, playerlike::RunSettings& settings,
@@ -24,6 +24,9 @@ void add_picture_options(CommandLine& line, CLI::App& command,
 
 /// Adds --view-mode.
 void add_view_mode(CommandLine& line, CLI::App& command, std::optional<sim::ViewMode>& mode);
+
+/// Adds --realism.
+void add_realism(CommandLine& line, CLI::App& command, std::optional<sim::Realism>& level);
 
 /// Adds the argument for the world's name, see find_world().
 CLI::Option* add_world(CommandLine& line, CLI::App& command, std::string& world);

@@ -20,6 +20,7 @@ else
   cmake --preset dev >/dev/null
   cmake --build build/dev --target playpen docs_thirteen docs_layers docs_snd_snd_goals \
     docs_speech_speech docs_blinkenlight_blinkenlight docs_camera_camera docs_gripper_gripper \
+    docs_actarray_actarray \
     compat_four_ports compat_roomba_maze \
     par_intro_solution_wall par_intro_solution_avoid par_planning_solution_dijkstra par_planning_solution_theta \
     par_exploration_solution_nearest
@@ -80,6 +81,9 @@ take cave/scene.png cave
 run worlds/examples/roomba_maze.json roomba_maze --duration 400 -- "$bin/../tests/compat/programs/bin/compat_roomba_maze"
 take roomba_maze/scene.png roomba_maze
 
+"$bin/playpen" render worlds/examples/shapes.json --out "$out/shapes.png"
+take shapes.png shapes
+
 run default snd -- "$bin/docs_snd_snd_goals"
 take snd/scene.png snd
 
@@ -98,6 +102,10 @@ done
 run worlds/devices/gripper.json gripper --snapshot-every 0.2 --duration 2 -- \
   "$bin/docs_gripper_gripper"
 take gripper/snapshots/scene_000001.800s.png devices_gripper
+
+run worlds/devices/actarray.json actarray --snapshot-every 0.2 --duration 2 -- \
+  "$bin/docs_actarray_actarray"
+take actarray/snapshots/scene_000002.000s.png devices_actarray
 
 # What a camera sees: its program saves it where it runs.
 programs=$(realpath "$bin")

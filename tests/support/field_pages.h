@@ -142,6 +142,21 @@ void for_each_setting(const DeviceKind& kind, const Visit& visit) {
   return "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n" + rows;
 }
 
+/// The table of docs/realism.md: the figures of all settings that the level of realism changes.
+[[nodiscard]] inline std::string realism_table() {
+  std::string rows;
+  for (const DeviceKind& kind : device_kinds()) {
+    for_each_setting(kind, [&](const Field& field, const void*) {
+      if (!field.realism) return;
+      const std::string unit = field.range.unit;
+      rows += "| [" + kind.name + "](devices/" + kind.name + ".md) | `" + field.name + "` | " +
+              (unit.empty() ? "–" : unit) + " | " + rounded_text(field.realism->ideal, 12) + " | " +
+              rounded_text(field.realism->real, 12) + " |\n";
+    });
+  }
+  return "| device | setting | unit | ideal | real |\n|---|---|---|---|---|\n" + rows;
+}
+
 /// Turns a phrase into a sentence without Markdown: "above the floor" -> "Above the floor [m]."
 [[nodiscard]] inline std::string sentence(std::string phrase, const std::string& unit) {
   std::erase(phrase, '`');

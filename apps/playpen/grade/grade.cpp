@@ -56,6 +56,7 @@ playerlike::ProgramJob job_for(const GradeSettings& settings, const TaskWorld& w
                                const fs::path& folder, playerlike::Grading& asked) {
   playerlike::RunSettings run;
   run.seed = seed;
+  run.realism = settings.realism;
   run.duration_s = settings.task.duration_s;
   run.output_folder = folder.string();
   run.quiet_end = true;

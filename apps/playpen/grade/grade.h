@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,11 @@ namespace playpen::grade {
 
 /// Settings of a grading.
 struct GradeSettings {
-  Task task;                         ///< its worlds and seeds are run
-  std::vector<std::string> program;  ///< path (see playerlike::find_program()) and arguments
-  int jobs = 1;                      ///< number of programs that run in parallel, >= 1
-  std::string output_folder;         ///< gets a folder WORLD_seedN for each run
+  Task task;                            ///< its worlds and seeds are run
+  std::vector<std::string> program;     ///< path (see playerlike::find_program()) and arguments
+  int jobs = 1;                         ///< number of programs that run in parallel, >= 1
+  std::string output_folder;            ///< gets a folder WORLD_seedN for each run
+  std::optional<sim::Realism> realism;  ///< level of realism; empty: that of each world
   /// environment changes that preload virtual time (docs/virtual_time.md); empty: sleeps are real
   playerlike::EnvironmentChanges virtual_time;
 };

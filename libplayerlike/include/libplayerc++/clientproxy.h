@@ -29,7 +29,8 @@ namespace PlayerCc {
 ///
 /// A copy is an independent proxy of the same device. It starts with the data of the original, but
 /// without the subscribers of its read signal. During the copy, no other thread may use the proxy
-/// or call Read() on its client. A Graphics2dProxy cannot be copied, because each one owns a layer.
+/// or call Read() on its client. A Graphics2dProxy, which owns a layer, and a
+/// BlackBoardProxy cannot be copied.
 class ClientProxy {
  public:
   typedef PlayerCc::read_signal_t read_signal_t;
@@ -142,6 +143,11 @@ class ClientProxy {
   T Look(T Reading::*aMember, const char* aFun = "ClientProxy") const;
   /// Called for each new reading of the device.
   virtual void HandleReading();
+  /// Calls HandlePoll() in each round from now on. For proxies of the world, which have no
+  /// readings.
+  void Poll();
+  /// Requests new data from the session. Returns whether there are any.
+  virtual bool HandlePoll();
   /// Called after all new readings were handled. Send commands that react to readings here.
   virtual void HandleRound();
 

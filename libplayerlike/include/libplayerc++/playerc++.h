@@ -4,8 +4,10 @@
 /// @file
 /// Player's C++ client library: the only header that client programs need to include.
 
+#include "libplayerc++/actarrayproxy.h"
 #include "libplayerc++/aioproxy.h"
 #include "libplayerc++/armproxies.h"
+#include "libplayerc++/blackboardproxy.h"
 #include "libplayerc++/blinkenlightproxy.h"
 #include "libplayerc++/blobfinderproxy.h"
 #include "libplayerc++/boostnames.h"

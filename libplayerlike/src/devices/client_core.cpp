@@ -39,6 +39,11 @@ void ClientCore::add(DeviceId device, ReadingListener& listener, std::optional<b
   if (replace) session_->request(ReplaceRequest{device, *replace});
 }
 
+void ClientCore::add_poller(ReadingListener& listener) {
+  require_usable();
+  entries_.push_back({DeviceId{-1, -1}, &listener, false});
+}
+
 bool ClientCore::listens(const ReadingListener& listener) const noexcept {
   return std::any_of(entries_.begin(), entries_.end(),
                      [&](const Entry& e) { return e.listener == &listener; });
@@ -50,9 +55,10 @@ void ClientCore::remove(ReadingListener& listener) noexcept {
                                [&](const Entry& e) { return e.listener == &listener; });
   if (it == entries_.end()) return;
   const DeviceId device = it->device;
+  const bool polls = it->polls();
   std::erase_if(by_device_, [&](const auto& place) { return place.second == &*it; });
   entries_.erase(it);
-  if (closed_) return;
+  if (closed_ || polls) return;
   try {
     session_->request(UnsubscribeRequest{device});
   } catch (const std::exception&) {
@@ -71,7 +77,7 @@ void ClientCore::read(const std::atomic<bool>* stop) {
     // Another thread of this client may have taken the round; then wait for the next one. Limited,
     // since the other thread may win every time. The data are new in any case.
     constexpr int kMostRounds = 3;
-    done = count > 0 || entries_.empty() || ++rounds == kMostRounds;
+    done = count > 0 || listens_to_nothing() || ++rounds == kMostRounds;
   }
   for (const auto& call : notifications) call();
 }
@@ -109,11 +115,16 @@ int ClientCore::hand_out(Notifications& notifications) {
   begin_change();
   const int count = session_->take(*this);
   for (Entry& entry : entries_) {
+    if (entry.polls()) entry.updated = entry.listener->on_poll();
     if (!std::exchange(entry.updated, false)) continue;
     entry.listener->on_round();
     if (auto call = entry.listener->notification()) notifications.push_back(std::move(call));
   }
   return count;
+}
+
+bool ClientCore::listens_to_nothing() const noexcept {
+  return std::all_of(entries_.begin(), entries_.end(), [](const Entry& e) { return e.polls(); });
 }
 
 void ClientCore::on_reading(DeviceId device, const sim::SharedReading& reading) {

@@ -27,6 +27,9 @@ class ReadingListener {
   virtual void on_reading(const sim::SharedReading& reading) = 0;
   /// Called after a round that had readings for this listener. The mutex is held.
   virtual void on_round() {}
+  /// Called in each round for listeners of ClientCore::add_poller(): requests new data from the
+  /// session. The mutex is held, and begin_change() was called. @return whether there are any.
+  virtual bool on_poll() { return false; }
   /// The function to call after the round without the mutex; empty: none. The mutex is held.
   virtual std::function<void()> notification() { return {}; }
   /// The client is closed. The mutex is held.
@@ -51,9 +54,13 @@ class ClientCore final : private ReadingSink {
   /// Subscribes a listener to a device. The caller holds the mutex.
   /// @param replace  see ReplaceRequest; nullopt: the session's default.
   void add(DeviceId device, ReadingListener& listener, std::optional<bool> replace = std::nullopt);
+  /// Adds a listener without a device. Its on_poll() is called in each round. The caller holds the
+  /// mutex.
+  void add_poller(ReadingListener& listener);
   /// Whether a listener is registered. The caller holds the mutex.
   [[nodiscard]] bool listens(const ReadingListener& listener) const noexcept;
-  /// Undoes add(); does nothing for an unknown listener. Locks the mutex; never throws.
+  /// Undoes add() and add_poller(); does nothing for an unknown listener. Locks the mutex; never
+  /// throws.
   void remove(ReadingListener& listener) noexcept;
 
   /// Waits for a round, delivers its readings to the listeners, then calls their notifications.
@@ -123,7 +130,9 @@ class ClientCore final : private ReadingSink {
   /// Calls visit(device) for every device with a listener. The caller holds the mutex.
   template <typename Visit>
   void for_each_device(Visit visit) const {
-    for (const Entry& entry : entries_) visit(entry.device);
+    for (const Entry& entry : entries_) {
+      if (!entry.polls()) visit(entry.device);
+    }
   }
 
  private:
@@ -131,6 +140,8 @@ class ClientCore final : private ReadingSink {
     DeviceId device;
     ReadingListener* listener;
     bool updated;
+
+    [[nodiscard]] bool polls() const { return device.robot < 0; }
   };
   struct KnownPose {
     sim::Pose pose;
@@ -140,6 +151,8 @@ class ClientCore final : private ReadingSink {
   using Notifications = std::vector<std::function<void()>>;
 
   void on_reading(DeviceId device, const sim::SharedReading& reading) override;
+  /// Whether no listener has a device.
+  [[nodiscard]] bool listens_to_nothing() const noexcept;
   /// Delivers the readings that have arrived. The mutex is held. @return the number of readings.
   int hand_out(Notifications& notifications);
 

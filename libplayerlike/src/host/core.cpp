@@ -409,10 +409,23 @@ AlarmId Host::Core::set_alarm(Alarm alarm) {
 
 // --- Steps
 
+ThreadId Host::Core::blackboard_thread(const Client& client) const {
+  if (paced() || in_turns() || !lockstep_.several_owners()) return 0;
+  return client.joined && !client.silent ? client.owner : 0;
+}
+
+void Host::Core::publish_blackboard() {
+  if (!blackboard_.has_waiting_changes()) return;
+  std::vector<ThreadId> order;
+  for (const auto& client : clients_) order.push_back(client->owner);
+  blackboard_.publish(order);
+}
+
 bool Host::Core::advance() {
   const auto now = WallClock::now();
   if (progress_.note_step(now)) stalled_time_warning_.dismiss_alarm();
   inputs_.before_step(clients_);
+  publish_blackboard();
   simulation_.step();
   now_ns_.store(simulation_.now_ns(), std::memory_order_release);
   pace_.count_step();

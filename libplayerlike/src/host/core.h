@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/alarms.h"
+#include "host/blackboard.h"
 #include "host/client_files.h"
 #include "host/clients.h"
 #include "host/inputs.h"
@@ -165,6 +166,12 @@ class Host::Core {
   /// The end of a peek that begins now in lockstep.
   [[nodiscard]] sim::SimTime end_of_peek(std::chrono::milliseconds timeout) const;
 
+  /// The thread for which a client's changes of the blackboard wait until the next step; 0: they
+  /// take effect at once. They wait if threads compute side by side between two steps.
+  [[nodiscard]] ThreadId blackboard_thread(const Client& client) const;
+  /// Lets the waiting changes of the blackboard take effect, in the order of the clients.
+  void publish_blackboard();
+
   /// Makes a step. @return the result of release_waiters().
   bool advance();
   /// Ends the waits that are over. @return whether a client may have stopped waiting.
@@ -197,6 +204,7 @@ class Host::Core {
   std::atomic<std::uint64_t> canvas_generation_{0};
   ClientFiles client_files_;
   SavedStates saved_states_;
+  Blackboard blackboard_;
 
   Clients clients_;
   Lockstep lockstep_;

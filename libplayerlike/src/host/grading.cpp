@@ -7,6 +7,7 @@
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
 #include "sim/simulation/world_hash.h"
+#include "sim/world/realism.h"
 
 namespace playerlike {
 namespace {
@@ -15,6 +16,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kEntry = "graded";
 constexpr const char* kSignature = "signature";
+constexpr const char* kCourse = "course";  // left out of the entry
 
 /// The signature of a report that has its entry "graded", but no signature yet.
 std::string signature_of(const ordered_json& report, const std::string& nonce) {
@@ -33,6 +35,7 @@ ordered_json entry_of(const Grading& grading) {
                         {"duration", nullptr},
                         {"time", grading.time}};
   if (grading.duration_s) entry["duration"] = *grading.duration_s;
+  if (grading.realism != kCourse) entry["realism"] = grading.realism;
   return entry;
 }
 
@@ -53,6 +56,7 @@ Grading grading_of(const std::string& nonce, const sim::WorldDescription& world)
   if (simulation.time_mode == sim::TimeMode::kPaced) {
     grading.time = sim::shortest_text(simulation.time_factor);
   }
+  grading.realism = sim::to_string(simulation.realism);
   return grading;
 }
 
@@ -77,6 +81,10 @@ std::optional<std::string> fault_of_graded(const std::string& report, const Grad
     return "the report is that of another run";
   }
   const ordered_json wanted = entry_of(expected);
+  if (const std::string realism = entry.value("realism", kCourse); realism != expected.realism) {
+    return "the program ran with the realism " + realism + ", not with " + expected.realism +
+           ": it must leave PLAYPEN_REALISM alone";
+  }
   if (found("world") != wanted.at("world")) {
     return "the program ran the world \"" + found("world_name").get<std::string>() +
            "\", which is not that of the task (\"" + expected.world_name +

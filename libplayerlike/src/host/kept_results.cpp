@@ -26,6 +26,7 @@
 #include "sim/core/replace_file.h"
 #include "sim/core/time.h"
 #include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike {
@@ -214,6 +215,8 @@ void take_looks(const json& looks, sim::RobotSnapshot& robot) {
   each("sights", [&](const json& s) { robot.sights.emplace_back(point(s.at(0)), point(s.at(1))); });
   robot.paddles.clear();
   each("paddles", [&](const json& p) { robot.paddles.push_back(points(p)); });
+  robot.arms.clear();
+  each("arms", [&](const json& arm) { robot.arms.push_back(points(arm)); });
 }
 
 void take_scan(const KeptScan& kept, sim::RobotSnapshot& robot) {
@@ -233,7 +236,7 @@ void take_obstacles(const json& kept, std::vector<sim::ObstacleDescription>& obs
   for (std::size_t i = 0; i < std::min(kept.size(), obstacles.size()); ++i) {
     sim::ObstacleDescription& o = obstacles[i];
     o.center = point(kept[i].at(0));
-    o.size = point(kept[i].at(1));
+    sim::resize(o, point(kept[i].at(1)));
     o.yaw_rad = number(kept[i].at(2));
     o.height_m = number(kept[i].at(3));
     o.state = choice(kept[i].at(4), sim::ObstacleState::kRetracted);

@@ -50,6 +50,7 @@ json looks_of(const sim::RobotSnapshot& robot) {
   for (const sim::Polygon& paddle : robot.paddles) {
     looks["paddles"].push_back(to_json(paddle));
   }
+  for (const std::vector<sim::Vec2>& arm : robot.arms) looks["arms"].push_back(to_json(arm));
   return looks;
 }
 

@@ -23,6 +23,7 @@
 #include "sim/core/replace_file.h"
 #include "sim/io/map_file.h"
 #include "sim/render/render.h"
+#include "sim/world/realism.h"
 
 namespace playerlike {
 namespace {
@@ -205,6 +206,7 @@ nlohmann::ordered_json report(const sim::Simulation& simulation, const Recorder&
       {"run",
        {{"world", simulation.world().name},
         {"seed", simulation.world().simulation.seed},
+        {"realism", sim::to_string(simulation.world().simulation.realism)},
         {"steps", simulation.steps()},
         {"sim_time", sim::to_seconds(simulation.now_ns())},
         {"wall_time", time.wall_time_s},

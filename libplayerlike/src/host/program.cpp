@@ -19,6 +19,7 @@
 
 #include "host/supervisor.h"
 #include "sim/core/number_text.h"
+#include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike {
@@ -306,6 +307,9 @@ EnvironmentChanges run_environment(const std::string& world_file, const RunSetti
   changes["PLAYPEN_VIEW_MODE"] =
       settings.view_mode ? std::optional(std::string(sim::to_string(*settings.view_mode)))
                          : std::nullopt;
+  changes["PLAYPEN_REALISM"] = settings.realism
+                                   ? std::optional(std::string(sim::to_string(*settings.realism)))
+                                   : std::nullopt;
   changes["PLAYPEN_CLIENTS"] =
       settings.clients ? std::optional(std::to_string(*settings.clients)) : std::nullopt;
   std::string interfaces;

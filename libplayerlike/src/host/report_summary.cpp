@@ -76,7 +76,10 @@ std::string summarize(const nlohmann::json& report) {
   out << std::fixed << std::setprecision(1) << run.at("sim_time").get<double>()
       << " s simulated in " << std::setprecision(3) << run.at("wall_time").get<double>()
       << " s: " << std::setprecision(1) << run.at("real_time_factor").get<double>()
-      << " times real time (seed " << run.at("seed").get<std::uint64_t>() << ")\n";
+      << " times real time (seed " << run.at("seed").get<std::uint64_t>();
+  const std::string realism = run.value("realism", "course");
+  if (realism != "course") out << ", realism " << realism;
+  out << ")\n";
   if (!run.value("repeatable", true)) {
     out << "another run may differ:\n";
     for (const nlohmann::json& why : run.at("repeatable_why")) {

@@ -273,6 +273,17 @@ struct Host::Core::RequestHandler {
     core.results_.note_goal(robot, core.simulation_.body(robot).X_WB * what.goal_m,
                             what.tolerance_m);
   }
+  void operator()(const SetBlackboardRequest& what) const {
+    const Lock lock = lock_readable();
+    client.touch();
+    const ThreadId thread = core.blackboard_thread(client);
+    if (thread == 0) core.publish_blackboard();
+    core.blackboard_.set(what, core.simulation_.now_ns(), thread);
+  }
+  std::vector<BlackboardEntry> operator()(const BlackboardRequest& what) const {
+    const Lock lock = lock_readable();
+    return core.blackboard_.find(what, core.blackboard_thread(client));
+  }
   LogStatus operator()(const LogRequest& what) const {
     // A file to replay is read without the mutex: this may take seconds.
     std::optional<RunLog::Loaded> loaded;

@@ -16,6 +16,7 @@
 #include "sim/core/number_text.h"
 #include "sim/core/time.h"
 #include "sim/render/render.h"
+#include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
 
 namespace playerlike {
@@ -315,6 +316,10 @@ RunSettings RunSettings::from_environment() {
     settings.view_mode = sim::parse_view_mode(text);
     return settings.view_mode.has_value();
   });
+  variables.read("PLAYPEN_REALISM", kRealismExpected, [&](const std::string& text) {
+    settings.realism = sim::parse_realism(text);
+    return settings.realism.has_value();
+  });
   settings.grading.nonce = environment("PLAYPEN_GRADE");
   variables.read("PLAYPEN_CLIENTS", kClientsExpected, into<int>(settings.clients, parse_clients));
   variables.read("PLAYPEN_INTERFACES", kInterfaceChoicesExpected, [&](const std::string& text) {
@@ -377,6 +382,7 @@ void RunSettings::apply_to(sim::WorldDescription& world) const {
     world.simulation.time_factor = time_factor;
   }
   if (clients) world.simulation.start_gate_clients = *clients;
+  if (realism) world.simulation.realism = *realism;
   if (view_mode) {
     if (world.canvas.view_mode_locked && *view_mode != world.canvas.view_mode) {
       sim::ConfigIssue issue{"run/view_mode_locked",

@@ -60,7 +60,7 @@ std::vector<const Device*> carriers(const Robot& robot, std::string_view interfa
 }
 
 // Interfaces of the world itself, independent of its robots.
-constexpr std::string_view kWorldInterfaces[] = {"log", "map", "simulation"};
+constexpr std::string_view kWorldInterfaces[] = {"blackboard", "log", "map", "simulation"};
 
 bool is_of_world(std::string_view interface) {
   return std::find(std::begin(kWorldInterfaces), std::end(kWorldInterfaces), interface) !=

@@ -2,6 +2,7 @@
 #include "playerc/device.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -60,16 +61,19 @@ void Device::client_is_gone() noexcept {
 
 void* Device::deliver() {
   void* const id = common_.id;
+  std::function<void()> report_events;
   if (ClientProxy* const made = proxy()) {
     common_.lasttime = common_.datatime;
     common_.datatime = made->GetDataTime();
     refresh();
+    report_events = take_events();
     common_.fresh = 1;
     client_->lasttime = client_->datatime;
     client_->datatime = common_.datatime;
   }
   // A callback may remove callbacks or destroy the device, so the loop works on a copy.
   const playerc_device_t told = common_;
+  if (report_events) report_events();
   for (int i = 0; i < told.callback_count; ++i) told.callback[i](told.callback_data[i]);
   return id;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,6 +51,9 @@ class Device {
   [[nodiscard]] virtual bool has_news() { return true; }
   /// Copies new data from the proxy to the struct.
   virtual void refresh() = 0;
+  /// Returns the function that reports the device's new events; empty: none. deliver() calls it
+  /// before the callbacks. It may destroy the device.
+  [[nodiscard]] virtual std::function<void()> take_events() { return {}; }
 
  private:
   playerc_device_t& common_;

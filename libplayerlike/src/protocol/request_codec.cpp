@@ -159,6 +159,8 @@ template <>
 constexpr const char* kListOf<RobotInfo> = "a list of robots";
 template <>
 constexpr const char* kListOf<sim::LayerInfo> = "a list of layers";
+template <>
+constexpr const char* kListOf<BlackboardEntry> = "a list of entries";
 
 // --- Values
 

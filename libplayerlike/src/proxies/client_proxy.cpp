@@ -52,6 +52,8 @@ void ClientProxy::Link::refresh(double time_s) {
 
 void ClientProxy::Link::on_round() { proxy.HandleRound(); }
 
+bool ClientProxy::Link::on_poll() { return proxy.HandlePoll(); }
+
 std::function<void()> ClientProxy::Link::notification() {
   if (proxy.mReadSignal.empty()) return {};
   return proxy.mReadSignal.call();
@@ -171,6 +173,10 @@ ClientProxy::scoped_lock_t ClientProxy::LockData(const char* aFun) const {
 void ClientProxy::HandleReading() {}
 
 void ClientProxy::HandleRound() {}
+
+void ClientProxy::Poll() { mLink->core->add_poller(*mLink); }
+
+bool ClientProxy::HandlePoll() { return false; }
 
 bool ClientProxy::IsValid() const {
   const scoped_lock_t lock(mLink->lock_anyway());

@@ -39,8 +39,16 @@ constexpr uint32_t kDataMessage = PLAYER_MSGTYPE_DATA;
 constexpr uint32_t kCommandMessage = PLAYER_MSGTYPE_CMD;
 constexpr uint32_t kRequestMessage = PLAYER_MSGTYPE_REQ;
 constexpr MessageRow kMessages[] = {
+    {PLAYER_ACTARRAY_CODE, kDataMessage, subtypes_of({PLAYER_ACTARRAY_DATA_STATE})},
+    {PLAYER_ACTARRAY_CODE, kCommandMessage,
+     subtypes_between(PLAYER_ACTARRAY_CMD_POS, PLAYER_ACTARRAY_CMD_MULTI_CURRENT)},
+    {PLAYER_ACTARRAY_CODE, kRequestMessage,
+     subtypes_between(PLAYER_ACTARRAY_REQ_POWER, PLAYER_ACTARRAY_REQ_ACCEL)},
     {PLAYER_AIO_CODE, kDataMessage, subtypes_of({PLAYER_AIO_DATA_STATE})},
     {PLAYER_AIO_CODE, kCommandMessage, subtypes_of({PLAYER_AIO_CMD_STATE})},
+    {PLAYER_BLACKBOARD_CODE, kDataMessage, subtypes_of({PLAYER_BLACKBOARD_DATA_UPDATE})},
+    {PLAYER_BLACKBOARD_CODE, kRequestMessage,
+     subtypes_between(PLAYER_BLACKBOARD_REQ_SUBSCRIBE_TO_KEY, PLAYER_BLACKBOARD_REQ_GET_ENTRY)},
     {PLAYER_BLINKENLIGHT_CODE, kDataMessage, subtypes_of({PLAYER_BLINKENLIGHT_DATA_STATE})},
     {PLAYER_BLINKENLIGHT_CODE, kCommandMessage,
      subtypes_between(PLAYER_BLINKENLIGHT_CMD_STATE, PLAYER_BLINKENLIGHT_CMD_FLASH)},

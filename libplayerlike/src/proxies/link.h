@@ -33,6 +33,7 @@ struct ClientProxy::Link final : playerlike::ReadingListener {
 
   void on_reading(const sim::SharedReading& reading) override;
   void on_round() override;
+  bool on_poll() override;
   std::function<void()> notification() override;
   void on_close() override;
 

@@ -46,7 +46,7 @@ bool Rights::command_all() const {
   return connect && std::all_of(command.begin(), command.end(), [](bool may) { return may; });
 }
 
-bool Rights::change_canvas() const {
+bool Rights::change_shared() const {
   return connect && (command.empty() ||
                      std::any_of(command.begin(), command.end(), [](bool may) { return may; }));
 }

@@ -168,6 +168,12 @@ struct NativeHandler::Guard {
                            sim::rounded_text(std::sqrt(arena_m.prod() / kMaxMapCells), 6) +
                            " m long at least, unless the map is asked for in tiles");
   }
+  void check(const SetBlackboardRequest&) const {
+    if (handler.terms_.rights.change_shared()) return;
+    throw ProtocolError("access/denied",
+                        "only who may command a robot may set entries of the blackboard that all "
+                        "share: present the token of a robot in hello");
+  }
   void check(const NoteGoalRequest& what) const {
     require_device(handler.hub_.host().robots(), what.device);
     handler.require_rights(what.device.robot);
@@ -343,7 +349,7 @@ void NativeHandler::answer_elsewhere(Request request, const json& id, const std:
 }
 
 void NativeHandler::require_canvas_rights() const {
-  if (terms_.rights.change_canvas()) return;
+  if (terms_.rights.change_shared()) return;
   throw ProtocolError(
       "access/denied",
       "only who may command a robot may draw on the canvas that all share, erase or "
@@ -352,7 +358,7 @@ void NativeHandler::require_canvas_rights() const {
 }
 
 void NativeHandler::require_drawing(std::span<const sim::DrawOperation> drawings) const {
-  if (terms_.rights.change_canvas()) return;
+  if (terms_.rights.change_shared()) return;
   if (std::any_of(drawings.begin(), drawings.end(),
                   [](const auto& drawing) { return drawing.layer == sim::kBaseLayer; })) {
     require_canvas_rights();

@@ -28,9 +28,9 @@ struct Rights {
   /// Whether it may make requests that affect all robots (reset, pause, quit): it may command every
   /// robot.
   [[nodiscard]] bool command_all() const;
-  /// Whether it may change the canvas that all robots share (draw, erase, resize): it may command a
-  /// robot, or the world has none.
-  [[nodiscard]] bool change_canvas() const;
+  /// Whether it may change what all robots share, the canvas (draw, erase, resize) and the
+  /// blackboard: it may command a robot, or the world has none.
+  [[nodiscard]] bool change_shared() const;
 };
 
 /// Grants rights for tokens. Compares tokens in constant time.

@@ -65,6 +65,7 @@ std::string property_of(const Field& field) {
 
 void add_field(const Field& field, const void* value, std::map<std::string, double>& properties,
                const std::string& suffix) {
+  if (value == nullptr && field.type != FieldType::kPose) return;
   const std::string name = property_of(field);
   switch (field.type) {
     case FieldType::kNumber:
@@ -161,7 +162,10 @@ bool all_finite(const FieldTable& table, const void* object) {
 void add_properties(const FieldTable& table, const void* object,
                     std::map<std::string, double>& properties, const std::string& suffix) {
   for_each_field(table, object, [&](const Field& field, const void* owner) {
-    if (field.is_property) add_field(field, field.get(owner), properties, suffix);
+    if (!field.is_property) return;
+    const void* const value = field.get(owner);
+    if (field.unlisted_at && as<double>(value) == *field.unlisted_at) return;
+    add_field(field, value, properties, suffix);
   });
 }
 

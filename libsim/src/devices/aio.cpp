@@ -163,6 +163,7 @@ constexpr ElementType kAnalogSource{read_analog, analog_text, R"({"type": ["numb
 constexpr Field kAioSettings[] = {
     frequency_field<&AioParams::frequency_hz>(),
     field<&AioParams::noise_v>("noise", "V", "standard deviation of each input")
+        .with_realism(0.0, 0.005)
         .within(0.0, 1000.0),
     field<&AioParams::inputs>("inputs", "", "sources of input 0, 1, ...; at most 8")
         .of(kAnalogSource)

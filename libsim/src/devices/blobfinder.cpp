@@ -74,7 +74,7 @@ void group(std::vector<Piece>& pieces) {
 }  // namespace
 
 Blobfinder::Blobfinder(std::string name, const BlobfinderParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "blobfinder", params.frequency_hz),
+    : SensorOf(std::move(name), "blobfinder", params.frequency_hz, params.latency_s),
       params_(params),
       noise_(std::move(noise)),
       view_(std::make_unique<ColumnView>(params)) {}
@@ -179,12 +179,14 @@ constexpr ElementType kColour{
 constexpr Field kBlobfinderSettings[] = {
     frequency_field<&BlobfinderParams::frequency_hz>(),
     include<BlobfinderParams, ViewParams>(),
-    noise_field<&BlobfinderParams::noise_m>("standard deviation of a blob's range"),
+    noise_field<&BlobfinderParams::noise_m>("standard deviation of a blob's range")
+        .with_realism(0.0, 0.02),
     field<&BlobfinderParams::colours>(
         "colours", "", "list of the exact colours that it sees, like `\"#ff8800\"`; none: all")
         .of(kColour)
         .counting(0, BlobfinderParams::kMaxColours)
         .with_issue("world/bad-colour", "a colour like \"#ff8800\" or \"#f80\""),
+    latency_field<&BlobfinderParams::latency_s>(),
 };
 SIM_FIELDS(BlobfinderParams, kBlobfinderSettings)
 

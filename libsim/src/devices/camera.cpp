@@ -47,12 +47,20 @@ Colour scaled(const Colour& colour, double factor) {
   return {channel(colour.r), channel(colour.g), channel(colour.b), 255};
 }
 
-// Relative brightness of an upright face.
-double side_light(const PhysicsWorld::Face& face) {
-  const Vec2 e = face.p_WC - face.p_WA;
+// Relative brightness of an upright face along the direction e.
+double side_light(const Vec2& e) {
   // cos(2 yaw) of the normal, which is e rotated by a quarter turn.
   const double cos2 = (e.y() * e.y() - e.x() * e.x()) / e.squaredNorm();
   return 0.85 + 0.15 * cos2;
+}
+
+// The direction of an upright face in W where the ray of a column meets it.
+// @param slope    of the ray in S.
+// @param depth_m  along the x axis of S.
+Vec2 along(const PhysicsWorld::Face& face, const Pose& X_WS, double slope, double depth_m) {
+  if (face.radius_m <= 0.0) return face.p_WC - face.p_WA;
+  const Vec2 normal = X_WS * Vec2(depth_m, slope * depth_m) - face.p_WA;
+  return {-normal.y(), normal.x()};
 }
 
 }  // namespace
@@ -62,7 +70,7 @@ double brightness(double depth_m, double range_max_m) {
 }
 
 Camera::Camera(std::string name, const CameraParams& params)
-    : SensorOf(std::move(name), "camera", params.frequency_hz),
+    : SensorOf(std::move(name), "camera", params.frequency_hz, params.latency_s),
       view_(std::make_unique<ColumnView>(params)) {
   auto& first = edit();
   first.width = params.width;
@@ -92,7 +100,8 @@ void Camera::measure(const StepContext& context) {
     const double slope = (0.5 * params.width - (run.column + 0.5)) / focal_px;
     const double depth_m = run.range_m / std::sqrt(1.0 + slope * slope);
     const double light =
-        brightness(depth_m, params.range_max_m) * (run.top_face ? 1.0 : side_light(face));
+        brightness(depth_m, params.range_max_m) *
+        (run.top_face ? 1.0 : side_light(along(face, view_->X_WS(), slope, depth_m)));
     const Colour colour = scaled(shown_colour(face, context.world), light);
     std::uint8_t* pixel = reading.pixels.data() + static_cast<std::size_t>(run.top) * row_bytes +
                           static_cast<std::size_t>(run.column) * 3;
@@ -125,12 +134,11 @@ void Camera::paint_background() {
   }
 }
 
-void Camera::archive(StateArchive& archive) {
-  SensorOf::archive(archive);
-  const std::int64_t size = std::int64_t{3} * reading().width * reading().height;
-  archive.expect(
-      reading().pixels.empty() || static_cast<std::int64_t>(reading().pixels.size()) == size,
-      "three bytes for each pixel");
+void Camera::archive_reading(StateArchive& archive, CameraReading& reading) {
+  SensorOf::archive_reading(archive, reading);
+  const std::int64_t size = std::int64_t{3} * reading.width * reading.height;
+  archive.expect(reading.pixels.empty() || static_cast<std::int64_t>(reading.pixels.size()) == size,
+                 "three bytes for each pixel");
 }
 
 namespace {
@@ -147,6 +155,7 @@ std::optional<FieldError> check_pixels(const void* object) {
 constexpr Field kCameraSettings[] = {
     frequency_field<&CameraParams::frequency_hz>("pictures per simulated second"),
     include<CameraParams, ViewParams>(),
+    latency_field<&CameraParams::latency_s>(),
 };
 SIM_FIELDS(CameraParams, kCameraSettings)
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "sim/scan/circle.h"
 
 namespace sim {
 namespace {
@@ -103,6 +104,10 @@ bool ColumnView::before(const Hit& a, const Hit& b) const {
 // and C at the depth x = (A x C) / (e_y - e_x t), with e = C - A.
 void ColumnView::intersect(std::size_t index, double cos_yaw, double sin_yaw) {
   const PhysicsWorld::Face& face = faces_[index];
+  if (face.radius_m > 0.0) {
+    intersect_round(index, cos_yaw, sin_yaw);
+    return;
+  }
   const double ax = face.p_WA.x() - X_WS_.x_m;
   const double ay = face.p_WA.y() - X_WS_.y_m;
   const double bx = face.p_WC.x() - X_WS_.x_m;
@@ -135,14 +140,60 @@ void ColumnView::intersect(std::size_t index, double cos_yaw, double sin_yaw) {
   for (int column = first; column < end; ++column) {
     const double slope = (middle - column) / focal_px_;
     const double depth = std::clamp(cross / (e.y() - e.x() * slope), nearest, farthest);
-    End& end_of_ray = ends_[static_cast<std::size_t>(column)];
-    if (depth >= end_of_ray.depth_m) continue;
     if (depth * std::sqrt(1.0 + slope * slope) > params_.range_max_m) continue;
-    if (std::isinf(face.height_m)) {
-      end_of_ray = {depth, index};
-    } else {
-      hits_.push_back({column, depth, back, index});
-    }
+    add_hit(column, depth, back, index);
+  }
+}
+
+// Adds the intersection of a column's ray with a face, unless a wall of a map is nearer.
+void ColumnView::add_hit(int column, double depth_m, bool back, std::size_t face) {
+  End& end_of_ray = ends_[static_cast<std::size_t>(column)];
+  if (depth_m >= end_of_ray.depth_m) return;
+  if (std::isinf(faces_[face].height_m)) {
+    end_of_ray = {depth_m, face};
+  } else {
+    hits_.push_back({column, depth_m, back, face});
+  }
+}
+
+// Intersects a round face with the columns that it spans, in S.
+void ColumnView::intersect_round(std::size_t index, double cos_yaw, double sin_yaw) {
+  const PhysicsWorld::Face& face = faces_[index];
+  const Vec2 off = face.p_WA - X_WS_.position();
+  const scan::Circle circle{cos_yaw * off.x() + sin_yaw * off.y(),
+                            cos_yaw * off.y() - sin_yaw * off.x(), face.radius_m};
+  const bool top_visible = face.height_m < params_.height_m;
+  const double distance_m = std::hypot(circle.x_m, circle.y_m);
+  const double middle = 0.5 * pinhole_.width - 0.5;
+  int first = 0;
+  int end = pinhole_.width;
+  if (distance_m > circle.radius_m) {
+    // The columns between the two tangents, and one more on either side: the chord decides.
+    const double bearing_rad = std::atan2(circle.y_m, circle.x_m);
+    const double half_rad = std::asin(circle.radius_m / distance_m);
+    const double view_rad = 0.5 * pinhole_.field_of_view_rad;
+    if (bearing_rad - half_rad > view_rad || bearing_rad + half_rad < -view_rad) return;
+    const auto column_at = [&](double angle_rad) {
+      return middle - focal_px_ * std::tan(std::clamp(angle_rad, -view_rad, view_rad));
+    };
+    const auto last = static_cast<double>(pinhole_.width - 1);
+    first = static_cast<int>(
+        std::clamp(std::floor(column_at(bearing_rad + half_rad)) - 1.0, 0.0, last));
+    end = static_cast<int>(
+              std::clamp(std::ceil(column_at(bearing_rad - half_rad)) + 1.0, 0.0, last)) +
+          1;
+  }
+  for (int column = first; column < end; ++column) {
+    const double slope = (middle - column) / focal_px_;
+    const double stretch = std::sqrt(1.0 + slope * slope);
+    const auto chord = scan::chord_of(circle, 1.0 / stretch, slope / stretch);
+    if (!chord) continue;
+    const auto add = [&](double range_m, bool back) {
+      if (range_m > params_.range_max_m || range_m < kNear_m * stretch) return;
+      add_hit(column, range_m / stretch, back, index);
+    };
+    add(chord->enter_m, false);
+    if (top_visible) add(chord->leave_m, true);
   }
 }
 

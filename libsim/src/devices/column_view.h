@@ -19,9 +19,9 @@ namespace sim {
 ///
 /// Each column is a ray on the floor. The faces that it meets are painted from near to far. A face
 /// extends from the floor to its height; an object lower than the lens also shows its top. Rows
-/// that a nearer face has filled stay unchanged. This is exact for boxes on a plane, unless boxes
-/// overlap: there the top of the lower box ends at the side of the higher box, which is seen from
-/// its foot.
+/// that a nearer face has filled stay unchanged. This is exact for upright solids on a plane,
+/// unless they overlap: there the top of the lower one ends at the side of the higher one, which is
+/// seen from its foot.
 class ColumnView {
  public:
   /// Rows [top, bottom) of a column that show one object.
@@ -66,6 +66,8 @@ class ColumnView {
   };
   static constexpr std::size_t kNothing = static_cast<std::size_t>(-1);
   void intersect(std::size_t face, double cos_yaw, double sin_yaw);
+  void intersect_round(std::size_t face, double cos_yaw, double sin_yaw);
+  void add_hit(int column, double depth_m, bool back, std::size_t face);
   void paint(int column, std::span<const Hit> hits);
   [[nodiscard]] bool before(const Hit& a, const Hit& b) const;
 

@@ -2,6 +2,7 @@
 // The fields of all commands. A new command needs a table here and a name at the end.
 #include <array>
 
+#include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/builtin.h"
 #include "sim/devices/dio.h"
@@ -10,6 +11,9 @@ namespace sim {
 namespace {
 
 constexpr const char* kGripActions[] = {"open", "close", "stop", "store", "retrieve"};
+
+constexpr const char* kJointModes[] = {"position", "speed", "current", "home"};
+constexpr const char* kJointSettings[] = {"power", "brakes", "speed", "acceleration"};
 
 constexpr Field kTwist[] = {
     field<&TwistCommand::twist, &Twist::v_mps>("v", "m/s"),
@@ -87,6 +91,16 @@ constexpr Field kPan[] = {
     field<&PanCommand::tilt_speed_radps>("tilt_speed", "rad/s"),
     field<&PanCommand::zoom_speed_radps>("zoom_speed", "rad/s"),
 };
+constexpr Field kJoint[] = {
+    field<&JointCommand::mode>("mode").one_of(kJointModes),
+    field<&JointCommand::joint>("joint").within(-1, ActArrayParams::kMaxJoints - 1),
+    field<&JointCommand::values>("values", "m or rad, per second, A"),
+};
+constexpr Field kJointSetting[] = {
+    field<&JointSettingCommand::setting>("setting").one_of(kJointSettings),
+    field<&JointSettingCommand::joint>("joint").within(-1, ActArrayParams::kMaxJoints - 1),
+    field<&JointSettingCommand::value>("value"),
+};
 
 }  // namespace
 
@@ -108,14 +122,16 @@ SIM_FIELDS(GripCommand, kGrip)
 SIM_FIELDS(OpaqueCommand, kOpaque)
 SIM_FIELDS(PointCommand, kPoint)
 SIM_FIELDS(PanCommand, kPan)
+SIM_FIELDS(JointCommand, kJoint)
+SIM_FIELDS(JointSettingCommand, kJointSetting)
 SIM_FIELDS(StopCommand, {})
 SIM_FIELDS(ResumeCommand, {})
 
 std::span<const AlternativeKind<Command>> command_kinds() {
   static constexpr auto kKinds = alternative_kinds<Command>(
-      {"twist",     "motors", "set_pose", "goto",     "stop",  "resume", "place",
-       "translate", "rotate", "heading",  "position", "car",   "say",    "digital",
-       "analog",    "light",  "grip",     "opaque",   "point", "pan"});
+      {"twist",  "motors",  "set_pose", "goto", "stop",   "resume",       "place",  "translate",
+       "rotate", "heading", "position", "car",  "say",    "digital",      "analog", "light",
+       "grip",   "opaque",  "point",    "pan",  "joints", "joint_setting"});
   return kKinds;
 }
 

@@ -12,7 +12,7 @@ double compass_heading_rad(const Pose& X_WB, double north_rad) {
 }
 
 Compass::Compass(std::string name, const CompassParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "compass", params.frequency_hz),
+    : SensorOf(std::move(name), "compass", params.frequency_hz, params.latency_s),
       params_(params),
       noise_(std::move(noise)) {}
 
@@ -30,8 +30,10 @@ void Compass::archive(StateArchive& archive) {
 constexpr Field kCompassSettings[] = {
     frequency_field<&CompassParams::frequency_hz>(),
     field<&CompassParams::noise_rad>("noise_deg", "degrees", "standard deviation of the heading")
-        .within(0.0, 180.0),
+        .within(0.0, 180.0)
+        .with_realism(0.0, 1.0),
     north_field<&CompassParams::north_rad>(),
+    latency_field<&CompassParams::latency_s>(),
 };
 SIM_FIELDS(CompassParams, kCompassSettings)
 

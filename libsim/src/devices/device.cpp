@@ -22,23 +22,25 @@ void Device::set_active(bool active, RobotControl& robot) {
   if (!active_) deactivated(robot);
 }
 
-Sensor::Sensor(std::string name, std::string type, double frequency_hz)
+Sensor::Sensor(std::string name, std::string type, double frequency_hz, double latency_s)
     : Device(std::move(name), std::move(type)),
       frequency_hz_(frequency_hz),
+      latency_ns_(from_seconds(latency_s)),
       period_ns_(from_seconds(1.0 / frequency_hz)),
       next_due_ns_(period_ns_) {
-  SIM_ASSERT(frequency_hz > 0.0 && period_ns_ > 0);
+  SIM_ASSERT(frequency_hz > 0.0 && period_ns_ > 0 && latency_ns_ >= 0);
 }
 
 bool Sensor::update(const StepContext& context) {
-  if (context.now_ns < next_due_ns_) return false;
+  const bool is_new = latency_ns_ > 0 && deliver(context.now_ns);
+  if (context.now_ns < next_due_ns_) return is_new;
   // A sensor faster than the simulation's step measures once per step; skipped readings are not
   // made up for.
   next_due_ns_ += period_ns_ * ((context.now_ns - next_due_ns_) / period_ns_ + 1);
-  if (!active()) return false;
+  if (!active()) return is_new;
   ++sequence_;
   measure(context);
-  return true;
+  return latency_ns_ == 0 || is_new;
 }
 
 void Sensor::take_over_from(const Device& before, SimTime later_ns) {

@@ -111,6 +111,33 @@ template <auto kMember>
 [[nodiscard]] constexpr Field noise_field(const char* meaning) {
   return field<kMember>("noise", "m", meaning).within(0.0, 100.0);
 }
+/// Latency of sensors at the level "real" [s]: half the sweep of the S1R's laser, or a frame of a
+/// camera with 25 Hz. It is the same for all sensors, so a client's Read() still returns readings
+/// of one moment together.
+inline constexpr double kRealLatency_s = 0.04;
+
+template <auto kMember>
+[[nodiscard]] constexpr Field latency_field() {
+  return field<kMember>("latency", "s", "time from a measurement until clients get its reading")
+      .within(0.0, 10.0)
+      .with_realism(0.0, kRealLatency_s)
+      .unlisted(0.0);
+}
+template <auto kMember>
+[[nodiscard]] constexpr Field dropout_field(double real) {
+  return field<kMember>("dropouts", "", "probability that a range is lost and reads `range_max`")
+      .within(0.0, 1.0)
+      .with_realism(0.0, real)
+      .unlisted(0.0);
+}
+template <auto kMember>
+[[nodiscard]] constexpr Field noise_share_field(double real) {
+  return field<kMember>("noise_share", "",
+                        "standard deviation of a range as a share of it, if that is over `noise`")
+      .within(0.0, 1.0)
+      .with_realism(0.0, real)
+      .unlisted(0.0);
+}
 template <auto kMember>
 [[nodiscard]] constexpr Field range_max_field(
     const char* meaning = "farther objects are not seen") {

@@ -18,7 +18,7 @@ double distance2(const FiducialReading::Mark& mark) { return mark.X_ST.position(
 }  // namespace
 
 FiducialFinder::FiducialFinder(std::string name, const FiducialParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "fiducial", params.frequency_hz),
+    : SensorOf(std::move(name), "fiducial", params.frequency_hz, params.latency_s),
       params_(params),
       noise_(std::move(noise)) {}
 
@@ -77,7 +77,12 @@ void FiducialFinder::show(SimTime, RobotSnapshot& shot) const {
 
 void FiducialFinder::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  archive(archived().X_WS, noise_);
+  archive(noise_);
+}
+
+void FiducialFinder::archive_reading(StateArchive& archive, FiducialReading& reading) {
+  SensorOf::archive_reading(archive, reading);
+  archive(reading.X_WS);
 }
 
 constexpr Field kFiducialSettings[] = {
@@ -91,13 +96,17 @@ constexpr Field kFiducialSettings[] = {
     mount_field<&FiducialParams::X_BS>("pose of the sensor on the body, X_BS"),
     height_field<&FiducialParams::height_m>(
         "above the floor; objects that are not higher are invisible and do not occlude"),
-    noise_field<&FiducialParams::noise_m>("standard deviation of a distance"),
+    noise_field<&FiducialParams::noise_m>("standard deviation of a distance")
+        .with_realism(0.0, 0.01),
     field<&FiducialParams::noise_bearing_rad>("noise_bearing_deg", "degrees",
                                               "standard deviation of a direction")
-        .within(0.0, 180.0),
+        .within(0.0, 180.0)
+        .with_realism(0.0, 0.5),
     field<&FiducialParams::noise_yaw_rad>("noise_yaw_deg", "degrees",
                                           "standard deviation of an object's heading")
-        .within(0.0, 360.0),
+        .within(0.0, 360.0)
+        .with_realism(0.0, 2.0),
+    latency_field<&FiducialParams::latency_s>(),
 };
 SIM_FIELDS(FiducialParams, kFiducialSettings)
 

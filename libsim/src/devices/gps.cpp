@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "devices/modifiers.h"
 #include "sim/core/degrees.h"
 
 namespace sim {
@@ -75,7 +76,7 @@ Vec2 utm_m(const GeoPoint& point, int zone) {
 }
 
 Gps::Gps(std::string name, const GpsParams& params, RandomStream noise)
-    : SensorOf(std::move(name), "gps", params.frequency_hz),
+    : SensorOf(std::move(name), "gps", params.frequency_hz, params.latency_s),
       params_(params),
       noise_(std::move(noise)),
       zone_(utm_zone(params.longitude_rad)) {}
@@ -114,6 +115,20 @@ void Gps::archive(StateArchive& archive) {
   archive(noise_);
 }
 
+// In MORSE 1.4, GPS has the modifier PositionNoise under both names.
+constexpr const char* kGpsNoiseNames[] = {"PoseNoise", "Noise"};
+constexpr ModifierParameter kGpsNoise[] = {
+    {"pos_std",
+     0.05,
+     {0.0, 100.0, false, "m"},
+     "noise noise_vertical",
+     [](void* params, double value) {
+       auto& gps = *static_cast<GpsParams*>(params);
+       gps.noise_m = gps.noise_vertical_m = value;
+     }},
+};
+constexpr Modifier kGpsModifiers[] = {{kGpsNoiseNames, kGpsNoise}};
+
 constexpr Field kGpsSettings[] = {
     frequency_field<&GpsParams::frequency_hz>(),
     // Snyder's series, like UTM, do not cover the poles.
@@ -126,11 +141,15 @@ constexpr Field kGpsSettings[] = {
     field<&GpsParams::altitude_m>("altitude", "m", "of the floor, over the ellipsoid")
         .within(-1000.0, 100'000.0),
     north_field<&GpsParams::north_rad>(),
-    noise_field<&GpsParams::noise_m>("standard deviation to the east, and to the north"),
+    noise_field<&GpsParams::noise_m>("standard deviation to the east, and to the north")
+        .with_realism(0.0, 2.12),
     field<&GpsParams::noise_vertical_m>("noise_vertical", "m", "standard deviation of the altitude")
-        .within(0.0, 100.0),
+        .within(0.0, 100.0)
+        .with_realism(0.0, 4.24),
     field<&GpsParams::satellites>("satellites", "", "in view; with fewer than 4 there is no fix")
         .within(0, 64),
+    latency_field<&GpsParams::latency_s>(),
+    modifiers_field<kGpsModifiers>(),
 };
 SIM_FIELDS(GpsParams, kGpsSettings)
 

@@ -2,7 +2,6 @@
 #include "sim/devices/gripper.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "physics/physics_world.h"
 #include "sim/devices/robot_snapshot.h"
 #include "sim/world/description.h"
+#include "sim/world/outline.h"
 
 namespace sim {
 namespace {
@@ -23,21 +23,18 @@ constexpr double kOuterBeam = 0.75;
 // An object that extends beyond the open paddles by at most this still fits.
 constexpr double kFits_m = 1e-9;
 
-// For line-of-sight tests that exclude no solid.
-PhysicsWorld::Contact nothing() { return {-1, PhysicsWorld::Contact::Kind::kObstacle, -1}; }
-
-Pose pose_of(const ObstacleDescription& thing) {
-  return {thing.center.x(), thing.center.y(), thing.yaw_rad};
+// The extent of a circle along G's y axis between two x coordinates; see reach_across().
+std::optional<std::pair<double, double>> circle_across(const Vec2& p_GT, double radius_m,
+                                                       double from_m, double to_m) {
+  const double aside_m = std::clamp(p_GT.x(), from_m, to_m) - p_GT.x();
+  if (std::abs(aside_m) > radius_m) return std::nullopt;
+  const double half_m = std::sqrt((radius_m - aside_m) * (radius_m + aside_m));
+  return std::pair(p_GT.y() - half_m, p_GT.y() + half_m);
 }
 
-}  // namespace
-
-std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Vec2& size_m,
-                                                      double from_m, double to_m) {
-  const Vec2 half = 0.5 * size_m;
-  const std::array<Vec2, 4> corners = {
-      X_GT * Vec2(half.x(), half.y()), X_GT * Vec2(-half.x(), half.y()),
-      X_GT * Vec2(-half.x(), -half.y()), X_GT * Vec2(half.x(), -half.y())};
+// The extent of a polygon along G's y axis between two x coordinates; see reach_across().
+std::optional<std::pair<double, double>> polygon_across(const Polygon& corners, double from_m,
+                                                        double to_m) {
   double least = std::numeric_limits<double>::infinity();
   double greatest = -least;
   const auto note = [&](double y) {
@@ -55,6 +52,36 @@ std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Ve
   }
   if (least > greatest) return std::nullopt;
   return std::pair(least, greatest);
+}
+
+// For line-of-sight tests that exclude no solid.
+PhysicsWorld::Contact nothing() { return {-1, PhysicsWorld::Contact::Kind::kObstacle, -1}; }
+
+}  // namespace
+
+std::optional<std::pair<double, double>> reach_across(const Pose& X_GT, const Vec2& size_m,
+                                                      double from_m, double to_m) {
+  const Vec2 half = 0.5 * size_m;
+  return polygon_across({X_GT * Vec2(half.x(), half.y()), X_GT * Vec2(-half.x(), half.y()),
+                         X_GT * Vec2(-half.x(), -half.y()), X_GT * Vec2(half.x(), -half.y())},
+                        from_m, to_m);
+}
+
+std::optional<std::pair<double, double>> reach_across(const Pose& X_GT,
+                                                      const ObstacleDescription& thing,
+                                                      double from_m, double to_m) {
+  switch (thing.shape) {
+    case ObstacleShape::kCircle:
+      return circle_across(X_GT.position(), radius_m(thing), from_m, to_m);
+    case ObstacleShape::kPolygon: {
+      Polygon outline_G;
+      for (const Vec2& p_T : thing.outline) outline_G.push_back(X_GT * p_T);
+      return polygon_across(outline_G, from_m, to_m);
+    }
+    case ObstacleShape::kBox:
+      break;
+  }
+  return reach_across(X_GT, thing.size, from_m, to_m);
 }
 
 Gripper::Gripper(std::string name, const GripperParams& params, const Pose& X_BG)
@@ -189,7 +216,7 @@ void Gripper::close_further(RobotControl& robot, const StepContext& now) {
         thing.height_m <= params_.height_m) {
       continue;
     }
-    const auto reach = reach_across(X_GW * pose_of(thing), thing.size, 0.0, params_.length_m);
+    const auto reach = reach_across(X_GW * pose_of(thing), thing, 0.0, params_.length_m);
     if (!reach) continue;
     const auto& [right_m, left_m] = *reach;
     if (right_m > before_m || left_m < -before_m) continue;  // beyond a paddle
@@ -237,7 +264,7 @@ bool Gripper::is_broken(const StepContext& now, double x_m) const {
   const Pose X_WG = now.body.X_WB * X_BG_;
   if (held_) {
     const auto& thing = now.world.arena.obstacles[static_cast<std::size_t>(held_->obstacle)];
-    const auto reach = reach_across(X_BG_.inverse() * held_->X_BT, thing.size, x_m, x_m);
+    const auto reach = reach_across(X_BG_.inverse() * held_->X_BT, thing, x_m, x_m);
     if (reach && reach->first <= half_m && reach->second >= -half_m) return true;
   }
   const Vec2 p_WA = X_WG * Vec2(x_m, half_m);

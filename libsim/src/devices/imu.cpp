@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "devices/device_kind.h"
+#include "devices/modifiers.h"
 #include "sim/world/description.h"
 
 namespace sim {
@@ -16,7 +17,7 @@ std::array<double, 3> field_in_body_ut(const ImuParams& params, double yaw_rad) 
 }
 
 Imu::Imu(std::string name, const ImuParams& params, double yaw_rad, RandomStream noise)
-    : SensorOf(std::move(name), "imu", params.frequency_hz),
+    : SensorOf(std::move(name), "imu", params.frequency_hz, params.latency_s),
       params_(params),
       noise_(std::move(noise)),
       yaw_rad_(yaw_rad) {
@@ -73,28 +74,50 @@ void Imu::archive(StateArchive& archive) {
           yaw_rad_);
 }
 
+constexpr const char* kImuNoiseNames[] = {"IMUNoise", "Noise"};
+constexpr ModifierParameter kImuNoise[] = {
+    {"gyro_std",
+     0.5,
+     {0.0, 60.0, false, "rad/s"},
+     "noise_rate_deg",
+     [](void* params, double value) { static_cast<ImuParams*>(params)->noise_radps = value; }},
+    {"accel_std",
+     0.5,
+     {0.0, 1000.0, false, "m/s^2"},
+     "noise_acceleration",
+     [](void* params, double value) { static_cast<ImuParams*>(params)->noise_mps2 = value; }},
+};
+constexpr Modifier kImuModifiers[] = {{kImuNoiseNames, kImuNoise}};
+
 constexpr Field kImuSettings[] = {
     frequency_field<&ImuParams::frequency_hz>(),
     field<&ImuParams::noise_mps2>("noise_acceleration", "m/s^2",
                                   "standard deviation of an acceleration")
-        .within(0.0, 1000.0),
+        .within(0.0, 1000.0)
+        .with_realism(0.0, 0.02),
     field<&ImuParams::noise_radps>("noise_rate_deg", "degrees/s",
                                    "standard deviation of a turn rate")
-        .within(0.0, 3600.0),
+        .within(0.0, 3600.0)
+        .with_realism(0.0, 0.2),
     field<&ImuParams::noise_ut>("noise_field", "uT", "standard deviation of the magnetic field")
-        .within(0.0, 1000.0),
+        .within(0.0, 1000.0)
+        .with_realism(0.0, 0.3),
     field<&ImuParams::bias_mps2>("bias_acceleration", "m/s^2",
                                  "standard deviation of each axis's constant error")
-        .within(0.0, 1000.0),
+        .within(0.0, 1000.0)
+        .with_realism(0.0, 0.03),
     field<&ImuParams::bias_radps>("bias_rate_deg", "degrees/s",
                                   "standard deviation of each turn rate's constant error")
-        .within(0.0, 3600.0),
+        .within(0.0, 3600.0)
+        .with_realism(0.0, 0.1),
     field<&ImuParams::field_horizontal_ut>("field_horizontal", "uT",
                                            "northward component of the Earth's magnetic field")
         .within(0.0, 1000.0),
     field<&ImuParams::field_down_ut>("field_down", "uT", "downward component of that field")
         .within(-1000.0, 1000.0),
     north_field<&ImuParams::north_rad>(),
+    latency_field<&ImuParams::latency_s>(),
+    modifiers_field<kImuModifiers>(),
 };
 SIM_FIELDS(ImuParams, kImuSettings)
 

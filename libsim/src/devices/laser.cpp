@@ -2,6 +2,7 @@
 #include "sim/devices/laser.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "devices/device_kind.h"
 #include "physics/physics_world.h"
@@ -20,8 +21,16 @@ double LaserReading::least_angle_rad() const {
   return angle_min_rad + resolution_rad * static_cast<double>(least - ranges_m.begin());
 }
 
+bool is_depth_edge(double range_m, double next_m, double step_rad, double range_max_m) {
+  if (range_m >= range_max_m || next_m >= range_max_m) return false;
+  constexpr double kLeast_m = 0.02;
+  constexpr double kTanSteepest = 5.6713;  // tan 80 degrees
+  const double by_wall_m = kTanSteepest * step_rad * std::min(range_m, next_m);
+  return std::abs(range_m - next_m) > kLeast_m + by_wall_m;
+}
+
 Laser::Laser(std::string name, const LaserParams& params, bool may_be_inside, RandomStream noise)
-    : SensorOf(std::move(name), "laser", params.frequency_hz),
+    : SensorOf(std::move(name), "laser", params.frequency_hz, params.latency_s),
       params_(params),
       may_be_inside_(may_be_inside),
       noise_(std::move(noise)),
@@ -38,14 +47,35 @@ void Laser::measure(const StepContext& context) {
   const Pose X_WL = context.body.X_WB * params_.X_BL;
   context.physics.scan(geometry_, X_WL, params_.height_m, context.robot, may_be_inside_,
                        reading.ranges_m);
-  if (params_.noise_m > 0.0) {
+  if (params_.mixed_pixels > 0.0) mix_pixels(reading.ranges_m);
+  if (params_.noise_m > 0.0 || params_.noise_share > 0.0) {
     for (double& range : reading.ranges_m) {
       // A beam that met nothing stays at the maximum range: without an echo there is no noise.
       if (range >= params_.range_max_m) continue;
-      range = std::clamp(range + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
+      const double sigma_m = range_deviation_m(range, params_.noise_m, params_.noise_share);
+      range = std::clamp(range + noise_.gaussian(sigma_m), 0.0, params_.range_max_m);
+    }
+  }
+  if (params_.dropouts > 0.0) {
+    for (double& range : reading.ranges_m) {
+      if (noise_.uniform() < params_.dropouts) range = params_.range_max_m;
     }
   }
   reading.X_WB = context.body.X_WB;
+}
+
+void Laser::mix_pixels(std::vector<double>& ranges_m) {
+  // The edge is that of the true ranges, also if the beam before it was mixed.
+  double before_m = ranges_m.front();
+  for (std::size_t i = 1; i < ranges_m.size(); ++i) {
+    const double here_m = ranges_m[i];
+    if (is_depth_edge(before_m, here_m, params_.resolution_rad, params_.range_max_m) &&
+        noise_.uniform() < params_.mixed_pixels) {
+      const double mixed_m = before_m + noise_.uniform() * (here_m - before_m);
+      ranges_m[noise_.uniform() < 0.5 ? i - 1 : i] = mixed_m;
+    }
+    before_m = here_m;
+  }
 }
 
 void Laser::show(SimTime, RobotSnapshot& shot) const {
@@ -62,8 +92,13 @@ void Laser::show(SimTime, RobotSnapshot& shot) const {
 
 void Laser::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  archive(archived().X_WB, noise_);
-  archive.expect(reading().ranges_m.size() == static_cast<std::size_t>(params_.beam_count),
+  archive(noise_);
+}
+
+void Laser::archive_reading(StateArchive& archive, LaserReading& reading) {
+  SensorOf::archive_reading(archive, reading);
+  archive(reading.X_WB);
+  archive.expect(reading.ranges_m.size() == static_cast<std::size_t>(params_.beam_count),
                  "a range for each beam");
 }
 
@@ -82,7 +117,16 @@ std::optional<FieldError> check_laser_view(const void* object) {
 
 constexpr Field kLaserSettings[] = {
     frequency_field<&LaserParams::frequency_hz>("scans per simulated second"),
-    noise_field<&LaserParams::noise_m>("standard deviation of a range"),
+    // A third of the accuracy in the data sheet of the URG-04LX, see range_deviation_m().
+    noise_field<&LaserParams::noise_m>("standard deviation of a range").with_realism(0.0, 0.0033),
+    noise_share_field<&LaserParams::noise_share>(0.0033),
+    field<&LaserParams::mixed_pixels>("mixed_pixels", "",
+                                      "probability of a range between the two surfaces at an edge")
+        .within(0.0, 1.0)
+        .with_realism(0.0, 0.5)
+        .unlisted(0.0),
+    dropout_field<&LaserParams::dropouts>(0.005),
+    latency_field<&LaserParams::latency_s>(),
     field<&LaserParams::beam_count>("beams", "", "number of beams").within(1, 8192),
     field<&LaserParams::resolution_rad>(
         "resolution_deg", "degrees",

@@ -25,6 +25,18 @@ constexpr double kLookAheadFraction = 0.5;
 // A car changes its driving direction only for goals clearly on the other side.
 constexpr double kDirectionMargin_rad = 0.3;
 
+// Maximum magnitude of a wheel's slip.
+constexpr double kMostSlip = 0.5;
+// Maximum number of commands that wait for their latency.
+constexpr std::size_t kMostWaiting = 1000;
+
+bool drives(const Command& command) {
+  return std::holds_alternative<TwistCommand>(command) ||
+         std::holds_alternative<HeadingCommand>(command) ||
+         std::holds_alternative<PositionCommand>(command) ||
+         std::holds_alternative<CarCommand>(command);
+}
+
 // One step of a ramp from `from` to `to`; with max_rate 0 it jumps.
 double ramp(double from, double to, double max_rate, double dt_s) {
   if (max_rate <= 0.0) return to;
@@ -138,11 +150,45 @@ void PositionControl::archive(StateArchive& archive, const DriveDescription& dri
 
 // --- Motion
 
-Motion::Motion(std::string name, const MotionParams& params, const DriveDescription& drive)
+Motion::Motion(std::string name, const MotionParams& params, const DriveDescription& drive,
+               const RandomStream& noise)
     : Actuator(std::move(name), "motion"),
       enabled_(params.enabled_at_start),
       params_(params),
-      drive_(drive) {}
+      drive_(drive),
+      latency_ns_(from_seconds(params.latency_s)) {
+  if (params.slip <= 0.0) return;
+  slip_ = std::make_unique<SlipProcess>(SlipProcess{noise, {}});
+  // The process is stationary, so it begins with its distribution.
+  WheelSlip& slip = slip_->slip;
+  for (double* one : {&slip.left, &slip.right, &slip.side}) {
+    *one = std::clamp(slip_->noise.gaussian(params.slip), -kMostSlip, kMostSlip);
+  }
+}
+
+WheelSlip Motion::slip() const noexcept {
+  if (slip_ == nullptr) return {};
+  const WheelSlip& slip = slip_->slip;
+  return drive_.kind == DriveKind::kCar ? WheelSlip{slip.left, slip.left, 0.0} : slip;
+}
+
+void Motion::advance_slip(double dt_s) {
+  const double kept = std::exp(-dt_s / params_.slip_time_s);
+  const double spread = params_.slip * std::sqrt(1.0 - kept * kept);
+  WheelSlip& slip = slip_->slip;
+  for (double* one : {&slip.left, &slip.right, &slip.side}) {
+    *one = std::clamp(kept * *one + slip_->noise.gaussian(spread), -kMostSlip, kMostSlip);
+  }
+}
+
+Twist Motion::slipped(const Twist& twist) const {
+  const WheelSlip slip = this->slip();
+  const double half_m = 0.5 * drive_.wheel_separation_m;
+  const double left_mps = (twist.v_mps - half_m * twist.omega_radps) * (1.0 - slip.left);
+  const double right_mps = (twist.v_mps + half_m * twist.omega_radps) * (1.0 - slip.right);
+  return {0.5 * (left_mps + right_mps), (right_mps - left_mps) / drive_.wheel_separation_m,
+          twist.lateral_mps * (1.0 - slip.side)};
+}
 
 void Motion::stop() {
   mode_ = Mode::kTwist;
@@ -222,24 +268,44 @@ std::optional<std::string> Motion::apply(const Command& command) {
   return Device::apply(command);
 }
 
-std::optional<std::string> Motion::execute(const Command& command, RobotControl& robot) {
+std::optional<std::string> Motion::check(const Command& command, const RobotControl& robot) const {
   const auto* heading = std::get_if<HeadingCommand>(&command);
   const auto* position = std::get_if<PositionCommand>(&command);
-  if (heading != nullptr || position != nullptr) {
-    const int frame = heading != nullptr ? heading->frame : position->frame;
-    if (frame >= 0 && !robot.pose_estimate_of(frame)) {
-      return "the robot's device number " + std::to_string(frame) +
-             " is no localisation device, in whose frame the motors could be told where to go";
-    }
+  if (heading == nullptr && position == nullptr) return std::nullopt;
+  const int frame = heading != nullptr ? heading->frame : position->frame;
+  if (frame < 0 || robot.pose_estimate_of(frame)) return std::nullopt;
+  return "the robot's device number " + std::to_string(frame) +
+         " is no localisation device, in whose frame the motors could be told where to go";
+}
+
+std::optional<std::string> Motion::execute(const Command& command, RobotControl& robot) {
+  if (auto refusal = check(command, robot)) return refusal;
+  if (latency_ns_ == 0) return execute_now(command, robot);
+  if (!drives(command) && !std::holds_alternative<MotorEnableCommand>(command)) {
+    return Device::apply(command);
   }
-  const bool drives = heading != nullptr || position != nullptr ||
-                      std::holds_alternative<TwistCommand>(command) ||
-                      std::holds_alternative<CarCommand>(command);
-  if (enabled_ && drives) static_cast<void>(robot.acquire_motors(*this));
+  if (waiting_.size() >= kMostWaiting) {
+    return "over " + std::to_string(kMostWaiting) + " commands wait for the latency of the motors";
+  }
+  waiting_.push_back({robot.context().now_ns + latency_ns_, command});
+  return std::nullopt;
+}
+
+std::optional<std::string> Motion::execute_now(const Command& command, RobotControl& robot) {
+  if (enabled_ && drives(command)) static_cast<void>(robot.acquire_motors(*this));
   return apply(command);
 }
 
 void Motion::act(RobotControl& robot) {
+  if (!waiting_.empty()) {
+    const SimTime now_ns = robot.context().now_ns;
+    std::size_t due = 0;
+    while (due < waiting_.size() && waiting_[due].due_ns <= now_ns) ++due;
+    for (std::size_t i = 0; i < due; ++i) {
+      static_cast<void>(execute_now(waiting_[i].command, robot));
+    }
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(due));
+  }
   if (mode_ != Mode::kHeading && mode_ != Mode::kPosition) return;
   const int frame = mode_ == Mode::kHeading ? heading_.frame : position_.command().frame;
   const Pose X_FB = frame < 0 ? robot.body().X_WB : robot.pose_estimate_of(frame).value_or(Pose{});
@@ -258,16 +324,34 @@ void Motion::act(RobotControl& robot) {
   }
 }
 
-void Motion::on_motors_taken() { mode_ = Mode::kTwist; }
+void Motion::on_motors_taken() {
+  mode_ = Mode::kTwist;
+  waiting_.clear();
+}
 
 void Motion::placed(const Pose&) {
   stop();
   target_ = {};
+  waiting_.clear();
 }
 
-void Motion::deactivated(RobotControl&) { stop(); }
+void Motion::take_over_from(const Device&, SimTime later_ns) {
+  for (Waiting& one : waiting_) one.due_ns += later_ns;
+}
+
+void Motion::deactivated(RobotControl&) {
+  stop();
+  waiting_.clear();
+}
 
 Twist Motion::next_target(double dt_s) {
+  const Twist target = ramped(dt_s);
+  if (slip_ == nullptr) return target;
+  advance_slip(dt_s);
+  return slipped(target);
+}
+
+Twist Motion::ramped(double dt_s) {
   target_.v_mps = ramp(target_.v_mps, commanded_.v_mps, params_.max_acceleration_mps2, dt_s);
   if (drive_.kind == DriveKind::kCar) {
     steering_rad_ =
@@ -295,6 +379,22 @@ void Motion::archive(StateArchive& archive) {
   archive(enabled_, commanded_, target_, commanded_steering_rad_, steering_rad_);
   archive.fields(heading_);
   position_.archive(archive, drive_, params_);
+  if (slip_ != nullptr) {
+    WheelSlip& slip = slip_->slip;
+    archive(slip_->noise, slip.left, slip.right, slip.side);
+    archive.expect(
+        std::max({std::abs(slip.left), std::abs(slip.right), std::abs(slip.side)}) <= kMostSlip,
+        "slip of at most 0.5");
+  }
+  if (latency_ns_ == 0) return;
+  archive.list(waiting_, [&archive](Waiting& one) {
+    archive.time(one.due_ns);
+    std::size_t kind = one.command.index();
+    archive.index(kind, command_kinds().size());
+    if (archive.reading()) one.command = command_kinds()[kind].make();
+    archive.table(command_kinds()[kind].fields(), object_in(one.command));
+  });
+  archive.expect(waiting_.size() <= kMostWaiting, "fewer commands that wait");
 }
 
 namespace {
@@ -346,13 +446,26 @@ constexpr Field kMotionSettings[] = {
         "heading_tolerance_deg", "degrees",
         "position control: heading error at which the heading is reached; default 0.01 rad")
         .above(0.0, 180.0),
+    field<&MotionParams::slip>("slip", "", "standard deviation of each wheel's slip")
+        .within(0.0, 0.2)
+        .with_realism(0.0, 0.01)
+        .unlisted(0.0),
+    field<&MotionParams::slip_time_s>("slip_time", "s",
+                                      "time constant of the correlation of the slip")
+        .above(0.0, 1000.0)
+        .unlisted(MotionParams{}.slip_time_s),
+    field<&MotionParams::latency_s>("latency", "s", "time from a command until it takes effect")
+        .within(0.0, 10.0)
+        .with_realism(0.0, 0.02)
+        .unlisted(0.0),
 };
 SIM_FIELDS(MotionParams, kMotionSettings)
 
 DeviceKind motion_kind() {
   return device_kind<MotionParams, void>(
       "motion", {}, [](const DeviceConstruction& construction, const MotionParams& params) {
-        return std::make_unique<Motion>(construction.name(), params, drive_of(construction.model));
+        return std::make_unique<Motion>(construction.name(), params, drive_of(construction.model),
+                                        construction.noise());
       });
 }
 

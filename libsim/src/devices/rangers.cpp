@@ -10,6 +10,7 @@
 #include "physics/physics_world.h"
 #include "sim/core/assert.h"
 #include "sim/core/degrees.h"
+#include "sim/devices/laser.h"
 #include "sim/devices/robot_snapshot.h"
 
 namespace sim {
@@ -60,7 +61,7 @@ SonarParams::SonarParams() {
 
 Ranger::Ranger(std::string name, std::string type, const RangerParams& params, bool may_be_inside,
                RandomStream noise)
-    : SensorOf(std::move(name), std::move(type), params.frequency_hz),
+    : SensorOf(std::move(name), std::move(type), params.frequency_hz, params.latency_s),
       params_(params),
       may_be_inside_(may_be_inside),
       noise_(std::move(noise)) {
@@ -97,8 +98,12 @@ void Ranger::measure(const StepContext& context) {
       range_m = least_range_m({p_BS_W.x(), p_BS_W.y(), X_WS.yaw_rad, params_.field_of_view_rad});
     }
     // As for the laser: without an echo there is no noise.
-    if (params_.noise_m > 0.0 && range_m < params_.range_max_m) {
-      range_m = std::clamp(range_m + noise_.gaussian(params_.noise_m), 0.0, params_.range_max_m);
+    const double sigma_m = range_deviation_m(range_m, params_.noise_m, params_.noise_share);
+    if (sigma_m > 0.0 && range_m < params_.range_max_m) {
+      range_m = std::clamp(range_m + noise_.gaussian(sigma_m), 0.0, params_.range_max_m);
+    }
+    if (params_.dropouts > 0.0 && noise_.uniform() < params_.dropouts) {
+      range_m = params_.range_max_m;
     }
     reading.ranges_m[i] = range_m;
   }
@@ -112,7 +117,8 @@ double Ranger::least_range_m(const scan::Cone& cone) {
     if (i > 0 && least_m < kShellLimits_m[i - 1] - reach_m_ - kSlack_m) break;
     if (shells_[i].size() > 0) least_m = shells_[i].least_range_in_cone_m(cone, least_m);
   }
-  return least_m;
+  if (edges_.circles().empty()) return least_m;
+  return scan::least_range_in_cone_m(edges_.circles(), cone, least_m);
 }
 
 void Ranger::show(SimTime, RobotSnapshot& shot) const {
@@ -126,10 +132,15 @@ void Ranger::show(SimTime, RobotSnapshot& shot) const {
 
 void Ranger::archive(StateArchive& archive) {
   SensorOf::archive(archive);
-  archive(archived().X_WB, noise_);
-  archive.expect(reading().ranges_m.size() == params_.X_BS.size() &&
-                     reading().X_BS.size() == params_.X_BS.size(),
-                 "a range for each transducer");
+  archive(noise_);
+}
+
+void Ranger::archive_reading(StateArchive& archive, RangerReading& reading) {
+  SensorOf::archive_reading(archive, reading);
+  archive(reading.X_WB);
+  archive.expect(
+      reading.ranges_m.size() == params_.X_BS.size() && reading.X_BS.size() == params_.X_BS.size(),
+      "a range for each transducer");
 }
 
 namespace {
@@ -153,7 +164,10 @@ std::unique_ptr<Device> make_ranger(const DeviceConstruction& construction,
 
 constexpr Field kRangerSettings[] = {
     frequency_field<&RangerParams::frequency_hz>(),
-    noise_field<&RangerParams::noise_m>("standard deviation of a range"),
+    noise_field<&RangerParams::noise_m>("standard deviation of a range").with_realism(0.0, 0.005),
+    noise_share_field<&RangerParams::noise_share>(0.01),
+    dropout_field<&RangerParams::dropouts>(0.01),
+    latency_field<&RangerParams::latency_s>(),
     range_max_field<&RangerParams::range_max_m>("maximum range, and the reading if nothing is hit"),
     height_field<&RangerParams::height_m>("above the floor; lower obstacles are not seen"),
     field<&RangerParams::X_BS>("mounts", "m, degrees",

@@ -114,7 +114,8 @@ constexpr Field kWifiSettings[] = {
                                  "path loss exponent: 2 in free space, about 3 in a building")
         .above(0.0, 10.0),
     field<&WifiParams::noise_db>("noise", "dB", "standard deviation of a level (shadowing)")
-        .within(0.0, 100.0),
+        .within(0.0, 100.0)
+        .with_realism(0.0, 4.0),
     field<&WifiParams::floor_dbm>("floor", "dBm", "noise of the channel").within(-200.0, 100.0),
     field<&WifiParams::least_dbm>("least", "dBm", "weaker links are not listed")
         .within(-200.0, 100.0),

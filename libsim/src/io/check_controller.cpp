@@ -24,7 +24,8 @@ std::string at(const std::string& list, std::size_t index) {
 
 class ControllerChecker {
  public:
-  ControllerChecker(const WorldDescription& world, const std::function<bool(const std::string&)>& trusted)
+  ControllerChecker(const WorldDescription& world,
+                    const std::function<bool(const std::string&)>& trusted)
       : world_(world), controller_(world.controller), trusted_(trusted) {
     for (const ObstacleDescription& o : world.arena.obstacles) {
       obstacles_.insert(o.name);

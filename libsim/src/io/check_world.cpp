@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "io/controller_io.h"
-#include "io/cross.h"
 #include "io/document.h"
 #include "io/solid_limits.h"
+#include "io/solids.h"
 #include "sim/core/assert.h"
 #include "sim/core/number_text.h"
 #include "sim/io/world_io.h"
@@ -23,143 +23,10 @@
 namespace sim::io {
 namespace {
 
-/// Touching does not count as overlap; positions in files have few digits.
-constexpr double kTouching_m = 1e-6;
-
 std::string metres(double value) { return rounded_text(value, 3) + " m"; }
 
 std::string place(const Vec2& p) {
   return '(' + fixed_text(p.x(), 2) + ", " + fixed_text(p.y(), 2) + ')';
-}
-
-Polygon box_of(const ObstacleDescription& obstacle) {
-  const Pose X_WO{obstacle.center.x(), obstacle.center.y(), obstacle.yaw_rad};
-  const Vec2 half = 0.5 * obstacle.size;
-  return {X_WO * Vec2(-half.x(), -half.y()), X_WO * Vec2(half.x(), -half.y()),
-          X_WO * Vec2(half.x(), half.y()), X_WO * Vec2(-half.x(), half.y())};
-}
-
-Polygon placed(const Polygon& footprint, const Pose& X_WB, double scale = 1.0) {
-  Polygon outline;
-  outline.reserve(footprint.size());
-  for (const Vec2& p : footprint) outline.push_back(X_WB * Vec2(p * scale));
-  return outline;
-}
-
-/// A convex polygon with its bounding circle, for quick rejection.
-struct Solid {
-  explicit Solid(Polygon polygon) : outline(std::move(polygon)) {
-    for (const Vec2& p : outline) middle += p;
-    middle /= static_cast<double>(outline.size());
-    for (const Vec2& p : outline) radius_m = std::max(radius_m, (p - middle).norm());
-  }
-
-  Polygon outline;
-  Vec2 middle = Vec2::Zero();
-  double radius_m = 0.0;
-};
-
-/// Penetration depth of two convex polygons: the shortest shift that separates them [m]; 0 if they
-/// do not overlap. Separating axes: C. Ericson, Real-Time Collision Detection (2005), sec. 5.2.1.
-double overlap_m(const Solid& a, const Solid& b) {
-  if ((a.middle - b.middle).norm() >= a.radius_m + b.radius_m) return 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Polygon* polygon : {&a.outline, &b.outline}) {
-    for (std::size_t i = 0; i < polygon->size(); ++i) {
-      const Vec2 edge = (*polygon)[(i + 1) % polygon->size()] - (*polygon)[i];
-      const Vec2 normal = Vec2(edge.y(), -edge.x()).normalized();
-      const auto extent = [&normal](const Polygon& outline) {
-        double min = std::numeric_limits<double>::infinity();
-        double max = -min;
-        for (const Vec2& p : outline) {
-          min = std::min(min, normal.dot(p));
-          max = std::max(max, normal.dot(p));
-        }
-        return std::pair(min, max);
-      };
-      const auto [a_min, a_max] = extent(a.outline);
-      const auto [b_min, b_max] = extent(b.outline);
-      least = std::min(least, std::min(a_max - b_min, b_max - a_min));
-      if (least <= kTouching_m) return 0.0;
-    }
-  }
-  return least;
-}
-
-/// Whether a part of the segment lies inside the convex, counter-clockwise polygon shrunk by
-/// kTouching_m (Cyrus-Beck clipping).
-bool crosses(const Solid& solid, const Vec2& from, const Vec2& to) {
-  const Vec2 way = to - from;
-  double enter = 0.0;
-  double leave = 1.0;
-  for (std::size_t i = 0; i < solid.outline.size(); ++i) {
-    const Vec2& corner = solid.outline[i];
-    const Vec2 edge = (solid.outline[(i + 1) % solid.outline.size()] - corner).normalized();
-    const double depth = cross(edge, from - corner) - kTouching_m;  // > 0: inside this edge
-    const double change = cross(edge, way);
-    if (change == 0.0) {
-      if (depth <= 0.0) return false;
-    } else if (change > 0.0) {
-      enter = std::max(enter, -depth / change);
-    } else {
-      leave = std::min(leave, -depth / change);
-    }
-  }
-  return enter < leave;
-}
-
-/// Whether the point lies in the solid of the walls: inside an odd number of loops.
-bool in_solid(const std::vector<WallLoop>& walls, const Vec2& p) {
-  bool inside = false;
-  for (const WallLoop& loop : walls) {
-    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
-      const Vec2& a = loop.vertices[i];
-      const Vec2& b = loop.vertices[(i + 1) % loop.vertices.size()];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (x > p.x()) inside = !inside;
-    }
-  }
-  return inside;
-}
-
-/// A point of a wall that the polygon overlaps; nullopt if there is none.
-std::optional<Vec2> wall_within(const std::vector<WallLoop>& walls, const Solid& solid) {
-  for (const WallLoop& loop : walls) {
-    for (std::size_t i = 0; i < loop.vertices.size(); ++i) {
-      const Vec2& a = loop.vertices[i];
-      const Vec2& b = loop.vertices[(i + 1) % loop.vertices.size()];
-      if (std::max(a.x(), b.x()) < solid.middle.x() - solid.radius_m ||
-          std::min(a.x(), b.x()) > solid.middle.x() + solid.radius_m ||
-          std::max(a.y(), b.y()) < solid.middle.y() - solid.radius_m ||
-          std::min(a.y(), b.y()) > solid.middle.y() + solid.radius_m) {
-        continue;
-      }
-      if (!crosses(solid, a, b)) continue;
-      const double t = std::clamp((solid.middle - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-      return Vec2(a + t * (b - a));
-    }
-  }
-  if (in_solid(walls, solid.middle)) return solid.middle;
-  return std::nullopt;
-}
-
-/// The border that the outline crosses farthest, and by how much [m].
-std::pair<const char*, double> beyond_floor(const ArenaDescription& arena, const Polygon& outline) {
-  const Vec2 low = arena.origin;
-  const Vec2 high = arena.origin + arena.size;
-  std::pair<const char*, double> worst{"", kTouching_m};
-  const auto note = [&worst](const char* side, double depth_m) {
-    if (depth_m > worst.second) worst = {side, depth_m};
-  };
-  for (const Vec2& p : outline) {
-    note("left", low.x() - p.x());
-    note("right", p.x() - high.x());
-    note("bottom", low.y() - p.y());
-    note("top", p.y() - high.y());
-  }
-  if (worst.first[0] == '\0') worst.second = 0.0;
-  return worst;
 }
 
 std::string floor_text(const ArenaDescription& arena) {
@@ -170,7 +37,7 @@ std::string floor_text(const ArenaDescription& arena) {
 struct NamedSolid {
   const ObstacleDescription* obstacle;
   bool separator;
-  Solid solid;
+  std::vector<Solid> parts;
 };
 
 /// All solids that a robot at rest must keep clear of, except other robots.
@@ -178,17 +45,17 @@ std::vector<NamedSolid> standing_solids(const ArenaDescription& arena) {
   std::vector<NamedSolid> solids;
   for (const ObstacleDescription& obstacle : arena.obstacles) {
     if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) {
-      solids.push_back({&obstacle, false, Solid(box_of(obstacle))});
+      solids.push_back({&obstacle, false, solids_of(obstacle)});
     }
   }
   for (const ObstacleDescription& separator : arena.dock_separators) {
-    solids.push_back({&separator, true, Solid(box_of(separator))});
+    solids.push_back({&separator, true, solids_of(separator)});
   }
   return solids;
 }
 
 /// A robot's index and its current outline.
-using StandingRobot = std::pair<std::size_t, Solid>;
+using StandingRobot = std::pair<std::size_t, std::vector<Solid>>;
 
 /// One obstruction of a robot.
 struct Blockage {
@@ -201,23 +68,27 @@ struct Blockage {
   Vec2 wall = Vec2::Zero();           ///< a point of the wall
 };
 
-/// All obstructions of a robot with the outline `body`.
+/// All obstructions of a robot or an obstacle that consists of the solids `body`.
 std::vector<Blockage> blockages(const ArenaDescription& arena,
                                 const std::vector<NamedSolid>& solids,
-                                const std::vector<StandingRobot>& robots, const Solid& body) {
+                                const std::vector<StandingRobot>& robots,
+                                const std::vector<Solid>& body) {
   std::vector<Blockage> found;
   const auto note = [&found](Blockage::Kind kind, double depth_m) -> Blockage& {
     found.push_back({kind, depth_m});
     return found.back();
   };
-  const auto [side, beyond_m] = beyond_floor(arena, body.outline);
+  const auto [side, beyond_m] = beyond_floor(arena, body);
   if (beyond_m > 0.0) note(Blockage::Kind::kOutside, beyond_m).side = side;
   for (const NamedSolid& other : solids) {
-    const double depth_m = overlap_m(body, other.solid);
+    const double depth_m = overlap_m(body, other.parts);
     if (depth_m > 0.0) note(Blockage::Kind::kObstacle, depth_m).solid = &other;
   }
-  if (const std::optional<Vec2> wall = wall_within(arena.walls, body)) {
+  for (const Solid& part : body) {
+    const std::optional<Vec2> wall = wall_within(arena.walls, part);
+    if (!wall) continue;
     note(Blockage::Kind::kWall, 0.0).wall = *wall;
+    break;
   }
   for (const auto& [index, other] : robots) {
     const double depth_m = overlap_m(body, other);
@@ -320,14 +191,26 @@ class Checker {
     }
   }
 
+  static const char* place_hint(ObstacleShape shape) {
+    switch (shape) {
+      case ObstacleShape::kCircle:
+        return "center is the middle of the circle, radius half its width";
+      case ObstacleShape::kPolygon:
+        return "center is the place of the outline's origin, [0, 0]";
+      case ObstacleShape::kBox:
+        break;
+    }
+    return "center is the middle of the box, size its full length and width";
+  }
+
   void check_inside(const ObstacleDescription& obstacle, const std::string& pointer,
                     const char* what) {
-    const auto [side, depth_m] = beyond_floor(world_.arena, box_of(obstacle));
+    const auto [side, depth_m] = beyond_floor(world_.arena, solids_of(obstacle));
     if (depth_m == 0.0) return;
     add("world/obstacle-outside", pointer,
         std::string("a") + what + " on " + floor_text(world_.arena),
         obstacle.name + " sticking out " + metres(depth_m) + " beyond the " + side + " side",
-        "center is the middle of the box, size its full length and width");
+        place_hint(obstacle.shape));
   }
 
   /// Records the error in the part at `pointer`, if there is one.
@@ -335,7 +218,7 @@ class Checker {
   bool passes(const std::optional<SolidError>& error, const std::string& pointer,
               const std::string& name = "") {
     if (!error) return true;
-    add("world/out-of-range", pointer + error->key, error->expected,
+    add(error->id, pointer + error->key, error->expected,
         error->found + (name.empty() ? "" : " of " + name), error->hint);
     return false;
   }
@@ -346,7 +229,8 @@ class Checker {
     bool all = passes(check_floor(arena), "/arena") && passes(check_walls(arena), "/arena");
     // Elements of a preset have no position in the file.
     for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
-      all &= passes(check_box(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
+      all &=
+          passes(check_obstacle(arena.obstacles[i]), obstacle_pointer(i), arena.obstacles[i].name);
     }
     for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
       const ObstacleDescription& separator = arena.dock_separators[i];
@@ -424,7 +308,7 @@ class Checker {
         continue;
       }
       const std::string who = "robot " + robot.name + " at " + place(robot.pose.position());
-      Solid body(placed(model->footprint, robot.pose));
+      std::vector<Solid> body{Solid(placed(model->footprint, robot.pose))};
       for (const Blockage& b : blockages(world_.arena, solids, before, body)) {
         switch (b.kind) {
           case Blockage::Kind::kOutside:
@@ -498,18 +382,18 @@ std::vector<ConfigIssue> check_world(const WorldDescription& world) {
 
 namespace {
 
-/// The first obstruction of an outline, in words, where the robot itself does not count.
+/// The first obstruction of solids, in words, where the robot itself does not count.
 std::optional<std::string> first_blockage(const WorldDescription& world,
                                           const std::vector<Pose>& poses, std::size_t robot,
-                                          const Solid& outline) {
+                                          const std::vector<Solid>& body) {
   std::vector<StandingRobot> others;
   for (std::size_t i = 0; i < world.robots.size(); ++i) {
     const RobotModel* model = find_robot_model(world, world.robots[i].model);
     if (i == robot || model == nullptr) continue;
-    others.emplace_back(i, Solid(placed(model->footprint, poses.at(i))));
+    others.emplace_back(i, std::vector{Solid(placed(model->footprint, poses.at(i)))});
   }
   const std::vector<NamedSolid> solids = standing_solids(world.arena);
-  const std::vector<Blockage> found = blockages(world.arena, solids, others, outline);
+  const std::vector<Blockage> found = blockages(world.arena, solids, others, body);
   if (found.empty()) return std::nullopt;
   const Blockage& first = found.front();
   switch (first.kind) {
@@ -535,18 +419,18 @@ std::optional<std::string> blocked_by(const WorldDescription& world, const std::
                                       std::size_t robot, const Pose& X_WB) {
   const RobotModel* own = find_robot_model(world, world.robots.at(robot).model);
   SIM_ASSERT(own != nullptr);
-  return first_blockage(world, poses, robot, Solid(placed(own->footprint, X_WB)));
+  return first_blockage(world, poses, robot, {Solid(placed(own->footprint, X_WB))});
 }
 
 std::optional<std::string> put_down_blocked_by(const WorldDescription& world,
                                                const std::vector<Pose>& poses, std::size_t robot,
                                                const ObstacleDescription& obstacle) {
-  return first_blockage(world, poses, robot, Solid(box_of(obstacle)));
+  return first_blockage(world, poses, robot, solids_of(obstacle));
 }
 
 std::optional<std::string> outside_floor(const ArenaDescription& arena,
                                          const ObstacleDescription& obstacle) {
-  const auto [side, depth_m] = beyond_floor(arena, box_of(obstacle));
+  const auto [side, depth_m] = beyond_floor(arena, solids_of(obstacle));
   if (depth_m == 0.0) return std::nullopt;
   return "stick out " + metres(depth_m) + " beyond the " + side + " side of " + floor_text(arena);
 }
@@ -568,13 +452,11 @@ std::optional<Pose> find_free_pose(const WorldDescription& world, const Polygon&
     }
   }
   const auto is_free = [&](const Pose& X_WB) {
-    const Solid body(placed(footprint, X_WB, kMargin));
-    return beyond_floor(arena, body.outline).second == 0.0 &&
+    const std::vector<Solid> body{Solid(placed(footprint, X_WB, kMargin))};
+    return beyond_floor(arena, body).second == 0.0 &&
            std::none_of(solids.begin(), solids.end(),
-                        [&](const NamedSolid& s) { return overlap_m(body, s.solid) > 0.0; }) &&
-           std::none_of(robots.begin(), robots.end(),
-                        [&](const Solid& s) { return overlap_m(body, s) > 0.0; }) &&
-           !wall_within(arena.walls, body);
+                        [&](const NamedSolid& s) { return overlap_m(body, s.parts) > 0.0; }) &&
+           overlap_m(body, robots) == 0.0 && !wall_within(arena.walls, body.front());
   };
 
   if (arena.preset == "syrotek" && is_free(syrotek_start_pose())) return syrotek_start_pose();

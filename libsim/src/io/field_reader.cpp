@@ -77,6 +77,7 @@ void read_field(Reader& settings, const Field& field, void* object) {
   if (field.type == FieldType::kPose && field.drop != nullptr) {
     return read_optional_pose(settings, field, object);
   }
+  if (field.drop != nullptr && !settings.has(field.name)) return;
   void* const value = field.set(object);
   switch (field.type) {
     case FieldType::kNumber:

@@ -5,11 +5,13 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "io/solid_limits.h"
 #include "sim/world/limits.h"
+#include "sim/world/outline.h"
 
 namespace sim::io {
 namespace {
@@ -49,12 +51,14 @@ void read_device(Reader& settings, const std::string& name,
                    in_quotes(name) + " without a type", did_you_mean(name, of_model));
     return;
   }
-  const std::any base = known && of_same_name->second.type == type_name
-                            ? of_same_name->second.params
-                            : type->defaults();
+  const bool has_base = known && of_same_name->second.type == type_name;
+  const std::any base = has_base ? of_same_name->second.params : type->defaults();
   std::any params = type->parse(settings, base);
   settings.finish();
-  devices[name] = {name, type_name, std::move(params)};
+  std::set<std::string> given;
+  if (has_base) given.insert(of_same_name->second.given.begin(), of_same_name->second.given.end());
+  for (const std::string& key : settings.keys()) given.insert(key);
+  devices[name] = {name, type_name, std::move(params), {given.begin(), given.end()}};
 }
 
 Polygon read_footprint(Reader& model) {

@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
-#include "io/cross.h"
 #include "io/document.h"
 #include "sim/world/limits.h"
+#include "sim/world/outline.h"
 
 namespace sim::io {
 namespace {
@@ -37,36 +35,6 @@ std::optional<SolidError> check_length(const char* key, double value, double mos
   if (within(value, kLeastLength_m, most)) return std::nullopt;
   return SolidError{key, range_text(kLeastLength_m, most, "m"), number_text(value) + " m",
                     value < kLeastLength_m ? kTooThin : ""};
-}
-
-// Whether a counter-clockwise outline turns left at each vertex, once around. Straight angles are
-// not allowed, since the physics would drop their vertices.
-bool is_convex(const Polygon& outline) {
-  const std::size_t n = outline.size();
-  double turned_rad = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2 before = outline[(i + 1) % n] - outline[i];
-    const Vec2 after = outline[(i + 2) % n] - outline[(i + 1) % n];
-    const double turn_rad = std::atan2(cross(before, after), before.dot(after));
-    if (turn_rad < 1e-6) return false;
-    turned_rad += turn_rad;
-  }
-  return turned_rad < 2.0 * std::numbers::pi + 1e-6;
-}
-
-// The smaller of the shortest side of a convex outline and the least distance of two parallel lines
-// that enclose it.
-double least_extent_m(const Polygon& outline) {
-  double least_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const Vec2 side = outline[(i + 1) % outline.size()] - outline[i];
-    double across_m = 0.0;
-    for (const Vec2& vertex : outline) {
-      across_m = std::max(across_m, cross(side, vertex - outline[i]) / side.norm());
-    }
-    least_m = std::min({least_m, side.norm(), across_m});
-  }
-  return least_m;
 }
 
 }  // namespace
@@ -96,6 +64,110 @@ std::optional<SolidError> check_box(const ObstacleDescription& box) {
   }
   if (std::isinf(box.height_m) && box.height_m > 0.0) return std::nullopt;  // height without limit
   return check_length("/height", box.height_m, kGreatestLength_m);
+}
+
+namespace {
+
+std::optional<SolidError> check_circle(const ObstacleDescription& circle) {
+  constexpr double kGreatestRadius_m = 0.5 * kGreatestLength_m;
+  if (circle.size.x() != circle.size.y()) {
+    return SolidError{"/radius", "a circle with the same extent along x and y",
+                      number_text(circle.size.x()) + " and " + number_text(circle.size.y()) + " m",
+                      ""};
+  }
+  const double r = radius_m(circle);
+  if (auto error = check_length("/radius", r, kGreatestRadius_m)) return error;
+  auto error = check_box(circle);
+  if (error && error->key.starts_with("/size")) error->key = "/radius";
+  return error;
+}
+
+SolidError bad_outline(std::string expected, std::string found, std::string hint = "") {
+  return {"/outline", std::move(expected), std::move(found), std::move(hint), "world/bad-outline"};
+}
+
+// Checks an outline by itself, in its own frame.
+std::optional<SolidError> check_outline(const Polygon& outline) {
+  constexpr double kLeastOutline_m2 = 1e-6;
+  if (outline.size() < 3 || outline.size() > kMostOutlineVertices) {
+    return bad_outline(
+        std::string("3 to ") + std::to_string(kMostOutlineVertices) + " points [x, y]",
+        std::to_string(outline.size()) + " points in the outline");
+  }
+  for (const Vec2& vertex : outline) {
+    if (within(greatest_coordinate(vertex), 0.0, kGreatestLength_m)) continue;
+    return bad_outline(std::string("points at most ") + number_text(kGreatestLength_m) +
+                           " m from the origin of the outline along x and y",
+                       number_text(vertex.x()) + " and " + number_text(vertex.y()) + " m");
+  }
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const double side_m = (outline[(i + 1) % outline.size()] - outline[i]).norm();
+    if (side_m >= kLeastLength_m) continue;
+    return bad_outline(
+        std::string("sides of at least ") + number_text(kLeastLength_m) + " m",
+        number_text(side_m) + " m from point " + std::to_string(i) + " to the next in the outline",
+        side_m == 0.0 ? "leave out the repeated point" : kTooThin);
+  }
+  if (const auto sides = crossing_sides(outline)) {
+    return bad_outline("an outline that does not cross or touch itself",
+                       std::string("sides ") + std::to_string(sides->first) + " and " +
+                           std::to_string(sides->second) + " that meet in the outline",
+                       "side 0 goes from the first point to the second one; list the points in "
+                       "order round the obstacle");
+  }
+  if (area_m2(outline) < kLeastOutline_m2) {
+    return bad_outline("a counter-clockwise outline of at least 1 mm^2",
+                       number_text(area_m2(outline) * 1e6) + " mm^2 in the outline",
+                       "points are in m");
+  }
+  // The physics makes one convex solid of it.
+  if (is_convex(outline) && least_extent_m(outline) < kLeastLength_m) {
+    return bad_outline(
+        std::string("an outline that is at least ") + number_text(kLeastLength_m) + " m wide",
+        number_text(least_extent_m(outline)) + " m as the width", kTooThin);
+  }
+  return std::nullopt;
+}
+
+std::optional<SolidError> check_polygon(const ObstacleDescription& polygon) {
+  if (auto error = check_outline(polygon.outline)) return error;
+  ObstacleDescription exact = polygon;
+  make_polygon(exact, polygon.outline);
+  if (!(polygon.size - exact.size).isZero(1e-9 * exact.size.maxCoeff())) {
+    return bad_outline("an outline that extends over the size of the obstacle",
+                       number_text(exact.size.x()) + " x " + number_text(exact.size.y()) + " m",
+                       "use make_polygon() and resize()");
+  }
+  if (auto error = check_box(polygon)) {
+    if (error->key.starts_with("/size")) error->key = "/outline";
+    return error;
+  }
+  double far_m = 0.0;
+  double shortest_m = kGreatestLength_m;
+  const Polygon corners = corners_of(polygon);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    far_m = std::max(far_m, greatest_coordinate(corners[i]));
+    shortest_m = std::min(shortest_m, (corners[(i + 1) % corners.size()] - corners[i]).norm());
+  }
+  const double least_m = least_length_m(far_m);
+  if (shortest_m >= (1.0 - 1e-3) * least_m) return std::nullopt;
+  return bad_outline(std::string("sides of at least ") + number_text(least_m) +
+                         " m so far from the origin (" + number_text(far_m) + " m)",
+                     number_text(shortest_m) + " m as a side", kTooThin);
+}
+
+}  // namespace
+
+std::optional<SolidError> check_obstacle(const ObstacleDescription& obstacle) {
+  switch (obstacle.shape) {
+    case ObstacleShape::kCircle:
+      return check_circle(obstacle);
+    case ObstacleShape::kPolygon:
+      return check_polygon(obstacle);
+    case ObstacleShape::kBox:
+      break;
+  }
+  return check_box(obstacle);
 }
 
 std::optional<SolidError> check_floor(const ArenaDescription& arena) {
@@ -146,14 +218,6 @@ std::optional<SolidError> check_walls(const ArenaDescription& arena) {
     }
   }
   return std::nullopt;
-}
-
-double area_m2(const Polygon& outline) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    twice += cross(outline[i], outline[(i + 1) % outline.size()]);
-  }
-  return 0.5 * twice;
 }
 
 std::optional<SolidError> check_footprint(const Polygon& outline) {

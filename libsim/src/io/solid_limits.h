@@ -17,11 +17,17 @@ struct SolidError {
   std::string expected;
   std::string found;
   std::string hint;
+  const char* id = "world/out-of-range";  ///< of the ConfigIssue
 };
 
 /// Checks a box that stands on the floor: finite numbers, at least least_length_m() along each side
 /// and kLeastLength_m high, within kFarthest_m of the origin of W. nullopt if it can be built.
 [[nodiscard]] std::optional<SolidError> check_box(const ObstacleDescription& box);
+
+/// Checks an obstacle of any shape: as check_box(); the outline of a polygon must be simple, with 3
+/// to kMostOutlineVertices vertices, no side shorter than least_length_m(), and at least 1 mm^2
+/// large. nullopt if it can be built.
+[[nodiscard]] std::optional<SolidError> check_obstacle(const ObstacleDescription& obstacle);
 
 /// Checks the size and the position of a floor.
 [[nodiscard]] std::optional<SolidError> check_floor(const ArenaDescription& arena);
@@ -39,8 +45,5 @@ struct SolidError {
 
 /// Whether a pose is finite and within kFarthest_m of the origin of W.
 [[nodiscard]] bool is_valid_pose(const Pose& X_WB) noexcept;
-
-/// Signed area of a polygon [m^2]: positive if it runs counter-clockwise.
-[[nodiscard]] double area_m2(const Polygon& outline);
 
 }  // namespace sim::io

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -18,8 +17,10 @@
 #include "io/controller_io.h"
 #include "io/document.h"
 #include "io/map_io.h"
+#include "io/obstacle_io.h"
 #include "io/robot_io.h"
 #include "sim/world/limits.h"
+#include "sim/world/realism.h"
 #include "sim/world/view_mode.h"
 
 namespace sim::io {
@@ -28,12 +29,8 @@ namespace {
 constexpr int kFirstPort = 6665;  ///< Player's default
 constexpr int kMorsePort = 4000;  ///< on this port all robots are visible
 constexpr std::size_t kMaxRobots = 1000;
-constexpr std::size_t kMaxObstacles = 100'000;
 
-constexpr NumberRange kPosition{-kFarthest_m, kFarthest_m, false, "m"};
-constexpr NumberRange kArenaLength{kLeastLength_m, kGreatestLength_m, false, "m"};
-constexpr NumberRange kHeight{kLeastLength_m, 10.0, false, "m"};
-// Side of a canvas cell, to which the limits of the physics do not apply.
+/// Side of a canvas cell, to which the limits of the physics do not apply.
 constexpr NumberRange kCellSide{1e-4, 10.0, false, "m"};
 
 /// Colours of robots without one in the file: easy to distinguish, and different from the red of
@@ -51,14 +48,6 @@ constexpr std::array<Colour, 13> kPalette{{{0xff, 0x88, 0x00, 0xff},
                                            {0x1d, 0x3f, 0x8f, 0xff},
                                            {0x5c, 0x66, 0x70, 0xff},
                                            {0x5c, 0xc8, 0xff, 0xff}}};
-
-/// The first free name among prefix1, prefix2, ... from `number` on; marks it as taken.
-std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
-  for (;; ++number) {
-    std::string name = prefix + std::to_string(number);
-    if (taken.insert(name).second) return name;
-  }
-}
 
 class WorldReader {
  public:
@@ -109,7 +98,7 @@ class WorldReader {
       const bool has_size = reader->has("size");
       const bool has_origin = reader->has("origin");
       arena.size = reader->vec2("size", arena.size, kArenaLength);
-      arena.origin = reader->vec2("origin", arena.origin, kPosition);
+      arena.origin = reader->vec2("origin", arena.origin, kPositionInWorld);
       read_map(*reader, has_size, has_origin);
     }
     arena.border = reader->boolean("border", arena.border);
@@ -119,64 +108,6 @@ class WorldReader {
     read_blocks(*reader, "dock_separators", "separator", true, arena.dock_separators);
     set_states(*reader);
     reader->finish();
-  }
-
-  void read_blocks(Reader& arena, const char* key, const char* prefix, bool separators,
-                   std::vector<ObstacleDescription>& blocks) {
-    std::vector<std::size_t> unnamed;
-    for (Reader& reader : arena.array(key, kMaxObstacles)) {
-      ObstacleDescription block;
-      if (reader.expect_object()) {
-        block.name = reader.name("name", "");
-        if (reader.require("center", "[x, y] of the middle of the box, in m")) {
-          block.center = reader.vec2("center", block.center, kPosition);
-        }
-        block.size = reader.vec2("size", block.size, kArenaLength);
-        block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
-        block.height_m = reader.number("height", block.height_m, kHeight);
-        if (!separators) {
-          read_kind(reader, block);
-          block.fiducial = read_fiducial(reader);
-          block.portable = reader.boolean("portable", block.portable);
-          if (reader.has("colour")) block.colour = reader.colour("colour", {});
-        }
-        reader.finish();
-      }
-      if (block.name.empty()) unnamed.push_back(blocks.size());
-      blocks.push_back(std::move(block));
-    }
-    std::set<std::string> taken;
-    for (const ObstacleDescription& block : blocks) taken.insert(block.name);
-    std::size_t number = 0;
-    for (const std::size_t i : unnamed) blocks[i].name = free_name(prefix, ++number, taken);
-  }
-
-  static void read_kind(Reader& reader, ObstacleDescription& block) {
-    if (reader.choice("type", "static", {"static", "dynamic"}) == "dynamic") {
-      block.type = ObstacleType::kDynamic;
-    }
-    if (reader.choice("state", "extended", {"extended", "retracted"}) == "retracted") {
-      block.state = ObstacleState::kRetracted;
-      if (block.type == ObstacleType::kStatic) {
-        reader.issue("world/static-obstacle", "\"extended\" (or no state) for a static obstacle",
-                     "\"retracted\"", "only an obstacle of type \"dynamic\" can be retracted",
-                     "state");
-      }
-    }
-    block.rise_speed_mps =
-        reader.number("rise_speed", block.rise_speed_mps, {0.0, kMaxRiseSpeed_mps, false, "m/s"});
-    block.when_blocked = read_when_blocked(reader);
-    for (const char* key : {"rise_speed", "when_blocked"}) {
-      if (block.type == ObstacleType::kDynamic || !reader.has(key)) continue;
-      reader.issue("world/static-obstacle", "a dynamic obstacle",
-                   in_quotes(key) + " of a static one", "add \"type\": \"dynamic\"", key);
-    }
-  }
-
-  /// The number of an obstacle or a robot for fiducial devices.
-  static int read_fiducial(Reader& reader) {
-    return static_cast<int>(
-        reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
   }
 
   void read_docks(Reader& arena) {
@@ -261,7 +192,7 @@ class WorldReader {
     map.image = reader->string("image", "");
     map.resolution_m =
         reader->number("resolution", map.resolution_m, {kLeastLength_m, 10.0, false, "m"});
-    map.origin = reader->vec2("origin", arena.origin, kPosition);
+    map.origin = reader->vec2("origin", arena.origin, kPositionInWorld);
     map.occupied_threshold =
         reader->number("occupied_threshold", map.occupied_threshold, {0.0, 1.0, true, ""});
     map.simplify_m = reader->number("simplify", map.simplify_m, {0.0, 10.0, false, "m"});
@@ -322,6 +253,9 @@ class WorldReader {
     simulation.start_gate_clients =
         static_cast<int>(reader->integer("clients", simulation.start_gate_clients, 1, 1000));
     simulation.objects_locked = reader->boolean("lock_objects", simulation.objects_locked);
+    simulation.realism =
+        parse_realism(reader->choice("realism", "course", {"ideal", "course", "real"}))
+            .value_or(simulation.realism);
     simulation.own_sensors_only = reader->choice("privacy", "none", {"none", "own"}) == "own";
     if (const std::optional<Reader> time = reader->child("time")) {
       simulation.time_mode_given = true;
@@ -356,7 +290,7 @@ class WorldReader {
     canvas.origin = arena.origin;
     if (reader) {
       canvas.cell_size_m = reader->number("cell_size", canvas.cell_size_m, kCellSide);
-      canvas.origin = reader->vec2("origin", canvas.origin, kPosition);
+      canvas.origin = reader->vec2("origin", canvas.origin, kPositionInWorld);
     }
     // Rounded up to an even number, as films require; 1e-9 compensates 3.42 / 0.02 > 171.
     const auto cells = [&canvas](double length_m) {

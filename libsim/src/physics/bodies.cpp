@@ -4,6 +4,9 @@
 #include <array>
 #include <utility>
 
+#include "sim/world/limits.h"
+#include "sim/world/outline.h"
+
 namespace sim::physics {
 namespace {
 
@@ -31,6 +34,14 @@ void make_heavy(b2Body& body) {
   mass.mass *= kMore;
   mass.I *= kMore;
   body.SetMassData(&mass);
+}
+
+// Whether an outline is one polygon for Box2D. Otherwise Box2D has its sides as edges, as it has
+// the walls of a map. Convex parts would not do for a concave outline: where two parts meet, Box2D
+// would stop a robot that slides along the outline at the inner side of a part.
+bool is_one_polygon(const std::vector<Vec2>& corners) {
+  return corners.size() <= b2_maxPolygonVertices && is_convex(corners) &&
+         least_extent_m(corners) >= kLeastLength_m;
 }
 
 }  // namespace
@@ -72,25 +83,46 @@ void Bodies::append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices
   }
 }
 
-void Bodies::add_box(const ObstacleDescription& o, Contact::Kind kind, int index) {
-  FixtureInfo* info = new_info(kind, index, o.height_m);
-  const std::vector<Vec2> corners = box_corners(o);
-  append_outline(*info, corners);
+void Bodies::add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int index) {
+  const std::vector<Vec2> corners = corners_of(o);
   b2BodyDef def;  // a separate body, so that it can be disabled
   b2Body* body = world_.CreateBody(&def);
-  attach(body, polygon_shape(corners), info, 0.0F);
+  Parts parts{infos_.size(), 1, o.shape};
+  if (o.shape == ObstacleShape::kCircle) {
+    FixtureInfo* info = new_info(kind, index, o.height_m);
+    info->cylinder = static_cast<int>(cylinders_.size());
+    cylinders_.push_back({o.center, radius_m(o), o.height_m, index});
+    attach(body, circle_shape(o.center, radius_m(o)), info, 0.0F);
+  } else if (o.shape == ObstacleShape::kBox || is_one_polygon(corners)) {
+    FixtureInfo* info = new_info(kind, index, o.height_m);
+    append_outline(*info, corners);
+    attach(body, polygon_shape(corners), info, 0.0F);
+  } else {
+    parts.count = corners.size();
+    edged_.push_back(obstacles_.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      FixtureInfo* info = new_info(kind, index, o.height_m);
+      const Vec2& a = corners[i];
+      const Vec2& b = corners[(i + 1) % corners.size()];
+      info->first_edge = edges_.edges.size();
+      info->edge_count = 1;
+      edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);
+      attach(body, edge_shape(corners, i), info, 0.0F);
+    }
+  }
   body->SetEnabled(o.type == ObstacleType::kStatic || o.state == ObstacleState::kExtended);
   if (kind == Contact::Kind::kObstacle) {
     obstacles_.push_back(body);
+    parts_.push_back(parts);
   }
 }
 
 void Bodies::add_obstacles(const ArenaDescription& arena) {
   for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
-    add_box(arena.obstacles[i], Contact::Kind::kObstacle, static_cast<int>(i));
+    add_obstacle(arena.obstacles[i], Contact::Kind::kObstacle, static_cast<int>(i));
   }
   for (std::size_t i = 0; i < arena.dock_separators.size(); ++i) {
-    add_box(arena.dock_separators[i], Contact::Kind::kSeparator, static_cast<int>(i));
+    add_obstacle(arena.dock_separators[i], Contact::Kind::kSeparator, static_cast<int>(i));
   }
 }
 
@@ -125,45 +157,75 @@ void Bodies::add_border(const ArenaDescription& arena) {
 void Bodies::add_wall(const WallLoop& loop) {
   const std::size_t n = loop.vertices.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Vec2& before = loop.vertices[(i + n - 1) % n];
     const Vec2& a = loop.vertices[i];
     const Vec2& b = loop.vertices[(i + 1) % n];
-    const Vec2& after = loop.vertices[(i + 2) % n];
     // Walls of a map have unlimited height: every sensor sees them.
     FixtureInfo* info = new_info(Contact::Kind::kWall, -1, std::numeric_limits<double>::infinity());
     info->first_edge = edges_.edges.size();
     info->edge_count = 1;
     edges_.add({a.x(), a.y(), b.x(), b.y()}, info->height_m);
-    b2EdgeShape shape;
-    shape.SetOneSided(to_box2d(before), to_box2d(a), to_box2d(b), to_box2d(after));
-    attach(static_body_, shape, info, 0.0F);
+    attach(static_body_, edge_shape(loop.vertices, i), info, 0.0F);
     has_walls_ = true;
     wall_right_m_ = std::max({wall_right_m_, a.x(), b.x()});
   }
 }
 
-void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
-  b2Body& body = obstacle(index);
-  b2Fixture* before = body.GetFixtureList();
-  auto* info = reinterpret_cast<FixtureInfo*>(before->GetUserData().pointer);
-  const std::vector<Vec2> corners = box_corners(now);
+// The outline of an obstacle; empty for a circle.
+std::vector<Vec2> Bodies::corners_of_parts(const Parts& parts) const {
+  std::vector<Vec2> corners;
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    const FixtureInfo& info = *infos_[parts.first_info + part];
+    for (std::size_t i = 0; i < info.edge_count; ++i) {
+      const Edge& edge = edges_.edges[info.first_edge + i];
+      corners.emplace_back(edge.x0, edge.y0);
+    }
+  }
+  return corners;
+}
+
+// Sets the edges that sensors see. All edges of an obstacle are adjacent.
+void Bodies::set_corners(const Parts& parts, const std::vector<Vec2>& corners, double height_m) {
+  const std::size_t first_edge = infos_[parts.first_info]->first_edge;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2& a = corners[i];
     const Vec2& b = corners[(i + 1) % corners.size()];
-    edges_.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
+    edges_.edges[first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
+    edges_.heights_m[first_edge + i] = height_m;
   }
-  set_height(index, standing_height_m(now));
-  body.DestroyFixture(before);
-  attach(&body, polygon_shape(corners), info, 0.0F);
+  if (!corners.empty()) edges_.least_height_m = std::min(edges_.least_height_m, height_m);
+}
+
+void Bodies::change_obstacle(int index, const ObstacleDescription& now) {
+  b2Body& body = obstacle(index);
+  const Parts& parts = parts_[static_cast<std::size_t>(index)];
+  const std::vector<Vec2> corners = corners_of(now);
+  set_corners(parts, corners, standing_height_m(now));
+  while (b2Fixture* before = body.GetFixtureList()) body.DestroyFixture(before);
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    FixtureInfo* info = infos_[parts.first_info + part].get();
+    info->height_m = standing_height_m(now);
+    if (info->cylinder >= 0) {
+      cylinders_[static_cast<std::size_t>(info->cylinder)] = {now.center, radius_m(now),
+                                                              standing_height_m(now), index};
+      attach(&body, circle_shape(now.center, radius_m(now)), info, 0.0F);
+    } else if (parts.count == 1) {
+      attach(&body, polygon_shape(corners), info, 0.0F);
+    } else {
+      attach(&body, edge_shape(corners, part), info, 0.0F);
+    }
+  }
 }
 
 void Bodies::set_height(int index, double height_m) {
-  b2Fixture* fixture = obstacle(index).GetFixtureList();
-  auto* info = reinterpret_cast<FixtureInfo*>(fixture->GetUserData().pointer);
-  info->height_m = height_m;
-  const auto first = edges_.heights_m.begin() + static_cast<std::ptrdiff_t>(info->first_edge);
-  std::fill_n(first, info->edge_count, height_m);
-  edges_.least_height_m = std::min(edges_.least_height_m, height_m);
+  const Parts& parts = parts_[static_cast<std::size_t>(index)];
+  for (std::size_t part = 0; part < parts.count; ++part) {
+    FixtureInfo& info = *infos_[parts.first_info + part];
+    info.height_m = height_m;
+    if (info.cylinder >= 0) cylinders_[static_cast<std::size_t>(info.cylinder)].height_m = height_m;
+    const auto first = edges_.heights_m.begin() + static_cast<std::ptrdiff_t>(info.first_edge);
+    std::fill_n(first, info.edge_count, height_m);
+    if (info.edge_count > 0) edges_.least_height_m = std::min(edges_.least_height_m, height_m);
+  }
 }
 
 int Bodies::add_robot(const RobotModel& model, const Pose& X_WB) {
@@ -227,6 +289,47 @@ int Bodies::robot_within(const b2Shape& shape, const b2Transform& xf) const {
     return b2TestOverlap(&shape, 0, &r.details->shape, 0, xf, transform_of(r));
   });
   return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
+}
+
+int Bodies::robot_within(const std::vector<Vec2>& outline) const {
+  const auto overlaps = [&outline](const Robot& r) {
+    const b2Transform xf = transform_of(r);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const b2EdgeShape side = edge_shape(outline, i);
+      if (b2TestOverlap(&side, 0, &r.details->shape, 0, identity_transform(), xf)) return true;
+    }
+    const b2Vec2 corner = b2Mul(xf, r.details->shape.m_vertices[0]);
+    return is_inside(outline, {metres(corner.x), metres(corner.y)});
+  };
+  const auto it = std::find_if(robots_.begin(), robots_.end(), overlaps);
+  return it == robots_.end() ? -1 : static_cast<int>(it - robots_.begin());
+}
+
+int Bodies::robot_within(const ObstacleDescription& solid) const {
+  if (solid.shape == ObstacleShape::kCircle) {
+    return robot_within(circle_shape(solid.center, radius_m(solid)), identity_transform());
+  }
+  const std::vector<Vec2> corners = corners_of(solid);
+  if (solid.shape == ObstacleShape::kPolygon && !is_one_polygon(corners)) {
+    return robot_within(corners);
+  }
+  return robot_within(polygon_shape(corners), identity_transform());
+}
+
+int Bodies::robot_on(int index) const {
+  const Parts& parts = parts_[static_cast<std::size_t>(index)];
+  if (parts.count > 1) return robot_within(corners_of_parts(parts));
+  const b2Body& block = obstacle(index);
+  return robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform());
+}
+
+bool Bodies::is_inside_edged(const Vec2& p_W, double height_m) const {
+  for (const std::size_t i : edged_) {
+    if (!obstacles_[i]->IsEnabled()) continue;
+    if (infos_[parts_[i].first_info]->height_m <= height_m) continue;
+    if (is_inside(corners_of_parts(parts_[i]), p_W)) return true;
+  }
+  return false;
 }
 
 // Creates a Box2D body for a robot, at rest.

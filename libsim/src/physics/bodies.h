@@ -44,8 +44,8 @@ class Bodies {
   void set_pose(Robot& r, const Pose& X_WB);
   void set_suspended(Robot& r, bool suspended);
   [[nodiscard]] double largest_radius_m() const noexcept { return largest_radius_m_; }
-  /// The first robot whose footprint overlaps a shape; -1 if there is none.
-  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
+  /// The first robot whose footprint overlaps a solid; -1 if there is none.
+  [[nodiscard]] int robot_within(const ObstacleDescription& solid) const;
 
   /// Gives a robot a Box2D body for the next substeps.
   void ensure_box2d_body(Robot& r);
@@ -80,8 +80,16 @@ class Bodies {
   [[nodiscard]] b2Body& obstacle(int index) const {
     return *obstacles_[static_cast<std::size_t>(index)];
   }
+  /// The circles of all round obstacles, extended or not.
+  [[nodiscard]] const std::vector<Cylinder>& cylinders() const noexcept { return cylinders_; }
+  /// Whether a point is inside an extended obstacle that is higher than `height_m` and consists of
+  /// edges for Box2D.
+  [[nodiscard]] bool is_inside_edged(const Vec2& p_W, double height_m) const;
+  /// The first robot whose footprint overlaps an obstacle, extended or not; -1 if there is none.
+  [[nodiscard]] int robot_on(int index) const;
   [[nodiscard]] std::size_t separator_count() const noexcept { return separator_count_; }
   void change_obstacle(int index, const ObstacleDescription& now);
+  /// Sets the height up to which an obstacle stands now, >= 0 [m].
   void set_height(int index, double height_m);
   /// Writes or reads the state, including the shapes of obstacles.
   void archive(StateArchive& archive);
@@ -92,20 +100,34 @@ class Bodies {
   [[nodiscard]] double wall_right_m() const noexcept { return wall_right_m_; }
 
  private:
+  // The fixtures of an obstacle: a polygon, a circle, or one edge for each side of the outline.
+  struct Parts {
+    std::size_t first_info;
+    std::size_t count;
+    ObstacleShape shape;
+  };
   FixtureInfo* new_info(Contact::Kind kind, int index, double height_m);
   static void attach(b2Body* body, const b2Shape& shape, FixtureInfo* info, float density);
   void append_outline(FixtureInfo& info, const std::vector<Vec2>& vertices);
-  void add_box(const ObstacleDescription& o, Contact::Kind kind, int index);
+  [[nodiscard]] std::vector<Vec2> corners_of_parts(const Parts& parts) const;
+  void set_corners(const Parts& parts, const std::vector<Vec2>& corners, double height_m);
+  [[nodiscard]] int robot_within(const b2Shape& shape, const b2Transform& xf) const;
+  [[nodiscard]] int robot_within(const std::vector<Vec2>& outline) const;
+  void add_obstacle(const ObstacleDescription& o, Contact::Kind kind, int index);
   void add_obstacles(const ArenaDescription& arena);
   void add_border(const ArenaDescription& arena);
   void add_wall(const WallLoop& loop);
   void create_box2d_body(Robot& r);
-  void archive_obstacle(StateArchive& archive, b2Body& body);
+  void archive_obstacle(StateArchive& archive, int index);
+  void archive_cylinder(StateArchive& archive, b2Body& body, bool enabled, const FixtureInfo& info);
 
   b2World world_;
   b2Body* static_body_ = nullptr;
   std::vector<std::unique_ptr<FixtureInfo>> infos_;
   std::vector<b2Body*> obstacles_;
+  std::vector<Parts> parts_;        // of `obstacles_`
+  std::vector<std::size_t> edged_;  // those of more than one part
+  std::vector<Cylinder> cylinders_;
   std::size_t separator_count_ = 0;
   bool has_walls_ = false;
   double wall_right_m_ = -std::numeric_limits<double>::infinity();

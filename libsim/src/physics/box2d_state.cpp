@@ -231,6 +231,7 @@ void archive_tree(StateArchive& archive, b2DynamicTree& tree,
 void archive_cache(StateArchive& archive, b2SimplexCache& cache, const b2Shape& a,
                    const b2Shape& b) {
   const auto corners = [](const b2Shape& shape) {
+    if (shape.GetType() == b2Shape::e_circle) return std::size_t{1};
     if (shape.GetType() != b2Shape::e_polygon) return std::size_t{2};
     return static_cast<std::size_t>(static_cast<const b2PolygonShape&>(shape).m_count);
   };

@@ -24,6 +24,15 @@ struct FixtureInfo {
   std::size_t first_edge = 0;  ///< into Bodies::edges(); unused for robots
   std::size_t edge_count = 0;
   std::size_t id = 0;  ///< its index in Bodies::infos()
+  int cylinder = -1;   ///< index in Bodies::cylinders(), for round obstacles; these have no edges
+};
+
+/// A round obstacle. It has no edges: sensors see its exact circle.
+struct Cylinder {
+  Vec2 center;  ///< in W, or in B for a load
+  double radius_m;
+  double height_m;
+  int obstacle;  ///< its index in the arena
 };
 
 struct Edge {

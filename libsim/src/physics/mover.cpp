@@ -2,6 +2,7 @@
 #include "physics/mover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -209,10 +210,59 @@ void Mover::substep(double dt_s, bool first, bool last) {
   bodies_.note_moved();
 }
 
+// Adds the limits of the closing speed towards a circle for robot `r`. All point in the direction
+// from the nearest point of the robot to the circle. Besides that point, each corner is limited by
+// the gap along this direction, so that a side beside a large circle cannot turn into it.
+void Mover::add_round_constraints(const Robot& r, const b2CircleShape& circle, double dt_s) {
+  const b2PolygonShape& shape = r.details->shape;
+  const double radius_m = metres(core_radius(circle));
+  const double c = std::cos(r.X_WB.yaw_rad);
+  const double s = std::sin(r.X_WB.yaw_rad);
+  const double dx = metres(circle.m_p.x) - r.X_WB.x_m;
+  const double dy = metres(circle.m_p.y) - r.X_WB.y_m;
+  const Vec2 p_BC(c * dx + s * dy, c * dy - s * dx);
+  std::array<Vec2, b2_maxPolygonVertices> corners;
+  corners.fill(Vec2::Zero());
+  const auto count = static_cast<std::size_t>(shape.m_count);
+  for (std::size_t i = 0; i < count; ++i) {
+    corners[i] = {metres(shape.m_vertices[i].x), metres(shape.m_vertices[i].y)};
+  }
+  Vec2 nearest = corners[0];
+  bool inside = true;  // the centre is within the robot's outline
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 side = corners[(i + 1) % count] - corners[i];
+    const double t = std::clamp((p_BC - corners[i]).dot(side) / side.squaredNorm(), 0.0, 1.0);
+    const Vec2 point = corners[i] + t * side;
+    inside = inside && side.x() * (p_BC - corners[i]).y() > side.y() * (p_BC - corners[i]).x();
+    if ((p_BC - point).squaredNorm() < (p_BC - nearest).squaredNorm()) nearest = point;
+  }
+  const double distance_m = inside ? -(p_BC - nearest).norm() : (p_BC - nearest).norm();
+  if (distance_m == 0.0) return;
+  const Vec2 normal = (p_BC - nearest) / distance_m;
+  const auto add = [&](const Vec2& p, double gap_m) {
+    constraints_.push_back({normal.x(), p.x() * normal.y() - p.y() * normal.x(),
+                            std::max(0.0, gap_m - kRestingGap_m) / dt_s, normal.y()});
+  };
+  const double reach_m = metres(r.details->reaching_shape.m_radius);
+  if (distance_m - radius_m > reach_m) return;
+  add(nearest, distance_m - radius_m);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 off = p_BC - corners[i];
+    const double aside_m = off.x() * normal.y() - off.y() * normal.x();
+    if (std::abs(aside_m) >= radius_m || (corners[i] - nearest).isZero(1e-9)) continue;
+    const double gap_m = off.dot(normal) - std::sqrt((radius_m - aside_m) * (radius_m + aside_m));
+    if (gap_m <= reach_m) add(corners[i], gap_m);
+  }
+}
+
 // Adds the limits of the closing speed that a pair of shapes implies for robot `r` to constraints_.
 // `share` is the fraction of the gap that r may close in this step.
 void Mover::add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                             double share, double dt_s) {
+  if (other.GetType() == b2Shape::e_circle) {
+    add_round_constraints(r, static_cast<const b2CircleShape&>(other), dt_s);
+    return;
+  }
   const b2Transform xf = transform_of(r);
   b2Manifold manifold;
   b2WorldManifold points;

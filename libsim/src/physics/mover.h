@@ -29,6 +29,7 @@ class Mover {
   void substep(double dt_s, bool first, bool last);
   void add_constraints(const Robot& r, const b2Shape& other, const b2Transform& other_xf,
                        double share, double dt_s);
+  void add_round_constraints(const Robot& r, const b2CircleShape& circle, double dt_s);
   [[nodiscard]] static bool clears_wall(const Robot& r, const Wall& wall, const b2Transform& xf,
                                         double dt_s);
   [[nodiscard]] Twist allowed_twist(std::size_t index, double dt_s);

@@ -196,7 +196,7 @@ Wall Neighbours::wall_of(const b2Fixture& fixture) const {
   wall.shape = fixture.GetShape();
   const FixtureInfo& info = info_of(&fixture);
   wall.fixture = static_cast<int>(info.id);
-  if (info.kind != Contact::Kind::kWall) return wall;
+  if (fixture.GetType() != b2Shape::e_edge) return wall;
   const Edge& edge = bodies_.edges().edges[info.first_edge];
   const Vec2 way(edge.x1 - edge.x0, edge.y1 - edge.y0);
   wall.length_m = way.norm();

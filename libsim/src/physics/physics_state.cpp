@@ -11,6 +11,7 @@
 #include "physics/neighbours.h"
 #include "physics/sensor_view.h"
 #include "sim/world/limits.h"
+#include "sim/world/outline.h"
 
 namespace sim::physics {
 namespace {
@@ -53,6 +54,17 @@ bool are_of_box(const std::vector<Vec2>& corners) {
   return true;
 }
 
+// Whether the corners can be an outline for Box2D, as one convex polygon or as edges.
+bool are_of_outline(const std::vector<Vec2>& corners, bool one_polygon) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!(corners[i].cwiseAbs().maxCoeff() <= 2.0 * kFarthest_m)) return false;
+    if (!((corners[(i + 1) % corners.size()] - corners[i]).norm() >= 0.9 * kLeastLength_m)) {
+      return false;
+    }
+  }
+  return !one_polygon || (is_convex(corners) && least_extent_m(corners) >= 0.9 * kLeastLength_m);
+}
+
 }  // namespace
 
 std::vector<b2Fixture*> Bodies::fixtures() {
@@ -66,28 +78,50 @@ std::vector<b2Fixture*> Bodies::fixtures() {
   return fixtures;
 }
 
-void Bodies::archive_obstacle(StateArchive& archive, b2Body& body) {
-  b2Fixture& fixture = *body.GetFixtureList();
-  auto* info = reinterpret_cast<FixtureInfo*>(fixture.GetUserData().pointer);
-  bool enabled = body.IsEnabled();
-  archive(enabled, info->height_m);
-  std::vector<Vec2> corners;
-  for (std::size_t i = 0; i < info->edge_count; ++i) {
-    const Edge& edge = edges_.edges[info->first_edge + i];
-    corners.emplace_back(edge.x0, edge.y0);
-    archive(corners[i]);
-  }
+void Bodies::archive_cylinder(StateArchive& archive, b2Body& body, bool enabled,
+                              const FixtureInfo& info) {
+  Cylinder& cylinder = cylinders_[static_cast<std::size_t>(info.cylinder)];
+  archive(cylinder.center, cylinder.radius_m);
   if (!archive.reading()) return;
-  archive.expect(are_of_box(corners), "boxes");
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec2& a = corners[i];
-    const Vec2& b = corners[(i + 1) % corners.size()];
-    edges_.edges[info->first_edge + i] = {a.x(), a.y(), b.x(), b.y()};
-    edges_.heights_m[info->first_edge + i] = info->height_m;
-  }
-  edges_.least_height_m = std::min(edges_.least_height_m, info->height_m);
+  archive.expect(cylinder.center.cwiseAbs().maxCoeff() <= 2.0 * kFarthest_m &&
+                     cylinder.radius_m >= 0.9 * kLeastLength_m &&
+                     cylinder.radius_m <= kGreatestLength_m,
+                 "circles");
+  cylinder.height_m = info.height_m;
   body.SetEnabled(false);  // enabling it creates a broad-phase proxy from the new shape
-  *static_cast<b2PolygonShape*>(fixture.GetShape()) = polygon_shape(corners);
+  *static_cast<b2CircleShape*>(body.GetFixtureList()->GetShape()) =
+      circle_shape(cylinder.center, cylinder.radius_m);
+  body.SetEnabled(enabled);
+}
+
+void Bodies::archive_obstacle(StateArchive& archive, int index) {
+  b2Body& body = obstacle(index);
+  const Parts& parts = parts_[static_cast<std::size_t>(index)];
+  bool enabled = body.IsEnabled();
+  double height_m = infos_[parts.first_info]->height_m;
+  archive(enabled, height_m);
+  for (std::size_t i = 0; i < parts.count; ++i) infos_[parts.first_info + i]->height_m = height_m;
+  if (parts.shape == ObstacleShape::kCircle) {
+    archive_cylinder(archive, body, enabled, *infos_[parts.first_info]);
+    return;
+  }
+  std::vector<Vec2> corners = corners_of_parts(parts);
+  for (Vec2& corner : corners) archive(corner);
+  if (!archive.reading()) return;
+  archive.expect(parts.shape == ObstacleShape::kBox ? are_of_box(corners)
+                                                    : are_of_outline(corners, parts.count == 1),
+                 "boxes");
+  set_corners(parts, corners, height_m);
+  body.SetEnabled(false);  // enabling it creates a broad-phase proxy from the new shape
+  for (b2Fixture* fixture = body.GetFixtureList(); fixture != nullptr;
+       fixture = fixture->GetNext()) {
+    if (parts.count == 1) {
+      *static_cast<b2PolygonShape*>(fixture->GetShape()) = polygon_shape(corners);
+    } else {
+      *static_cast<b2EdgeShape*>(fixture->GetShape()) =
+          edge_shape(corners, info_of(fixture).id - parts.first_info);
+    }
+  }
   body.SetEnabled(enabled);
 }
 
@@ -95,7 +129,9 @@ void Bodies::archive(StateArchive& archive) {
   for (Robot& r : robots_) archive_robot_state(archive, r);
   archive_order(archive, by_x_);
   order_fresh_ = order_fresh_ && !archive.reading();
-  for (b2Body* body : obstacles_) archive_obstacle(archive, *body);
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    archive_obstacle(archive, static_cast<int>(i));
+  }
 
   std::vector<std::uint32_t> newest_first;  // robots with a Box2D body
   for (b2Body* body = world_.GetBodyList(); body->GetType() == b2_dynamicBody;

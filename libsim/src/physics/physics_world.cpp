@@ -88,10 +88,7 @@ void PhysicsWorld::set_extended(int obstacle, bool extended) {
   impl_->sensor_view.solids_changed();
 }
 
-int PhysicsWorld::robot_on(int obstacle) const {
-  const b2Body& block = impl_->bodies.obstacle(obstacle);
-  return impl_->bodies.robot_within(*block.GetFixtureList()->GetShape(), block.GetTransform());
-}
+int PhysicsWorld::robot_on(int obstacle) const { return impl_->bodies.robot_on(obstacle); }
 
 void PhysicsWorld::set_height(int obstacle, double height_m) {
   impl_->bodies.set_height(obstacle, height_m);
@@ -108,8 +105,8 @@ void PhysicsWorld::set_load(int robot, const std::vector<Load>& loads) {
   impl_->sensor_view.set_load(impl_->bodies.robot(robot), loads);
 }
 
-int PhysicsWorld::robot_within(const ObstacleDescription& box) const {
-  return impl_->bodies.robot_within(polygon_shape(box_corners(box)), identity_transform());
+int PhysicsWorld::robot_within(const ObstacleDescription& solid) const {
+  return impl_->bodies.robot_within(solid);
 }
 
 double PhysicsWorld::clearance_m(int robot, double limit_m, double exact_below_m) {

@@ -84,27 +84,27 @@ class PhysicsWorld {
   [[nodiscard]] int robot_on(int obstacle) const;
   /// Sets the height up to which the obstacle stands now, >= 0 [m]. Sensors above it look over it.
   void set_height(int obstacle, double height_m);
-  /// Changes position, rotation, size or height of an obstacle, given by its index. It stays
-  /// extended or retracted as it is.
+  /// Changes position, rotation, size or height of an obstacle, given by its index. It keeps its
+  /// shape and the number of its vertices, and stays extended or retracted as it is.
   void change_obstacle(int obstacle, const ObstacleDescription& now);
   /// An obstacle that a robot carries.
   struct Load {
-    int obstacle;               ///< its index in the arena
-    ObstacleDescription box_B;  ///< the obstacle with its position and rotation in the robot's
-                                ///< frame B
+    int obstacle;                 ///< its index in the arena
+    ObstacleDescription solid_B;  ///< the obstacle with its position and rotation in the robot's
+                                  ///< frame B
   };
   /// Sets what a robot carries. It collides with nothing, but the sensors of other robots see it
   /// like the robot itself.
   void set_load(int robot, const std::vector<Load>& loads);
-  /// The first robot whose footprint overlaps a box; -1 if there is none.
-  [[nodiscard]] int robot_within(const ObstacleDescription& box) const;
+  /// The first robot whose footprint overlaps a solid; -1 if there is none.
+  [[nodiscard]] int robot_within(const ObstacleDescription& solid) const;
 
   /// Distance of a robot's footprint to the nearest solid, at most limit_m [m]. The result is exact
   /// if it is below exact_below_m. Otherwise it is a lower bound that is at least exact_below_m.
   [[nodiscard]] double clearance_m(int robot, double limit_m, double exact_below_m);
 
-  /// Collects the edges within radius_m of a sensor at p_WL whose solids are higher than the
-  /// sensor.
+  /// Collects the edges and circles within radius_m of a sensor at p_WL whose solids are higher
+  /// than the sensor.
   /// @param own_robot     robot whose body is not seen, or -1.
   /// @param test_inside   also test whether p_WL is inside a solid (edges.inside); not needed for a
   ///     sensor within its robot's own footprint.
@@ -119,13 +119,15 @@ class PhysicsWorld {
   void scan(const scan::ScanGeometry& geometry, const Pose& X_WL, double sensor_height_m,
             int own_robot, bool test_inside, std::span<double> ranges_m) const;
 
-  /// A vertical face of a solid, from the floor up: an edge of its outline.
+  /// A vertical face of a solid, from the floor up: an edge of its outline, or the whole face of a
+  /// round one.
   struct Face {
     Contact::Kind kind;
-    int index;        ///< of the obstacle, separator or robot; -1 for borders and walls
-    double height_m;  ///< of the solid [m]; infinite for walls of a map
-    Vec2 p_WA;        ///< [m]
-    Vec2 p_WC;        ///< the solid is on the left of the line from A to C [m]
+    int index;              ///< of the obstacle, separator or robot; -1 for borders and walls
+    double height_m;        ///< of the solid [m]; infinite for walls of a map
+    Vec2 p_WA;              ///< [m]
+    Vec2 p_WC;              ///< the solid is on the left of the line from A to C [m]
+    double radius_m = 0.0;  ///< of a round face, > 0; A and C are its centre then
   };
   /// Collects the faces of everything that reaches into a box with sides along W's axes, and
   /// possibly some others, in no particular order.
@@ -148,9 +150,9 @@ class PhysicsWorld {
   /// include what robots carry; the caller restores that with set_load().
   void archive(StateArchive& archive);
 
-  /// Range along one ray, computed by b2World::RayCast, which is slow and exact (reference in tests
-  /// and benchmarks); range_max_m if nothing is met. Ignores heights and whether the ray starts
-  /// inside a solid.
+  /// Range along one ray, computed by b2World::RayCast and, for round obstacles, in closed form. It
+  /// is slow and exact (reference in tests and benchmarks); range_max_m if nothing is met. Ignores
+  /// heights and whether the ray starts inside a solid.
   [[nodiscard]] double ray_cast_m(const Vec2& p_WL, double angle_rad, double range_max_m,
                                   int own_robot) const;
 

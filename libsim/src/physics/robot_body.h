@@ -68,9 +68,10 @@ struct RobotDetails {
   // Of Contacts:
   std::vector<int> touching;  ///< number of contacts per partner, see count_contact
   // Of SensorView:
-  EdgeList load;                    ///< outlines of carried objects, in B
-  std::vector<int> load_obstacles;  ///< obstacle index of each of these edges
-  double seen_radius_m = 0.0;       ///< radius of footprint and load about B
+  EdgeList load;                     ///< outlines of carried objects, in B
+  std::vector<Cylinder> round_load;  ///< carried objects that are round, in B
+  std::vector<int> load_obstacles;   ///< obstacle index of each of these edges
+  double seen_radius_m = 0.0;        ///< radius of footprint and load about B
 };
 
 /// A robot, as stored in Bodies for all parts of the physics.

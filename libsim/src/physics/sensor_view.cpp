@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <optional>
 
 #include "physics/hilbert_curve.h"
+#include "sim/world/outline.h"
 
 namespace sim::physics {
 namespace {
@@ -42,11 +45,24 @@ void append_edges(const EdgeList& list, std::size_t first, std::size_t last, con
   out.truncate(begin + count);
 }
 
+// Appends a round solid, relative to the sensor, if it is higher than the sensor.
+void append_cylinder(const Cylinder& cylinder, const Vec2& p_WL, double sensor_height_m,
+                     scan::EdgeBuffer& out) {
+  if (cylinder.height_m <= sensor_height_m) return;
+  const Vec2 p_LC = cylinder.center - p_WL;
+  out.add(scan::Circle{p_LC.x(), p_LC.y(), cylinder.radius_m});
+}
+
+bool is_within(const Cylinder& cylinder, const Vec2& p_W) {
+  return (cylinder.center - p_W).squaredNorm() <= cylinder.radius_m * cylinder.radius_m;
+}
+
 }  // namespace
 
 void SensorView::solids_changed() {
-  sweep_ = bodies_.edges().edges.size() <= kSweepLimit;
+  sweep_ = bodies_.edges().edges.size() + bodies_.cylinders().size() <= kSweepLimit;
   fixed_edges_.clear();
+  fixed_cylinders_.clear();
   if (!sweep_) return;
   for (const auto& info : bodies_.infos()) {
     if (info->kind == Contact::Kind::kRobot) continue;
@@ -55,6 +71,9 @@ void SensorView::solids_changed() {
     }
     for (std::size_t i = 0; i < info->edge_count; ++i) {
       fixed_edges_.add(bodies_.edges().edges[info->first_edge + i], info->height_m);
+    }
+    if (info->cylinder >= 0) {
+      fixed_cylinders_.push_back(bodies_.cylinders()[static_cast<std::size_t>(info->cylinder)]);
     }
   }
 }
@@ -67,14 +86,21 @@ void SensorView::robot_was_placed() {
 void SensorView::set_load(Robot& r, const std::vector<PhysicsWorld::Load>& loads) {
   r.details->load.clear();
   r.details->load_obstacles.clear();
+  r.details->round_load.clear();
   r.details->seen_radius_m = r.radius_m;
   for (const PhysicsWorld::Load& load : loads) {
-    const ObstacleDescription& box = load.box_B;
-    const std::vector<Vec2> corners = box_corners(box);
+    const ObstacleDescription& solid = load.solid_B;
+    if (solid.shape == ObstacleShape::kCircle) {
+      r.details->round_load.push_back(
+          {solid.center, radius_m(solid), solid.height_m, load.obstacle});
+      r.details->seen_radius_m =
+          std::max(r.details->seen_radius_m, solid.center.norm() + radius_m(solid));
+    }
+    const std::vector<Vec2> corners = corners_of(solid);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2& a = corners[i];
       const Vec2& b = corners[(i + 1) % corners.size()];
-      r.details->load.add({a.x(), a.y(), b.x(), b.y()}, box.height_m);
+      r.details->load.add({a.x(), a.y(), b.x(), b.y()}, solid.height_m);
       r.details->load_obstacles.push_back(load.obstacle);
       r.details->seen_radius_m = std::max(r.details->seen_radius_m, a.norm());
     }
@@ -105,6 +131,7 @@ void SensorView::sort_by_hilbert_index() {
 
 void SensorView::rebuild_outlines() {
   load_edges_.clear();
+  load_cylinders_.clear();
   outlines_.resize(bodies_.robots().size());
   robot_discs_.clear();
   sort_by_hilbert_index();
@@ -134,6 +161,12 @@ void SensorView::rebuild_outlines() {
                       r.details->load.heights_m[i]);
     }
     outline.end_load = load_edges_.edges.size();
+    outline.first_cylinder = load_cylinders_.size();
+    for (Cylinder cylinder : r.details->round_load) {
+      cylinder.center = r.X_WB * cylinder.center;
+      load_cylinders_.push_back(cylinder);
+    }
+    outline.end_cylinder = load_cylinders_.size();
   }
   robot_discs_.group();
   outlines_fresh_ = true;
@@ -163,6 +196,42 @@ void SensorView::cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, 
       });
 }
 
+// Calls visit(cylinder) for each round obstacle that exists now and may reach into a box.
+template <typename Visitor>
+void SensorView::visit_cylinders(const Vec2& low, const Vec2& high, Visitor visit) {
+  if (sweep_) {
+    std::for_each(fixed_cylinders_.begin(), fixed_cylinders_.end(), visit);
+    return;
+  }
+  if (bodies_.cylinders().empty()) return;
+  visit_fixed(bodies_.world(), low, high, [&](const b2Fixture& fixture) {
+    const int cylinder = info_of(&fixture).cylinder;
+    if (cylinder >= 0) visit(bodies_.cylinders()[static_cast<std::size_t>(cylinder)]);
+  });
+}
+
+// The least fraction of the line from A to C at which it enters a round obstacle that is higher
+// than height_m; 1 if it enters none. Exact, while circles in Box2D have a skin.
+double SensorView::cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double height_m,
+                                     const Contact* ignored) {
+  if (bodies_.cylinders().empty()) return 1.0;
+  const double length_m = (p_WC - p_WA).norm();
+  const Vec2 along = (p_WC - p_WA) / length_m;
+  double least_m = length_m;
+  visit_cylinders(p_WA.cwiseMin(p_WC), p_WA.cwiseMax(p_WC), [&](const Cylinder& cylinder) {
+    if (cylinder.height_m <= height_m || is_within(cylinder, p_WA)) return;
+    if (ignored != nullptr && ignored->kind == Contact::Kind::kObstacle &&
+        ignored->index == cylinder.obstacle) {
+      return;
+    }
+    const Vec2 p_AC = cylinder.center - p_WA;
+    const std::optional<scan::Chord> chord =
+        scan::chord_of({p_AC.x(), p_AC.y(), cylinder.radius_m}, along.x(), along.y());
+    if (chord && chord->enter_m >= 0.0) least_m = std::min(least_m, chord->enter_m);
+  });
+  return least_m / length_m;
+}
+
 scan::ScanKernel& SensorView::kernel_of(const scan::ScanGeometry& geometry) {
   const auto it = std::find_if(kernels_.begin(), kernels_.end(),
                                [&](const scan::ScanKernel& k) { return k.geometry() == geometry; });
@@ -184,6 +253,9 @@ void SensorView::collect_static_edges(const Vec2& p_WL, double radius_m, double 
   edges.clear();
   if (sweep_) {
     append_edges(fixed_edges_, 0, fixed_edges_.edges.size(), p_WL, sensor_height_m, edges);
+    for (const Cylinder& cylinder : fixed_cylinders_) {
+      append_cylinder(cylinder, p_WL, sensor_height_m, edges);
+    }
     return;
   }
   const Vec2 reach(radius_m, radius_m);
@@ -191,6 +263,9 @@ void SensorView::collect_static_edges(const Vec2& p_WL, double radius_m, double 
     const FixtureInfo& info = info_of(&fixture);
     append_edges(bodies_.edges(), info.first_edge, info.first_edge + info.edge_count, p_WL,
                  sensor_height_m, edges);
+    if (info.cylinder < 0) return;
+    append_cylinder(bodies_.cylinders()[static_cast<std::size_t>(info.cylinder)], p_WL,
+                    sensor_height_m, edges);
   });
 }
 
@@ -210,6 +285,9 @@ void SensorView::collect_edges(const Vec2& p_WL, double radius_m, double sensor_
       }
     }
     append_edges(load_edges_, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
+    for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
+      append_cylinder(load_cylinders_[i], p_WL, sensor_height_m, edges);
+    }
   }
   if (test_inside) edges.inside = is_inside_solid(p_WL, sensor_height_m, own_robot);
 }
@@ -225,6 +303,9 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
       const Outline& outline = outlines_[static_cast<std::size_t>(disc)];
       if (outline.robot == own_robot) continue;
       if (outline.height_m > sensor_height_m) append_robot(outline, p_WL, edges);
+      for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
+        append_cylinder(load_cylinders_[i], p_WL, sensor_height_m, edges);
+      }
       if (outline.first_load == outline.end_load) continue;
       append_edges(load_edges_, outline.first_load, outline.end_load, p_WL, sensor_height_m, edges);
     }
@@ -238,7 +319,7 @@ void SensorView::scan(const scan::ScanGeometry& geometry, const Pose& X_WL, doub
   kernel.add(edges);
   edges.clear();
   append(kernel.visible());
-  if (edges.size() > 0) kernel.add(edges);
+  if (edges.size() > 0 || !edges.circles().empty()) kernel.add(edges);
   kernel.finish(ranges_m);
 }
 
@@ -251,6 +332,14 @@ void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
     if (std::max(e.y0, e.y1) < low.y() || std::min(e.y0, e.y1) > high.y()) return;
     faces.push_back({kind, index, height_m, {e.x0, e.y0}, {e.x1, e.y1}});
   };
+  const auto add_round = [&](const Cylinder& c) {
+    const Vec2 r(c.radius_m, c.radius_m);
+    if (((c.center + r).array() < low.array()).any()) return;
+    if (((c.center - r).array() > high.array()).any()) return;
+    faces.push_back(
+        {Contact::Kind::kObstacle, c.obstacle, c.height_m, c.center, c.center, c.radius_m});
+  };
+  visit_cylinders(low, high, add_round);
   visit_fixed(bodies_.world(), low, high, [&](const b2Fixture& fixture) {
     const FixtureInfo& info = info_of(&fixture);
     for (std::size_t i = 0; i < info.edge_count; ++i) {
@@ -267,6 +356,9 @@ void SensorView::collect_faces(const Vec2& low, const Vec2& high, int own_robot,
       add(load_edges_.edges[i], Contact::Kind::kObstacle,
           r.details->load_obstacles[i - outline.first_load], load_edges_.heights_m[i]);
     }
+    for (std::size_t i = outline.first_cylinder; i < outline.end_cylinder; ++i) {
+      add_round(load_cylinders_[i]);
+    }
   }
 }
 
@@ -276,6 +368,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float) override {
       const FixtureInfo& info = info_of(fixture);
       const bool wanted = info.kind == target_kind && info.index == target_index;
+      if (info.cylinder >= 0) return -1.0F;
       if (info.kind == Contact::Kind::kRobot || wanted || info.height_m <= height_m) return -1.0F;
       blocked = true;
       return 0.0F;
@@ -304,6 +397,7 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
         return false;
       });
   if (blocked) return false;
+  if (cast_at_cylinders(p_WA, p_WC, height_m, &target) < 1.0) return false;
   bodies_.world().RayCast(&callback, to_box2d(p_WA), to_box2d(p_WC));
   return !callback.blocked;
 }
@@ -311,9 +405,14 @@ bool SensorView::is_line_free(const Vec2& p_WA, const Vec2& p_WC, double height_
 bool SensorView::is_inside_solid(const Vec2& p_W, double height_m, int own_robot) {
   bool inside = false;
   visit_fixed(bodies_.world(), p_W, p_W, [&](const b2Fixture& fixture) {
-    if (info_of(&fixture).height_m <= height_m) return;
-    inside = inside || fixture.TestPoint(to_box2d(p_W));
+    const FixtureInfo& info = info_of(&fixture);
+    if (info.height_m <= height_m) return;
+    inside = inside ||
+             (info.cylinder < 0
+                  ? fixture.TestPoint(to_box2d(p_W))
+                  : is_within(bodies_.cylinders()[static_cast<std::size_t>(info.cylinder)], p_W));
   });
+  inside = inside || bodies_.is_inside_edged(p_W, height_m);
   bodies_.for_robots_in(p_W, p_W, [&](const Bodies::Circle& circle) {
     const Robot& r = bodies_.robot(circle.robot);
     if (inside || circle.robot == own_robot || r.details->height_m <= height_m) return;
@@ -340,7 +439,8 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
   struct Closest : b2RayCastCallback {
     float fraction = 1.0F;
     float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float f) override {
-      if (info_of(fixture).kind == Contact::Kind::kRobot) return -1.0F;
+      const FixtureInfo& info = info_of(fixture);
+      if (info.kind == Contact::Kind::kRobot || info.cylinder >= 0) return -1.0F;
       fraction = f;
       return f;
     }
@@ -353,7 +453,10 @@ double SensorView::ray_cast_m(const Vec2& p_WL, double angle_rad, double range_m
         closest.fraction = std::min(closest.fraction, fraction);
         return true;
       });
-  return static_cast<double>(closest.fraction) * range_max_m;
+  constexpr double kAnyHeight_m = -std::numeric_limits<double>::infinity();
+  return std::min(static_cast<double>(closest.fraction),
+                  cast_at_cylinders(p_WL, end, kAnyHeight_m, nullptr)) *
+         range_max_m;
 }
 
 }  // namespace sim::physics

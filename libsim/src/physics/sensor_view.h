@@ -61,6 +61,8 @@ class SensorView {
     int robot;
     std::size_t first_load;  // range of the load's edges in load_edges_
     std::size_t end_load;
+    std::size_t first_cylinder;  // range of the load's cylinders in load_cylinders_
+    std::size_t end_cylinder;
 
     [[nodiscard]] Edge edge(std::size_t i) const {
       return {corners[i].x(), corners[i].y(), corners[i + 1].x(), corners[i + 1].y()};
@@ -69,6 +71,10 @@ class SensorView {
 
   void sort_by_hilbert_index();
   void rebuild_outlines();
+  template <typename Visitor>
+  void visit_cylinders(const Vec2& low, const Vec2& high, Visitor visit);
+  [[nodiscard]] double cast_at_cylinders(const Vec2& p_WA, const Vec2& p_WC, double height_m,
+                                         const Contact* ignored);
   static void append_robot(const Outline& outline, const Vec2& p_WL, scan::EdgeBuffer& out);
   template <typename Filter, typename Visitor>
   void cast_at_robots(const Vec2& p_WA, const Vec2& p_WC, Filter may, Visitor visit);
@@ -77,9 +83,11 @@ class SensorView {
                             scan::EdgeBuffer& edges);
 
   Bodies& bodies_;
-  EdgeList fixed_edges_;  // static solids that exist now, if the world is small
-  bool sweep_ = true;     // the world is small
+  EdgeList fixed_edges_;                   // static solids that exist now, if the world is small
+  std::vector<Cylinder> fixed_cylinders_;  // round obstacles that exist now, if the world is small
+  bool sweep_ = true;                      // the world is small
   EdgeList load_edges_;
+  std::vector<Cylinder> load_cylinders_;  // in W
   std::vector<Outline> outlines_;
   scan::DiscBuffer robot_discs_;                // bounding discs of `outlines_`
   std::vector<HilbertEntry> by_hilbert_index_;  // order of `outlines_` and `robot_discs_`

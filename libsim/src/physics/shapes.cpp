@@ -19,6 +19,21 @@ b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices) {
   return shape;
 }
 
+b2CircleShape circle_shape(const Vec2& center, double radius_m) {
+  b2CircleShape shape;
+  shape.m_p = to_box2d(center);
+  shape.m_radius = static_cast<float>(radius_m * kScale) + b2_polygonRadius;
+  return shape;
+}
+
+b2EdgeShape edge_shape(const std::vector<Vec2>& vertices, std::size_t index) {
+  const std::size_t n = vertices.size();
+  b2EdgeShape shape;
+  shape.SetOneSided(to_box2d(vertices[(index + n - 1) % n]), to_box2d(vertices[index]),
+                    to_box2d(vertices[(index + 1) % n]), to_box2d(vertices[(index + 2) % n]));
+  return shape;
+}
+
 b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a, const b2Shape& b,
                                   const b2Transform& xf_b, b2SimplexCache& cache) {
   b2DistanceInput input;
@@ -29,6 +44,16 @@ b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a, con
   input.useRadii = false;
   b2DistanceOutput output;
   b2Distance(&output, &cache, &input);
+  if (b.GetType() != b2Shape::e_circle) return output;
+  // So far this is the distance to the centre of the circle.
+  const float radius = core_radius(b);
+  if (output.distance <= radius) {
+    output.pointB = output.pointA;
+    output.distance = 0.0F;
+    return output;
+  }
+  output.pointB -= (radius / output.distance) * (output.pointB - output.pointA);
+  output.distance -= radius;
   return output;
 }
 

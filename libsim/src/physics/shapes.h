@@ -1,12 +1,14 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <box2d/b2_circle_shape.h>
 #include <box2d/b2_collision.h>
 #include <box2d/b2_distance.h>
 #include <box2d/b2_edge_shape.h>
 #include <box2d/b2_polygon_shape.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -35,7 +37,22 @@ inline constexpr float kScaleF = 10.0F;
 /// @param vertices  of a convex polygon, counter-clockwise, 3 to b2_maxPolygonVertices [m].
 [[nodiscard]] b2PolygonShape polygon_shape(const std::vector<Vec2>& vertices);
 
-/// The least n . v over the corners v of a polygon or an edge, in W.
+/// Makes a circle shape with a skin outside of it, as polygons and edges have. So bodies keep the
+/// same distance from solids of any shape.
+[[nodiscard]] b2CircleShape circle_shape(const Vec2& center, double radius_m);
+
+/// Makes a side of an outline: an edge that is solid on its left, with smooth joints to the sides
+/// before and after it.
+/// @param vertices  of the outline, counter-clockwise around the solid [m].
+/// @param index     of the side's first vertex.
+[[nodiscard]] b2EdgeShape edge_shape(const std::vector<Vec2>& vertices, std::size_t index);
+
+/// Radius of a shape without its skin [Box2D units]: 0 for polygons and edges.
+[[nodiscard]] inline float core_radius(const b2Shape& shape) {
+  return shape.GetType() == b2Shape::e_circle ? shape.m_radius - b2_polygonRadius : 0.0F;
+}
+
+/// The least n . v over the points v of a shape without its skin, in W.
 [[nodiscard]] inline float least_along(const b2Vec2& n, const b2Shape& shape,
                                        const b2Transform& xf) {
   const b2Vec2 local = b2MulT(xf.q, n);
@@ -45,6 +62,8 @@ inline constexpr float kScaleF = 10.0F;
     for (int32 i = 0; i < polygon.m_count; ++i) {
       least = std::min(least, b2Dot(local, polygon.m_vertices[i]));
     }
+  } else if (shape.GetType() == b2Shape::e_circle) {
+    least = b2Dot(local, static_cast<const b2CircleShape&>(shape).m_p) - core_radius(shape);
   } else {
     const auto& edge = static_cast<const b2EdgeShape&>(shape);
     least = std::min(b2Dot(local, edge.m_vertex1), b2Dot(local, edge.m_vertex2));
@@ -52,7 +71,7 @@ inline constexpr float kScaleF = 10.0F;
   return least + b2Dot(n, xf.p);
 }
 
-/// Distance of two shapes without their skins, and their nearest points.
+/// Distance of two shapes without their skins, and their nearest points. Only b may be a circle.
 /// @param cache  of an earlier call for the same shapes, or with a count of 0; is updated.
 [[nodiscard]] b2DistanceOutput distance_between(const b2Shape& a, const b2Transform& xf_a,
                                                 const b2Shape& b, const b2Transform& xf_b,

@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "sim/world/outline.h"
 
 namespace sim::render {
 namespace {
@@ -21,6 +24,22 @@ std::string dock_label(const std::string& name, std::size_t index) {
 
 bool is_retracted(const ObstacleDescription& obstacle) {
   return obstacle.type == ObstacleType::kDynamic && obstacle.state == ObstacleState::kRetracted;
+}
+
+// A counter-clockwise outline with each side moved inwards. Sharp corners move by at most twice the
+// distance, so that they stay near their places.
+std::vector<Vec2> moved_inwards(const std::vector<Vec2>& outline, double distance_m) {
+  std::vector<Vec2> inner;
+  const std::size_t n = outline.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 before = (outline[i] - outline[(i + n - 1) % n]).normalized();
+    const Vec2 after = (outline[(i + 1) % n] - outline[i]).normalized();
+    const Vec2 normals = Vec2(-before.y(), before.x()) + Vec2(-after.y(), after.x());
+    // The length of `normals` is twice the cosine of half the angle between the sides' normals.
+    inner.push_back(outline[i] +
+                    normals * (2.0 * distance_m / std::max(normals.squaredNorm(), 1.0)));
+  }
+  return inner;
 }
 
 class GroundPainter {
@@ -138,8 +157,7 @@ class SolidsPainter {
     Shape outlines;
     for (const ObstacleDescription& obstacle : arena_.obstacles) {
       if (!is_retracted(obstacle)) continue;
-      outlines.add_dashed_outline(layout_(box_corners(obstacle)), layout_.line_px(1.6),
-                                  layout_.line_px(5.0, 3.0));
+      add_dashes(obstacle, outlines);
     }
     painter_.fill(outlines, palette::kDynamic, 0.6);
   }
@@ -168,7 +186,7 @@ class SolidsPainter {
       Shape& alike = box.colour                           ? coloured
                      : box.type == ObstacleType::kDynamic ? dynamics
                                                           : statics;
-      alike.add_piece(layout_(box_corners(box)));
+      alike.add_piece(outline_px(box));
     }
     for (const WallLoop& loop : arena_.walls) walls.add_outline(layout_(loop.vertices));
 
@@ -198,7 +216,7 @@ class SolidsPainter {
       if (is_retracted(box)) continue;
       if (box.colour) {
         Shape block;
-        block.add_piece(layout_(box_corners(box)));
+        block.add_piece(outline_px(box));
         painter_.fill(block, opaque(*box.colour));
         draw_block_edge(box, mix(opaque(*box.colour), palette::kInk, 0.4));
         continue;
@@ -209,13 +227,48 @@ class SolidsPainter {
   }
 
  private:
+  // Adds the dashed outline of a retracted block.
+  void add_dashes(const ObstacleDescription& obstacle, Shape& into) {
+    const double width_px = layout_.line_px(1.6);
+    const double dash_px = layout_.line_px(5.0, 3.0);
+    if (obstacle.shape != ObstacleShape::kCircle) {
+      into.add_dashed_outline(outline_px(obstacle), width_px, dash_px);
+      return;
+    }
+    // As many dashes as gaps.
+    const double turn_rad = 2.0 * std::numbers::pi;
+    const double length_px = turn_rad * radius_m(obstacle) * layout_.pixels_per_m;
+    const int dashes = static_cast<int>(std::clamp(length_px / (2.0 * dash_px), 6.0, 2000.0));
+    constexpr int kPieces = 4;  // of a dash
+    for (int dash = 0; dash < dashes; ++dash) {
+      std::vector<Vec2> arc;
+      for (int i = 0; i <= kPieces; ++i) {
+        const double angle_rad = turn_rad / dashes * (dash + 0.5 * i / kPieces);
+        arc.push_back(obstacle.center +
+                      radius_m(obstacle) * Vec2(std::cos(angle_rad), std::sin(angle_rad)));
+      }
+      into.add_line(layout_(arc), width_px);
+    }
+  }
+
   // An edge line inside the block's outline, so that adjacent blocks do not overlap.
   void draw_block_edge(const ObstacleDescription& box, Colour colour) {
     const double width_px = layout_.line_px(1.6);
     const double inset_m = width_px / layout_.pixels_per_m;
     if (box.size.minCoeff() <= 2.0 * inset_m) return;
-    const Pose X_WB{box.center.x(), box.center.y(), box.yaw_rad};
-    outline(layout_(box_corners(X_WB, box.size - Vec2(inset_m, inset_m))), colour, width_px);
+    if (box.shape == ObstacleShape::kPolygon) {
+      outline(layout_(moved_inwards(corners_of(box), 0.5 * inset_m)), colour, width_px);
+      return;
+    }
+    ObstacleDescription inner = box;
+    inner.size -= Vec2(inset_m, inset_m);
+    outline(outline_px(inner), colour, width_px);
+  }
+
+  // The outline of an obstacle in pixels; a circle has vertices so close that it looks round.
+  [[nodiscard]] std::vector<Vec2> outline_px(const ObstacleDescription& obstacle) const {
+    constexpr double kTolerance_px = 0.05;
+    return layout_(outline_of(obstacle, kTolerance_px / layout_.pixels_per_m));
   }
 
   void outline(const std::vector<Vec2>& points, Colour colour, double width_px,

@@ -15,6 +15,8 @@ namespace {
 // Deviation of a line from its points that is invisible.
 constexpr double kTolerance_px = 0.15;
 constexpr double kAnyLength_px = 1e9;
+// Links of arms: neither the robot's colour nor that of its nose.
+constexpr Colour kArm{0xc6, 0xcd, 0xd8};
 // Fans are short if there are more robots than this.
 constexpr std::ptrdiff_t kMostFans = 20;
 
@@ -319,6 +321,7 @@ class RobotPainter {
     outline(body, dark, layout_.line_px(1.5));
     draw_bumpers(robot, dark);
     draw_lights(robot);
+    draw_arms(robot);
   }
 
  private:
@@ -355,6 +358,31 @@ class RobotPainter {
     painter_.fill(idle, dark);
     painter_.fill(halo, palette::kHalo);
     painter_.fill(pressed, palette::kStalled);
+  }
+
+  // Draws each arm as light links with dark edges between dark joints; the tip is a ring. Links of
+  // an upright arm cover each other.
+  void draw_arms(const RobotSnapshot& robot) {
+    constexpr double kLink_m = 0.03;
+    const double link_px = std::max(kLink_m * layout_.pixels_per_m, layout_.line_px(2.0));
+    const double edge_px = layout_.line_px(1.2);
+    for (const std::vector<Vec2>& arm : robot.arms) {
+      std::vector<Vec2> line;
+      for (const Vec2& p_B : arm) line.push_back(layout_(robot.X_WB * p_B));
+      if (line.empty() || !std::all_of(line.begin(), line.end(), is_drawable)) continue;
+      Shape edges;
+      Shape links;
+      Shape joints;
+      Shape tip;
+      edges.add_line(line, link_px + 2.0 * edge_px);
+      links.add_line(line, link_px);
+      for (const Vec2& joint : line) joints.add_disc(joint, 0.4 * link_px);
+      tip.add_disc(line.back(), 0.4 * link_px);
+      painter_.fill(edges, palette::kWheel);
+      painter_.fill(links, kArm);
+      painter_.fill(joints, palette::kWheel);
+      painter_.fill(tip, palette::kStalled);
+    }
   }
 
   // Hits of a robot's newest scan, in picture coordinates.

@@ -47,6 +47,8 @@ struct ArenaKey {
         add(box.center);
         add(box.size);
         numbers.push_back(box.yaw_rad);
+        numbers.push_back(static_cast<double>(box.shape));
+        for (const Vec2& vertex : box.outline) add(vertex);
         numbers.push_back(static_cast<double>(box.type));
         numbers.push_back(static_cast<double>(box.state));
         const Colour colour = box.colour.value_or(Colour{0, 0, 0, 0});

@@ -103,4 +103,8 @@ struct ScanSteps {
   void (*finish)(const ScanJob&);
 };
 
+/// Lowers the ranges of the beams that meet a circle, in job.ranges_m. In double precision, and the
+/// same for all instruction sets. A circle that contains the sensor is not seen.
+void scan_circle(const ScanJob& job, const Circle& circle);
+
 }  // namespace sim::scan::detail

@@ -447,8 +447,9 @@ struct ScanKernel::Scratch {
 
   std::shared_ptr<const Tables> tables;
   detail::ScanJob job{};
-  detail::Located located;  ///< located discs of the current scan
-  bool inside = false;      ///< the current scan starts inside a solid
+  detail::Located located;      ///< located discs of the current scan
+  bool inside = false;          ///< the current scan starts inside a solid
+  std::vector<Circle> circles;  ///< of the current scan
   std::vector<float> inverse_ranges;
   std::vector<float> minima;
   std::vector<std::int32_t> edge_integers;
@@ -526,6 +527,7 @@ void ScanKernel::begin(double yaw_rad) {
   scratch_->job.cos_yaw = std::cos(yaw_rad);
   scratch_->job.sin_yaw = std::sin(yaw_rad);
   scratch_->inside = false;
+  scratch_->circles.clear();
   steps_->clear(scratch_->job);
 }
 
@@ -533,6 +535,7 @@ void ScanKernel::add(const EdgeBuffer& edges) {
   Scratch& scratch = *scratch_;
   if (edges.inside) scratch.inside = true;
   if (scratch.inside) return;
+  scratch.circles.insert(scratch.circles.end(), edges.circles().begin(), edges.circles().end());
   scratch.reserve_edges(edges.size());
   scratch.job.edges = edges.edges().data();
   scratch.job.edge_count = static_cast<std::int32_t>(edges.size());
@@ -573,6 +576,7 @@ void ScanKernel::finish(std::span<double> ranges_m) {
   }
   scratch_->job.ranges_m = ranges_m.data();
   steps_->finish(scratch_->job);
+  for (const Circle& circle : scratch_->circles) detail::scan_circle(scratch_->job, circle);
 }
 
 }  // namespace sim::scan

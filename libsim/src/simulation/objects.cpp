@@ -8,6 +8,7 @@
 #include "io/solid_limits.h"
 #include "sim/core/assert.h"
 #include "sim/world/limits.h"
+#include "sim/world/outline.h"
 #include "simulation/simulation_impl.h"
 
 namespace sim {
@@ -31,7 +32,7 @@ std::optional<std::string> Simulation::Impl::change_block(const std::string& nam
   // A portable block may be placed beyond the floor, as programs for Stage do.
   const auto where = now.portable ? std::nullopt : io::outside_floor(world.arena, now);
   if (where) return "obstacle " + name + " would " + *where;
-  if (const auto error = io::check_box(now)) {
+  if (const auto error = io::check_obstacle(now)) {
     return "obstacle " + name + " cannot be so: expected " + error->expected + ", found " +
            error->found;
   }
@@ -108,8 +109,8 @@ void Simulation::Impl::update_load_outlines(std::size_t robot) {
   for (const Load& load : loads) {
     if (load.robot != robot || load.inside) continue;
     seen.push_back({load.obstacle, obstacle(load.obstacle)});
-    seen.back().box_B.center = load.X_BT.position();
-    seen.back().box_B.yaw_rad = load.X_BT.yaw_rad;
+    seen.back().solid_B.center = load.X_BT.position();
+    seen.back().solid_B.yaw_rad = load.X_BT.yaw_rad;
   }
   physics->set_load(static_cast<int>(robot), seen);
 }
@@ -234,12 +235,20 @@ std::optional<std::string> Simulation::set_block_size(const std::string& name, c
   const std::optional<SceneObject> object = find_object(name);
   if (!object) return no_such_object(name);
   if (object->kind != "block") return object->kind + " \"" + name + "\" keeps its size";
-  // The limits of the world's reader; Box2D cannot represent smaller boxes.
+  // The limits of the world's reader; Box2D cannot represent smaller solids.
   if (!(size_m.minCoeff() >= kLeastLength_m && height_m >= kLeastLength_m)) {
     return "the sides and the height of a block are at least 0.001 m";
   }
+  const auto& blocks = impl_->world.arena.obstacles;
+  const bool is_circle =
+      std::any_of(blocks.begin(), blocks.end(), [&name](const ObstacleDescription& block) {
+        return block.name == name && block.shape == ObstacleShape::kCircle;
+      });
+  if (is_circle && size_m.x() != size_m.y()) {
+    return "block \"" + name + "\" is a circle: both sides must be its diameter";
+  }
   return impl_->change_block(name, [&](ObstacleDescription& block) {
-    block.size = size_m;
+    resize(block, size_m);
     block.height_m = height_m;
   });
 }

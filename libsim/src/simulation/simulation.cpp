@@ -10,6 +10,7 @@
 #include "sim/core/assert.h"
 #include "sim/core/error.h"
 #include "sim/devices/builtin.h"
+#include "sim/devices/realism.h"
 #include "sim/world/view_mode.h"
 #include "simulation/controller.h"
 #include "simulation/simulation_impl.h"
@@ -338,6 +339,7 @@ void Simulation::Impl::step() {
 Simulation::Simulation(WorldDescription world, LogHook log) {
   std::vector<ConfigIssue> issues = io::check_world(world);
   if (!issues.empty()) throw ConfigError(std::move(issues));
+  apply_realism(world);
   impl_ = std::make_unique<Impl>(std::move(world), std::move(log));
 }
 

@@ -84,9 +84,10 @@ std::uint64_t Simulation::Impl::start_hash() const {
 
 void Simulation::Impl::archive_obstacle(StateArchive& archive, ObstacleDescription& thing) {
   archive(thing.center, thing.size, thing.yaw_rad, thing.height_m, thing.fiducial, thing.colour);
+  for (Vec2& vertex : thing.outline) archive(vertex);
   archive.choice(thing.state, ObstacleState::kRetracted);
   archive.index(thing.carried_by, robots.size(), -1);
-  archive.expect(!archive.reading() || !io::check_box(thing), "obstacles that can be");
+  archive.expect(!archive.reading() || !io::check_obstacle(thing), "obstacles that can be");
 }
 
 void Simulation::Impl::archive_robot(StateArchive& archive, std::size_t i) {

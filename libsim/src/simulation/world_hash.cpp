@@ -6,6 +6,7 @@
 
 #include "sim/core/hash.h"
 #include "sim/devices/builtin.h"
+#include "sim/world/realism.h"
 #include "sim/world/robot_model.h"
 #include "simulation/controller_hash.h"
 
@@ -40,9 +41,14 @@ void add(StateHash& hash, const ObstacleDescription& box) {
   hash.add(box.colour.has_value() ? 1 : 0);
   if (box.colour) add(hash, *box.colour);
   hash.add(box.portable ? 1 : 0);
-  if (box.rise_speed_mps == 0.0 && box.when_blocked == WhenBlocked::kRefuse) return;
-  hash.add(box.rise_speed_mps);
-  hash.add(static_cast<int>(box.when_blocked));
+  if (box.rise_speed_mps != 0.0 || box.when_blocked != WhenBlocked::kRefuse) {
+    hash.add(box.rise_speed_mps);
+    hash.add(static_cast<int>(box.when_blocked));
+  }
+  if (box.shape == ObstacleShape::kBox) return;
+  hash.add(static_cast<int>(box.shape));
+  hash.add(box.outline.size());
+  for (const Vec2& vertex : box.outline) add(hash, vertex);
 }
 
 void add(StateHash& hash, const std::vector<ObstacleDescription>& boxes) {
@@ -50,11 +56,16 @@ void add(StateHash& hash, const std::vector<ObstacleDescription>& boxes) {
   for (const ObstacleDescription& box : boxes) add(hash, box);
 }
 
-void add(StateHash& hash, const std::vector<DeviceDescription>& devices) {
+void add(StateHash& hash, const std::vector<DeviceDescription>& devices, Realism level) {
   hash.add(devices.size());
   for (const DeviceDescription& device : devices) {
     hash.add(device.name);
     hash.add(device.type);
+    // At this level a setting that a file states differs from one that is left out.
+    if (level == Realism::kReal) {
+      hash.add(device.given.size());
+      for (const std::string& key : device.given) hash.add(key);
+    }
     if (!device.params.has_value()) continue;
     const DeviceKind* kind = find_device_kind(device.type);
     if (kind == nullptr) continue;
@@ -87,7 +98,7 @@ void add(StateHash& hash, const RobotDescription& robot, const WorldDescription&
   add(hash, robot.colour);
   hash.add(robot.port);
   hash.add(robot.fiducial);
-  add(hash, robot.devices);
+  add(hash, robot.devices, world.simulation.realism);
   for (const auto& [interface, index] : robot.proxies) {
     hash.add(interface);
     hash.add(index);
@@ -132,6 +143,9 @@ std::uint64_t world_hash(const WorldDescription& world) {
   hash.add(world.simulation.step_ns);
   hash.add(world.simulation.start_gate_clients);
   hash.add(world.simulation.objects_locked ? 1 : 0);
+  if (world.simulation.realism != Realism::kCourse) {
+    hash.add(std::string(to_string(world.simulation.realism)));
+  }
   hash.add(world.robots.size());
   for (const RobotDescription& robot : world.robots) add(hash, robot, world);
   hash.add(world.canvas.width);

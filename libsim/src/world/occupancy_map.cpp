@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "sim/core/assert.h"
+#include "sim/world/outline.h"
 
 namespace sim {
 namespace {
@@ -62,6 +63,19 @@ class Painter {
         span = {std::min(span.low, piece.low), std::max(span.high, piece.high)};
       }
       fill(row, span);
+    }
+  }
+
+  /// Fills the cells that a circle reaches into. Within a row of cells, the circle is as wide as at
+  /// the height that is nearest to its centre.
+  void add_circle(const Vec2& center, double radius) {
+    const auto [first, last] = rows_between(center.y() - radius, center.y() + radius);
+    for (int row = first; row <= last; ++row) {
+      const double aside =
+          std::clamp(center.y(), row + kTouching, row + 1 - kTouching) - center.y();
+      if (std::abs(aside) >= radius) continue;
+      const double half = std::sqrt((radius - aside) * (radius + aside));
+      fill(row, {center.x() - half, center.x() + half});
     }
   }
 
@@ -147,7 +161,7 @@ class Painter {
   OccupancyMap& map_;
 };
 
-Polygon outline_of(const ObstacleDescription& box) {
+Polygon box_outline(const ObstacleDescription& box) {
   const Pose X_WO{box.center.x(), box.center.y(), box.yaw_rad};
   const Vec2 half = 0.5 * box.size;
   return {X_WO * Vec2(-half.x(), -half.y()), X_WO * Vec2(half.x(), -half.y()),
@@ -162,15 +176,23 @@ OccupancyMap true_map(const ArenaDescription& arena, const CanvasDescription& gr
   map.cells.assign(static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height),
                    0.0F);
   Painter painter(map);
-  const auto add_box = [&painter](const ObstacleDescription& box) {
-    Polygon outline = outline_of(box);
+  const auto add_solid = [&painter, &grid](const ObstacleDescription& solid) {
+    if (solid.shape == ObstacleShape::kCircle) {
+      painter.add_circle(painter.in_cells(solid.center), radius_m(solid) / grid.cell_size_m);
+      return;
+    }
+    if (solid.shape == ObstacleShape::kPolygon) {
+      painter.add_walls({{corners_of(solid)}});
+      return;
+    }
+    Polygon outline = box_outline(solid);
     for (Vec2& p : outline) p = painter.in_cells(p);
     painter.add_convex(outline);
   };
   for (const ObstacleDescription& obstacle : arena.obstacles) {
-    if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) add_box(obstacle);
+    if (obstacle.state == ObstacleState::kExtended && obstacle.carried_by < 0) add_solid(obstacle);
   }
-  for (const ObstacleDescription& separator : arena.dock_separators) add_box(separator);
+  for (const ObstacleDescription& separator : arena.dock_separators) add_solid(separator);
   painter.add_walls(arena.walls);
   if (arena.border) {
     painter.add_border(painter.in_cells(arena.origin), painter.in_cells(arena.origin + arena.size));

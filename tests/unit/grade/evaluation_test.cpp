@@ -176,6 +176,8 @@ TEST_F(EvaluateTest, AReportCountsOnlyForTheRunThatWasAskedFor) {
               HasSubstr("no limit, not of 60 s"));
   EXPECT_THAT(fault_with([this] { signed_as_.time = "2"; }),
               HasSubstr("the time 2, not with lockstep"));
+  EXPECT_THAT(fault_with([this] { signed_as_.realism = "ideal"; }),
+              HasSubstr("the realism ideal, not with course"));
   EXPECT_THAT(fault_with([this] { steps_ = 0; }), HasSubstr("never stepped"));
 }
 
@@ -222,6 +224,12 @@ TEST(WorldHash, TellsWorldsApartButNotSeedsAndFiles) {
       hash_with([](auto& w) { w.robots[0].devices.pop_back(); }),
       hash_with([](auto& w) { w.simulation.objects_locked = true; }),
       hash_with([](auto& w) { w.simulation.step_ns *= 2; }),
+      hash_with([](auto& w) { w.simulation.realism = sim::Realism::kIdeal; }),
+      hash_with([](auto& w) { w.simulation.realism = sim::Realism::kReal; }),
+      hash_with([](auto& w) {
+        w.simulation.realism = sim::Realism::kReal;
+        w.robots[0].devices[0].given = {"noise"};
+      }),
       hash_with([](auto& w) {
         w.arena.walls = {{{{0, 0}, {1, 0}, {0, 1}}}};
       }),

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/alarms.h"
+#include "host/blackboard.h"
 #include "host/clients.h"
 #include "host/inputs.h"
 #include "host/lockstep.h"
@@ -439,6 +440,94 @@ TEST_F(ResultsTest, TheReportFollowsTheRunAndSaysHowItEnded) {
   EXPECT_THAT(report(), HasSubstr("\"status\": 3"));
   EXPECT_TRUE(std::filesystem::exists(settings.output_folder + "/scene.png"));
   EXPECT_THAT(warnings, IsEmpty());
+}
+
+// --- The blackboard
+
+SetBlackboardRequest change(const std::string& key, std::size_t bytes, std::uint8_t value = 0) {
+  return {"g", key, 1, 2, std::vector<std::uint8_t>(bytes, value)};
+}
+std::vector<std::string> keys(const std::vector<BlackboardEntry>& entries) {
+  std::vector<std::string> all;
+  for (const BlackboardEntry& entry : entries) all.push_back(entry.key);
+  return all;
+}
+
+TEST(BlackboardTest, ListsEntriesInTheOrderOfTheirLastChanges) {
+  Blackboard board;
+  board.set(change("a", 1), 5);
+  board.set(change("b", 1), 6);
+  board.set({"other", "a", 1, 2, {}}, 7);
+  board.set(change("a", 2), 8);
+  EXPECT_THAT(keys(board.find({})), ElementsAre("b", "a", "a"));
+  EXPECT_THAT(keys(board.find({2, {}, {}})), ElementsAre("a", "a"));
+  EXPECT_THAT(keys(board.find({0, "g", {}})), ElementsAre("b", "a"));
+  EXPECT_THAT(keys(board.find({0, {}, "b"})), ElementsAre("b"));
+  EXPECT_THAT(board.find({4, {}, {}}), IsEmpty());
+  const BlackboardEntry entry = board.find({0, "g", "a"}).at(0);
+  EXPECT_EQ(entry.time_ns, 8);
+  EXPECT_EQ(entry.change, 4);
+  EXPECT_EQ(entry.data.size(), 2U);
+}
+
+TEST(BlackboardTest, WaitingChangesAreVisibleToTheirThreadOnly) {
+  constexpr ThreadId kOne = 7;
+  constexpr ThreadId kTwo = 3;
+  Blackboard board;
+  board.set(change("old", 1), 0);
+  board.set(change("a", 1, 1), 1, kOne);
+  board.set(change("b", 1), 1, kOne);
+  board.set(change("a", 1, 2), 2, kTwo);
+  EXPECT_TRUE(board.has_waiting_changes());
+  EXPECT_THAT(keys(board.find({}, kOne)), ElementsAre("old")) << "a list has published changes";
+  EXPECT_EQ(board.find({0, "g", "a"}, kOne).at(0).data.at(0), 1);
+  EXPECT_EQ(board.find({0, "g", "a"}, kOne).at(0).change, 1) << "that of the newest that all see";
+  EXPECT_EQ(board.find({0, "g", "a"}, kTwo).at(0).data.at(0), 2);
+  EXPECT_THAT(board.find({0, "g", "b"}, kTwo), IsEmpty());
+  EXPECT_THAT(keys(board.find({0, "g", "b"})), ElementsAre("b")) << "a thread of no client";
+  board.publish({kOne, kTwo, kOne});
+  EXPECT_FALSE(board.has_waiting_changes());
+  EXPECT_THAT(keys(board.find({}, kTwo)), ElementsAre("old", "b", "a"));
+  EXPECT_EQ(board.find({0, "g", "a"}).at(0).data.at(0), 2) << "the last one in the order";
+}
+
+TEST(BlackboardTest, PublishesTheChangesOfThreadsWithoutClients) {
+  Blackboard board;
+  board.set(change("a", 1), 0, 9);
+  board.set(change("b", 1), 0, 8);
+  board.set(change("c", 1), 0, 5);
+  board.publish({9});
+  EXPECT_THAT(keys(board.find({})), ElementsAre("a", "c", "b"));
+}
+
+TEST(BlackboardTest, WaitingChangesReserveTheirRoom) {
+  constexpr std::size_t kNameBytes = 2;
+  Blackboard board;
+  for (char c = 'a'; c < 'h'; ++c) board.set(change({c}, Blackboard::kMostData), 0);
+  // There is room for one more entry, without its name.
+  EXPECT_THROW(board.set(change("z", Blackboard::kMostData), 0, 1), SessionError);
+  const std::size_t room = Blackboard::kMostData - 8 * kNameBytes;
+  for (int i = 0; i < 3; ++i) board.set(change("z", room), 0, 1);  // replaces its own change
+  EXPECT_THROW(board.set(change("y", 1), 0, 2), SessionError);
+  board.set(change("z", 5), 0, 1);
+  board.set(change("y", room - 5 - kNameBytes), 0, 2);
+  EXPECT_THROW(board.set(change("x", 1), 0, 2), SessionError);
+  board.set(change("a", Blackboard::kMostData), 0, 2);  // not larger than before
+  board.publish({1, 2});
+  EXPECT_EQ(board.find({}).size(), 9U);
+  EXPECT_THROW(board.set(change("x", 1), 0), SessionError);
+  board.set(change("y", 0), 0);
+  board.set(change("x", 1), 0);
+}
+
+TEST(BlackboardTest, HasRoomFor1024Entries) {
+  Blackboard board;
+  for (int i = 0; i < 1023; ++i) board.set(change(std::to_string(i), 1), 0);
+  board.set(change("last", 1), 0, 1);
+  EXPECT_THROW(board.set(change("more", 1), 0, 2), SessionError);
+  board.set(change("0", 1), 0, 2);
+  board.publish({});
+  EXPECT_THROW(board.set(change("more", 1), 0), SessionError);
 }
 
 }  // namespace

@@ -406,6 +406,29 @@ TEST(NativeAccess, WhoMayCommandNoRobotMayNotChangeTheCanvasOfAll) {
   EXPECT_EQ(driver.error("resize_canvas", {{"width", 10}, {"height", 10}}), "");
 }
 
+TEST(NativeAccess, WhoMayCommandNoRobotMayNotSetEntriesOfTheBlackboard) {
+  AccessSettings access;
+  access.server_token = "server-token";
+  access.robot_tokens = {{"r1", "r1-token"}, {"r2", "r2-token"}};
+  FakeHub hub(test::patient_host(two_robots()), access);
+  const json entry = {{"group", ""}, {"key", "k"}, {"type", 1}, {"subtype", 2}, {"data", "AAEC"}};
+  Client guest(hub, Encoding::kJson, {{"tokens", {"server-token"}}});
+  EXPECT_EQ(guest.error("set_blackboard", entry), "access/denied");
+  EXPECT_EQ(guest.ask("blackboard", json::object())["entries"], json::array());
+  Client driver(hub, Encoding::kJson, {{"tokens", {"r2-token"}}});
+  EXPECT_EQ(driver.error("set_blackboard", entry), "");
+  json found = entry;
+  found["t"] = 0;
+  found["change"] = 1;
+  EXPECT_EQ(guest.ask("blackboard", json::object())["entries"], json::array({found}));
+  json wrong = entry;
+  wrong["type"] = 65536;
+  EXPECT_EQ(driver.error("set_blackboard", wrong), "protocol/bad-value");
+  wrong = entry;
+  wrong["key"] = "";
+  EXPECT_EQ(driver.error("set_blackboard", wrong), "session/bad-argument");
+}
+
 TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
   AccessSettings access;
   access.server_token = "server-token";
@@ -424,6 +447,7 @@ TEST(NativeAccess, InAPrivateWorldSensorsAreReadWithTheRobotsTokenOnly) {
       {"set_object_property", {{"name", "r1"}, {"property", "color"}, {"value", {255, 0, 0}}}},
       {"save_state", {{"name", "s"}}},
       {"restore_state", {{"name", "s"}}},
+      {"blackboard", json::object()},
       {"world_map", {{"cell_size", 0.1}}},
       {"arena", json::object()},
       {"arena_events", {{"since", 0}}},

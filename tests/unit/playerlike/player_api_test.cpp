@@ -71,14 +71,12 @@ TEST_F(PlayerApi, ProxyWithoutDeviceSaysWhatThereIsAndWhereElse) {
       error.GetErrorStr(),
       "there is no device stereo:0 on port 6665; this world has there: graphics2d:0 (r1.pen), "
       "laser:0 (r1.laser), localize:0 (r1.pose), position2d:0 (r1.pose), position2d:1 "
-      "(r1.odometry), ranger:0 (r1.laser), log:0 (the world), map:0 (the world), simulation:0 "
-      "(the world); no world that comes with Playpen has a device for stereo");
+      "(r1.odometry), ranger:0 (r1.laser), blackboard:0 (the world), log:0 (the world), map:0 (the "
+      "world), simulation:0 (the world); no world that comes with Playpen has a device for stereo");
 }
 
 TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
-  const std::vector<PlayerError> errors = {refusal<ActArrayProxy>(client),
-                                           refusal<AudioProxy>(client),
-                                           refusal<BlackBoardProxy>(client),
+  const std::vector<PlayerError> errors = {refusal<AudioProxy>(client),
                                            refusal<BlobfinderProxy>(client),
                                            refusal<CameraProxy>(client),
                                            refusal<CoopObjectProxy>(client),
@@ -96,26 +94,11 @@ TEST_F(PlayerApi, EachProxyThatNoDeviceCarriesIsRefusedInItsOwnName) {
                                            refusal<StereoProxy>(client),
                                            refusal<VectorMapProxy>(client),
                                            refusal<WSNProxy>(client)};
-  const std::vector<std::string> interfaces = {"actarray",
-                                               "audio",
-                                               "blackboard",
-                                               "blobfinder",
-                                               "camera",
-                                               "coopobject",
-                                               "graphics3d",
-                                               "health",
-                                               "limb",
-                                               "joystick",
-                                               "planner",
-                                               "pointcloud3d",
-                                               "position1d",
-                                               "position3d",
-                                               "ptz",
-                                               "rfid",
-                                               "speech_recognition",
-                                               "stereo",
-                                               "vectormap",
-                                               "wsn"};
+  const std::vector<std::string> interfaces = {
+      "audio",      "blobfinder", "camera",   "coopobject", "graphics3d",
+      "health",     "limb",       "joystick", "planner",    "pointcloud3d",
+      "position1d", "position3d", "ptz",      "rfid",       "speech_recognition",
+      "stereo",     "vectormap",  "wsn"};
   ASSERT_EQ(errors.size(), interfaces.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_EQ(errors[i].GetErrorCode(), PlayerError::kNoSuchDevice);
@@ -207,7 +190,7 @@ TEST(PageOfProxies, SaysWhatWorksAndInWhichWorld) {
     }
   }
   EXPECT_GE(works, 10);
-  EXPECT_EQ(refused, 17);
+  EXPECT_EQ(refused, 15);
 }
 
 TEST(PageOfProxies, SaysWhatPioneersHave) {

@@ -44,7 +44,7 @@ TEST(RunEnvironment, RemovesWhatIsNotSet) {
           Pair("PLAYPEN_VIEW_MODE", std::nullopt), Pair("PLAYPEN_VIEW", std::nullopt),
           Pair("PLAYPEN_CLIENTS", std::nullopt), Pair("PLAYPEN_INTERFACES", std::nullopt),
           Pair("PLAYPEN_GRADE", std::nullopt), Pair("PLAYPEN_VIRTUAL_TIME", std::nullopt),
-          Pair("PLAYPEN_STATE", std::nullopt)));
+          Pair("PLAYPEN_STATE", std::nullopt), Pair("PLAYPEN_REALISM", std::nullopt)));
 }
 
 TEST(RunEnvironment, MakesPathsAbsolute) {
@@ -96,6 +96,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   settings.film_speed = 0.1;
   settings.snapshot_period_s = 2.5;
   settings.view_mode = sim::ViewMode::kMiniMap;
+  settings.realism = sim::Realism::kReal;
   settings.progress = true;
   settings.quiet_end = true;
   settings.virtual_time = true;
@@ -113,6 +114,7 @@ TEST(RunEnvironment, IsReadBackAsTheSameSettings) {
   EXPECT_EQ(read.film_speed, settings.film_speed);
   EXPECT_EQ(read.snapshot_period_s, settings.snapshot_period_s);
   EXPECT_EQ(read.view_mode, settings.view_mode);
+  EXPECT_EQ(read.realism, settings.realism);
   EXPECT_EQ(read.progress, settings.progress);
   EXPECT_EQ(read.quiet_end, settings.quiet_end);
   EXPECT_EQ(read.virtual_time, settings.virtual_time);
@@ -146,6 +148,7 @@ TEST(RunSettings, BadVariablesAreNamedWithWhatTheyHold) {
                                   {"PLAYPEN_COLOUR_BY", "speed"},
                                   {"PLAYPEN_SNAPSHOT_EVERY", "0"},
                                   {"PLAYPEN_VIEW_MODE", "fullscreen"},
+                                  {"PLAYPEN_REALISM", "true"},
                                   {"PLAYPEN_CLIENTS", "1001"},
                                   {"PLAYPEN_INTERFACES", "ranger:0=laser,ranger=sonar"},
                                   {"PLAYPEN_OUT", "out"}};
@@ -230,9 +233,11 @@ TEST(RunSettings, SnapshotsNeedAnOutputFolder) {
 TEST(RunSettings, ViewModeIsTheRunsUnlessTheWorldLocksAnother) {
   RunSettings settings;
   settings.view_mode = sim::ViewMode::kFullScreen;
+  settings.realism = sim::Realism::kIdeal;
   sim::WorldDescription world;
   settings.apply_to(world);
   EXPECT_EQ(world.canvas.view_mode, sim::ViewMode::kFullScreen);
+  EXPECT_EQ(world.simulation.realism, sim::Realism::kIdeal);
 
   world.canvas.view_mode_locked = true;
   settings.apply_to(world);  // identical settings: no warning

@@ -19,6 +19,7 @@
 #include "print_encoding.h"
 #include "protocol/codec.h"
 #include "protocol/framing.h"
+#include "sim/devices/actarray.h"
 #include "sim/devices/aio.h"
 #include "sim/devices/battery.h"
 #include "sim/devices/blinkenlight.h"
@@ -118,6 +119,9 @@ class Filler {
   void operator()(sim::WaypointStatus& value) { pick(value, 3); }
   void operator()(sim::GripperState& value) { pick(value, 4); }
   void operator()(sim::GripCommand::Action& value) { pick(value, 5); }
+  void operator()(sim::JointState& value) { pick(value, 4); }
+  void operator()(sim::JointCommand::Mode& value) { pick(value, 4); }
+  void operator()(sim::JointSettingCommand::Setting& value) { pick(value, 4); }
   void operator()(sim::LayerKind& value) { pick(value, 3); }
   void operator()(sim::TimeMode& value) { pick(value, 2); }
   template <typename T>
@@ -219,6 +223,16 @@ void each_of_reading(sim::Reading& v, F& f) {
 }
 /// Limits a number of lines.
 void limit(int& count, int most) { count = std::abs(count % (most + 1)); }
+template <typename F>
+void each(sim::JointReading& v, F& f) {
+  f(v.state), f(v.position), f(v.speed), f(v.acceleration), f(v.current_a);
+  f(v.speed_setting), f(v.acceleration_setting);
+}
+template <typename F>
+void each(sim::ActArrayReading& v, F& f) {
+  each_of_reading(v, f);
+  f(v.joints), f(v.is_powered);
+}
 template <typename F>
 void each(sim::AioReading& v, F& f) {
   each_of_reading(v, f);
@@ -437,6 +451,16 @@ void each(sim::PanCommand& v, F& f) {
 template <typename F>
 void each(sim::OpaqueCommand& v, F& f) {
   f(v.data);
+}
+template <typename F>
+void each(sim::JointCommand& v, F& f) {
+  f(v.mode), f(v.joint), f(v.values);
+  limit(v.joint, sim::ActArrayParams::kMaxJoints - 1);
+}
+template <typename F>
+void each(sim::JointSettingCommand& v, F& f) {
+  f(v.setting), f(v.joint), f(v.value);
+  limit(v.joint, sim::ActArrayParams::kMaxJoints - 1);
 }
 template <typename F>
 void each(DeviceInfo& v, F& f) {  // the id follows from the position
@@ -1098,7 +1122,8 @@ TEST_P(EachEncoding, ReadingsOfAllSensorsComeOutToTheBit) {
     }
     ++sensors;
     EXPECT_EQ(sensor->type(), kind.name);
-    EXPECT_TRUE(arrives_if<sim::AioReading>(*sensor, GetParam()) ||
+    EXPECT_TRUE(arrives_if<sim::ActArrayReading>(*sensor, GetParam()) ||
+                arrives_if<sim::AioReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BatteryReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BlinkenlightReading>(*sensor, GetParam()) ||
                 arrives_if<sim::BlobfinderReading>(*sensor, GetParam()) ||
@@ -1153,6 +1178,7 @@ TEST(Readings, MayHaveMoreKeysThanAreKnown) {
 TEST(Readings, AreRefusedWhenAnythingIsMissingOrWrong) {
   const std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> readings = [] {
     std::vector<std::pair<std::string, std::unique_ptr<sim::Reading>>> all;
+    all.emplace_back("actarray", std::make_unique<sim::ActArrayReading>());
     all.emplace_back("aio", std::make_unique<sim::AioReading>());
     all.emplace_back("battery", std::make_unique<sim::BatteryReading>());
     all.emplace_back("blobfinder", std::make_unique<sim::BlobfinderReading>());
@@ -1258,7 +1284,8 @@ TEST(Commands, AreRefusedWhenAnythingIsMissingWrongOrUnknown) {
       for (const json& wrong : {json(nullptr), json("x"), json({1}), json(std::nan(""))}) {
         changed[key] = wrong;
         const bool any_text = key == "text" && wrong.is_string();
-        EXPECT_TRUE(refused(changed) || any_text) << changed;
+        const bool any_numbers = key == "values" && wrong.is_array();
+        EXPECT_TRUE(refused(changed) || any_text || any_numbers) << changed;
       }
     }
     json more = whole;

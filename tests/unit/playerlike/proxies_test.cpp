@@ -155,9 +155,10 @@ TEST_F(Proxies, DeviceListIsEmptyUntilRequested) {
     found.push_back(client.LookupName(info.addr.interf) + ':' + std::to_string(info.addr.index) +
                     ' ' + info.drivername);
   }
-  EXPECT_THAT(found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "localize:0 pose",
-                                 "position2d:0 pose", "position2d:1 odometry", "ranger:0 laser",
-                                 "log:0 world", "map:0 world", "simulation:0 world"));
+  EXPECT_THAT(
+      found, ElementsAre("graphics2d:0 pen", "laser:0 laser", "localize:0 pose",
+                         "position2d:0 pose", "position2d:1 odometry", "ranger:0 laser",
+                         "blackboard:0 world", "log:0 world", "map:0 world", "simulation:0 world"));
 }
 
 TEST_F(Proxies, ClientKeepsItsRetrySettings) {

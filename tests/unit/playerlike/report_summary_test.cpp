@@ -68,6 +68,19 @@ TEST(ReportSummary, ShowsScoresAndVerdictOfTheArenaController) {
   EXPECT_THAT(summary("null"), HasSubstr("verdict: none\n"));
 }
 
+TEST(ReportSummary, NamesALevelOfRealismOtherThanTheCourses) {
+  const TemporaryFolder folder;
+  const auto summary_with = [&](const std::string& level) {
+    return summarize_report(folder.write(
+        "report.json",
+        R"({"run": {"sim_time": 1.0, "wall_time": 1.0, "real_time_factor": 1.0, "seed": 7,
+            "realism": ")" +
+            level + R"("}, "robots": []})"));
+  };
+  EXPECT_THAT(summary_with("real"), HasSubstr("(seed 7, realism real)\n"));
+  EXPECT_THAT(summary_with("course"), HasSubstr("(seed 7)\n"));
+}
+
 TEST(ReportSummary, SaysWhyAnotherRunMayDiffer) {
   const TemporaryFolder folder;
   const std::string file = folder.write("report.json", R"({

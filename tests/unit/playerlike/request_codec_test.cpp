@@ -81,6 +81,9 @@ std::vector<Request> examples() {
           NoteGoalRequest{{1, 2}, {-0.5, 1.0 / 3.0}, 0.05},
           LogRequest{},
           LogRequest{"f", true, false, true},
+          SetBlackboardRequest{"g", "k", 1, 65535, {0, 255, 10}},
+          BlackboardRequest{},
+          BlackboardRequest{7, "", "k"},
           ArenaRequest{},
           ArenaEventsRequest{std::uint64_t{1} << 62U},
           SetConfigurationRequest{"open"},
@@ -172,6 +175,7 @@ TEST_P(RequestMessages, AnswersComeOutAsTheyWentIn) {
       {ArenaRequest{}, arena_status()},
       {ArenaEventsRequest{}, ArenaEventList{}},
       {ArenaEventsRequest{}, ArenaEventList{all_kinds_of_events(), 40, 21}},
+      {BlackboardRequest{}, std::vector<BlackboardEntry>{{"", "k", 1, 2, {0, 255}, 5, 6}}},
       {TimeRequest{}, time}};
   for (const auto& [request, answer] : all) {
     const json message = encode_answer(request, answer, GetParam());

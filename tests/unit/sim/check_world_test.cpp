@@ -6,8 +6,11 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "sim/io/world_io.h"
+#include "sim/simulation/simulation.h"
+#include "sim/world/outline.h"
 #include "sim/world/robot_model.h"
 
 namespace sim::io {
@@ -286,6 +289,67 @@ TEST(CheckWorld, RefusesWallsThatThePhysicsCannotBuild) {
   EXPECT_THAT(first_issue(world), HasSubstr("walls of at least 3 vertices"));
   world.arena.walls = {{{{1, 1}, {1e30, 1}, {1, 2}}}};
   EXPECT_THAT(first_issue(world), HasSubstr("/arena/map/origin: "));
+}
+
+ObstacleDescription circle(const char* name, Vec2 center, double radius_m) {
+  ObstacleDescription obstacle = box(name, std::move(center), {1, 1});
+  make_circle(obstacle, radius_m);
+  return obstacle;
+}
+
+ObstacleDescription polygon(const char* name, Vec2 center, Polygon outline) {
+  ObstacleDescription obstacle = box(name, std::move(center), {1, 1});
+  make_polygon(obstacle, std::move(outline));
+  return obstacle;
+}
+
+TEST(CheckWorld, ChecksShapesThatAProgramMakes) {
+  WorldDescription world = room();
+  world.arena.obstacles = {circle("c", {1, 1}, 0.3),
+                           polygon("p", {3, 3}, {{0, 0}, {0.5, 0}, {0, 0.5}})};
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  ObstacleDescription& c = world.arena.obstacles[0];
+  c.size.x() = 0.5;
+  EXPECT_THAT(first_issue(world), HasSubstr("/arena/obstacles/0/radius: "));
+  make_circle(c, std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THAT(first_issue(world), HasSubstr("/arena/obstacles/0/radius: "));
+  make_circle(c, 0.3);
+  ObstacleDescription& p = world.arena.obstacles[1];
+  std::reverse(p.outline.begin(), p.outline.end());
+  EXPECT_THAT(first_issue(world), HasSubstr("counter-clockwise"));
+  make_polygon(p, {{0, 0}, {0.5, 0}, {0, std::numeric_limits<double>::quiet_NaN()}});
+  EXPECT_THAT(first_issue(world), HasSubstr("/arena/obstacles/1/outline: "));
+  make_polygon(p, {{0, 0}, {0.5, 0}, {0, 0.5}});
+  p.size = {0.2, 0.2};
+  EXPECT_THAT(first_issue(world), HasSubstr("make_polygon()"));
+  p.outline.clear();
+  EXPECT_THAT(first_issue(world), HasSubstr("3 to 64 points"));
+}
+
+TEST(CheckWorld, TouchingACircleIsNoOverlap) {
+  // The S1R's front is 0.087 m ahead of (2, 2), its front left corner at (2.087, 2.045).
+  WorldDescription world = room();
+  world.arena.obstacles = {circle("c", {2.587, 2}, 0.5)};
+  EXPECT_THAT(ids(world), SizeIs(0));
+  world.arena.obstacles = {circle("c", {2.586, 2}, 0.5)};
+  EXPECT_THAT(first_issue(world), HasSubstr("overlapping it by 0.001 m"));
+  const double diagonal_m = 0.3 / std::numbers::sqrt2;
+  // Its corner towards the circle: bounding boxes overlap, the outlines do not.
+  world.arena.obstacles = {circle("c", {2.087 + diagonal_m, 2.045 + diagonal_m}, 0.299)};
+  EXPECT_THAT(ids(world), SizeIs(0));
+  world.arena.obstacles = {circle("c", {2.087 + diagonal_m, 2.045 + diagonal_m}, 0.302)};
+  EXPECT_THAT(first_issue(world), HasSubstr("overlapping it by 0.002 m"));
+  world.arena.obstacles = {circle("c", {2, 2}, 1.5)};
+  EXPECT_THAT(first_issue(world), HasSubstr("obstacle c"));
+}
+
+TEST(CheckWorld, FindsPlacesBesideCirclesAndPolygons) {
+  const WorldDescription world = load_world_text(
+      R"({"arena": {"size": [4, 4], "obstacles": [
+           {"shape": "circle", "center": [2, 2], "radius": 1},
+           {"shape": "polygon", "center": [0, 0], "outline": [[0, 0], [4, 0], [4, 0.9], [0, 0.9]]}]}})");
+  EXPECT_THAT(check_world(world), SizeIs(0));
+  EXPECT_GT((world.robots[0].pose.position() - Vec2(2, 2)).norm(), 1.08);
 }
 
 }  // namespace

@@ -239,6 +239,20 @@ TEST_P(DevicePage, HasAWorldThatSetsEachSettingOfTheType) {
   EXPECT_EQ(simulation.steps(), 100U);
 }
 
+TEST(RealismPage, HasTheTableThatTheFieldsMake) {
+  const fs::path file = kRoot / "docs/realism.md";
+  const std::string page = read_bytes(file);
+  const std::size_t first = page.find("| device | setting |");
+  ASSERT_NE(first, std::string::npos);
+  const std::size_t last = std::min(page.find("\n\n", first) + 1, page.size());
+  const std::string made = test::realism_table();
+  if (test::writes_pages()) {
+    test::write_page(file.string(), page.substr(0, first) + made + page.substr(last));
+  } else {
+    EXPECT_EQ(page.substr(first, last - first), made) << "PLAYPEN_WRITE_PAGES=1 writes it anew";
+  }
+}
+
 TEST(DevicePages, AreOfKnownTypes) {
   std::set<std::string> types;
   for (const DeviceKind& kind : device_kinds()) types.insert(kind.name);

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <random>
@@ -185,6 +186,19 @@ TEST(DrawScene, RobotStandsInItsColourWhereItsPoseSays) {
   const Image image = draw_scene(scene, plain_options());
   EXPECT_EQ(pixel_at(image, {1.2, 3.1}), (Rgb{10, 120, 200}));
   EXPECT_TRUE(is_light(pixel_at(image, {1.2, 0.9})));  // not mirrored: y points up
+}
+
+TEST(DrawScene, ArmsReachBeyondTheRobot) {
+  SceneSnapshot scene = small_scene();
+  scene.robots = {robot_at({2.0, 2.0, 0.5 * std::numbers::pi}, {10, 120, 200, 255})};
+  scene.robots[0].arms = {{{0.0, 0.0}, {0.4, 0.0}, {0.4, 0.3}}};  // ahead, then to the left
+  const Image image = draw_scene(scene, plain_options());
+  const Rgb grey = {198, 205, 216};
+  EXPECT_EQ(pixel_at(image, {2.0, 2.2}), grey);
+  EXPECT_EQ(pixel_at(image, {1.85, 2.4}), grey);
+  EXPECT_EQ(pixel_at(image, {2.0, 2.4}), (Rgb{44, 46, 51}));  // the joint between the links
+  EXPECT_TRUE(is_red(pixel_at(image, {1.7, 2.4})));
+  EXPECT_TRUE(is_light(pixel_at(image, {1.85, 2.3})));
 }
 
 TEST(DrawScene, CanvasLiesOnTheFloorCellByCell) {
@@ -444,6 +458,7 @@ TEST(SceneRenderer, WhatIsKeptGivesTheSameBytesAsAFreshPicture) {
       robot.trail.push_back(robot.X_WB.position());
       robot.scan_origin = robot.X_WB.position();
       robot.scan_points = {{sequence.in(0.0, 4.0), 0.0}, {4.0, sequence.in(0.0, 4.0)}};
+      robot.arms = {{{0.0, 0.0}, {sequence.in(-0.4, 0.4), sequence.in(-0.4, 0.4)}}};
       robot.stalled = sequence.below(5) == 0;
       robot.marked = sequence.below(5) == 0;
     }

@@ -99,7 +99,11 @@ WorldDescription full_world() {
     robot.devices = devices;
     for (DeviceDescription& device : robot.devices) {
       if (device.type == "opaque") std::any_cast<OpaqueParams&>(device.params).from = {next};
-      if (device.type == "laser") std::any_cast<LaserParams&>(device.params).noise_m = 0.01;
+      if (device.type == "laser") {
+        auto& laser = std::any_cast<LaserParams&>(device.params);
+        laser.noise_m = 0.01;
+        laser.latency_s = 0.0;  // a test counts the steps until its readings
+      }
       if (device.type == "camera") {
         std::any_cast<CameraParams&>(device.params).width = 32;
         std::any_cast<CameraParams&>(device.params).height = 24;
@@ -132,7 +136,7 @@ double signed_unit(std::mt19937& random) {
 Command random_command(std::mt19937& random) {
   const double a = signed_unit(random);
   const double b = signed_unit(random);
-  switch (number_in(random, 19)) {
+  switch (number_in(random, 21)) {
     case 0:
     case 1:
     case 2:
@@ -167,6 +171,12 @@ Command random_command(std::mt19937& random) {
       return GripCommand{static_cast<GripCommand::Action>(random() % 5)};
     case 17:
       return OpaqueCommand{{1, 2, static_cast<std::uint8_t>(random() % 256)}};
+    case 18:
+      return JointCommand{
+          static_cast<JointCommand::Mode>(random() % 3), number_in(random, 4) - 1, {a}};
+    case 19:
+      return JointSettingCommand{static_cast<JointSettingCommand::Setting>(random() % 4),
+                                 number_in(random, 4) - 1, a > -0.3 ? a : 0.0};
     default:
       return a > 0.0 ? Command(PointCommand{a, 0.3 * b, 0.5, 0.2, 0.1})
                      : Command(PanCommand{a, b, a});
@@ -247,6 +257,9 @@ std::uint64_t shown_hash(const Simulation& simulation) {
       add(to);
     }
     for (const LightSnapshot& light : shot.lights) hash.add(light.lit);
+    for (const std::vector<Vec2>& arm : shot.arms) {
+      for (const Vec2& p : arm) add(p);
+    }
     for (const Polygon& paddle : shot.paddles) {
       for (const Vec2& p : paddle) add(p);
     }

@@ -25,7 +25,11 @@ FORMAL_FAULTS = ["unknown_key", "wrong_type", "out_of_range", "unknown_value", "
                  "arena_end_without_verdict", "arena_message_too_long", "arena_timer_at_and_within",
                  "arena_timer_every", "arena_timer_unknown_key", "arena_trap_near_two", "arena_trap_on",
                  "arena_trap_polygon", "arena_trap_radius", "arena_trap_two_places",
-                 "arena_trap_without_place", "when_blocked"]
+                 "arena_trap_without_place", "when_blocked",
+                 "circle_with_size", "circle_without_radius",
+                 "circle_too_small", "outline_missing", "outline_of_two_points",
+                 "outline_of_too_many_points", "outline_not_a_number", "outline_without_shape",
+                 "separator_with_shape", "unknown_shape"]
 
 
 def load(path):

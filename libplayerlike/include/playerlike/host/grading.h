@@ -22,6 +22,7 @@ struct Grading {
   std::uint64_t seed = 0;
   std::optional<double> duration_s;  ///< simulated duration
   std::string time = "lockstep";     ///< "lockstep", or the real-time factor
+  std::string realism = "course";    ///< level of realism
 };
 
 /// Returns the grading data of a run of this world.
@@ -34,7 +35,8 @@ struct Grading {
 
 /// Checks that a report belongs to the run that a grader requested. Returns nullopt if it does,
 /// otherwise the reason as text for the verdict: the report is not signed, it has another run,
-/// world, seed, duration or time mode, it was changed afterwards, or its simulation never stepped.
+/// world, level of realism, seed, duration or time mode, it was changed afterwards, or its
+/// simulation never stepped.
 /// @throws nlohmann::json::exception if the report is not JSON or not in the host's format.
 [[nodiscard]] std::optional<std::string> fault_of_graded(const std::string& report,
                                                          const Grading& expected);

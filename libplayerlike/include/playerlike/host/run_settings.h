@@ -49,6 +49,7 @@ struct RunSettings {
   std::optional<int> clients;  ///< start gate, 1..1000: time starts when this number of clients has
                                ///< joined
   std::optional<sim::ViewMode> view_mode;   ///< initial view mode; overrides the world's
+  std::optional<sim::Realism> realism;      ///< level of realism; overrides the world's
   std::vector<InterfaceChoice> interfaces;  ///< override the world's order of devices
   /// Descriptor of a socket to a process that shows the run's window (playerlike/view/protocol.h).
   std::optional<int> view_socket;
@@ -77,13 +78,13 @@ struct RunSettings {
   /// (lockstep, real or a factor), PLAYPEN_OUT, PLAYPEN_RECORD, PLAYPEN_RECORD_FPS,
   /// PLAYPEN_RECORD_SPEED, PLAYPEN_RECORD_SIZE, PLAYPEN_FOLLOW, PLAYPEN_CROP, PLAYPEN_HIDE,
   /// PLAYPEN_COLOUR_BY, PLAYPEN_SNAPSHOT_EVERY, PLAYPEN_CLIENTS, PLAYPEN_VIEW_MODE (ground,
-  /// mini-map or full-screen), PLAYPEN_VIEW (a descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN,
-  /// PLAYPEN_VIRTUAL_TIME, PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES (choices,
-  /// separated by commas).
+  /// mini-map or full-screen), PLAYPEN_REALISM (ideal, course or real), PLAYPEN_VIEW (a
+  /// descriptor's number), PLAYPEN_PROGRESS, PLAYPEN_RUN, PLAYPEN_VIRTUAL_TIME,
+  /// PLAYPEN_SILENCE_LIMIT, PLAYPEN_GRADE, PLAYPEN_INTERFACES (choices, separated by commas).
   /// @throws sim::ConfigError naming the variable, the expected value and the actual value.
   [[nodiscard]] static RunSettings from_environment();
 
-  /// Applies seed, duration, time mode, clients, view mode and interfaces to the world.
+  /// Applies seed, duration, time mode, clients, view mode, realism and interfaces to the world.
   /// @throws sim::ConfigError run/view_mode_locked if the world locks another view mode; run/follow
   ///         if the world does not contain the robot to follow; run/crop if the part to show does
   ///         not overlap the floor; run/interface for each choice of an interface that does not
@@ -166,6 +167,8 @@ inline constexpr const char* kSnapshotPeriodExpected = "a number of seconds from
 inline constexpr const char* kFilmExpected =
     "a file ending in .mp4 or .avi, or a folder: a name without an ending, or with a slash at its "
     "end";
+/// Description of the values that sim::parse_realism() accepts, for messages.
+inline constexpr const char* kRealismExpected = "ideal, course or real";
 /// Description of the values that sim::parse_view_mode() accepts, for messages.
 inline constexpr const char* kViewModeExpected = "ground, mini-map or full-screen";
 

@@ -436,6 +436,68 @@ struct NoteGoalRequest {
                                       field("tolerance", &NoteGoalRequest::tolerance_m)};
 };
 
+/// An entry of the blackboard, which all clients of a host share (docs/blackboard.md).
+struct BlackboardEntry {
+  std::string group;               ///< at most 255 printable bytes; "" is a group, too
+  std::string key;                 ///< 1 to 255 printable bytes, unique in its group
+  int type = 0;                    ///< in [0, 65535]; has a meaning for programs only
+  int subtype = 0;                 ///< in [0, 65535]; has a meaning for programs only
+  std::vector<std::uint8_t> data;  ///< at most 65536 bytes
+  sim::SimTime time_ns = 0;        ///< simulated time of the last change
+  /// Number of the entry's last change. The changes of all entries are numbered together, from 1.
+  std::int64_t change = 0;
+  static constexpr WholeRange kTypeRange{0, 65535};
+  static constexpr std::tuple kFields{field("group", &BlackboardEntry::group),
+                                      field("key", &BlackboardEntry::key),
+                                      field("type", &BlackboardEntry::type, kTypeRange),
+                                      field("subtype", &BlackboardEntry::subtype, kTypeRange),
+                                      field("data", &BlackboardEntry::data),
+                                      field("t", &BlackboardEntry::time_ns),
+                                      field("change", &BlackboardEntry::change)};
+};
+
+/// Sets an entry of the blackboard, with the present time.
+///
+/// Usually the change takes effect immediately. If several threads or programs take part in the
+/// lockstep and time is not virtual, it takes effect for the other threads with the next step.
+/// @throws SessionError kBadArgument for a group, key or data that exceed the limits of
+///         BlackboardEntry; kNotAvailable if the blackboard is full, or in a private world.
+struct SetBlackboardRequest {
+  using Result = void;
+  static constexpr const char* kName = "set_blackboard";
+  static constexpr bool kTellsTruth = true;
+  std::string group;
+  std::string key;
+  int type = 0;
+  int subtype = 0;
+  std::vector<std::uint8_t> data;
+  static constexpr std::tuple kFields{
+      field("group", &SetBlackboardRequest::group), field("key", &SetBlackboardRequest::key),
+      field("type", &SetBlackboardRequest::type, BlackboardEntry::kTypeRange),
+      field("subtype", &SetBlackboardRequest::subtype, BlackboardEntry::kTypeRange),
+      field("data", &SetBlackboardRequest::data)};
+};
+
+/// Returns entries of the blackboard, in the order of their changes.
+///
+/// A request with group and key, but without `after`, returns at most one entry. It includes a
+/// change of the asking thread that the others do not see yet. Such an entry has the number of the
+/// newest change that all see.
+/// @throws SessionError kNotAvailable in a private world.
+struct BlackboardRequest {
+  using Result = std::vector<BlackboardEntry>;
+  static constexpr const char* kName = "blackboard";
+  static constexpr const char* kAnswer = "entries";
+  static constexpr bool kTellsTruth = true;
+  std::int64_t after = 0;  ///< only entries whose last change has a greater number
+  std::optional<std::string> group = std::nullopt;  ///< only entries of this group
+  std::optional<std::string> key = std::nullopt;    ///< only entries with this key
+  static constexpr std::tuple kFields{
+      field("after", &BlackboardRequest::after, WholeRange{}, Presence::kOptional),
+      field("group", &BlackboardRequest::group, Presence::kOptional),
+      field("key", &BlackboardRequest::key, Presence::kOptional)};
+};
+
 /// Configures the log of this session's port and returns its state. Changes are applied in the
 /// order of the members; a request without members set changes nothing. The log contains the
 /// readings of the port's robots; see docs/log.md. All sessions of a port share it.
@@ -459,24 +521,23 @@ struct LogRequest {
 /// @}
 
 /// Any request.
-using Request =
-    std::variant<SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
-                 SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest,
-                 AnswerTimeoutRequest, RetriesRequest, FlushDrawingsRequest, SetCellsRequest,
-                 CellRequest, CellsRequest, CreateLayerRequest, RemoveLayerRequest,
-                 SetLayerStyleRequest, LayersRequest, CanvasImageRequest, CanvasInfoRequest,
-                 ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
-                 SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
-                 ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest,
-                 RestoreStateRequest, NoteGoalRequest, LogRequest, ArenaRequest, ArenaEventsRequest,
-                 SetConfigurationRequest, SetBlockRequest, SetTimerRequest, SetTrapRequest>;
+using Request = std::variant<
+    SubscribeRequest, UnsubscribeRequest, ReplaceRequest, OverflowRequest, JoinRequest,
+    SleepRequest, TimeRequest, PreferRealTimeRequest, NoteLooksRequest, AnswerTimeoutRequest,
+    RetriesRequest, FlushDrawingsRequest, SetCellsRequest, CellRequest, CellsRequest,
+    CreateLayerRequest, RemoveLayerRequest, SetLayerStyleRequest, LayersRequest, CanvasImageRequest,
+    CanvasInfoRequest, ResizeCanvasRequest, SaveImageRequest, SaveMapRequest, ViewModeRequest,
+    SetViewModeRequest, WorldMapRequest, ObjectPoseRequest, PlaceObjectRequest,
+    ObjectPropertyRequest, SetObjectPropertyRequest, SaveStateRequest, RestoreStateRequest,
+    NoteGoalRequest, LogRequest, SetBlackboardRequest, BlackboardRequest, ArenaRequest,
+    ArenaEventsRequest, SetConfigurationRequest, SetBlockRequest, SetTimerRequest, SetTrapRequest>;
 
 /// The result of any request; std::monostate for requests without a result.
 using Answer =
     std::variant<std::monostate, std::uint32_t, sim::LayerId, std::optional<sim::CellValue>,
                  std::vector<sim::CellValue>, std::vector<sim::LayerInfo>, CanvasImage, CanvasInfo,
                  sim::ViewMode, WorldMap, ObjectPose, PropertyValue, LogStatus, TimeStatistics,
-                 ArenaStatus, ArenaEventList>;
+                 std::vector<BlackboardEntry>, ArenaStatus, ArenaEventList>;
 
 /// Calls the function of `visitor` for the type of a request. The function returns the `Result` of
 /// the request's type.

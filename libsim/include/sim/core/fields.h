@@ -121,6 +121,12 @@ struct CustomField {
   const char* schema;  ///< members of its JSON schema, without braces
 };
 
+/// What the levels of realism set a number to, in the units of world files (sim/world/realism.h).
+struct RealismFigures {
+  double ideal = 0.0;  ///< without any error
+  double real = 0.0;   ///< if neither the world nor the robot's model sets the number
+};
+
 /// One field of a struct. Made by field<>(), include<>() and custom<>().
 struct Field {
   const char* name;  ///< its key; empty if the parts of a vector or pose appear as fields of the
@@ -149,6 +155,9 @@ struct Field {
   const ListAccess* list = nullptr;
   const ElementType* element = nullptr;
   const CustomField* custom = nullptr;
+  std::optional<RealismFigures> realism = {};  ///< of a number that the level of realism changes
+  std::optional<double> unlisted_at = {};  ///< clients see no such property while a number has this
+                                           ///< value
   /// Pointer to the value in an object; nullptr if the value is an empty std::optional.
   const void* (*get)(const void* object) = nullptr;
   /// Pointer for writing the value; fills an empty std::optional first.
@@ -205,6 +214,13 @@ struct Field {
   [[nodiscard]] constexpr Field listing_elements() const {
     return with<&Field::lists_elements>(true);
   }
+  /// A number that the level of realism changes.
+  [[nodiscard]] constexpr Field with_realism(double ideal, double real) const {
+    return with<&Field::realism>(RealismFigures{ideal, real});
+  }
+  /// Not a property while the number has this value, in SI units and radians. So a device without
+  /// the setting has the properties, and the hash, that it had before the setting existed.
+  [[nodiscard]] constexpr Field unlisted(double at) const { return with<&Field::unlisted_at>(at); }
   /// @}
 };
 

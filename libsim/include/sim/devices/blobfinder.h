@@ -19,6 +19,7 @@ struct BlobfinderParams : ViewParams {
   double frequency_hz = 10.0;   ///< (0, 1000]
   std::vector<Colour> colours;  ///< colours that it detects, at most kMaxColours; empty: all
   double noise_m = 0.0;         ///< standard deviation of a blob's range [m], >= 0
+  double latency_s = 0.0;       ///< [0, 10] [s]
 
   static constexpr std::size_t kMaxColours = 256;
 };

@@ -18,6 +18,7 @@ class ColumnView;
 /// Settings of a camera.
 struct CameraParams : ViewParams {
   double frequency_hz = 10.0;  ///< pictures per second, (0, 1000]
+  double latency_s = 0.0;      ///< [0, 10] [s]
 };
 
 /// A picture: red, green and blue of each pixel, row-major from the top.
@@ -42,10 +43,10 @@ class Camera final : public SensorOf<CameraReading> {
   std::optional<std::string> connect(std::string_view robot,
                                      const DeviceDirectory& devices) override;
   [[nodiscard]] bool measures_after_others() const noexcept override { return true; }
-  void archive(StateArchive& archive) override;
 
  protected:
   void measure(const StepContext& context) override;
+  void archive_reading(StateArchive& archive, CameraReading& reading) override;
 
  private:
   void paint_background();

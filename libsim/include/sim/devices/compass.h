@@ -14,6 +14,7 @@ struct CompassParams {
   double noise_rad = 0.0;                     ///< standard deviation of the heading [rad], >= 0
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of magnetic north in W,
                                               ///< counter-clockwise from x [rad]
+  double latency_s = 0.0;                     ///< from a measurement until its reading, [0, 10] [s]
 };
 
 /// A compass reading.

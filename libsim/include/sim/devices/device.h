@@ -1,9 +1,11 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -156,6 +158,30 @@ struct PanCommand {
   double tilt_speed_radps = 0.0;  ///< upwards [rad/s]
   double zoom_speed_radps = 0.0;  ///< of the field of view, > 0 widens it [rad/s]
 };
+/// Move joints of an arm (actarray). A value has the unit of the mode and of the joint's type.
+struct JointCommand {
+  enum class Mode {
+    kPosition,  ///< to positions [m or rad]
+    kSpeed,     ///< at speeds [m/s or rad/s], until another command or a limit
+    kCurrent,   ///< with currents through the motors [A], until another command
+    kHome,      ///< to the home positions; takes no values
+  };
+  Mode mode = Mode::kPosition;
+  int joint = 0;               ///< first joint, counted from 0; -1: all joints
+  std::vector<double> values;  ///< of this joint and the following ones; one value if joint is -1
+};
+/// Change a setting of an arm's joints (actarray).
+struct JointSettingCommand {
+  enum class Setting {
+    kPower,         ///< of all joints: 0 off, otherwise on
+    kBrakes,        ///< of all joints that have brakes: 0 released, otherwise applied
+    kSpeed,         ///< for position commands, > 0 [m/s or rad/s]
+    kAcceleration,  ///< of all movements, > 0 [m/s^2 or rad/s^2]
+  };
+  Setting setting = Setting::kPower;
+  int joint = -1;  ///< counted from 0; -1: all joints; ignored for power and brakes
+  double value = 0.0;
+};
 inline constexpr std::size_t kMaxSpeech = 255;    ///< bytes
 inline constexpr std::size_t kMaxOpaque = 65536;  ///< bytes
 /// Any command to a device.
@@ -163,7 +189,8 @@ using Command =
     std::variant<TwistCommand, MotorEnableCommand, SetPoseCommand, GotoCommand, StopCommand,
                  ResumeCommand, PlaceCommand, TranslateCommand, RotateCommand, HeadingCommand,
                  PositionCommand, CarCommand, SayCommand, DigitalOutputCommand, AnalogOutputCommand,
-                 LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand>;
+                 LightCommand, GripCommand, OpaqueCommand, PointCommand, PanCommand, JointCommand,
+                 JointSettingCommand>;
 
 class Device;
 class Sensor;
@@ -326,15 +353,19 @@ class Device {
 };
 
 /// A device that makes readings at its own frequency.
+///
+/// A sensor may have a latency: a reading then becomes the newest one that long after it was
+/// measured. Its time remains that of the measurement.
 class Sensor : public Device {
  public:
   /// @param frequency_hz  readings per simulated second, > 0; the first comes one period after 0.
-  Sensor(std::string name, std::string type, double frequency_hz);
+  /// @param latency_s  time from a measurement until its reading is available [s], >= 0.
+  Sensor(std::string name, std::string type, double frequency_hz, double latency_s = 0.0);
 
   /// Makes a reading if one is due at context.now_ns. A period that is not a multiple of the step
   /// is kept on average: each reading comes at the first step at or after its due time. The
   /// schedule of an inactive sensor continues without readings.
-  /// @return whether a reading was made.
+  /// @return whether there is a new reading: made now, or with a latency, made before.
   bool update(const StepContext& context);
 
   /// The newest reading; its sequence is 0 before the first.
@@ -342,8 +373,11 @@ class Sensor : public Device {
   /// Shared ownership of the newest reading. Any thread may release it.
   [[nodiscard]] virtual SharedReading share() const noexcept = 0;
   [[nodiscard]] double frequency_hz() const noexcept { return frequency_hz_; }
-  /// Time at which update() makes the next reading, or skips it if the sensor is inactive.
-  [[nodiscard]] SimTime next_due_ns() const noexcept { return next_due_ns_; }
+  /// Time of the next call of update() that has an effect: it makes a reading, skips it because the
+  /// sensor is inactive, or delivers one.
+  [[nodiscard]] SimTime next_due_ns() const noexcept {
+    return latency_ns_ == 0 ? next_due_ns_ : std::min(next_due_ns_, next_delivery_ns());
+  }
 
   [[nodiscard]] const Sensor* sensor() const noexcept final { return this; }
 
@@ -358,9 +392,18 @@ class Sensor : public Device {
     reading.time_ns = context.now_ns;
     reading.sequence = sequence_;
   }
+  [[nodiscard]] SimTime latency_ns() const noexcept { return latency_ns_; }
+  /// With a latency: the time at which the oldest reading in transit is due.
+  [[nodiscard]] virtual SimTime next_delivery_ns() const noexcept = 0;
+  /// With a latency: makes the newest reading that is due at this time the newest one of all.
+  /// @return whether there was one.
+  virtual bool deliver(SimTime now_ns) = 0;
+  /// Changes the number of measurements made.
+  void set_sequence(std::uint64_t sequence) noexcept { sequence_ = sequence; }
 
  private:
   double frequency_hz_;
+  SimTime latency_ns_;
   SimTime period_ns_;
   SimTime next_due_ns_;
   std::uint64_t sequence_ = 0;
@@ -380,17 +423,36 @@ class SensorOf : public Sensor {
     return newest_;
   }
 
-  /// Includes the fields of the newest reading that its table lists.
+  /// Includes the newest reading, and those in transit.
   void archive(StateArchive& archive) override {
     Sensor::archive(archive);
-    archive(newest_->time_ns, newest_->sequence);
-    archive.fields(*newest_);
+    archive_reading(archive, *newest_);
+    if (latency_ns() == 0) return;
+    archive.list(in_transit_, [&](std::shared_ptr<R>& reading) {
+      if (archive.reading()) reading = std::make_shared<R>(*newest_);
+      archive_reading(archive, *reading);
+      archive.expect(reading->time_ns >= 0 && reading->time_ns <= SimTime{1} << 61, "a time");
+    });
+  }
+  /// The readings in transit keep their distance in time, and follow the last one of `before`.
+  void take_over_from(const Device& before, SimTime later_ns) override {
+    Sensor::take_over_from(before, later_ns);
+    if (latency_ns() == 0) return;
+    std::uint64_t sequence = before.sensor()->reading().sequence;
+    for (const std::shared_ptr<R>& reading : in_transit_) {
+      reading->time_ns += later_ns;
+      reading->sequence = ++sequence;
+    }
+    set_sequence(sequence);
   }
 
  protected:
-  /// The newest reading, for archive() overrides of readings with members that their table does not
-  /// list.
-  [[nodiscard]] R& archived() noexcept { return *newest_; }
+  /// Writes or reads a reading: the fields that its table lists. Overrides for readings with
+  /// further members call this function first.
+  virtual void archive_reading(StateArchive& archive, R& reading) {
+    archive(reading.time_ns, reading.sequence);
+    archive.fields(reading);
+  }
   /// Contents of an object before it is filled.
   enum class Contents {
     kNewest,      ///< those of the newest reading
@@ -411,14 +473,33 @@ class SensorOf : public Sensor {
     spare->swap(newest_);
     return *newest_;
   }
-  /// The object for the next reading, with time and sequence number set.
+  /// The object for the next reading, with time and sequence number set. With a latency it is not
+  /// the newest reading yet.
   [[nodiscard]] R& next(const StepContext& context, Contents contents = Contents::kNewest) {
-    R& reading = edit(contents);
+    if (latency_ns() > 0) {
+      in_transit_.push_back(
+          std::make_shared<R>(in_transit_.empty() ? *newest_ : *in_transit_.back()));
+    }
+    R& reading = latency_ns() > 0 ? *in_transit_.back() : edit(contents);
     stamp(context, reading);
     return reading;
   }
 
  private:
+  [[nodiscard]] SimTime next_delivery_ns() const noexcept final {
+    return in_transit_.empty() ? std::numeric_limits<SimTime>::max()
+                               : in_transit_.front()->time_ns + latency_ns();
+  }
+  bool deliver(SimTime now_ns) final {
+    bool is_new = false;
+    while (now_ns >= next_delivery_ns()) {
+      newest_ = std::move(in_transit_.front());
+      in_transit_.erase(in_transit_.begin());
+      shared_ = false;
+      is_new = true;
+    }
+    return is_new;
+  }
   [[nodiscard]] std::shared_ptr<R>* find_spare() {
     for (std::shared_ptr<R>& spare : spares_) {
       if (spare.use_count() != 1) continue;
@@ -431,9 +512,10 @@ class SensorOf : public Sensor {
   }
 
   std::shared_ptr<R> newest_ = std::make_shared<R>();
-  mutable bool shared_ = false;               ///< the newest was handed out
-  std::array<std::shared_ptr<R>, 4> spares_;  ///< objects that were handed out before
-  std::size_t oldest_ = 0;                    ///< number of objects added to spares_
+  mutable bool shared_ = false;                 ///< the newest was handed out
+  std::array<std::shared_ptr<R>, 4> spares_;    ///< objects that were handed out before
+  std::size_t oldest_ = 0;                      ///< number of objects added to spares_
+  std::vector<std::shared_ptr<R>> in_transit_;  ///< measured, but not delivered yet; oldest first
 };
 
 /// A device that acts on its robot or on the canvas.

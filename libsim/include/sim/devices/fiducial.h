@@ -22,6 +22,7 @@ struct FiducialParams {
   double noise_m = 0.0;   ///< standard deviation of a distance [m], >= 0
   double noise_bearing_rad = 0.0;  ///< standard deviation of a bearing [rad], >= 0
   double noise_yaw_rad = 0.0;      ///< standard deviation of a mark's heading [rad], >= 0
+  double latency_s = 0.0;          ///< [0, 10] [s]
 };
 
 /// Marks in view, nearest first.
@@ -48,6 +49,7 @@ class FiducialFinder final : public SensorOf<FiducialReading> {
 
  protected:
   void measure(const StepContext& context) override;
+  void archive_reading(StateArchive& archive, FiducialReading& reading) override;
 
  private:
   FiducialParams params_;

@@ -21,6 +21,7 @@ struct GpsParams {
   double noise_m = 0.0;           ///< standard deviation to the east and to the north [m], >= 0
   double noise_vertical_m = 0.0;  ///< standard deviation of the altitude [m], >= 0
   int satellites = 8;             ///< in view, 0 to 64; below 4 there is no fix
+  double latency_s = 0.0;         ///< [0, 10] [s]
 };
 
 /// Position of a receiver. Without a fix (quality 0), all numbers except time and satellites are 0.

@@ -11,6 +11,7 @@
 
 #include "sim/core/time.h"
 #include "sim/devices/device.h"
+#include "sim/world/description.h"
 
 namespace sim {
 
@@ -63,6 +64,12 @@ struct GripperReading final : Reading {
 [[nodiscard]] std::optional<std::pair<double, double>> reach_across(const Pose& X_GT,
                                                                     const Vec2& size_m,
                                                                     double from_m, double to_m);
+
+/// Like reach_across() of a box, for an obstacle of any shape.
+/// @param X_GT   pose of the obstacle's own frame in G.
+/// @param thing  its own position and rotation are not used.
+[[nodiscard]] std::optional<std::pair<double, double>> reach_across(
+    const Pose& X_GT, const ObstacleDescription& thing, double from_m, double to_m);
 
 /// Two paddles in front of the robot, with two break beams between them. Takes GripCommand.
 ///

@@ -24,6 +24,7 @@ struct ImuParams {
   double field_horizontal_ut = 20.0;  ///< horizontal magnetic field of the Earth [uT], >= 0
   double field_down_ut = 45.0;        ///< downward component [uT]; by default about that in Prague
   double north_rad = 0.5 * std::numbers::pi;  ///< direction of north in W, counter-clockwise from x
+  double latency_s = 0.0;                     ///< [0, 10] [s]
 };
 
 /// A reading of an inertial unit, in the body's frame: x forward, y left, z up.

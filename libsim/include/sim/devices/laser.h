@@ -14,7 +14,11 @@ namespace sim {
 struct LaserParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
   double noise_m = 0.0;        ///< standard deviation of a range [m], >= 0
-  int beam_count = 682;        ///< 1..8192
+  double noise_share = 0.0;  ///< standard deviation of a range r is max(noise_m, share * r), [0, 1]
+  double mixed_pixels = 0.0;  ///< probability of a mixed pixel at a depth edge, [0, 1]
+  double dropouts = 0.0;      ///< probability that a range is lost and reads range_max, [0, 1]
+  double latency_s = 0.0;     ///< from a measurement until its reading, [0, 10] [s]
+  int beam_count = 682;       ///< 1..8192
   double resolution_rad = 0.39589 * std::numbers::pi / 180.0;  ///< angle between neighbouring beams
   double range_max_m = 5.0;                                    ///< (0, 1000] [m]
   Pose X_BL{0.035, 0.0, 0.0};                                  ///< mounting on the body
@@ -37,7 +41,29 @@ struct LaserReading final : Reading {
   [[nodiscard]] double least_angle_rad() const;
 };
 
+/// Standard deviation of a measured range: max(noise_m, share * range_m) [m].
+///
+/// Data sheets of the Hokuyo URG-04LX state the accuracy in this form: 10 mm up to 1 m, and 1 % of
+/// the range beyond.
+[[nodiscard]] inline double range_deviation_m(double range_m, double noise_m, double share) {
+  const double in_proportion_m = share * range_m;
+  return in_proportion_m > noise_m ? in_proportion_m : noise_m;
+}
+
+/// Whether there is a depth edge between two neighbouring beams: their ranges differ by more than
+/// 20 mm and what a flat wall causes that the beams meet at up to 80 degrees from its normal.
+/// @param step_rad  angle between the beams, > 0.
+/// @return false if a beam meets nothing (range_max_m).
+[[nodiscard]] bool is_depth_edge(double range_m, double next_m, double step_rad,
+                                 double range_max_m);
+
 /// A scanning laser rangefinder.
+///
+/// Errors, in this order: at each depth edge, with the probability mixed_pixels, one of its two
+/// beams reads a range that is uniformly distributed between the two ranges, because its spot lies
+/// on both surfaces (C. Ye and J. Borenstein, "Characterization of a 2-D laser scanner for mobile
+/// robot obstacle negotiation", ICRA 2002); Gaussian noise of range_deviation_m(); lost
+/// ranges. A beam that meets nothing has no noise.
 class Laser final : public SensorOf<LaserReading> {
  public:
   /// @param may_be_inside  whether the laser can ever be inside a solid. False if it is mounted
@@ -50,8 +76,11 @@ class Laser final : public SensorOf<LaserReading> {
 
  protected:
   void measure(const StepContext& context) override;
+  void archive_reading(StateArchive& archive, LaserReading& reading) override;
 
  private:
+  void mix_pixels(std::vector<double>& ranges_m);
+
   LaserParams params_;
   bool may_be_inside_;
   RandomStream noise_;

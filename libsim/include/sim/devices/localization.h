@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "sim/devices/device.h"
 
@@ -14,6 +15,7 @@ struct PoseParams {
   double frequency_hz = 10.0;  ///< (0, 1000]
   double noise_m = 0.0;        ///< standard deviation of x and of y [m], >= 0
   double noise_yaw_rad = 0.0;  ///< standard deviation of yaw [rad], >= 0
+  double latency_s = 0.0;      ///< from a measurement until its reading, [0, 10] [s]
 };
 
 /// Which part of its data an odometry device shows to clients that use MORSE's protocol. Its
@@ -30,6 +32,22 @@ struct OdometryParams {
   double noise = 0.0;          ///< standard deviation of a wheel's path after 1 m [m]; grows with
                                ///< the square root of the path (see Odometry)
   OdometryLevel level = OdometryLevel::kIntegrated;
+  /// @name Systematic errors (see Odometry)
+  /// @{
+  double wheel_ratio = 1.0;        ///< E_d: diameter of the right wheel / of the left, [0.5, 2]
+  double wheelbase_ratio = 1.0;    ///< E_b: true wheelbase / the assumed one, [0.5, 2]
+  double scale = 1.0;              ///< factor of all distances, [0, 10]
+  double heading_drift_radps = 0;  ///< added to the turn rate [rad/s]
+  /// @}
+  /// @name Further noise
+  /// @{
+  double scale_noise = 0.0;        ///< standard deviation of the factor, new for each reading, >= 0
+  double heading_noise_rad = 0.0;  ///< standard deviation of the heading after 1 s [rad], >= 0;
+                                   ///< grows with the square root of time
+  double noise_pose_m = 0.0;       ///< of x and y of single readings [m], >= 0
+  double noise_pose_yaw_rad = 0.0;  ///< of yaw of single readings [rad], >= 0
+  /// @}
+  double latency_s = 0.0;  ///< from a measurement until its reading, [0, 10] [s]
 };
 
 /// The robot's pose as estimated by a localisation device, and its motion.
@@ -86,12 +104,25 @@ class PoseSensor final : public SensorOf<PoseReading> {
 /// path in a step gets Gaussian noise of variance noise^2 |path| (Chong and Kleeman, "Accurate
 /// odometry and error modelling for a mobile robot", ICRA 1997). For an omnidirectional drive, the
 /// path to the left gets such noise as well.
+///
+/// Slip: if the motors have slip (MotionParams), the wheels turn farther than they roll, and
+/// odometry measures how far they turn: the path over the floor divided by 1 - slip.
+///
+/// Systematic errors: J. Borenstein and L. Feng, "Measurement and correction of systematic odometry
+/// errors in mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996 (UMBmark). The wheels'
+/// diameters have the ratio E_d = D_right / D_left and the nominal mean; odometry assumes that they
+/// are equal. So it measures the left path times (E_d + 1) / 2 and the right path times
+/// (1 / E_d + 1) / 2, the inverses of the paper's correction factors. It assumes the wheelbase
+/// b / E_b, with b the true one.
 class Odometry final : public SensorOf<PoseReading> {
  public:
   /// @param omnidirectional  whether the wheels measure motion to the left as well.
+  /// @param motors  name of the robot's motion device, whose slip it measures; "": none.
   Odometry(std::string name, const OdometryParams& params, double wheel_separation_m,
-           bool omnidirectional, RandomStream noise);
+           bool omnidirectional, std::string motors, RandomStream noise);
 
+  std::optional<std::string> connect(std::string_view robot,
+                                     const DeviceDirectory& devices) override;
   std::optional<std::string> apply(const Command& command) override;
   void integrate(const StepContext& context) override;
   [[nodiscard]] std::optional<Pose> pose_estimate() const override { return X_SB_; }
@@ -101,13 +132,29 @@ class Odometry final : public SensorOf<PoseReading> {
   void measure(const StepContext& context) override;
 
  private:
+  /// Motion of the wheels' midpoint in a step, as the wheels measure it.
+  struct WheelPath {
+    double ds_m;
+    double side_m;
+    double dyaw_rad;
+  };
+  /// The motion as the wheels turn, without errors of the measurement.
+  [[nodiscard]] WheelPath turned(const BodyState& body) const;
+  /// Adds the errors of a step of dt_s.
+  void add_errors(double dt_s, WheelPath& path);
+  void draw_scale();
+
   OdometryParams params_;
   double wheel_separation_m_;
   bool omnidirectional_;
+  bool has_errors_;
+  std::string motors_;
+  const Motion* slipping_motors_ = nullptr;  ///< null if the wheels do not slip
   Pose X_SB_;
   double path_length_m_ = 0.0;  ///< since the last reading
   RandomStream noise_;
-  Pose X_SR_;  ///< B at the last reading
+  Pose X_SR_;                 ///< B at the last reading
+  double present_scale_ = 1;  ///< of all distances until the next reading
 };
 
 }  // namespace sim

@@ -1,6 +1,12 @@
 // Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/random_stream.h"
 #include "sim/devices/device.h"
 #include "sim/world/robot_model.h"
 
@@ -17,6 +23,23 @@ struct MotionParams {
   double turn_gain = 2.0;                     ///< turn rate per remaining radian [1/s], > 0
   double tolerance_m = 0.01;                  ///< distance to the goal on arrival [m], > 0
   double heading_tolerance_rad = 0.01;        ///< heading error on arrival [rad], > 0
+  double slip = 0.0;         ///< standard deviation of each wheel's slip, [0, 0.2]; see WheelSlip
+  double slip_time_s = 0.2;  ///< time in which slip loses its correlation, (0, 1000] [s]
+  double latency_s = 0.0;    ///< from a command until it takes effect, [0, 10] [s]
+};
+
+/// Slip of the wheels: s = 1 - v / (omega r), with v the speed of a wheel's centre over the floor,
+/// omega its turn rate and r its radius (J. Y. Wong, Theory of Ground Vehicles, 4th ed., 2008, sec.
+/// 1.3). A positive slip is lost speed.
+///
+/// The slip of each wheel is a first-order Gauss-Markov process of mean 0 (P. S. Maybeck,
+/// Stochastic Models, Estimation, and Control, vol. 1, 1979, sec. 4.11): stationary, with the
+/// standard deviation MotionParams::slip and the autocorrelation exp(-t / slip_time_s). It is
+/// limited to 0.5. The two wheels of a car have one slip, so it stays on the arc of its steering.
+struct WheelSlip {
+  double left = 0.0;
+  double right = 0.0;
+  double side = 0.0;  ///< of an omnidirectional drive's motion to the left
 };
 
 /// Position control: drives a robot to a pose, step by step.
@@ -90,26 +113,38 @@ class PositionControl {
 /// cars ignore speeds to the left; a car stands still when commanded to turn on the spot. The front
 /// wheels of a car turn at the rate of its model. Any other drive that gets a CarCommand turns at v
 /// tan(steering) / wheelbase, with the length of the robot as its wheelbase.
+///
+/// With a latency, execute() accepts a command at once, and the command takes effect that much
+/// later, in the order of commands. Placing the robot, and another device that takes the motors,
+/// cancel the commands that wait.
 class Motion final : public Actuator {
  public:
   /// @param drive  of the robot; CarCommand uses its wheelbase for other drives as well.
-  Motion(std::string name, const MotionParams& params, const DriveDescription& drive = {});
+  /// @param noise  for the slip; not used without slip.
+  Motion(std::string name, const MotionParams& params, const DriveDescription& drive = {},
+         const RandomStream& noise = {0, ""});
 
   /// Takes TwistCommand (clamped to the limits), HeadingCommand, PositionCommand, CarCommand and
   /// MotorEnableCommand.
   std::optional<std::string> apply(const Command& command) override;
-  /// Like apply(). A command to drive also takes the motors from other devices, unless they are
-  /// off.
+  /// Like apply(), after the latency. A command to drive also takes the motors from other devices,
+  /// unless they are off.
   std::optional<std::string> execute(const Command& command, RobotControl& robot) override;
   /// Continues to hold a heading or to drive to a position, if commanded.
   void act(RobotControl& robot) override;
   void on_motors_taken() override;
   void placed(const Pose& X_WB) override;
+  void take_over_from(const Device& before, SimTime later_ns) override;
 
   [[nodiscard]] Motion* motion() noexcept override { return this; }
 
-  /// The target twist for the next step of dt_s, with limits applied; advances the ramp.
+  /// The target twist for the next step of dt_s, with limits and slip applied; advances both.
   [[nodiscard]] Twist next_target(double dt_s);
+
+  /// Whether the wheels can slip.
+  [[nodiscard]] bool slips() const noexcept { return slip_ != nullptr; }
+  /// Slip in the last step whose target next_target() returned.
+  [[nodiscard]] WheelSlip slip() const noexcept;
 
   [[nodiscard]] const MotionParams& params() const noexcept { return params_; }
   [[nodiscard]] bool enabled() const noexcept { return enabled_; }
@@ -127,7 +162,24 @@ class Motion final : public Actuator {
 
  private:
   enum class Mode { kTwist, kHeading, kPosition, kCar };
+  /// The state of slipping wheels.
+  struct SlipProcess {
+    RandomStream noise;
+    WheelSlip slip;
+  };
+  /// A command that waits for its latency.
+  struct Waiting {
+    SimTime due_ns;
+    Command command;
+  };
 
+  /// The target twist without slip.
+  [[nodiscard]] Twist ramped(double dt_s);
+  void advance_slip(double dt_s);
+  [[nodiscard]] Twist slipped(const Twist& twist) const;
+  [[nodiscard]] std::optional<std::string> check(const Command& command,
+                                                 const RobotControl& robot) const;
+  std::optional<std::string> execute_now(const Command& command, RobotControl& robot);
   void stop();
   void command_twist(const Twist& twist);
   void command_car(double v_mps, double steering_rad);
@@ -144,6 +196,9 @@ class Motion final : public Actuator {
   PositionControl position_;
   double commanded_steering_rad_ = 0.0;  ///< of a car
   double steering_rad_ = 0.0;            ///< of a car, after the rate limit
+  std::unique_ptr<SlipProcess> slip_;    ///< null: no slip
+  SimTime latency_ns_;
+  std::vector<Waiting> waiting_;  ///< oldest first
 };
 
 }  // namespace sim

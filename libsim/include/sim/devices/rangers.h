@@ -16,6 +16,9 @@ namespace sim {
 struct RangerParams {
   double frequency_hz = 10.0;      ///< (0, 1000]
   double noise_m = 0.0;            ///< standard deviation of a range [m], >= 0
+  double noise_share = 0.0;        ///< standard deviation of a range r is max(noise_m, share * r)
+  double dropouts = 0.0;           ///< probability that a range is lost, [0, 1]
+  double latency_s = 0.0;          ///< [0, 10] [s]
   double range_max_m = 1.0;        ///< (0, 1000] [m]
   double height_m = 0.05;          ///< above the floor [m]; lower obstacles are not seen
   double field_of_view_rad = 0.0;  ///< full angle of a transducer's cone, [0, pi]; 0: a single ray
@@ -63,7 +66,8 @@ struct RangerReading final : Reading {
 /// A transducer measures scan::least_range_in_cone_m(): the distance of the nearest point in its
 /// cone, where the first echo comes from, or of the first point on its ray. Edges have single
 /// precision relative to the robot, so the error is below 1e-7 of the maximum range. Nearby edges
-/// are collected once for all transducers.
+/// are collected once for all transducers. Noise and lost ranges are those of the laser
+/// (range_deviation_m(), LaserParams).
 class Ranger final : public SensorOf<RangerReading> {
  public:
   /// @param type           "infrared" or "sonar".
@@ -77,6 +81,7 @@ class Ranger final : public SensorOf<RangerReading> {
 
  protected:
   void measure(const StepContext& context) override;
+  void archive_reading(StateArchive& archive, RangerReading& reading) override;
 
  private:
   /// Inner radius of each shell except the innermost [m].

@@ -47,7 +47,9 @@ struct RobotSnapshot {
                                               ///< marks, in W [m]
   std::string says;                           ///< UTF-8; empty: nothing
   std::vector<LightSnapshot> lights;
-  std::vector<Polygon> paddles;  ///< of its grippers, in B [m]
+  std::vector<Polygon> paddles;         ///< of its grippers, in B [m]
+  std::vector<std::vector<Vec2>> arms;  ///< of its arms, seen from above: the base, then the end of
+                                        ///< each joint's link, in B [m]
   bool stalled = false;
   bool marked = false;  ///< highlighted, e.g. because the user selected it
 };

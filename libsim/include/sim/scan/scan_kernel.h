@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "sim/scan/circle.h"
+
 namespace sim::scan {
 
 /// One straight piece of an outline, from (x0, y0) to (x1, y1), with the solid on its left. Its
@@ -21,15 +23,16 @@ struct alignas(16) Edge {
   float y1_m;
 };
 
-/// The edges that a scan may meet. Physics fills it and ScanKernel reads it. It is reused from scan
-/// to scan: clear() keeps the memory, so nothing is allocated in steady state.
+/// The edges and circles that a scan may meet. Physics fills it and ScanKernel reads it. It is
+/// reused from scan to scan: clear() keeps the memory, so nothing is allocated in steady state.
 class EdgeBuffer {
  public:
   bool inside = false;  ///< the sensor's origin is inside a solid, so every beam reads 0
 
-  /// Forgets all edges and `inside`; keeps the memory.
+  /// Forgets all edges and circles and `inside`; keeps the memory.
   void clear() noexcept {
     size_ = 0;
+    circles_.clear();
     inside = false;
   }
 
@@ -37,6 +40,9 @@ class EdgeBuffer {
   void add(float x0_m, float y0_m, float x1_m, float y1_m) {
     *append(1) = Edge{x0_m, y0_m, x1_m, y1_m};
   }
+
+  /// Adds one circle.
+  void add(const Circle& circle) { circles_.push_back(circle); }
 
   /// Adds `count` edges at once and returns a pointer for the caller to write all of them. The
   /// pointer is valid until the next append(), add() or destruction. To add at most `count` edges,
@@ -53,6 +59,7 @@ class EdgeBuffer {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] std::span<const Edge> edges() const noexcept { return {storage_.data(), size_}; }
+  [[nodiscard]] std::span<const Circle> circles() const noexcept { return circles_; }
 
   /// Number of readable but meaningless edges after the last one, since the kernel reads in groups.
   static constexpr std::size_t kPadding = 8;
@@ -62,6 +69,7 @@ class EdgeBuffer {
 
   std::vector<Edge> storage_ = std::vector<Edge>(kPadding);  ///< at least size_ + kPadding
   std::size_t size_ = 0;
+  std::vector<Circle> circles_;
 };
 
 /// Discs that enclose solids, e.g. one per robot. A scan tests them before it gathers the edges of
@@ -148,12 +156,13 @@ enum class InstructionSet {
 /// they cover, not with the product of edges and beams.
 ///
 /// A range is in [0, range_max], and range_max where nothing is met. Its error against exact
-/// geometry is below 1e-6 of the range. Which beams an edge spans, including its ends, is decided
-/// to the last bits of double precision, so no beam passes through the joint of two edges that
-/// share a corner. The results are bit-identical on every x86-64 processor: the wider instruction
-/// paths, chosen at run time, do the same operations in the same order. Not thread-safe (scratch
-/// memory); use one kernel per sensor. A copy shares the beam tables with the original: sensors of
-/// equal geometry should use copies of one kernel, which leaves more of the cache free.
+/// geometry is below 1e-6 of the range; the range of a circle is exact except for rounding in
+/// double precision. Which beams an edge spans, including its ends, is decided to the last bits of
+/// double precision, so no beam passes through the joint of two edges that share a corner. The
+/// results are bit-identical on every x86-64 processor: the wider instruction paths, chosen at run
+/// time, do the same operations in the same order. Not thread-safe (scratch memory); use one kernel
+/// per sensor. A copy shares the beam tables with the original: sensors of equal geometry should
+/// use copies of one kernel, which leaves more of the cache free.
 class ScanKernel {
  public:
   /// Uses the widest instruction set of this processor.

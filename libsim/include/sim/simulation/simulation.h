@@ -50,7 +50,8 @@ struct SpokenText {
 struct SceneObject {
   std::string name;  ///< as in the world; "border" and "wall" for the border and a map's walls
   std::string kind;  ///< "robot", "block", "separator", "border" or "wall"
-  Pose pose;         ///< of its bounding box in W; for a robot the pose X_WB of its body
+  Pose pose;         ///< of its bounding box in W; for a robot the pose X_WB of its body, for a
+                     ///< polygon that of its own frame
   Vec2 size = Vec2::Zero();  ///< of the bounding box along its own axes [m]
   bool dynamic = false;      ///< a robot, or a block that can be retracted
   bool extended = true;      ///< false: a block that is retracted now

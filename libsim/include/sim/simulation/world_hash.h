@@ -11,9 +11,9 @@ namespace sim {
 /// RunSettings may change (seed, duration, time mode and factor, view mode).
 ///
 /// It includes the arena, obstacles, walls, models, robots, their devices with all numeric
-/// settings, the canvas and the step length, but not names of files. Equal descriptions give equal
-/// hashes on all machines of the same byte order; two different worlds have equal hashes only by
-/// chance (2^-64).
+/// settings, the level of realism, the canvas and the step length, but not names of files. Equal
+/// descriptions give equal hashes on all machines of the same byte order; two different worlds have
+/// equal hashes only by chance (2^-64).
 [[nodiscard]] std::uint64_t world_hash(const WorldDescription& world);
 
 }  // namespace sim

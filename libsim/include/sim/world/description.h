@@ -2,6 +2,7 @@
 #pragma once
 
 #include <any>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -31,12 +32,17 @@ enum class ObstacleType {
 /// Whether a dynamic obstacle is extended or retracted now.
 enum class ObstacleState { kExtended, kRetracted };
 
-/// A block of the arena: a box that stands on the floor.
+/// Outline of an obstacle, seen from above.
+enum class ObstacleShape { kBox, kCircle, kPolygon };
+
+/// A block of the arena: an upright solid that stands on the floor. sim/world/outline.h has
+/// functions for its shapes.
 struct ObstacleDescription {
   std::string name;  ///< unique in the world
   ObstacleType type = ObstacleType::kStatic;
-  Vec2 center = Vec2::Zero();  ///< in W [m]
-  Vec2 size = {0.2, 0.2};      ///< along its own x and y axes [m], each > 0
+  Vec2 center = Vec2::Zero();  ///< in W; of a polygon the origin of its own frame [m]
+  Vec2 size = {0.2, 0.2};      ///< extent along its own x and y axes [m], each > 0; of a circle
+                               ///< the diameter twice, of a polygon the extent of `outline`
   double yaw_rad = 0.0;        ///< turn of its axes against W's [rad]
   double height_m = 0.16;      ///< a sensor mounted at this height or above looks over it [m]
   ObstacleState state = ObstacleState::kExtended;  ///< a static one is always extended
@@ -50,12 +56,18 @@ struct ObstacleDescription {
                                                     ///< when it is to be extended
   std::optional<double> present_height_m = {};  ///< while it rises or sinks, [0, height_m] [m]; its
                                                 ///< state is kExtended then
+  ObstacleShape shape = ObstacleShape::kBox;
+  Polygon outline = {};  ///< of a polygon, in its own frame: simple, counter-clockwise, 3 to
+                         ///< kMostOutlineVertices vertices; otherwise empty
 };
 
 /// Present height of an extended obstacle [m].
 [[nodiscard]] inline double standing_height_m(const ObstacleDescription& obstacle) {
   return obstacle.present_height_m.value_or(obstacle.height_m);
 }
+
+/// Maximum number of vertices of an obstacle's outline.
+inline constexpr std::size_t kMostOutlineVertices = 64;
 
 /// Corners of a box in W, counter-clockwise from the front right one [m].
 /// @param X_WB  pose of the box's centre.
@@ -65,7 +77,7 @@ struct ObstacleDescription {
   return {X_WB * Vec2(h.x(), -h.y()), X_WB * Vec2(h.x(), h.y()), X_WB * Vec2(-h.x(), h.y()),
           X_WB * Vec2(-h.x(), -h.y())};
 }
-/// Corners of an obstacle in W, counter-clockwise from the front right one [m].
+/// Corners of an obstacle that is a box in W, counter-clockwise from the front right one [m].
 [[nodiscard]] inline std::vector<Vec2> box_corners(const ObstacleDescription& box) {
   return box_corners({box.center.x(), box.center.y(), box.yaw_rad}, box.size);
 }
@@ -109,6 +121,13 @@ struct ArenaDescription {
 /// Lockstep: time advances when all clients wait in Read(). Paced: wall-clock time times a factor.
 enum class TimeMode { kLockstep, kPaced };
 
+/// How exactly devices measure and move (sim/world/realism.h).
+enum class Realism {
+  kIdeal,   ///< without noise, drift, slip and latency, whatever the settings say
+  kCourse,  ///< as the settings say
+  kReal,    ///< as the settings say; those that are left out get the figures of real devices
+};
+
 /// How simulated time runs: its step, its end and its relation to wall-clock time.
 struct SimulationDescription {
   SimTime step_ns = 10'000'000;  ///< length of a step [ns], > 0
@@ -121,6 +140,7 @@ struct SimulationDescription {
   int start_gate_clients = 1;    ///< the clock waits until this many clients have joined, >= 1
   bool objects_locked = false;   ///< clients may look up robots and obstacles by name, but not move
                                  ///< or change them, nor command the arena controller
+  Realism realism = Realism::kCourse;
   bool own_sensors_only = false;  ///< for contests: clients read only the sensors of their own
                                   ///< robots, and no objects by name, map, state of the arena
 };
@@ -130,6 +150,7 @@ struct DeviceDescription {
   std::string name;  ///< unique in its robot, e.g. "laser"; path is ROBOT.NAME
   std::string type;  ///< a name in the device table (sim/devices/builtin.h), e.g. "laser"
   std::any params;   ///< that type's params struct, e.g. LaserParams
+  std::vector<std::string> given = {};  ///< keys of the settings that a file states, sorted
 };
 
 /// A client-side driver (e.g. SND) that a host runs for a robot. libsim passes its settings on as

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 The Playpen authors. SPDX-License-Identifier: BSD-3-Clause
+#include "io/obstacle_io.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "io/controller_io.h"
+#include "io/document.h"
+#include "sim/world/outline.h"
+
+namespace sim::io {
+namespace {
+
+/// A shape, and the key of its dimensions.
+struct ShapeKey {
+  const char* shape;
+  const char* key;
+};
+constexpr std::array<ShapeKey, 3> kShapeKeys{
+    {{"box", "size"}, {"circle", "radius"}, {"polygon", "outline"}}};
+
+/// The points of an outline; nullopt if they cannot be read.
+std::optional<Polygon> read_outline(Reader& reader) {
+  const Vec2 not_read = Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+  Polygon outline;
+  for (Reader& vertex : reader.array("outline")) {
+    outline.push_back(vertex.as_vec2(not_read, kPositionInWorld));
+    if (!outline.back().allFinite()) return std::nullopt;
+  }
+  if (!reader.child("outline")->is_array()) return std::nullopt;
+  return outline;
+}
+
+void read_shape(Reader& reader, ObstacleDescription& block) {
+  const std::string shape = reader.choice("shape", "box", {"box", "circle", "polygon"});
+  const std::optional<Reader> given = reader.child("shape");
+  const bool known = !given || given->scalar_text() == shape;
+  for (const ShapeKey& other : kShapeKeys) {
+    if (other.shape == shape || !reader.has(other.key) || !known) continue;
+    reader.issue("world/conflicting-keys",
+                 std::string("no ") + in_quotes(other.key) + " with \"shape\": " + in_quotes(shape),
+                 "both", in_quotes(other.key) + " belongs to \"shape\": " + in_quotes(other.shape),
+                 other.key);
+  }
+  if (!known) return;
+  if (shape == "box") block.size = reader.vec2("size", block.size, kArenaLength);
+  if (shape == "circle" && reader.require("radius", "the radius of the circle, in m")) {
+    constexpr NumberRange kRadius{kLeastLength_m, 0.5 * kGreatestLength_m, false, "m"};
+    make_circle(block, reader.number("radius", radius_m(block), kRadius));
+  }
+  if (shape == "polygon" &&
+      reader.require("outline", "the outline: a list of points [x, y] round the obstacle, in m")) {
+    if (std::optional<Polygon> outline = read_outline(reader)) {
+      make_polygon(block, *std::move(outline));
+    }
+  }
+}
+
+void read_kind(Reader& reader, ObstacleDescription& block) {
+  if (reader.choice("type", "static", {"static", "dynamic"}) == "dynamic") {
+    block.type = ObstacleType::kDynamic;
+  }
+  if (reader.choice("state", "extended", {"extended", "retracted"}) == "retracted") {
+    block.state = ObstacleState::kRetracted;
+    if (block.type == ObstacleType::kStatic) {
+      reader.issue("world/static-obstacle", "\"extended\" (or no state) for a static obstacle",
+                   "\"retracted\"", "only an obstacle of type \"dynamic\" can be retracted",
+                   "state");
+    }
+  }
+  block.rise_speed_mps =
+      reader.number("rise_speed", block.rise_speed_mps, {0.0, kMaxRiseSpeed_mps, false, "m/s"});
+  block.when_blocked = read_when_blocked(reader);
+  for (const char* key : {"rise_speed", "when_blocked"}) {
+    if (block.type == ObstacleType::kDynamic || !reader.has(key)) continue;
+    reader.issue("world/static-obstacle", "a dynamic obstacle", in_quotes(key) + " of a static one",
+                 "add \"type\": \"dynamic\"", key);
+  }
+}
+
+}  // namespace
+
+std::string free_name(const std::string& prefix, std::size_t number, std::set<std::string>& taken) {
+  for (;; ++number) {
+    std::string name = prefix + std::to_string(number);
+    if (taken.insert(name).second) return name;
+  }
+}
+
+int read_fiducial(Reader& reader) {
+  return static_cast<int>(
+      reader.integer("fiducial", 0, 0, std::numeric_limits<std::int32_t>::max()));
+}
+
+void read_blocks(Reader& arena, const char* key, const char* prefix, bool separators,
+                 std::vector<ObstacleDescription>& blocks) {
+  std::vector<std::size_t> unnamed;
+  for (Reader& reader : arena.array(key, kMaxObstacles)) {
+    ObstacleDescription block;
+    if (reader.expect_object()) {
+      block.name = reader.name("name", "");
+      if (reader.require("center", "[x, y] of the middle of the box, in m")) {
+        block.center = reader.vec2("center", block.center, kPositionInWorld);
+      }
+      if (separators) block.size = reader.vec2("size", block.size, kArenaLength);
+      if (!separators) read_shape(reader, block);
+      block.yaw_rad = normalize_angle(reader.angle_deg("yaw_deg", block.yaw_rad));
+      block.height_m = reader.number("height", block.height_m, kHeight);
+      if (!separators) {
+        read_kind(reader, block);
+        block.fiducial = read_fiducial(reader);
+        block.portable = reader.boolean("portable", block.portable);
+        if (reader.has("colour")) block.colour = reader.colour("colour", {});
+      }
+      reader.finish();
+    }
+    if (block.name.empty()) unnamed.push_back(blocks.size());
+    blocks.push_back(std::move(block));
+  }
+  std::set<std::string> taken;
+  for (const ObstacleDescription& block : blocks) taken.insert(block.name);
+  std::size_t number = 0;
+  for (const std::size_t i : unnamed) blocks[i].name = free_name(prefix, ++number, taken);
+}
+
+}  // namespace sim::io
